@@ -1,0 +1,168 @@
+// runtime/base/diagnostic.cpp: findings, the texts they point into, and how they print.
+#include "runtime/base/diagnostic.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/base/check.h"
+
+namespace kinora {
+
+const char* severity_name(Severity severity) {
+    constexpr const char* kNames[] = {"off", "hint", "info", "warning", "error"};
+    return kNames[static_cast<int>(severity)];
+}
+
+uint32_t SourceMap::file_offset(uint32_t text_offset) const {
+    auto after = std::upper_bound(
+        segments.begin(), segments.end(), text_offset,
+        [](uint32_t offset, const Segment& s) { return offset < s.text_offset; });
+    if (after == segments.begin()) return text_offset;
+    const Segment& s = after[-1];
+    return s.file_offset + (text_offset - s.text_offset);
+}
+
+Location SourceMap::location(uint32_t text_begin, uint32_t text_end) const {
+    // The end maps through the last character, so that a range never swallows what lies between
+    // two segments.
+    uint32_t begin = file_offset(text_begin);
+    uint32_t end = text_end > text_begin ? file_offset(text_end - 1) + 1 : begin;
+    return {file, begin, std::max(begin, end)};
+}
+
+FileId SourceFiles::add(std::string name, std::string text) {
+    auto file = std::make_unique<File>(File{std::move(name), std::move(text), {0}});
+    const char* begin = file->text.data();
+    const char* end = begin + file->text.size();
+    for (const char* p = begin; p < end;) {
+        const char* newline = static_cast<const char*>(std::memchr(p, '\n', size_t(end - p)));
+        if (!newline) break;
+        p = newline + 1;
+        file->line_starts.push_back(uint32_t(p - begin));
+    }
+    std::lock_guard lock(mutex_);
+    files_.push_back(std::move(file));
+    return FileId(files_.size() - 1);
+}
+
+const SourceFiles::File& SourceFiles::at(FileId file) const {
+    std::lock_guard lock(mutex_);
+    CHECK_LT(file, files_.size());
+    return *files_[file];
+}
+
+const std::string& SourceFiles::name(FileId file) const { return at(file).name; }
+std::string_view SourceFiles::text(FileId file) const { return at(file).text; }
+
+LineColumn SourceFiles::line_column(FileId file, uint32_t offset) const {
+    const File& f = at(file);
+    auto after = std::upper_bound(f.line_starts.begin(), f.line_starts.end(), offset);
+    uint32_t start = after[-1];
+    return {int(after - f.line_starts.begin()), int(offset - start) + 1};
+}
+
+std::string_view SourceFiles::line_text(FileId file, int line) const {
+    const File& f = at(file);
+    if (line < 1 || size_t(line) > f.line_starts.size()) return {};
+    uint32_t begin = f.line_starts[size_t(line) - 1];
+    size_t end = f.text.find('\n', begin);
+    std::string_view text = std::string_view(f.text).substr(
+        begin, end == std::string::npos ? std::string_view::npos : end - begin);
+    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    return text;
+}
+
+Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string message) {
+    std::lock_guard lock(mutex_);
+    Severity severity = info.severity;
+    for (const auto& [code, forced] : overrides_)
+        if (code == info.code) severity = forced;
+    findings_.push_back({&info, severity, where, std::move(message), {}, info.fix, {}});
+    return findings_.back();
+}
+
+void Diagnostics::set_severity(std::string_view code, Severity severity) {
+    std::lock_guard lock(mutex_);
+    overrides_.emplace_back(code, severity);
+}
+
+int Diagnostics::count(Severity severity) const {
+    std::lock_guard lock(mutex_);
+    return int(std::count_if(findings_.begin(), findings_.end(),
+                             [&](const Finding& f) { return f.severity == severity; }));
+}
+
+namespace {
+
+constexpr size_t kWidestLine = 200;  // longer lines (number lists) are shown around the place only
+
+std::string place_text(Location where, const SourceFiles& files) {
+    if (where.file == kNoFile) return "kinora";
+    LineColumn at = files.line_column(where.file, where.begin);
+    return fmt::format("{}:{}:{}", files.name(where.file), at.line, at.column);
+}
+
+std::string caret_text(Location where, const SourceFiles& files) {
+    if (where.file == kNoFile) return {};
+    LineColumn at = files.line_column(where.file, where.begin);
+    std::string_view line = files.line_text(where.file, at.line);
+    size_t column = std::min(size_t(at.column) - 1, line.size());
+    size_t first = column > kWidestLine / 2 && line.size() > kWidestLine ? column - kWidestLine / 2 : 0;
+    std::string shown(line.substr(first, kWidestLine));
+    std::string carets;
+    for (size_t i = first; i < column; ++i) carets += line[i] == '\t' ? '\t' : ' ';
+    size_t length = where.end > where.begin ? where.end - where.begin : 1;
+    length = std::clamp<size_t>(length, 1, std::max<size_t>(1, shown.size() - (column - first)));
+    return fmt::format("    {}\n    {}^{}\n", shown, carets, std::string(length - 1, '~'));
+}
+
+}  // namespace
+
+std::string format_finding(const Finding& finding, const SourceFiles& files) {
+    std::string text = fmt::format("{}: {}: {} [{}]\n", place_text(finding.where, files),
+                                   severity_name(finding.severity), finding.message,
+                                   finding.info->code);
+    if (!finding.id_path.empty()) text += fmt::format("    in {}\n", finding.id_path);
+    text += caret_text(finding.where, files);
+    for (const Note& note : finding.notes) {
+        text += fmt::format("{}: note: {}\n", place_text(note.where, files), note.message);
+        text += caret_text(note.where, files);
+    }
+    if (!finding.help.empty()) text += fmt::format("    help: {}\n", finding.help);
+    return text;
+}
+
+namespace {
+
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (size_t i = 1; i <= a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            size_t above = row[j];
+            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+std::string_view nearest_name(std::string_view word,
+                              const std::vector<std::string_view>& candidates) {
+    std::string_view best;
+    size_t best_distance = std::max<size_t>(1, word.size() / 3) + 1;
+    for (std::string_view candidate : candidates) {
+        size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+}  // namespace kinora

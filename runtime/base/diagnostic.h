@@ -1,0 +1,129 @@
+// runtime/base/diagnostic.h: findings about the user's input. A finding is a row of its library's
+// findings.def plus values, a place (file and byte range) and, in documents, an id path.
+// Reading never gives up at the first one: report and carry on.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinora {
+
+enum class Severity : uint8_t { Off, Hint, Info, Warning, Error };
+const char* severity_name(Severity severity);  // "warning", ...
+
+// One kind of finding. `text` is a fmt format string for the values given to report().
+struct FindingInfo {
+    const char* code;         // "ANIM_TARGET_UNRESOLVED": stable, printed in brackets
+    Severity severity;        // the default; Diagnostics may override it per code
+    const char* text;         // "channel target '{}' names nothing"
+    const char* explanation;  // a paragraph for --explain: why it matters
+    const char* fix;          // what to do, printed as a help line; "" if nothing general
+};
+
+using FileId = uint32_t;
+inline constexpr FileId kNoFile = ~0u;
+
+// A byte range [begin, end) of a registered file; line:column are computed when printed.
+struct Location {
+    FileId file = kNoFile;
+    uint32_t begin = 0;
+    uint32_t end = 0;
+};
+
+// Maps offsets of a decoded text (an XML text node after entities, CDATA, newline folding) to byte
+// offsets of the file it came from. Segments are sorted by text offset; within one, offsets run in
+// step. A default-made map is the identity from `file_begin` on.
+struct SourceMap {
+    struct Segment {
+        uint32_t text_offset;
+        uint32_t file_offset;
+    };
+    FileId file = kNoFile;
+    std::vector<Segment> segments;
+
+    uint32_t file_offset(uint32_t text_offset) const;
+    Location location(uint32_t text_begin, uint32_t text_end) const;
+};
+
+struct LineColumn {
+    int line = 0;    // from 1
+    int column = 0;  // from 1, in bytes
+};
+
+// The texts that locations speak of. Thread-safe; ids stay valid for the life of the object.
+class SourceFiles {
+  public:
+    // Keeps a copy of `text`.
+    FileId add(std::string name, std::string text);
+    const std::string& name(FileId file) const;
+    std::string_view text(FileId file) const;
+    LineColumn line_column(FileId file, uint32_t offset) const;
+    std::string_view line_text(FileId file, int line) const;
+
+  private:
+    struct File {
+        std::string name;
+        std::string text;
+        std::vector<uint32_t> line_starts;
+    };
+    const File& at(FileId file) const;
+    mutable std::mutex mutex_;
+    std::vector<std::unique_ptr<File>> files_;
+};
+
+// A further place that explains a finding: "in expansion of macro 'X'", "first defined here".
+struct Note {
+    Location where;
+    std::string message;
+};
+
+struct Finding {
+    const FindingInfo* info;
+    Severity severity;
+    Location where;
+    std::string message;
+    std::string id_path;  // "library_effects/effect[@id='Matte']/profile_RSL", or empty
+    std::string help;     // info->fix, or a particular suggestion ("did you mean 'diffuse'?")
+    std::vector<Note> notes;
+};
+
+// Collects findings. Thread-safe. The order of findings is the order of report() calls.
+class Diagnostics {
+  public:
+    SourceFiles files;
+
+    // Adds a finding; `args` fill info.text. Returns it so that a caller can add id_path, help or
+    // notes at once (the reference is valid until the next report()).
+    template <class... Args>
+    Finding& report(const FindingInfo& info, Location where, const Args&... args) {
+        return add(info, where, fmt::vformat(info.text, fmt::make_format_args(args...)));
+    }
+    Finding& add(const FindingInfo& info, Location where, std::string message);
+
+    void set_severity(std::string_view code, Severity severity);
+    const std::vector<Finding>& findings() const { return findings_; }
+    int count(Severity severity) const;
+    bool has_errors() const { return count(Severity::Error) > 0; }
+    void clear() { findings_.clear(); }
+
+  private:
+    mutable std::mutex mutex_;
+    std::vector<Finding> findings_;
+    std::vector<std::pair<std::string, Severity>> overrides_;
+};
+
+// "file:line:col: severity: message [CODE]", then the source line with a caret range, notes and a
+// help line; ends with a newline. A finding with no file prints "kinora: severity: message [CODE]".
+std::string format_finding(const Finding& finding, const SourceFiles& files);
+
+// The candidate nearest to `word` by edit distance, or "" when none is near (more than a third of
+// its letters differ). For "did you mean".
+std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& candidates);
+
+}  // namespace kinora

@@ -1,0 +1,47 @@
+// runtime/base/parallel.h: run a range on the machine's cores. oneTBB underneath (one pool,
+// shared with Embree), hidden so that including this costs nothing.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace kinora {
+
+// A view of a callable, valid while the callable lives; no allocation.
+template <class Signature>
+class FunctionRef;
+template <class R, class... Args>
+class FunctionRef<R(Args...)> {
+  public:
+    template <class F>
+        requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>)
+    FunctionRef(F&& f)
+        : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
+          call_([](void* object, Args... args) -> R {
+              return (*static_cast<std::remove_reference_t<F>*>(object))(
+                  std::forward<Args>(args)...);
+          }) {}
+    R operator()(Args... args) const { return call_(object_, std::forward<Args>(args)...); }
+
+  private:
+    void* object_;
+    R (*call_)(void*, Args...);
+};
+
+// Bounds the threads that all later parallel work uses, the calling one included; n >= 1.
+void set_thread_count(int n);
+int thread_count();
+
+// Index of the calling thread among the workers, 0 <= index < thread_count(): stable inside one
+// parallel_for body, for per-thread arenas.
+int thread_index();
+
+// Calls body(begin, end) for disjoint ranges covering [first, last), each at least `grain` long
+// where possible; runs inline when one range is enough or one thread is set. Not for use below
+// RendererServices (no task is started below shade()).
+void parallel_for(size_t first, size_t last, size_t grain,
+                  FunctionRef<void(size_t begin, size_t end)> body);
+
+}  // namespace kinora
