@@ -18,10 +18,10 @@ std::string check_text(const char* expression, const A& a, const B& b) {
 
 }  // namespace kinora
 
-#define CHECK(condition)                                                  \
-    do {                                                                  \
-        if (!(condition)) [[unlikely]]                                    \
-            ::kinora::check_failed(__FILE__, __LINE__, #condition);       \
+#define CHECK(condition)                                            \
+    do {                                                            \
+        if (!(condition)) [[unlikely]]                              \
+            ::kinora::check_failed(__FILE__, __LINE__, #condition); \
     } while (0)
 
 #define KINORA_CHECK_OP(a, op, b)                                                              \

@@ -14,9 +14,9 @@ const char* severity_name(Severity severity) {
 }
 
 uint32_t SourceMap::file_offset(uint32_t text_offset) const {
-    auto after = std::upper_bound(
-        segments.begin(), segments.end(), text_offset,
-        [](uint32_t offset, const Segment& s) { return offset < s.text_offset; });
+    auto after =
+        std::upper_bound(segments.begin(), segments.end(), text_offset,
+                         [](uint32_t offset, const Segment& s) { return offset < s.text_offset; });
     if (after == segments.begin()) return text_offset;
     const Segment& s = after[-1];
     return s.file_offset + (text_offset - s.text_offset);
@@ -51,8 +51,12 @@ const SourceFiles::File& SourceFiles::at(FileId file) const {
     return *files_[file];
 }
 
-const std::string& SourceFiles::name(FileId file) const { return at(file).name; }
-std::string_view SourceFiles::text(FileId file) const { return at(file).text; }
+const std::string& SourceFiles::name(FileId file) const {
+    return at(file).name;
+}
+std::string_view SourceFiles::text(FileId file) const {
+    return at(file).text;
+}
 
 LineColumn SourceFiles::line_column(FileId file, uint32_t offset) const {
     const File& f = at(file);
@@ -107,7 +111,8 @@ std::string caret_text(Location where, const SourceFiles& files) {
     LineColumn at = files.line_column(where.file, where.begin);
     std::string_view line = files.line_text(where.file, at.line);
     size_t column = std::min(size_t(at.column) - 1, line.size());
-    size_t first = column > kWidestLine / 2 && line.size() > kWidestLine ? column - kWidestLine / 2 : 0;
+    size_t first =
+        column > kWidestLine / 2 && line.size() > kWidestLine ? column - kWidestLine / 2 : 0;
     std::string shown(line.substr(first, kWidestLine));
     std::string carets;
     for (size_t i = first; i < column; ++i) carets += line[i] == '\t' ? '\t' : ' ';
@@ -119,9 +124,9 @@ std::string caret_text(Location where, const SourceFiles& files) {
 }  // namespace
 
 std::string format_finding(const Finding& finding, const SourceFiles& files) {
-    std::string text = fmt::format("{}: {}: {} [{}]\n", place_text(finding.where, files),
-                                   severity_name(finding.severity), finding.message,
-                                   finding.info->code);
+    std::string text =
+        fmt::format("{}: {}: {} [{}]\n", place_text(finding.where, files),
+                    severity_name(finding.severity), finding.message, finding.info->code);
     if (!finding.id_path.empty()) text += fmt::format("    in {}\n", finding.id_path);
     text += caret_text(finding.where, files);
     for (const Note& note : finding.notes) {

@@ -124,6 +124,7 @@ std::string format_finding(const Finding& finding, const SourceFiles& files);
 
 // The candidate nearest to `word` by edit distance, or "" when none is near (more than a third of
 // its letters differ). For "did you mean".
-std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& candidates);
+std::string_view nearest_name(std::string_view word,
+                              const std::vector<std::string_view>& candidates);
 
 }  // namespace kinora

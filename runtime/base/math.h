@@ -22,6 +22,8 @@ using glm::vec3;
 using glm::vec4;
 
 inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+inline constexpr double radians(double degrees) {
+    return degrees * (kPi / 180.0);
+}
 
 }  // namespace kinora

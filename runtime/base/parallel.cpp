@@ -44,15 +44,13 @@ int thread_index() {
     return index == tbb::task_arena::not_initialized ? 0 : std::min(index, thread_count() - 1);
 }
 
-void parallel_for(size_t first, size_t last, size_t grain,
-                  FunctionRef<void(size_t, size_t)> body) {
+void parallel_for(size_t first, size_t last, size_t grain, FunctionRef<void(size_t, size_t)> body) {
     if (first >= last) return;
     if (thread_count() == 1 || last - first <= grain) return body(first, last);
     arena().execute([&] {
-        tbb::parallel_for(tbb::blocked_range<size_t>(first, last, std::max<size_t>(grain, 1)),
-                          [&](const tbb::blocked_range<size_t>& range) {
-                              body(range.begin(), range.end());
-                          });
+        tbb::parallel_for(
+            tbb::blocked_range<size_t>(first, last, std::max<size_t>(grain, 1)),
+            [&](const tbb::blocked_range<size_t>& range) { body(range.begin(), range.end()); });
     });
 }
 

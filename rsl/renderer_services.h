@@ -1,0 +1,61 @@
+// rsl/renderer_services.h: the contract between compiled shaders and a renderer: how kernel inputs
+// and outputs are named, what light records hold, and the functions that shaders call.
+//
+// Kernel inputs (component suffixes: .x .y .z for point-like, .r .g .b for color, none for float):
+//   point rate   P dPdu dPdv N Ng u v du dv s t I Cs Os dNdu dNdv dIdu dIdv dsdu dsdv dtdu dtdv
+//                Ps Ns (light shaders), rng (int: hash of pixel, sample, path and frame seed,
+//                decision 10) param:NAME[.c]            a parameter bound to a vertex input (and
+//                its ".du"/".dv")
+//   frame rate   E time dtime ncomps alpha
+//                param:NAME[.c] param:NAME[k][.c]   a parameter; ints for strings (interned ids)
+//   both         space:NAME:to_current:RC and space:NAME:from_current:RC, R row 0..2 (0..3 for
+//                screen, NDC, raster), C column 0..3 of a matrix on column vectors. Point rate for
+//                "object" and "shader" in surfaces, displacements and volumes (twelve inputs each,
+//                gathered only where named); frame rate for all else. In a light, "shader" is the
+//                light's own node, frame rate. "current" = camera space.
+// Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. aov:NAME[.c]; of a light shader, for statement k:
+//   light:k:L.x.. (from the light to Ps, as RSL sees it inside illuminate), light:k:Cl.r..
+//   light:k:Ol.r.. light:k:lit (int, nonzero in the cone), and message:NAME[.c] for its output
+//   parameters.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace kinora::rsl {
+
+// Columns of a light record, as RecordField reads them. L points from the surface to the light,
+// not normalised (solar: unit length). lit is an int. Messages the surface asks for follow.
+enum LightColumn { kLightL = 0, kLightCl = 3, kLightOl = 6, kLightLit = 9, kLightMessages = 10 };
+
+// Uniforms of a light record, as RecordUniform reads them.
+enum LightUniform {
+    kLightKind = 0,         // int LightKind
+    kLightCategories = 1,   // int: bit j set where the light matches LoweredShader::categories[j]
+    kLightNondiffuse = 2,   // the light's __nondiffuse, 0 if it has none
+    kLightNonspecular = 3,  // the light's __nonspecular, 0 if it has none
+    kLightUniforms = 4
+};
+
+// An ambient record has no direction: it is seen by ambient() only, never by illuminance.
+enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
+
+// Services by name; parameters and results are floats unless noted, in this order:
+//   lights        (P0 xyz) -> int handle of a record set at P0; set 0 (no call) is the lights at P
+//   texture       (int name, channel, s, t, dsdu.. as: dsdx dtdx dsdy dtdy, blur, swidth, twidth,
+//                  int filter, fill) -> r g b a
+//   environment   (int name, channel, R xyz, dRdx xyz, dRdy xyz, blur, fill) -> r g b a
+//   shadow        (int name, P xyz, bias, blur, samples) -> r g b
+//   trace         (P xyz, R xyz) -> r g b distance
+//   transmission  (from xyz, to xyz) -> r g b
+//   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
+//   print         (int site, values...) -> nothing
+inline constexpr std::string_view kServiceNames[] = {
+    "lights", "texture", "environment", "shadow", "trace", "transmission", "transform", "print"};
+
+// The process-wide, thread-safe table of strings that shaders handle: id <-> text. Id 0 is "".
+int32_t intern(std::string_view text);
+const std::string& interned(int32_t id);
+
+}  // namespace kinora::rsl
