@@ -1,0 +1,492 @@
+// rsl/ast.h: the syntax tree of shader source. The parser makes it; the checker completes the same
+// nodes (types, symbols, callees, casts), after which no name needs looking up: lowering and the
+// reference evaluator are plain walks. Nodes live in the Ast's arena and are trivially
+// destructible.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rsl/builtin.h"
+#include "rsl/token.h"
+#include "rsl/types.h"
+#include "runtime/base/diagnostic.h"
+
+namespace kinora::rsl {
+
+enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager, Transformation };
+const char* shader_kind_name(ShaderKind kind);  // "surface"
+
+struct Expr;
+struct Stmt;
+struct Function;
+struct GlobalInfo;  // rsl/globals.h
+
+// Where a node stands. `where` is in bytes of the user's file (for a token out of a macro: the
+// place of its use); `token` leads to the macros it came through (Ast::tokens).
+struct Place {
+    Location where;
+    uint32_t token = 0;
+};
+
+// ---- symbols ------------------------------------------------------------------------------------
+
+enum class SymbolKind : uint8_t { Global, Parameter, Local, FunctionParameter };
+
+struct Symbol {
+    SymbolKind kind = SymbolKind::Local;
+    std::string_view name;
+    Type type;
+    Detail detail = Detail::Unspecified;  // as declared
+    bool output = false;                  // declared `output`
+    bool assigned = false;                // written anywhere (checker)
+    bool varying = false;                 // inferred: point rate (checker)
+    uint32_t id = 0;  // dense in the Ast, 0 .. symbol_count-1: index of side tables
+    Place place;
+    Expr* initial = nullptr;  // initialiser, or a shader parameter's default; may be null
+    const GlobalInfo* global = nullptr;  // kind Global: its row of globals.def
+    Function* function = nullptr;        // the function it belongs to; null in the shader's body
+};
+
+// ---- expressions --------------------------------------------------------------------------------
+
+enum class ExprKind : uint8_t {
+    Number,
+    String,
+    Variable,
+    Index,
+    Component,
+    Unary,
+    Binary,
+    Select,
+    Assign,
+    Call,
+    Cast,
+    Triple,
+    Sixteen,
+    ArrayLiteral,
+};
+
+// Arithmetic works componentwise on triples (a float operand is cast to the triple first); Multiply
+// and Divide of matrices are matrix products (a / b = a * inverse(b)). Dot and Cross take triples
+// that are no colors. Comparisons of triples: == all components equal, != any differs.
+enum class Op : uint8_t {
+    None,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Dot,
+    Cross,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+    And,
+    Or,
+    Not,
+    Negate,
+};
+const char* op_text(Op op);  // "+", "<=", "." ...
+
+struct Expr {
+    ExprKind kind;
+    Rate rate = Rate::Varying;         // checker
+    Type type{BaseType::Invalid, -1};  // checker
+    Place place;
+};
+
+// 0.5: type Float.
+struct NumberExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Number;
+    double value = 0;
+};
+// "world": escapes are already decoded; neighbouring literals are joined.
+struct StringExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::String;
+    std::string_view value;
+};
+// A variable as a value or as the target of an assignment; arrays as whole arguments too.
+struct VariableExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Variable;
+    std::string_view name;
+    Symbol* symbol = nullptr;  // checker
+};
+// array[index]: `array` is a VariableExpr of array type; the index is a Float, truncated, clamped.
+struct IndexExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Index;
+    Expr* array = nullptr;
+    Expr* index = nullptr;
+};
+// Ci[0]: one component of a triple. The parser makes IndexExpr; the checker replaces it when the
+// operand is a triple (an l-value if the operand is one).
+struct ComponentExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Component;
+    Expr* operand = nullptr;
+    Expr* index = nullptr;  // Float, truncated, clamped to 0..2
+};
+// -a (Negate; triples, matrices too), !a (Not; Bool).
+struct UnaryExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Unary;
+    Op op = Op::None;
+    Expr* operand = nullptr;
+};
+// a op b. After check both sides have the same type, except the sides of And/Or (both Bool).
+// And and Or evaluate both sides (no short cut is visible: RSL leaves the order open).
+struct BinaryExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Binary;
+    Op op = Op::None;
+    Expr* left = nullptr;
+    Expr* right = nullptr;
+};
+// condition ? yes : no; the condition is Bool, both sides have the node's type.
+struct SelectExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Select;
+    Expr* condition = nullptr;
+    Expr* yes = nullptr;
+    Expr* no = nullptr;
+};
+// target op= value; op None is plain `=`. The target is a Variable, Index or Component node; value
+// has its type (whole arrays too, of equal length). The node's value is the target's new value.
+struct AssignExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Assign;
+    Op op = Op::None;  // None, Add, Subtract, Multiply, Divide
+    Expr* target = nullptr;
+    Expr* value = nullptr;
+};
+// name(args) or texture(name[channel], args). After check exactly one of `function` and `builtin`
+// is set; every argument has the parameter's type, output arguments are l-values of that type
+// (triples: any triple type) and, for built-ins, args[pairs..] are the "name", value pairs.
+struct CallExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Call;
+    std::string_view name;
+    std::span<Expr*> args;
+    Expr* channel = nullptr;               // texture-like calls: the [n] after the first argument
+    Function* function = nullptr;          // user function
+    const Builtin* builtin = nullptr;      // row
+    const Signature* signature = nullptr;  // the overload; signature->overload is its index
+    uint32_t pairs = 0;                    // index of the first pair; args.size() if there is none
+    uint32_t site = 0;                     // dense number of the call in the Ast (random streams)
+};
+// A conversion: written (`color x`, `vector "world" x`, `(float) x`, `float noise(P)`) or, with
+// `implicit`, put in by the checker. to == from is a no-op. Float -> triple spreads, Float ->
+// Matrix is the diagonal, triple -> triple keeps the components, Bool -> Float gives 0/1, Float ->
+// Bool is
+// != 0. With `space`: components are in that space (point, vector, normal, matrix: transform to
+// current as that type; color: to rgb), whatever the operand's type was.
+struct CastExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Cast;
+    BaseType to = BaseType::Invalid;
+    bool implicit = false;
+    Expr* space = nullptr;  // a string expression, or null
+    Expr* operand = nullptr;
+};
+// (x, y, z): three Floats. The type is what is wanted of it, Point when nothing is.
+struct TripleExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Triple;
+    Expr* items[3] = {};
+};
+// (m00, m01, ... m33): sixteen Floats, row-major with row vectors, as RSL has it (translation in
+// the last four). Type Matrix.
+struct SixteenExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::Sixteen;
+    std::span<Expr*> items;
+};
+// { a, b, c }: only as an initialiser of an array; each item has the element type. When shorter
+// than the array the rest is 0 (or "").
+struct ArrayLiteralExpr : Expr {
+    static constexpr ExprKind kKind = ExprKind::ArrayLiteral;
+    std::span<Expr*> items;
+};
+
+// ---- statements ---------------------------------------------------------------------------------
+
+enum class StmtKind : uint8_t {
+    Block,
+    Declare,
+    Extern,
+    DefineFunction,
+    Expression,
+    If,
+    While,
+    For,
+    Break,
+    Continue,
+    Return,
+    Illuminance,
+    Illuminate,
+    Solar,
+    Gather,
+};
+
+struct Stmt {
+    StmtKind kind;
+    Place place;
+};
+
+// { ... } with a scope of its own.
+struct BlockStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Block;
+    std::span<Stmt*> body;
+};
+// float a = 1, b; each symbol's `initial` is assigned here, in order; without one it becomes 0 or
+// "".
+struct DeclareStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Declare;
+    std::span<Symbol*> symbols;
+};
+// extern float x; names a variable of the enclosing function or shader; does nothing after check.
+struct ExternStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Extern;
+    std::span<Symbol*> symbols;
+};
+// A nested function; does nothing when reached.
+struct FunctionStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::DefineFunction;
+    Function* function = nullptr;
+};
+struct ExpressionStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Expression;
+    Expr* expression = nullptr;
+};
+struct IfStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::If;
+    Expr* condition = nullptr;  // Bool
+    Stmt* yes = nullptr;
+    Stmt* no = nullptr;  // may be null
+};
+struct WhileStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::While;
+    Expr* condition = nullptr;  // Bool
+    Stmt* body = nullptr;
+};
+// for (init; condition; step) body. The init statements are Expression or Declare, and have the
+// scope of the loop.
+struct ForStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::For;
+    std::span<Stmt*> init;
+    Expr* condition = nullptr;  // Bool; null = for ever
+    std::span<Expr*> step;
+    Stmt* body = nullptr;
+};
+// break n; continue n. `loop` is the While, For, Illuminance or Gather statement that is meant.
+struct BreakStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Break;
+    int levels = 1;
+    Stmt* loop = nullptr;  // checker
+};
+struct ContinueStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Continue;
+    int levels = 1;
+    Stmt* loop = nullptr;  // checker
+};
+// Inside functions only. May stand anywhere; value has the function's type, null in void functions.
+struct ReturnStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Return;
+    Expr* value = nullptr;
+};
+// illuminance([category,] position [, axis, angle] [, "name", value ...]) body: once per light
+// record that reaches `position` within the cone; L, Cl, Ol are those of the record. Without axis:
+// all around. The axis is a Vector (cast), the angle a Float.
+struct IlluminanceStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Illuminance;
+    Expr* category = nullptr;  // String, or null
+    Expr* position = nullptr;  // Point
+    Expr* axis = nullptr;
+    Expr* angle = nullptr;
+    std::span<Expr*> pairs;  // name, value, ...
+    Stmt* body = nullptr;
+};
+// illuminate(position [, axis, angle]) body: a light shining from a point; sets L = Ps - position.
+struct IlluminateStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Illuminate;
+    Expr* position = nullptr;
+    Expr* axis = nullptr;
+    Expr* angle = nullptr;
+    Stmt* body = nullptr;
+};
+// solar([axis, angle]) body: a light from infinitely far.
+struct SolarStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Solar;
+    Expr* axis = nullptr;
+    Expr* angle = nullptr;
+    Stmt* body = nullptr;
+};
+// gather(category, position, direction, angle, samples, pairs...) body [else missed]. Parsed; the
+// checker reports it as not supported yet.
+struct GatherStmt : Stmt {
+    static constexpr StmtKind kKind = StmtKind::Gather;
+    std::span<Expr*> args;
+    Stmt* body = nullptr;
+    Stmt* missed = nullptr;
+};
+
+// ---- definitions --------------------------------------------------------------------------------
+
+// A user function, at file level or nested. Arguments are bound by reference if `output`, else by
+// value (a write to one stays inside, with a warning). No function calls itself, directly or not.
+struct Function {
+    std::string_view name;
+    Type result;  // Void: none
+    std::span<Symbol*> parameters;
+    BlockStmt* body = nullptr;
+    Place place;
+    uint32_t id = 0;             // dense in the Ast
+    Function* parent = nullptr;  // the function it is nested in; null also when in a shader's body
+    bool called = false;         // checker: reached from a shader
+};
+
+// #pragma text, as written.
+struct Pragma {
+    std::string_view text;
+    Location where;
+};
+
+struct ShaderDefinition {
+    ShaderKind kind = ShaderKind::Surface;
+    std::string_view name;
+    std::span<Symbol*> parameters;
+    BlockStmt* body = nullptr;
+    Place place;
+};
+
+// Memory of the nodes: blocks that live as long as the Ast.
+class NodeArena {
+  public:
+    NodeArena();
+    ~NodeArena();
+    NodeArena(const NodeArena&) = delete;
+    void* allocate(size_t bytes, size_t alignment);
+    template <class T>
+    T* make() {
+        static_assert(std::is_trivially_destructible_v<T>);
+        return new (allocate(sizeof(T), alignof(T))) T();
+    }
+    template <class T>
+    std::span<T> copy(const std::vector<T>& items) {
+        T* data = static_cast<T*>(allocate(items.size() * sizeof(T), alignof(T)));
+        std::uninitialized_copy(items.begin(), items.end(), data);
+        return {data, items.size()};
+    }
+    std::string_view copy(std::string_view text);
+
+  private:
+    std::vector<std::unique_ptr<std::byte[]>> blocks_;
+    size_t used_ = 0;
+    size_t size_ = 0;
+};
+
+// One translation unit. Shaders made from it share it.
+struct Ast {
+    NodeArena arena;
+    TokenStream tokens;
+    std::vector<Function*> functions;  // at file level, in order
+    std::vector<ShaderDefinition*> shaders;
+    std::vector<Pragma> pragmas;
+    uint32_t symbol_count = 0;    // of Symbol::id
+    uint32_t function_count = 0;  // of Function::id
+    uint32_t site_count = 0;      // of CallExpr::site
+
+    template <class Node>
+    Node* make(Place place) {
+        Node* node = arena.make<Node>();
+        node->kind = Node::kKind;
+        node->place = place;
+        return node;
+    }
+};
+
+// The node as its own type; the caller has looked at `kind`.
+template <class Node, class Base>
+auto& as(Base& node) {
+    if constexpr (std::is_const_v<Base>)
+        return static_cast<const Node&>(node);
+    else
+        return static_cast<Node&>(node);
+}
+template <class Node, class Base>
+auto* as_if(Base* node) {
+    using Result = std::conditional_t<std::is_const_v<Base>, const Node, Node>;
+    return node && node->kind == Node::kKind ? static_cast<Result*>(node) : nullptr;
+}
+
+// Calls f with the expression as its own node type: f is overloaded on `NumberExpr&`, ... (const if
+// `expr` is). All calls must return the same type.
+template <class ExprRef, class F>
+decltype(auto) visit_expr(ExprRef& expr, F&& f) {
+    switch (expr.kind) {
+        case ExprKind::Number:
+            return f(as<NumberExpr>(expr));
+        case ExprKind::String:
+            return f(as<StringExpr>(expr));
+        case ExprKind::Variable:
+            return f(as<VariableExpr>(expr));
+        case ExprKind::Index:
+            return f(as<IndexExpr>(expr));
+        case ExprKind::Component:
+            return f(as<ComponentExpr>(expr));
+        case ExprKind::Unary:
+            return f(as<UnaryExpr>(expr));
+        case ExprKind::Binary:
+            return f(as<BinaryExpr>(expr));
+        case ExprKind::Select:
+            return f(as<SelectExpr>(expr));
+        case ExprKind::Assign:
+            return f(as<AssignExpr>(expr));
+        case ExprKind::Call:
+            return f(as<CallExpr>(expr));
+        case ExprKind::Cast:
+            return f(as<CastExpr>(expr));
+        case ExprKind::Triple:
+            return f(as<TripleExpr>(expr));
+        case ExprKind::Sixteen:
+            return f(as<SixteenExpr>(expr));
+        case ExprKind::ArrayLiteral:
+            break;
+    }
+    return f(as<ArrayLiteralExpr>(expr));
+}
+
+template <class StmtRef, class F>
+decltype(auto) visit_stmt(StmtRef& stmt, F&& f) {
+    switch (stmt.kind) {
+        case StmtKind::Block:
+            return f(as<BlockStmt>(stmt));
+        case StmtKind::Declare:
+            return f(as<DeclareStmt>(stmt));
+        case StmtKind::Extern:
+            return f(as<ExternStmt>(stmt));
+        case StmtKind::DefineFunction:
+            return f(as<FunctionStmt>(stmt));
+        case StmtKind::Expression:
+            return f(as<ExpressionStmt>(stmt));
+        case StmtKind::If:
+            return f(as<IfStmt>(stmt));
+        case StmtKind::While:
+            return f(as<WhileStmt>(stmt));
+        case StmtKind::For:
+            return f(as<ForStmt>(stmt));
+        case StmtKind::Break:
+            return f(as<BreakStmt>(stmt));
+        case StmtKind::Continue:
+            return f(as<ContinueStmt>(stmt));
+        case StmtKind::Return:
+            return f(as<ReturnStmt>(stmt));
+        case StmtKind::Illuminance:
+            return f(as<IlluminanceStmt>(stmt));
+        case StmtKind::Illuminate:
+            return f(as<IlluminateStmt>(stmt));
+        case StmtKind::Solar:
+            return f(as<SolarStmt>(stmt));
+        case StmtKind::Gather:
+            break;
+    }
+    return f(as<GatherStmt>(stmt));
+}
+
+}  // namespace kinora::rsl

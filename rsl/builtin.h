@@ -1,0 +1,121 @@
+// rsl/builtin.h: the table of built-in functions: one row has the signatures, the lowering, the
+// reference meaning, the effects and the documentation of one function. Everything about built-ins
+// (overload resolution, rates, manual, random-shader generator, row tests) follows from the rows.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rsl/types.h"
+
+namespace kinora::rsl {
+
+struct LowerCall;  // rsl/lower*.h: arguments in, IR values out
+template <class Real>
+struct RefCall;  // rsl/reference*.h: arguments in, numbers out; Real = float or double
+
+using LowerFn = void (*)(LowerCall&);
+
+// One template in C++, two instantiations: float checks meaning, double measures accuracy.
+struct RefFn {
+    void (*single)(RefCall<float>&) = nullptr;
+    void (*precise)(RefCall<double>&) = nullptr;
+};
+#define KINORA_RSL_REF(function) (::kinora::rsl::RefFn{&function<float>, &function<double>})
+
+// Effects: what the result depends on beside the arguments, and what is done beside returning.
+enum Effects : uint32_t {
+    kPure = 0,
+    kVaryingResult = 1 << 0,  // differs from point to point whatever the arguments (random, lights)
+    kDerivative = 1 << 1,     // takes derivatives of its arguments: result varying if they are
+    kService = 1 << 2,        // calls RendererServices
+    kLights = 1 << 3,         // reads the light records at P
+    kTraces = 1 << 4,         // shoots rays (shadow included)
+    kPrints = 1 << 5,         // visible outside: never removed, never hoisted
+    kMessage = 1 << 6,        // reads another shader or the renderer's state
+    kShadows = 1 << 7,        // its presence in a light switches automatic shadows off (decision 5)
+    kUniformOnly = 1 << 8,    // all inputs must be uniform
+};
+
+// Shader kinds that may call the function.
+enum LegalIn : uint8_t {
+    kSurface = 1,
+    kDisplacement = 2,
+    kLight = 4,
+    kVolume = 8,
+    kImager = 16,
+    kTransformation = 32,
+    kAnyShader = 63,
+};
+
+// A row. `signature` holds overloads separated by spaces, best first: result '=' arguments, in
+// letters f c p v n m s (float color point vector normal matrix string), x = void (result only),
+// ? = any type, capitals = output arguments, and after a letter:
+//   []  an array of it, any length
+//   *   (last only) the letter before repeats, zero or more times: "f=fff*" is two floats or more
+//   ~   (last only) then any number of pairs: constant string, any value ("blur", 0.1)
+// An overload wanting `f` takes constants, Bools too (as 0/1); wanting a triple takes any triple
+// or a float (spread); `m` takes a float (diagonal). Calls to a row whose `lower` is null are
+// reported as not supported yet.
+struct Builtin {
+    const char* name;
+    const char* signature;
+    LowerFn lower;
+    RefFn ref;
+    uint32_t effects;   // Effects
+    int tolerance_ulp;  // largest error of the precise tier against the reference in double
+    const char* doc;    // one line for the manual
+    uint8_t legal = kAnyShader;  // LegalIn
+    const char* globals = "";    // shader globals read beside the arguments, space separated: "Ng"
+};
+
+// One overload, decoded.
+struct Signature {
+    struct Argument {
+        Type type;            // base Invalid = any type
+        bool output = false;  // an l-value that the function writes
+    };
+    Type result;
+    std::vector<Argument> arguments;  // a repeated last argument is not among them
+    bool repeats = false;             // `*`: any number of `repeated` follow
+    Argument repeated;
+    bool pairs = false;  // `~`
+    int overload = 0;    // its index in Builtin::signature
+};
+
+struct Overload {
+    const Builtin* builtin;
+    Signature signature;
+};
+
+// The groups, each defined in rsl/builtins_<group>.cpp. A name may have several rows in one group.
+std::span<const Builtin> builtins_math();
+std::span<const Builtin> builtins_geometric();
+std::span<const Builtin> builtins_color();
+std::span<const Builtin> builtins_noise();
+std::span<const Builtin> builtins_light();
+std::span<const Builtin> builtins_texture();
+std::span<const Builtin> builtins_matrix();
+std::span<const Builtin> builtins_string();
+std::span<const Builtin> builtins_message();
+
+// All groups in order: for the manual and the row tests.
+const std::vector<std::span<const Builtin>>& builtin_groups();
+
+// The overloads of a name in row order; empty when there is none. Valid for the life of the
+// process; thread-safe.
+std::span<const Overload> find_builtin(std::string_view name);
+
+// All names, for did-you-mean.
+const std::vector<std::string_view>& builtin_names();
+
+// Names of other renderers' functions that Kinora knows of but does not have: "" or the place they
+// come from ("Pixie", "RSL 2.0", "PRMan 13").
+std::string_view foreign_builtin(std::string_view name);
+
+// Decodes one signature string; CHECKs that it is well formed (a row is our own text).
+std::vector<Signature> parse_signatures(std::string_view text);
+
+}  // namespace kinora::rsl
