@@ -1,0 +1,67 @@
+// raytrace/film.h: the picture being made: colour with coverage, any number of AOVs, filters.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/base/math.h"
+
+namespace kinora::raytrace {
+
+// What a non-finite shader result becomes.
+enum class NanPolicy : uint8_t { Zero, Magenta, Keep };
+
+enum class AovFilter : uint8_t {
+    Mean,         // mean over the pixel's samples; a sample that misses counts 0
+    FirstSample,  // the value of the pixel's first sample: for ids and depths
+};
+
+// One float component of one AOV of the nearest surface: "z", "N.x". A colour is three planes.
+struct AovPlane {
+    std::string name;
+    AovFilter filter = AovFilter::Mean;
+    std::vector<float> values;  // width * height, rows from the top
+};
+
+// Linear, associated ("premultiplied") RGBA: alpha is coverage, the mean of Oi's components.
+struct Film {
+    int width = 0;
+    int height = 0;
+    std::vector<vec4> rgba;  // width * height, rows from the top
+    std::vector<AovPlane> aovs;
+    uint64_t non_finite = 0;  // shading results that were not finite, since clear()
+
+    Film() = default;
+    Film(int w, int h) { resize(w, h); }
+    void resize(int w, int h);  // and clear
+    void add_aov(std::string name, AovFilter filter = AovFilter::Mean);
+    void clear();  // all to 0; keeps memory and AOVs
+    vec4& at(int x, int y) { return rgba[size_t(y) * size_t(width) + size_t(x)]; }
+    const vec4& at(int x, int y) const { return rgba[size_t(y) * size_t(width) + size_t(x)]; }
+};
+
+// A pixel filter: a row. Samples are drawn with the filter's density instead of being weighted by
+// it (filter importance sampling), so each sample belongs to one pixel, a tile needs no neighbour
+// and the sum's order does not depend on tiles or threads. Densities must not be negative.
+struct PixelFilter {
+    const char* name;
+    double width;                 // in pixels, the support is [-width/2, width/2]
+    double (*density)(double x);  // along one axis, x in [-1, 1] over the support; any scale
+};
+std::span<const PixelFilter> pixel_filters();                 // "box", "triangle", "gaussian"
+const PixelFilter* find_pixel_filter(std::string_view name);  // nullptr: no such row
+
+// Turns numbers in [0,1) into filter offsets: the inverse of the filter's integral, tabulated.
+class FilterSampler {
+  public:
+    explicit FilterSampler(const PixelFilter& filter, double width = 0);  // 0: the row's own
+    double offset(double u) const;  // pixels from the pixel's centre, along one axis
+
+  private:
+    std::vector<double> inverse_;
+};
+
+}  // namespace kinora::raytrace

@@ -1,0 +1,43 @@
+// raytrace/geometry.h: what the ray tracer is told about a surface: views onto the caller's
+// buffers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "runtime/base/math.h"
+
+namespace kinora::raytrace {
+
+inline constexpr uint32_t kNone = ~0u;  // "no geometry", "no primitive"
+
+enum class GeometryKind : uint8_t {
+    Static,     // never moves; all such rows are concatenated into one structure of MEDIUM quality
+    Deforming,  // new positions now and then (positions_version): own structure, refitted
+    Instanced,  // moves rigidly or is repeated: one structure per shape, one matrix per row
+};
+
+// One placed surface. The buffers stay the caller's and must outlive the Accel's use of them: they
+// are read by update() and, for Deforming and Instanced rows, by every ray.
+// Accel space = world space relative to the caller's scene origin, as floats.
+struct Geometry {
+    uint32_t id = 0;  // the caller's name for this row; hits carry it
+    GeometryKind kind = GeometryKind::Static;
+    bool opaque = true;           // selects the ray mask: kMaskOpaque or kMaskNotOpaque
+    bool hide_backfaces = false;  // camera rays pass through the side Ng points away from
+    bool mirrored = false;        // positions were baked through a mirroring matrix: Ng is negated
+
+    // Accel space (Static, Deforming) or local space (Instanced). The fourth float is padding.
+    std::span<const vec4> positions;
+    std::span<const uint32_t> triangles;  // three indices a triangle
+
+    uint32_t topology_version = 0;   // changed: the triangles are others, the structure is rebuilt
+    uint32_t positions_version = 0;  // changed: same triangles, moved vertices
+
+    // Instanced only. Rows of equal shape share one structure, made of the first such row, so their
+    // positions and triangles must be the same buffers.
+    uint32_t shape = kNone;       // kNone: shared with no other row
+    dmat4 accel_from_local{1.0};  // composed in double by the caller; rounded to float once, here
+};
+
+}  // namespace kinora::raytrace

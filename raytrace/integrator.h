@@ -1,0 +1,77 @@
+// raytrace/integrator.h: from a camera to a film: tiles, layers, and the surfaces' shading between.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "raytrace/accel.h"
+#include "raytrace/camera.h"
+#include "raytrace/film.h"
+#include "raytrace/wavefront.h"
+#include "runtime/base/parallel.h"
+
+namespace kinora::raytrace {
+
+// The looks of surfaces, implemented by the runtime. shade() is called by many threads at once with
+// dense batches (up to IntegratorSettings::chunk_rays hits of one tile, not sorted); it may trace
+// rays through the Accel on its own thread but starts no task. thread: 0 <= thread <
+// thread_count().
+class SurfaceShading {
+  public:
+    virtual ~SurfaceShading() = default;
+    virtual void shade(const HitBatch& hits, int thread, ShadeResult& result) = 0;
+    // After the last shade() of a tile, on the same thread.
+    virtual void end_tile(int /*thread*/) {}
+};
+
+struct IntegratorSettings {
+    int samples_per_pixel = 1;            // 1: the pixel's centre; more: stratified over the filter
+    const PixelFilter* filter = nullptr;  // nullptr: box
+    double filter_width = 0;              // pixels; 0: the filter's own
+    uint32_t seed = 0;                    // of the frame
+    int max_layers = 32;                  // surfaces one ray may pass where Oi < 1
+    std::optional<vec3> background;       // nothing: transparent
+    NanPolicy nan = NanPolicy::Zero;
+    float opaque_above = 0.9999f;  // a ray ends when all components of its opacity exceed this
+    int tile = 64;                 // pixels, a multiple of 4
+    size_t chunk_rays = 8192;      // rays of a tile traced and shaded at once; >= tile * tile
+};
+
+struct IntegratorCounters {
+    TraceCounters trace;  // camera rays and their continuations; shade()'s own are not here
+    uint64_t shading_points = 0;
+    uint64_t non_finite = 0;               // results replaced by IntegratorSettings::nan
+    uint32_t non_finite_geometry = kNone;  // Geometry::id of the lowest row that gave one
+    double trace_ms = 0;                   // summed over threads
+    double shade_ms = 0;
+    void operator+=(const IntegratorCounters& o);
+};
+
+// Memory reused from frame to frame: after the first frame of a size, integrate() allocates
+// nothing.
+class IntegratorScratch {
+  public:
+    IntegratorScratch();
+    ~IntegratorScratch();
+    struct Thread;
+    std::vector<std::unique_ptr<Thread>> threads;
+    std::unique_ptr<FilterSampler> filter;
+    const PixelFilter* filter_row = nullptr;
+    double filter_width = -1;
+};
+
+// Called after each tile by whichever thread did it, one at a time; done counts up to total. Return
+// false to stop: tiles not begun stay as they were.
+using Progress = FunctionRef<bool(int done, int total)>;
+
+// Fills the film (resized to the camera's picture if it differs). For each sample, front to back:
+// C += T Ci, T *= 1 - Oi. The same bits for any number of threads and any order of tiles, if
+// shading is so too. Returns false if progress stopped it.
+bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
+               const IntegratorSettings& settings, IntegratorScratch& scratch,
+               IntegratorCounters& counters, const Progress* progress = nullptr);
+
+}  // namespace kinora::raytrace

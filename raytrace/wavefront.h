@@ -1,0 +1,107 @@
+// raytrace/wavefront.h: batches of rays and of hits, structure of arrays; and from one to the
+// other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raytrace/accel.h"
+
+namespace kinora::raytrace {
+
+// Hits to be shaded. Arrays are 64-byte aligned and readable up to `count` rounded up to 16.
+// Space: accel. Everything belongs to the ray tracer and lives until the call returns.
+struct HitBatch {
+    size_t count = 0;
+    uint32_t depth = 0;  // 0 for camera rays
+
+    const uint32_t* geometry;   // Geometry::id
+    const uint32_t* instance;   // row in the span given to Accel::update
+    const uint32_t* primitive;  // triangle within the row
+    const float* u;
+    const float* v;
+    const float* t;           // distance along dir from org, over all layers passed
+    const float* org[3];      // the ray's first origin (the eye)
+    const float* dir[3];      // length 1
+    const float* P[3];        // the hit by its barycentrics
+    const float* P_error[3];  // bound of its rounding error, for offset_ray_origin
+    const float* Ng[3];       // length 1; 0 for a triangle without area
+    // Footprint: change of P and of dir per pixel in raster x and y (ray differentials, H. Igehy
+    // 1999), met with the plane of Ng; at grazing angles capped at 100 times the face-on width.
+    const float* dPdx[3];
+    const float* dPdy[3];
+    const float* dDdx[3];
+    const float* dDdy[3];
+    const float* time;
+    const uint32_t* pixel_x;
+    const uint32_t* pixel_y;
+    const uint32_t* sample;
+    const uint32_t* layer;  // surfaces already passed by this ray
+    const uint32_t* ray;    // index of the ray in the batch that was traced
+};
+
+// To be filled for all hits of the batch; the arrays have room for `count` rounded up to 16.
+// Ci is what the surface sends to the eye, associated with (not multiplied again by) Oi.
+struct ShadeResult {
+    float* Ci[3];
+    float* Oi[3];
+    std::span<float* const> aov;  // one array for each Film::aovs plane, preset to 0
+};
+
+// Rays to be traced, structure of arrays with room for `capacity`.
+struct RayBatch {
+    explicit RayBatch(size_t capacity = 0) { reserve(capacity); }
+    void reserve(size_t capacity);
+    size_t capacity() const { return capacity_; }
+
+    size_t count = 0;
+    float* org[3] = {};
+    float* dir[3] = {};
+    float* tnear = nullptr;
+    float* tfar = nullptr;
+    float* time = nullptr;
+    float* dOdx[3] = {};
+    float* dOdy[3] = {};
+    float* dDdx[3] = {};
+    float* dDdy[3] = {};
+    float* t_passed = nullptr;  // length already gone before org
+    float* first_org[3] = {};   // where the ray began
+    uint32_t* pixel_x = nullptr;
+    uint32_t* pixel_y = nullptr;
+    uint32_t* sample = nullptr;
+    uint32_t* layer = nullptr;
+    uint32_t* slot = nullptr;  // the caller's index (the integrator's sample)
+
+  private:
+    size_t capacity_ = 0;
+    std::vector<std::byte> memory_;
+};
+
+// The memory behind a HitBatch.
+class HitStore {
+  public:
+    explicit HitStore(size_t capacity = 0) { reserve(capacity); }
+    void reserve(size_t capacity);
+    const HitBatch& batch() const { return batch_; }
+
+  private:
+    friend const HitBatch& trace(const Accel&, const RayBatch&, uint32_t, uint32_t, HitStore&,
+                                 TraceCounters&);
+    HitBatch batch_{};
+    size_t capacity_ = 0;
+    std::vector<std::byte> memory_;
+};
+
+// Traces all rays with `mask` in packets of 16 and gathers the hits, densely and in the order of
+// the rays. `depth` goes into the batch. Allocates only if the store is smaller than the rays.
+const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, uint32_t depth,
+                      HitStore& store, TraceCounters& counters);
+
+// For each ray: blocked[i] = 1 if opaque geometry lies in (tnear, tfar], else 0. The first step of
+// transmission; the caller goes on with trace(kMaskNotOpaque) for the rest. Uses org, dir, tnear,
+// tfar, time of the batch only.
+void occluded_by_opaque(const Accel& accel, const RayBatch& rays, uint8_t* blocked,
+                        TraceCounters& counters);
+
+}  // namespace kinora::raytrace
