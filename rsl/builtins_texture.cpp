@@ -6,15 +6,11 @@ namespace kinora::rsl {
 namespace {
 
 const Builtin kRows[] = {
-    {"texture",
-     "f=s~ c=s~ f=sff~ c=sff~ f=sffffffff~ c=sffffffff~",
-     nullptr,
-     {},
-     kService | kDerivative,
-     0,
-     "Filtered texture at s, t (or over a quadrilateral); texture(name[channel], ...).",
-     kAnyShader,
-     "s t"},
+    // Two rows: only the forms without coordinates read s and t.
+    {"texture", "f=s~ c=s~", nullptr, {}, kService | kDerivative, 0,
+     "Filtered texture at the surface's s, t; texture(name[channel]).", kAnyShader, "s t"},
+    {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", nullptr, {}, kService | kDerivative, 0,
+     "Filtered texture at s, t or over a quadrilateral; texture(name[channel], s, t)."},
     {"environment",
      "f=sv~ c=sv~ f=svvvv~ c=svvvv~",
      nullptr,
