@@ -1,22 +1,27 @@
 // rsl/renderer_services.h: the contract between compiled shaders and a renderer: how kernel inputs
 // and outputs are named, what light records hold, and the functions that shaders call.
 //
+// clang-format off
 // Kernel inputs (component suffixes: .x .y .z for point-like, .r .g .b for color, none for float):
 //   point rate   P dPdu dPdv N Ng u v du dv s t I Cs Os dNdu dNdv dIdu dIdv dsdu dsdv dtdu dtdv
-//                Ps Ns (light shaders), rng (int: hash of pixel, sample, path and frame seed,
-//                decision 10) param:NAME[.c]            a parameter bound to a vertex input (and
-//                its ".du"/".dv")
-//   frame rate   E time dtime ncomps alpha
-//                param:NAME[.c] param:NAME[k][.c]   a parameter; ints for strings (interned ids)
+//                Ps Ns             light shaders
+//                rng               int: hash of pixel, sample, path and frame seed (decision 10)
+//                param:LAYER:NAME[.c]         a parameter bound to a vertex input, and its partial
+//                param:LAYER:NAME[.c]:du :dv  derivatives. LAYER: the shader's index in its stack,
+//                                  0 in a light
+//   frame rate   E time dtime ncomps alpha camera:near camera:far
+//                param:LAYER:NAME[.c]         a parameter; ints for strings (interned ids)
+//                param:LAYER:NAME[k][.c]      an array parameter's element
 //   both         space:NAME:to_current:RC and space:NAME:from_current:RC, R row 0..2 (0..3 for
 //                screen, NDC, raster), C column 0..3 of a matrix on column vectors. Point rate for
 //                "object" and "shader" in surfaces, displacements and volumes (twelve inputs each,
 //                gathered only where named); frame rate for all else. In a light, "shader" is the
 //                light's own node, frame rate. "current" = camera space.
 // Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. aov:NAME[.c]; of a light shader, for statement k:
-//   light:k:L.x.. (from the light to Ps, as RSL sees it inside illuminate), light:k:Cl.r..
-//   light:k:Ol.r.. light:k:lit (int, nonzero in the cone), and message:NAME[.c] for its output
-//   parameters.
+//   light:k:L.x..   from the light to Ps, as RSL sees it inside illuminate
+//   light:k:Cl.r..  light:k:Ol.r..  light:k:lit (int, nonzero in the cone)
+//   message:NAME[.c]  its output parameters
+// clang-format on
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,127 @@
+// runtime/deform.cpp: morphs and skins into accel space; instance matrices.
+#include "runtime/deform.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+
+#include "runtime/scene.h"
+#include "runtime/transforms.h"
+
+namespace kinora {
+
+namespace {
+
+bool changed_bit(const Scene& scene, uint32_t owner) {
+    return scene.first_frame || (scene.changed[owner / 64] >> (owner % 64) & 1);
+}
+
+bool joints_moved(const Scene& scene, const Shape& shape) {
+    if (scene.nodes[shape.node].moved) return true;
+    return std::any_of(shape.joint_nodes.begin(), shape.joint_nodes.end(),
+                       [&](uint32_t n) { return n != kNone && scene.nodes[n].moved; });
+}
+
+bool morph_changed(const Scene& scene, const Shape& shape) {
+    return shape.morph != kNone &&
+           changed_bit(scene, uint32_t(scene.description->nodes.size()) + shape.morph);
+}
+
+void update_world(Scene& scene, Shape& shape) {
+    shape.world = scene.nodes[shape.node].world * shape.conversion;
+    shape.mirrored = glm::determinant(dmat3(shape.world)) < 0;
+}
+
+void morph(Scene& scene, Shape& shape) {
+    const MorphDefinition& definition = scene.description->morphs[shape.morph];
+    std::span<const double> weights(scene.values.data() + definition.weights.offset,
+                                    definition.weights.count);
+    skin::deform(scene.morphs[shape.morph], weights, shape.morphed_positions,
+                 shape.morphed_normals);
+}
+
+void deform_shape(Scene& scene, Shape& shape) {
+    const Mesh& mesh = scene.meshes[shape.mesh];
+    bool morphed = morph_changed(scene, shape);
+    if (morphed) morph(scene, shape);
+    if (!morphed && !scene.first_frame && !joints_moved(scene, shape)) return;
+    std::span<const vec4> positions = mesh.positions, normals = mesh.normals;
+    if (shape.morph != kNone) {
+        positions = shape.morphed_positions;
+        normals = shape.morphed_normals;
+    }
+    skin::deform(shape.skin_mesh, shape.palette, positions, normals, shape.positions,
+                 shape.normals);
+    ++shape.positions_version;
+}
+
+}  // namespace
+
+void pose(Scene& scene) {
+    for (Shape& shape : scene.shapes) {
+        if (shape.kind != raytrace::GeometryKind::Deforming) continue;
+        if (!scene.first_frame && !joints_moved(scene, shape)) continue;
+        update_world(scene, shape);
+        skin::Anchors anchors{scene.meshes[shape.mesh].anchor, scene.origin};
+        if (shape.skin == kNone) {
+            shape.palette.assign(shape.palette.size(), skin::joint_matrix(shape.world, anchors));
+            continue;
+        }
+        // The palette reads matrices by joint; unresolved joints stay with the bind shape.
+        for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
+            uint32_t node = shape.joint_nodes[j];
+            dmat4& world = shape.joint_world[j];
+            world = node == kNone ? glm::inverse(shape.skeleton.inverse_bind[j])
+                                  : scene.nodes[node].world;
+            if (node == kNone && !is_finite(world)) world = dmat4(1.0);
+            if (!shape.in_world) world = shape.world * world;
+        }
+        skin::pose(shape.skeleton, shape.joint_world, anchors, shape.palette,
+                   shape.in_world ? dmat4(1.0) : shape.world);
+    }
+}
+
+void deform(Scene& scene) {
+    for (Shape& shape : scene.shapes) {
+        if (shape.kind == raytrace::GeometryKind::Deforming) deform_shape(scene, shape);
+        if (shape.kind == raytrace::GeometryKind::Instanced && scene.nodes[shape.node].moved)
+            update_world(scene, shape);
+    }
+    for (size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Shape& shape = scene.shapes[scene.surfaces[s].shape];
+        raytrace::Geometry& row = scene.geometry[s];
+        row.positions_version = shape.positions_version;
+        row.mirrored = shape.mirrored;
+        if (shape.kind != raytrace::GeometryKind::Instanced) continue;
+        dmat4 to_accel(1.0), from_anchor(1.0);
+        to_accel[3] = dvec4(-scene.origin, 1.0);
+        from_anchor[3] = dvec4(scene.meshes[shape.mesh].anchor, 1.0);
+        row.accel_from_local = to_accel * shape.world * from_anchor;
+        row.mirrored = false;
+    }
+}
+
+void bake_static(Scene& scene) {
+    for (Shape& shape : scene.shapes) {
+        if (shape.kind != raytrace::GeometryKind::Static) continue;
+        update_world(scene, shape);
+        const Mesh& mesh = scene.meshes[shape.mesh];
+        dmat3 linear(shape.world);
+        dvec3 offset = linear * mesh.anchor + dvec3(shape.world[3]) - scene.origin;
+        dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                       glm::cross(linear[0], linear[1]));
+        if (shape.mirrored) cofactor = -cofactor;
+        for (size_t i = 0; i < mesh.positions.size(); ++i)
+            shape.positions[i] =
+                vec4(vec3(linear * dvec3(mesh.positions[i]) + offset), 0.0f);
+        for (size_t i = 0; i < mesh.normals.size(); ++i) {
+            dvec3 n = cofactor * dvec3(mesh.normals[i]);
+            double length = glm::length(n);
+            shape.normals[i] = vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f);
+        }
+        ++shape.positions_version;
+    }
+}
+
+}  // namespace kinora

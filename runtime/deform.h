@@ -1,0 +1,18 @@
+// runtime/deform.h: where the vertices of every shape stand at the current values.
+#pragma once
+
+namespace kinora {
+
+struct Scene;
+
+// Joint matrices of the skins whose joints moved.
+void pose(Scene& scene);
+
+// Morphs, then skins: only shapes whose joints, weights or node changed. Also brings the ray
+// tracer's rows up to date (versions, instance matrices).
+void deform(Scene& scene);
+
+// Static shapes into accel space; once, when the scene's origin is known.
+void bake_static(Scene& scene);
+
+}  // namespace kinora

@@ -1,0 +1,187 @@
+// runtime/import_collada.cpp: COLLADA's nodes, cameras and numbers as a SceneDescription.
+#include "runtime/import_collada.h"
+
+#include <algorithm>
+
+#include "runtime/import_collada_p.h"
+
+namespace kinora {
+
+std::optional<SceneDescription> import_collada(const std::string& path,
+                                               const ImportOptions& options,
+                                               Diagnostics& diagnostics) {
+    std::optional<collada::Document> document = collada::read_document(path, diagnostics);
+    if (!document) return std::nullopt;
+    collada::ExtractOptions extract_options;
+    extract_options.allow_external = options.allow_external;
+    std::optional<collada::SceneData> data =
+        collada::extract(*document, diagnostics, extract_options);
+    if (!data) return std::nullopt;
+    SceneDescription description;
+    description.path = path;
+    ColladaImport(*data, options, diagnostics, description).run();
+    return description;
+}
+
+void ColladaImport::run() {
+    out_.meter = options_.meter.value_or(data_.asset.meter);
+    out_.up_axis = options_.up_axis.value_or(UpAxis(data_.asset.up_axis));
+    out_.start_time = data_.start_time;
+    out_.end_time = data_.end_time;
+    out_.frame_rate = data_.frame_rate;
+    allocate_values();
+    import_meshes();
+    import_skins();
+    import_morphs();
+    import_materials();
+    import_lights();
+    import_cameras();
+    import_nodes();
+    import_clips();
+    import_animation();
+}
+
+uint32_t ColladaImport::append(const double* numbers, size_t count) {
+    uint32_t offset = uint32_t(out_.values.size());
+    out_.values.insert(out_.values.end(), numbers, numbers + count);
+    return offset;
+}
+
+void ColladaImport::allocate_values() {
+    auto append_slots = [this](const auto& slots, std::vector<uint32_t>& offsets) {
+        for (const collada::Slot& s : slots)
+            offsets.push_back(append(s.values.data(), std::max<size_t>(s.count, 4)));
+    };
+    for (const collada::Node& node : data_.nodes) {
+        auto& offsets = transform_values_.emplace_back();
+        for (const collada::Transform& transform : node.transforms) {
+            std::array<double, 16> numbers = transform.slot.values;
+            if (transform.kind == collada::TransformKind::Matrix)  // kept in document order
+                for (int column = 0; column < 4; ++column)
+                    for (int row = 0; row < 4; ++row)
+                        numbers[size_t(row * 4 + column)] =
+                            transform.slot.values[size_t(column * 4 + row)];
+            offsets.push_back(append(numbers.data(), numbers.size()));
+        }
+    }
+    for (const collada::Light& light : data_.lights)
+        append_slots(light.slots, light_values_.emplace_back());
+    for (const collada::Camera& camera : data_.cameras)
+        append_slots(camera.slots, camera_values_.emplace_back());
+    for (const collada::Effect& effect : data_.effects) {
+        auto& params = param_values_.emplace_back();
+        for (const collada::Param& param : effect.params)
+            params.push_back(append(param.value.numbers.data(), param.value.numbers.size()));
+        auto& common = common_values_.emplace_back();
+        if (!effect.common) continue;
+        for (const collada::CommonValue& value : effect.common->slots)
+            common.push_back(append(value.slot.values.data(), 4));
+    }
+    for (const collada::Material& material : data_.materials) {
+        auto& setparams = setparam_values_.emplace_back();
+        for (const collada::SetParam& set : material.setparams)
+            setparams.push_back(append(set.value.numbers.data(), set.value.numbers.size()));
+    }
+    for (const collada::Morph& morph : data_.morphs)
+        morph_values_.push_back(append(morph.weights.data(), morph.weights.size()));
+}
+
+ValueSlot ColladaImport::slot(const collada::TargetRef& ref) const {
+    auto whole = [&](const std::vector<std::vector<uint32_t>>& offsets) {
+        return ValueSlot{offsets[ref.owner][ref.slot] + ref.first, ref.count};
+    };
+    switch (ref.kind) {
+        case collada::Owner::None: return {};
+        case collada::Owner::Transform: return whole(transform_values_);
+        case collada::Owner::Light: return whole(light_values_);
+        case collada::Owner::Camera: return whole(camera_values_);
+        case collada::Owner::EffectParam: return whole(param_values_);
+        case collada::Owner::EffectCommon: return whole(common_values_);
+        case collada::Owner::MaterialParam: return whole(setparam_values_);
+        case collada::Owner::MorphWeight:
+            return {morph_values_[ref.owner] + ref.first, ref.count};
+    }
+    return {};
+}
+
+// Bits: node definitions, then morphs, then one for all looks (their frame blocks are made anew
+// each frame anyway).
+uint32_t ColladaImport::owner_bit(const collada::TargetRef& ref) const {
+    uint32_t nodes = uint32_t(data_.nodes.size());
+    uint32_t morphs = uint32_t(data_.morphs.size());
+    if (ref.kind == collada::Owner::Transform) return ref.owner;
+    if (ref.kind == collada::Owner::MorphWeight) return nodes + ref.owner;
+    return nodes + morphs;
+}
+
+dmat4 ColladaImport::conversion(uint32_t index) const {
+    return index == collada::kNone ? dmat4(1.0) : data_.conversions[index];
+}
+
+MeshUse ColladaImport::mesh_use(const collada::MeshInstance& instance) const {
+    MeshUse use;
+    use.mesh = instance.geometry;
+    use.morph = instance.morph;
+    use.skin = instance.skin;
+    use.joint_nodes = instance.joint_nodes;
+    use.conversion = conversion(instance.conversion);
+    for (const collada::MaterialBinding& binding : instance.materials) {
+        MaterialUse& material = use.materials.emplace_back();
+        material.symbol = binding.symbol;
+        material.material = binding.material;
+        for (const collada::VertexInputBinding& input : binding.vertex_inputs)
+            material.vertex_bindings.push_back(
+                {input.semantic, input.input_semantic, input.input_set});
+        for (const collada::ParamBinding& param : binding.params)
+            material.params.emplace_back(param.semantic, slot(param.ref));
+    }
+    return use;
+}
+
+void ColladaImport::import_nodes() {
+    for (size_t n = 0; n < data_.nodes.size(); ++n) {
+        const collada::Node& from = data_.nodes[n];
+        NodeDefinition& to = out_.nodes.emplace_back();
+        to.id = from.id;
+        to.sid = from.sid;
+        to.name = from.name;
+        for (size_t t = 0; t < from.transforms.size(); ++t)
+            to.transforms.push_back(
+                {TransformKind(from.transforms[t].kind), transform_values_[n][t]});
+        for (uint32_t child : from.children) to.children.push_back({child, dmat4(1.0)});
+        for (const collada::NodeInstance& instance : from.instances)
+            to.children.push_back({instance.node, conversion(instance.conversion)});
+        for (const collada::MeshInstance& mesh : from.meshes) to.meshes.push_back(mesh_use(mesh));
+        for (const collada::LightInstance& light : from.lights) to.lights.push_back(light.light);
+        for (const collada::CameraInstance& camera : from.cameras)
+            to.cameras.push_back(camera.camera);
+    }
+    out_.roots = data_.roots;
+}
+
+void ColladaImport::import_cameras() {
+    using collada::CameraSlot;
+    for (size_t c = 0; c < data_.cameras.size(); ++c) {
+        const collada::Camera& from = data_.cameras[c];
+        auto slot_of = [&](CameraSlot s) {
+            return from[s].present() ? ValueSlot{camera_values_[c][size_t(s)], 1} : ValueSlot{};
+        };
+        CameraDefinition& to = out_.cameras.emplace_back();
+        to.id = from.id;
+        to.name = from.name;
+        to.where = from.where;
+        to.orthographic = from.orthographic;
+        to.x = slot_of(from.orthographic ? CameraSlot::Xmag : CameraSlot::Xfov);
+        to.y = slot_of(from.orthographic ? CameraSlot::Ymag : CameraSlot::Yfov);
+        to.aspect = slot_of(CameraSlot::AspectRatio);
+        to.znear = slot_of(CameraSlot::Znear);
+        to.zfar = slot_of(CameraSlot::Zfar);
+    }
+}
+
+void ColladaImport::import_clips() {
+    for (const collada::Clip& clip : data_.clips)
+        out_.clips.push_back({clip.id.empty() ? clip.name : clip.id, clip.start, clip.end});
+}
+
+}  // namespace kinora

@@ -1,0 +1,113 @@
+// runtime/import_collada_animation.cpp: COLLADA's channels and samplers for anim.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/findings.h"
+#include "runtime/import_collada_p.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr anim::Interpolation kInterpolations[] = {  // by collada::Interpolation
+    anim::Interpolation::Linear,  anim::Interpolation::Step,     anim::Interpolation::Bezier,
+    anim::Interpolation::Hermite, anim::Interpolation::Cardinal, anim::Interpolation::Bspline};
+constexpr anim::Behaviour kBehaviours[] = {  // by collada::Behavior
+    anim::Behaviour::Constant, anim::Behaviour::Constant,  anim::Behaviour::Linear,
+    anim::Behaviour::Cycle,    anim::Behaviour::Oscillate, anim::Behaviour::CycleRelative};
+
+// Swaps rows and columns of every 4x4 whose entries are `width` numbers each.
+void transpose_matrices(std::vector<double>& numbers, size_t width) {
+    std::vector<double> original = numbers;
+    size_t matrix = 16 * width;
+    for (size_t begin = 0; begin + matrix <= numbers.size(); begin += matrix)
+        for (size_t column = 0; column < 4; ++column)
+            for (size_t row = 0; row < 4; ++row)
+                for (size_t k = 0; k < width; ++k)
+                    numbers[begin + (row * 4 + column) * width + k] =
+                        original[begin + (column * 4 + row) * width + k];
+}
+
+std::string repair_text(const anim::SamplerRepairs& r) {
+    std::string text;
+    auto add = [&](uint32_t count, const char* what) {
+        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+    };
+    add(r.missing_values, "keys without values dropped");
+    add(r.non_finite_keys, "keys that are not finite dropped");
+    add(r.unsorted_keys, "keys out of order sorted");
+    add(r.missing_tangents, "segments without tangents made straight");
+    add(r.bad_tangents, "tangents that are not finite made straight");
+    add(r.clamped_tangents, "tangents moved into their segment");
+    add(r.bad_stride, "unfitting stride");
+    return text;
+}
+
+anim::Sampler make_sampler(const collada::Sampler& from, bool matrix,
+                           anim::SamplerRepairs& repairs) {
+    collada::Sampler s = from;
+    if (matrix) {
+        transpose_matrices(s.values, 1);
+        transpose_matrices(s.in_tangents, s.tangent_dims);
+        transpose_matrices(s.out_tangents, s.tangent_dims);
+    }
+    std::vector<anim::Interpolation> interpolations;
+    for (collada::Interpolation i : s.interpolation)
+        interpolations.push_back(kInterpolations[size_t(i)]);
+    anim::SamplerSource source;
+    source.times = s.times;
+    source.values = s.values;
+    source.stride = s.stride;
+    source.interpolations = interpolations;
+    source.in_tangents = s.in_tangents;
+    source.out_tangents = s.out_tangents;
+    source.in_stride = source.out_stride = s.stride * std::max<uint32_t>(1, s.tangent_dims);
+    source.pre = kBehaviours[size_t(s.pre)];
+    source.post = kBehaviours[size_t(s.post)];
+    source.kind = matrix ? anim::SampleKind::Matrix : anim::SampleKind::Numbers;
+    return anim::make_sampler(source, &repairs);
+}
+
+}  // namespace
+
+void ColladaImport::import_animation() {
+    std::vector<anim::Sampler> samplers;
+    std::vector<anim::Channel> channels;
+    std::map<std::pair<uint32_t, bool>, uint32_t> made;  // one for each sampler and kind
+    out_.animated.assign(out_.values.size(), false);
+    for (const collada::Channel& from : data_.channels) {
+        const collada::TargetRef& ref = from.ref;
+        bool matrix = ref.whole_matrix;
+        auto [place, is_new] = made.try_emplace({from.sampler, matrix}, uint32_t(samplers.size()));
+        if (is_new) {
+            anim::SamplerRepairs repairs;
+            samplers.push_back(make_sampler(data_.samplers[from.sampler], matrix, repairs));
+            if (std::string text = repair_text(repairs); !text.empty())
+                diagnostics_.report(Code::ANIM_KEYS_REPAIRED, data_.samplers[from.sampler].where,
+                                    from.target, text);
+        }
+        uint32_t base = slot(ref).offset - ref.first;
+        bool element = ref.kind == collada::Owner::Transform && !matrix &&
+                       data_.nodes[ref.owner].transforms[ref.slot].kind ==
+                           collada::TransformKind::Matrix;
+        uint32_t stride = data_.samplers[from.sampler].stride;
+        for (uint32_t k = 0; k < ref.count; ++k) {
+            // Elements of a <matrix> are numbered by columns there and kept by rows here.
+            uint32_t number = ref.first + k;
+            if (element) number = anim::matrix_slot(number / 4, number % 4);
+            out_.animated[base + number] = true;
+            if (matrix && k > 0) continue;
+            anim::Channel channel;
+            channel.sampler = place->second;
+            channel.component = stride == 1 ? 0 : k;
+            channel.slot = base + number;
+            channel.count = matrix ? 16 : 1;
+            channel.owner = owner_bit(ref);
+            channels.push_back(channel);
+        }
+    }
+    out_.animation = anim::make_animation(std::move(samplers), std::move(channels));
+}
+
+}  // namespace kinora

@@ -1,0 +1,337 @@
+// runtime/import_collada_material.cpp: COLLADA's effects, materials and lights as RSL shaders with
+// their parameters.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/findings.h"
+#include "runtime/import_collada_p.h"
+#include "runtime/shader_library.h"
+#include "runtime/texture_name.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr const char* kStageNames[] = {"SURFACE", "DISPLACEMENT",   "LIGHT",
+                                       "VOLUME",  "TRANSFORMATION", "IMAGER"};
+constexpr rsl::ShaderKind kStageKinds[] = {
+    rsl::ShaderKind::Surface, rsl::ShaderKind::Displacement,   rsl::ShaderKind::Light,
+    rsl::ShaderKind::Volume,  rsl::ShaderKind::Transformation, rsl::ShaderKind::Imager};
+
+// The codes of a technique as one text. Included files come by #include, so that each keeps its
+// own places.
+std::string joined_code(const collada::RslShading& shading, SourceMap& map) {
+    std::string text;
+    for (const collada::RslCode& code : shading.codes) {
+        bool embedded = map.file == kNoFile || code.map.file == map.file;
+        if (!embedded) {
+            text += fmt::format("#include \"{}\"\n", code.path);
+            continue;
+        }
+        map.file = code.map.file;
+        uint32_t base = uint32_t(text.size());
+        if (code.map.segments.empty()) map.segments.push_back({base, 0});
+        for (const SourceMap::Segment& s : code.map.segments)
+            map.segments.push_back({base + s.text_offset, s.file_offset});
+        text += code.text;
+        text += '\n';
+    }
+    return text;
+}
+
+const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::string_view name) {
+    for (const rsl::ShaderParameter& parameter : shader.parameters)
+        if (parameter.name == name) return &parameter;
+    return nullptr;
+}
+
+// Whether `count` numbers can fill the parameter: its own count, or one for all of a triple.
+bool fits(const rsl::Type& type, uint32_t count) {
+    uint32_t needed = uint32_t(rsl::component_count(type.base)) *
+                      uint32_t(type.is_array() ? std::max(type.array_length, 1) : 1);
+    return count == needed || (count == 1 && rsl::is_triple(type)) ||
+           (count == 4 && rsl::is_triple(type));
+}
+
+}  // namespace
+
+const ColladaImport::Shaders& ColladaImport::compiled(const collada::Effect& effect) {
+    auto [place, is_new] = compiled_.try_emplace(&effect);
+    if (!is_new) return place->second;
+    rsl::ShaderSource source;
+    std::string text = joined_code(*effect.rsl, source.map);
+    source.text = text;
+    rsl::CompileOptions options;
+    options.include_directories = options_.include_directories;
+    for (auto& shader : rsl::compile(source, options, diagnostics_))
+        place->second.push_back(std::move(shader));
+    return place->second;
+}
+
+ValueSlot ColladaImport::param_slot(uint32_t material, uint32_t effect, uint32_t param) const {
+    const auto& setparams = data_.materials[material].setparams;
+    for (size_t s = 0; s < setparams.size(); ++s)
+        if (setparams[s].param == param)
+            return {setparam_values_[material][s], uint32_t(setparams[s].value.numbers.size())};
+    return {param_values_[effect][param],
+            uint32_t(data_.effects[effect].params[param].value.numbers.size())};
+}
+
+const collada::ParamValue& ColladaImport::param_value(uint32_t material, uint32_t effect,
+                                                      uint32_t param) const {
+    for (const collada::SetParam& set : data_.materials[material].setparams)
+        if (set.param == param) return set.value;
+    return data_.effects[effect].params[param].value;
+}
+
+std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material,
+                                                   const collada::Effect& effect,
+                                                   const collada::RslShader& from) {
+    const Shaders& shaders = compiled(effect);
+    if (shaders.empty()) return std::nullopt;  // errors were reported
+    rsl::ShaderKind kind = kStageKinds[size_t(from.stage)];
+    ShaderUse use;
+    int candidates = 0;
+    for (const auto& shader : shaders) {
+        if (shader->kind != kind || (!from.name.empty() && shader->name != from.name)) continue;
+        use.shader = shader;
+        ++candidates;
+    }
+    if (candidates == 0) {
+        diagnostics_.report(Code::RSL_SHADER_MISSING, from.where, rsl::shader_kind_name(kind),
+                            from.name.empty() ? "" : fmt::format(" named '{}'", from.name));
+        return std::nullopt;
+    }
+    if (candidates > 1) {
+        diagnostics_.report(Code::RSL_SHADER_AMBIGUOUS, from.where, rsl::shader_kind_name(kind));
+        return std::nullopt;
+    }
+    uint32_t effect_index = uint32_t(&effect - data_.effects.data());
+    for (const collada::RslBind& bind : from.binds) {
+        const rsl::ShaderParameter* parameter = find_parameter(*use.shader, bind.symbol);
+        if (!parameter) {
+            std::vector<std::string_view> names;
+            for (const auto& p : use.shader->parameters) names.push_back(p.name);
+            Finding& finding = diagnostics_.report(Code::RSL_BIND_UNKNOWN, bind.where,
+                                                   use.shader->name, bind.symbol);
+            if (std::string_view near = nearest_name(bind.symbol, names); !near.empty())
+                finding.help = fmt::format("did you mean '{}'?", near);
+            continue;
+        }
+        ParamSource source;
+        source.name = bind.symbol;
+        source.where = bind.where;
+        bool from_param = bind.param != collada::kNone;
+        const collada::ParamValue& value =
+            from_param ? param_value(material, effect_index, bind.param) : bind.literal;
+        if (value.type == collada::ParamType::String) {
+            source.strings = value.strings;
+            if (value.image != collada::kNone && !data_.images[value.image].path.empty())
+                source.strings = {data_.images[value.image].path};
+        } else if (value.type == collada::ParamType::Float4x4) {
+            // COLLADA writes matrices for column vectors, RSL for row vectors.
+            std::vector<double> numbers = value.numbers;
+            for (size_t m = 0; m + 16 <= numbers.size(); m += 16)
+                for (size_t r = 0; r < 4; ++r)
+                    for (size_t c = 0; c < 4; ++c)
+                        numbers[m + c * 4 + r] = value.numbers[m + r * 4 + c];
+            source.value = {append(numbers.data(), numbers.size()), uint32_t(numbers.size())};
+        } else {
+            source.value = from_param
+                               ? param_slot(material, effect_index, bind.param)
+                               : ValueSlot{append(value.numbers.data(), value.numbers.size()),
+                                           uint32_t(value.numbers.size())};
+        }
+        bool is_string = parameter->type.base == rsl::BaseType::String;
+        if (is_string != (value.type == collada::ParamType::String) ||
+            (!is_string && !fits(parameter->type, source.value.count))) {
+            diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
+                                rsl::type_name(parameter->type),
+                                fmt::format("{} of {} number(s)",
+                                            collada::param_type_name(value.type),
+                                            value.numbers.size()));
+            continue;
+        }
+        use.params.push_back(std::move(source));
+    }
+    return use;
+}
+
+void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
+                                 MaterialDefinition& result) {
+    for (const collada::RslShader& shader : effect.rsl->shaders) {
+        std::vector<ShaderUse>* stack = nullptr;
+        if (shader.stage == collada::RslStage::Surface) stack = &result.surfaces;
+        if (shader.stage == collada::RslStage::Displacement) stack = &result.displacements;
+        if (!stack) {
+            if (shader.stage != collada::RslStage::Light)
+                diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
+                                    kStageNames[size_t(shader.stage)]);
+            continue;
+        }
+        if (auto use = shader_use(index, effect, shader)) stack->push_back(std::move(*use));
+    }
+}
+
+void ColladaImport::set_texture(const collada::Effect& effect, const collada::CommonValue& value,
+                                const char* name, bool data, ShaderUse& use) const {
+    const collada::TextureSampler& sampler = effect.samplers[value.sampler];
+    if (sampler.image == collada::kNone) return;
+    const collada::Image& image = data_.images[sampler.image];
+    TextureName texture;
+    texture.path = image.path.empty() ? image.uri : image.path;
+    auto wrap = [](collada::Wrap w) {
+        return w == collada::Wrap::None ? TextureWrap::Border : TextureWrap(w);
+    };
+    texture.wrap_s = wrap(sampler.wrap_s);
+    texture.wrap_t = wrap(sampler.wrap_t);
+    texture.nearest = sampler.mag == collada::Filter::Nearest;
+    texture.data = data;
+    texture.border = {sampler.border_color.x, sampler.border_color.y, sampler.border_color.z,
+                      sampler.border_color.w};
+    texture.uv = {sampler.repeat.x, sampler.repeat.y, sampler.offset.x, sampler.offset.y};
+    ParamSource source;
+    source.name = std::string(name) + "_map";
+    source.strings = {texture_name_string(texture)};
+    source.texcoord = value.texcoord;
+    source.where = value.where;
+    use.params.push_back(std::move(source));
+}
+
+void ColladaImport::common_material(uint32_t index, const collada::Effect& effect,
+                                    MaterialDefinition& result) {
+    using collada::CommonSlot;
+    struct Row {
+        CommonSlot slot;
+        const char* name;
+        uint32_t count;
+    };
+    static constexpr Row kRows[] = {
+        {CommonSlot::Emission, "emission", 3},
+        {CommonSlot::Ambient, "ambient_color", 3},
+        {CommonSlot::Diffuse, "diffuse", 3},
+        {CommonSlot::Specular, "specular", 3},
+        {CommonSlot::Shininess, "shininess", 1},
+        {CommonSlot::Reflective, "reflective", 3},
+        {CommonSlot::Reflectivity, "reflectivity", 1},
+        {CommonSlot::Transparent, "transparent", 3},
+        {CommonSlot::Transparency, "transparency", 1},
+        {CommonSlot::IndexOfRefraction, "index_of_refraction", 1},
+    };
+    static constexpr const char* kModels[] = {"collada_constant", "collada_lambert",
+                                              "collada_phong", "collada_blinn"};
+    static constexpr const char* kOpaque[] = {"A_ONE", "RGB_ZERO", "A_ZERO", "RGB_ONE"};
+    const collada::CommonShading& common = *effect.common;
+    uint32_t effect_index = uint32_t(&effect - data_.effects.data());
+    ShaderUse use;
+    use.shader = library_shader(kModels[size_t(common.model)], diagnostics_);
+    auto add = [&](const char* name, ValueSlot value) {
+        ParamSource source;
+        source.name = name;
+        source.value = value;
+        if (find_parameter(*use.shader, name)) use.params.push_back(std::move(source));
+    };
+    for (const Row& row : kRows) {
+        const collada::CommonValue& value = common[row.slot];
+        if (value.source == collada::SlotSource::Value) {
+            uint32_t offset = common_values_[effect_index][size_t(row.slot)];
+            add(row.name, {offset, row.count});
+            if (row.slot == CommonSlot::Transparent && value.slot.count == 4)
+                add("transparent_alpha", {offset + 3, 1});
+        } else if (value.source == collada::SlotSource::Param) {
+            ValueSlot slot = param_slot(index, effect_index, value.param);
+            if (slot.count >= row.count) add(row.name, {slot.offset, row.count});
+            if (row.slot == CommonSlot::Transparent && slot.count >= 4)
+                add("transparent_alpha", {slot.offset + 3, 1});
+        } else if (value.source == collada::SlotSource::Texture &&
+                   find_parameter(*use.shader, std::string(row.name) + "_map")) {
+            set_texture(effect, value, row.name, false, use);
+        }
+    }
+    bool transparent = common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||
+                       common[CommonSlot::Transparency].source != collada::SlotSource::Absent;
+    ParamSource opaque;
+    opaque.name = "opaque";
+    opaque.strings = {transparent ? kOpaque[size_t(common.opaque)] : "NONE"};
+    use.params.push_back(std::move(opaque));
+    result.hide_backfaces = !common.double_sided;
+    result.surfaces.push_back(std::move(use));
+}
+
+MaterialDefinition ColladaImport::material(uint32_t index) {
+    const collada::Material& from = data_.materials[index];
+    MaterialDefinition result;
+    result.id = from.id;
+    result.name = from.name;
+    if (from.effect == collada::kNone) return result;
+    const collada::Effect& effect = data_.effects[from.effect];
+    if (effect.rsl)
+        rsl_material(index, effect, result);
+    else if (effect.common)
+        common_material(index, effect, result);
+    return result;
+}
+
+void ColladaImport::import_materials() {
+    // Materials of lights, cameras and scenes are looked at where those are imported.
+    std::vector<bool> bound(data_.materials.size(), false);
+    for (const collada::Node& node : data_.nodes)
+        for (const collada::MeshInstance& mesh : node.meshes)
+            for (const collada::MaterialBinding& binding : mesh.materials)
+                if (binding.material != collada::kNone) bound[binding.material] = true;
+    for (uint32_t m = 0; m < data_.materials.size(); ++m) {
+        MaterialDefinition unused;
+        unused.id = data_.materials[m].id;
+        unused.name = data_.materials[m].name;
+        out_.materials.push_back(bound[m] ? material(m) : std::move(unused));
+    }
+    auto warn_unrendered = [&](uint32_t m) {
+        uint32_t effect = data_.materials[m].effect;
+        if (effect == collada::kNone || !data_.effects[effect].rsl) return;
+        for (const collada::RslShader& shader : data_.effects[effect].rsl->shaders)
+            diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
+                                kStageNames[size_t(shader.stage)]);
+    };
+    for (uint32_t m : data_.rsl_materials) warn_unrendered(m);
+    for (const collada::Camera& camera : data_.cameras)
+        for (uint32_t m : camera.rsl_materials) warn_unrendered(m);
+}
+
+void ColladaImport::import_lights() {
+    using collada::LightSlot;
+    static constexpr const char* kKinds[] = {"collada_ambient", "collada_directional",
+                                             "collada_point", "collada_spot"};
+    static constexpr const char* kSlotNames[] = {
+        "lightcolor",           "constant_attenuation", "linear_attenuation",
+        "quadratic_attenuation", "falloff_angle",        "falloff_exponent"};
+    for (size_t l = 0; l < data_.lights.size(); ++l) {
+        const collada::Light& from = data_.lights[l];
+        LightDefinition& to = out_.lights.emplace_back();
+        to.id = from.id;
+        to.name = from.name;
+        to.where = from.where;
+        to.shadows = from.shadows;
+        if (from.rsl_material != collada::kNone) {
+            uint32_t effect = data_.materials[from.rsl_material].effect;
+            if (effect != collada::kNone && data_.effects[effect].rsl)
+                for (const collada::RslShader& shader : data_.effects[effect].rsl->shaders)
+                    if (shader.stage == collada::RslStage::Light && !to.shader.shader)
+                        if (auto use =
+                                shader_use(from.rsl_material, data_.effects[effect], shader))
+                            to.shader = std::move(*use);
+        }
+        if (to.shader.shader) continue;
+        to.ambient = from.kind == collada::LightKind::Ambient;
+        to.shader.shader = library_shader(kKinds[size_t(from.kind)], diagnostics_);
+        for (size_t s = 0; s < size_t(LightSlot::Count); ++s) {
+            if (!find_parameter(*to.shader.shader, kSlotNames[s])) continue;
+            ParamSource source;
+            source.name = kSlotNames[s];
+            source.value = {light_values_[l][s], s == size_t(LightSlot::Color) ? 3u : 1u};
+            to.shader.params.push_back(std::move(source));
+        }
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,61 @@
+// runtime/import_collada_mesh.cpp: COLLADA's geometries and controllers as a SceneDescription.
+#include "runtime/import_collada_p.h"
+
+namespace kinora {
+
+namespace {
+
+PrimitiveGroup primitive_group(const collada::Geometry& geometry,
+                               const collada::PrimitiveGroup& from) {
+    PrimitiveGroup group;
+    group.symbol = from.material;
+    group.triangles = from.indices[0];
+    for (const collada::VertexInput& input : from.inputs) {
+        const collada::FloatSource& source = geometry.sources[input.source];
+        group.attributes.push_back(
+            {input.semantic, input.set, source.stride, source.values, from.indices[input.list]});
+    }
+    return group;
+}
+
+}  // namespace
+
+void ColladaImport::import_meshes() {
+    for (const collada::Geometry& from : data_.geometries) {
+        MeshDefinition& to = out_.meshes.emplace_back();
+        to.id = from.id;
+        to.name = from.name;
+        to.positions = from.positions;
+        to.double_sided = from.double_sided;
+        for (const collada::PrimitiveGroup& group : from.groups)
+            to.groups.push_back(primitive_group(from, group));
+    }
+}
+
+void ColladaImport::import_skins() {
+    for (const collada::Skin& from : data_.skins) {
+        SkinDefinition& to = out_.skins.emplace_back();
+        to.id = from.id;
+        to.bind_shape = from.bind_shape_matrix;
+        to.has_bind_shape = from.has_bind_shape_matrix;
+        to.joint_names = from.joints;
+        to.inverse_bind = from.inverse_bind;
+        to.offsets = from.offsets;
+        to.joints = from.influence_joints;
+        to.weights = from.influence_weights;
+        to.where = from.where;
+    }
+}
+
+void ColladaImport::import_morphs() {
+    for (size_t m = 0; m < data_.morphs.size(); ++m) {
+        const collada::Morph& from = data_.morphs[m];
+        out_.morphs.push_back({from.id,
+                               from.method == collada::MorphMethod::Relative,
+                               from.targets,
+                               {morph_values_[m], uint32_t(from.weights.size())},
+                               from.where});
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,71 @@
+// runtime/import_collada_p.h: the parts of the COLLADA importer; for import_collada*.cpp only.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collada/scene.h"
+#include "runtime/import_collada.h"
+
+namespace kinora {
+
+class ColladaImport {
+  public:
+    ColladaImport(const collada::SceneData& data, const ImportOptions& options,
+                  Diagnostics& diagnostics, SceneDescription& out)
+        : data_(data), options_(options), diagnostics_(diagnostics), out_(out) {}
+
+    void run();
+
+  private:
+    // import_collada.cpp: every animatable number gets its place in values.
+    void allocate_values();
+    uint32_t append(const double* numbers, size_t count);
+    ValueSlot slot(const collada::TargetRef& ref) const;
+    uint32_t owner_bit(const collada::TargetRef& ref) const;
+    void import_nodes();
+    void import_cameras();
+    void import_clips();
+    MeshUse mesh_use(const collada::MeshInstance& instance) const;
+    dmat4 conversion(uint32_t index) const;
+
+    // import_collada_mesh.cpp
+    void import_meshes();
+    void import_skins();
+    void import_morphs();
+
+    // import_collada_material.cpp
+    void import_materials();
+    void import_lights();
+    MaterialDefinition material(uint32_t index);
+    void rsl_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
+    void common_material(uint32_t index, const collada::Effect& effect,
+                         MaterialDefinition& result);
+    std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
+                                        const collada::RslShader& shader);
+    using Shaders = std::vector<std::shared_ptr<const rsl::Shader>>;
+    const Shaders& compiled(const collada::Effect& effect);
+    ValueSlot param_slot(uint32_t material, uint32_t effect, uint32_t param) const;
+    const collada::ParamValue& param_value(uint32_t material, uint32_t effect,
+                                           uint32_t param) const;
+    void set_texture(const collada::Effect& effect, const collada::CommonValue& value,
+                     const char* name, bool data, ShaderUse& use) const;
+
+    // import_collada_animation.cpp
+    void import_animation();
+
+    const collada::SceneData& data_;
+    const ImportOptions& options_;
+    Diagnostics& diagnostics_;
+    SceneDescription& out_;
+
+    // Offsets into values: [definition][slot].
+    std::vector<std::vector<uint32_t>> transform_values_, light_values_, camera_values_,
+        param_values_, common_values_, setparam_values_;
+    std::vector<uint32_t> morph_values_;
+    std::map<const collada::Effect*, Shaders> compiled_;
+};
+
+}  // namespace kinora

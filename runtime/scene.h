@@ -1,0 +1,171 @@
+// runtime/scene.h: a scene in memory, ready for frames. Made by build_scene from a description;
+// changed by the steps of render_frame only. State depends on the time alone, never on the frame
+// before.
+//
+// Spaces: "world" is the root file's own; "accel" is world minus Scene::origin, as floats;
+// "current" is camera space (x right, y up, z into the picture).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "anim/animation.h"
+#include "raytrace/accel.h"
+#include "raytrace/camera.h"
+#include "raytrace/integrator.h"
+#include "runtime/base/arena.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/look.h"
+#include "runtime/scene_description.h"
+#include "skin/morph.h"
+#include "skin/skin.h"
+
+namespace kinora {
+
+// One occurrence of a node definition; parents come first.
+struct Node {
+    uint32_t definition = kNone;
+    uint32_t parent = kNone;
+    bool can_move = false;  // it or an ancestor is animated
+    bool moved = true;      // by the last update_transforms
+    dmat4 conversion{1.0};  // of the reference that brought it in
+    dmat4 world{1.0};       // world_from_node
+};
+
+// Rest data of a mesh, shared by all its shapes. Positions are minus `anchor`.
+struct MeshGroup {
+    std::string symbol;
+    std::vector<uint32_t> triangles;
+    std::vector<uint32_t> normal_corners;  // entry of Mesh::normals for each corner
+    const PrimitiveGroup* definition = nullptr;  // texture coordinates, colours
+};
+struct Mesh {
+    dvec3 anchor{0.0};
+    std::vector<vec4> positions;
+    std::vector<vec4> normals;
+    std::vector<uint32_t> normal_positions;  // position of each normal
+    std::vector<MeshGroup> groups;
+    bool double_sided = true;
+    dvec3 low{0.0}, high{0.0};  // bounds of the positions as in the document
+};
+
+// A mesh on a node, with what deforms it.
+struct Shape {
+    raytrace::GeometryKind kind = raytrace::GeometryKind::Static;
+    uint32_t mesh = kNone;
+    uint32_t node = kNone;
+    uint32_t skin = kNone;   // index into SceneDescription::skins
+    uint32_t morph = kNone;  // index into Scene::morphs
+    dmat4 conversion{1.0};
+    bool in_world = false;   // a skin's result is in world space; its node's matrix does not apply
+    std::vector<uint32_t> joint_nodes;  // scene nodes
+
+    // Where the triangles stand now: own buffers (accel space) for static and deforming shapes,
+    // the mesh's own for instanced ones.
+    std::vector<vec4> positions, normals;
+    dmat4 world{1.0};   // world_from_mesh: the node's matrix and the conversion (not the anchor)
+    bool mirrored = false;
+    uint32_t positions_version = 0;
+
+    skin::Skeleton skeleton;
+    skin::SkinMesh skin_mesh;
+    std::vector<dmat4> joint_world;  // world_from_joint, in joint order
+    std::vector<skin::JointMatrix> palette;
+    std::vector<vec4> morphed_positions, morphed_normals;
+
+    std::span<const vec4> rest_positions, rest_normals;  // what the ray tracer and shading read
+};
+
+// Triangles of one shape that wear one look: a row of the ray tracer.
+struct Surface {
+    uint32_t shape = kNone;
+    uint32_t group = kNone;
+    uint32_t look = kNone;
+    uint32_t material = kNone;           // index into description.materials, kNone: the default
+    const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
+    // Vertex inputs of the look's varying parameters, in the order of Look::varying.
+    std::vector<const VertexAttribute*> varying;
+};
+
+// An occurrence of a light.
+struct LightSource {
+    uint32_t definition = kNone;
+    uint32_t node = kNone;
+    uint32_t look = kNone;
+};
+
+struct CameraSource {
+    uint32_t definition = kNone;  // kNone: the default camera
+    uint32_t node = kNone;
+    std::string name;  // as --camera takes it
+};
+
+enum class ShadowMode : uint8_t { Auto, Explicit, Off };
+
+// What a scene is built for; part of what the kernels are.
+struct SceneOptions {
+    std::string camera;             // "": the first instance in document order
+    jit::math::Tier math = jit::math::Tier::Precise;
+    const jit::Target* target = nullptr;  // null: the best of this CPU
+    ShadowMode shadows = ShadowMode::Auto;
+    raytrace::AccelPolicy accel;
+    double start_time = 0, end_time = 0;  // range played, seconds: frames the default camera
+    std::vector<std::pair<std::string, std::string>> dumps;  // filled when want_dumps
+    bool want_dumps = false;
+};
+
+class Shading;  // runtime/shading.h
+
+struct Scene {
+    Scene();
+    ~Scene();
+    Scene(Scene&&) noexcept;
+
+    std::shared_ptr<SceneDescription> description;
+    std::vector<double> values;
+    std::vector<uint64_t> changed;  // owner bits of the last evaluate
+    bool first_frame = true;
+
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<skin::Morph> morphs;
+    std::vector<Shape> shapes;
+    std::vector<Surface> surfaces;
+    std::vector<LightSource> lights;
+    std::vector<CameraSource> cameras;
+    std::vector<std::unique_ptr<Look>> looks;
+    uint32_t camera = 0;  // into cameras
+    std::vector<std::string> added;  // "default camera", "default light": what --list shows
+
+    dvec3 origin{0.0};
+    double size = 1;  // diagonal of the first frame's bounds
+    dvec3 low{0.0}, high{0.0};
+
+    std::vector<raytrace::Geometry> geometry;  // one row a surface
+    raytrace::Accel accel;
+    raytrace::Camera view;
+    raytrace::IntegratorScratch scratch;
+    std::unique_ptr<Shading> shading;
+    SceneOptions options;
+};
+
+// Unrolls the nodes, places meshes, lights and cameras, lowers and compiles every look. Errors (no
+// such camera, a shader that cannot be compiled) are findings; nothing is returned when the scene
+// cannot be rendered.
+std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
+                                   const SceneOptions& options, Diagnostics& diagnostics);
+
+// The range the scene plays by itself: MAYA/MAX3D/FCOLLADA extras, else the keys' range.
+struct PlayRange {
+    double start = 0, end = 0;  // seconds
+    double rate = 24;           // frames per second
+};
+PlayRange play_range(const SceneDescription& description);
+
+// The range of the clip with that name (null: no such clip).
+const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name);
+
+}  // namespace kinora

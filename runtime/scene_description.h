@@ -1,0 +1,182 @@
+// runtime/scene_description.h: a scene as importers deliver it: definitions, values, channels.
+//
+// Every animatable number is a double in `values`; definitions own values, instances own matrices.
+// Importers (import_collada, later import_gltf) fill this; build_scene makes a Scene of it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anim/animation.h"
+#include "rsl/shader.h"
+#include "runtime/base/math.h"
+#include "skin/morph.h"
+
+namespace kinora {
+
+inline constexpr uint32_t kNone = ~0u;
+
+// A run of doubles in SceneDescription::values.
+struct ValueSlot {
+    uint32_t offset = kNone;
+    uint32_t count = 0;
+    bool present() const { return offset != kNone; }
+};
+
+// Whose numbers a channel writes; the bit that a change sets. Node bits are per definition.
+enum class TransformKind : uint8_t { Translate, Rotate, Scale, Matrix, Lookat, Skew };
+
+// Values as in COLLADA: Translate xyz; Rotate axis xyz + degrees; Scale xyz; Matrix 16 in document (row-major) order;
+// Lookat eye, interest, up; Skew degrees, rotated axis, translated axis.
+struct Transform {
+    TransformKind kind;
+    uint32_t value;  // offset into values
+};
+
+struct VertexBinding {
+    std::string param;      // the shader parameter (or texcoord name of profile_COMMON)
+    std::string semantic;   // "TEXCOORD"
+    uint32_t set = kNone;   // kNone: the lowest
+};
+
+// A material as it is put on one primitive group of one instance.
+struct MaterialUse {
+    std::string symbol;
+    uint32_t material = kNone;
+    std::vector<VertexBinding> vertex_bindings;
+    std::vector<std::pair<std::string, ValueSlot>> params;  // <bind semantic target>
+};
+
+struct MeshUse {
+    uint32_t mesh = kNone;
+    uint32_t morph = kNone;
+    uint32_t skin = kNone;
+    std::vector<uint32_t> joint_nodes;  // node definitions, kNone where unresolved
+    std::vector<MaterialUse> materials;
+    dmat4 conversion{1.0};  // from the mesh's document into the scene's units and axes
+};
+
+struct ChildUse {
+    uint32_t node = kNone;
+    dmat4 conversion{1.0};
+};
+
+struct NodeDefinition {
+    std::string id, sid, name;
+    std::vector<Transform> transforms;
+    std::vector<ChildUse> children;  // own children and instance_node targets
+    std::vector<MeshUse> meshes;
+    std::vector<uint32_t> lights;
+    std::vector<uint32_t> cameras;
+};
+
+// One attribute of a mesh with its own index per corner: NORMAL, TEXCOORD n, COLOR n.
+struct VertexAttribute {
+    std::string semantic;
+    uint32_t set = 0;
+    uint32_t stride = 0;                // floats an entry
+    std::vector<float> values;          // stride x entries
+    std::vector<uint32_t> corners;      // entry of each corner, 3 a triangle
+};
+
+// Triangles that wear one material.
+struct PrimitiveGroup {
+    std::string symbol;
+    std::vector<uint32_t> triangles;  // position indices, 3 a triangle
+    std::vector<VertexAttribute> attributes;
+};
+
+struct MeshDefinition {
+    std::string id, name;
+    std::vector<dvec3> positions;
+    std::vector<PrimitiveGroup> groups;
+    bool double_sided = true;
+};
+
+struct SkinDefinition {
+    std::string id;
+    dmat4 bind_shape{1.0};
+    bool has_bind_shape = false;
+    std::vector<std::string> joint_names;
+    std::vector<dmat4> inverse_bind;
+    std::vector<uint32_t> offsets;
+    std::vector<int32_t> joints;
+    std::vector<float> weights;
+    Location where;
+};
+
+struct MorphDefinition {
+    std::string id;
+    bool relative = false;
+    std::vector<uint32_t> targets;  // meshes
+    ValueSlot weights;
+    Location where;
+};
+
+// What a shader parameter is given: numbers from a slot (animated or not), strings, or nothing
+// (then the shader's own default holds, or a vertex input of that name).
+struct ParamSource {
+    std::string name;
+    ValueSlot value;
+    std::vector<std::string> strings;
+    std::string texcoord;  // a texture parameter: the texcoord name it reads st by
+    Location where;
+};
+
+struct ShaderUse {
+    std::shared_ptr<const rsl::Shader> shader;
+    std::vector<ParamSource> params;
+};
+
+struct MaterialDefinition {
+    std::string id, name;
+    std::vector<ShaderUse> displacements;  // bottom first
+    std::vector<ShaderUse> surfaces;       // bottom first
+    bool hide_backfaces = false;
+};
+
+struct LightDefinition {
+    std::string id, name;
+    ShaderUse shader;
+    std::optional<bool> shadows;  // profile RSL's <shadows>; nothing: automatic
+    bool ambient = false;
+    Location where;
+};
+
+struct CameraDefinition {
+    std::string id, name;
+    bool orthographic = false;
+    ValueSlot x, y, aspect, znear, zfar;  // fov in degrees, or magnifications; absent = not given
+    Location where;
+};
+
+struct ClipDefinition {
+    std::string name;
+    double start = 0, end = 0;
+};
+
+enum class UpAxis : uint8_t { X, Y, Z };
+
+struct SceneDescription {
+    std::string path;
+    double meter = 1;
+    UpAxis up_axis = UpAxis::Y;
+    std::vector<double> values;
+    std::vector<NodeDefinition> nodes;
+    std::vector<uint32_t> roots;
+    std::vector<MeshDefinition> meshes;
+    std::vector<SkinDefinition> skins;
+    std::vector<MorphDefinition> morphs;
+    std::vector<MaterialDefinition> materials;
+    std::vector<LightDefinition> lights;
+    std::vector<CameraDefinition> cameras;
+    std::vector<ClipDefinition> clips;
+    anim::Animation animation;
+    std::vector<bool> animated;  // per value: some channel writes it
+    std::optional<double> start_time, end_time, frame_rate;
+};
+
+}  // namespace kinora

@@ -1,0 +1,49 @@
+// runtime/shader_library.cpp: finds and compiles embedded shaders. The texts are in
+// shader_library_data.cpp, which CMake makes from assets/shaders/*.sl.
+#include "runtime/shader_library.h"
+
+#include <map>
+#include <mutex>
+
+#include "runtime/base/check.h"
+
+namespace kinora {
+
+struct EmbeddedShader {
+    const char* name;
+    const char* text;
+};
+extern const EmbeddedShader kEmbeddedShaders[];
+extern const size_t kEmbeddedShaderCount;
+
+std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics&) {
+    static std::mutex mutex;
+    static std::map<std::string, std::shared_ptr<const rsl::Shader>, std::less<>> compiled;
+    static Diagnostics library_diagnostics;  // the library's places outlive every scene
+    std::lock_guard lock(mutex);
+    if (auto found = compiled.find(name); found != compiled.end()) return found->second;
+    for (size_t i = 0; i < kEmbeddedShaderCount; ++i) {
+        const EmbeddedShader& embedded = kEmbeddedShaders[i];
+        if (name != embedded.name) continue;
+        std::string file = "assets/shaders/" + std::string(name) + ".sl";
+        rsl::ShaderSource source{embedded.text, {}};
+        source.map.file = library_diagnostics.files.add(file, embedded.text);
+        auto shaders = rsl::compile(source, {}, library_diagnostics);
+        if (shaders.empty())
+            check_failed(file.c_str(), 0,
+                         library_diagnostics.findings().empty()
+                             ? "no shader"
+                             : format_finding(library_diagnostics.findings().front(),
+                                              library_diagnostics.files));
+        return compiled[std::string(name)] = std::move(shaders.front());
+    }
+    return nullptr;
+}
+
+std::vector<std::string_view> library_shader_names() {
+    std::vector<std::string_view> names;
+    for (size_t i = 0; i < kEmbeddedShaderCount; ++i) names.push_back(kEmbeddedShaders[i].name);
+    return names;
+}
+
+}  // namespace kinora

@@ -1,0 +1,20 @@
+// runtime/shader_library.h: the shaders of assets/shaders, compiled into the program: COLLADA's
+// lights and fixed-function materials, the default surface, the standard shaders.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "rsl/shader.h"
+#include "runtime/base/diagnostic.h"
+
+namespace kinora {
+
+// The shader of that name (its file's name without .sl); compiled on first use. A name that is not
+// in the library gives null; an error in a library shader is a bug (CHECK).
+std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics& diagnostics);
+
+std::vector<std::string_view> library_shader_names();
+
+}  // namespace kinora

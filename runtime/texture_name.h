@@ -1,0 +1,30 @@
+// runtime/texture_name.h: a file and the way it is looked up, as the one string a shader handles.
+//
+// RSL knows a texture by its name. Wrap, border, repeat and filter belong to COLLADA's <sampler>;
+// they travel in the string behind the path so that pixels stay shared by path. A plain path is a
+// valid name: it wraps, filters linearly and is colour (8-bit pixels are decoded from sRGB).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace kinora {
+
+enum class TextureWrap : uint8_t { Wrap, Mirror, Clamp, Border };
+
+struct TextureName {
+    std::string path;
+    TextureWrap wrap_s = TextureWrap::Wrap;
+    TextureWrap wrap_t = TextureWrap::Wrap;
+    bool nearest = false;                          // no filtering at all
+    bool data = false;                             // bump, masks: never decoded from sRGB
+    std::array<float, 4> border{0, 0, 0, 0};
+    std::array<float, 4> uv{1, 1, 0, 0};           // s' = s * uv[0] + uv[2], t' = t * uv[1] + uv[3]
+};
+
+std::string texture_name_string(const TextureName& name);  // the bare path when all is default
+TextureName parse_texture_name(std::string_view text);
+
+}  // namespace kinora

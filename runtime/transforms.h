@@ -1,0 +1,27 @@
+// runtime/transforms.h: values to node matrices, in double.
+#pragma once
+
+#include <span>
+
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+struct Scene;
+
+// The matrix of one operation; `v` starts at its values. Angles in degrees. COLLADA 1.4.1 chapter
+// 5: rotate about an axis (zero axis: identity), lookat (eye, interest, up), skew (angle, rotated
+// axis, translated axis: the rotated axis turns towards the translated one by the angle, as
+// RiSkew has it).
+dmat4 transform_matrix(TransformKind kind, const double* v);
+
+// The product of a node's operations in order.
+dmat4 node_matrix(const NodeDefinition& node, std::span<const double> values);
+
+// Brings Scene::nodes up to date: those whose definition's bit is set, and what hangs below them.
+void update_transforms(Scene& scene);
+
+// Whether every entry is finite.
+bool is_finite(const dmat4& m);
+
+}  // namespace kinora

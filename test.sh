@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Builds and runs all tests. --all adds the slow stages (sanitizers); .ci/run calls it so.
+set -euo pipefail
+cd "$(dirname "$0")"
+all=0
+[[ ${1:-} == --all ]] && all=1
+
+stage() {  # stage NAME COMMAND...: runs it and prints how long it took
+    local name=$1 start=$SECONDS
+    shift
+    echo "== $name"
+    "$@"
+    echo "== $name: $((SECONDS - start)) s"
+}
+
+stage "release build" scripts/build release -DKINORA_TESTS=ON
+stage "release tests" ctest --preset release
+if ((all)); then
+    stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
+    stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
+fi
