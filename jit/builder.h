@@ -39,7 +39,8 @@ class Builder {
     int declare_input(const InputInfo& info);  // index in Module::inputs
     Value input_gather(int first, int count, Value index);
 
-    // Any op of ops.def without control or extra operands.
+    // Any op of ops.def without control or extra operands. RecordField and RecordUniform give
+    // floats, or ints when imm2 is int(Type::I).
     Value op(Op op, Value a = kNone, Value b = kNone, Value c = kNone, int32_t imm = 0,
              int32_t imm2 = 0);
 
@@ -79,13 +80,17 @@ class Builder {
     Value logical_not(Value a) { return op(Op::MNot, a); }
     Value select(Value mask, Value a, Value b) { return op(Op::Select, mask, a, b); }
 
-    // If: begin_if(m); ...; end_if(); then merge(inner, outer) for each value that differs.
+    // If: begin_if(m); ...; end_if(); then merge(inner, outer) for each value that differs; outer
+    // is a constant, an input, or defined before the If. (Constants and inputs may be made
+    // anywhere: finish() and ret() move them to the function's start, and Merges, LoopVars and
+    // LoopOuts to their places; Values are void after that.)
     void begin_if(Value mask);
     void end_if();
     Value merge(Value inner, Value outer);
 
     // Loop: m = begin_loop(mask); x = loop_var(x0)...; body; end_loop(next_mask, {next...});
-    // then loop_out(x) for each value wanted after. `site` from fault_site() for the budget.
+    // then loop_out(x) for each value wanted after. Lanes of `mask` beyond the grid never run.
+    // `site` from fault_site() for the budget.
     Value begin_loop(Value mask, int site);
     Value loop_var(Value init);
     void end_loop(Value next_mask, std::span<const Value> next);
@@ -106,6 +111,9 @@ class Builder {
 
   private:
     Value append(Inst inst);
+    Value constant(Type type, int32_t bits);
+    Type any_type(const Inst& inst);
+    std::vector<Value> append_results(Value call, const std::vector<Type>& types);
     Value append_control(Op op, Type type, Value a, int32_t imm, std::span<const Value> args = {});
 
     Module& module_;
@@ -114,6 +122,7 @@ class Builder {
     struct Open {
         Value begin;
         bool loop;
+        size_t vars = 0;
     };
     std::vector<Open> open_;  // enclosing Ifs and Loops
     Value last_if_ = kNone;   // the If whose Merges may follow

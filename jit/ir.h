@@ -41,7 +41,15 @@ struct OpInfo {
     const char* meaning;
     int operand_count;  // letters in operands, '*' not counted
 };
-const OpInfo& op_info(Op op);
+extern const OpInfo kOps[static_cast<size_t>(Op::Count)];
+inline const OpInfo& op_info(Op op) {
+    return kOps[static_cast<size_t>(op)];
+}
+inline bool is_pure(Op op) {
+    return (op_info(op).flags & kPure) != 0;
+}
+// Type of a row's letter: F I M; None for '0' and for T.
+Type type_of_letter(char letter);
 
 // Index of the defining instruction in its function.
 using Value = uint32_t;

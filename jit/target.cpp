@@ -1,0 +1,37 @@
+// jit/target.cpp: the targets this build knows, one row each, fastest first.
+#include "jit/target.h"
+
+#include "jit/interp.h"
+#include "runtime/base/check.h"
+
+namespace kinora::jit {
+
+namespace {
+
+bool always() {
+    return true;
+}
+
+constexpr Target kTargets[] = {
+    {"interp", kMaxLanes, always, emit_interp},
+};
+
+}  // namespace
+
+std::span<const Target> targets() {
+    return kTargets;
+}
+
+const Target* find_target(std::string_view name) {
+    for (const Target& target : kTargets)
+        if (target.name == name) return &target;
+    return nullptr;
+}
+
+const Target& best_target() {
+    for (const Target& target : kTargets)
+        if (target.supported()) return target;
+    check_failed(__FILE__, __LINE__, "no target is supported");
+}
+
+}  // namespace kinora::jit
