@@ -1,0 +1,39 @@
+// skin/deform_exact.cpp: a normal in double, for numbers that leave float's safe range.
+#include <cmath>
+
+#include "runtime/base/math.h"
+#include "skin/deform_p.h"
+
+namespace kinora::skin {
+namespace {
+
+dvec3 cross(const dvec3& a, const dvec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double dot(const dvec3& a, const dvec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+}  // namespace
+
+void exact_normal(const float* palette, const float* weights, const uint32_t* places,
+                  uint32_t rounds, const float* rest, float* normal) {
+    constexpr uint32_t kRound = 16;  // vertices a block
+    dvec3 c[3] = {dvec3(0), dvec3(0), dvec3(0)};
+    for (uint32_t r = 0; r < rounds; ++r) {
+        const float* m = palette + places[r * kRound];
+        double w = weights[r * kRound];
+        if (w == 0) continue;  // padding
+        for (int i = 0; i < 3; ++i) c[i] += w * dvec3(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
+    }
+    dvec3 k0 = cross(c[1], c[2]);
+    dvec3 n = k0 * double(rest[0]) + cross(c[2], c[0]) * double(rest[1]) +
+              cross(c[0], c[1]) * double(rest[2]);
+    double length = std::sqrt(dot(n, n));
+    double scale =
+        std::isfinite(length) && length > 0 ? std::copysign(1 / length, dot(k0, c[0])) : 0;
+    for (int i = 0; i < 3; ++i) normal[i] = scale == 0 ? 0 : static_cast<float>(n[i] * scale);
+    normal[3] = 0;
+}
+
+}  // namespace kinora::skin
