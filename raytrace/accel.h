@@ -136,8 +136,9 @@ class Accel {
     const AccelPolicy& policy() const;
     size_t memory_bytes() const;  // held by Embree
 
+    struct State;  // accel_state_p.h
+
   private:
-    struct State;
     std::unique_ptr<State> state_;
 };
 

@@ -35,7 +35,7 @@ struct IntegratorSettings {
     int max_layers = 32;                  // surfaces one ray may pass where Oi < 1
     std::optional<vec3> background;       // nothing: transparent
     NanPolicy nan = NanPolicy::Zero;
-    float opaque_above = 0.9999f;  // a ray ends when all components of its opacity exceed this
+    float opaque_above = 0.9999f;  // a ray ends when its opacity exceeds this in all components
     int tile = 64;                 // pixels, a multiple of 4
     size_t chunk_rays = 8192;      // rays of a tile traced and shaded at once; >= tile * tile
 };

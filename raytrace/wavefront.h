@@ -52,6 +52,8 @@ struct ShadeResult {
 // Rays to be traced, structure of arrays with room for `capacity`.
 struct RayBatch {
     explicit RayBatch(size_t capacity = 0) { reserve(capacity); }
+    RayBatch(RayBatch&&) = default;  // the arrays point into memory_, which moves along
+    RayBatch& operator=(RayBatch&&) = default;
     void reserve(size_t capacity);
     size_t capacity() const { return capacity_; }
 
@@ -82,6 +84,8 @@ struct RayBatch {
 class HitStore {
   public:
     explicit HitStore(size_t capacity = 0) { reserve(capacity); }
+    HitStore(HitStore&&) = default;
+    HitStore& operator=(HitStore&&) = default;
     void reserve(size_t capacity);
     const HitBatch& batch() const { return batch_; }
 

@@ -1,0 +1,303 @@
+// raytrace/embree.cpp: the one file that knows Embree.
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+
+#include "raytrace/embree_p.h"
+#include "runtime/base/check.h"
+
+namespace kinora::raytrace {
+
+namespace {
+
+std::atomic<int64_t> g_bytes{0};
+
+bool count_memory(void*, ssize_t bytes, bool) {
+    g_bytes.fetch_add(bytes, std::memory_order_relaxed);
+    return true;
+}
+
+void report_error(void*, RTCError code, const char* text) {
+    if (code == RTC_ERROR_NONE) return;
+    std::fprintf(stderr, "kinora: Embree: %s (%d)\n", text ? text : "", int(code));
+}
+
+// One device a process, made when first needed and kept: making one costs about a millisecond.
+RTCDevice device() {
+    static RTCDevice the_device = [] {
+        RTCDevice d = rtcNewDevice(nullptr);
+        CHECK(d != nullptr);
+        rtcSetDeviceErrorFunction(d, report_error, nullptr);
+        rtcSetDeviceMemoryMonitorFunction(d, count_memory, nullptr);
+        return d;
+    }();
+    return the_device;
+}
+
+RTCGeometry geometry(void* p) {
+    return static_cast<RTCGeometry>(p);
+}
+RTCScene scene(void* p) {
+    return static_cast<RTCScene>(p);
+}
+
+constexpr RTCBuildQuality kQualities[] = {RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_MEDIUM,
+                                          RTC_BUILD_QUALITY_REFIT};
+
+// What the filter needs to know of a query; Embree hands the context through.
+struct QueryContext {
+    RTCIntersectContext rtc;  // first: Embree's pointer to it is ours
+    const HitMap* map;
+    bool fixed_winner;
+    alignas(64) float best_t[kPacket];
+    uint32_t best_slot[kPacket];
+    uint32_t best_primitive[kPacket];
+};
+
+uint32_t row_of(const HitMap::Slot& slot, uint32_t primitive) {
+    return slot.owner ? slot.owner[primitive] : slot.row;
+}
+
+struct Candidate {
+    uint32_t slot;
+    uint32_t primitive;
+    float t;
+};
+
+bool is_hidden_backface(const HitMap& map, const Candidate& c, RTCRayN* ray, RTCHitN* hit,
+                        unsigned n, unsigned i) {
+    const HitMap::Slot& slot = map.slots[c.slot];
+    if (!slot.hide_backfaces || !(RTCRayN_mask(ray, n, i) & kMaskCamera)) return false;
+    // Both are in the triangle's own space here, where the sign of Ng.dir is the same.
+    float facing = RTCHitN_Ng_x(hit, n, i) * RTCRayN_dir_x(ray, n, i) +
+                   RTCHitN_Ng_y(hit, n, i) * RTCRayN_dir_y(ray, n, i) +
+                   RTCHitN_Ng_z(hit, n, i) * RTCRayN_dir_z(ray, n, i);
+    return map.rows[row_of(slot, c.primitive)].mirrored ? facing < 0 : facing > 0;
+}
+
+// Whether `c` comes before the lane's best so far in the order (t, row, primitive).
+bool comes_first(const QueryContext& query, const Candidate& c, unsigned lane) {
+    if (query.best_primitive[lane] == kNone) return true;
+    if (c.t != query.best_t[lane]) return c.t < query.best_t[lane];
+    const HitMap& map = *query.map;
+    uint32_t best_slot = query.best_slot[lane];
+    uint32_t row = row_of(map.slots[c.slot], c.primitive);
+    uint32_t best_row = row_of(map.slots[best_slot], query.best_primitive[lane]);
+    if (row != best_row) return row < best_row;
+    return c.primitive < query.best_primitive[lane];
+}
+
+// Candidates as near as the accepted one up to rounding must still be offered, or the winner would
+// depend on the order of traversal: the ray is left this much longer than the hit. Two roundings
+// of t lie between what Embree compares and what it reports.
+constexpr float kTieWindow = 1.0f + 0x1p-21f;
+
+void choose_hit(const RTCFilterFunctionNArguments* args) {
+    auto& query = *reinterpret_cast<QueryContext*>(args->context);
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        uint32_t instance = RTCHitN_instID(args->hit, n, i, 0);
+        Candidate c{
+            instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, n, i),
+            RTCHitN_primID(args->hit, n, i), RTCRayN_tfar(args->ray, n, i)};
+        unsigned lane = RTCRayN_id(args->ray, n, i);
+        if (is_hidden_backface(*query.map, c, args->ray, args->hit, n, i) ||
+            (query.fixed_winner && !comes_first(query, c, lane))) {
+            args->valid[i] = 0;
+            continue;
+        }
+        query.best_t[lane] = c.t;
+        query.best_slot[lane] = c.slot;
+        query.best_primitive[lane] = c.primitive;
+        if (query.fixed_winner) RTCRayN_tfar(args->ray, n, i) = c.t * kTieWindow;
+    }
+}
+
+void set_buffers(RTCGeometry g, std::span<const vec4> positions,
+                 std::span<const uint32_t> triangles) {
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                               sizeof(vec4), positions.size());
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
+                               3 * sizeof(uint32_t), triangles.size() / 3);
+}
+
+void load_rays(const RayPacket16& in, RTCRay16& out) {
+    constexpr size_t bytes = sizeof(float) * kPacket;
+    std::memcpy(out.org_x, in.org_x, bytes);
+    std::memcpy(out.org_y, in.org_y, bytes);
+    std::memcpy(out.org_z, in.org_z, bytes);
+    std::memcpy(out.dir_x, in.dir_x, bytes);
+    std::memcpy(out.dir_y, in.dir_y, bytes);
+    std::memcpy(out.dir_z, in.dir_z, bytes);
+    std::memcpy(out.tnear, in.tnear, bytes);
+    std::memcpy(out.tfar, in.tfar, bytes);
+    std::memcpy(out.mask, in.mask, bytes);
+    std::memset(out.time, 0, bytes);
+    std::memset(out.flags, 0, bytes);
+    for (int i = 0; i < kPacket; ++i) out.id[i] = uint32_t(i);
+}
+
+struct alignas(64) LaneMask {
+    int valid[kPacket];
+    explicit LaneMask(uint32_t bits) {
+        for (int i = 0; i < kPacket; ++i) valid[i] = bits >> i & 1 ? -1 : 0;
+    }
+};
+
+// Accel-space normal of a hit, turned to the side the triangle winds on in its own space.
+void set_normal(const HitMap::Row& row, const RTCHit16& hit, int i, HitPacket16& out) {
+    float n[3] = {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
+    float m[3] = {n[0], n[1], n[2]};
+    if (row.instanced)
+        for (int k = 0; k < 3; ++k)
+            m[k] = row.normal[3 * k] * n[0] + row.normal[3 * k + 1] * n[1] +
+                   row.normal[3 * k + 2] * n[2];
+    float sign = row.mirrored ? -1.0f : 1.0f;
+    out.Ng_x[i] = sign * m[0];
+    out.Ng_y[i] = sign * m[1];
+    out.Ng_z[i] = sign * m[2];
+}
+
+}  // namespace
+
+EmbreeMesh::EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t> triangles,
+                       BuildQuality quality, uint32_t mask, bool filtered) {
+    RTCGeometry g = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    geometry_ = g;
+    set_buffers(g, positions, triangles);
+    rtcSetGeometryBuildQuality(g, kQualities[int(quality)]);  // only heard before the first commit
+    rtcSetGeometryMask(g, mask);
+    if (filtered) rtcSetGeometryIntersectFilterFunction(g, choose_hit);
+    rtcCommitGeometry(g);
+}
+
+EmbreeMesh::~EmbreeMesh() {
+    if (geometry_) rtcReleaseGeometry(geometry(geometry_));
+}
+
+void EmbreeMesh::vertices_moved() {
+    rtcUpdateGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry(geometry_));
+}
+
+void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
+    rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               positions.data(), 0, sizeof(vec4), positions.size());
+    rtcCommitGeometry(geometry(geometry_));
+}
+
+EmbreeInstance::EmbreeInstance(const EmbreeScene& of, uint32_t mask) {
+    RTCGeometry g = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    geometry_ = g;
+    rtcSetGeometryInstancedScene(g, scene(of.scene_));
+    rtcSetGeometryTimeStepCount(g, 1);
+    rtcSetGeometryMask(g, mask);
+}
+
+EmbreeInstance::~EmbreeInstance() {
+    if (geometry_) rtcReleaseGeometry(geometry(geometry_));
+}
+
+void EmbreeInstance::set_matrix(const float columns[12]) {
+    rtcSetGeometryTransform(geometry(geometry_), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    rtcCommitGeometry(geometry(geometry_));
+}
+
+EmbreeScene::EmbreeScene(bool dynamic, bool robust) {
+    RTCScene s = rtcNewScene(device());
+    scene_ = s;
+    // Never HIGH: it aborts on extreme meshes in Debian's build (EXTREMES.md, row 7).
+    rtcSetSceneBuildQuality(s, dynamic ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+    unsigned flags = RTC_SCENE_FLAG_NONE;
+    if (dynamic) flags |= RTC_SCENE_FLAG_DYNAMIC;
+    if (robust) flags |= RTC_SCENE_FLAG_ROBUST;
+    rtcSetSceneFlags(s, RTCSceneFlags(flags));
+}
+
+EmbreeScene::~EmbreeScene() {
+    if (scene_) rtcReleaseScene(scene(scene_));
+}
+
+void EmbreeScene::attach(const EmbreeMesh& mesh, uint32_t slot) {
+    rtcAttachGeometryByID(scene(scene_), geometry(mesh.geometry_), slot);
+}
+
+void EmbreeScene::attach(const EmbreeInstance& instance, uint32_t slot) {
+    rtcAttachGeometryByID(scene(scene_), geometry(instance.geometry_), slot);
+}
+
+void EmbreeScene::detach(uint32_t slot) {
+    rtcDetachGeometry(scene(scene_), slot);
+}
+
+void EmbreeScene::commit() {
+    DenormalGuard guard;
+    rtcCommitScene(scene(scene_));
+}
+
+uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bool fixed_winner,
+                                  HitPacket16& hits) const {
+    LaneMask lanes(rays.active);
+    RTCRayHit16 rayhit;
+    load_rays(rays, rayhit.ray);
+    QueryContext query;
+    rtcInitIntersectContext(&query.rtc);
+    query.map = &map;
+    query.fixed_winner = fixed_winner;
+    for (int i = 0; i < kPacket; ++i) {
+        rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        query.best_t[i] = rays.tfar[i];
+        query.best_slot[i] = 0;
+        query.best_primitive[i] = kNone;
+    }
+    {
+        DenormalGuard guard;
+        rtcIntersect16(lanes.valid, scene(scene_), &query.rtc, &rayhit);
+    }
+    uint32_t mask = 0;
+    for (int i = 0; i < kPacket; ++i) {
+        const RTCHit16& hit = rayhit.hit;
+        hits.geometry[i] = kNone;
+        if (!(rays.active >> i & 1) || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        bool instanced = hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
+        const HitMap::Slot& slot = map.slots[instanced ? hit.instID[0][i] : hit.geomID[i]];
+        uint32_t row_index = row_of(slot, hit.primID[i]);
+        const HitMap::Row& row = map.rows[row_index];
+        hits.geometry[i] = row.id;
+        hits.instance[i] = row_index;
+        hits.primitive[i] = hit.primID[i] - row.first_primitive;
+        hits.u[i] = hit.u[i];
+        hits.v[i] = hit.v[i];
+        hits.t[i] = fixed_winner ? query.best_t[i] : rayhit.ray.tfar[i];
+        set_normal(row, hit, i, hits);
+        mask |= 1u << i;
+    }
+    return mask;
+}
+
+uint32_t EmbreeScene::occluded16(const RayPacket16& rays) const {
+    LaneMask lanes(rays.active);
+    RTCRay16 ray;
+    load_rays(rays, ray);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    {
+        DenormalGuard guard;
+        rtcOccluded16(lanes.valid, scene(scene_), &context, &ray);
+    }
+    uint32_t mask = 0;
+    for (int i = 0; i < kPacket; ++i)
+        if (rays.active >> i & 1 && ray.tfar[i] < 0) mask |= 1u << i;  // Embree sets -inf
+    return mask;
+}
+
+size_t embree_memory_bytes() {
+    return size_t(std::max<int64_t>(0, g_bytes.load()));
+}
+
+}  // namespace kinora::raytrace

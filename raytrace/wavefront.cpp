@@ -1,0 +1,216 @@
+// raytrace/wavefront.cpp: packs rays into packets and hits into dense batches.
+#include "raytrace/wavefront.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/base/check.h"
+
+namespace kinora::raytrace {
+
+namespace {
+
+constexpr size_t kAlign = 64;
+
+size_t round_up(size_t n, size_t step) {
+    return (n + step - 1) / step * step;
+}
+
+// Hands out 64-byte aligned arrays of `length` 4-byte values from one block.
+class Carver {
+  public:
+    explicit Carver(size_t length) : bytes_(round_up(length, kPacket) * 4) {}
+    template <class T>
+    void operator()(T*& array) {
+        static_assert(sizeof(T) == 4);
+        array = base_
+                    ? const_cast<std::remove_const_t<T>*>(reinterpret_cast<const T*>(base_ + used_))
+                    : nullptr;
+        used_ += bytes_;
+    }
+    template <class T, size_t N>
+    void operator()(T* (&arrays)[N]) {
+        for (T*& a : arrays) (*this)(a);
+    }
+    size_t total() const { return used_; }
+    // Starts again over real memory, zeroed.
+    void back(std::vector<std::byte>& memory) {
+        memory.assign(used_ + kAlign, std::byte{0});
+        auto address = reinterpret_cast<uintptr_t>(memory.data());
+        base_ = memory.data() + (round_up(address, kAlign) - address);
+        used_ = 0;
+    }
+
+  private:
+    size_t bytes_;
+    size_t used_ = 0;
+    std::byte* base_ = nullptr;
+};
+
+void carve(RayBatch& b, Carver& carver) {
+    carver(b.org), carver(b.dir), carver(b.tnear), carver(b.tfar), carver(b.time);
+    carver(b.dOdx), carver(b.dOdy), carver(b.dDdx), carver(b.dDdy);
+    carver(b.t_passed), carver(b.first_org);
+    carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.slot);
+}
+
+void carve(HitBatch& b, Carver& carver) {
+    carver(b.geometry), carver(b.instance), carver(b.primitive), carver(b.u), carver(b.v);
+    carver(b.t), carver(b.org), carver(b.dir), carver(b.P), carver(b.P_error), carver(b.Ng);
+    carver(b.dPdx), carver(b.dPdy), carver(b.dDdx), carver(b.dDdy), carver(b.time);
+    carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.ray);
+}
+
+template <class Batch>
+void allocate(Batch& batch, size_t capacity, std::vector<std::byte>& memory) {
+    Carver carver(capacity);
+    carve(batch, carver);
+    carver.back(memory);
+    carve(batch, carver);
+}
+
+// The store's arrays are ours; the batch shows them as const.
+template <class T>
+T* own(const T* p) {
+    return const_cast<T*>(p);
+}
+
+void load_packet(const RayBatch& rays, size_t first, uint32_t mask, RayPacket16& packet) {
+    const size_t bytes = sizeof(float) * kPacket;  // readable past count: capacity is padded
+    std::memcpy(packet.org_x, rays.org[0] + first, bytes);
+    std::memcpy(packet.org_y, rays.org[1] + first, bytes);
+    std::memcpy(packet.org_z, rays.org[2] + first, bytes);
+    std::memcpy(packet.dir_x, rays.dir[0] + first, bytes);
+    std::memcpy(packet.dir_y, rays.dir[1] + first, bytes);
+    std::memcpy(packet.dir_z, rays.dir[2] + first, bytes);
+    std::memcpy(packet.tnear, rays.tnear + first, bytes);
+    std::memcpy(packet.tfar, rays.tfar + first, bytes);
+    std::memcpy(packet.time, rays.time + first, bytes);
+    std::fill_n(packet.mask, kPacket, mask);
+    const size_t left = rays.count - first;
+    packet.active = left >= kPacket ? 0xffffu : (1u << left) - 1;
+}
+
+void append_hits(const HitPacket16& hits, uint32_t lanes, size_t first, HitBatch& out) {
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        const size_t k = out.count++;
+        own(out.geometry)[k] = hits.geometry[i];
+        own(out.instance)[k] = hits.instance[i];
+        own(out.primitive)[k] = hits.primitive[i];
+        own(out.u)[k] = hits.u[i];
+        own(out.v)[k] = hits.v[i];
+        own(out.t)[k] = hits.t[i];
+        own(out.ray)[k] = uint32_t(first) + uint32_t(i);
+    }
+}
+
+template <class T>
+void pick(const HitBatch& hits, const T* from, const T* to) {
+    for (size_t k = 0; k < hits.count; ++k) own(to)[k] = from[hits.ray[k]];
+}
+
+constexpr float kLeastCosine = 0.01f;
+
+// Igehy, Tracing ray differentials, 1999, eq. 10-12: dP = dO + t dD + dt D, with dt such that dP
+// lies in the plane of N. dO, dD are per pixel; t is from the ray's first origin.
+void footprint(const HitBatch& hits, float* const dO[3], float* const dD[3],
+               const float* const dP[3]) {
+    for (size_t k = 0; k < hits.count; ++k) {
+        const uint32_t ray = hits.ray[k];
+        float q[3], cosine = 0, along = 0;
+        for (int c = 0; c < 3; ++c) {
+            q[c] = dO[c][ray] + hits.t[k] * dD[c][ray];
+            cosine += hits.Ng[c][k] * hits.dir[c][k];
+            along += hits.Ng[c][k] * q[c];
+        }
+        if (std::abs(cosine) < kLeastCosine) cosine = std::copysign(kLeastCosine, cosine);
+        for (int c = 0; c < 3; ++c) own(dP[c])[k] = q[c] - along / cosine * hits.dir[c][k];
+    }
+}
+
+void fill_from_rays(const RayBatch& rays, const HitBatch& hits) {
+    for (size_t k = 0; k < hits.count; ++k) own(hits.t)[k] += rays.t_passed[hits.ray[k]];
+    for (int c = 0; c < 3; ++c) {
+        pick<float>(hits, rays.first_org[c], hits.org[c]);
+        pick<float>(hits, rays.dir[c], hits.dir[c]);
+        pick<float>(hits, rays.dDdx[c], hits.dDdx[c]);
+        pick<float>(hits, rays.dDdy[c], hits.dDdy[c]);
+    }
+    pick<float>(hits, rays.time, hits.time);
+    pick<uint32_t>(hits, rays.pixel_x, hits.pixel_x);
+    pick<uint32_t>(hits, rays.pixel_y, hits.pixel_y);
+    pick<uint32_t>(hits, rays.sample, hits.sample);
+    pick<uint32_t>(hits, rays.layer, hits.layer);
+    footprint(hits, rays.dOdx, rays.dDdx, hits.dPdx);
+    footprint(hits, rays.dOdy, rays.dDdy, hits.dPdy);
+}
+
+// Padding repeats the last hit, so that whole vectors may be read (and shaded) at the end.
+template <class T>
+void pad(const T* array, size_t count) {
+    if (count > 0)
+        std::fill(own(array) + count, own(array) + round_up(count, kPacket), array[count - 1]);
+}
+
+void pad_all(const HitBatch& b) {
+    auto pad3 = [&](const float* const(&a)[3]) {
+        for (const float* array : a) pad(array, b.count);
+    };
+    pad(b.geometry, b.count), pad(b.instance, b.count), pad(b.primitive, b.count);
+    pad(b.u, b.count), pad(b.v, b.count), pad(b.t, b.count), pad(b.time, b.count);
+    pad3(b.org), pad3(b.dir), pad3(b.P), pad3(b.P_error), pad3(b.Ng);
+    pad3(b.dPdx), pad3(b.dPdy), pad3(b.dDdx), pad3(b.dDdy);
+    pad(b.pixel_x, b.count), pad(b.pixel_y, b.count), pad(b.sample, b.count);
+    pad(b.layer, b.count), pad(b.ray, b.count);
+}
+
+}  // namespace
+
+void RayBatch::reserve(size_t capacity) {
+    if (capacity <= capacity_) return;
+    CHECK_EQ(count, 0u);
+    allocate(*this, capacity, memory_);
+    capacity_ = capacity;
+}
+
+void HitStore::reserve(size_t capacity) {
+    if (capacity <= capacity_) return;
+    allocate(batch_, capacity, memory_);
+    capacity_ = capacity;
+}
+
+const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, uint32_t depth,
+                      HitStore& store, TraceCounters& counters) {
+    store.reserve(rays.count);
+    HitBatch& out = store.batch_;
+    out.count = 0;
+    out.depth = depth;
+    RayPacket16 packet;
+    HitPacket16 hits;
+    for (size_t first = 0; first < rays.count; first += kPacket) {
+        load_packet(rays, first, mask, packet);
+        append_hits(hits, accel.intersect16(packet, hits, counters), first, out);
+    }
+    accel.surface_points(out.count, out.instance, out.primitive, out.u, out.v,
+                         {{own(out.P[0]), own(out.P[1]), own(out.P[2])},
+                          {own(out.P_error[0]), own(out.P_error[1]), own(out.P_error[2])},
+                          {own(out.Ng[0]), own(out.Ng[1]), own(out.Ng[2])}});
+    fill_from_rays(rays, out);
+    pad_all(out);
+    return out;
+}
+
+void occluded_by_opaque(const Accel& accel, const RayBatch& rays, uint8_t* blocked,
+                        TraceCounters& counters) {
+    RayPacket16 packet;
+    for (size_t first = 0; first < rays.count; first += kPacket) {
+        load_packet(rays, first, kMaskOpaque, packet);
+        const uint32_t lanes = accel.occluded16(packet, counters);
+        const size_t end = std::min(rays.count - first, size_t(kPacket));
+        for (size_t i = 0; i < end; ++i) blocked[first + i] = lanes >> i & 1;
+    }
+}
+
+}  // namespace kinora::raytrace
