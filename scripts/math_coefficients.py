@@ -9,7 +9,7 @@ rest is fitted again, so that later coefficients repair what rounding the earlie
 Usage: python3 scripts/math_coefficients.py > jit/math_coefficients_p.h
 """
 import struct
-from mpmath import mp, mpf, matrix, lu_solve, sin, cos, exp, log, sqrt, atan, asin, pi
+from mpmath import mp, mpf, matrix, lu_solve, sin, cos, tan, exp, log, sqrt, atan, asin, pi
 
 mp.dps = 40
 
@@ -122,8 +122,7 @@ FITS = [
     ("kCos", "cos r = 1 - z/2 + z^2 p(z), |r| <= pi/4",
      tail(lambda z: cos(sqrt(z)), lambda z: 1 - z / 2, 2, lambda z: cos(sqrt(z))), TINY, PI4, 3),
     ("kSinWide", "sin r = r + r z p(z), |r| <= pi/2", odd(sin), TINY, PI2, 4),
-    ("kCosFast", "cos r = 1 + z p(z), |r| <= pi/4",
-     tail(lambda z: cos(sqrt(z)), lambda z: 1, 1, lambda z: cos(sqrt(z))), TINY, PI4, 4),
+    ("kTan", "tan r = r + r z p(z), |r| <= pi/4", odd(tan), TINY, PI4, 6),
     ("kExp", "e^r = 1 + r + r^2 p(r), |r| <= ln 2 / 2", tail(exp, lambda r: 1 + r, 2, exp), -H, H, 5),
     ("kExpFast", "e^r = 1 + r p(r), |r| <= ln 2 / 2", tail(exp, lambda r: 1, 1, exp), -H, H, 5),
     ("kExp2", "2^r = 1 + r ln 2 + r^2 p(r), |r| <= 1/2",

@@ -1,0 +1,223 @@
+// tests/jit/math_test.cpp: jit/math against the C++ library in double precision.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/jit/math_harness.h"
+
+namespace kinora::jit {
+namespace {
+
+using math::Tier;
+using testing::edge_values;
+using testing::MathKernel;
+using testing::Samples;
+using testing::ulp_error;
+
+constexpr float kInf = HUGE_VALF;
+constexpr double kSmallest = 1.17549435082228751e-38;
+
+using Unary = Value (*)(Builder&, Value, Tier);
+struct UnaryRow {
+    const char* name;
+    Unary function;
+    double (*reference)(double);
+    float lo, hi;  // where most samples are taken; the rest are any float
+};
+
+double clamped(double x) {
+    return std::isnan(x) ? x : std::clamp(x, -1.0, 1.0);
+}
+// EXTREMES.md rows 48 to 50
+double ref_asin(double x) {
+    return std::asin(clamped(x));
+}
+double ref_acos(double x) {
+    return std::acos(clamped(x));
+}
+double ref_log(double x) {
+    return std::isnan(x) ? x : std::log(std::max(x, kSmallest));
+}
+double ref_log2(double x) {
+    return std::isnan(x) ? x : std::log2(std::max(x, kSmallest));
+}
+double ref_inversesqrt(double x) {
+    return x <= 0 ? 0 : 1 / std::sqrt(x);
+}
+
+const UnaryRow kUnary[] = {
+    {"sin", math::sin, std::sin, -30, 30},
+    {"cos", math::cos, std::cos, -30, 30},
+    {"tan", math::tan, std::tan, -30, 30},
+    {"asin", math::asin, ref_asin, -1, 1},
+    {"acos", math::acos, ref_acos, -1, 1},
+    {"atan", math::atan, std::atan, -10, 10},
+    {"exp", math::exp, std::exp, -104, 89},
+    {"exp2", math::exp2, std::exp2, -150, 128},
+    {"log", math::log, ref_log, 0, 4},
+    {"log2", math::log2, ref_log2, 0, 4},
+    {"inversesqrt", math::inversesqrt, ref_inversesqrt, 0, 100},
+};
+
+std::string name_of(const ::testing::TestParamInfo<UnaryRow>& info) {
+    return info.param.name;
+}
+
+std::vector<float> unary_samples(const UnaryRow& row) {
+    std::vector<float> x = edge_values();
+    Samples s;
+    for (int i = 0; i < 600'000; ++i) x.push_back(s.uniform(row.lo, row.hi));
+    for (int i = 0; i < 300'000; ++i) x.push_back(s.pattern());
+    for (int i = 0; i < 100'000; ++i) x.push_back(s.uniform(-1e7f, 1e7f));
+    for (int i = -20'000; i <= 20'000; ++i) {
+        x.push_back(float(i * 1.5707963267948966));  // where sin, cos and tan cancel
+        x.push_back(std::nextafter(1.0f, 2.0f) + float(i) * 0x1p-23f);
+    }
+    return x;
+}
+
+struct Worst {
+    double ulp = 0;
+    float at = 0, got = 0;
+    double exact = 0;
+    void see(double error, float x, float y, double reference) {
+        if (error > ulp) *this = {error, x, y, reference};
+    }
+};
+
+Worst worst_of(const UnaryRow& row, Tier tier, bool flush) {
+    MathKernel kernel(1, [&](Builder& b, std::span<const Value> in) {
+        return std::vector<Value>{row.function(b, in[0], tier)};
+    });
+    EXPECT_EQ(kernel.fault(), "");
+    std::vector<float> x = unary_samples(row);
+    std::vector<float> y = kernel.run({x})[0];
+    Worst worst;
+    for (size_t i = 0; i < x.size(); ++i) {
+        double exact = row.reference(x[i]);
+        bool tiny = std::fabs(x[i]) < kSmallest || std::fabs(exact) < 0x1p-125;
+        if (flush && tiny) continue;  // EXTREMES.md row 77
+        worst.see(ulp_error(y[i], exact), x[i], y[i], exact);
+    }
+    std::printf("%-12s %-8s %4d ops  max %.3f ULP at %.9g: %.9g, exactly %.17g\n", row.name,
+                tier == Tier::Fast ? "fast" : "precise", kernel.instructions(), worst.ulp,
+                double(worst.at), double(worst.got), worst.exact);
+    return worst;
+}
+
+class UnaryMath : public ::testing::TestWithParam<UnaryRow> {};
+
+TEST_P(UnaryMath, PreciseIsWithinOneUlp) {
+    EXPECT_LE(worst_of(GetParam(), Tier::Precise, false).ulp, 1.0);
+}
+
+TEST_P(UnaryMath, FastIsWithinFourUlp) {
+    EXPECT_LE(worst_of(GetParam(), Tier::Fast, true).ulp, 4.0);
+}
+
+// pow as jit/math.h has it: 0 to any power but 0 is 0 (EXTREMES.md row 46), a NaN power gives NaN.
+double ref_pow(double x, double y) {
+    return std::isnan(y) ? y : x == 0 && y != 0 ? 0 : std::pow(x, y);
+}
+
+struct Pairs {
+    std::vector<float> x, y;
+    void add(float a, float b) { x.push_back(a), y.push_back(b); }
+};
+
+Pairs edge_pairs() {
+    Pairs pairs;
+    for (float a : edge_values())
+        for (float b : edge_values()) pairs.add(a, b);
+    return pairs;
+}
+
+MathKernel binary_kernel(Value (*f)(Builder&, Value, Value, Tier), Tier tier) {
+    return MathKernel(2, [=](Builder& b, std::span<const Value> in) {
+        return std::vector<Value>{f(b, in[0], in[1], tier)};
+    });
+}
+
+Pairs pow_samples() {
+    Pairs pairs = edge_pairs();
+    Samples s;
+    for (int i = 0; i < 400'000; ++i) pairs.add(s.uniform(0, 10), s.uniform(-40, 40));
+    for (int i = 0; i < 200'000; ++i) pairs.add(s.uniform(0.99f, 1.01f), s.uniform(-9000, 9000));
+    for (int i = 0; i < 200'000; ++i) pairs.add(std::fabs(s.pattern()), s.uniform(-1, 1));
+    for (int i = 0; i < 200'000; ++i) pairs.add(std::fabs(s.pattern()), s.pattern());
+    return pairs;
+}
+
+Worst worst_pow(Tier tier) {
+    MathKernel kernel = binary_kernel(math::pow, tier);
+    EXPECT_EQ(kernel.fault(), "");
+    Pairs p = pow_samples();
+    std::vector<float> z = kernel.run({p.x, p.y})[0];
+    Worst worst;
+    for (size_t i = 0; i < z.size(); ++i) {
+        if (!(p.x[i] >= 0)) continue;  // x < 0 is lowered in rsl
+        double exact = ref_pow(p.x[i], p.y[i]);
+        double error = ulp_error(z[i], exact);
+        if (tier == Tier::Fast) {
+            if ((p.x[i] < kSmallest && p.x[i] > 0) || std::fabs(exact) < 0x1p-125) continue;
+            double slack = 2 * std::fabs(p.y[i] * std::log2(double(p.x[i])));
+            if (std::isfinite(slack)) error = std::max(0.0, error - slack);
+        }
+        if (error > worst.ulp)
+            std::printf("pow(%.9g, %.9g) = %.9g, exactly %.17g: %.3f\n", double(p.x[i]),
+                        double(p.y[i]), double(z[i]), exact, error);
+        worst.see(error, p.x[i], z[i], exact);
+    }
+    std::printf("pow %d ops\n", kernel.instructions());
+    return worst;
+}
+
+TEST(Pow, PreciseIsWithinOneUlp) {
+    EXPECT_LE(worst_pow(Tier::Precise).ulp, 1.0);
+}
+
+// 4 + 2 |y log2 x|
+TEST(Pow, FastGrowsWithTheExponent) {
+    EXPECT_LE(worst_pow(Tier::Fast).ulp, 4.0);
+}
+
+double ref_atan2(double y, double x) {
+    return x == 0 && y == 0 ? 0 : std::atan2(y, x);
+}
+
+Worst worst_atan2(Tier tier) {
+    MathKernel kernel = binary_kernel(math::atan2, tier);
+    EXPECT_EQ(kernel.fault(), "");
+    Pairs p = edge_pairs();
+    Samples s;
+    for (int i = 0; i < 500'000; ++i) p.add(s.uniform(-2, 2), s.uniform(-2, 2));
+    for (int i = 0; i < 500'000; ++i) p.add(s.pattern(), s.pattern());
+    std::vector<float> z = kernel.run({p.x, p.y})[0];
+    Worst worst;
+    for (size_t i = 0; i < z.size(); ++i) {
+        double exact = ref_atan2(p.x[i], p.y[i]);
+        bool tiny = std::fabs(p.x[i]) < kSmallest || std::fabs(p.y[i]) < kSmallest ||
+                    std::fabs(exact) < 0x1p-125;
+        if (tier == Tier::Fast && tiny) continue;
+        double error = ulp_error(z[i], exact);
+        if (error > worst.ulp)
+            std::printf("atan2(%.9g, %.9g) = %.9g, exactly %.17g: %.3f\n", double(p.x[i]),
+                        double(p.y[i]), double(z[i]), exact, error);
+        worst.see(error, p.x[i], z[i], exact);
+    }
+    std::printf("atan2 %d ops\n", kernel.instructions());
+    return worst;
+}
+
+TEST(Atan2, PreciseIsWithinOneUlp) {
+    EXPECT_LE(worst_atan2(Tier::Precise).ulp, 1.0);
+}
+
+TEST(Atan2, FastIsWithinFourUlp) {
+    EXPECT_LE(worst_atan2(Tier::Fast).ulp, 4.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, UnaryMath, ::testing::ValuesIn(kUnary), name_of);
+
+}  // namespace
+}  // namespace kinora::jit
