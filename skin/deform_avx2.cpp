@@ -13,10 +13,10 @@ struct Avx2 {
     static void store(float* p, Vec a) { _mm256_storeu_ps(p, a); }
     static Vec set(float v) { return _mm256_set1_ps(v); }
     static Vec mul(Vec a, Vec b) { return _mm256_mul_ps(a, b); }
-    static Vec div(Vec a, Vec b) { return _mm256_div_ps(a, b); }
     static Vec fma(Vec a, Vec b, Vec c) { return _mm256_fmadd_ps(a, b, c); }
     static Vec fnma(Vec a, Vec b, Vec c) { return _mm256_fnmadd_ps(a, b, c); }
     static Vec sqrt(Vec a) { return _mm256_sqrt_ps(a); }
+    static Vec div(Vec a, Vec b) { return _mm256_div_ps(a, b); }
     static Vec copysign(Vec a, Vec b) {
         Vec sign = set(-0.0f);
         return _mm256_or_ps(_mm256_andnot_ps(sign, a), _mm256_and_ps(sign, b));
@@ -41,24 +41,13 @@ struct Avx2 {
         Vec size = _mm256_andnot_ps(set(-0.0f), det);
         return ~_mm256_movemask_ps(_mm256_and_ps(safe(square), safe(size))) & 0xff;
     }
-    static void blend(const float* palette, const float* weights, const uint32_t* places,
-                      uint32_t rounds, Vec c[4]) {
-        const float* m = palette + places[0];
-        const float* k = palette + places[1];
-        Vec w = _mm256_broadcast_ss(weights), u = _mm256_broadcast_ss(weights + 1);
-        Vec m01 = mul(load(m), w), m23 = mul(load(m + 8), w);
-        Vec k01 = mul(load(k), u), k23 = mul(load(k + 8), u);
-        for (uint32_t r = 1; r < rounds; ++r) {
-            weights += kBlock, places += kBlock;
-            m = palette + places[0], k = palette + places[1];
-            w = _mm256_broadcast_ss(weights), u = _mm256_broadcast_ss(weights + 1);
-            m01 = fma(load(m), w, m01), m23 = fma(load(m + 8), w, m23);
-            k01 = fma(load(k), u, k01), k23 = fma(load(k + 8), u, k23);
-        }
-        c[0] = _mm256_permute2f128_ps(m01, k01, 0x20),
-        c[1] = _mm256_permute2f128_ps(m01, k01, 0x31);
-        c[2] = _mm256_permute2f128_ps(m23, k23, 0x20),
-        c[3] = _mm256_permute2f128_ps(m23, k23, 0x31);
+    static Vec repeat(const float* p) { return _mm256_broadcast_ps((const __m128*)p); }
+    // c[i] = column i of the two matrices (m[0], m[1]) and (m[2], m[3]).
+    static void transpose_lanes(const Vec m[4], Vec c[4]) {
+        c[0] = _mm256_permute2f128_ps(m[0], m[2], 0x20);
+        c[1] = _mm256_permute2f128_ps(m[0], m[2], 0x31);
+        c[2] = _mm256_permute2f128_ps(m[1], m[3], 0x20);
+        c[3] = _mm256_permute2f128_ps(m[1], m[3], 0x31);
     }
 };
 

@@ -13,10 +13,10 @@ struct Avx512 {
     static void store(float* p, Vec a) { _mm512_storeu_ps(p, a); }
     static Vec set(float v) { return _mm512_set1_ps(v); }
     static Vec mul(Vec a, Vec b) { return _mm512_mul_ps(a, b); }
-    static Vec div(Vec a, Vec b) { return _mm512_div_ps(a, b); }
     static Vec fma(Vec a, Vec b, Vec c) { return _mm512_fmadd_ps(a, b, c); }
     static Vec fnma(Vec a, Vec b, Vec c) { return _mm512_fnmadd_ps(a, b, c); }
     static Vec sqrt(Vec a) { return _mm512_sqrt_ps(a); }
+    static Vec div(Vec a, Vec b) { return _mm512_div_ps(a, b); }
     static Vec copysign(Vec a, Vec b) {
         constexpr int kSelect = 0xac;  // truth table of mask ? b : a
         return _mm512_castsi512_ps(_mm512_ternarylogic_epi32(
@@ -41,17 +41,7 @@ struct Avx512 {
     static uint32_t outside(Vec square, Vec det) {
         return ~(safe(square) & safe(_mm512_abs_ps(det))) & 0xffffu;
     }
-    static void blend(const float* palette, const float* weights, const uint32_t* places,
-                      uint32_t rounds, Vec c[4]) {
-        Vec m[4];
-        for (int v = 0; v < 4; ++v) m[v] = mul(load(palette + places[v]), set(weights[v]));
-        for (uint32_t r = 1; r < rounds; ++r) {
-            weights += kBlock, places += kBlock;
-            for (int v = 0; v < 4; ++v)
-                m[v] = fma(load(palette + places[v]), set(weights[v]), m[v]);
-        }
-        transpose_lanes(m, c);
-    }
+    static Vec repeat(const float* p) { return _mm512_broadcast_f32x4(_mm_loadu_ps(p)); }
     // c[i] = column i of the four matrices m.
     static void transpose_lanes(const Vec m[4], Vec c[4]) {
         Vec m01_low = _mm512_shuffle_f32x4(m[0], m[1], _MM_SHUFFLE(1, 0, 1, 0));

@@ -17,12 +17,12 @@ double dot(const dvec3& a, const dvec3& b) {
 }  // namespace
 
 void exact_normal(const float* palette, const float* weights, const uint32_t* places,
-                  uint32_t rounds, const float* rest, float* normal) {
-    constexpr uint32_t kRound = 16;  // vertices a block
+                  uint32_t rounds, uint32_t vertex, const float* rest, float* normal) {
     dvec3 c[3] = {dvec3(0), dvec3(0), dvec3(0)};
     for (uint32_t r = 0; r < rounds; ++r) {
-        const float* m = palette + places[r * kRound];
-        double w = weights[r * kRound];
+        const uint32_t entry = entry_of(rounds, r, vertex);
+        const float* m = palette + places[entry];
+        double w = weights[entry];
         if (w == 0) continue;  // padding
         for (int i = 0; i < 3; ++i) c[i] += w * dvec3(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
     }

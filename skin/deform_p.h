@@ -39,9 +39,15 @@ extern const DeformKernel kAvx512Kernel;
 inline constexpr float kLeastSafe = 1e-30f;
 inline constexpr float kMostSafe = 1e30f;
 
-// The normal of one vertex in double; `weights` and `places` point at the vertex's own entries of
-// the first round (the next round's are 16 further).
+// The normal of one vertex (0..15) of a block in double; weights, places: the block's.
 void exact_normal(const float* palette, const float* weights, const uint32_t* places,
-                  uint32_t rounds, const float* rest, float* normal);
+                  uint32_t rounds, uint32_t vertex, const float* rest, float* normal);
+
+// Where influence `round` of a vertex lies among a block's entries (see InfluenceBlocks).
+constexpr uint32_t entry_of(uint32_t rounds, uint32_t round, uint32_t vertex) {
+    uint32_t set = round / 4 * 4;
+    uint32_t width = rounds - set < 4 ? rounds - set : 4;
+    return set * 16 + vertex * width + (round - set);
+}
 
 }  // namespace kinora::skin

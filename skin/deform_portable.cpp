@@ -21,9 +21,6 @@ struct Portable {
     static Vec mul(Vec a, Vec b) {
         return each([&](int i) { return a.f[i] * b.f[i]; });
     }
-    static Vec div(Vec a, Vec b) {
-        return each([&](int i) { return a.f[i] / b.f[i]; });
-    }
     static Vec fma(Vec a, Vec b, Vec c) {
         return each([&](int i) { return __builtin_fmaf(a.f[i], b.f[i], c.f[i]); });
     }
@@ -32,6 +29,9 @@ struct Portable {
     }
     static Vec sqrt(Vec a) {
         return each([&](int i) { return __builtin_sqrtf(a.f[i]); });
+    }
+    static Vec div(Vec a, Vec b) {
+        return each([&](int i) { return a.f[i] / b.f[i]; });
     }
     static Vec copysign(Vec a, Vec b) {
         return each([&](int i) { return __builtin_copysignf(a.f[i], b.f[i]); });
@@ -55,14 +55,9 @@ struct Portable {
         }
         return bits;
     }
-    static void blend(const float* palette, const float* weights, const uint32_t* places,
-                      uint32_t rounds, Vec c[4]) {
-        const float* m = palette + places[0];
-        for (int i = 0; i < 4; ++i) c[i] = mul(load(m + 4 * i), set(weights[0]));
-        for (uint32_t r = 1; r < rounds; ++r) {
-            m = palette + places[r * kBlock];
-            for (int i = 0; i < 4; ++i) c[i] = fma(load(m + 4 * i), set(weights[r * kBlock]), c[i]);
-        }
+    static Vec repeat(const float* p) { return load(p); }
+    static void transpose_lanes(const Vec m[4], Vec c[4]) {
+        for (int i = 0; i < 4; ++i) c[i] = m[i];
     }
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "skin/deform_p.h"
 #include "skin/influences_p.h"
 
 namespace kinora::skin {
@@ -109,33 +110,34 @@ CleanInfluences clean_influences(const InfluenceSource& source, SkinRepairs& rep
 
 InfluenceBlocks block_influences(const CleanInfluences& clean,
                                  const std::vector<uint32_t>* vertices) {
-    constexpr size_t kBlock = InfluenceBlocks::kBlock;
+    constexpr uint32_t kBlock = InfluenceBlocks::kBlock;
     InfluenceBlocks blocks;
     blocks.count = vertices ? vertices->size() : clean.count();
     blocks.first.push_back(0);
     for (size_t begin = 0; begin < blocks.count; begin += kBlock) {
-        size_t lanes = std::min(kBlock, blocks.count - begin);
-        auto vertex = [&](size_t lane) {
-            return vertices ? (*vertices)[begin + lane] : begin + lane;
+        auto lanes = static_cast<uint32_t>(std::min<size_t>(kBlock, blocks.count - begin));
+        auto influences = [&](uint32_t lane) {
+            size_t vertex = vertices ? (*vertices)[begin + lane] : begin + lane;
+            return std::span(clean.influences)
+                .subspan(clean.first[vertex], clean.first[vertex + 1] - clean.first[vertex]);
         };
         uint32_t rounds = 0;
-        for (size_t lane = 0; lane < lanes; ++lane)
-            rounds = std::max(rounds, clean.first[vertex(lane) + 1] - clean.first[vertex(lane)]);
-        for (uint32_t round = 0; round < rounds; ++round) {
-            for (size_t lane = 0; lane < kBlock; ++lane) {
-                Influence influence{0, 0};
-                if (lane < lanes) {
-                    uint32_t first = clean.first[vertex(lane)];
-                    bool own = first + round < clean.first[vertex(lane) + 1];
-                    influence = clean.influences[own ? first + round : first];
-                    if (!own) influence.weight = 0;
-                }
-                blocks.weights.push_back(influence.weight);
-                blocks.places.push_back(influence.place);
+        for (uint32_t lane = 0; lane < lanes; ++lane)
+            rounds = std::max(rounds, static_cast<uint32_t>(influences(lane).size()));
+        size_t at = blocks.weights.size();
+        blocks.weights.resize(at + size_t{rounds} * kBlock, 0.0f);
+        blocks.places.resize(at + size_t{rounds} * kBlock, 0);
+        for (uint32_t lane = 0; lane < lanes; ++lane) {
+            auto own = influences(lane);
+            for (uint32_t round = 0; round < rounds; ++round) {
+                size_t entry = at + entry_of(rounds, round, lane);
+                blocks.weights[entry] = round < own.size() ? own[round].weight : 0;
+                blocks.places[entry] = own[round < own.size() ? round : 0].place;
             }
         }
         blocks.first.push_back(blocks.first.back() + rounds);
     }
+    blocks.weights.resize(blocks.weights.size() + 3, 0.0f);
     return blocks;
 }
 

@@ -24,9 +24,25 @@ constexpr uint32_t kJoints = 60;
 constexpr size_t kRead = kVertices * (2 * sizeof(vec4) + 4 * (sizeof(float) + sizeof(uint32_t)));
 constexpr size_t kWritten = kVertices * 2 * sizeof(vec4);
 
+// Scene's buffers start on a cache line.
+template <class T>
+struct LineAllocator {
+    using value_type = T;
+    LineAllocator() = default;
+    template <class U>
+    LineAllocator(const LineAllocator<U>&) {}
+    T* allocate(size_t n) {
+        return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64}));
+    }
+    void deallocate(T* p, size_t) { ::operator delete (p, std::align_val_t{64}); }
+    bool operator==(const LineAllocator&) const { return true; }
+};
+template <class T>
+using Buffer = std::vector<T, LineAllocator<T>>;
+
 struct Character {
     std::vector<JointMatrix> palette;
-    std::vector<vec4> rest, normals, out_positions, out_normals;
+    Buffer<vec4> rest, normals, out_positions, out_normals;
     SkinMesh skin;
 };
 
@@ -82,7 +98,7 @@ void skin_with(benchmark::State& state, const char* kernel, bool own_normal_inde
 }
 
 void copy(benchmark::State& state, size_t bytes, size_t counted) {
-    std::vector<char> from(bytes, 1), to(bytes, 2);
+    Buffer<char> from(bytes, 1), to(bytes, 2);
     for (auto _ : state) {
         std::memcpy(to.data(), from.data(), bytes);
         benchmark::ClobberMemory();
