@@ -26,17 +26,19 @@ struct Lanes {
     uint32_t filtered = 0;  // not well-formed
 };
 
-bool within(float x) {
-    return std::abs(x) <= kLargest;
-}  // false for NaN and infinities
+// False for NaN and infinities.
+bool within(float x, float limit) {
+    return std::abs(x) <= limit;
+}
 
-Lanes classify(const RayPacket16& rays) {
+Lanes classify(const RayPacket16& rays, float far) {
     Lanes lanes;
     for (int i = 0; i < kPacket; ++i) {
         const float x = rays.dir_x[i], y = rays.dir_y[i], z = rays.dir_z[i];
         const float length2 = x * x + y * y + z * z;
-        bool finite = within(rays.org_x[i]) & within(rays.org_y[i]) & within(rays.org_z[i]) &
-                      within(x) & within(y) & within(z);
+        bool finite = within(rays.org_x[i], far) & within(rays.org_y[i], far) &
+                      within(rays.org_z[i], far) & within(x, kLargest) & within(y, kLargest) &
+                      within(z, kLargest);
         bool ordered = (rays.tnear[i] >= 0) & !std::isnan(rays.tfar[i]);
         bool nonzero = (x != 0) | (y != 0) | (z != 0);
         bool usual = (length2 >= kSmallestDir2) & (length2 <= kLargestDir2);
@@ -71,7 +73,7 @@ void rescale(RayPacket16& rays, uint32_t which, double length[kPacket]) {
 uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
                             TraceCounters& counters) const {
     const State& s = *state_;
-    Lanes lanes = classify(rays);
+    Lanes lanes = classify(rays, s.largest_origin);
     counters.rays += uint64_t(std::popcount(rays.active & 0xffffu));
     counters.filtered += uint64_t(std::popcount(lanes.filtered));
     bool as_they_are = lanes.sound == rays.active;
@@ -90,7 +92,7 @@ uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
 
 uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) const {
     const State& s = *state_;
-    Lanes lanes = classify(rays);
+    Lanes lanes = classify(rays, s.largest_origin);
     counters.shadow_rays += uint64_t(std::popcount(rays.active & 0xffffu));
     counters.filtered += uint64_t(std::popcount(lanes.filtered));
     if (!s.top) return 0;

@@ -75,6 +75,7 @@ struct Accel::State {
     std::vector<BoxAreas> partial;  // memory of box_areas
     std::vector<uint8_t> shape_changed;
     bool any_hidden_backfaces = false;
+    float largest_origin = kLargest;  // rays from farther off are filtered, for an instance's sake
     // Last, so that it is joined before what it reads goes.
     std::unique_ptr<BackgroundBuild> background;
 };

@@ -56,6 +56,7 @@ class Updater {
     bool update_shape(uint32_t row, const Geometry& now);
     bool update_instance(uint32_t row, const Geometry& now, bool shape_changed);
 
+    void limit_origins();
     void start_background();
     void take_up_background();
     bool filtered(const Geometry& g) const { return s.policy.fixed_winner || g.hide_backfaces; }
@@ -126,6 +127,7 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
         if (geometry[i].kind == GeometryKind::Instanced) add_instanced(i);
         map_row(i);
     }
+    limit_origins();
     s.top.commit();
 }
 
@@ -315,6 +317,13 @@ bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_ch
     return true;
 }
 
+void Updater::limit_origins() {
+    s.largest_origin = kLargest;
+    for (const Row& row : s.rows)
+        if (row.seen.kind == GeometryKind::Instanced && row.attached)
+            s.largest_origin = std::min(s.largest_origin, row.placement.largest_origin);
+}
+
 void Updater::start_background() {
     if (s.background) return;
     s.background = std::make_unique<BackgroundBuild>();
@@ -374,7 +383,10 @@ void Updater::run(std::span<const Geometry> geometry) {
     for (uint32_t i = 0; i < geometry.size(); ++i)
         if (geometry[i].kind == GeometryKind::Instanced && s.rows[i].shape != kNone)
             changed |= update_instance(i, geometry[i], s.shape_changed[s.rows[i].shape] != 0);
-    if (changed) s.top.commit();
+    if (changed) {
+        limit_origins();
+        s.top.commit();
+    }
     if (want_background_) start_background();
 }
 

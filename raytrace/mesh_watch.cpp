@@ -34,10 +34,12 @@ void add_triangle(const vec4* positions, const uint32_t* corner, BoxAreas& areas
     float4 a = load(positions[corner[0]]), b = load(positions[corner[1]]),
            c = load(positions[corner[2]]);
     float4 low = min4(min4(a, b), c), high = max4(max4(a, b), c);
-    // A NaN may be lost by min and max but not by the sum, and infinities give infinite or NaN e.
+    // A NaN may be lost by min and max but not by the sum.
     float4 e = (high - low) + 0.0f * (a + b + c);
+    float4 far = max4(high, -low);
     float area = e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
-    if (area <= 4 * kLargest * kLargest)
+    bool near = (far[0] <= kLargest) & (far[1] <= kLargest) & (far[2] <= kLargest);
+    if (near & (area >= 0))
         areas.sum += double(area);
     else
         ++areas.bad_triangles;

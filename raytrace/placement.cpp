@@ -16,14 +16,17 @@ double dot(dvec3 a, dvec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Embree inverts the matrix in floats, by cofactors over the determinant.
-bool invertible_in_floats(const dvec3 cofactors[3], double determinant) {
-    constexpr double smallest = 0x1p-120, largest = 0x1p120;
-    if (!(std::abs(determinant) > smallest && std::abs(determinant) < largest)) return false;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-            if (!(std::abs(cofactors[i][k] / determinant) < largest)) return false;
-    return true;
+constexpr double kLargestGain = 1e10;
+constexpr double kLargestLocal = 1.7e18;  // a little under Embree's limit, for rounding
+constexpr double kLeastLargestOrigin = 1e8;
+
+// Largest sum of absolute values over the rows of the matrix with these columns.
+double gain(const dvec3 columns[3]) {
+    double largest = 0;
+    for (int r = 0; r < 3; ++r)
+        largest = std::max(
+            largest, std::abs(columns[0][r]) + std::abs(columns[1][r]) + std::abs(columns[2][r]));
+    return largest;
 }
 
 }  // namespace
@@ -32,24 +35,32 @@ bool make_placement(const dmat4& matrix, Placement& out) {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 3; ++r) out.m[3 * c + r] = float(matrix[c][r]);
     dvec3 x{matrix[0]}, y{matrix[1]}, z{matrix[2]}, t{matrix[3]};
-    if (!(std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) < 1e18)) return false;
     // Columns of the cofactor matrix; they are also the rows of the inverse times det.
     const dvec3 cofactors[3] = {cross(y, z), cross(z, x), cross(x, y)};
     const double determinant = dot(x, cofactors[0]);
-    if (!invertible_in_floats(cofactors, determinant)) return false;
+    const dvec3 columns[3] = {x, y, z};
+    dvec3 inverse[3];  // columns
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) inverse[c][r] = cofactors[r][c] / determinant;
+    // Embree inverts in floats, so the determinant must be one, too.
+    const bool sound = std::abs(determinant) > 0x1p-120 && std::abs(determinant) < 0x1p120 &&
+                       gain(columns) <= kLargestGain && gain(inverse) <= kLargestGain;
+    if (!sound) return false;
+    const double largest_origin =
+        kLargestLocal / gain(inverse) - std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)});
+    if (!(largest_origin >= kLeastLargestOrigin)) return false;
+    out.largest_origin = float(largest_origin);
 
     double largest = 0;
     for (const dvec3& c : cofactors)
         largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-    const dvec3 columns[3] = {x, y, z};
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) {
             // Times the sign of det: M^-T up to scale, so mirrors keep the outside outside.
             out.normal[3 * r + c] =
                 float(std::copysign(1.0, determinant) * cofactors[c][r] / largest);
             double sum = 0;
-            for (int k = 0; k < 3; ++k)
-                sum += std::abs(columns[k][r]) * std::abs(cofactors[k][c] / determinant);
+            for (int k = 0; k < 3; ++k) sum += std::abs(columns[k][r]) * std::abs(inverse[c][k]);
             out.there_and_back[3 * r + c] = float(sum);
         }
     return true;

@@ -17,7 +17,9 @@ size_t round_up(size_t n, size_t step) {
     return (n + step - 1) / step * step;
 }
 
-// Hands out 64-byte aligned arrays of `length` 4-byte values from one block.
+// Hands out 64-byte aligned arrays of `length` 4-byte values from one block. One cache line lies
+// between neighbours: arrays a power of two apart would all fall into the same few cache sets
+// (measured: 160 ns a camera ray instead of 33).
 class Carver {
   public:
     explicit Carver(size_t length) : bytes_(round_up(length, kPacket) * 4) {}
@@ -27,7 +29,7 @@ class Carver {
         array = base_
                     ? const_cast<std::remove_const_t<T>*>(reinterpret_cast<const T*>(base_ + used_))
                     : nullptr;
-        used_ += bytes_;
+        used_ += bytes_ + kAlign;
     }
     template <class T, size_t N>
     void operator()(T* (&arrays)[N]) {

@@ -1,0 +1,176 @@
+// tests/raytrace/extreme_mesh_test.cpp: meshes no modeller would make (EXTREMES.md rows 3-7, 11,
+// 13, 19).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "raytrace/accel.h"
+#include "tests/raytrace/meshes.h"
+
+namespace kinora::raytrace::test {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr GeometryKind kKinds[] = {GeometryKind::Static, GeometryKind::Deforming,
+                                   GeometryKind::Instanced};
+
+int count_hits(const Accel& accel, int rays = 500) {
+    RandomRays random(23);
+    int hits = 0;
+    for (int i = 0; i < rays; ++i) {
+        vec3 org, dir;
+        random.next(4, dvec3(0.0), org, dir);
+        hits += shoot(accel, org, dir).hit;
+    }
+    return hits;
+}
+
+bool has_issue(const AccelUpdate& update, GeometryIssue issue, uint32_t geometry) {
+    return std::any_of(
+        update.issues.begin(), update.issues.end(),
+        [&](const AccelUpdate::Issue& i) { return i.issue == issue && i.geometry == geometry; });
+}
+
+TEST(ExtremeMesh, TrianglesWithoutAreaAreNeverHitAndHarmNothing) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    TestMesh flat = ball;
+    for (uint32_t i = 0; i < 200; ++i) {
+        uint32_t a = i * 2, b = i * 2 + 1;
+        for (uint32_t k : {a, a, b, a, a, a}) flat.triangles.push_back(k);
+    }
+    flat.positions.push_back({0, 0, 3, 0});
+    flat.positions.push_back({0, 1, 3, 0});
+    flat.positions.push_back({0, 2, 3, 0});
+    const uint32_t n = uint32_t(flat.positions.size());
+    for (uint32_t k : {n - 3, n - 2, n - 1}) flat.triangles.push_back(k);  // collinear
+    for (GeometryKind kind : kKinds) {
+        Accel plain, odd;
+        std::vector<Geometry> a{ball.geometry(1, kind)}, b{flat.geometry(1, kind)};
+        plain.update(a);
+        odd.update(b);
+        EXPECT_EQ(count_hits(plain), count_hits(odd));
+        OneHit hit = shoot(odd, {0, 0.5f, 5}, {0, 0, -1});
+        EXPECT_LT(hit.primitive, ball.triangles.size() / 3);
+    }
+}
+
+TEST(ExtremeMesh, ABadVertexTakesOnlyItsOwnTrianglesAway) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    for (float x : {kNaN, kInf, 1e19f}) {
+        for (GeometryKind kind : kKinds) {
+            TestMesh bad = ball;
+            bad.positions[200].y = x;
+            Accel accel;
+            std::vector<Geometry> rows{bad.geometry(8, kind)};
+            const AccelUpdate& update = accel.update(rows);
+            EXPECT_TRUE(has_issue(update, GeometryIssue::BadVertices, 8)) << x;
+            EXPECT_EQ(update.issues.at(0).count, 6u);
+            EXPECT_TRUE(shoot(accel, {0.1f, 0.1f, 5}, {0, 0, -1}).hit);
+            EXPECT_GT(count_hits(accel), 0);
+        }
+    }
+}
+
+TEST(ExtremeMesh, AVertexThatTurnsBadAndHealsInRefitsComesBack) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    std::vector<Geometry> rows{ball.geometry(8, GeometryKind::Deforming)};
+    Accel accel({.background = false});
+    accel.update(rows);
+    const int before = count_hits(accel);
+    const vec4 good = ball.positions[200];
+    for (float x : {kNaN, kInf, 1e19f}) {
+        ball.positions[200].x = x;
+        ++rows[0].positions_version;
+        EXPECT_TRUE(has_issue(accel.update(rows), GeometryIssue::BadVertices, 8));
+        EXPECT_GT(count_hits(accel), before / 2);
+        ball.positions[200] = good;
+        ++rows[0].positions_version;
+        EXPECT_TRUE(accel.update(rows).issues.empty());
+        EXPECT_EQ(count_hits(accel), before);
+    }
+}
+
+TEST(ExtremeMesh, NeedlesBuildRefitAndTraceWithoutAbort) {
+    for (double thin : {1e-7, 1e-20, 0.0}) {
+        for (uint32_t seed = 0; seed < 10; ++seed) {
+            TestMesh m = soup(300, 1, 1, seed);
+            for (size_t i = 0; i < m.positions.size(); i += 3)
+                m.positions[i + 2] = m.positions[i] + float(thin) * m.positions[i + 2];
+            std::vector<Geometry> rows;
+            for (uint32_t k = 0; k < 3; ++k) rows.push_back(m.geometry(k, kKinds[k]));
+            Accel accel;
+            accel.update(rows);
+            count_hits(accel, 50);
+            for (size_t i = 0; i < m.positions.size(); ++i) m.positions[i].x *= 1e-10f;
+            for (Geometry& row : rows) ++row.positions_version;
+            accel.update(rows);
+            count_hits(accel, 50);
+        }
+    }
+}
+
+TEST(ExtremeMesh, AnIndexOutOfRangeLeavesTheRowOutAndIsReported) {
+    TestMesh ball = sphere(1, {0, 0, 0}), other = sphere(0.5, {0, 0, 0});
+    ball.triangles[7] = uint32_t(ball.positions.size());
+    ball.triangles[9] = ~0u;
+    for (GeometryKind kind : kKinds) {
+        Accel accel;
+        std::vector<Geometry> rows{ball.geometry(1, kind), other.geometry(2, kind)};
+        const AccelUpdate& update = accel.update(rows);
+        ASSERT_TRUE(has_issue(update, GeometryIssue::IndexOutOfRange, 1));
+        EXPECT_EQ(update.issues[0].count, 2u);
+        EXPECT_EQ(shoot(accel, {0, 0.1f, 5}, {0, 0, -1}).geometry, 2u);
+    }
+}
+
+TEST(ExtremeMesh, ASingularMatrixLeavesTheInstanceOutUntilItIsSound) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    std::vector<Geometry> rows{ball.geometry(5, GeometryKind::Instanced)};
+    rows[0].accel_from_local[1] = dvec4(0.0);
+    Accel accel;
+    EXPECT_TRUE(has_issue(accel.update(rows), GeometryIssue::SingularMatrix, 5));
+    EXPECT_FALSE(shoot(accel, {0, 0, 5}, {0, 0, -1}).hit);
+    rows[0].accel_from_local = dmat4(1.0);
+    EXPECT_TRUE(accel.update(rows).issues.empty());
+    EXPECT_TRUE(shoot(accel, {0, 0, 5}, {0, 0, -1}).hit);
+    rows[0].accel_from_local[3].x = double(kNaN);
+    EXPECT_TRUE(has_issue(accel.update(rows), GeometryIssue::SingularMatrix, 5));
+    EXPECT_FALSE(shoot(accel, {0, 0, 5}, {0, 0, -1}).hit);
+}
+
+TEST(ExtremeMesh, ExtremeScaleInOneAxisGivesUnitNormalsOrLeavesTheRowOut) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    for (double scale : {1e-20, 1e-9, 1e-5, 1e5, 1e9, 1e20}) {
+        std::vector<Geometry> rows{ball.geometry(5, GeometryKind::Instanced)};
+        rows[0].accel_from_local[2] *= scale;
+        Accel accel;
+        const bool left_out = has_issue(accel.update(rows), GeometryIssue::SingularMatrix, 5);
+        EXPECT_EQ(left_out, scale > 1e10 || scale < 1e-10);
+        OneHit hit = scale < 1 ? shoot(accel, {0.1f, 0.1f, 5}, {0, 0, -1})
+                               : shoot(accel, {5, 0.1f, 0}, {-1, 0, 0});
+        ASSERT_EQ(hit.hit, !left_out) << scale;
+        if (left_out) continue;
+        SurfacePoint s = accel.surface_point(hit.instance, hit.primitive, hit.u, hit.v);
+        EXPECT_NEAR(std::sqrt(s.Ng.x * s.Ng.x + s.Ng.y * s.Ng.y + s.Ng.z * s.Ng.z), 1, 1e-5);
+    }
+}
+
+TEST(ExtremeMesh, RaysFromAfarAtSmallInstancesDoNotAbort) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    for (double scale : {1e-9, 1e-4, 1.0, 1e4, 1e9}) {
+        std::vector<Geometry> rows{ball.geometry(5, GeometryKind::Instanced)};
+        for (int c = 0; c < 3; ++c) rows[0].accel_from_local[c] *= scale;
+        Accel accel;
+        EXPECT_TRUE(accel.update(rows).issues.empty());
+        for (float far = 1e-20f; far < 1e19f; far *= 10)
+            for (float speed : {1e-18f, 1.0f, 1e18f}) {
+                shoot(accel, {0, 0, far}, {0, 0, -speed});
+                shoot(accel, {far, far, far}, {-speed, -speed, -speed});
+            }
+        EXPECT_TRUE(shoot(accel, {0, 0, float(5 * scale)}, {0, 0, -1}).hit);
+    }
+}
+
+}  // namespace
+}  // namespace kinora::raytrace::test
