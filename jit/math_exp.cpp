@@ -52,7 +52,9 @@ Num exp_fast(Num x) {
 Num exp2_of_sum(Num hi, Num lo) {
     hi = at_most(num(hi, 150.0f), at_least(num(hi, -160.0f), hi));
     Num t = hi + kRoundingMagic;
-    Num r = hi + (kRoundingMagic - t);  // exact
+    Num rest = hi + (kRoundingMagic - t);  // exact
+    Num r = rest + lo;
+    lo = (rest - r) + lo;  // rest is a multiple of lo's last place
     Num h = r * kLn2[0];
     Num h_low = fma(r, kLn2[0], -h) + fma(r, kLn2[1], lo * kLn2[0]);
     return scale_wide(one_plus(h, fma(r * r, horner(r, kExp2), h_low)), t);

@@ -49,7 +49,8 @@ SinCos sin_cos(Num hi, Num lo) {
     out.sin = hi;
     out.sin_low = fma(z * hi, horner(z, kSin), low);
     out.cos = 1.0f - half;
-    out.cos_low = ((1.0f - out.cos) - half) + fma(z * z, horner(z, kCos), -(hi * lo));
+    Num rounding = fma(fma(hi, hi, -z), 0.5f, hi * lo);  // of z / 2, and lo sin(hi)
+    out.cos_low = ((1.0f - out.cos) - half) + fma(z * z, horner(z, kCos), -rounding);
     return out;
 }
 
