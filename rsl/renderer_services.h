@@ -40,7 +40,8 @@ enum LightUniform {
     kLightCategories = 1,   // int: bit j set where the light matches LoweredShader::categories[j]
     kLightNondiffuse = 2,   // the light's __nondiffuse, 0 if it has none
     kLightNonspecular = 3,  // the light's __nonspecular, 0 if it has none
-    kLightUniforms = 4
+    kLightUniforms = 4      // then one int for each of LoweredShader::light_messages: nonzero
+                            // where the light has that parameter
 };
 
 // An ambient record has no direction: it is seen by ambient() only, never by illuminance.
@@ -48,14 +49,15 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 
 // Services by name; parameters and results are floats unless noted, in this order:
 //   lights        (P0 xyz) -> int handle of a record set at P0; set 0 (no call) is the lights at P
-//   texture       (int name, channel, s, t, dsdu.. as: dsdx dtdx dsdy dtdy, blur, swidth, twidth,
-//                  int filter, fill) -> r g b a
+//   texture       (int name, channel, s, t, dsdx, dtdx, dsdy, dtdy, blur, swidth, twidth,
+//                  int filter, fill) -> r g b a, starting at the channel
 //   environment   (int name, channel, R xyz, dRdx xyz, dRdy xyz, blur, fill) -> r g b a
 //   shadow        (int name, P xyz, bias, blur, samples) -> r g b
-//   trace         (P xyz, R xyz) -> r g b distance
+//   trace         (P xyz, R xyz) -> r g b distance (1e30 for a miss)
 //   transmission  (from xyz, to xyz) -> r g b
 //   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
-//   print         (int site, values...) -> nothing
+//   print         (int format, 16 values: those the format's %f %d %c %p %v %n %m %s take, in order,
+//                  strings as ids bit for bit, the rest 0) -> nothing
 inline constexpr std::string_view kServiceNames[] = {
     "lights", "texture", "environment", "shadow", "trace", "transmission", "transform", "print"};
 
