@@ -9,9 +9,12 @@
 //                param:LAYER:NAME[.c]         a parameter bound to a vertex input, and its partial
 //                param:LAYER:NAME[.c]:du :dv  derivatives. LAYER: the shader's index in its stack,
 //                                  0 in a light
-//   frame rate   E time dtime ncomps alpha camera:near camera:far
+//                1                 1 everywhere: the derivative of u by u and of v by v
+//                Cs and Os only where a ParamBinding has that name (as param:LAYER:Cs.r), else 1
+//   frame rate   E time dtime camera:near camera:far (clipping distances, for depth())
 //                param:LAYER:NAME[.c]         a parameter; ints for strings (interned ids)
-//                param:LAYER:NAME[k][.c]      an array parameter's element
+//                param:LAYER:NAME[k][.c]      an array parameter's element; the components of a
+//                                  matrix are .0 to .15, row-major for row vectors as RSL has it
 //   both         space:NAME:to_current:RC and space:NAME:from_current:RC, R row 0..2 (0..3 for
 //                screen, NDC, raster), C column 0..3 of a matrix on column vectors. Point rate for
 //                "object" and "shader" in surfaces, displacements and volumes (twelve inputs each,
@@ -19,8 +22,10 @@
 //                light's own node, frame rate. "current" = camera space.
 // Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. aov:NAME[.c]; of a light shader, for statement k:
 //   light:k:L.x..   from the light to Ps, as RSL sees it inside illuminate
-//   light:k:Cl.r..  light:k:Ol.r..  light:k:lit (int, nonzero in the cone)
-//   message:NAME[.c]  its output parameters
+//   light:k:Cl.r..  light:k:Ol.r..  light:k:lit (int, nonzero in the cone; else Cl and Ol are 0)
+//   message:NAME[.c]  its parameters
+// An ambient light has statement 0 alone, with L = 0 and lit = 1. In a light P is the origin of its
+// "shader" space (no input of its own), N is Ns.
 // clang-format on
 #pragma once
 
@@ -48,7 +53,8 @@ enum LightUniform {
 enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 
 // Services by name; parameters and results are floats unless noted, in this order:
-//   lights        (P0 xyz) -> int handle of a record set at P0; set 0 (no call) is the lights at P
+//   lights        (P0 xyz) -> int handle of a record set at P0, the same written to all lanes; set
+//                  0 (no call) is the lights at P
 //   texture       (int name, channel, s, t, dsdx, dtdx, dsdy, dtdy, blur, swidth, twidth,
 //                  int filter, fill) -> r g b a, starting at the channel
 //   environment   (int name, channel, R xyz, dRdx xyz, dRdy xyz, blur, fill) -> r g b a
