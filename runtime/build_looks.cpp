@@ -1,0 +1,295 @@
+// runtime/build_looks.cpp: cameras, lights and looks of a scene under construction.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/build_scene_p.h"
+#include "runtime/findings.h"
+#include "runtime/shader_library.h"
+#include "runtime/transforms.h"
+
+namespace kinora {
+
+// A node that no file wrote.
+uint32_t SceneBuilder::add_node(NodeDefinition definition, uint32_t parent) {
+    Scene& scene = *scene_;
+    description_.animated.resize(description_.values.size(), false);
+    scene.values.resize(description_.values.size());
+    std::copy(description_.values.begin(), description_.values.end(), scene.values.begin());
+    uint32_t index = uint32_t(description_.nodes.size());
+    // Node bits come first among the owners: those behind move up by one word-safe step.
+    description_.nodes.push_back(std::move(definition));
+    definition_moves_.push_back(false);
+    for (anim::Channel& channel : description_.animation.channels)
+        if (channel.owner >= index) ++channel.owner;
+    ++description_.animation.owner_count;
+    unroll(index, parent, dmat4(1.0));
+    evaluate(scene.options.start_time);
+    return uint32_t(scene.nodes.size() - 1);
+}
+
+void SceneBuilder::place_cameras() {
+    Scene& scene = *scene_;
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
+        const NodeDefinition& node = description_.nodes[scene.nodes[n].definition];
+        for (uint32_t camera : node.cameras)
+            scene.cameras.push_back(
+                {camera, n, node.id.empty() ? description_.cameras[camera].id : node.id});
+    }
+    if (!scene.cameras.empty()) return;
+    DefaultCamera added = default_camera(played_bounds(), description_.up_axis,
+                                         description_.values);
+    description_.cameras.push_back(added.camera);
+    uint32_t node = add_node(std::move(added.node), kNone);
+    scene.cameras.push_back(
+        {uint32_t(description_.cameras.size() - 1), node, "default camera"});
+    scene.added.push_back("default camera");
+}
+
+bool SceneBuilder::choose_camera() {
+    Scene& scene = *scene_;
+    const std::string& wanted = scene.options.camera;
+    if (wanted.empty()) return true;
+    for (int pass = 0; pass < 2; ++pass)  // node path or id first, then camera id
+        for (uint32_t c = 0; c < scene.cameras.size(); ++c) {
+            const CameraDefinition& camera = description_.cameras[scene.cameras[c].definition];
+            const NodeDefinition& node =
+                description_.nodes[scene.nodes[scene.cameras[c].node].definition];
+            std::string path;
+            for (uint32_t n = scene.cameras[c].node; n != kNone; n = scene.nodes[n].parent) {
+                const NodeDefinition& step = description_.nodes[scene.nodes[n].definition];
+                path = (step.id.empty() ? step.name : step.id) +
+                       (path.empty() ? "" : "/" + path);
+            }
+            bool match = pass == 0 ? wanted == path || wanted == node.id || wanted == node.name
+                                   : wanted == camera.id || wanted == camera.name;
+            if (!match) continue;
+            scene.camera = c;
+            return true;
+        }
+    diagnostics_.report(Code::CAMERA_UNKNOWN, Location{}, wanted);
+    return false;
+}
+
+void SceneBuilder::add_light(LightDefinition definition, uint32_t node) {
+    description_.animated.resize(description_.values.size(), false);
+    description_.lights.push_back(std::move(definition));
+    scene_->lights.push_back({uint32_t(description_.lights.size() - 1), node, kNone});
+    scene_->added.push_back(description_.lights.back().name);
+}
+
+void SceneBuilder::place_lights() {
+    Scene& scene = *scene_;
+    bool lit = false;
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n)
+        for (uint32_t light : description_.nodes[scene.nodes[n].definition].lights) {
+            scene.lights.push_back({light, n, kNone});
+            lit |= !description_.lights[light].ambient;
+        }
+    if (lit) return;
+    // Nothing needs light where every surface is constant.
+    bool all_constant = !scene.surfaces.empty();
+    for (size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Shape& shape = scene.shapes[scene.surfaces[s].shape];
+        const std::string& symbol = scene.meshes[shape.mesh].groups[scene.surfaces[s].group].symbol;
+        bool constant = false;
+        for (const MaterialUse& use : uses_[s]->materials)
+            if (use.symbol == symbol && use.material != kNone) {
+                const auto& surfaces = description_.materials[use.material].surfaces;
+                constant = surfaces.size() == 1 && surfaces[0].shader->name == "collada_constant";
+            }
+        all_constant &= constant;
+    }
+    if (all_constant) return;
+    bool ambient = !scene.lights.empty();
+    uint32_t node = add_node(default_light_node(description_.values),
+                             scene.cameras[scene.camera].node);
+    add_light(default_distant_light(diagnostics_), node);
+    if (!ambient) add_light(default_ambient_light(description_.values, diagnostics_), node);
+}
+
+// ---- looks ---------------------------------------------------------------------------------------
+
+const MaterialDefinition& SceneBuilder::default_material() {
+    if (default_material_.surfaces.empty()) {
+        default_material_.name = "default";
+        ShaderUse use;
+        use.shader = library_shader("default_surface", diagnostics_);
+        default_material_.surfaces.push_back(std::move(use));
+    }
+    return default_material_;
+}
+
+namespace {
+
+const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic,
+                                      uint32_t set) {
+    const VertexAttribute* best = nullptr;
+    for (const VertexAttribute& a : group.attributes) {
+        if (a.semantic != semantic) continue;
+        if (set == kNone ? !best || a.set < best->set : a.set == set) best = &a;
+    }
+    return best;
+}
+
+const VertexBinding* find_binding(const MaterialUse* use, std::string_view param) {
+    if (use)
+        for (const VertexBinding& binding : use->vertex_bindings)
+            if (binding.param == param) return &binding;
+    return nullptr;
+}
+
+bool has_placed_param(const ShaderUse& use) {
+    for (const ParamSource& source : use.params)
+        for (const rsl::ShaderParameter& p : use.shader->parameters)
+            if (source.name == p.name && rsl::is_spatial(p.type.base) && source.value.count >= 3)
+                return true;
+    return false;
+}
+
+}  // namespace
+
+// Texture coordinates and varying parameters of one surface; the look's list of varying parameters
+// must be the same for all surfaces that share it, so it is part of the look's key.
+bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[scene.shapes[surface.shape].mesh];
+    const PrimitiveGroup& group = *mesh.groups[surface.group].definition;
+    surface.st = find_attribute(group, "TEXCOORD", kNone);
+    // A file's texcoord names bind sets; the first one is s and t.
+    std::string first_texcoord;
+    auto st_of = [&](const std::string& name) {
+        const VertexBinding* binding = find_binding(use, name);
+        const VertexAttribute* found =
+            binding ? find_attribute(group, binding->semantic, binding->set) : nullptr;
+        return found ? found : find_attribute(group, "TEXCOORD", kNone);
+    };
+    auto add = [&](uint32_t layer, std::string name, std::string semantic,
+                   const VertexAttribute* attribute, uint32_t component, uint32_t components) {
+        VaryingParam varying;
+        varying.name = std::move(name);
+        varying.semantic = std::move(semantic);
+        varying.set = attribute ? attribute->set : kNone;
+        varying.layer = layer;
+        varying.components = components;
+        varying.component = component;
+        look.varying.push_back(std::move(varying));
+        surface.varying.push_back(attribute);
+    };
+    for (uint32_t l = 0; l < look.layers.size(); ++l) {
+        const ShaderUse& layer = look.layers[l];
+        for (const ParamSource& source : layer.params) {
+            if (source.strings.empty() || !source.name.ends_with("_map")) continue;
+            const VertexAttribute* st = st_of(source.texcoord);
+            if (first_texcoord.empty()) {
+                first_texcoord = source.texcoord + "?";
+                if (st) surface.st = st;
+            } else if (st && st != surface.st) {
+                std::string slot = source.name.substr(0, source.name.size() - 4);
+                add(l, slot + "_s", "TEXCOORD", st, 0, 1);
+                add(l, slot + "_t", "TEXCOORD", st, 1, 1);
+            }
+        }
+        for (const rsl::ShaderParameter& p : layer.shader->parameters) {
+            if (p.type.is_array() || p.type.base == rsl::BaseType::String) continue;
+            uint32_t components = uint32_t(rsl::component_count(p.type.base));
+            const VertexBinding* binding = find_binding(use, p.name);
+            const VertexAttribute* attribute =
+                binding ? find_attribute(group, binding->semantic, binding->set)
+                        : find_attribute(group, p.name, kNone);
+            if (attribute)
+                add(l, std::string(p.name), attribute->semantic, attribute, 0, components);
+            else if (p.name == "Pref" && components == 3)
+                add(l, "Pref", "Pref", nullptr, 0, 3);
+        }
+    }
+    return true;
+}
+
+uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
+    Scene& scene = *scene_;
+    const Shape& shape = scene.shapes[surface.shape];
+    const std::string& symbol = scene.meshes[shape.mesh].groups[surface.group].symbol;
+    const MaterialUse* use = nullptr;
+    for (const MaterialUse& candidate : mesh_use.materials)
+        if (candidate.symbol == symbol) use = &candidate;
+    // A file that names materials directly by symbol means the material of that id.
+    uint32_t material = use ? use->material : kNone;
+    surface.material = material;
+    const MaterialDefinition* definition =
+        material != kNone && !description_.materials[material].surfaces.empty()
+            ? &description_.materials[material]
+            : &default_material();
+    auto look = std::make_unique<Look>();
+    look->kind = LookKind::Surface;
+    look->name = definition->id.empty() ? definition->name : definition->id;
+    look->hide_backfaces = definition->hide_backfaces;
+    look->layers = definition->displacements;
+    look->layers.insert(look->layers.end(), definition->surfaces.begin(),
+                        definition->surfaces.end());
+    std::string key = fmt::format("{}", static_cast<const void*>(definition));
+    if (use)
+        for (const auto& [name, slot] : use->params) {
+            key += fmt::format("|{}={}+{}", name, slot.offset, slot.count);
+            for (ShaderUse& layer : look->layers) {
+                std::erase_if(layer.params, [&](const ParamSource& s) { return s.name == name; });
+                ParamSource source;
+                source.name = name;
+                source.value = slot;
+                layer.params.push_back(std::move(source));
+            }
+        }
+    for (const ShaderUse& layer : look->layers)
+        if (has_placed_param(layer)) look->node = shape.node;
+    if (look->node != kNone) key += fmt::format("|node {}", look->node);
+    bind_vertex_inputs(surface, use, *look);
+    for (const VaryingParam& v : look->varying)
+        key += fmt::format("|{}:{}={}", v.layer, v.name, v.semantic == "Pref");
+    auto [place, is_new] = looks_by_key_.try_emplace(key, uint32_t(scene.looks.size()));
+    if (is_new) scene.looks.push_back(std::move(look));
+    return place->second;
+}
+
+bool SceneBuilder::compile(Look& look, const std::vector<std::string>& messages) {
+    LookOptions options;
+    options.math = scene_->options.math;
+    options.target = scene_->options.target;
+    options.light_messages = messages;
+    options.spaces = &space_names_;
+    if (scene_->options.want_dumps) options.dumps = &scene_->options.dumps;
+    return compile_look(look, description_, options, diagnostics_);
+}
+
+bool SceneBuilder::make_looks() {
+    Scene& scene = *scene_;
+    for (const NodeDefinition& node : description_.nodes)
+        if (!node.id.empty()) space_names_.push_back(node.id);
+    for (size_t s = 0; s < scene.surfaces.size(); ++s)
+        scene.surfaces[s].look = look_of(scene.surfaces[s], *uses_[s]);
+    bool ok = true;
+    std::vector<std::string> messages;
+    for (auto& look : scene.looks) {
+        ok &= compile(*look, {});
+        for (const std::string& message : look->lowered.light_messages)
+            if (std::find(messages.begin(), messages.end(), message) == messages.end())
+                messages.push_back(message);
+    }
+    std::erase_if(scene.lights, [&](const LightSource& light) {
+        return !description_.lights[light.definition].shader.shader;
+    });
+    for (LightSource& light : scene.lights) {
+        const LightDefinition& definition = description_.lights[light.definition];
+        auto look = std::make_unique<Look>();
+        look->kind = LookKind::Light;
+        look->name = definition.id.empty() ? definition.name : definition.id;
+        look->layers = {definition.shader};
+        look->node = light.node;
+        ok &= compile(*look, messages);
+        light.look = uint32_t(scene.looks.size());
+        scene.looks.push_back(std::move(look));
+    }
+    return ok;
+}
+
+}  // namespace kinora

@@ -1,0 +1,137 @@
+// runtime/build_mesh.cpp: anchors, and normals with a position of their own.
+#include "runtime/build_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace kinora {
+
+namespace {
+
+const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic) {
+    const VertexAttribute* best = nullptr;
+    for (const VertexAttribute& a : group.attributes)
+        if (a.semantic == semantic && (!best || a.set < best->set)) best = &a;
+    return best;
+}
+
+// Gives each pair (position, value) one number, in order of first sight.
+class PairNumbers {
+  public:
+    explicit PairNumbers(size_t expected) {
+        size_t size = 16;
+        while (size < 2 * expected) size *= 2;
+        slots_.assign(size, {~0ull, 0});
+    }
+    // The number of the pair; `next` if it is new (then it is taken).
+    uint32_t number(uint32_t a, uint32_t b, uint32_t next) {
+        uint64_t key = uint64_t(a) << 32 | b;
+        size_t at = size_t((key * 0x9e3779b97f4a7c15ull) >> 20) & (slots_.size() - 1);
+        while (slots_[at].key != ~0ull && slots_[at].key != key)
+            at = (at + 1) & (slots_.size() - 1);
+        if (slots_[at].key != key) slots_[at] = {key, next};
+        return slots_[at].number;
+    }
+
+  private:
+    struct Slot {
+        uint64_t key;
+        uint32_t number;
+    };
+    std::vector<Slot> slots_;
+};
+
+vec4 entry(const VertexAttribute& a, uint32_t index) {
+    const float* v = &a.values[size_t(index) * a.stride];
+    return {v[0], v[1], v[2], 0.0f};
+}
+
+void add_given_normals(const PrimitiveGroup& group, const VertexAttribute& normals, bool deforms,
+                       Mesh& mesh, MeshGroup& out) {
+    out.normal_corners.resize(group.triangles.size());
+    uint32_t first = uint32_t(mesh.normals.size());
+    if (!deforms) {
+        for (size_t i = 0; i < normals.values.size() / normals.stride; ++i)
+            mesh.normals.push_back(entry(normals, uint32_t(i)));
+        for (size_t c = 0; c < normals.corners.size(); ++c)
+            out.normal_corners[c] = first + normals.corners[c];
+        mesh.normal_positions.resize(mesh.normals.size(), 0);
+        return;
+    }
+    PairNumbers numbers(group.triangles.size());
+    for (size_t c = 0; c < group.triangles.size(); ++c) {
+        uint32_t next = uint32_t(mesh.normals.size());
+        uint32_t number = numbers.number(group.triangles[c], normals.corners[c], next);
+        if (number == next) {
+            mesh.normals.push_back(entry(normals, normals.corners[c]));
+            mesh.normal_positions.push_back(group.triangles[c]);
+        }
+        out.normal_corners[c] = number;
+    }
+}
+
+double corner_angle(dvec3 at, dvec3 b, dvec3 c) {
+    dvec3 x = b - at, y = c - at;
+    double length = glm::length(x) * glm::length(y);
+    return length > 0 ? std::acos(std::clamp(glm::dot(x, y) / length, -1.0, 1.0)) : 0.0;
+}
+
+void add_smooth_normals(const MeshDefinition& definition, const std::vector<size_t>& groups,
+                        Mesh& mesh) {
+    std::vector<dvec3> sums(definition.positions.size(), dvec3(0.0));
+    for (size_t g : groups) {
+        const std::vector<uint32_t>& t = definition.groups[g].triangles;
+        for (size_t c = 0; c + 2 < t.size(); c += 3) {
+            dvec3 p[3] = {definition.positions[t[c]], definition.positions[t[c + 1]],
+                          definition.positions[t[c + 2]]};
+            dvec3 face = glm::cross(p[1] - p[0], p[2] - p[0]);
+            double length = glm::length(face);
+            if (!(length > 0)) continue;
+            for (size_t k = 0; k < 3; ++k)
+                sums[t[c + k]] +=
+                    face / length * corner_angle(p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+        }
+    }
+    uint32_t first = uint32_t(mesh.normals.size());
+    for (size_t i = 0; i < sums.size(); ++i) {
+        double length = glm::length(sums[i]);
+        mesh.normals.push_back(vec4(length > 0 ? vec3(sums[i] / length) : vec3(0.0f), 0.0f));
+        mesh.normal_positions.push_back(uint32_t(i));
+    }
+    for (size_t g : groups)
+        for (uint32_t position : definition.groups[g].triangles)
+            mesh.groups[g].normal_corners.push_back(first + position);
+}
+
+}  // namespace
+
+Mesh build_mesh(const MeshDefinition& definition, bool deforms) {
+    Mesh mesh;
+    mesh.double_sided = definition.double_sided;
+    if (!definition.positions.empty()) mesh.low = mesh.high = definition.positions[0];
+    for (const dvec3& p : definition.positions) {
+        mesh.low = glm::min(mesh.low, p);
+        mesh.high = glm::max(mesh.high, p);
+    }
+    mesh.anchor = 0.5 * (mesh.low + mesh.high);
+    for (const dvec3& p : definition.positions)
+        mesh.positions.push_back(vec4(vec3(p - mesh.anchor), 0.0f));
+    std::vector<size_t> without;
+    for (size_t g = 0; g < definition.groups.size(); ++g) {
+        const PrimitiveGroup& group = definition.groups[g];
+        MeshGroup& out = mesh.groups.emplace_back();
+        out.symbol = group.symbol;
+        out.triangles = group.triangles;
+        out.definition = &group;
+        const VertexAttribute* normals = find_attribute(group, "NORMAL");
+        if (normals && normals->stride >= 3)
+            add_given_normals(group, *normals, deforms, mesh, out);
+        else
+            without.push_back(g);
+    }
+    if (!without.empty()) add_smooth_normals(definition, without, mesh);
+    return mesh;
+}
+
+}  // namespace kinora

@@ -1,0 +1,396 @@
+// runtime/build_scene.cpp: a description to a scene ready for frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <map>
+
+#include "runtime/build_mesh.h"
+#include "runtime/build_scene_p.h"
+#include "runtime/defaults.h"
+#include "runtime/deform.h"
+#include "runtime/findings.h"
+#include "runtime/shading.h"
+#include "runtime/transforms.h"
+
+namespace kinora {
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+
+PlayRange play_range(const SceneDescription& description) {
+    PlayRange range;
+    anim::TimeRange keys = anim::time_range(description.animation);
+    range.start = description.start_time.value_or(keys.begin);
+    range.end = std::max(range.start, description.end_time.value_or(keys.end));
+    range.rate = description.frame_rate.value_or(24.0);
+    return range;
+}
+
+const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name) {
+    for (const ClipDefinition& clip : description.clips)
+        if (clip.name == name) return &clip;
+    return nullptr;
+}
+
+SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
+                           const SceneOptions& options, Diagnostics& diagnostics)
+    : description_(*description), diagnostics_(diagnostics), scene_(std::make_unique<Scene>()) {
+    scene_->description = std::move(description);
+    scene_->options = options;
+    scene_->accel = raytrace::Accel(options.accel);
+}
+
+std::unique_ptr<Scene> SceneBuilder::run() {
+    find_moving_nodes();
+    for (uint32_t root : description_.roots) unroll(root, kNone, dmat4(1.0));
+    evaluate(scene_->options.start_time);
+    place_meshes();
+    set_bounds();
+    place_cameras();
+    if (!choose_camera()) return nullptr;
+    place_lights();
+    if (!make_looks()) return nullptr;
+    finish_rows();
+    scene_->shading = std::make_unique<Shading>(*scene_);
+    return std::move(scene_);
+}
+
+std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
+                                   const SceneOptions& options, Diagnostics& diagnostics) {
+    return SceneBuilder(std::move(description), options, diagnostics).run();
+}
+
+// ---- nodes ---------------------------------------------------------------------------------------
+
+void SceneBuilder::find_moving_nodes() {
+    for (const NodeDefinition& node : description_.nodes) {
+        bool moves = false;
+        for (const Transform& t : node.transforms)
+            for (uint32_t i = 0; i < 16 && t.value + i < description_.animated.size(); ++i)
+                moves |= description_.animated[t.value + i];
+        definition_moves_.push_back(moves);
+    }
+}
+
+void SceneBuilder::unroll(uint32_t definition, uint32_t parent, const dmat4& conversion) {
+    Scene& scene = *scene_;
+    uint32_t index = uint32_t(scene.nodes.size());
+    Node node;
+    node.definition = definition;
+    node.parent = parent;
+    node.conversion = conversion;
+    node.can_move =
+        definition_moves_[definition] || (parent != kNone && scene.nodes[parent].can_move);
+    scene.nodes.push_back(node);
+    first_occurrence_.try_emplace(definition, index);
+    for (const ChildUse& child : description_.nodes[definition].children)
+        unroll(child.node, index, child.conversion);
+}
+
+void SceneBuilder::evaluate(double time) {
+    Scene& scene = *scene_;
+    scene.values = description_.values;
+    size_t owners = description_.nodes.size() + description_.morphs.size() + 1;
+    scene.changed.assign(anim::changed_words(owners), 0);
+    anim::evaluate(description_.animation, time, scene.values, scene.changed);
+    scene.first_frame = true;
+    update_transforms(scene);
+}
+
+// The occurrence of a node definition that is nearest to `from` in the tree: joints of an instanced
+// character belong to its own instance.
+uint32_t SceneBuilder::nearest_occurrence(uint32_t definition, uint32_t from) const {
+    if (definition == kNone) return kNone;
+    const Scene& scene = *scene_;
+    auto found = first_occurrence_.find(definition);
+    if (found == first_occurrence_.end()) return kNone;
+    auto depth_shared = [&](uint32_t a) {
+        uint32_t best = 0;
+        for (uint32_t x = a; x != kNone; x = scene.nodes[x].parent)
+            for (uint32_t y = from; y != kNone; y = scene.nodes[y].parent)
+                if (x == y) return std::max(best, x + 1);
+        return best;
+    };
+    uint32_t best = found->second, best_shared = depth_shared(best);
+    for (uint32_t n = best + 1; n < scene.nodes.size(); ++n) {
+        if (scene.nodes[n].definition != definition) continue;
+        uint32_t shared = depth_shared(n);
+        if (shared > best_shared) {
+            best = n;
+            best_shared = shared;
+        }
+    }
+    return best;
+}
+
+// ---- meshes and shapes ---------------------------------------------------------------------------
+
+namespace {
+
+bool is_identity(const dmat4& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (std::abs(m[c][r] - (c == r ? 1.0 : 0.0)) > 1e-9) return false;
+    return true;
+}
+
+// Repeated static meshes are instanced when baking them would take more triangles than this: an
+// instance level costs 20-29 % of the trace rate (DESIGN.md decision 19).
+constexpr size_t kBakedTriangles = 200'000;
+
+}  // namespace
+
+void SceneBuilder::place_meshes() {
+    Scene& scene = *scene_;
+    std::vector<bool> deforms(description_.meshes.size(), false);
+    std::vector<size_t> uses(description_.meshes.size(), 0);
+    for (const Node& node : scene.nodes)
+        for (const MeshUse& use : description_.nodes[node.definition].meshes) {
+            deforms[use.mesh] = deforms[use.mesh] || use.skin != kNone || use.morph != kNone;
+            ++uses[use.mesh];
+        }
+    for (size_t m = 0; m < description_.meshes.size(); ++m)
+        scene.meshes.push_back(uses[m] ? build_mesh(description_.meshes[m], deforms[m]) : Mesh());
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n)
+        for (const MeshUse& use : description_.nodes[scene.nodes[n].definition].meshes) {
+            if (scene.meshes[use.mesh].groups.empty()) continue;
+            bool repeated = uses[use.mesh] > 1;
+            place_mesh(use, n, repeated);
+        }
+}
+
+void SceneBuilder::place_mesh(const MeshUse& use, uint32_t node, bool repeated) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[use.mesh];
+    uint32_t index = uint32_t(scene.shapes.size());
+    Shape& shape = scene.shapes.emplace_back();
+    shape.mesh = use.mesh;
+    shape.node = node;
+    shape.skin = use.skin;
+    shape.morph = use.morph;
+    shape.conversion = use.conversion;
+    size_t triangles = 0;
+    for (const MeshGroup& group : mesh.groups) triangles += group.triangles.size() / 3;
+    if (use.skin != kNone || use.morph != kNone) {
+        shape.kind = raytrace::GeometryKind::Deforming;
+        if (use.morph != kNone) add_morph(use, shape);
+        add_skin(use, node, shape);
+    } else if (scene.nodes[node].can_move || (repeated && triangles > kBakedTriangles)) {
+        shape.kind = raytrace::GeometryKind::Instanced;
+    }
+    shape.world = scene.nodes[node].world * shape.conversion;
+    shape.mirrored = glm::determinant(dmat3(shape.world)) < 0;
+    if (shape.kind != raytrace::GeometryKind::Instanced) {
+        shape.positions.resize(mesh.positions.size());
+        shape.normals.resize(mesh.normals.size());
+    }
+    for (uint32_t g = 0; g < mesh.groups.size(); ++g) {
+        Surface surface;
+        surface.shape = index;
+        surface.group = g;
+        scene.surfaces.push_back(surface);
+        uses_.push_back(&use);
+    }
+}
+
+void SceneBuilder::add_morph(const MeshUse& use, Shape& shape) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[use.mesh];
+    scene.morphs.resize(description_.morphs.size());
+    shape.morphed_positions.resize(mesh.positions.size());
+    shape.morphed_normals.resize(mesh.normals.size());
+    if (!scene.morphs[use.morph].base_positions.empty()) return;
+    const MorphDefinition& definition = description_.morphs[use.morph];
+    std::vector<vec3> base(mesh.positions.begin(), mesh.positions.end());
+    std::vector<vec3> base_normals(mesh.normals.begin(), mesh.normals.end());
+    std::vector<std::vector<vec3>> positions, normals;
+    for (uint32_t t : definition.targets) {
+        const MeshDefinition& target = description_.meshes[t];
+        auto& p = positions.emplace_back();
+        for (const dvec3& x : target.positions)
+            p.push_back(vec3(x - (definition.relative ? dvec3(0.0) : mesh.anchor)));
+        normals.push_back(target_normals(target, mesh, description_.meshes[use.mesh],
+                                         definition.relative));
+    }
+    std::vector<skin::MorphTargetSource> sources;
+    for (size_t t = 0; t < positions.size(); ++t) sources.push_back({positions[t], normals[t]});
+    uint32_t mismatched = 0;
+    scene.morphs[use.morph] = skin::build_morph(
+        definition.relative ? skin::MorphMethod::Relative : skin::MorphMethod::Normalized, base,
+        base_normals, sources, &mismatched);
+    if (mismatched)
+        diagnostics_.report(Code::MORPH_VERTEX_COUNT, definition.where, definition.id, mismatched);
+}
+
+// A target's normals in the order of the base's entries, where both have the same corners; else
+// smooth ones of its positions. None for a relative target without normals.
+std::vector<vec3> SceneBuilder::target_normals(const MeshDefinition& target, const Mesh& base,
+                                               const MeshDefinition& base_definition,
+                                               bool relative) {
+    std::vector<vec3> result(base.normals.size(), vec3(0.0f));
+    if (target.groups.size() != base_definition.groups.size()) return {};
+    for (size_t g = 0; g < target.groups.size(); ++g) {
+        const VertexAttribute* normals = nullptr;
+        for (const VertexAttribute& a : target.groups[g].attributes)
+            if (a.semantic == "NORMAL" && a.stride >= 3) normals = &a;
+        const std::vector<uint32_t>& entries = base.groups[g].normal_corners;
+        if (!normals || normals->corners.size() != entries.size()) return {};
+        for (size_t c = 0; c < entries.size(); ++c) {
+            const float* v = &normals->values[size_t(normals->corners[c]) * normals->stride];
+            result[entries[c]] = vec3(v[0], v[1], v[2]);
+        }
+    }
+    (void)relative;
+    return result;
+}
+
+void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[use.mesh];
+    skin::InfluenceSource source;
+    std::vector<uint32_t> first(mesh.positions.size() + 1, 0);
+    std::vector<int32_t> joints;
+    std::vector<double> weights;
+    std::string id = description_.meshes[use.mesh].id;
+    Location where;
+    if (use.skin == kNone) {  // a morph alone: one matrix moves everything
+        joints.assign(mesh.positions.size(), 0);
+        weights.assign(mesh.positions.size(), 1.0);
+        for (size_t i = 0; i < first.size(); ++i) first[i] = uint32_t(i);
+        source.joint_count = 1;
+    } else {
+        const SkinDefinition& definition = description_.skins[use.skin];
+        id = definition.id;
+        where = definition.where;
+        first.assign(definition.offsets.begin(), definition.offsets.end());
+        joints = definition.joints;
+        weights.assign(definition.weights.begin(), definition.weights.end());
+        source.joint_count = uint32_t(definition.inverse_bind.size());
+        shape.skeleton.inverse_bind = definition.inverse_bind;
+        shape.skeleton.bind_shape = definition.bind_shape;
+        for (uint32_t j = 0; j < source.joint_count; ++j) {
+            shape.skeleton.nodes.push_back(j);
+            uint32_t joint = j < use.joint_nodes.size() ? use.joint_nodes[j] : kNone;
+            shape.joint_nodes.push_back(nearest_occurrence(joint, node));
+        }
+        shape.joint_world.resize(source.joint_count, dmat4(1.0));
+        dmat4 world = scene.nodes[node].world * shape.conversion;
+        shape.in_world = !is_identity(definition.bind_shape) || is_identity(world);
+        if (!shape.in_world) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
+    }
+    source.first = first;
+    source.joints = joints;
+    source.weights = weights;
+    skin::SkinRepairs repairs;
+    shape.skin_mesh = skin::build_skin(source, mesh.normal_positions, &repairs);
+    shape.palette.resize(source.joint_count + 1);
+    if (repairs.weight_sum)
+        diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
+                            repairs.worst_sum);
+    if (repairs.unweighted)
+        diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
+}
+
+// ---- bounds and rows -----------------------------------------------------------------------------
+
+Bounds SceneBuilder::bounds_now() const {
+    const Scene& scene = *scene_;
+    Bounds bounds;
+    for (const Shape& shape : scene.shapes) {
+        const Mesh& mesh = scene.meshes[shape.mesh];
+        auto add_box = [&](const dmat4& m) {
+            for (int corner = 0; corner < 8; ++corner) {
+                dvec3 p((corner & 1 ? mesh.high : mesh.low).x,
+                        (corner & 2 ? mesh.high : mesh.low).y,
+                        (corner & 4 ? mesh.high : mesh.low).z);
+                bounds.add(dvec3(m * dvec4(p, 1.0)));
+            }
+        };
+        if (shape.kind != raytrace::GeometryKind::Deforming) {
+            add_box(scene.nodes[shape.node].world * shape.conversion);
+            continue;
+        }
+        for (const vec4& p : shape.positions) bounds.add(dvec3(p) + scene.origin);
+    }
+    return bounds;
+}
+
+void SceneBuilder::deform_now() {
+    pose(*scene_);
+    for (Surface& surface : scene_->surfaces) (void)surface;
+    deform(*scene_);
+}
+
+void SceneBuilder::set_bounds() {
+    Scene& scene = *scene_;
+    // A first guess makes the scene's own size the scale of all floats: deformed about the first
+    // mesh's place, then about the centre found so.
+    if (!scene.shapes.empty()) {
+        const Shape& first = scene.shapes.front();
+        scene.origin = dvec3(scene.nodes[first.node].world *
+                             dvec4(scene.meshes[first.mesh].anchor, 1.0));
+        for (uint32_t joint : first.joint_nodes)
+            if (joint != kNone && first.in_world) scene.origin = scene.nodes[joint].world[3];
+    }
+    scene.geometry.resize(scene.surfaces.size());
+    deform_now();
+    Bounds bounds = bounds_now();
+    if (bounds.empty()) {
+        diagnostics_.report(Code::SCENE_EMPTY, Location{});
+        bounds.add(dvec3(-1.0));
+        bounds.add(dvec3(1.0));
+    }
+    scene.origin = 0.5 * (bounds.low + bounds.high);
+    scene.low = bounds.low;
+    scene.high = bounds.high;
+    scene.size = std::max(glm::length(bounds.high - bounds.low), 1e-30);
+    deform_now();
+    bake_static(scene);
+}
+
+Bounds SceneBuilder::played_bounds() {
+    constexpr int kSamples = 12;
+    const SceneOptions& options = scene_->options;
+    Bounds bounds = bounds_now();
+    if (description_.animation.channels.empty() || options.end_time <= options.start_time)
+        return bounds;
+    for (int s = 0; s <= kSamples; ++s) {
+        evaluate(options.start_time + (options.end_time - options.start_time) * s / kSamples);
+        deform_now();
+        Bounds now = bounds_now();
+        bounds.add(now.low);
+        bounds.add(now.high);
+    }
+    evaluate(options.start_time);
+    deform_now();
+    return bounds;
+}
+
+void SceneBuilder::finish_rows() {
+    Scene& scene = *scene_;
+    for (size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        Shape& shape = scene.shapes[surface.shape];
+        const Mesh& mesh = scene.meshes[shape.mesh];
+        bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
+        shape.rest_positions = instanced ? mesh.positions : shape.positions;
+        shape.rest_normals = instanced ? mesh.normals : shape.normals;
+        raytrace::Geometry& row = scene.geometry[s];
+        row.id = uint32_t(s);
+        row.kind = shape.kind;
+        row.opaque = scene.looks[surface.look]->opaque();
+        row.hide_backfaces = !mesh.double_sided || scene.looks[surface.look]->hide_backfaces;
+        row.positions = shape.rest_positions;
+        row.triangles = mesh.groups[surface.group].triangles;
+        if (instanced) row.shape = shape_numbers_.try_emplace({shape.mesh, surface.group},
+                                                              uint32_t(shape_numbers_.size()))
+                                       .first->second;
+    }
+    scene.first_frame = true;
+}
+
+}  // namespace kinora

@@ -1,0 +1,62 @@
+// runtime/build_scene_p.h: the steps of build_scene; for build_scene*.cpp only.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/defaults.h"
+#include "runtime/scene.h"
+
+namespace kinora {
+
+class SceneBuilder {
+  public:
+    SceneBuilder(std::shared_ptr<SceneDescription> description, const SceneOptions& options,
+                 Diagnostics& diagnostics);
+    std::unique_ptr<Scene> run();
+
+  private:
+    // build_scene.cpp: nodes, shapes, bounds, the ray tracer's rows
+    void find_moving_nodes();
+    void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
+    void evaluate(double time);
+    uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
+    void place_meshes();
+    void place_mesh(const MeshUse& use, uint32_t node, bool repeated);
+    void add_morph(const MeshUse& use, Shape& shape);
+    std::vector<vec3> target_normals(const MeshDefinition& target, const Mesh& base,
+                                     const MeshDefinition& base_definition, bool relative);
+    void add_skin(const MeshUse& use, uint32_t node, Shape& shape);
+    Bounds bounds_now() const;
+    Bounds played_bounds();
+    void deform_now();
+    void set_bounds();
+    void finish_rows();
+
+    // build_looks.cpp: cameras, lights, materials
+    void place_cameras();
+    bool choose_camera();
+    void place_lights();
+    uint32_t add_node(NodeDefinition definition, uint32_t parent);
+    void add_light(LightDefinition definition, uint32_t node);
+    bool make_looks();
+    uint32_t look_of(Surface& surface, const MeshUse& use);
+    bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look);
+    bool compile(Look& look, const std::vector<std::string>& messages);
+    const MaterialDefinition& default_material();
+
+    SceneDescription& description_;
+    Diagnostics& diagnostics_;
+    std::unique_ptr<Scene> scene_;
+    std::vector<bool> definition_moves_;
+    std::map<uint32_t, uint32_t> first_occurrence_;
+    std::vector<const MeshUse*> uses_;  // of each surface
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> shape_numbers_;
+    std::map<std::string, uint32_t> looks_by_key_;
+    std::vector<std::string> space_names_;
+    MaterialDefinition default_material_;
+};
+
+}  // namespace kinora

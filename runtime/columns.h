@@ -1,0 +1,47 @@
+// runtime/columns.h: the point-rate inputs a kernel may ask for, as columns of a grid.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace kinora {
+
+// First column of each shader global; triples take three, matrices twelve (row by row).
+enum Column : uint16_t {
+    kColP = 0,
+    kColdPdu = 3,
+    kColdPdv = 6,
+    kColN = 9,
+    kColNg = 12,
+    kColI = 15,
+    kColCs = 18,
+    kColOs = 21,
+    kColdNdu = 24,
+    kColdNdv = 27,
+    kColdIdu = 30,
+    kColdIdv = 33,
+    kColPs = 36,
+    kColNs = 39,
+    kColU = 42,
+    kColV,
+    kColDu,
+    kColDv,
+    kColS,
+    kColT,
+    kColdsdu,
+    kColdsdv,
+    kColdtdu,
+    kColdtdv,
+    kColRng,
+    kColZero,          // a partial derivative that is always 0
+    kColToCurrent,     // space:object:to_current and space:shader:...
+    kColFromCurrent = kColToCurrent + 12,
+    kColVarying = kColFromCurrent + 12,  // then Look::varying, each value and its du and dv
+};
+
+// Column of a kernel input's name ("P.x", "space:object:to_current:03"); varying parameters are
+// looked up by their look. kNoColumn: not a column.
+inline constexpr uint16_t kNoColumn = 0xffff;
+uint16_t find_column(std::string_view name);
+
+}  // namespace kinora

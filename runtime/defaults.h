@@ -1,0 +1,27 @@
+// runtime/defaults.h: the camera and lights of scenes that bring none (DESIGN.md section 5).
+#pragma once
+
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+struct Bounds {
+    dvec3 low{1e300}, high{-1e300};
+    bool empty() const { return low.x > high.x; }
+    void add(dvec3 p);
+};
+
+// yfov 37, looking along (1, 0.6, 1) of the up-axis frame at the bounds, which fill the picture.
+struct DefaultCamera {
+    CameraDefinition camera;
+    NodeDefinition node;
+};
+DefaultCamera default_camera(const Bounds& bounds, UpAxis up, std::vector<double>& values);
+
+// A distant light from over the camera's left shoulder: a node below the camera's, and what hangs
+// there; an ambient light of 0.15.
+NodeDefinition default_light_node(std::vector<double>& values);
+LightDefinition default_distant_light(Diagnostics& diagnostics);
+LightDefinition default_ambient_light(std::vector<double>& values, Diagnostics& diagnostics);
+
+}  // namespace kinora

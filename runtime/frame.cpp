@@ -1,0 +1,138 @@
+// runtime/frame.cpp: the frame loop.
+#include "runtime/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/parallel.h"
+#include "runtime/base/stats.h"
+#include "runtime/deform.h"
+#include "runtime/findings.h"
+#include "runtime/transforms.h"
+
+namespace kinora {
+
+namespace {
+
+raytrace::CameraOptics optics_of(const Scene& scene) {
+    const CameraDefinition& camera =
+        scene.description->cameras[scene.cameras[scene.camera].definition];
+    auto value = [&](ValueSlot slot) -> std::optional<double> {
+        if (!slot.present()) return std::nullopt;
+        return scene.values[slot.offset];
+    };
+    raytrace::CameraOptics optics;
+    optics.orthographic = camera.orthographic;
+    optics.x = value(camera.x);
+    optics.y = value(camera.y);
+    optics.aspect = value(camera.aspect);
+    optics.znear = value(camera.znear).value_or(0.0);
+    optics.zfar = value(camera.zfar).value_or(0.0);
+    if (!camera.orthographic) {
+        if (optics.x) optics.x = radians(*optics.x);
+        if (optics.y) optics.y = radians(*optics.y);
+    }
+    return optics;
+}
+
+const char* status_text(raytrace::CameraStatus status) {
+    switch (status) {
+        case raytrace::CameraStatus::FieldOfViewOutOfRange:
+            return "the field of view must lie between 0 and 180 degrees";
+        case raytrace::CameraStatus::MagnificationNotPositive:
+            return "the magnification must be positive";
+        case raytrace::CameraStatus::AspectNotPositive: return "the aspect ratio must be positive";
+        case raytrace::CameraStatus::BadMatrix: return "its node's matrix has no three axes";
+        case raytrace::CameraStatus::BadPicture: return "the picture must have at least one pixel";
+        case raytrace::CameraStatus::Ok:
+        case raytrace::CameraStatus::ClipRangeRepaired: break;
+    }
+    return "";
+}
+
+bool update_camera(Scene& scene, const FrameSettings& settings, Diagnostics& diagnostics) {
+    const CameraSource& source = scene.cameras[scene.camera];
+    raytrace::CameraStatus status =
+        raytrace::make_camera(optics_of(scene), scene.nodes[source.node].world, settings.width,
+                              settings.height, scene.origin, scene.size, scene.view);
+    if (!raytrace::is_error(status)) return true;
+    const CameraDefinition& camera = scene.description->cameras[source.definition];
+    diagnostics.report(Code::CAMERA_OPTICS, camera.where, source.name, status_text(status));
+    return false;
+}
+
+void report_geometry(const Scene& scene, const raytrace::AccelUpdate& update,
+                     Diagnostics& diagnostics) {
+    for (const auto& issue : update.issues) {
+        const Shape& shape = scene.shapes[scene.surfaces[issue.geometry].shape];
+        const std::string& mesh = scene.description->meshes[shape.mesh].id;
+        const NodeDefinition& node = scene.description->nodes[scene.nodes[shape.node].definition];
+        switch (issue.issue) {
+            case raytrace::GeometryIssue::SingularMatrix:
+                diagnostics.report(Code::NODE_SINGULAR, Location{},
+                                   node.id.empty() ? node.name : node.id);
+                break;
+            case raytrace::GeometryIssue::BadVertices:
+                diagnostics.report(Code::GEOMETRY_ISSUE, Location{}, mesh,
+                                   "some vertices are not finite; their triangles are not seen");
+                break;
+            case raytrace::GeometryIssue::IndexOutOfRange:
+                diagnostics.report(Code::GEOMETRY_ISSUE, Location{}, mesh,
+                                   "a triangle names a vertex that is not there");
+                break;
+        }
+    }
+}
+
+}  // namespace
+
+std::optional<double> camera_aspect(const Scene& scene) {
+    return raytrace::picture_aspect(optics_of(scene));
+}
+
+bool render_frame(Scene& scene, double time, const FrameSettings& settings,
+                  raytrace::Film& film, FrameStats& stats, Diagnostics& diagnostics,
+                  const raytrace::Progress* progress) {
+    stats = {};
+    StageTimer total(stats.total);
+    {
+        StageTimer timer(stats.animate);
+        anim::evaluate(scene.description->animation, time, scene.values, scene.changed);
+        update_transforms(scene);
+    }
+    if (!update_camera(scene, settings, diagnostics)) return false;
+    {
+        StageTimer timer(stats.skin);
+        pose(scene);
+        deform(scene);
+    }
+    {
+        StageTimer timer(stats.refit);
+        const raytrace::AccelUpdate& update = scene.accel.update(scene.geometry);
+        stats.refits = update.refits;
+        stats.rebuilds = update.rebuilds + update.low_rebuilds;
+        if (scene.first_frame) report_geometry(scene, update, diagnostics);
+    }
+    scene.first_frame = false;
+    std::fill(scene.changed.begin(), scene.changed.end(), 0);
+
+    scene.shading->begin_frame(time, settings.shutter, settings.integrator.seed);
+    raytrace::IntegratorCounters counters;
+    bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
+                                     settings.integrator, scene.scratch, counters, progress);
+    ShadingCounters shading = scene.shading->end_frame(diagnostics);
+    stats.trace = counters.trace_ms / thread_count();
+    stats.shade = counters.shade_ms / thread_count();
+    stats.rays = counters.trace.rays + counters.trace.shadow_rays + shading.trace.rays +
+                 shading.trace.shadow_rays;
+    stats.shading_points = shading.points;
+    stats.non_finite = counters.non_finite;
+    if (counters.non_finite) {
+        const Surface& surface = scene.surfaces[counters.non_finite_geometry];
+        diagnostics.report(Code::SHADER_NON_FINITE, Location{}, counters.non_finite,
+                           scene.looks[surface.look]->name);
+    }
+    return whole;
+}
+
+}  // namespace kinora

@@ -1,0 +1,40 @@
+// runtime/frame.h: a time to a picture.
+#pragma once
+
+#include "raytrace/film.h"
+#include "runtime/scene.h"
+#include "runtime/shading.h"
+
+namespace kinora {
+
+// What one frame cost; times in ms of wall clock.
+struct FrameStats {
+    double animate = 0;
+    double skin = 0;
+    double refit = 0;
+    double trace = 0;  // tracing and shading overlap on all threads: their sums, divided by threads
+    double shade = 0;
+    double total = 0;
+    uint64_t rays = 0;  // camera, shadow and reflection rays
+    uint64_t shading_points = 0;
+    uint64_t non_finite = 0;
+    int refits = 0, rebuilds = 0;
+};
+
+struct FrameSettings {
+    int width = 640, height = 360;
+    double shutter = 0;  // seconds
+    raytrace::IntegratorSettings integrator;
+};
+
+// Renders the scene at a time into the film (linear, associated alpha). Findings: camera errors,
+// shader faults, non-finite results. False when the camera makes no picture or `progress` stopped
+// the frame. Allocates nothing once no new kernel or texture is met.
+bool render_frame(Scene& scene, double time, const FrameSettings& settings,
+                  raytrace::Film& film, FrameStats& stats, Diagnostics& diagnostics,
+                  const raytrace::Progress* progress = nullptr);
+
+// Width / height of the scene's camera where its optics say so, at its base values.
+std::optional<double> camera_aspect(const Scene& scene);
+
+}  // namespace kinora

@@ -1,0 +1,49 @@
+// runtime/grid.h: a shading grid: the points of some hits that wear one look, as columns.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "jit/target.h"
+#include "raytrace/wavefront.h"
+#include "runtime/base/arena.h"
+#include "runtime/look.h"
+
+namespace kinora {
+
+struct Scene;
+class Shading;
+
+inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
+
+constexpr size_t padded(size_t count) {
+    return (count + jit::kMaxLanes - 1) / jit::kMaxLanes * jit::kMaxLanes;
+}
+
+// Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
+// Lives on the stack of shade(); what services see through KernelArgs::grid.
+struct Grid {
+    const Scene& scene;
+    const raytrace::HitBatch& hits;
+    std::span<const uint32_t> points;  // indices into hits
+    uint32_t depth = 0;
+    int thread = 0;
+    Shading* shading = nullptr;
+    Arena* arena = nullptr;
+    std::span<float*> columns;                    // by Column
+    std::span<jit::RecordSet> record_sets;        // [0]: lights at P
+    uint32_t next_record_set = 1;
+    bool shadows = true;                          // false inside opacity kernels
+    const Look* look = nullptr;
+
+    size_t count() const { return points.size(); }
+};
+
+// Takes rows for the wanted columns that are still null.
+void want_columns(Grid& grid, std::span<const uint16_t> wanted);
+void want_triple(Grid& grid, uint16_t first);
+
+// Fills every non-null column from the hits.
+void gather(Grid& grid);
+
+}  // namespace kinora

@@ -1,0 +1,268 @@
+// runtime/image_io.cpp: PNG by libpng, EXR by OpenEXR, names by rename(2).
+#include "runtime/image_io.h"
+
+#include <fcntl.h>
+#include <png.h>
+#include <unistd.h>
+
+#include <ImfArray.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfRgbaFile.h>
+#include <ImfStringAttribute.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+namespace kinora {
+
+namespace {
+
+float srgb(float x) {
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+}
+
+uint8_t quantise(float x) {
+    if (!(x > 0)) return 0;  // NaN too
+    return uint8_t(std::min(x, 1.0f) * 255.0f + 0.5f);
+}
+
+struct FileCloser {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
+// A PNG writer or reader with what must outlive its longjmps.
+struct PngError {
+    int number = 0;
+    std::string text;
+};
+void on_png_error(png_structp png, png_const_charp text) {
+    auto* error = static_cast<PngError*>(png_get_error_ptr(png));
+    error->number = errno;
+    error->text = errno ? std::strerror(errno) : text;
+    longjmp(png_jmpbuf(png), 1);
+}
+void on_png_warning(png_structp, png_const_charp) {}
+
+// libpng's part, without objects whose destructors a longjmp would skip.
+bool png_write_rows(png_structp png, png_infop info, std::FILE* file, const Image8& image,
+                    png_text* texts, int text_count) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_init_io(png, file);
+    png_set_compression_level(png, 3);
+    png_set_IHDR(png, info, png_uint_32(image.width), png_uint_32(image.height), 8,
+                 PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_text(png, info, texts, text_count);
+    png_write_info(png, info);
+    for (int y = 0; y < image.height; ++y)
+        png_write_row(png, &image.rgba[size_t(y) * size_t(image.width) * 4]);
+    png_write_end(png, info);
+    return true;
+}
+
+std::string write_png_file(const std::string& path, const Image8& image, const ImageTexts& texts,
+                           int& number) {
+    errno = 0;
+    File file(std::fopen(path.c_str(), "wb"));
+    if (!file) {
+        number = errno;
+        return std::strerror(errno);
+    }
+    PngError error;
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error, on_png_warning);
+    png_infop info = png_create_info_struct(png);
+    std::vector<png_text> png_texts;
+    for (const auto& [key, value] : texts) {
+        png_text text{};
+        text.compression = PNG_TEXT_COMPRESSION_NONE;
+        text.key = const_cast<char*>(key.c_str());
+        text.text = const_cast<char*>(value.c_str());
+        png_texts.push_back(text);
+    }
+    bool ok =
+        png_write_rows(png, info, file.get(), image, png_texts.data(), int(png_texts.size()));
+    png_destroy_write_struct(&png, &info);
+    number = error.number;
+    if (!ok) return error.text;
+    if (std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) {
+        number = errno;
+        return std::strerror(errno);
+    }
+    return "";
+}
+
+std::string write_exr_file(const std::string& path, const raytrace::Film& film,
+                           const ImageTexts& texts, int& number) {
+    errno = 0;
+    try {
+        Imf::Header header(film.width, film.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (const auto& [key, value] : texts) header.insert(key, Imf::StringAttribute(value));
+        std::vector<Imf::Rgba> pixels(film.rgba.size());
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const vec4& p = film.rgba[i];
+            pixels[i] = Imf::Rgba(p.x, p.y, p.z, p.w);
+        }
+        Imf::RgbaOutputFile file(path.c_str(), header, Imf::WRITE_RGBA, 0);
+        file.setFrameBuffer(pixels.data(), 1, size_t(film.width));
+        file.writePixels(film.height);
+    } catch (const std::exception& error) {
+        number = errno;
+        return errno ? std::strerror(errno) : error.what();
+    }
+    int descriptor = open(path.c_str(), O_RDONLY);
+    bool ok = descriptor >= 0 && fsync(descriptor) == 0;
+    number = ok ? 0 : errno;
+    std::string text = ok ? "" : std::strerror(errno);
+    if (descriptor >= 0) close(descriptor);
+    return text;
+}
+
+std::string extension(const std::string& path) {
+    std::string text = std::filesystem::path(path).extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return char(tolower(c)); });
+    return text;
+}
+
+// Calls write(temporary name), then renames; the temporary file never stays.
+template <class Write>
+std::string write_whole(const std::string& path, int* errno_out, Write write) {
+    namespace fs = std::filesystem;
+    fs::path target(path);
+    std::error_code code;
+    int number = 0;
+    std::string error;
+    if (target.has_parent_path()) fs::create_directories(target.parent_path(), code);
+    std::string temporary = (target.parent_path() / ("." + target.filename().string() + "." +
+                                                     std::to_string(getpid()) + ".tmp"))
+                                .string();
+    if (code) {
+        error = code.message();
+        number = code.value();
+    } else {
+        error = write(temporary, number);
+        if (error.empty() && std::rename(temporary.c_str(), path.c_str()) != 0) {
+            number = errno;
+            error = std::strerror(errno);
+        }
+        if (!error.empty()) unlink(temporary.c_str());
+    }
+    if (errno_out) *errno_out = number;
+    return error;
+}
+
+}  // namespace
+
+Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding) {
+    Image8 image{film.width, film.height, {}};
+    image.rgba.resize(film.rgba.size() * 4);
+    for (size_t i = 0; i < film.rgba.size(); ++i) {
+        const vec4& p = film.rgba[i];
+        float scale = p.w > 0 ? 1.0f / p.w : 0.0f;
+        for (int k = 0; k < 3; ++k) {
+            float c = p[k] * scale;
+            if (p.w <= 0) c = p[k];  // light without coverage keeps its colour
+            image.rgba[i * 4 + size_t(k)] =
+                quantise(encoding == ColorEncoding::Srgb ? srgb(std::max(c, 0.0f)) : c);
+        }
+        image.rgba[i * 4 + 3] = quantise(p.w);
+    }
+    return image;
+}
+
+bool is_image_path(const std::string& path) {
+    std::string e = extension(path);
+    return e == ".png" || e == ".exr";
+}
+
+std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
+                      int* errno_out) {
+    return write_whole(path, errno_out, [&](const std::string& temporary, int& number) {
+        return write_png_file(temporary, image, texts, number);
+    });
+}
+
+std::string write_image(const std::string& path, const raytrace::Film& film,
+                        ColorEncoding encoding, const ImageTexts& texts, int* errno_out) {
+    if (extension(path) == ".exr")
+        return write_whole(path, errno_out, [&](const std::string& temporary, int& number) {
+            return write_exr_file(temporary, film, texts, number);
+        });
+    return write_png(path, to_8_bit(film, encoding), texts, errno_out);
+}
+
+namespace {
+
+// Reads a PNG's header, and its rows when `rows` is given.
+bool png_read(std::FILE* file, png_structp png, png_infop info, Image8* rows) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_init_io(png, file);
+    png_read_info(png, info);
+    if (!rows) return true;
+    png_set_expand(png);
+    png_set_strip_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_filler(png, 255, PNG_FILLER_AFTER);
+    png_read_update_info(png, info);
+    rows->width = int(png_get_image_width(png, info));
+    rows->height = int(png_get_image_height(png, info));
+    rows->rgba.resize(size_t(rows->width) * size_t(rows->height) * 4);
+    for (int y = 0; y < rows->height; ++y)
+        png_read_row(png, &rows->rgba[size_t(y) * size_t(rows->width) * 4], nullptr);
+    png_read_end(png, info);
+    return true;
+}
+
+// Opens a PNG and hands it to `use(png, info)` after png_read.
+template <class Use>
+bool with_png(const std::string& path, Image8* rows, Use use) {
+    File file(std::fopen(path.c_str(), "rb"));
+    if (!file) return false;
+    PngError error;
+    png_structp png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error, on_png_warning);
+    png_infop info = png_create_info_struct(png);
+    bool ok = png_read(file.get(), png, info, rows);
+    if (ok) use(png, info);
+    png_destroy_read_struct(&png, &info, nullptr);
+    return ok;
+}
+
+}  // namespace
+
+std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
+    if (extension(path) == ".exr") {
+        try {
+            Imf::InputFile file(path.c_str());
+            if (!file.isComplete()) return std::nullopt;
+            const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
+            return text ? std::optional(text->value()) : std::nullopt;
+        } catch (const std::exception&) {
+            return std::nullopt;
+        }
+    }
+    std::optional<std::string> value;
+    with_png(path, nullptr, [&](png_structp png, png_infop info) {
+        png_textp texts = nullptr;
+        int count = 0;
+        png_get_text(png, info, &texts, &count);
+        for (int i = 0; i < count; ++i)
+            if (key == texts[i].key) value = texts[i].text;
+    });
+    return value;
+}
+
+std::optional<Image8> read_png(const std::string& path) {
+    Image8 image;
+    if (!with_png(path, &image, [](png_structp, png_infop) {})) return std::nullopt;
+    return image;
+}
+
+}  // namespace kinora

@@ -1,0 +1,45 @@
+// runtime/image_io.h: pictures to files and back. A file that has its final name is whole.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "raytrace/film.h"
+
+namespace kinora {
+
+enum class ColorEncoding : uint8_t { Linear, Srgb };
+
+// Texts kept in the file's header: ("kinora/fingerprint", "...").
+using ImageTexts = std::vector<std::pair<std::string, std::string>>;
+
+// 8-bit RGBA rows from the top, unassociated alpha.
+struct Image8 {
+    int width = 0, height = 0;
+    std::vector<uint8_t> rgba;
+};
+
+// Film (linear, associated) to 8 bits: unassociated; sRGB-encoded (IEC 61966-2-1) or as is.
+Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding);
+
+// Writes by the extension, .png (encoding as given) or .exr (half RGBA, linear, associated; ZIP):
+// to a temporary name beside it, fsync, rename. Makes missing directories. Returns an error text
+// ("No space left on device"), or "" when done; errno_out (if given) gets the system's number.
+std::string write_image(const std::string& path, const raytrace::Film& film,
+                        ColorEncoding encoding, const ImageTexts& texts, int* errno_out = nullptr);
+std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
+                      int* errno_out = nullptr);
+
+// Whether write_image knows the extension.
+bool is_image_path(const std::string& path);
+
+// A text of a PNG or EXR header; nothing if the file is missing, broken or has no such text.
+std::optional<std::string> read_image_text(const std::string& path, const std::string& key);
+
+// For tests and the contact sheet; nothing if it cannot be read.
+std::optional<Image8> read_png(const std::string& path);
+
+}  // namespace kinora

@@ -1,0 +1,338 @@
+// runtime/light_records.cpp: lights run once for a grid; their answers become records that surface
+// kernels replay (DESIGN.md decision 5).
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/shading_p.h"
+
+namespace kinora {
+
+namespace {
+
+// Columns a light kernel reads, from the points to be lit.
+std::span<float*> light_columns(const Look& look, const Scene& scene, const LightSource& light,
+                                const float* const P[3], const float* const N[3],
+                                const float* rng, size_t count, Arena& arena) {
+    std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
+    std::fill(columns.begin(), columns.end(), nullptr);
+    vec3 origin(scene.view.camera_from_world * scene.nodes[light.node].world[3]);
+    auto view = [](const float* p) { return const_cast<float*>(p); };
+    for (uint16_t column : look.full.columns) {
+        if (columns[column]) continue;
+        if (column >= kColPs && column < kColPs + 3)
+            columns[column] = view(P[column - kColPs]);
+        else if (column >= kColNs && column < kColNs + 3)
+            columns[column] = view(N[column - kColNs]);
+        else if (column >= kColN && column < kColN + 3)
+            columns[column] = view(N[column - kColN]);
+        else if (column == kColRng && rng)
+            columns[column] = view(rng);
+        else {
+            columns[column] = arena.allocate_span<float>(padded(count)).data();
+            bool is_origin = column >= kColP && column < kColP + 3;
+            std::fill_n(columns[column], padded(count), is_origin ? origin[column - kColP] : 0.0f);
+        }
+    }
+    return columns;
+}
+
+int find_output(const jit::Kernel& kernel, const std::string& name) {
+    for (size_t o = 0; o < kernel.outputs.size(); ++o)
+        if (kernel.outputs[o].name == name) return int(o);
+    return -1;
+}
+
+bool has_category(const Look& light, std::string_view wanted) {
+    // __category holds a comma separated list; "-x" asks for lights that are not x.
+    bool exclude = wanted.starts_with("-");
+    if (exclude) wanted.remove_prefix(1);
+    std::string categories;
+    for (const ParamSource& source : light.layers[0].params)
+        if (source.name == "__category" && !source.strings.empty()) categories = source.strings[0];
+    if (categories.empty())
+        for (const rsl::ShaderParameter& p : light.shader().parameters)
+            if (p.name == "__category" && p.constant && !p.constant->strings.empty())
+                categories = p.constant->strings[0];
+    bool found = false;
+    for (size_t at = 0; at <= categories.size();) {
+        size_t end = std::min(categories.find(',', at), categories.size());
+        found |= categories.substr(at, end - at) == wanted;
+        at = end + 1;
+    }
+    return found != exclude;
+}
+
+float constant_param(const Look& light, const Scene& scene, std::string_view name) {
+    for (const ParamSource& source : light.layers[0].params)
+        if (source.name == name && source.value.present())
+            return float(scene.values[source.value.offset]);
+    for (const rsl::ShaderParameter& p : light.shader().parameters)
+        if (p.name == name && p.constant && !p.constant->numbers.empty())
+            return p.constant->numbers[0];
+    return 0;
+}
+
+}  // namespace
+
+// ---- names to output indices, once ---------------------------------------------------------------
+
+namespace {
+
+using Statement = Shading::Statement;
+using LightBinding = Shading::LightBinding;
+
+Statement statement_of(const Look& look, size_t index, const LightDefinition& definition,
+                       ShadowMode mode) {
+    const jit::Kernel& kernel = look.full.kernel();
+    const rsl::LightStatement& from = look.lowered.light_statements[index];
+    Statement statement;
+    statement.kind = from.kind;
+    std::string prefix = "light:" + std::to_string(index) + ":";
+    for (size_t k = 0; k < 3; ++k) {
+        statement.L[k] = find_output(kernel, prefix + "L." + "xyz"[k]);
+        statement.Cl[k] = find_output(kernel, prefix + "Cl." + "rgb"[k]);
+        statement.Ol[k] = find_output(kernel, prefix + "Ol." + "rgb"[k]);
+    }
+    statement.lit = find_output(kernel, prefix + "lit");
+    statement.casts_shadow = from.casts_shadow;
+    if (definition.shadows) statement.casts_shadow = *definition.shadows;
+    if (mode == ShadowMode::Explicit) statement.casts_shadow = definition.shadows.value_or(false);
+    if (mode == ShadowMode::Off || from.kind == rsl::kLightAmbient) statement.casts_shadow = false;
+    return statement;
+}
+
+// What a surface reads of a light: its categories' bits, the outputs behind its messages.
+LightBinding binding_of(const Look& surface, const Look& light, const Scene& scene) {
+    LightBinding binding;
+    for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
+        binding.categories |= int32_t(has_category(light, surface.lowered.categories[c])) << c;
+    binding.nondiffuse = constant_param(light, scene, "__nondiffuse");
+    binding.nonspecular = constant_param(light, scene, "__nonspecular");
+    const jit::Kernel& kernel = light.full.kernel();
+    for (size_t m = 0; m < surface.lowered.light_messages.size(); ++m) {
+        int components = surface.lowered.light_message_components[m];
+        std::string name = "message:" + surface.lowered.light_messages[m];
+        for (int k = 0; k < components; ++k) {
+            int output = find_output(kernel, components == 1 ? name : name + "." + "xyz"[k]);
+            if (output < 0 && components == 3) output = find_output(kernel, name + "." + "rgb"[k]);
+            binding.messages.push_back(output);
+        }
+    }
+    return binding;
+}
+
+}  // namespace
+
+void Shading::bind_lights() {
+    record_count_ = 0;
+    statements_.clear();
+    bindings_.clear();
+    for (const LightSource& light : scene_.lights) {
+        const Look& look = *scene_.looks[light.look];
+        auto& statements = statements_.emplace_back();
+        for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
+            statements.push_back(
+                statement_of(look, s, scene_.description->lights[light.definition],
+                             scene_.options.shadows));
+        record_count_ += statements.size();
+    }
+    for (size_t l = 0; l < scene_.looks.size(); ++l) {
+        scene_.looks[l]->index = uint32_t(l);
+        auto& row = bindings_.emplace_back();
+        if (scene_.looks[l]->kind != LookKind::Surface) continue;
+        for (const LightSource& light : scene_.lights)
+            row.push_back(binding_of(*scene_.looks[l], *scene_.looks[light.look], scene_));
+    }
+}
+
+// ---- in the frame --------------------------------------------------------------------------------
+
+void Shading::run_lights(Grid& grid) {
+    size_t count = grid.count();
+    LightPoints at;
+    at.count = count;
+    for (size_t k = 0; k < 3; ++k) {
+        at.P[k] = grid.columns[kColP + k];
+        at.N[k] = grid.columns[kColN + k];
+        float* accel = grid.arena->allocate_span<float>(padded(count)).data();
+        float* error = grid.arena->allocate_span<float>(padded(count)).data();
+        float* Ng = grid.arena->allocate_span<float>(padded(count)).data();
+        for (size_t i = 0; i < count; ++i) {
+            accel[i] = grid.hits.P[k][grid.points[i]];
+            error[i] = grid.hits.P_error[k][grid.points[i]];
+            Ng[i] = grid.hits.Ng[k][grid.points[i]];
+        }
+        at.accel[k] = accel;
+        at.error[k] = error;
+        at.Ng[k] = Ng;
+    }
+    at.rng = grid.columns[kColRng];
+    grid.record_sets[0] = make_records(grid, at);
+}
+
+jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
+    Arena& arena = *grid.arena;
+    float* zeros = arena.allocate_span<float>(padded(at.count)).data();
+    std::fill_n(zeros, padded(at.count), 0.0f);
+    std::span<jit::Record> records = arena.allocate_span<jit::Record>(record_count_);
+    jit::Record* next = records.data();
+    for (size_t l = 0; l < scene_.lights.size(); ++l) {
+        const Look& look = *scene_.looks[scene_.lights[l].look];
+        const jit::Kernel& kernel = look.full.kernel();
+        std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
+        for (float*& column : out) column = arena.allocate_span<float>(padded(at.count)).data();
+        Grid lit{grid.scene, grid.hits, grid.points.first(at.count)};
+        lit.depth = grid.depth;
+        lit.thread = grid.thread;
+        lit.shading = this;
+        lit.arena = &arena;
+        lit.look = &look;
+        lit.record_sets = grid.record_sets;
+        lit.columns = light_columns(look, scene_, scene_.lights[l], at.P, at.N, at.rng, at.count,
+                                    arena);
+        run_kernel(look.full, lit, out);
+        thread(grid.thread).counters.light_points += at.count;
+        const LightBinding& binding = bindings_[grid.look->index][l];
+        for (const Statement& statement : statements_[l])
+            *next++ = make_record(grid, at, statement, binding, out, zeros);
+    }
+    return {int32_t(record_count_), records.data()};
+}
+
+jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statement& statement,
+                                 const LightBinding& binding, std::span<float* const> out,
+                                 const float* zeros) {
+    std::span<const float*> columns = grid.arena->allocate_span<const float*>(
+        rsl::kLightMessages + binding.messages.size());
+    std::fill(columns.begin(), columns.end(), zeros);
+    auto set = [&](size_t column, int output) {
+        if (output >= 0) columns[column] = out[size_t(output)];
+    };
+    for (size_t k = 0; k < 3; ++k) {
+        set(rsl::kLightL + k, statement.L[k]);
+        set(rsl::kLightCl + k, statement.Cl[k]);
+        set(rsl::kLightOl + k, statement.Ol[k]);
+    }
+    set(rsl::kLightLit, statement.lit);
+    for (size_t m = 0; m < binding.messages.size(); ++m)
+        set(rsl::kLightMessages + m, binding.messages[m]);
+    if (statement.L[0] >= 0) {
+        float *L[3], *Cl[3];
+        for (size_t k = 0; k < 3; ++k) {
+            L[k] = out[size_t(statement.L[k])];
+            Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
+            // The record's L points from the surface to the light.
+            for (size_t i = 0; i < padded(at.count); ++i) L[k][i] = -L[k][i];
+        }
+        if (statement.casts_shadow && grid.shadows && Cl[0] && Cl[1] && Cl[2])
+            shadow(grid, at, statement.kind == rsl::kLightSolar, L,
+                   statement.lit < 0 ? nullptr : out[size_t(statement.lit)], Cl);
+    }
+    float* uniforms = grid.arena->allocate_span<float>(rsl::kLightUniforms).data();
+    uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
+    uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
+    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse;
+    uniforms[rsl::kLightNonspecular] = binding.nonspecular;
+    // Columns are read at the grid's point, so those of a part of it start before it.
+    for (const float*& column : columns) column -= at.first;
+    return {columns.data(), uniforms};
+}
+
+void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar,
+                     const float* const L[3], const float* lit, float* const Cl[3]) {
+    Thread& own = thread(grid.thread);
+    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+    raytrace::RayPacket16 packet;
+    uint32_t lanes[raytrace::kPacket];
+    int filled = 0;
+    NestedWavefront nested(own);
+    raytrace::RayBatch& rest = nested->rays;
+    if (any_transparent_) rest.reserve(kGridPoints);
+    rest.count = 0;
+    auto flush = [&] {
+        if (filled == 0) return;
+        packet.active = (1u << filled) - 1;
+        uint32_t blocked = scene_.accel.occluded16(packet, own.counters.trace);
+        for (int j = 0; j < filled; ++j) {
+            uint32_t i = lanes[j];
+            if (blocked >> j & 1) {
+                for (size_t k = 0; k < 3; ++k) Cl[k][i] = 0;
+            } else if (any_transparent_) {
+                vec3 org(packet.org_x[j], packet.org_y[j], packet.org_z[j]);
+                vec3 dir(packet.dir_x[j], packet.dir_y[j], packet.dir_z[j]);
+                set_nested_ray(rest, rest.count, org, dir, packet.tfar[j], grid.hits,
+                               grid.points[at.first + i]);
+                rest.slot[rest.count++] = i;
+            }
+        }
+        filled = 0;
+    };
+    for (uint32_t i = 0; i < at.count; ++i) {
+        if (lit && jit::bits_of(lit[i]) == 0) continue;
+        if (Cl[0][i] == 0 && Cl[1][i] == 0 && Cl[2][i] == 0) continue;
+        vec3 to_light = accel_from_camera * triple(L, i);
+        vec3 P = triple(at.accel, i);
+        vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), triple(at.Ng, i), to_light);
+        vec3 dir = solar ? to_light : P + to_light - org;
+        packet.org_x[filled] = org.x;
+        packet.org_y[filled] = org.y;
+        packet.org_z[filled] = org.z;
+        packet.dir_x[filled] = dir.x;
+        packet.dir_y[filled] = dir.y;
+        packet.dir_z[filled] = dir.z;
+        packet.tnear[filled] = 0;
+        packet.tfar[filled] = solar ? std::numeric_limits<float>::infinity() : 1.0f;
+        packet.mask[filled] = raytrace::kMaskOpaque;
+        packet.time[filled] = 0;
+        lanes[filled++] = i;
+        if (filled == raytrace::kPacket) flush();
+    }
+    flush();
+    if (rest.count == 0) return;
+    std::span<vec3> through = own.arena.allocate_span<vec3>(rest.count);
+    std::span<uint32_t> points = own.arena.allocate_span<uint32_t>(rest.count);
+    size_t count = rest.count;
+    for (size_t r = 0; r < count; ++r) {
+        points[r] = rest.slot[r];
+        rest.slot[r] = uint32_t(r);
+    }
+    pass_transparent(grid.thread, rest, through.data());
+    for (size_t r = 0; r < count; ++r)
+        for (size_t k = 0; k < 3; ++k) Cl[k][points[r]] *= through[r][int(k)];
+}
+
+int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
+    // A part of the grid: one lane group at its own points.
+    Arena& arena = *grid.arena;
+    LightPoints at;
+    at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
+    at.first = size_t(call.first);
+    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+    float* rows[12];
+    for (float*& row : rows) row = arena.allocate_span<float>(jit::kMaxLanes).data();
+    for (size_t i = 0; i < jit::kMaxLanes; ++i) {
+        vec3 P(call.args[i], call.args[jit::kMaxLanes + i], call.args[2 * jit::kMaxLanes + i]);
+        if (!(call.mask >> i & 1)) P = vec3(0);
+        vec3 accel = accel_from_camera * P + eye_;
+        // The point went through a rotation and a sum: gamma(4) of the magnitudes bounds that.
+        vec3 error = (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(eye_)) * 2.4e-7f;
+        for (int k = 0; k < 3; ++k) {
+            rows[k][i] = P[k];
+            rows[3 + k][i] = accel[k];
+            rows[6 + k][i] = error[k];
+            rows[9 + k][i] = 0;
+        }
+    }
+    for (size_t k = 0; k < 3; ++k) {
+        at.P[k] = rows[k];
+        at.accel[k] = rows[3 + k];
+        at.error[k] = rows[6 + k];
+        at.N[k] = at.Ng[k] = rows[9 + k];
+    }
+    uint32_t handle = grid.next_record_set;
+    grid.next_record_set = handle + 1 < grid.record_sets.size() ? handle + 1 : 1;
+    grid.record_sets[handle] = make_records(grid, at);
+    return int32_t(handle);
+}
+
+}  // namespace kinora

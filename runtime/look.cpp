@@ -1,0 +1,383 @@
+// runtime/look.cpp: parameters and spaces bound to compiled shaders.
+#include "runtime/look.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/base/check.h"
+#include "runtime/scene.h"
+#include "runtime/services.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kRow = jit::kMaxLanes;
+
+const ParamSource* find_source(const ShaderUse& use, std::string_view name) {
+    for (const ParamSource& source : use.params)
+        if (source.name == name) return &source;
+    return nullptr;
+}
+
+bool is_animated(const SceneDescription& description, ValueSlot slot) {
+    for (uint32_t i = 0; i < slot.count; ++i)
+        if (description.animated[slot.offset + i]) return true;
+    return false;
+}
+
+// Component `c` of a parameter of `needed` components, from a slot that may hold one number for
+// all of a triple.
+uint32_t value_index(ValueSlot slot, uint32_t needed, uint32_t c) {
+    return slot.offset + (slot.count == 1 && needed > 1 ? 0 : std::min(c, slot.count - 1));
+}
+
+rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool shape,
+                                 const ShaderUse& use, const Look& look, uint32_t layer,
+                                 const SceneDescription& description) {
+    rsl::ParamBinding binding;
+    binding.name = std::string(parameter.name);
+    for (const VaryingParam& varying : look.varying)
+        if (varying.layer == layer && varying.name == parameter.name) {
+            binding.kind = rsl::ParamBinding::Kind::Varying;
+            return binding;
+        }
+    const ParamSource* source = find_source(use, parameter.name);
+    if (!source) return binding;
+    if (parameter.type.base == rsl::BaseType::String) {
+        binding.kind = rsl::ParamBinding::Kind::Constant;
+        binding.strings = source->strings;
+        return binding;
+    }
+    if (!source->value.present()) return binding;
+    binding.kind = rsl::ParamBinding::Kind::Frame;
+    // Shape only (DESIGN.md decision 4): floats that are exactly 0 or 1, and whatever decides the
+    // control flow. Point-like values stay frame rate: they depend on where the shader's space is.
+    if (rsl::is_spatial(parameter.type.base) || parameter.type.base == rsl::BaseType::Matrix ||
+        is_animated(description, source->value))
+        return binding;
+    double first = description.values[source->value.offset];
+    bool simple = parameter.type == rsl::Type{rsl::BaseType::Float, -1} &&
+                  (first == 0.0 || first == 1.0);
+    if (!shape && !simple) return binding;
+    binding.kind = rsl::ParamBinding::Kind::Constant;
+    uint32_t needed = uint32_t(rsl::component_count(parameter.type.base)) *
+                      uint32_t(std::max(parameter.type.array_length, 1));
+    for (uint32_t c = 0; c < needed; ++c)
+        binding.constant.push_back(
+            float(description.values[value_index(source->value, needed, c)]));
+    return binding;
+}
+
+int component_of(char suffix) {
+    constexpr std::string_view kSuffixes = "xyzrgb";
+    size_t at = kSuffixes.find(suffix);
+    return at == std::string_view::npos ? -1 : int(at % 3);
+}
+
+// "param:LAYER:NAME[k].c" in parts; false if the name is not so.
+struct ParamName {
+    uint32_t layer = 0;
+    std::string_view name;
+    uint32_t element = 0;
+    uint32_t component = 0;
+    std::string_view partial;  // "du", "dv" or ""
+};
+bool parse_param_name(std::string_view text, ParamName& out) {
+    if (!text.starts_with("param:")) return false;
+    text.remove_prefix(6);
+    auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), out.layer);
+    if (error != std::errc() || rest == text.data() + text.size() || *rest != ':') return false;
+    text.remove_prefix(size_t(rest - text.data()) + 1);
+    if (text.ends_with(":du") || text.ends_with(":dv")) {
+        out.partial = text.substr(text.size() - 2);
+        text.remove_suffix(3);
+    }
+    if (text.size() > 2 && text[text.size() - 2] == '.' && component_of(text.back()) >= 0) {
+        out.component = uint32_t(component_of(text.back()));
+        text.remove_suffix(2);
+    } else if (size_t dot = text.rfind('.'); dot != std::string_view::npos) {
+        std::from_chars(text.data() + dot + 1, text.data() + text.size(), out.component);
+        text = text.substr(0, dot);  // a matrix entry: .0 to .15
+    }
+    if (size_t bracket = text.find('['); bracket != std::string_view::npos) {
+        std::from_chars(text.data() + bracket + 1, text.data() + text.size(), out.element);
+        text = text.substr(0, bracket);
+    }
+    out.name = text;
+    return true;
+}
+
+// Index of a named space among the look's; added when new.
+uint32_t space_index(Look& look, std::string_view space) {
+    auto known = std::find(look.spaces.begin(), look.spaces.end(), space);
+    uint32_t index = uint32_t(known - look.spaces.begin());
+    if (known == look.spaces.end()) look.spaces.emplace_back(space);
+    return index;
+}
+
+FrameInput resolve_param(Look& look, const ParamName& name) {
+    FrameInput input;
+    if (name.layer >= look.layers.size()) return input;
+    const ShaderUse& use = look.layers[name.layer];
+    const ParamSource* source = find_source(use, name.name);
+    for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
+        if (parameter.name != name.name || !source) continue;
+        if (parameter.type.base == rsl::BaseType::String) {
+            std::string text = name.element < source->strings.size()
+                                   ? source->strings[name.element]
+                                   : std::string();
+            input.fixed = jit::float_of(rsl::intern(text));
+            return input;
+        }
+        uint32_t width = uint32_t(rsl::component_count(parameter.type.base));
+        uint32_t needed = width * uint32_t(std::max(parameter.type.array_length, 1));
+        bool placed = rsl::is_spatial(parameter.type.base);
+        input.source = placed ? FrameInput::Source::Placed : FrameInput::Source::Value;
+        input.type = parameter.type.base;
+        input.component = uint8_t(name.component);
+        uint32_t c = name.element * width + (placed ? 0 : name.component);
+        input.index = value_index(source->value, needed, c);
+        if (placed) input.space = space_index(look, "shader");
+        if (placed && source->value.count < 3) {  // one number for all three: no place to speak of
+            input.source = FrameInput::Source::Value;
+            input.index = source->value.offset;
+        }
+        return input;
+    }
+    return input;
+}
+
+FrameInput resolve_input(Look& look, std::string_view name) {
+    using Source = FrameInput::Source;
+    struct Row {
+        std::string_view name;
+        Source source;
+        float fixed;
+    };
+    static constexpr Row kRows[] = {
+        {"time", Source::Time, 0},       {"dtime", Source::Shutter, 0},
+        {"ncomps", Source::Fixed, 3},    {"alpha", Source::Fixed, 1},
+        {"camera:near", Source::Near, 0}, {"camera:far", Source::Far, 0},
+        {"E.x", Source::Fixed, 0},       {"E.y", Source::Fixed, 0},
+        {"E.z", Source::Fixed, 0},  // current space is the camera's
+    };
+    FrameInput input;
+    for (const Row& row : kRows)
+        if (row.name == name) {
+            input.source = row.source;
+            input.fixed = row.fixed;
+            return input;
+        }
+    ParamName param;
+    if (parse_param_name(name, param)) return resolve_param(look, param);
+    if (name.starts_with("space:") && name.size() > 9) {
+        int row = name[name.size() - 2] - '0', column = name[name.size() - 1] - '0';
+        std::string_view space = name.substr(6, name.size() - 9);
+        input.inverse = space.ends_with(":from_current");
+        space = space.substr(0, space.rfind(':'));
+        input.index = space_index(look, space);
+        input.source = Source::Space;
+        input.component = uint8_t(row * 4 + column);
+        return input;
+    }
+    check_failed("runtime/look.cpp", 0, "unknown frame input " + std::string(name));
+}
+
+uint16_t resolve_column(const Look& look, std::string_view name) {
+    if (uint16_t column = find_column(name); column != kNoColumn) return column;
+    ParamName param;
+    if (parse_param_name(name, param))
+        for (const VaryingParam& varying : look.varying)
+            if (varying.layer == param.layer && varying.name == param.name) {
+                uint32_t step = param.partial == "du" ? 1 : param.partial == "dv" ? 2 : 0;
+                return uint16_t(varying.column + step * varying.components + param.component);
+            }
+    check_failed("runtime/look.cpp", 0, "unknown point input " + std::string(name));
+}
+
+void bind_kernel(BoundKernel& bound, Look& look) {
+    for (const jit::InputInfo& input : bound.pair.point->inputs)
+        bound.columns.push_back(resolve_column(look, input.name));
+    for (const jit::ServiceInfo& service : bound.pair.point->services)
+        bound.services.push_back(find_service(service.name));
+    if (!bound.pair.frame) return;
+    const jit::Kernel& frame = *bound.pair.frame;
+    for (const jit::InputInfo& input : frame.inputs)
+        bound.inputs.push_back(resolve_input(look, input.name));
+    for (size_t i = 0; i < frame.inputs.size(); ++i)
+        bound.in.push_back(bound.arena.allocate_span<float>(kRow).data());
+    for (size_t i = 0; i < frame.outputs.size(); ++i)
+        bound.out.push_back(bound.arena.allocate_span<float>(kRow).data());
+    bound.frame.resize(size_t(bound.pair.point->frame_slots));
+    bound.frame_faults.resize(frame.fault_sites.size() + 1);
+}
+
+void place_varying(Look& look) {
+    for (VaryingParam& varying : look.varying) {
+        varying.column = look.column_count;
+        look.column_count = uint16_t(look.column_count + 3 * varying.components);
+    }
+}
+
+}  // namespace
+
+bool compile_look(Look& look, const SceneDescription& description, const LookOptions& options,
+                  Diagnostics& diagnostics) {
+    place_varying(look);
+    std::vector<rsl::Layer> layers;
+    for (uint32_t l = 0; l < look.layers.size(); ++l) {
+        const ShaderUse& use = look.layers[l];
+        rsl::Layer& layer = layers.emplace_back();
+        layer.shader = use.shader.get();
+        std::vector<bool> shape = rsl::shape_parameters(*use.shader);
+        for (size_t p = 0; p < use.shader->parameters.size(); ++p)
+            layer.params.push_back(bind_parameter(use.shader->parameters[p], shape[p], use, look,
+                                                  l, description));
+    }
+    rsl::LowerOptions lower;
+    lower.math = options.math;
+    lower.spaces = options.spaces;
+    lower.messages = options.light_messages;
+    jit::CompileOptions compile;
+    compile.target = options.target;
+    compile.dumps = options.dumps;
+    std::optional<rsl::LoweredShader> lowered = rsl::lower(layers, lower, diagnostics);
+    if (!lowered) return false;
+    look.lowered = std::move(*lowered);
+    look.full.pair = jit::compile(std::move(look.lowered.module), compile);
+    bind_kernel(look.full, look);
+    if (look.kind == LookKind::Surface && !look.opaque()) {
+        lower.want_Ci = false;
+        compile.dumps = nullptr;
+        std::optional<rsl::LoweredShader> opacity = rsl::lower(layers, lower, diagnostics);
+        if (!opacity) return false;
+        look.opacity.emplace();
+        look.opacity->pair = jit::compile(std::move(opacity->module), compile);
+        bind_kernel(*look.opacity, look);
+    }
+    look.current_from_space.resize(look.spaces.size(), dmat4(1.0));
+    return true;
+}
+
+void Look::update(const FrameContext& context) {
+    for (size_t s = 0; s < spaces.size(); ++s)
+        current_from_space[s] = kinora::current_from_space(context.scene, spaces[s], node);
+    full.update(context, current_from_space);
+    if (opacity) opacity->update(context, current_from_space);
+}
+
+namespace {
+
+// A point-like parameter, given in shader space, in current space.
+dvec3 place(rsl::BaseType type, const dmat4& current_from_shader, const double* v) {
+    dvec3 value(v[0], v[1], v[2]);
+    if (type == rsl::BaseType::Point) return dvec3(current_from_shader * dvec4(value, 1.0));
+    dmat3 linear(current_from_shader);
+    if (type == rsl::BaseType::Normal) return glm::transpose(glm::inverse(linear)) * value;
+    return linear * value;
+}
+
+}  // namespace
+
+void BoundKernel::update(const FrameContext& context, std::span<const dmat4> current_from_space) {
+    if (!pair.frame) return;
+    using Source = FrameInput::Source;
+    const Scene& scene = context.scene;
+    auto number = [&](const FrameInput& input) -> float {
+        switch (input.source) {
+            case Source::Fixed: return input.fixed;
+            case Source::Value: return float(scene.values[input.index]);
+            case Source::Placed: {
+                const dmat4& m = current_from_space[input.space];
+                return float(place(input.type, m, &scene.values[input.index])[input.component]);
+            }
+            case Source::Space: {
+                const dmat4& m = current_from_space[input.index];
+                int row = input.component / 4, column = input.component % 4;
+                return float(input.inverse ? glm::inverse(m)[column][row] : m[column][row]);
+            }
+            case Source::Time: return float(context.time);
+            case Source::Shutter: return float(context.shutter);
+            case Source::Near: return float(scene.view.znear);
+            case Source::Far: return float(scene.view.zfar);
+        }
+        return 0;
+    };
+    for (size_t i = 0; i < inputs.size(); ++i) {
+        float value = number(inputs[i]);
+        std::fill_n(const_cast<float*>(in[i]), kRow, value);
+    }
+    jit::KernelArgs args;
+    args.in = in.data();
+    args.out = out.data();
+    args.count = 1;
+    args.fault = frame_faults.data();
+    Arena::Mark mark = arena.mark();
+    args.scratch = static_cast<std::byte*>(arena.allocate(pair.frame->scratch_bytes));
+    pair.frame->run(args);
+    arena.release(mark);
+    for (size_t i = 0; i < frame.size(); ++i) frame[i] = out[i][0];
+}
+
+namespace {
+
+// Camera space to screen: x right, y up, the shorter side of the picture spanning -1..1; z is 0 at
+// the near and 1 at the far plane (RISpec 3.2, camera).
+dmat4 screen_from_camera(const raytrace::Camera& view) {
+    double shorter = std::min(view.half_width, view.half_height);
+    dmat4 m(0.0);
+    m[0][0] = m[1][1] = 1.0 / shorter;
+    double n = view.znear, f = view.zfar;
+    if (view.orthographic) {
+        m[2][2] = 1.0 / (f - n);
+        m[3][2] = -n / (f - n);
+        m[3][3] = 1.0;
+    } else {
+        m[2][2] = f / (f - n);
+        m[3][2] = -f * n / (f - n);
+        m[2][3] = 1.0;
+    }
+    return m;
+}
+
+// NDC: 0..1 over the picture, y down.
+dmat4 ndc_from_screen(const raytrace::Camera& view) {
+    double shorter = std::min(view.half_width, view.half_height);
+    dmat4 m(1.0);
+    m[0][0] = 0.5 * shorter / view.half_width;
+    m[1][1] = -0.5 * shorter / view.half_height;
+    m[3] = dvec4(0.5, 0.5, 0, 1);
+    return m;
+}
+
+}  // namespace
+
+dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node) {
+    const raytrace::Camera& view = scene.view;
+    if (name == "current" || name == "camera") return dmat4(1.0);
+    if (name == "world") return view.camera_from_world;
+    if (name == "shader" || name == "object")
+        return node == kNone ? view.camera_from_world
+                             : view.camera_from_world * scene.nodes[node].world;
+    dmat4 screen = screen_from_camera(view);
+    if (name == "screen") return glm::inverse(screen);
+    dmat4 ndc = ndc_from_screen(view) * screen;
+    if (name == "NDC") return glm::inverse(ndc);
+    if (name == "raster") {
+        dmat4 raster(1.0);
+        raster[0][0] = view.width;
+        raster[1][1] = view.height;
+        return glm::inverse(raster * ndc);
+    }
+    for (const Node& n : scene.nodes) {
+        const NodeDefinition& definition = scene.description->nodes[n.definition];
+        if (definition.id == name) return view.camera_from_world * n.world;
+    }
+    return dmat4(1.0);
+}
+
+}  // namespace kinora

@@ -1,0 +1,120 @@
+// runtime/look.h: a shader stack with its parameters, compiled: what surfaces wear and lights are.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jit/compiler.h"
+#include "raytrace/camera.h"
+#include "rsl/lower.h"
+#include "runtime/base/arena.h"
+#include "runtime/columns.h"
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+struct Scene;
+
+// What frame-rate inputs are computed from.
+struct FrameContext {
+    const Scene& scene;
+    double time = 0;
+    double shutter = 0;  // its length, seconds
+};
+
+// Where a frame-rate input's number comes from, resolved by name once.
+struct FrameInput {
+    enum class Source : uint8_t {
+        Fixed,      // `fixed`
+        Value,      // values[index]
+        Placed,     // component `component` of a point-like parameter at values[index], brought
+                    // from shader space to current
+        Space,      // entry (row, column) of space `index`
+        Time,
+        Shutter,
+        Near,
+        Far,
+    };
+    Source source = Source::Fixed;
+    float fixed = 0;
+    uint32_t index = 0;
+    uint32_t space = 0;     // Placed: the look's "shader" among its spaces
+    uint8_t component = 0;  // or row * 4 + column
+    rsl::BaseType type = rsl::BaseType::Float;
+    bool inverse = false;  // Space: from_current
+};
+
+// A kernel pair with its frame block.
+class BoundKernel {
+  public:
+    // Runs the frame kernel and fills the frame block. No allocation.
+    void update(const FrameContext& context, std::span<const dmat4> current_from_space);
+    const jit::Kernel& kernel() const { return *pair.point; }
+    const float* frame_block() const { return frame.data(); }
+    bool empty() const { return !pair.point; }
+
+    jit::KernelPair pair;
+    std::vector<FrameInput> inputs;    // of the frame kernel
+    std::vector<uint16_t> columns;     // of the point kernel's inputs
+    std::vector<jit::ServiceFn> services;  // of the point kernel, by slot
+    std::vector<float> frame;          // the frame block
+    std::vector<uint8_t> frame_faults;
+    Arena arena;                       // rows of 16 floats for the frame kernel
+    std::vector<const float*> in;
+    std::vector<float*> out;
+};
+
+enum class LookKind : uint8_t { Surface, Light };
+
+// A parameter bound to vertex inputs.
+struct VaryingParam {
+    std::string name;      // the shader parameter
+    std::string semantic;  // of the vertex input; "Pref" is the rest position
+    uint32_t set = kNone;
+    uint32_t layer = 0;
+    uint32_t components = 1;
+    uint32_t component = 0;  // first component of the vertex input (1 for the t of a texcoord)
+    uint16_t column = 0;     // value; du at column + components, dv at column + 2 * components
+};
+
+struct Look {
+    LookKind kind = LookKind::Surface;
+    uint32_t index = 0;                  // among Scene::looks
+    std::string name;                    // the material's or light's
+    std::vector<ShaderUse> layers;       // displacements, then surfaces; or one light
+    uint32_t node = kNone;               // scene node of "shader" space (lights; placed parameters)
+    std::vector<VaryingParam> varying;
+    uint16_t column_count = kColVarying;
+    rsl::LoweredShader lowered;          // the full kernel's (module moved out)
+    BoundKernel full;
+    std::optional<BoundKernel> opacity;  // for shadow rays, unless opaque
+    std::vector<std::string> spaces;     // names of frame-rate spaces the kernels read
+    std::vector<dmat4> current_from_space;
+    bool hide_backfaces = false;
+
+    bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }
+    const rsl::Shader& shader() const { return *layers.back().shader; }
+    void update(const FrameContext& context);
+};
+
+struct LookOptions {
+    jit::math::Tier math = jit::math::Tier::Precise;
+    const jit::Target* target = nullptr;
+    std::vector<std::string> light_messages;  // lights: names that some surface reads
+    const std::vector<std::string>* spaces = nullptr;
+    std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
+};
+
+// Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
+// compiled (findings say why).
+bool compile_look(Look& look, const SceneDescription& description, const LookOptions& options,
+                  Diagnostics& diagnostics);
+
+// current_from_space of a named space at the scene's present state: "world", "camera", "screen",
+// "NDC", "raster", "object"/"shader" of `node`, or a node's id.
+dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node);
+
+}  // namespace kinora

@@ -1,0 +1,25 @@
+// runtime/quality.cpp: the table of qualities (DESIGN.md section 6).
+#include "runtime/quality.h"
+
+namespace kinora {
+
+namespace {
+using jit::math::Tier;
+constexpr Quality kQualities[] = {
+    // name       spp   math            robust  rebuild
+    {"draft", 1, Tier::Fast, false, false},
+    {"preview", 4, Tier::Fast, true, false},
+    {"final", 64, Tier::Precise, true, false},
+    {"reference", 1024, Tier::Precise, true, true},
+};
+}  // namespace
+
+std::span<const Quality> qualities() { return kQualities; }
+
+const Quality* find_quality(std::string_view name) {
+    for (const Quality& quality : kQualities)
+        if (name == quality.name) return &quality;
+    return nullptr;
+}
+
+}  // namespace kinora

@@ -1,0 +1,24 @@
+// runtime/quality.h: the speed/accuracy trade: named rows of knob settings.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "jit/math.h"
+
+namespace kinora {
+
+// One row of --quality; an option given by itself wins over its row.
+struct Quality {
+    const char* name;
+    int samples_per_pixel;
+    jit::math::Tier math;   // transcendental functions: 4 or 1 ULP
+    bool robust;            // Embree's watertight traversal
+    bool always_rebuild;    // a fresh BVH each frame instead of a refitted one
+};
+
+std::span<const Quality> qualities();
+const Quality* find_quality(std::string_view name);  // null: no such row
+inline constexpr std::string_view kDefaultQuality = "final";
+
+}  // namespace kinora

@@ -1,0 +1,110 @@
+// runtime/services.cpp: the table of functions that generated code calls.
+#include "runtime/services.h"
+
+#include <cstdio>
+
+#include "rsl/renderer_services.h"
+#include "runtime/base/check.h"
+#include "runtime/shading_p.h"
+#include "runtime/texture.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kLanes = jit::kMaxLanes;
+
+const float* argument(const jit::ServiceCall& call, int index) {
+    return call.args + index * kLanes;
+}
+float* result(const jit::ServiceCall& call, int index) { return call.results + index * kLanes; }
+Grid& grid_of(const jit::ServiceCall& call) { return *static_cast<Grid*>(call.grid); }
+
+void triples(const jit::ServiceCall& call, int first, vec3* out) {
+    for (int i = 0; i < kLanes; ++i)
+        for (int k = 0; k < 3; ++k) out[i][k] = argument(call, first + k)[i];
+}
+void set_results(const jit::ServiceCall& call, int first, const vec3* values) {
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < kLanes; ++i) result(call, first + k)[i] = values[i][k];
+}
+
+void lights(const jit::ServiceCall& call) {
+    Grid& grid = grid_of(call);
+    int32_t handle = grid.shading->lights_at(grid, call);
+    for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
+}
+
+void texture(const jit::ServiceCall& call) { lookup_texture(call); }
+void environment(const jit::ServiceCall& call) { lookup_environment(call); }
+
+// Shadow maps are of a scan-line age: where one is asked for, the truth is at hand.
+void shadow(const jit::ServiceCall& call) {
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < kLanes; ++i) result(call, k)[i] = 0.0f;
+}
+
+void trace(const jit::ServiceCall& call) {
+    vec3 P[kLanes], R[kLanes], color[kLanes];
+    triples(call, 0, P);
+    triples(call, 3, R);
+    Grid& grid = grid_of(call);
+    grid.shading->trace(grid, call.mask, P, R, color, result(call, 3));
+    set_results(call, 0, color);
+}
+
+void transmission(const jit::ServiceCall& call) {
+    vec3 P[kLanes], Q[kLanes], through[kLanes];
+    triples(call, 0, P);
+    triples(call, 3, Q);
+    Grid& grid = grid_of(call);
+    if (grid.shadows)
+        grid.shading->transmission(grid, call.mask, P, Q, through);
+    else
+        std::fill_n(through, kLanes, vec3(1.0f));
+    set_results(call, 0, through);
+}
+
+void transform(const jit::ServiceCall& call) {
+    Grid& grid = grid_of(call);
+    for (int i = 0; i < kLanes; ++i) {
+        if (!(call.mask >> i & 1)) continue;
+        int32_t space = jit::bits_of(argument(call, 0)[i]);
+        size_t point = std::min(size_t(call.first + i), grid.count() - 1);
+        uint32_t node = grid.look->node;
+        if (grid.look->kind == LookKind::Surface) {
+            const Surface& surface = grid.scene.surfaces[grid.hits.instance[grid.points[point]]];
+            node = grid.scene.shapes[surface.shape].node;
+        }
+        dmat4 to = current_from_space(grid.scene, rsl::interned(space), node);
+        dmat4 from = glm::inverse(to);
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column) {
+                result(call, row * 4 + column)[i] = float(to[column][row]);
+                result(call, 12 + row * 4 + column)[i] = float(from[column][row]);
+            }
+    }
+}
+
+void print(const jit::ServiceCall& call) { grid_of(call).shading->print(grid_of(call), call); }
+
+struct Row {
+    std::string_view name;
+    jit::ServiceFn function;
+};
+constexpr Row kRows[] = {
+    {"lights", lights},           {"texture", texture}, {"environment", environment},
+    {"shadow", shadow},           {"trace", trace},     {"transmission", transmission},
+    {"transform", transform},     {"print", print},
+};
+static_assert(std::size(kRows) == std::size(rsl::kServiceNames));
+
+}  // namespace
+
+jit::ServiceFn find_service(std::string_view name) {
+    for (const Row& row : kRows)
+        if (row.name == name) return row.function;
+    check_failed("runtime/services.cpp", 0, "unknown service " + std::string(name));
+}
+
+}  // namespace kinora

@@ -1,0 +1,217 @@
+// runtime/shading.cpp: hits grouped by look, shaded in dense grids.
+#include "runtime/shading.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "runtime/base/parallel.h"
+#include "runtime/findings.h"
+#include "runtime/shading_p.h"
+
+namespace kinora {
+
+void ShadingCounters::operator+=(const ShadingCounters& o) {
+    trace += o.trace;
+    points += o.points;
+    light_points += o.light_points;
+    opacity_points += o.opacity_points;
+}
+
+Shading::Shading(Scene& scene) : scene_(scene) { bind_lights(); }
+Shading::~Shading() = default;
+
+void Shading::begin_frame(double time, double shutter, uint32_t seed) {
+    seed_ = seed;
+    while (threads_.size() < size_t(thread_count())) threads_.push_back(std::make_unique<Thread>());
+    for (auto& thread : threads_) {
+        thread->counters = {};
+        thread->faults.resize(2 * scene_.looks.size());
+        for (size_t l = 0; l < scene_.looks.size(); ++l) {
+            const Look& look = *scene_.looks[l];
+            thread->faults[2 * l].assign(look.full.kernel().fault_sites.size() + 1, 0);
+            if (look.opacity)
+                thread->faults[2 * l + 1].assign(look.opacity->kernel().fault_sites.size() + 1, 0);
+        }
+    }
+    FrameContext context{scene_, time, shutter};
+    any_transparent_ = false;
+    for (auto& look : scene_.looks) {
+        look->update(context);
+        any_transparent_ |= look->opacity.has_value();
+    }
+    const raytrace::Camera& view = scene_.view;
+    dmat3 axes(view.right, view.up, view.forward);
+    camera_from_accel_ = mat3(glm::transpose(axes));
+    eye_ = vec3(view.eye);
+}
+
+ShadingCounters Shading::end_frame(Diagnostics& diagnostics) {
+    ShadingCounters total;
+    for (auto& thread : threads_) total += thread->counters;
+    for (size_t l = 0; l < scene_.looks.size(); ++l) {
+        const BoundKernel* kernels[] = {&scene_.looks[l]->full,
+                                        scene_.looks[l]->opacity ? &*scene_.looks[l]->opacity
+                                                                 : nullptr};
+        for (size_t k = 0; k < 2; ++k) {
+            if (!kernels[k]) continue;
+            const auto& sites = kernels[k]->kernel().fault_sites;
+            for (size_t s = 0; s < sites.size(); ++s) {
+                bool hit = std::any_of(threads_.begin(), threads_.end(), [&](const auto& thread) {
+                    return thread->faults[2 * l + k][s] != 0;
+                });
+                if (hit) diagnostics.report(Code::SHADER_FAULT, sites[s].where, sites[s].message);
+            }
+        }
+    }
+    return total;
+}
+
+void Shading::shade(const raytrace::HitBatch& hits, int thread_id,
+                    raytrace::ShadeResult& result) {
+    Thread& own = thread(thread_id);
+    Arena::Mark mark = own.arena.mark();
+    // A counting sort by look keeps the hits' order within each, so rows stay together.
+    size_t looks = scene_.looks.size();
+    std::span<uint32_t> begin = own.arena.allocate_span<uint32_t>(looks + 1);
+    std::fill(begin.begin(), begin.end(), 0u);
+    for (size_t i = 0; i < hits.count; ++i)
+        ++begin[scene_.surfaces[hits.instance[i]].look + 1];
+    for (size_t l = 0; l < looks; ++l) begin[l + 1] += begin[l];
+    std::span<uint32_t> order = own.arena.allocate_span<uint32_t>(hits.count);
+    std::span<uint32_t> next = own.arena.allocate_span<uint32_t>(looks);
+    std::copy_n(begin.begin(), looks, next.begin());
+    for (uint32_t i = 0; i < hits.count; ++i)
+        order[next[scene_.surfaces[hits.instance[i]].look]++] = i;
+    for (size_t l = 0; l < looks; ++l)
+        for (size_t at = begin[l]; at < begin[l + 1]; at += kGridPoints)
+            shade_look(hits, order.subspan(at, std::min(kGridPoints, begin[l + 1] - at)),
+                       *scene_.looks[l], thread_id, result);
+    own.arena.release(mark);
+}
+
+namespace {
+
+constexpr size_t kRecordSets = 64;  // handles a grid may hold at once
+
+Grid make_grid(const Scene& scene, const raytrace::HitBatch& hits,
+               std::span<const uint32_t> points, const Look& look, int thread, Shading& shading,
+               Arena& arena) {
+    Grid grid{scene, hits, points};
+    grid.depth = hits.depth;
+    grid.thread = thread;
+    grid.shading = &shading;
+    grid.arena = &arena;
+    grid.look = &look;
+    grid.columns = arena.allocate_span<float*>(look.column_count);
+    std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
+    grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
+    std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
+    return grid;
+}
+
+std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena) {
+    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
+    for (float*& column : out) column = arena.allocate_span<float>(padded(count)).data();
+    return out;
+}
+
+// The three outputs "name.r" ... of a kernel, null where it has none.
+void find_triple(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+                 float* triple_out[3]) {
+    for (int k = 0; k < 3; ++k) triple_out[k] = nullptr;
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+        std::string_view full = kernel.outputs[o].name;
+        if (full.size() != name.size() + 2 || !full.starts_with(name)) continue;
+        triple_out[full.back() == 'r' ? 0 : full.back() == 'g' ? 1 : 2] = out[o];
+    }
+}
+
+}  // namespace
+
+void Shading::run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* const> out) {
+    std::span<const float*> in = grid.arena->allocate_span<const float*>(bound.columns.size());
+    for (size_t i = 0; i < in.size(); ++i) in[i] = grid.columns[bound.columns[i]];
+    Thread& own = thread(grid.thread);
+    jit::KernelArgs args;
+    args.in = in.data();
+    args.out = out.data();
+    args.frame = bound.frame_block();
+    args.scratch =
+        static_cast<std::byte*>(grid.arena->allocate(bound.kernel().scratch_bytes));
+    args.fault = own.faults[2 * grid.look->index + (&bound != &grid.look->full)].data();
+    args.services = bound.services.data();
+    args.record_sets = grid.record_sets.data();
+    args.grid = &grid;
+    args.count = int32_t(grid.count());
+    bound.kernel().run(args);
+}
+
+void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
+                         const Look& look, int thread_id, raytrace::ShadeResult& result) {
+    Thread& own = thread(thread_id);
+    Arena::Mark mark = own.arena.mark();
+    Grid grid = make_grid(scene_, hits, points, look, thread_id, *this, own.arena);
+    want_columns(grid, look.full.columns);
+    if (look.lowered.uses_lights) {
+        want_triple(grid, kColP);
+        want_triple(grid, kColN);
+    }
+    gather(grid);
+    if (look.lowered.uses_lights) run_lights(grid);
+    std::span<float*> out = take_outputs(look.full.kernel(), grid.count(), own.arena);
+    run_kernel(look.full, grid, out);
+    own.counters.points += grid.count();
+    float *Ci[3], *Oi[3];
+    find_triple(look.full.kernel(), out, "Ci", Ci);
+    find_triple(look.full.kernel(), out, "Oi", Oi);
+    for (int k = 0; k < 3; ++k)
+        for (size_t i = 0; i < points.size(); ++i) {
+            result.Ci[k][points[i]] = Ci[k] ? Ci[k][i] : 0.0f;
+            result.Oi[k][points[i]] = Oi[k] ? Oi[k][i] : 1.0f;
+        }
+    own.arena.release(mark);
+}
+
+void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* result) {
+    Thread& own = thread(thread_id);
+    Arena::Mark mark = own.arena.mark();
+    std::span<uint32_t> points = own.arena.allocate_span<uint32_t>(hits.count);
+    for (size_t l = 0; l < scene_.looks.size(); ++l) {
+        const Look& look = *scene_.looks[l];
+        size_t count = 0;
+        for (uint32_t i = 0; i < hits.count; ++i)
+            if (scene_.surfaces[hits.instance[i]].look == l) points[count++] = i;
+        if (count == 0) continue;
+        if (!look.opacity) {
+            for (size_t i = 0; i < count; ++i) result[points[i]] = vec3(1.0f);
+            continue;
+        }
+        for (size_t at = 0; at < count; at += kGridPoints) {
+            Arena::Mark grid_mark = own.arena.mark();
+            std::span<const uint32_t> part =
+                points.subspan(at, std::min(kGridPoints, count - at));
+            Grid grid = make_grid(scene_, hits, part, look, thread_id, *this, own.arena);
+            grid.shadows = false;
+            want_columns(grid, look.opacity->columns);
+            if (look.lowered.uses_lights) {
+                want_triple(grid, kColP);
+                want_triple(grid, kColN);
+            }
+            gather(grid);
+            if (look.lowered.uses_lights) run_lights(grid);
+            std::span<float*> out =
+                take_outputs(look.opacity->kernel(), grid.count(), own.arena);
+            run_kernel(*look.opacity, grid, out);
+            own.counters.opacity_points += grid.count();
+            float* Oi[3];
+            find_triple(look.opacity->kernel(), out, "Oi", Oi);
+            for (size_t i = 0; i < part.size(); ++i)
+                for (int k = 0; k < 3; ++k)
+                    result[part[i]][k] = Oi[k] ? Oi[k][i] : 1.0f;
+            own.arena.release(grid_mark);
+        }
+    }
+    own.arena.release(mark);
+}
+
+}  // namespace kinora

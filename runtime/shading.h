@@ -1,0 +1,94 @@
+// runtime/shading.h: the looks of surfaces for the ray tracer: hits to grids to colours.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "raytrace/integrator.h"
+#include "runtime/grid.h"
+#include "runtime/look.h"
+
+namespace kinora {
+
+struct Scene;
+
+struct ShadingCounters {
+    raytrace::TraceCounters trace;  // shadow and reflection rays
+    uint64_t points = 0;            // surface kernels
+    uint64_t light_points = 0;      // light kernels
+    uint64_t opacity_points = 0;    // opacity kernels
+    void operator+=(const ShadingCounters& o);
+};
+
+// Wavefront shading (DESIGN.md decision 2): hits of a batch are grouped by look, shaded in dense
+// grids. One per scene; its memory is kept from frame to frame.
+class Shading : public raytrace::SurfaceShading {
+  public:
+    explicit Shading(Scene& scene);
+    ~Shading() override;
+
+    // Before a frame's first shade(): sizes the threads' memory, runs the frame kernels.
+    void begin_frame(double time, double shutter, uint32_t seed);
+    // After the last: sums counters; reports faults, one finding a source line.
+    ShadingCounters end_frame(Diagnostics& diagnostics);
+
+    void shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) override;
+
+    // For services. Colour and opacity of hits found at `grid.depth + 1`.
+    static constexpr uint32_t kMaxDepth = 16;
+    void trace(const Grid& grid, uint32_t mask, const vec3* P, const vec3* R, vec3* color,
+               float* distance);
+    // Light that passes from P to Q (current space) for the lanes of mask.
+    void transmission(const Grid& grid, uint32_t mask, const vec3* P, const vec3* Q, vec3* result);
+    // Light records at other points than the grid's own; their handle.
+    int32_t lights_at(Grid& grid, const jit::ServiceCall& call);
+
+    struct Thread;
+    Thread& thread(int index) { return *threads_[size_t(index)]; }
+
+    // Output columns of one illuminate or solar statement (-1: the kernel has none).
+    struct Statement {
+        rsl::LightKind kind = rsl::kLightAmbient;
+        bool casts_shadow = false;
+        int L[3], Cl[3], Ol[3], lit = -1;
+    };
+    // What one surface look reads of one light.
+    struct LightBinding {
+        int32_t categories = 0;
+        float nondiffuse = 0, nonspecular = 0;
+        std::vector<int> messages;  // output columns
+    };
+
+  private:
+    void shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
+                    const Look& look, int thread, raytrace::ShadeResult& result);
+    void run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* const> out);
+    // light_records.cpp
+    struct LightPoints;  // where light is wanted
+    void bind_lights();
+    void run_lights(Grid& grid);
+    jit::Record make_record(Grid& grid, const LightPoints& at, const Statement& statement,
+                            const LightBinding& binding, std::span<float* const> out,
+                            const float* zeros);
+    jit::RecordSet make_records(Grid& grid, const LightPoints& at);
+    void shadow(const Grid& grid, const LightPoints& at, bool solar, const float* const L[3],
+                const float* lit, float* const Cl[3]);
+    // transmission.cpp
+    void pass_transparent(int thread, raytrace::RayBatch& rays, vec3* through);
+    void opacity(const raytrace::HitBatch& hits, int thread, vec3* Oi);
+
+    Scene& scene_;
+    std::vector<std::unique_ptr<Thread>> threads_;
+    uint32_t seed_ = 0;
+    bool any_transparent_ = false;
+    size_t record_count_ = 0;
+    std::vector<std::vector<Statement>> statements_;    // [light]
+    std::vector<std::vector<LightBinding>> bindings_;   // [look][light]
+    mat3 camera_from_accel_{1.0f};
+    vec3 eye_{0.0f};
+    friend void gather(Grid&);
+};
+
+}  // namespace kinora

@@ -1,0 +1,76 @@
+// runtime/shading_p.h: what the parts of Shading share; for shading*.cpp, light_records.cpp,
+// transmission.cpp and services.cpp only.
+#pragma once
+
+#include "runtime/scene.h"
+#include "runtime/shading.h"
+
+namespace kinora {
+
+// One thread's memory. Nested shading (reflections, opacity of shadow rays) takes its rays and hits
+// by depth, so that an outer wavefront is never overwritten.
+struct Shading::Thread {
+    Arena arena{1 << 20};
+    ShadingCounters counters;
+    std::vector<std::vector<uint8_t>> faults;  // per look and kernel: one byte a site
+    struct Level {
+        raytrace::RayBatch rays;
+        raytrace::HitStore hits;
+    };
+    std::vector<std::unique_ptr<Level>> levels;
+    size_t level = 0;  // levels in use
+};
+
+// Takes the next level of nested wavefronts for its scope.
+class NestedWavefront {
+  public:
+    explicit NestedWavefront(Shading::Thread& thread) : thread_(thread) {
+        if (thread.level == thread.levels.size())
+            thread.levels.push_back(std::make_unique<Shading::Thread::Level>());
+        level_ = thread.levels[thread.level++].get();
+    }
+    ~NestedWavefront() { --thread_.level; }
+    NestedWavefront(const NestedWavefront&) = delete;
+    Shading::Thread::Level* operator->() { return level_; }
+
+  private:
+    Shading::Thread& thread_;
+    Shading::Thread::Level* level_;
+};
+
+// Where light is wanted: points in current space, and in accel space with their error bounds.
+struct Shading::LightPoints {
+    size_t count = 0;
+    const float* P[3];
+    const float* N[3];
+    const float* accel[3];
+    const float* error[3];
+    const float* Ng[3];  // accel space
+    const float* rng = nullptr;
+    size_t first = 0;    // grid point of element 0: what record columns are relative to
+};
+
+inline vec3 triple(const float* const columns[3], size_t i) {
+    return {columns[0][i], columns[1][i], columns[2][i]};
+}
+inline void set_triple(float* const columns[3], size_t i, vec3 value) {
+    columns[0][i] = value.x;
+    columns[1][i] = value.y;
+    columns[2][i] = value.z;
+}
+
+// Sets one ray of a packet or batch; both have the same columns.
+template <class Rays>
+void set_ray(Rays& rays, size_t i, vec3 org, vec3 dir, float tfar) {
+    set_triple(rays.org, i, org);
+    set_triple(rays.dir, i, dir);
+    rays.tnear[i] = 0;
+    rays.tfar[i] = tfar;
+    rays.time[i] = 0;
+}
+
+// A nested ray without footprint of its own.
+void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
+                    const raytrace::HitBatch& from, uint32_t hit);
+
+}  // namespace kinora
