@@ -39,12 +39,12 @@ enum class SampleKind : uint8_t { Numbers, Matrix };
 
 // The arrays of a <sampler> as they stand in the file; only viewed.
 struct SamplerSource {
-    std::span<const double> times;                  // n keys, seconds
-    std::span<const double> values;                 // n * stride
-    uint32_t stride = 1;                            // numbers per key
-    std::span<const Interpolation> interpolations;  // n, or 1 for all, or none (LINEAR)
-    std::span<const double> in_tangents;            // n * in_stride, or none
-    std::span<const double> out_tangents;           // n * out_stride, or none
+    std::span<const double> times = {};                  // n keys, seconds
+    std::span<const double> values = {};                 // n * stride
+    uint32_t stride = 1;                                 // numbers per key
+    std::span<const Interpolation> interpolations = {};  // n, or 1 for all, or none (LINEAR)
+    std::span<const double> in_tangents = {};            // n * in_stride, or none
+    std::span<const double> out_tangents = {};           // n * out_stride, or none
     // Numbers per key in the tangent arrays. stride: 1-D. 2 * stride: a (time, value) pair for each
     // component. stride + 1 (stride > 1): one time, then the values. Others count as missing.
     uint32_t in_stride = 1;

@@ -51,7 +51,7 @@ double solve_time_cubic(const double time[2], double duration, double offset) {
     if (!(offset > 0)) return 0;
     if (offset >= duration) return 1;
     double x0 = time[0], x1 = time[1];
-    bool mirrored = duration - x1 < x0;  // flatter at the end than at the start: seen from there
+    bool mirrored = offset > 0.5 * duration;  // seen from the nearer end; both may be flat
     if (mirrored) {
         double swapped = duration - x1;
         x1 = duration - x0;
