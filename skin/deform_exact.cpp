@@ -3,6 +3,7 @@
 
 #include "runtime/base/math.h"
 #include "skin/deform_p.h"
+#include "skin/influences_p.h"
 
 namespace kinora::skin {
 namespace {

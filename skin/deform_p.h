@@ -43,11 +43,4 @@ inline constexpr float kMostSafe = 1e30f;
 void exact_normal(const float* palette, const float* weights, const uint32_t* places,
                   uint32_t rounds, uint32_t vertex, const float* rest, float* normal);
 
-// Where influence `round` of a vertex lies among a block's entries (see InfluenceBlocks).
-constexpr uint32_t entry_of(uint32_t rounds, uint32_t round, uint32_t vertex) {
-    uint32_t set = round / 4 * 4;
-    uint32_t width = rounds - set < 4 ? rounds - set : 4;
-    return set * 16 + vertex * width + (round - set);
-}
-
 }  // namespace kinora::skin

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skin/deform_p.h"
 #include "skin/influences_p.h"
 
 namespace kinora::skin {

@@ -20,6 +20,13 @@ struct CleanInfluences {
 };
 CleanInfluences clean_influences(const InfluenceSource& source, SkinRepairs& repairs);
 
+// Where influence `round` of a vertex lies among a block's entries (see InfluenceBlocks).
+constexpr uint32_t entry_of(uint32_t rounds, uint32_t round, uint32_t vertex) {
+    uint32_t set = round / 4 * 4;
+    uint32_t width = rounds - set < 4 ? rounds - set : 4;
+    return set * 16 + vertex * width + (round - set);
+}
+
 // The influences of vertices[0], vertices[1], ... blocked; all in order if `vertices` is null.
 InfluenceBlocks block_influences(const CleanInfluences& clean,
                                  const std::vector<uint32_t>* vertices);

@@ -32,8 +32,8 @@ struct Morph {
 // Positions in the base mesh's space minus its anchor; RELATIVE targets are differences and have no
 // anchor taken off. A target's normals may be empty.
 struct MorphTargetSource {
-    std::span<const vec3> positions;
-    std::span<const vec3> normals;
+    std::span<const vec3> positions = {};
+    std::span<const vec3> normals = {};
 };
 // A target whose counts differ from the base's is used as far as both reach; `mismatched` counts
 // such targets for the caller to report.

@@ -11,9 +11,9 @@ namespace kinora::skin {
 
 // The influences of a <skin>, as read: vertex v has those in [first[v], first[v + 1]).
 struct InfluenceSource {
-    std::span<const uint32_t> first;  // vertices + 1, ascending; beyond the arrays is cut off
-    std::span<const int32_t> joints;  // -1: bind shape alone
-    std::span<const double> weights;  // same count as joints
+    std::span<const uint32_t> first = {};  // vertices + 1, ascending; beyond the arrays is cut off
+    std::span<const int32_t> joints = {};  // -1: bind shape alone
+    std::span<const double> weights = {};  // same count as joints
     uint32_t joint_count = 0;
     uint32_t root_joint = 0;      // takes vertices without weight
     bool normalise = true;        // scale each vertex's weights to sum 1 (--weights=normalise)
