@@ -17,9 +17,9 @@ inline constexpr uint32_t kLatticeSeed = 0x45151fb1u;
 inline constexpr uint32_t kGradient[3] = {0xbd2db7f7u, 0x2c1b3c6fu, 0x94d049bbu};
 inline constexpr int kGradientShift[4] = {0, 6, 12, 17};
 
-// Multiplies the signed sum so that its deviation in the middle of a cell is about 0.25 of the
+// Multiplies the signed sum so that its deviation is about 0.24 of the
 // range -1..1 in any number of dimensions; what lies outside (more than 4 deviations) is clamped.
-inline constexpr float kNoiseScale[4] = {1.25f, 1.25f, 1.4f, 1.7f};
+inline constexpr float kNoiseScale[4] = {1.75f, 1.35f, 1.25f, 1.23f};
 
 // Coordinates are clamped to this before they become integers (EXTREMES.md row 68).
 inline constexpr float kLatticeLimit = 1073741824.0f;  // 2^30
