@@ -20,11 +20,11 @@ inline constexpr uint32_t kMaskCamera = 1u << 31;
 
 inline constexpr int kPacket = 16;
 
-// Sixteen rays, structure of arrays, accel space. A hit has tnear < t <= tfar, with t in units of
-// the direction's length; directions need not have length 1. Lanes not in `active` are ignored.
-// A ray that is not well-formed (NaN or infinite or |x| > 1.8e18 in origin or direction, NaN or
-// negative tnear, NaN tfar, direction 0) or is empty (tnear > tfar) is a miss. Instances that scale
-// by s < 1 lower the limit on origins to s * 1.7e18.
+// Sixteen rays, structure of arrays, accel space. A hit has t > 0 and tnear <= t <= tfar, with t in
+// units of the direction's length; directions need not have length 1. Lanes not in `active` are
+// ignored. A ray that is not well-formed (NaN, infinite or |x| > 1.8e18 in origin or direction, NaN
+// or negative tnear, NaN tfar, direction 0) or is empty (tnear > tfar) is a miss. Instances that
+// scale by s < 1 lower the limit on origins to s * 1.7e18.
 struct alignas(64) RayPacket16 {
     float org_x[kPacket], org_y[kPacket], org_z[kPacket];
     float dir_x[kPacket], dir_y[kPacket], dir_z[kPacket];

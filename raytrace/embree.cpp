@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cfloat>
 #include <cstdio>
 #include <cstring>
 
@@ -133,7 +134,9 @@ void load_rays(const RayPacket16& in, RTCRay16& out) {
     std::memcpy(out.dir_x, in.dir_x, bytes);
     std::memcpy(out.dir_y, in.dir_y, bytes);
     std::memcpy(out.dir_z, in.dir_z, bytes);
-    std::memcpy(out.tnear, in.tnear, bytes);
+    // Embree takes tnear <= t; a ray that starts in an axis-parallel surface at 0 has no rounding
+    // error to be offset by, and must not meet that surface at t = 0.
+    for (int i = 0; i < kPacket; ++i) out.tnear[i] = std::max(in.tnear[i], FLT_MIN);
     std::memcpy(out.tfar, in.tfar, bytes);
     std::memcpy(out.mask, in.mask, bytes);
     std::memset(out.time, 0, bytes);

@@ -37,7 +37,7 @@ constexpr PixelFilter kPixelFilters[] = {
     {"gaussian", 2, [](double x) { return std::exp(-2 * x * x); }},
 };
 
-constexpr int kCells = 256;      // of the inverse
+constexpr int kCells = 1024;     // of the inverse
 constexpr int kSteps = 1 << 14;  // of the integral
 
 }  // namespace
