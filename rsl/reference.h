@@ -1,0 +1,55 @@
+// rsl/reference.h: defines the language by running it: an evaluator of the checked syntax tree, one
+// shading point at a time, in plain C++ (DESIGN.md decision 22). As float it checks what lowering
+// and the targets do; as double it measures their accuracy. It shares no code with lowering.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rsl/lower.h"
+
+namespace kinora::rsl {
+
+// A light's answer at the point, as the columns and uniforms of a light record.
+struct ReferenceLight {
+    LightKind kind = kLightIlluminate;
+    std::vector<std::string> categories;
+    double nondiffuse = 0;
+    double nonspecular = 0;
+    std::array<double, 3> L{}, Cl{}, Ol{};
+    bool lit = true;
+    std::map<std::string, std::vector<double>> messages;  // what lightsource() finds
+};
+
+// What a renderer answers; the defaults are a world without textures and other objects. Names,
+// order and number of arguments and results as in rsl/renderer_services.h; strings as intern ids.
+using ReferenceService =
+    std::function<std::vector<double>(std::string_view name, std::span<const double> args)>;
+
+// The point, by the names of kernel inputs ("P.x", "dPdu.x", "param:0:Kd", "space:world:to_current:
+// 03"): what is missing is 0, a missing space is the identity.
+struct ReferenceInputs {
+    std::map<std::string, double> values;
+    std::vector<ReferenceLight> lights;  // at any position asked for
+    ReferenceService service;
+};
+
+struct ReferenceResult {
+    std::map<std::string, double> values;  // by the names of kernel outputs; all that exist
+    // A hash of the branches taken and of the whole numbers that floor, step and the like gave. Two
+    // runs with different decisions (float and double near an edge) are not comparable.
+    uint64_t decisions = 0;
+    int faults = 0;  // loops ended by their budget, indices outside their arrays
+};
+
+// Runs a stack of displacement and surface shaders, or one light. Parameters come from their
+// bindings, as in lower().
+template <class Real>
+ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInputs& inputs);
+
+}  // namespace kinora::rsl
