@@ -42,8 +42,25 @@ class Folder {
                 break;
         }
         if (is_pure(inst.op)) return fold_pure(v);
+        if (op_info(inst.op).flags & kEffect) return fold_effect(v);
         r_.copy(v);
         return v + 1;
+    }
+
+    // What acts on no lane goes; a call's results in such lanes are free, so zero will do.
+    Value fold_effect(Value v) {
+        const Inst& inst = r_.old[v];
+        Value mask = inst.op == Op::ArrayStore ? inst.c : inst.a;
+        if (!is_mask(r_.renamed[mask], false)) {
+            r_.copy(v);
+            return v + 1;
+        }
+        Value next = v + 1;
+        for (; r_.old[next].op == Op::Result; ++next) {
+            Type type = r_.old[next].type;
+            r_.renamed[next] = r_.append({.op = constant_op(type), .type = type});
+        }
+        return next;
     }
 
     Value copy_if_kept(Value v, Value begin) {

@@ -1,6 +1,9 @@
 // tests/jit/run_kernel.h: runs a kernel on plain vectors, with all that KernelArgs asks laid out.
 #pragma once
 
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -30,10 +33,12 @@ inline size_t padded(int32_t count) {
     return (static_cast<size_t>(count) + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
 }
 
-// What a run gave: bits of each output at each point, and the fault bytes.
+// What a run gave: bits of each output at each point, the fault bytes, and whatever a test's
+// services noted for each point.
 struct RunResult {
     std::vector<std::vector<int32_t>> out;
     std::vector<uint8_t> fault;
+    std::vector<uint64_t> log;
     bool operator==(const RunResult&) const = default;
 };
 
@@ -108,6 +113,8 @@ inline std::string difference(const Kernel& kernel, const RunResult& a, const Ru
             }
     for (size_t k = 0; k < a.fault.size(); ++k)
         if (a.fault[k] != b.fault[k]) return "fault " + std::to_string(k) + " differs";
+    for (size_t p = 0; p < a.log.size(); ++p)
+        if (a.log[p] != b.log[p]) return "service calls of point " + std::to_string(p) + " differ";
     return "";
 }
 
