@@ -214,9 +214,9 @@ struct Morph {
 enum class Interpolation : uint8_t { Linear, Step, Bezier, Hermite, Cardinal, Bspline };
 enum class Behavior : uint8_t { Undefined, Constant, Gradient, Cycle, Oscillate, CycleRelative };
 
-// Keys have finite numbers; times are as written, not sorted. Tangents: 1-D are values relative to
-// the key, 2-D are absolute (time, value) points; layout [key][component][dims]. Samplers of whole
-// matrices have their values and tangents in column-major order.
+// Keys have finite numbers and ascending times (equal ones stay). Tangents: 1-D are values relative
+// to the key, 2-D are absolute (time, value) points; layout [key][component][dims]. Samplers of
+// whole matrices have their values and tangents in column-major order.
 struct Sampler {
     std::string id;
     std::vector<double> times;
@@ -229,7 +229,7 @@ struct Sampler {
     Location where;
 };
 
-// sampler.stride == ref.count, except that a stride-1 sampler may fill several components.
+// sampler.stride == ref.count, always.
 struct Channel {
     std::string target;  // as written
     uint32_t sampler = 0;

@@ -1,0 +1,149 @@
+// collada/encoding.cpp: from the bytes of a file to UTF-8 text.
+#include <cctype>
+#include <cstdint>
+
+#include "collada/encoding_p.h"
+
+namespace kinora::collada {
+
+void append_utf8(std::string& out, uint32_t c) {
+    if (c < 0x80) {
+        out += char(c);
+    } else if (c < 0x800) {
+        out += char(0xC0 | c >> 6);
+        out += char(0x80 | (c & 63));
+    } else if (c < 0x10000) {
+        out += char(0xE0 | c >> 12);
+        out += char(0x80 | (c >> 6 & 63));
+        out += char(0x80 | (c & 63));
+    } else {
+        out += char(0xF0 | c >> 18);
+        out += char(0x80 | (c >> 12 & 63));
+        out += char(0x80 | (c >> 6 & 63));
+        out += char(0x80 | (c & 63));
+    }
+}
+
+std::string utf8_from_latin1(std::string_view bytes) {
+    std::string out;
+    out.reserve(bytes.size() + bytes.size() / 16);
+    for (char b : bytes) append_utf8(out, uint8_t(b));
+    return out;
+}
+
+namespace {
+
+// How many bytes the sequence starting with `lead` has; 0 for no start.
+int sequence_length(uint8_t lead) {
+    if (lead < 0x80) return 1;
+    if (lead >= 0xC2 && lead < 0xE0) return 2;
+    if (lead >= 0xE0 && lead < 0xF0) return 3;
+    if (lead >= 0xF0 && lead < 0xF5) return 4;
+    return 0;
+}
+
+}  // namespace
+
+bool valid_utf8(std::string_view text) {
+    for (size_t i = 0; i < text.size();) {
+        int length = sequence_length(uint8_t(text[i]));
+        if (length == 0 || i + size_t(length) > text.size()) return false;
+        for (int k = 1; k < length; ++k)
+            if ((uint8_t(text[i + size_t(k)]) & 0xC0) != 0x80) return false;
+        i += size_t(length);
+    }
+    return true;
+}
+
+namespace {
+
+std::string utf8_from_utf16(std::string_view bytes, bool big_endian) {
+    auto unit = [&](size_t i) {
+        uint8_t a = uint8_t(bytes[i]), b = uint8_t(bytes[i + 1]);
+        return uint32_t(big_endian ? a << 8 | b : b << 8 | a);
+    };
+    std::string out;
+    out.reserve(bytes.size() / 2 + 16);
+    for (size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        uint32_t c = unit(i);
+        bool high = c >= 0xD800 && c < 0xDC00;
+        if (high && i + 3 < bytes.size() && (unit(i + 2) & 0xFC00) == 0xDC00) {
+            c = 0x10000 + ((c - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
+            i += 2;
+        } else if (c >= 0xD800 && c < 0xE000) {
+            c = 0xFFFD;  // half a pair: the replacement character
+        }
+        append_utf8(out, c);
+    }
+    return out;
+}
+
+// The encoding named in <?xml ... encoding="..."?>, in lower case; "" if none.
+std::string declared_encoding(std::string_view text) {
+    if (!text.starts_with("<?xml")) return {};
+    std::string_view declaration = text.substr(0, std::min(text.find("?>"), size_t(256)));
+    size_t at = declaration.find("encoding");
+    if (at == std::string_view::npos) return {};
+    size_t open = declaration.find_first_of("'\"", at);
+    if (open == std::string_view::npos) return {};
+    size_t close = declaration.find(declaration[open], open + 1);
+    if (close == std::string_view::npos) return {};
+    std::string name(declaration.substr(open + 1, close - open - 1));
+    for (char& c : name) c = char(std::tolower(uint8_t(c)));
+    return name;
+}
+
+struct Magic {
+    std::string_view bytes;
+    const char* what;
+};
+
+constexpr Magic kNotXml[] = {
+    {"\x1f\x8b", "it is a gzip file"},
+    {"PK\x03\x04", "it is a zip archive (.zae or .kmz); unpack it"},
+    {"version https://git-lfs", "it is a Git LFS pointer; run 'git lfs pull'"},
+    {"BZh", "it is a bzip2 file"},
+    {"\xfd"
+     "7zXZ",
+     "it is an xz file"},
+    {"glTF", "it is a binary glTF"},
+    {"Kaydara FBX", "it is an FBX file"},
+    {"BLENDER", "it is a Blender file"},
+    {std::string_view("\xff\xfe\0\0", 4), "UTF-32 is not read"},
+    {std::string_view("\0\0\xfe\xff", 4), "UTF-32 is not read"},
+};
+
+constexpr std::string_view kSingleByte[] = {"iso-8859-1",   "latin1", "latin-1", "iso-8859-15",
+                                            "windows-1252", "cp1252", "us-ascii"};
+constexpr std::string_view kUnicode[] = {"", "utf-8", "utf8", "utf-16", "utf-16le", "utf-16be"};
+
+template <size_t N>
+bool contains(const std::string_view (&names)[N], std::string_view name) {
+    for (std::string_view n : names)
+        if (n == name) return true;
+    return false;
+}
+
+}  // namespace
+
+DecodedText decode_text(std::string bytes) {
+    std::string_view view = bytes;
+    for (const Magic& magic : kNotXml)
+        if (view.starts_with(magic.bytes)) return {{}, magic.what, {}};
+    if (view.starts_with("\xff\xfe")) return {utf8_from_utf16(view.substr(2), false), {}, {}};
+    if (view.starts_with("\xfe\xff")) return {utf8_from_utf16(view.substr(2), true), {}, {}};
+    if (view.starts_with(std::string_view("<\0", 2))) return {utf8_from_utf16(view, false), {}, {}};
+    if (view.starts_with(std::string_view("\0<", 2))) return {utf8_from_utf16(view, true), {}, {}};
+    if (view.starts_with("\xef\xbb\xbf")) {
+        bytes.erase(0, 3);
+        return {std::move(bytes), {}, {}};
+    }
+    std::string encoding = declared_encoding(view);
+    if (contains(kUnicode, encoding)) return {std::move(bytes), {}, {}};
+    if (contains(kSingleByte, encoding)) return {utf8_from_latin1(view), {}, {}};
+    if (valid_utf8(view)) return {std::move(bytes), {}, {}};
+    return {
+        utf8_from_latin1(view), {}, "Latin-1, since the encoding '" + encoding + "' is unknown"};
+}
+
+}  // namespace kinora::collada

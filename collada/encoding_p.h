@@ -1,0 +1,23 @@
+// collada/encoding_p.h: from the bytes of a file to UTF-8 text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kinora::collada {
+
+struct DecodedText {
+    std::string text;     // UTF-8 without BOM, if `error` is empty
+    std::string error;    // "a gzip file": it is no text at all
+    std::string recoded;  // "Latin-1": the text was transcoded although the file did not say so
+};
+
+// Sees BOMs, UTF-16 without BOM, the XML declaration's encoding, and archives in disguise.
+DecodedText decode_text(std::string bytes);
+
+std::string utf8_from_latin1(std::string_view bytes);
+bool valid_utf8(std::string_view text);
+void append_utf8(std::string& out, uint32_t code_point);
+
+}  // namespace kinora::collada

@@ -1,0 +1,64 @@
+// collada/extract.cpp: the order in which what <scene> reaches is read.
+#include <algorithm>
+#include <filesystem>
+
+#include "collada/extract_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+// The visual scene of <scene>; else the first of the document; else null.
+Link find_visual_scene(Extraction& x) {
+    const Document& document = x.document(0);
+    const Element* scene = document.root().child("scene");
+    const Element* instance = scene ? scene->child("instance_visual_scene") : nullptr;
+    if (instance) {
+        if (const Element* second = instance->next_named("instance_visual_scene"))
+            x.diag.report(Code::SCENE_MULTI, x.where({0, second}));
+        Link link = resolve(x, {0, instance}, "url", {"visual_scene"});
+        if (link) return link;
+    }
+    for (const Element& library : document.root().children()) {
+        if (library.name != "library_visual_scenes") continue;
+        if (const Element* first = library.child("visual_scene")) {
+            x.diag.report(Code::SCENE_MISSING, x.where({0, scene ? scene : first}));
+            return {0, first};
+        }
+    }
+    return {};
+}
+
+void read_visual_scene(Extraction& x, Link scene) {
+    x.scene.scene_id = scene.element->value("id");
+    x.scene.scene_name = scene.element->value("name");
+    for (const Element& child : scene.element->children())
+        if (child.name == "node") x.scene.roots.push_back(node_index(x, {scene.doc, &child}));
+    // The first root is read first, so that what it shows gets the first numbers.
+    std::reverse(x.pending_nodes.begin(), x.pending_nodes.end());
+    read_pending_nodes(x);
+    x.scene.rsl_materials = rsl_extra_materials(x, scene);
+    read_time_range(x, scene);
+}
+
+}  // namespace
+
+std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
+                                 const ExtractOptions& options) {
+    Extraction x{diag, options};
+    std::error_code error;
+    add_document(x, document, std::filesystem::weakly_canonical(document.path(), error).string());
+    x.scene.asset = x.scene.documents[0].asset;
+    Link scene = find_visual_scene(x);
+    if (!scene) {
+        diag.report(Code::SCENE_NONE, document.location(document.root()));
+        return std::nullopt;
+    }
+    read_visual_scene(x, scene);
+    check_node_graph(x);
+    resolve_joints(x);
+    read_animations(x);
+    return std::move(x.scene);
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,156 @@
+// collada/extract_common.cpp: profile_COMMON: a shading model and its slots.
+#include <cmath>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+struct ModelRow {
+    std::string_view name;
+    CommonModel model;
+};
+constexpr ModelRow kModels[] = {{"constant", CommonModel::Constant},
+                                {"lambert", CommonModel::Lambert},
+                                {"phong", CommonModel::Phong},
+                                {"blinn", CommonModel::Blinn}};
+
+struct SlotRow {
+    std::string_view name;
+    CommonSlot slot;
+};
+constexpr SlotRow kSlots[] = {{"emission", CommonSlot::Emission},
+                              {"ambient", CommonSlot::Ambient},
+                              {"diffuse", CommonSlot::Diffuse},
+                              {"specular", CommonSlot::Specular},
+                              {"shininess", CommonSlot::Shininess},
+                              {"reflective", CommonSlot::Reflective},
+                              {"reflectivity", CommonSlot::Reflectivity},
+                              {"transparent", CommonSlot::Transparent},
+                              {"transparency", CommonSlot::Transparency},
+                              {"index_of_refraction", CommonSlot::IndexOfRefraction}};
+
+struct OpaqueRow {
+    std::string_view name;
+    Opaque opaque;
+};
+constexpr OpaqueRow kOpaque[] = {{"A_ONE", Opaque::AOne},
+                                 {"RGB_ZERO", Opaque::RgbZero},
+                                 {"A_ZERO", Opaque::AZero},
+                                 {"RGB_ONE", Opaque::RgbOne}};
+
+// A colour is four numbers (alpha 1 where it is left out), a <float> one.
+void read_value(Extraction& x, Link link, TargetRef ref, CommonValue& value) {
+    std::vector<double> numbers = read_doubles(x.document(link.doc), *link.element, x.diag);
+    bool color = link.element->name == "color";
+    size_t wanted = color ? 4 : 1;
+    if (color && numbers.size() == 3) numbers.push_back(1);
+    if (numbers.size() != wanted) {
+        x.diag.report(Code::SCHEMA_LENGTH, x.where(link), link.element->name, numbers.size(),
+                      wanted);
+        if (numbers.empty()) return;
+        numbers.resize(wanted, 1.0);
+    }
+    value.source = SlotSource::Value;
+    value.slot.sid = link.element->value("sid");
+    value.slot.where = x.where(link);
+    value.slot.count = uint8_t(wanted);
+    for (size_t i = 0; i < wanted; ++i)
+        value.slot.values[i] = std::isfinite(numbers[i]) ? numbers[i] : 0;
+    ref.count = uint32_t(wanted);
+    x.target_of[link.element] = ref;
+    x.target_of.emplace(link.element->parent, ref);
+}
+
+void read_texture(Extraction& x, Link link, Effect& effect, CommonValue& value) {
+    value.sampler = texture_sampler(x, link, effect);
+    if (value.sampler == kNone) return;
+    value.source = SlotSource::Texture;
+    value.texcoord = link.element->value("texcoord");
+    if (value.texcoord.empty()) x.diag.report(Code::TEX_NO_TEXCOORD, x.where(link));
+}
+
+CommonValue read_slot_value(Extraction& x, Link link, TargetRef ref, Effect& effect) {
+    CommonValue value;
+    value.where = x.where(link);
+    for (const Element& child : link.element->children()) {
+        Link part{link.doc, &child};
+        if (child.name == "color" || child.name == "float") {
+            read_value(x, part, ref, value);
+        } else if (child.name == "texture") {
+            read_texture(x, part, effect, value);
+        } else if (child.name == "param") {
+            std::string_view name = child.value("ref");
+            value.param = find_param(effect, name);
+            if (value.param == kNone)
+                x.diag.report(Code::FX_PARAM_UNRESOLVED, x.where(part, "ref"), name);
+            else
+                value.source = SlotSource::Param;
+        }
+        if (value.source != SlotSource::Absent) break;
+    }
+    return value;
+}
+
+// <double_sided> and <bump> of the extras of an element, whatever the vendor.
+void read_extras(Extraction& x, Link owner, CommonShading& common, Effect& effect) {
+    for (const Element& extra : owner.element->children()) {
+        if (extra.name != "extra") continue;
+        for (const Element& technique : extra.children()) {
+            if (const Element* flag = technique.child("double_sided"))
+                common.double_sided = trim(flag->text) != "0" && trim(flag->text) != "false";
+            const Element* bump = technique.child("bump");
+            CommonValue& slot = common.slots[size_t(CommonSlot::Bump)];
+            if (bump && slot.source == SlotSource::Absent)
+                slot = read_slot_value(x, {owner.doc, bump}, {}, effect);
+        }
+    }
+}
+
+void read_opaque(Extraction& x, Link transparent, CommonShading& common) {
+    const Attribute* a = transparent.element->attribute("opaque");
+    if (!a) return;
+    for (const OpaqueRow& row : kOpaque)
+        if (row.name == a->value) {
+            common.opaque = row.opaque;
+            return;
+        }
+    x.diag.report(Code::SCHEMA_ENUM, x.where(transparent, "opaque"), a->value, "transparent");
+}
+
+}  // namespace
+
+void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& effect) {
+    read_params(x, profile, ParamScope::ProfileCommon, effect_number, effect);
+    const Element* technique = profile.element->child("technique");
+    const Element* model = nullptr;
+    CommonShading common;
+    for (const ModelRow& row : kModels)
+        if (const Element* found = technique && !model ? technique->child(row.name) : nullptr) {
+            model = found;
+            common.model = row.model;
+        }
+    if (!model) {
+        x.diag.report(Code::SCHEMA_MISSING_ELEMENT,
+                      x.where({profile.doc, technique ? technique : profile.element}), "technique",
+                      "constant> or <lambert> or <phong> or <blinn");
+        return;
+    }
+    read_params(x, {profile.doc, technique}, ParamScope::Technique, effect_number, effect);
+    common.technique_sid = technique->value("sid");
+    common.where = x.where({profile.doc, model});
+    for (const SlotRow& row : kSlots) {
+        const Element* slot = model->child(row.name);
+        if (!slot) continue;
+        TargetRef ref{Owner::EffectCommon, effect_number, uint32_t(row.slot)};
+        common.slots[size_t(row.slot)] = read_slot_value(x, {profile.doc, slot}, ref, effect);
+        if (row.slot == CommonSlot::Transparent) read_opaque(x, {profile.doc, slot}, common);
+    }
+    for (const Element* owner : {profile.element->parent, profile.element, technique, model})
+        if (owner) read_extras(x, {profile.doc, owner}, common, effect);
+    effect.common = std::move(common);
+}
+
+}  // namespace kinora::collada

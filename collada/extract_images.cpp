@@ -1,0 +1,108 @@
+// collada/extract_images.cpp: the file an <image> means, wherever exporters said it was.
+#include <algorithm>
+#include <filesystem>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kExtensions[] = {"png",  "jpg", "jpeg", "tga", "dds", "tif",
+                                            "tiff", "bmp", "exr",  "hdr", "gif", "psd"};
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = char(std::tolower(uint8_t(c)));
+    return out;
+}
+
+std::string_view file_name(std::string_view path) {
+    return path.substr(path.find_last_of('/') + 1);
+}
+
+std::string_view stem(std::string_view name) {
+    size_t dot = name.find_last_of('.');
+    return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
+}
+
+bool is_file(const std::string& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+}
+
+// The best match in a folder: the name in another case, then another image of that stem.
+std::string search_folder(const std::string& folder, std::string_view wanted) {
+    std::string name = lower(wanted), name_stem(stem(name));
+    std::string best;
+    size_t best_rank = SIZE_MAX;
+    std::error_code error;
+    fs::directory_iterator at(folder.empty() ? "." : folder, error), end;
+    for (size_t seen = 0; !error && at != end && seen < 10000; at.increment(error), ++seen) {
+        std::string found = at->path().filename().string();
+        std::string low = lower(found);
+        size_t rank = SIZE_MAX;
+        if (low == name) {
+            rank = 0;
+        } else if (stem(low) == name_stem && low.size() > name_stem.size()) {
+            std::string_view extension = std::string_view(low).substr(name_stem.size() + 1);
+            auto known = std::find(std::begin(kExtensions), std::end(kExtensions), extension);
+            if (known != std::end(kExtensions)) rank = 1 + size_t(known - std::begin(kExtensions));
+        }
+        if (rank < best_rank && is_file(folder + found)) {
+            best_rank = rank;
+            best = folder + found;
+        }
+    }
+    return best;
+}
+
+std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std::string_view uri,
+                       Location where) {
+    bool inside = inside_tree(x, path);
+    if (inside && is_file(path)) return path;
+    const std::string& beside = x.document(doc).directory();
+    std::string_view name = file_name(path);
+    std::string found;
+    if (inside) found = search_folder(path.substr(0, path.size() - name.size()), name);
+    if (found.empty()) found = search_folder(beside, name);
+    if (!found.empty()) {
+        x.diag.report(Code::IMAGE_FALLBACK, where, uri, found);
+        return found;
+    }
+    if (!inside && is_file(path))
+        x.diag.report(Code::LINK_OUTSIDE, where, uri);
+    else
+        x.diag.report(Code::IMAGE_MISSING, where, uri);
+    return {};
+}
+
+}  // namespace
+
+uint32_t image_index(Extraction& x, Link link) {
+    auto [at, fresh] = x.made.emplace(link.element, kNone);
+    if (!fresh) return at->second;
+    const Element& e = *link.element;
+    Image image;
+    image.id = e.value("id");
+    image.name = e.value("name");
+    image.where = x.where(link);
+    const Element* from = e.child("init_from");
+    if (from && from->child("ref")) from = from->child("ref");
+    if (from && !trim(from->text).empty()) {
+        image.uri = trim(from->text);
+        Location where = x.text_where({link.doc, from});
+        std::string path = path_of_uri(x.document(link.doc), image.uri);
+        image.path = find_image(x, link.doc, path, image.uri, where);
+    } else if (e.child("data") || (from && from->child("hex"))) {
+        x.diag.report(Code::IMAGE_EMBEDDED, image.where, image.id);
+    } else {
+        x.diag.report(Code::SCHEMA_MISSING_ELEMENT, image.where, "image", "init_from");
+    }
+    return at->second = append(x.scene.images, std::move(image));
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,133 @@
+// collada/extract_instances.cpp: meshes, lights and cameras that a node shows.
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+VertexInputBinding read_vertex_input(Extraction& x, Link link) {
+    const Element& e = *link.element;
+    VertexInputBinding binding{std::string(e.value("semantic")),
+                               std::string(e.value("input_semantic")), kNone, x.where(link)};
+    uint64_t set = 0;
+    if (parse_count(e.value("input_set"), set) && set < kNone) binding.input_set = uint32_t(set);
+    return binding;
+}
+
+void read_material_instance(Extraction& x, Link link, MeshInstance& mesh, uint32_t node_number,
+                            uint32_t mesh_number) {
+    const Element& e = *link.element;
+    MaterialBinding material;
+    material.symbol = e.value("symbol");
+    material.where = x.where(link);
+    if (Link target = resolve(x, link, "target", {"material"}))
+        material.material = material_index(x, target);
+    for (const Element& child : e.children()) {
+        Link part{link.doc, &child};
+        if (child.name == "bind_vertex_input") {
+            material.vertex_inputs.push_back(read_vertex_input(x, part));
+        } else if (child.name == "bind") {
+            ParamBinding bind{std::string(child.value("semantic")),
+                              std::string(child.value("target")),
+                              {},
+                              x.where(part, "target")};
+            x.pending_bindings.push_back(
+                {node_number, mesh_number, uint32_t(mesh.materials.size()), bind, link.doc});
+        }
+    }
+    mesh.materials.push_back(std::move(material));
+}
+
+void read_bind_material(Extraction& x, Link instance, MeshInstance& mesh, uint32_t node_number,
+                        uint32_t mesh_number) {
+    const Element* bind = instance.element->child("bind_material");
+    const Element* common = bind ? bind->child("technique_common") : nullptr;
+    if (!common) return;
+    for (const Element& child : common->children())
+        if (child.name == "instance_material")
+            read_material_instance(x, {instance.doc, &child}, mesh, node_number, mesh_number);
+}
+
+// Sets the skin, morph and geometry of a <controller>; false if it shows nothing.
+bool read_controller(Extraction& x, Link controller, MeshInstance& mesh) {
+    if (controller.element->child("skin")) {
+        mesh.skin = skin_index(x, controller);
+        if (mesh.skin == kNone) return false;
+        const Skin& skin = x.scene.skins[mesh.skin];
+        mesh.geometry = skin.geometry;
+        mesh.morph = skin.morph;
+        if (skin.joints.empty()) mesh.skin = kNone;  // broken, reported: the mesh as it is
+        return true;
+    }
+    if (controller.element->child("morph")) {
+        mesh.morph = morph_index(x, controller);
+        if (mesh.morph == kNone) return false;
+        mesh.geometry = x.scene.morphs[mesh.morph].geometry;
+        return true;
+    }
+    x.diag.report(Code::SCHEMA_MISSING_ELEMENT, x.where(controller), "controller",
+                  "skin> or <morph");
+    return false;
+}
+
+void report_unbound(Extraction& x, Link instance, const MeshInstance& mesh) {
+    if (mesh.materials.empty()) {
+        x.diag.report(Code::MAT_NO_BIND, x.where(instance));
+        return;
+    }
+    std::string last;
+    for (const PrimitiveGroup& group : x.scene.geometries[mesh.geometry].groups) {
+        bool bound = group.material.empty() || group.material == last;
+        for (const MaterialBinding& m : mesh.materials) bound = bound || m.symbol == group.material;
+        if (!bound) x.diag.report(Code::MAT_UNBOUND_SYMBOL, x.where(instance), group.material);
+        last = group.material;
+    }
+}
+
+}  // namespace
+
+void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_number) {
+    bool controlled = link.element->name == "instance_controller";
+    Link target = controlled ? resolve(x, link, "url", {"controller"})
+                             : resolve(x, link, "url", {"geometry"});
+    if (!target) return;
+    MeshInstance mesh;
+    mesh.where = x.where(link, "url");
+    mesh.conversion = conversion(x, link.doc, target.doc);
+    if (controlled) {
+        if (!read_controller(x, target, mesh)) return;
+    } else {
+        mesh.geometry = geometry_index(x, target);
+    }
+    if (mesh.geometry == kNone) return;
+    uint32_t mesh_number = uint32_t(node.meshes.size());
+    read_bind_material(x, link, mesh, node_number, mesh_number);
+    report_unbound(x, link, mesh);
+    if (mesh.skin != kNone) {
+        for (const Element& child : link.element->children())
+            if (child.name == "skeleton")
+                if (Link root = resolve(x, {link.doc, &child}, "", {"node"}))
+                    mesh.skeleton_roots.push_back(node_index(x, root));
+        x.pending_skins.push_back({node_number, mesh_number, link});
+    }
+    node.meshes.push_back(std::move(mesh));
+}
+
+void read_light_instance(Extraction& x, Link link, Node& node) {
+    Link target = resolve(x, link, "url", {"light"});
+    if (!target) return;
+    uint32_t light = light_index(x, target);
+    if (light == kNone) return;
+    node.lights.push_back({light, conversion(x, link.doc, target.doc), x.where(link, "url")});
+}
+
+void read_camera_instance(Extraction& x, Link link, Node& node) {
+    Link target = resolve(x, link, "url", {"camera"});
+    if (!target) return;
+    uint32_t camera = camera_index(x, target);
+    if (camera == kNone) return;
+    node.cameras.push_back({camera, conversion(x, link.doc, target.doc), x.where(link, "url")});
+}
+
+}  // namespace kinora::collada

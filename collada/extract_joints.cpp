@@ -1,0 +1,129 @@
+// collada/extract_joints.cpp: joint names lead to nodes: by sid, then id, then name; below the
+// skeleton roots, then in the whole scene.
+#include <algorithm>
+
+#include "collada/extract_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+enum Key : uint8_t { Sid, Id, Name, KeyCount };
+constexpr const char* kKeyNames[] = {"sid", "id", "name"};
+
+const std::string& key_of(const Node& node, Key key) {
+    return key == Sid ? node.sid : key == Id ? node.id : node.name;
+}
+
+// The nodes below some roots by each of their names; joints win over other nodes, then the first.
+struct NameIndex {
+    std::unordered_map<std::string_view, uint32_t> by[KeyCount];
+
+    void build(const std::vector<Node>& nodes, const std::vector<uint32_t>& roots);
+    uint32_t find(std::string_view name, Key key) const {
+        auto found = by[key].find(name);
+        return found == by[key].end() ? kNone : found->second;
+    }
+};
+
+void NameIndex::build(const std::vector<Node>& nodes, const std::vector<uint32_t>& roots) {
+    std::vector<bool> seen(nodes.size());
+    std::vector<uint32_t> todo(roots.rbegin(), roots.rend());
+    while (!todo.empty()) {
+        uint32_t at = todo.back();
+        todo.pop_back();
+        if (seen[at]) continue;
+        seen[at] = true;
+        const Node& node = nodes[at];
+        for (Key key : {Sid, Id, Name}) {
+            const std::string& name = key_of(node, key);
+            if (name.empty()) continue;
+            auto [found, fresh] = by[key].emplace(name, at);
+            if (!fresh && node.joint && !nodes[found->second].joint) found->second = at;
+        }
+        for (auto c = node.children.rbegin(); c != node.children.rend(); ++c) todo.push_back(*c);
+        for (auto i = node.instances.rbegin(); i != node.instances.rend(); ++i)
+            todo.push_back(i->node);
+    }
+}
+
+class JointResolver {
+  public:
+    explicit JointResolver(Extraction& x) : x_(x) { scene_.build(x.scene.nodes, x.scene.roots); }
+    void resolve_instance(const Extraction::PendingSkin& pending);
+
+  private:
+    struct Found {
+        uint32_t node = kNone;
+        Key key = Sid;
+        bool outside = false;
+    };
+    Found find(const std::string& name, JointNames kind, const NameIndex* skeleton) const;
+    const NameIndex& index_below(const std::vector<uint32_t>& roots);
+
+    Extraction& x_;
+    NameIndex scene_;
+    std::vector<std::pair<std::vector<uint32_t>, NameIndex>> skeletons_;
+};
+
+const NameIndex& JointResolver::index_below(const std::vector<uint32_t>& roots) {
+    for (auto& [known, index] : skeletons_)
+        if (known == roots) return index;
+    skeletons_.emplace_back(roots, NameIndex{}).second.build(x_.scene.nodes, roots);
+    return skeletons_.back().second;
+}
+
+// IDREF names are ids; a SIDREF path ends in a sid.
+JointResolver::Found JointResolver::find(const std::string& name, JointNames kind,
+                                         const NameIndex* skeleton) const {
+    std::string_view last = name;
+    if (kind == JointNames::Sidref) last.remove_prefix(last.find_last_of('/') + 1);
+    if (last.starts_with('#')) last.remove_prefix(1);
+    constexpr Key kByName[] = {Sid, Id, Name}, kById[] = {Id, Sid, Name};
+    for (const NameIndex* index : {skeleton, &scene_}) {
+        if (!index) continue;
+        for (Key key : kind == JointNames::Idref ? kById : kByName) {
+            uint32_t node = index->find(last, key);
+            if (node != kNone) return {node, key, index == &scene_};
+        }
+    }
+    return {};
+}
+
+void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
+    MeshInstance& mesh = x_.scene.nodes[pending.node].meshes[pending.mesh];
+    const Skin& skin = x_.scene.skins[mesh.skin];
+    Location where = x_.where(pending.instance);
+    const NameIndex* skeleton = nullptr;
+    if (mesh.skeleton_roots.empty())
+        x_.diag.report(Code::SKIN_NO_SKELETON, where);
+    else
+        skeleton = &index_below(mesh.skeleton_roots);
+    size_t by_key[KeyCount] = {}, outside = 0, lost = 0;
+    for (const std::string& name : skin.joints) {
+        Found found = find(name, skin.joint_kind, skeleton);
+        mesh.joint_nodes.push_back(found.node);
+        if (found.node == kNone) {
+            if (++lost <= 8) x_.diag.report(Code::SKIN_JOINT_UNRESOLVED, where, name);
+            continue;
+        }
+        ++by_key[found.key];
+        outside += found.outside && skeleton;
+    }
+    Key proper = skin.joint_kind == JointNames::Idref ? Id : Sid;
+    for (Key key : {Sid, Id, Name})
+        if (key != proper && by_key[key] && proper == Sid)
+            x_.diag.report(Code::SKIN_JOINT_FALLBACK, where, by_key[key], kKeyNames[key]);
+    if (outside) x_.diag.report(Code::SKIN_OUTSIDE_SKELETON, where, outside);
+}
+
+}  // namespace
+
+void resolve_joints(Extraction& x) {
+    if (x.pending_skins.empty()) return;
+    JointResolver resolver(x);
+    for (const Extraction::PendingSkin& pending : x.pending_skins)
+        resolver.resolve_instance(pending);
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,136 @@
+// collada/extract_links.cpp: url, source and target attributes lead to elements.
+#include <filesystem>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+bool is_kind(std::string_view name, Kinds kinds) {
+    for (std::string_view kind : kinds)
+        if (kind == name) return true;
+    return false;
+}
+
+std::string kinds_text(Kinds kinds) {
+    std::string text;
+    for (std::string_view kind : kinds) text += (text.empty() ? "" : "> or <") + std::string(kind);
+    return text;
+}
+
+// The document that the part before '#' names; kNone and a finding if there is none.
+uint32_t linked_document(Extraction& x, Link from, std::string_view file, Location where) {
+    std::string path = path_of_uri(x.document(from.doc), file);
+    if (!inside_tree(x, path)) {
+        x.diag.report(Code::LINK_OUTSIDE, where, file);
+        return kNone;
+    }
+    std::error_code error;
+    std::string real = std::filesystem::weakly_canonical(path, error).string();
+    auto known = x.doc_by_path.find(real);
+    if (known != x.doc_by_path.end()) return known->second;
+    if (x.docs.size() >= x.options.max_documents) {
+        x.diag.report(Code::LINK_LIMIT, where,
+                      fmt::format("more than {} linked documents", x.options.max_documents));
+        return kNone;
+    }
+    if (!std::filesystem::is_regular_file(path, error)) {
+        x.diag.report(Code::LINK_EXTERNAL_MISSING, where, file);
+        x.doc_by_path[real] = kNone;
+        return kNone;
+    }
+    std::optional<Document> document = read_document(path, x.diag);
+    if (!document) {
+        x.doc_by_path[real] = kNone;
+        return kNone;
+    }
+    x.owned.push_back(std::make_unique<Document>(std::move(*document)));
+    return add_document(x, *x.owned.back(), real);
+}
+
+dmat4 y_up_from(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::X:  // right -y, up x, towards us z
+            return dmat4({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
+        case UpAxis::Y:
+            return dmat4(1.0);
+        case UpAxis::Z:  // right x, up z, towards us -y
+            return dmat4({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
+    }
+    return dmat4(1.0);
+}
+
+dmat4 transposed(const dmat4& m) {
+    dmat4 t;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) t[c][r] = m[r][c];
+    return t;
+}
+
+}  // namespace
+
+const Element* find_kind(const Document& document, std::string_view id, Kinds kinds) {
+    const Element* element = document.find(id);
+    while (element && !is_kind(element->name, kinds)) element = element->next_same_id;
+    return element;
+}
+
+Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) {
+    const Element& element = *from.element;
+    std::string_view url = trim(attribute.empty() ? element.text : element.value(attribute));
+    Location where = attribute.empty() ? x.text_where(from) : x.where(from, attribute);
+    if (url.empty()) {
+        x.diag.report(Code::SCHEMA_MISSING_ATTRIBUTE, where, element.name,
+                      attribute.empty() ? std::string_view("link") : attribute);
+        return {};
+    }
+    uint32_t doc = from.doc;
+    size_t hash = url.find('#');
+    std::string id;
+    if (hash == url.npos) {
+        if (!x.document(doc).find(url)) {
+            x.diag.report(Code::LINK_UNRESOLVED, where, url, kinds_text(kinds));
+            return {};
+        }
+        x.diag.report(Code::LINK_NO_HASH, where, url);
+        id = url;
+    } else {
+        if (hash > 0) doc = linked_document(x, from, url.substr(0, hash), where);
+        if (doc == kNone) return {};
+        id = url.substr(hash + 1);
+        if (!x.document(doc).find(id)) id = percent_decode(id);
+    }
+    if (const Element* found = find_kind(x.document(doc), id, kinds)) return {doc, found};
+    if (const Element* other = x.document(doc).find(id))
+        x.diag.report(Code::LINK_WRONG_TYPE, where, url, other->name, kinds_text(kinds));
+    else
+        x.diag.report(Code::LINK_UNRESOLVED, where, url, kinds_text(kinds));
+    return {};
+}
+
+uint32_t add_document(Extraction& x, const Document& document, const std::string& real_path) {
+    uint32_t index = uint32_t(x.docs.size());
+    x.docs.push_back(&document);
+    x.doc_by_path[real_path] = index;
+    check_elements(document, x.diag);
+    x.scene.documents.push_back({document.path(), read_asset(document, x.diag), document.file()});
+    return index;
+}
+
+uint32_t conversion(Extraction& x, uint32_t from, uint32_t to) {
+    if (from == to) return kNone;
+    auto [at, fresh] = x.conversion_of.emplace(uint64_t(from) << 32 | to, kNone);
+    if (!fresh) return at->second;
+    const Asset& user = x.scene.documents[from].asset;
+    const Asset& used = x.scene.documents[to].asset;
+    if (user.meter == used.meter && user.up_axis == used.up_axis) return kNone;
+    dmat4 m = transposed(y_up_from(user.up_axis)) * y_up_from(used.up_axis);
+    double scale = used.meter / user.meter;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) m[c][r] *= scale;
+    return at->second = append(x.scene.conversions, m);
+}
+
+}  // namespace kinora::collada

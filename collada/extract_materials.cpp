@@ -1,0 +1,96 @@
+// collada/extract_materials.cpp: materials: an effect and the parameters they set.
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+const Element* extra_technique(const Element& owner, std::string_view profile) {
+    for (const Element& extra : owner.children()) {
+        if (extra.name != "extra") continue;
+        for (const Element& technique : extra.children())
+            if (technique.name == "technique" && technique.value("profile") == profile)
+                return &technique;
+    }
+    return nullptr;
+}
+
+namespace {
+
+void read_setparams(Extraction& x, Link instance, uint32_t material_number, Material& material) {
+    const Effect* effect = material.effect == kNone ? nullptr : &x.scene.effects[material.effect];
+    for (const Element& child : instance.element->children()) {
+        if (child.name != "setparam") continue;
+        const Element* value = value_child(child);
+        Link link{instance.doc, &child};
+        if (!value) {
+            const Element* other = child.first_child;
+            x.diag.report(Code::FX_VALUE, x.where(link), other ? other->name : child.name);
+            continue;
+        }
+        SetParam set;
+        set.ref = child.value("ref");
+        set.where = x.where(link);
+        if (effect) set.param = find_param(*effect, set.ref);
+        if (effect && set.param == kNone)
+            x.diag.report(Code::FX_PARAM_UNRESOLVED, x.where(link, "ref"), set.ref);
+        if (!read_param_value(x, {instance.doc, value}, set.value)) continue;
+        TargetRef ref{Owner::MaterialParam, material_number, uint32_t(material.setparams.size()), 0,
+                      uint32_t(set.value.numbers.size())};
+        x.target_of[&child] = x.target_of[value] = ref;
+        material.setparams.push_back(std::move(set));
+    }
+}
+
+// <extra><technique profile="RSL" target="interior">, or on an element inside it.
+std::string read_volume_target(const Element& material) {
+    const Element* technique = extra_technique(material, "RSL");
+    if (!technique) return {};
+    std::string_view target = technique->value("target");
+    for (const Element& child : technique->children())
+        if (target.empty()) target = child.value("target");
+    return std::string(target);
+}
+
+uint32_t make_material(Extraction& x, Link owner, const Element* instance) {
+    auto [at, fresh] = x.made.emplace(owner.element, kNone);
+    if (!fresh) return at->second;
+    uint32_t& result = at->second;
+    Material material;
+    material.id = owner.element->value("id");
+    material.name = owner.element->value("name");
+    material.where = x.where(owner);
+    material.volume_target = read_volume_target(*owner.element);
+    if (instance) {
+        Link link{owner.doc, instance};
+        if (Link effect = resolve(x, link, "url", {"effect"}))
+            material.effect = effect_index(x, effect);
+        read_setparams(x, link, uint32_t(x.scene.materials.size()), material);
+    } else {
+        x.diag.report(Code::SCHEMA_MISSING_ELEMENT, material.where, "material", "instance_effect");
+    }
+    return result = append(x.scene.materials, std::move(material));
+}
+
+}  // namespace
+
+uint32_t material_index(Extraction& x, Link material) {
+    return make_material(x, material, material.element->child("instance_effect"));
+}
+
+uint32_t instance_effect_index(Extraction& x, Link instance) {
+    return make_material(x, instance, instance.element);
+}
+
+std::vector<uint32_t> rsl_extra_materials(Extraction& x, Link owner) {
+    std::vector<uint32_t> materials;
+    const Element* technique = extra_technique(*owner.element, "RSL");
+    if (!technique) return materials;
+    for (const Element& child : technique->children()) {
+        if (child.name != "instance_effect") continue;
+        uint32_t material = instance_effect_index(x, {owner.doc, &child});
+        if (x.scene.materials[material].effect != kNone) materials.push_back(material);
+    }
+    return materials;
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,106 @@
+// collada/extract_mesh.cpp: <geometry>: positions, sources, and the primitives on them.
+#include <cmath>
+
+#include "collada/numbers_p.h"
+#include "collada/primitives_p.h"
+
+namespace kinora::collada {
+
+uint32_t MeshReader::source_index(Link link) {
+    auto [at, fresh] = sources.emplace(link.element, kNone);
+    if (!fresh) return at->second;
+    DoubleSource data = read_double_source(x, link);
+    if (data.values.empty()) return kNone;
+    FloatSource source{std::string(link.element->value("id")), data.stride, {}};
+    source.values.reserve(data.values.size());
+    // Beyond a float's range counts as not finite, too.
+    for (double v : data.values)
+        source.values.push_back(std::abs(v) <= 3.4028234e38 ? float(v) : 0.0f);
+    return at->second = append(geometry.sources, std::move(source));
+}
+
+namespace {
+
+void read_positions(MeshReader& mesh, Link source) {
+    DoubleSource data = read_double_source(mesh.x, source);
+    mesh.geometry.positions.resize(data.count, dvec3(0.0));
+    for (size_t i = 0; i < data.count; ++i) {
+        dvec3& p = mesh.geometry.positions[i];
+        for (uint32_t k = 0; k < std::min(3u, data.stride); ++k)
+            p[int(k)] = data.values[i * data.stride + k];
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+        mesh.bad_position.resize(data.count);
+        mesh.bad_position[i] = true;
+        p = i > 0 ? mesh.geometry.positions[i - 1] : dvec3(0.0);  // keeps bounds as they are
+    }
+}
+
+uint32_t read_set(const Element& input) {
+    uint64_t set = 0;
+    return parse_count(input.value("set"), set) && set < kNone ? uint32_t(set) : 0;
+}
+
+bool read_vertices(MeshReader& mesh, Link link) {
+    const Element* position = find_input(*link.element, "POSITION");
+    if (!position) {
+        mesh.x.diag.report(Code::PRIM_NO_POSITION, mesh.x.where(link));
+        return false;
+    }
+    Link source = resolve(mesh.x, {link.doc, position}, "source", {"source"});
+    if (!source) return false;
+    read_positions(mesh, source);
+    mesh.vertices = link.element;
+    for (const Element& input : link.element->children()) {
+        if (input.name != "input" || input.value("semantic") == "POSITION") continue;
+        Link values = resolve(mesh.x, {link.doc, &input}, "source", {"source"});
+        uint32_t index = values ? mesh.source_index(values) : kNone;
+        if (index == kNone) continue;
+        mesh.vertices_inputs.push_back(
+            {std::string(input.value("semantic")), read_set(input), index, 0});
+    }
+    return true;
+}
+
+bool read_double_sided(const Element& geometry) {
+    for (const Element& extra : geometry.children())
+        if (extra.name == "extra")
+            for (const Element& technique : extra.children())
+                if (const Element* flag = technique.child("double_sided"))
+                    return trim(flag->text) != "0" && trim(flag->text) != "false";
+    return true;
+}
+
+}  // namespace
+
+uint32_t geometry_index(Extraction& x, Link link) {
+    auto [at, fresh] = x.made.emplace(link.element, kNone);
+    if (!fresh) return at->second;
+    uint32_t& result = at->second;
+    const Element* mesh_element = link.element->child("mesh");
+    if (!mesh_element) {
+        const Element* other = link.element->first_child;
+        while (other && (other->name == "asset" || other->name == "extra")) other = other->next;
+        x.diag.report(Code::GEOM_KIND, x.where({link.doc, other ? other : link.element}),
+                      other ? other->name : link.element->name);
+        return result;
+    }
+    Geometry geometry;
+    geometry.id = link.element->value("id");
+    geometry.name = link.element->value("name");
+    geometry.where = x.where(link);
+    geometry.double_sided = read_double_sided(*link.element) && read_double_sided(*mesh_element);
+    const Element* vertices = mesh_element->child("vertices");
+    if (!vertices) {
+        x.diag.report(Code::SCHEMA_MISSING_ELEMENT, x.where({link.doc, mesh_element}), "mesh",
+                      "vertices");
+        return result;
+    }
+    MeshReader mesh{x, geometry, {}, {}, {}, nullptr};
+    if (!read_vertices(mesh, {link.doc, vertices})) return result;
+    for (const Element& child : mesh_element->children())
+        if (is_triangulated(child.name) || child.name == "lines" || child.name == "linestrips")
+            read_primitive(mesh, {link.doc, &child});
+    return result = append(x.scene.geometries, std::move(geometry));
+}
+
+}  // namespace kinora::collada

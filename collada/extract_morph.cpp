@@ -1,0 +1,101 @@
+// collada/extract_morph.cpp: <morph>: target meshes and their weights.
+#include <cmath>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+Link morph_source(Extraction& x, Link morph, std::string_view semantic) {
+    const Element* targets = morph.element->child("targets");
+    const Element* input = targets ? find_input(*targets, semantic) : nullptr;
+    return input ? resolve(x, {morph.doc, input}, "source", {"source"}) : Link{};
+}
+
+MorphMethod read_method(Extraction& x, Link link) {
+    std::string_view method = link.element->value("method");
+    if (method == "RELATIVE") return MorphMethod::Relative;
+    if (!method.empty() && method != "NORMALIZED")
+        x.diag.report(Code::MORPH_METHOD, x.where(link, "method"), method);
+    return MorphMethod::Normalized;
+}
+
+// The geometry of one target with as many positions as the base; kNone (reported) otherwise.
+uint32_t read_target(Extraction& x, Link source, const std::string& name, uint32_t base) {
+    std::string_view id = name;
+    if (id.starts_with('#')) id.remove_prefix(1);
+    const Element* element = find_kind(x.document(source.doc), id, {"geometry"});
+    uint32_t geometry = element ? geometry_index(x, {source.doc, element}) : kNone;
+    if (geometry == kNone) {
+        x.diag.report(Code::MORPH_TARGET_MISSING, x.where(source), name);
+        return kNone;
+    }
+    size_t has = x.scene.geometries[geometry].positions.size();
+    size_t wanted = x.scene.geometries[base].positions.size();
+    if (has == wanted) return geometry;
+    x.diag.report(Code::MORPH_VERTEX_COUNT, x.where(source), name, has, wanted);
+    return kNone;
+}
+
+void read_targets(Extraction& x, Link link, Morph& morph, std::vector<uint32_t>& remap) {
+    Link source = morph_source(x, link, "MORPH_TARGET");
+    if (!source) return;
+    for (const std::string& name : read_name_source(x, source).names) {
+        uint32_t target = read_target(x, source, name, morph.geometry);
+        remap.push_back(target == kNone ? kNone : uint32_t(morph.targets.size()));
+        if (target != kNone) morph.targets.push_back(target);
+    }
+}
+
+void read_weights(Extraction& x, Link link, Morph& morph, uint32_t number,
+                  const std::vector<uint32_t>& remap) {
+    morph.weights.assign(morph.targets.size(), 0.0);
+    morph.weights_where = morph.where;
+    Link source = morph_source(x, link, "MORPH_WEIGHT");
+    if (!source) {
+        x.diag.report(Code::MORPH_WEIGHT_COUNT, morph.where, 0, remap.size());
+        return;
+    }
+    std::vector<double> weights = read_double_source(x, source).values;
+    if (weights.size() != remap.size())
+        x.diag.report(Code::MORPH_WEIGHT_COUNT, x.where(source), weights.size(), remap.size());
+    for (size_t i = 0; i < std::min(weights.size(), remap.size()); ++i)
+        if (remap[i] != kNone && std::isfinite(weights[i])) morph.weights[remap[i]] = weights[i];
+    morph.weights_where = x.where(source);
+    TargetRef ref{Owner::MorphWeight, number, 0, 0, uint32_t(remap.size())};
+    x.target_of.emplace(source.element, ref);
+    if (const Element* array = source.element->child("float_array"))
+        x.target_of.emplace(array, ref);
+}
+
+}  // namespace
+
+uint32_t morph_index(Extraction& x, Link link) {
+    auto [at, fresh] = x.made.emplace(link.element, kNone);
+    if (!fresh) return at->second;
+    uint32_t& result = at->second;
+    Link element{link.doc, link.element->child("morph")};
+    Morph morph;
+    morph.id = link.element->value("id");
+    morph.where = x.where(link);
+    morph.method = read_method(x, element);
+    Link base = resolve(x, element, "source", {"geometry", "controller"});
+    if (!base) return result;
+    if (base.element->name == "geometry") morph.geometry = geometry_index(x, base);
+    if (morph.geometry == kNone) {
+        x.diag.report(Code::MORPH_SOURCE, x.where(element, "source"), morph.id);
+        return result;
+    }
+    std::vector<uint32_t> remap;
+    read_targets(x, element, morph, remap);
+    uint32_t number = uint32_t(x.scene.morphs.size());
+    read_weights(x, element, morph, number, remap);
+    if (morph.targets.empty()) x.diag.report(Code::MORPH_EMPTY, morph.where, morph.id);
+    if (morph.targets.size() != remap.size()) x.morph_remap[number] = std::move(remap);
+    x.scene.morphs.push_back(std::move(morph));
+    return result = number;
+}
+
+}  // namespace kinora::collada

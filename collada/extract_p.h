@@ -1,0 +1,193 @@
+// collada/extract_p.h: what the parts of extract() share. Each part reads one kind of element and
+// fills its list of SceneData; `made` remembers which element became which entry.
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "collada/findings.h"
+#include "collada/scene.h"
+
+namespace kinora::collada {
+
+// An element of one of the documents.
+struct Link {
+    uint32_t doc = kNone;
+    const Element* element = nullptr;
+    explicit operator bool() const { return element != nullptr; }
+};
+
+struct Extraction {
+    Diagnostics& diag;
+    const ExtractOptions& options;
+    SceneData scene{};
+
+    std::vector<const Document*> docs{};  // same order as scene.documents
+    std::vector<std::unique_ptr<Document>> owned{};
+    std::unordered_map<std::string, uint32_t> doc_by_path{};  // kNone: it cannot be read
+    std::unordered_map<uint64_t, uint32_t> conversion_of{};   // doc pair -> index, kNone: identity
+
+    // Definitions by element; kNone: tried and not usable (reported).
+    std::unordered_map<const Element*, uint32_t> made{};
+    // Elements (of a value, or around one) that a channel may name.
+    std::unordered_map<const Element*, TargetRef> target_of{};
+    // Nodes whose index is given out and whose content is still to be read.
+    std::vector<std::pair<uint32_t, Link>> pending_nodes{};
+    std::vector<bool> node_filled{};
+
+    // The parts of instances that can only be resolved when all nodes are known.
+    struct PendingBinding {
+        uint32_t node, mesh, material;  // scene.nodes[node].meshes[mesh].materials[material]
+        ParamBinding binding;
+        uint32_t doc;
+    };
+    struct PendingSkin {
+        uint32_t node, mesh;
+        Link instance;
+    };
+    std::vector<PendingBinding> pending_bindings{};
+    std::vector<PendingSkin> pending_skins{};
+    // Where targets of a morph were left out: weight as written -> weight kept, or kNone.
+    std::unordered_map<uint32_t, std::vector<uint32_t>> morph_remap{};
+
+    const Document& document(uint32_t doc) const { return *docs[doc]; }
+    Location where(Link link) const { return docs[link.doc]->location(*link.element); }
+    Location where(Link link, std::string_view attribute) const {
+        return docs[link.doc]->location(*link.element, attribute);
+    }
+    Location text_where(Link link) const { return docs[link.doc]->text_location(*link.element); }
+};
+
+// extract_links.cpp -------------------------------------------------------------------------------
+
+using Kinds = std::initializer_list<std::string_view>;
+
+// The element that `url` of attribute `attribute` (or of the text, when that is "") names: "#id",
+// "other.dae#id", or a bare id with a warning. Reported, and null, unless its name is in `kinds`.
+Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds);
+// The element with this id in one document whose name is in `kinds`, or null; reports nothing.
+const Element* find_kind(const Document& document, std::string_view id, Kinds kinds);
+// Adds a document already read; its <asset> is read.
+uint32_t add_document(Extraction& x, const Document& document, const std::string& real_path);
+// Index into scene.conversions for things of `to` used in `from`; kNone if the same.
+uint32_t conversion(Extraction& x, uint32_t from, uint32_t to);
+
+// extract_asset.cpp
+Asset read_asset(const Document& document, Diagnostics& diag);
+void read_time_range(Extraction& x, Link visual_scene);
+
+// extract_paths.cpp -------------------------------------------------------------------------------
+
+std::string percent_decode(std::string_view text);
+// The path a URI means for a document, not checked to exist: schemes, %xx and backslashes undone.
+std::string path_of_uri(const Document& document, std::string_view uri);
+// True when `path` (existing or not) lies in the folder tree of the root document, or all may.
+bool inside_tree(const Extraction& x, const std::string& path);
+
+// extract_images.cpp: index into scene.images, or kNone.
+uint32_t image_index(Extraction& x, Link image);
+
+// extract_nodes.cpp -------------------------------------------------------------------------------
+
+uint32_t node_index(Extraction& x, Link node);  // may add to pending_nodes
+void read_pending_nodes(Extraction& x);
+// Removes node instances that close a cycle or pass the limit of unrolled nodes.
+void check_node_graph(Extraction& x);
+
+// extract_transform.cpp
+bool is_transform(std::string_view name);
+Transform read_transform(Extraction& x, Link link);
+
+// extract_instances.cpp: instances inside a node.
+void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_number);
+void read_light_instance(Extraction& x, Link link, Node& node);
+void read_camera_instance(Extraction& x, Link link, Node& node);
+
+// extract_mesh.cpp and its like -------------------------------------------------------------------
+
+uint32_t geometry_index(Extraction& x, Link geometry);
+
+// The values an <input source> gives, through its accessor.
+struct SourceView {
+    Link source;
+    uint32_t stride = 0;            // values per entry after unnamed params are left out
+    size_t count = 0;               // entries
+    std::vector<uint32_t> columns;  // where each of `stride` stands within array_stride
+    size_t offset = 0, array_stride = 1;
+    const Element* array = nullptr;
+    std::vector<std::string_view> names;  // of the params
+};
+// Reads accessor and counts of a <source>; array->text is not parsed. False: reported, unusable.
+bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& view);
+// All values of a numeric source as doubles, entry by entry. Empty when unusable.
+struct DoubleSource {
+    uint32_t stride = 0;
+    size_t count = 0;
+    std::vector<double> values;
+    std::vector<std::string> names;
+};
+DoubleSource read_double_source(Extraction& x, Link source);
+// All words of a Name_array, IDREF_array or SIDREF_array source.
+struct NameSource {
+    JointNames kind = JointNames::Name;
+    uint64_t written_count = 0;  // the array's count attribute, 0 if none
+    std::vector<std::string> names;
+    const Element* array = nullptr;
+};
+NameSource read_name_source(Extraction& x, Link source);
+// The first child <input semantic="...">, or null.
+const Element* find_input(const Element& parent, std::string_view semantic);
+
+// extract_skin.cpp, extract_morph.cpp
+uint32_t skin_index(Extraction& x, Link controller);   // of a <controller> with <skin>
+uint32_t morph_index(Extraction& x, Link controller);  // of a <controller> with <morph>
+dmat4 matrix_of_rows(const double* rows);
+
+// extract_joints.cpp
+void resolve_joints(Extraction& x);
+
+// extract_cameras.cpp, extract_lights.cpp
+uint32_t camera_index(Extraction& x, Link camera);
+uint32_t light_index(Extraction& x, Link light);
+// A <float sid> like element with one number (or `count`) as a slot; registers it as a target.
+Slot read_slot(Extraction& x, Link link, uint32_t count, TargetRef ref);
+
+// extract_materials.cpp, extract_params.cpp, extract_effects.cpp, extract_common.cpp,
+// extract_samplers.cpp, extract_rsl.cpp
+uint32_t material_index(Extraction& x, Link material);
+// A material made of an <instance_effect>.
+uint32_t instance_effect_index(Extraction& x, Link instance);
+// Materials of the <instance_effect>s in <extra><technique profile="RSL"> children of `owner`.
+std::vector<uint32_t> rsl_extra_materials(Extraction& x, Link owner);
+// The <technique profile=...> of the <extra> children, or null.
+const Element* extra_technique(const Element& owner, std::string_view profile);
+bool read_param_value(Extraction& x, Link value, ParamValue& out);
+// The child that is a value (<float>, <color>, ...) or null.
+const Element* value_child(const Element& owner);
+uint32_t effect_index(Extraction& x, Link effect);
+uint32_t find_param(const Effect& effect, std::string_view sid);
+void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& effect);
+void read_rsl(Extraction& x, Link profile, uint32_t effect_number, Effect& effect);
+void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_number,
+                 Effect& effect);
+// Index into effect.samplers of the texture `name`, or kNone (reported).
+uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect);
+
+// extract_animation.cpp, extract_sampler.cpp; targets_p.h resolves targets
+// ---------------------------------
+
+// Channels and clips of all documents; then the <bind target>s that instances left open.
+void read_animations(Extraction& x);
+// Fills `sampler`; false (reported) when it has no usable keys.
+bool read_sampler(Extraction& x, Link link, Sampler& sampler);
+
+template <class T>
+uint32_t append(std::vector<T>& list, T item) {
+    list.push_back(std::move(item));
+    return uint32_t(list.size() - 1);
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,146 @@
+// collada/extract_params.cpp: typed values of <newparam>, <setparam> and <bind>.
+#include <cmath>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+struct TypeRow {
+    const char* name;
+    uint32_t components;
+};
+// In the order of ParamType; the names are those of the elements.
+constexpr TypeRow kTypes[] = {{"float", 1},     {"float2", 2}, {"float3", 3}, {"float4", 4},
+                              {"float4x4", 16}, {"int", 1},    {"bool", 1},   {"point", 3},
+                              {"color", 3},     {"vector", 3}, {"normal", 3}, {"matrix", 16},
+                              {"string", 1}};
+static_assert(std::size(kTypes) == size_t(ParamType::Count));
+
+bool find_type(std::string_view name, ParamType& type) {
+    for (size_t i = 0; i < std::size(kTypes); ++i)
+        if (kTypes[i].name == name) {
+            type = ParamType(i);
+            return true;
+        }
+    return false;
+}
+
+// Words of a <bool> become numbers; other texts are read as they are.
+std::vector<double> read_numbers(Extraction& x, Link link, ParamType type) {
+    if (type != ParamType::Bool) return read_doubles(x.document(link.doc), *link.element, x.diag);
+    std::vector<double> numbers;
+    for (std::string_view word : split_words(link.element->text))
+        numbers.push_back(word == "true" || word == "TRUE" || word == "1");
+    return numbers;
+}
+
+// DESIGN section 5: one value is grey, three are as they are, the fourth is dropped.
+void fit_color(Extraction& x, Link link, std::vector<double>& numbers) {
+    if (numbers.size() == 1) numbers.resize(3, numbers[0]);
+    if (numbers.size() != 4) return;
+    x.diag.report(Code::FX_COLOR_ALPHA, x.text_where(link));
+    numbers.pop_back();
+}
+
+void read_string(Extraction& x, Link link, ParamValue& out) {
+    out.strings.emplace_back(trim(link.element->text));
+    const Element* image = find_kind(x.document(link.doc), out.strings.back(), {"image"});
+    if (image) out.image = image_index(x, {link.doc, image});
+}
+
+bool read_simple(Extraction& x, Link link, ParamValue& out) {
+    if (out.type == ParamType::String) {
+        read_string(x, link, out);
+        return true;
+    }
+    std::vector<double> numbers = read_numbers(x, link, out.type);
+    if (out.type == ParamType::Color) fit_color(x, link, numbers);
+    for (double& n : numbers)
+        if (!std::isfinite(n)) n = 0;
+    uint32_t components = component_count(out.type);
+    if (numbers.empty() || numbers.size() % components) {
+        x.diag.report(Code::SCHEMA_LENGTH, x.where(link), link.element->name, numbers.size(),
+                      components);
+        if (numbers.empty()) return false;
+        numbers.resize((numbers.size() / components + 1) * components, 0.0);
+    }
+    out.numbers.insert(out.numbers.end(), numbers.begin(), numbers.end());
+    return true;
+}
+
+// <array length="n"> holds values of one type.
+bool read_array(Extraction& x, Link link, ParamValue& out) {
+    bool first = true;
+    for (const Element& child : link.element->children()) {
+        ParamType type;
+        if (!find_type(child.name, type) || (!first && type != out.type)) continue;
+        out.type = type;
+        first = false;
+        if (!read_simple(x, {link.doc, &child}, out)) return false;
+    }
+    out.array_length = out.type == ParamType::String
+                           ? uint32_t(out.strings.size())
+                           : uint32_t(out.numbers.size() / component_count(out.type));
+    return out.array_length > 0;
+}
+
+}  // namespace
+
+uint32_t component_count(ParamType type) {
+    return kTypes[size_t(type)].components;
+}
+const char* param_type_name(ParamType type) {
+    return kTypes[size_t(type)].name;
+}
+
+const Element* value_child(const Element& owner) {
+    ParamType type;
+    for (const Element& child : owner.children())
+        if (child.name == "array" || find_type(child.name, type)) return &child;
+    return nullptr;
+}
+
+bool read_param_value(Extraction& x, Link link, ParamValue& out) {
+    out.where = x.where(link);
+    if (link.element->name == "array") return read_array(x, link, out);
+    if (!find_type(link.element->name, out.type)) {
+        x.diag.report(Code::FX_VALUE, out.where, link.element->name);
+        return false;
+    }
+    if (!read_simple(x, link, out)) return false;
+    size_t entries = out.numbers.size() / component_count(out.type);
+    if (entries > 1) out.array_length = uint32_t(entries);
+    return true;
+}
+
+uint32_t find_param(const Effect& effect, std::string_view sid) {
+    for (size_t i = effect.params.size(); i-- > 0;)  // inner scopes are read last
+        if (effect.params[i].sid == sid) return uint32_t(i);
+    return kNone;
+}
+
+void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_number,
+                 Effect& effect) {
+    for (const Element& child : owner.element->children()) {
+        if (child.name != "newparam") continue;
+        // Samplers and surfaces are read where a <texture> names them.
+        const Element* value = value_child(child);
+        if (!value) continue;
+        Param param;
+        param.sid = child.value("sid");
+        if (const Element* semantic = child.child("semantic"))
+            param.semantic = trim(semantic->text);
+        param.scope = scope;
+        param.where = x.where({owner.doc, &child});
+        if (!read_param_value(x, {owner.doc, value}, param.value)) continue;
+        TargetRef ref{Owner::EffectParam, effect_number, uint32_t(effect.params.size()), 0,
+                      uint32_t(param.value.numbers.size())};
+        x.target_of[&child] = x.target_of[value] = ref;
+        effect.params.push_back(std::move(param));
+    }
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,73 @@
+// collada/extract_paths.cpp: URIs of documents as paths of files.
+#include <filesystem>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+bool starts_with_drive(std::string_view path) {
+    return path.size() > 2 && std::isalpha(uint8_t(path[0])) && path[1] == ':' && path[2] == '/';
+}
+
+}  // namespace
+
+std::string percent_decode(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (size_t i = 0; i < text.size(); ++i) {
+        int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+        int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+        if (text[i] == '%' && high >= 0 && low >= 0 && high + low > 0) {
+            out += char(high * 16 + low);
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+std::string path_of_uri(const Document& document, std::string_view uri) {
+    std::string path = percent_decode(trim(uri));
+    for (char& c : path)
+        if (c == '\\') c = '/';
+    if (path.starts_with("file:")) {
+        path.erase(0, 5);
+        // file:///abs and file:/abs are absolute; file://NAME is an exporter's relative name.
+        if (path.starts_with("///"))
+            path.erase(0, 2);
+        else if (path.starts_with("//"))
+            path.erase(0, 2);
+        if (starts_with_drive(std::string_view(path).substr(path.starts_with('/') ? 1 : 0)) &&
+            path.starts_with('/'))
+            path.erase(0, 1);
+    }
+    if (path.empty()) return {};
+    if (path.front() == '/' || starts_with_drive(path)) return path;
+    return document.directory() + path;
+}
+
+bool inside_tree(const Extraction& x, const std::string& path) {
+    namespace fs = std::filesystem;
+    if (x.options.allow_external) return true;
+    std::error_code error;
+    std::string folder = x.document(0).directory();
+    fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+    if (error) return false;
+    fs::path file = fs::weakly_canonical(path, error);
+    if (error) return false;
+    fs::path relative = file.lexically_relative(root);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,194 @@
+// collada/extract_primitives.cpp: inputs and indices of one primitive element become a group.
+#include <algorithm>
+
+#include "collada/numbers_p.h"
+#include "collada/primitives_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+constexpr uint32_t kMaxOffset = 1 << 16;
+
+// What the numbers at one offset of <p> point into.
+struct OffsetUse {
+    uint32_t offset;
+    uint32_t limit;        // entries of the shortest source at this offset
+    std::string semantic;  // of that source, for findings
+};
+
+struct Inputs {
+    bool has_vertex = false;
+    uint32_t stride = 1;
+    std::vector<OffsetUse> offsets;  // [0] is VERTEX's
+    std::vector<VertexInput> inputs;
+};
+
+uint32_t entry_count(const FloatSource& source) {
+    return uint32_t(source.values.size() / source.stride);
+}
+
+// The list of an offset; several inputs share one.
+uint32_t use_offset(Inputs& inputs, uint32_t offset, uint32_t limit, std::string_view semantic) {
+    for (uint32_t i = 0; i < inputs.offsets.size(); ++i) {
+        OffsetUse& use = inputs.offsets[i];
+        if (use.offset != offset) continue;
+        if (limit < use.limit) use.limit = limit, use.semantic = semantic;
+        return i;
+    }
+    return append(inputs.offsets, OffsetUse{offset, limit, std::string(semantic)});
+}
+
+uint32_t input_offset(Extraction& x, Link input, uint32_t ordinal) {
+    uint64_t offset = 0;
+    const Attribute* a = input.element->attribute("offset");
+    if (!a) {
+        x.diag.report(Code::SCHEMA_MISSING_ATTRIBUTE, x.where(input), "input", "offset");
+        return ordinal;
+    }
+    if (parse_count(a->value, offset) && offset < kMaxOffset) return uint32_t(offset);
+    x.diag.report(Code::PRIM_INPUT, x.where(input, "offset"), input.element->value("semantic"),
+                  std::string("its offset is no number in range"));
+    return kNone;
+}
+
+void add_vertices_inputs(MeshReader& mesh, Inputs& inputs) {
+    for (const VertexInput& input : mesh.vertices_inputs) {
+        uint32_t entries = entry_count(mesh.geometry.sources[input.source]);
+        if (entries < mesh.geometry.positions.size()) {
+            mesh.x.diag.report(Code::PRIM_INPUT, mesh.geometry.where, input.semantic,
+                               fmt::format("it has {} entries for {} positions", entries,
+                                           mesh.geometry.positions.size()));
+            continue;
+        }
+        inputs.inputs.push_back(input);
+    }
+}
+
+void add_input(MeshReader& mesh, Link link, uint32_t offset, Inputs& inputs) {
+    std::string_view semantic = link.element->value("semantic");
+    Link source = resolve(mesh.x, link, "source", {"source"});
+    uint32_t index = source ? mesh.source_index(source) : kNone;
+    if (index == kNone) {
+        mesh.x.diag.report(Code::PRIM_INPUT, mesh.x.where(link), semantic,
+                           std::string("its source has no values"));
+        return;
+    }
+    uint64_t set = 0;
+    if (!parse_count(link.element->value("set"), set) || set >= kNone) set = 0;
+    uint32_t list = use_offset(inputs, offset, entry_count(mesh.geometry.sources[index]), semantic);
+    inputs.inputs.push_back({std::string(semantic), uint32_t(set), index, list});
+}
+
+Inputs read_inputs(MeshReader& mesh, Link primitive) {
+    Inputs inputs;
+    std::vector<std::pair<Link, uint32_t>> others;
+    uint32_t ordinal = 0;
+    for (const Element& child : primitive.element->children()) {
+        if (child.name != "input") continue;
+        Link link{primitive.doc, &child};
+        uint32_t offset = input_offset(mesh.x, link, ordinal++);
+        if (offset == kNone) continue;
+        inputs.stride = std::max(inputs.stride, offset + 1);
+        if (child.value("semantic") != "VERTEX") {
+            others.push_back({link, offset});
+        } else if (!inputs.has_vertex) {
+            inputs.has_vertex = true;
+            inputs.offsets.insert(inputs.offsets.begin(),
+                                  {offset, uint32_t(mesh.geometry.positions.size()), "VERTEX"});
+        }
+    }
+    if (!inputs.has_vertex) return inputs;
+    add_vertices_inputs(mesh, inputs);
+    for (auto& [link, offset] : others) add_input(mesh, link, offset, inputs);
+    return inputs;
+}
+
+// The place of number `n` of the joined <p>.
+Location number_place(Extraction& x, Link primitive, const PrimitiveIndices& p, size_t n) {
+    size_t vertex = n / p.stride;
+    auto after = std::upper_bound(p.parts.begin(), p.parts.end(), vertex,
+                                  [](size_t v, const auto& part) { return v < part.first; });
+    const PrimitiveIndices::Part& part = after[-1];
+    size_t skip = n - size_t(part.first) * p.stride;
+    std::vector<std::string_view> words = split_words(part.element->text);
+    if (skip >= words.size()) return x.where({primitive.doc, part.element});
+    size_t begin = size_t(words[skip].data() - part.element->text.data());
+    return x.document(primitive.doc)
+        .text_location(*part.element, begin, begin + words[skip].size());
+}
+
+// Which vertices name only what exists; empty when all do. Reports the first bad one.
+std::vector<bool> usable_vertices(MeshReader& mesh, Link primitive, const PrimitiveIndices& p,
+                                  const Inputs& inputs) {
+    std::vector<bool> usable;
+    auto reject = [&](uint32_t vertex) {
+        if (usable.empty()) usable.assign(p.vertex_count(), true);
+        usable[vertex] = false;
+    };
+    for (const OffsetUse& use : inputs.offsets) {
+        bool reported = false;
+        for (uint32_t v = 0; v < p.vertex_count(); ++v) {
+            int32_t index = p.numbers[size_t(v) * p.stride + use.offset];
+            if (uint32_t(index) < use.limit) continue;
+            reject(v);
+            if (reported) continue;
+            reported = true;
+            Location where = number_place(mesh.x, primitive, p, size_t(v) * p.stride + use.offset);
+            if (index < 0)
+                mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);
+            else
+                mesh.x.diag.report(Code::PRIM_INDEX_RANGE, where, index, use.semantic, use.limit);
+        }
+    }
+    if (mesh.bad_position.empty()) return usable;
+    for (uint32_t v = 0; v < p.vertex_count(); ++v) {
+        uint32_t position = uint32_t(p.numbers[size_t(v) * p.stride + inputs.offsets[0].offset]);
+        if (position < mesh.bad_position.size() && mesh.bad_position[position]) reject(v);
+    }
+    return usable;
+}
+
+}  // namespace
+
+void read_primitive(MeshReader& mesh, Link primitive) {
+    const Element& e = *primitive.element;
+    Inputs inputs = read_inputs(mesh, primitive);
+    if (!inputs.has_vertex) {
+        mesh.x.diag.report(Code::PRIM_NO_VERTEX, mesh.x.where(primitive), e.name);
+        return;
+    }
+    PolygonList polygons;
+    PrimitiveIndices p = read_indices(mesh.x, primitive, inputs.stride, polygons);
+    if (p.vertex_count() == 0) {
+        mesh.x.diag.report(Code::PRIM_EMPTY, mesh.x.where(primitive), e.name);
+        return;
+    }
+    if (!is_triangulated(e.name)) {
+        uint32_t parts = uint32_t(p.parts.size());
+        mesh.geometry.line_count += e.name == "lines"
+                                        ? p.vertex_count() / 2
+                                        : p.vertex_count() - std::min(parts, p.vertex_count());
+        return;
+    }
+    std::vector<bool> usable = usable_vertices(mesh, primitive, p, inputs);
+    std::vector<uint32_t> triangles =
+        triangles_of(mesh, primitive, p, polygons, usable, inputs.offsets[0].offset);
+    if (triangles.empty()) {
+        mesh.x.diag.report(Code::PRIM_EMPTY, mesh.x.where(primitive), e.name);
+        return;
+    }
+    PrimitiveGroup group;
+    group.material = e.value("material");
+    group.inputs = std::move(inputs.inputs);
+    group.where = mesh.x.where(primitive);
+    for (const OffsetUse& use : inputs.offsets) {
+        std::vector<uint32_t>& list = group.indices.emplace_back();
+        list.reserve(triangles.size());
+        for (uint32_t v : triangles)
+            list.push_back(uint32_t(p.numbers[size_t(v) * p.stride + use.offset]));
+    }
+    mesh.geometry.groups.push_back(std::move(group));
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,158 @@
+// collada/extract_samplers.cpp: from a <texture> through sampler and surface to an image.
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+template <class T>
+struct Word {
+    std::string_view word;
+    T value;
+};
+
+constexpr Word<Wrap> kWraps[] = {{"WRAP", Wrap::Wrap},   {"MIRROR", Wrap::Mirror},
+                                 {"CLAMP", Wrap::Clamp}, {"BORDER", Wrap::Border},
+                                 {"NONE", Wrap::None},   {"MIRROR_ONCE", Wrap::Mirror}};
+
+struct FilterWord {
+    std::string_view word;
+    Filter filter, mip;  // 1.4 puts the mip filter into the minfilter's name
+};
+constexpr FilterWord kFilters[] = {{"NONE", Filter::None, Filter::None},
+                                   {"NEAREST", Filter::Nearest, Filter::None},
+                                   {"LINEAR", Filter::Linear, Filter::None},
+                                   {"ANISOTROPIC", Filter::Linear, Filter::Linear},
+                                   {"NEAREST_MIPMAP_NEAREST", Filter::Nearest, Filter::Nearest},
+                                   {"LINEAR_MIPMAP_NEAREST", Filter::Linear, Filter::Nearest},
+                                   {"NEAREST_MIPMAP_LINEAR", Filter::Nearest, Filter::Linear},
+                                   {"LINEAR_MIPMAP_LINEAR", Filter::Linear, Filter::Linear}};
+
+void read_wrap(Extraction& x, Link sampler, std::string_view name, Wrap& wrap) {
+    const Element* e = sampler.element->child(name);
+    if (!e) return;
+    for (const Word<Wrap>& row : kWraps)
+        if (row.word == trim(e->text)) {
+            wrap = row.value;
+            return;
+        }
+    x.diag.report(Code::SCHEMA_ENUM, x.text_where({sampler.doc, e}), trim(e->text), name);
+}
+
+const FilterWord* read_filter(Extraction& x, Link sampler, std::string_view name) {
+    const Element* e = sampler.element->child(name);
+    if (!e) return nullptr;
+    for (const FilterWord& row : kFilters)
+        if (row.word == trim(e->text)) return &row;
+    x.diag.report(Code::SCHEMA_ENUM, x.text_where({sampler.doc, e}), trim(e->text), name);
+    return nullptr;
+}
+
+void read_sampler_state(Extraction& x, Link link, TextureSampler& sampler) {
+    read_wrap(x, link, "wrap_s", sampler.wrap_s);
+    read_wrap(x, link, "wrap_t", sampler.wrap_t);
+    if (const FilterWord* row = read_filter(x, link, "minfilter")) {
+        sampler.min = row->filter == Filter::None ? Filter::Linear : row->filter;
+        if (row->mip != Filter::None) sampler.mip = row->mip;
+    }
+    if (const FilterWord* row = read_filter(x, link, "magfilter"))
+        if (row->filter != Filter::None) sampler.mag = row->filter;
+    if (const FilterWord* row = read_filter(x, link, "mipfilter")) sampler.mip = row->filter;
+    if (const Element* border = link.element->child("border_color")) {
+        std::vector<double> c = read_doubles(x.document(link.doc), *border, x.diag);
+        for (size_t i = 0; i < c.size() && i < 4; ++i) sampler.border_color[int(i)] = float(c[i]);
+    }
+}
+
+// MAYA's placement of a texture; other exporters write the same names.
+void read_placement(const Element& texture, TextureSampler& sampler) {
+    for (const Element& extra : texture.children()) {
+        if (extra.name != "extra") continue;
+        for (const Element& technique : extra.children()) {
+            auto number = [&](std::string_view name, float& out) {
+                double value = 0;
+                const Element* e = technique.child(name);
+                if (e && parse_double(e->text, value)) out = float(value);
+            };
+            auto flag = [&](std::string_view name, bool& out) {
+                const Element* e = technique.child(name);
+                if (!e) return false;
+                std::string_view text = trim(e->text);
+                out = text == "TRUE" || text == "true" || text == "1";
+                return true;
+            };
+            number("repeatU", sampler.repeat.x);
+            number("repeatV", sampler.repeat.y);
+            number("offsetU", sampler.offset.x);
+            number("offsetV", sampler.offset.y);
+            bool wrap = true, mirror = false;
+            if (flag("wrapU", wrap)) sampler.wrap_s = wrap ? Wrap::Wrap : Wrap::Clamp;
+            if (flag("wrapV", wrap)) sampler.wrap_t = wrap ? Wrap::Wrap : Wrap::Clamp;
+            if (flag("mirrorU", mirror) && mirror) sampler.wrap_s = Wrap::Mirror;
+            if (flag("mirrorV", mirror) && mirror) sampler.wrap_t = Wrap::Mirror;
+        }
+    }
+}
+
+// The <newparam sid> seen from `from`: in the elements around it, inside out.
+const Element* find_newparam(const Element& from, std::string_view sid) {
+    for (const Element* scope = from.parent; scope; scope = scope->parent) {
+        for (const Element& child : scope->children())
+            if (child.name == "newparam" && child.value("sid") == sid) return &child;
+        if (scope->name == "effect") break;
+    }
+    return nullptr;
+}
+
+uint32_t image_by_id(Extraction& x, uint32_t doc, std::string_view id) {
+    const Element* image = find_kind(x.document(doc), id, {"image"});
+    return image ? image_index(x, {doc, image}) : kNone;
+}
+
+// The image of a sampler or surface <newparam>; `depth` guards against loops.
+uint32_t image_of_param(Extraction& x, Link param, TextureSampler& sampler, int depth = 0) {
+    if (depth > 4) return kNone;
+    for (const Element& value : param.element->children()) {
+        Link link{param.doc, &value};
+        bool is_sampler = value.name.starts_with("sampler");
+        if (!is_sampler && value.name != "surface") continue;
+        if (is_sampler) read_sampler_state(x, link, sampler);
+        if (const Element* instance = value.child("instance_image")) {
+            Link image = resolve(x, {param.doc, instance}, "url", {"image"});
+            return image ? image_index(x, image) : kNone;
+        }
+        if (const Element* from = value.child("init_from"))
+            return image_by_id(x, param.doc, trim(from->text));
+        const Element* source = value.child("source");
+        if (!source) return kNone;
+        const Element* surface = find_newparam(value, trim(source->text));
+        if (surface) return image_of_param(x, {param.doc, surface}, sampler, depth + 1);
+        return image_by_id(x, param.doc, trim(source->text));
+    }
+    return kNone;
+}
+
+}  // namespace
+
+uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect) {
+    std::string_view name = texture.element->value("texture");
+    TextureSampler sampler;
+    sampler.sid = name;
+    sampler.where = x.where(texture);
+    if (const Element* param = find_newparam(*texture.element, name)) {
+        sampler.image = image_of_param(x, {texture.doc, param}, sampler);
+    } else {
+        sampler.image = image_by_id(x, texture.doc, name);
+        if (sampler.image != kNone)
+            x.diag.report(Code::TEX_DIRECT_IMAGE, x.where(texture, "texture"), name);
+    }
+    if (sampler.image == kNone) {
+        x.diag.report(Code::TEX_UNRESOLVED, x.where(texture, "texture"), name);
+        return kNone;
+    }
+    read_placement(*texture.element, sampler);
+    return append(effect.samplers, std::move(sampler));
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,149 @@
+// collada/extract_source.cpp: <source>: an array and the accessor that cuts it into entries.
+#include <cmath>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+const Element* find_input(const Element& parent, std::string_view semantic) {
+    for (const Element& child : parent.children())
+        if (child.name == "input" && child.value("semantic") == semantic) return &child;
+    return nullptr;
+}
+
+namespace {
+
+constexpr std::string_view kNumberArrays[] = {"float_array", "int_array"};
+constexpr std::string_view kNameArrays[] = {"Name_array", "IDREF_array", "SIDREF_array"};
+
+const Element* find_accessor(const Element& source) {
+    const Element* common = source.child("technique_common");
+    return common ? common->child("accessor") : nullptr;
+}
+
+// The array of a source: that its accessor names, else the one it holds.
+template <size_t N>
+const Element* find_array(Extraction& x, Link source, const std::string_view (&names)[N]) {
+    const Element* accessor = find_accessor(*source.element);
+    std::string_view url = accessor ? accessor->value("source") : std::string_view{};
+    if (url.starts_with('#'))
+        for (std::string_view name : names)
+            if (const Element* array = find_kind(x.document(source.doc), url.substr(1), {name}))
+                return array;
+    for (std::string_view name : names)
+        if (const Element* array = source.element->child(name)) return array;
+    return nullptr;
+}
+
+uint64_t read_count(Extraction& x, Link link, std::string_view attribute, uint64_t missing) {
+    const Attribute* a = link.element->attribute(attribute);
+    if (!a) return missing;
+    uint64_t value = 0;
+    if (parse_count(a->value, value)) return value;
+    x.diag.report(Code::SRC_NUMBER, x.where(link, attribute), a->value);
+    return missing;
+}
+
+void check_array_count(Extraction& x, Link array, size_t values) {
+    uint64_t count = read_count(x, array, "count", values);
+    if (count != values) x.diag.report(Code::SRC_COUNT, x.where(array, "count"), count, values);
+}
+
+// The named <param>s; unnamed ones are skipped by the specification, unless all are.
+void read_columns(const Element& accessor, SourceView& view) {
+    uint32_t column = 0;
+    for (const Element& child : accessor.children()) {
+        if (child.name != "param") continue;
+        if (child.attribute("name")) {
+            view.columns.push_back(column);
+            view.names.push_back(child.value("name"));
+        }
+        if (++column >= 4096) break;
+    }
+    if (view.columns.empty())
+        for (uint32_t i = 0; i < column; ++i) view.columns.push_back(i);
+}
+
+}  // namespace
+
+bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& view) {
+    const Element* element = find_accessor(*source.element);
+    if (!element) {
+        x.diag.report(Code::SRC_EMPTY, x.where(source), source.element->value("id"));
+        return false;
+    }
+    Link accessor{source.doc, element};
+    view.source = source;
+    read_columns(*element, view);
+    uint64_t stride = read_count(x, accessor, "stride", 1);
+    uint64_t needed = view.columns.empty() ? 1 : view.columns.back() + 1;
+    if (stride < needed) {
+        x.diag.report(Code::SRC_STRIDE, x.where(accessor, "stride"), stride,
+                      std::string(stride == 0 ? "zero" : "less than its params"));
+        stride = needed;
+    }
+    if (view.columns.empty())
+        for (uint32_t i = 0; i < std::min<uint64_t>(stride, 4096); ++i) view.columns.push_back(i);
+    uint64_t offset = read_count(x, accessor, "offset", 0);
+    uint64_t held = offset < array_length ? (array_length - offset) / stride : 0;
+    uint64_t count = read_count(x, accessor, "count", held);
+    uint64_t reach = 0;
+    if (__builtin_mul_overflow(count, stride, &reach) ||
+        __builtin_add_overflow(reach, offset, &reach)) {
+        x.diag.report(Code::SRC_OVERFLOW, x.where(accessor));
+        return false;
+    }
+    if (count > held) {
+        x.diag.report(Code::SRC_ACCESSOR_COUNT, x.where(accessor, "count"), count, held);
+        count = held;
+    }
+    view.stride = uint32_t(view.columns.size());
+    view.count = size_t(count);
+    view.offset = size_t(offset);
+    view.array_stride = size_t(stride);
+    return true;
+}
+
+DoubleSource read_double_source(Extraction& x, Link source) {
+    DoubleSource out;
+    const Element* array = find_array(x, source, kNumberArrays);
+    if (!array) {
+        x.diag.report(Code::SRC_EMPTY, x.where(source), source.element->value("id"));
+        return out;
+    }
+    std::vector<double> values = read_doubles(x.document(source.doc), *array, x.diag);
+    check_array_count(x, {source.doc, array}, values.size());
+    SourceView view;
+    if (!read_accessor(x, source, values.size(), view)) return out;
+    out.stride = view.stride;
+    out.count = view.count;
+    out.names.assign(view.names.begin(), view.names.end());
+    bool dense = view.offset == 0 && view.array_stride == view.stride;
+    if (dense) {
+        values.resize(view.count * view.stride);
+        out.values = std::move(values);
+        return out;
+    }
+    out.values.reserve(view.count * view.stride);
+    for (size_t i = 0; i < view.count; ++i)
+        for (uint32_t column : view.columns)
+            out.values.push_back(values[view.offset + i * view.array_stride + column]);
+    return out;
+}
+
+NameSource read_name_source(Extraction& x, Link source) {
+    NameSource out;
+    out.array = find_array(x, source, kNameArrays);
+    if (!out.array) {
+        x.diag.report(Code::SRC_EMPTY, x.where(source), source.element->value("id"));
+        return out;
+    }
+    if (out.array->name == "IDREF_array") out.kind = JointNames::Idref;
+    if (out.array->name == "SIDREF_array") out.kind = JointNames::Sidref;
+    out.written_count = read_count(x, {source.doc, out.array}, "count", 0);
+    for (std::string_view word : split_words(out.array->text)) out.names.emplace_back(word);
+    return out;
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,264 @@
+// collada/extract_targets.cpp: "id/sid/sid.MEMBER", "(i)" and "(i)(j)" name part of a value.
+#include "collada/numbers_p.h"
+#include "collada/targets_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+struct Member {
+    std::string_view name;
+    uint32_t component;
+};
+constexpr Member kMembers[] = {{"X", 0}, {"Y", 1}, {"Z", 2}, {"W", 3}, {"R", 0},
+                               {"G", 1}, {"B", 2}, {"A", 3}, {"U", 0}, {"V", 1},
+                               {"S", 0}, {"T", 1}, {"P", 2}, {"Q", 3}};
+
+// "sid.X" -> "sid", ".X"; "sid(1)(2)" -> "sid", "(1)(2)".
+void split_selector(std::string_view segment, std::string_view& name, std::string_view& selector) {
+    size_t cut = segment.ends_with(')') ? segment.find('(') : segment.find_last_of('.');
+    name = segment.substr(0, cut);
+    selector = cut == segment.npos ? std::string_view{} : segment.substr(cut);
+}
+
+// "(3)(0)" -> {3, 0}.
+std::vector<uint64_t> indices_of(std::string_view selector) {
+    std::vector<uint64_t> indices;
+    while (selector.starts_with('(')) {
+        size_t close = selector.find(')');
+        uint64_t value = 0;
+        if (close == selector.npos || !parse_count(selector.substr(1, close - 1), value)) return {};
+        indices.push_back(value);
+        selector.remove_prefix(close + 1);
+    }
+    return indices;
+}
+
+}  // namespace
+
+const Element* TargetResolver::find_sid(const Element& scope, std::string_view sid) {
+    constexpr int kQuick = 64;  // most targets are a node's own transforms
+    int tried = 0;
+    for (const Element& child : scope.children()) {
+        if (child.value("sid") == sid) return &child;
+        if (++tried == kQuick) break;
+    }
+    auto [at, fresh] = sids_.try_emplace(&scope);
+    if (fresh) {
+        std::vector<const Element*> queue{&scope};
+        for (size_t i = 0; i < queue.size(); ++i)  // breadth first, as the specification asks
+            for (const Element& child : queue[i]->children()) {
+                if (child.attribute("sid")) at->second.emplace(child.value("sid"), &child);
+                queue.push_back(&child);
+            }
+    }
+    auto found = at->second.find(sid);
+    return found == at->second.end() ? nullptr : found->second;
+}
+
+// Exporters' short forms name the element itself: "effect/diffuse", "camera/xfov".
+const Element* TargetResolver::find_named(const Element& scope, std::string_view name) {
+    bool small_scope = scope.name == "effect" || scope.name == "light" || scope.name == "camera" ||
+                       scope.name == "technique" || scope.name == "node";
+    if (!small_scope) return nullptr;
+    std::vector<const Element*> queue{&scope};
+    for (size_t i = 0; i < queue.size(); ++i)
+        for (const Element& child : queue[i]->children()) {
+            if (child.name == name && x_.target_of.count(&child)) return &child;
+            if (scope.name != "node") queue.push_back(&child);
+        }
+    return nullptr;
+}
+
+// material-id/ref: the setparam of that ref; made from the effect's value when there is none.
+TargetRef TargetResolver::material_param(const Element& material, std::string_view ref) {
+    auto made = x_.made.find(&material);
+    if (made == x_.made.end() || made->second == kNone) return {};
+    uint32_t number = made->second;
+    Material& m = x_.scene.materials[number];
+    uint32_t slot = 0;
+    while (slot < m.setparams.size() && m.setparams[slot].ref != ref) ++slot;
+    if (slot == m.setparams.size()) {
+        if (m.effect == kNone) return {};
+        const Effect& effect = x_.scene.effects[m.effect];
+        uint32_t param = find_param(effect, ref);
+        if (param == kNone) return {};
+        m.setparams.push_back({std::string(ref), param, effect.params[param].value, m.where});
+    }
+    return {Owner::MaterialParam, number, slot, 0,
+            uint32_t(m.setparams[slot].value.numbers.size())};
+}
+
+const Slot* TargetResolver::slot_of(const TargetRef& ref) const {
+    switch (ref.kind) {
+        case Owner::Transform:
+            return &x_.scene.nodes[ref.owner].transforms[ref.slot].slot;
+        case Owner::Light:
+            return &x_.scene.lights[ref.owner].slots[ref.slot];
+        case Owner::Camera:
+            return &x_.scene.cameras[ref.owner].slots[ref.slot];
+        case Owner::EffectCommon:
+            return &x_.scene.effects[ref.owner].common->slots[ref.slot].slot;
+        case Owner::None:
+        case Owner::EffectParam:
+        case Owner::MaterialParam:
+        case Owner::MorphWeight:
+            break;
+    }
+    return nullptr;
+}
+
+const char* TargetResolver::apply_index(std::string_view selector, TargetRef& ref) const {
+    std::vector<uint64_t> indices = indices_of(selector);
+    if (indices.empty() || indices.size() > 2) return "its index is no number";
+    bool transform = ref.kind == Owner::Transform;
+    TransformKind kind =
+        transform ? x_.scene.nodes[ref.owner].transforms[ref.slot].kind : TransformKind::Translate;
+    bool matrix = transform && kind == TransformKind::Matrix;
+    uint64_t width = matrix ? 4 : 3;
+    for (uint64_t i : indices)
+        if (i >= ref.count || (indices.size() == 2 && i >= width))
+            return "its index is out of range";
+    uint64_t component = indices[0];
+    if (indices.size() == 2)
+        component = indices[0] * width + indices[1];  // (column)(row), as stored
+    else if (matrix)
+        component = indices[0] % 4 * 4 + indices[0] / 4;  // (i) counts as the file does, by rows
+    if (component >= ref.count) return "its index is out of range";
+    ref.first = uint32_t(component);
+    ref.count = 1;
+    return nullptr;
+}
+
+const char* TargetResolver::apply_member(std::string_view name, TargetRef& ref) const {
+    uint32_t component = UINT32_MAX;
+    for (const Member& m : kMembers)
+        if (m.name == name) component = m.component;
+    if (name == "ANGLE" && ref.kind == Owner::Transform) {
+        TransformKind kind = x_.scene.nodes[ref.owner].transforms[ref.slot].kind;
+        if (kind == TransformKind::Rotate) component = 3;
+        if (kind == TransformKind::Skew) component = 0;
+    }
+    if (ref.count == 1 && component >= 1) component = 0;  // a single number by any name
+    if (component == UINT32_MAX) return "the value has no such member";
+    if (component >= ref.count) return "the value has fewer components";
+    ref.first = component;
+    ref.count = 1;
+    return nullptr;
+}
+
+// No selector: the whole value, fitted to what the sampler brings.
+void TargetResolver::apply_whole(uint32_t stride, TargetRef& ref) const {
+    if (ref.kind == Owner::Transform) {
+        TransformKind kind = x_.scene.nodes[ref.owner].transforms[ref.slot].kind;
+        ref.whole_matrix = kind == TransformKind::Matrix && stride != 1;
+        if (kind == TransformKind::Rotate && stride == 1) ref.first = 3, ref.count = 1;
+    }
+    bool rgb = ref.kind == Owner::EffectCommon && ref.count == 4 && stride == 3;
+    if (rgb) ref.count = 3;
+}
+
+const char* TargetResolver::apply_selector(std::string_view selector, uint32_t stride,
+                                           TargetRef& ref) const {
+    const char* fault = nullptr;
+    if (selector.empty())
+        apply_whole(stride, ref);
+    else if (selector.starts_with('('))
+        fault = apply_index(selector, ref);
+    else
+        fault = apply_member(selector.substr(1), ref);
+    if (fault || ref.kind != Owner::MorphWeight) return fault;
+    auto remap = x_.morph_remap.find(ref.owner);
+    if (remap == x_.morph_remap.end()) return nullptr;
+    uint32_t kept = ref.count == 1 ? remap->second[ref.first] : kNone;
+    ref.first = kept;
+    return kept == kNone ? "its morph target was left out" : nullptr;
+}
+
+bool TargetResolver::is_reached(const Element* element) const {
+    for (; element; element = element->parent) {
+        auto made = x_.made.find(element);
+        if (made != x_.made.end()) return made->second != kNone;
+    }
+    return false;
+}
+
+TargetResolver::Found TargetResolver::find(const Element& root,
+                                           const std::vector<std::string_view>& path) {
+    const Element* at = &root;
+    for (size_t i = 0; i + 1 < path.size() && at; ++i) {
+        const Element* next = find_sid(*at, path[i]);
+        if (!next) next = find_named(*at, path[i]);
+        at = next;
+    }
+    if (!at) return {};
+    if (path.empty()) return {at, {}, {}};
+    std::string_view name, selector;
+    split_selector(path.back(), name, selector);
+    struct {
+        std::string_view name, selector;
+    } readings[] = {{path.back(), {}}, {name, selector}};
+    for (auto& reading : readings) {
+        if (root.name == "material" && path.size() == 1) {
+            TargetRef ref = material_param(root, reading.name);
+            if (ref.kind != Owner::None) return {&root, reading.selector, ref};
+        }
+        const Element* found = find_sid(*at, reading.name);
+        if (!found || !x_.target_of.count(found))
+            if (const Element* named = find_named(*at, reading.name)) found = named;
+        if (found) return {found, reading.selector, {}};
+    }
+    return {};
+}
+
+TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Location where,
+                                  uint32_t stride, const FindingInfo& unresolved) {
+    std::string_view rest = trim(target), selector;
+    if (rest.starts_with('#')) rest.remove_prefix(1);
+    std::vector<std::string_view> path;
+    size_t slash = rest.find('/');
+    std::string_view id = rest.substr(0, slash);
+    while (slash != rest.npos && path.size() < 64) {
+        rest.remove_prefix(slash + 1);
+        slash = rest.find('/');
+        path.push_back(rest.substr(0, slash));
+    }
+    const Element* root = x_.document(doc).find(id);
+    if (!root && path.empty()) {
+        split_selector(id, id, selector);
+        root = x_.document(doc).find(id);
+    }
+    Found found;
+    for (const Element* e = root; e; e = e->next_same_id) {
+        Found here = find(*e, path);
+        if (!here.element) continue;
+        if (!found.element) found = here;
+        if (here.ref.kind != Owner::None || x_.target_of.count(here.element)) {
+            found = here;
+            break;
+        }
+    }
+    if (!found.element) {
+        x_.diag.report(unresolved, where, target);
+        return {};
+    }
+    if (selector.empty()) selector = found.selector;
+    TargetRef ref = found.ref;
+    if (ref.kind == Owner::None) {
+        auto known = x_.target_of.find(found.element);
+        if (known != x_.target_of.end()) ref = known->second;
+    }
+    const Slot* slot = ref.kind == Owner::None ? nullptr : slot_of(ref);
+    bool nothing = ref.kind == Owner::None || ref.count == 0 || (slot && slot->count < ref.count);
+    if (nothing) {
+        if (is_reached(found.element)) x_.diag.report(Code::ANIM_TARGET_UNSUPPORTED, where, target);
+        return {};
+    }
+    if (const char* fault = apply_selector(selector, stride, ref)) {
+        x_.diag.report(Code::ANIM_TARGET_MEMBER, where, target, fault);
+        return {};
+    }
+    return ref;
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,29 @@
+// collada/numbers_p.h: the numbers of an element's text, whatever the locale.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collada/document.h"
+
+namespace kinora::collada {
+
+// Each reads all numbers of the text. What is no number becomes 0 (SRC_NUMBER), a decimal comma is
+// understood (SRC_COMMA_DECIMAL), NaN and infinities are kept; of each kind the first is reported
+// with its place. Memory is taken by what the text can hold, never by a count attribute.
+std::vector<double> read_doubles(const Document& document, const Element& element,
+                                 Diagnostics& diag);
+std::vector<float> read_floats(const Document& document, const Element& element, Diagnostics& diag);
+// Values beyond 32 bits are clamped, which puts them out of every range.
+std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag);
+
+// One number alone; false when the text (trimmed) is anything else or not finite.
+bool parse_double(std::string_view text, double& value);
+// A count-like attribute; false when it is no whole number >= 0 of 64 bits.
+bool parse_count(std::string_view text, uint64_t& value);
+
+// Words of a text, split at white space.
+std::vector<std::string_view> split_words(std::string_view text);
+std::string_view trim(std::string_view text);
+
+}  // namespace kinora::collada

@@ -1,0 +1,273 @@
+// collada/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first joined
+// to the outline by bridges (Eberly, "Triangulation by Ear Clipping").
+#include "collada/triangulate_p.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace kinora::collada {
+
+namespace {
+
+// Newell's normal: twice the area vector of the outline.
+dvec3 area_vector(std::span<const dvec3> loop) {
+    dvec3 sum(0.0);
+    const dvec3& origin = loop[0];  // differences keep far polygons exact
+    for (size_t i = 0; i < loop.size(); ++i) {
+        dvec3 a = loop[i] - origin;
+        dvec3 b = loop[(i + 1) % loop.size()] - origin;
+        sum += dvec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    }
+    return sum;
+}
+
+double cross(dvec2 a, dvec2 b, dvec2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool in_triangle(dvec2 a, dvec2 b, dvec2 c, dvec2 p) {
+    return cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0;
+}
+
+bool same(dvec2 a, dvec2 b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+class EarClipper {
+  public:
+    EarClipper(std::vector<dvec2> points, std::vector<uint32_t>& triangles)
+        : points_(std::move(points)), triangles_(triangles) {}
+
+    // Joins a hole (corner numbers, clockwise) to the outline; false if it sees no outline.
+    bool bridge(std::span<const uint32_t> hole);
+    void set_outline(uint32_t count) {
+        ring_.resize(count);
+        std::iota(ring_.begin(), ring_.end(), 0u);
+    }
+    bool clip();  // false: the polygon crosses itself
+
+  private:
+    dvec2 at(uint32_t i) const { return points_[ring_[i]]; }
+    bool reflex(uint32_t i) const { return cross(at(previous_[i]), at(i), at(next_[i])) <= 0; }
+    bool is_ear(uint32_t i);
+    void cut(uint32_t i, bool emit);
+    bool cut_stuck(uint32_t& start, uint32_t left);
+
+    static constexpr uint64_t kBudget = 100'000'000;
+    std::vector<dvec2> points_;
+    std::vector<uint32_t>& triangles_;
+    std::vector<uint32_t> ring_;             // corner numbers around the (bridged) outline
+    std::vector<uint32_t> next_, previous_;  // linked positions of ring_
+    std::vector<uint32_t> reflex_;           // positions that were reflex when last looked at
+    uint64_t work_ = 0;
+};
+
+bool EarClipper::bridge(std::span<const uint32_t> hole) {
+    size_t rightmost = 0;
+    for (size_t i = 1; i < hole.size(); ++i)
+        if (points_[hole[i]].x > points_[hole[rightmost]].x) rightmost = i;
+    dvec2 m = points_[hole[rightmost]];
+    // The nearest edge to the right of m that goes upwards, and its end further right.
+    double best_x = INFINITY;
+    size_t best = SIZE_MAX;
+    for (size_t i = 0; i < ring_.size(); ++i) {
+        dvec2 a = at(uint32_t(i)), b = at(uint32_t((i + 1) % ring_.size()));
+        if (!(a.y <= m.y && b.y >= m.y) || a.y == b.y) continue;
+        double hit = a.x + (m.y - a.y) / (b.y - a.y) * (b.x - a.x);
+        if (hit < m.x || hit >= best_x) continue;
+        best_x = hit;
+        best = a.x > b.x ? i : (i + 1) % ring_.size();
+    }
+    if (best == SIZE_MAX) return false;
+    // A reflex corner inside the triangle m, hit, best hides `best`: take that of least angle.
+    dvec2 hit(best_x, m.y), p = at(uint32_t(best));
+    double best_slope = INFINITY, best_distance = INFINITY;
+    size_t visible = best;
+    for (size_t i = 0; i < ring_.size(); ++i) {
+        dvec2 q = at(uint32_t(i));
+        if (q.x < m.x || same(q, m)) continue;
+        bool inside = p.y < m.y ? in_triangle(m, p, hit, q) : in_triangle(m, hit, p, q);
+        if (!inside) continue;
+        dvec2 before = at(uint32_t((i + ring_.size() - 1) % ring_.size()));
+        dvec2 after = at(uint32_t((i + 1) % ring_.size()));
+        // The bridge must leave q inside the polygon's own corner.
+        bool convex = cross(before, q, after) > 0;
+        bool left = cross(before, q, m) > 0, right = cross(q, after, m) > 0;
+        if (convex ? !(left && right) : !(left || right)) continue;
+        double slope = std::abs(q.y - m.y) / (q.x - m.x), distance = q.x - m.x;
+        if (slope < best_slope || (slope == best_slope && distance < best_distance)) {
+            best_slope = slope;
+            best_distance = distance;
+            visible = i;
+        }
+    }
+    std::vector<uint32_t> joined(ring_.begin(), ring_.begin() + std::ptrdiff_t(visible) + 1);
+    for (size_t i = 0; i <= hole.size(); ++i) joined.push_back(hole[(rightmost + i) % hole.size()]);
+    joined.insert(joined.end(), ring_.begin() + std::ptrdiff_t(visible), ring_.end());
+    ring_ = std::move(joined);
+    return true;
+}
+
+bool EarClipper::is_ear(uint32_t i) {
+    uint32_t before = previous_[i], after = next_[i];
+    dvec2 a = at(before), b = at(i), c = at(after);
+    if (!(cross(a, b, c) > 0)) return false;
+    size_t kept = 0;
+    for (size_t k = 0; k < reflex_.size(); ++k) {
+        ++work_;
+        uint32_t r = reflex_[k];
+        if (next_[r] == r || !reflex(r)) continue;  // cut off, or convex by now
+        std::swap(reflex_[kept++], reflex_[k]);
+        if (r == before || r == i || r == after) continue;
+        dvec2 q = at(r);
+        if (same(q, a) || same(q, b) || same(q, c)) continue;  // the other side of a bridge
+        if (in_triangle(a, b, c, q)) return false;
+    }
+    reflex_.resize(kept);
+    return true;
+}
+
+void EarClipper::cut(uint32_t i, bool emit) {
+    uint32_t before = previous_[i], after = next_[i];
+    if (emit) triangles_.insert(triangles_.end(), {ring_[before], ring_[i], ring_[after]});
+    next_[before] = after;
+    previous_[after] = before;
+    next_[i] = previous_[i] = i;  // marks it as gone
+}
+
+// No ear is left although corners are: take one that does the least harm.
+bool EarClipper::cut_stuck(uint32_t& start, uint32_t left) {
+    uint32_t flat = UINT32_MAX, convex = UINT32_MAX;
+    uint32_t i = start;
+    work_ += left;
+    for (uint32_t k = 0; k < left; ++k, i = next_[i]) {
+        double turn = cross(at(previous_[i]), at(i), at(next_[i]));
+        if (turn == 0 && flat == UINT32_MAX) flat = i;
+        if (turn > 0 && convex == UINT32_MAX) convex = i;
+    }
+    uint32_t chosen = flat != UINT32_MAX ? flat : convex != UINT32_MAX ? convex : start;
+    start = next_[chosen];
+    cut(chosen, true);
+    return chosen == flat;  // a corner on a straight line is no crossing
+}
+
+bool EarClipper::clip() {
+    uint32_t left = uint32_t(ring_.size());
+    next_.resize(left);
+    previous_.resize(left);
+    for (uint32_t i = 0; i < left; ++i) {
+        next_[i] = i + 1 < left ? i + 1 : 0;
+        previous_[i] = i > 0 ? i - 1 : left - 1;
+    }
+    for (uint32_t i = 0; i < left; ++i)
+        if (reflex(i)) reflex_.push_back(i);
+    bool clean = true;
+    uint32_t i = 0, tried = 0;
+    while (left > 3) {
+        if (work_ < kBudget && tried < left) {
+            work_ += 1 + reflex_.size() / 8;
+            uint32_t after = next_[i];
+            if (is_ear(i)) {
+                cut(i, true);
+                --left;
+                tried = 0;
+                i = next_[after];  // alternate corners give rounder triangles
+            } else {
+                ++tried;
+                i = after;
+            }
+            continue;
+        }
+        if (work_ < kBudget) {
+            clean = cut_stuck(i, left) && clean;
+        } else {
+            uint32_t after = next_[i];
+            cut(after, true);
+            clean = false;
+        }
+        tried = 0;
+        --left;
+    }
+    cut(i, true);
+    return clean;
+}
+
+// Drops the coordinate along which the polygon is thinnest, keeping its orientation positive.
+std::vector<dvec2> project(std::span<const dvec3> corners, dvec3 normal) {
+    int drop = 2;
+    if (std::abs(normal.x) > std::abs(normal.y) && std::abs(normal.x) > std::abs(normal.z))
+        drop = 0;
+    else if (std::abs(normal.y) > std::abs(normal.z))
+        drop = 1;
+    int u = (drop + 1) % 3, v = (drop + 2) % 3;
+    if (normal[drop] < 0) std::swap(u, v);
+    std::vector<dvec2> points;
+    points.reserve(corners.size());
+    for (const dvec3& p : corners) points.emplace_back(p[u], p[v]);
+    return points;
+}
+
+bool is_convex_fan(std::span<const dvec2> p) {
+    for (size_t i = 0; i < p.size(); ++i)
+        if (!(cross(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) >= 0)) return false;
+    for (size_t i = 2; i < p.size(); ++i)
+        if (!(cross(p[0], p[i - 1], p[i]) > 0)) return false;
+    return true;
+}
+
+void fan(uint32_t count, std::vector<uint32_t>& triangles) {
+    for (uint32_t i = 2; i < count; ++i) triangles.insert(triangles.end(), {0, i - 1, i});
+}
+
+double signed_area(std::span<const dvec2> points, std::span<const uint32_t> loop) {
+    double area = 0;
+    for (size_t i = 1; i + 1 < loop.size(); ++i)
+        area += cross(points[loop[0]], points[loop[i]], points[loop[i + 1]]);
+    return area;
+}
+
+}  // namespace
+
+Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32_t> loops,
+                          std::vector<uint32_t>& triangles) {
+    Triangulation result;
+    uint32_t outline = loops[0];
+    if (outline < 3) return result;
+    if (outline == 3 && loops.size() == 1) {
+        triangles.insert(triangles.end(), {0, 1, 2});
+        return result;
+    }
+    dvec3 normal = area_vector(corners.first(outline));
+    bool flat = normal.x == 0 && normal.y == 0 && normal.z == 0;
+    std::vector<dvec2> points = project(corners, normal);
+    if (flat || (loops.size() == 1 && is_convex_fan(points))) {
+        fan(outline, triangles);
+        return result;
+    }
+    std::vector<std::vector<uint32_t>> holes;
+    uint32_t first = outline;
+    for (size_t l = 1; l < loops.size(); first += loops[l], ++l) {
+        if (loops[l] < 3) continue;
+        std::vector<uint32_t> hole(loops[l]);
+        std::iota(hole.begin(), hole.end(), first);
+        if (signed_area(points, hole) > 0) std::reverse(hole.begin(), hole.end());
+        holes.push_back(std::move(hole));
+    }
+    // Rightmost holes first, so that later bridges may end on them.
+    auto right_end = [&](const std::vector<uint32_t>& hole) {
+        double x = -INFINITY;
+        for (uint32_t c : hole) x = std::max(x, points[c].x);
+        return x;
+    };
+    std::stable_sort(holes.begin(), holes.end(),
+                     [&](const auto& a, const auto& b) { return right_end(a) > right_end(b); });
+    EarClipper clipper(points, triangles);
+    clipper.set_outline(outline);
+    for (const auto& hole : holes)
+        if (!clipper.bridge(hole)) ++result.lost_holes;
+    result.self_intersecting = !clipper.clip();
+    return result;
+}
+
+}  // namespace kinora::collada
