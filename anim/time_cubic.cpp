@@ -2,8 +2,9 @@
 //
 // Plain Newton leaves vertical tangents by whole units (EXTREMES.md 1b). Two things cure it: the
 // root stays in a bracket that halves when Newton does not help, and the cubic is written about
-// the parameter where its slope is least, f(w) = d w + e w^2 + a w^3 - r. There, where a double or
-// triple root makes the answer sensitive, f's terms are small and so are their roundings.
+// the parameter where its slope is least (within the segment, or the nearer end), f(w) = d w +
+// e w^2 + a w^3 - r. There, where a double or triple root makes the answer sensitive, f's terms are
+// small and so are their roundings.
 #include "anim/time_cubic.h"
 
 #include <algorithm>
