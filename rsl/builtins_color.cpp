@@ -1,28 +1,90 @@
 // rsl/builtins_color.cpp: rows of the built-in table: colors and components.
 #include "rsl/builtin.h"
+#include "rsl/lower_p.h"
 
 namespace kinora::rsl {
 
+namespace lower_color {
+
+// The element of `count` that a float index names; truncated and clamped.
+Value pick(LowerCall& c, std::span<const Value> items, Value x) {
+    Value index = c.low.index(x, int(items.size()));
+    int32_t known;
+    if (c.b.constant_i(index, &known)) return items[size_t(known)];
+    Value result = items[0];
+    for (size_t k = 1; k < items.size(); ++k)
+        result = c.b.select(c.b.op(jit::Op::IEq, index, c.b.i(int(k))), items[k], result);
+    return result;
+}
+
+void put(LowerCall& c, std::span<Value> items, Value x, Value value) {
+    Value index = c.low.index(x, int(items.size()));
+    for (size_t k = 0; k < items.size(); ++k)
+        items[k] = c.b.select(c.b.op(jit::Op::IEq, index, c.b.i(int(k))), value, items[k]);
+}
+
+// comp(c, i), comp(m, row, column)
+void comp(LowerCall& c) {
+    auto& v = c.args[0].c;
+    if (c.args[0].type != BaseType::Matrix) return c.set(pick(c, std::span(v.data(), 3), c.f(1)));
+    std::array<Value, 4> rows;
+    for (size_t r = 0; r < 4; ++r) rows[r] = pick(c, std::span(v.data() + 4 * r, 4), c.f(2));
+    c.set(pick(c, rows, c.f(1)));
+}
+
+// setcomp(c, i, x), setcomp(m, row, column, x)
+void setcomp(LowerCall& c) {
+    Lowered v = c.args[0];
+    if (v.type != BaseType::Matrix) {
+        put(c, std::span(v.c.data(), 3), c.f(1), c.f(2));
+        return c.set_output(0, v);
+    }
+    Value row = c.low.index(c.f(1), 4);
+    for (size_t r = 0; r < 4; ++r) {
+        std::array<Value, 4> items = {v.c[4 * r], v.c[4 * r + 1], v.c[4 * r + 2], v.c[4 * r + 3]};
+        put(c, items, c.f(2), c.f(3));
+        Value here = c.b.op(jit::Op::IEq, row, c.b.i(int(r)));
+        for (size_t k = 0; k < 4; ++k)
+            v.c[4 * r + k] = c.b.select(here, items[k], v.c[4 * r + k]);
+    }
+    c.set_output(0, v);
+}
+
+// ctransform("to", c), ctransform("from", "to", c); rgb is the space of colors.
+void ctransform(LowerCall& c) {
+    bool both = c.args.size() == 3;
+    const std::string* first = c.text(0);
+    const std::string* second = both ? c.text(1) : first;
+    if (!first || !second) return;
+    const Lowered& color = c.args.back();
+    c.result = both ? c.low.color_space(color, *first, *second, c.where())
+                    : c.low.color_space(color, "rgb", *first, c.where());
+}
+
+}  // namespace lower_color
+
 namespace {
+
+namespace lower = lower_color;
 
 const Builtin kRows[] = {
     {"comp",
      "f=cf f=pf f=vf f=nf f=mff",
-     nullptr,
+     lower::comp,
      {},
      kPure,
      0,
      "A component: comp(c, i), comp(m, row, column)."},
     {"setcomp",
      "x=Cff x=Pff x=Vff x=Nff x=Mfff",
-     nullptr,
+     lower::setcomp,
      {},
      kPure,
      0,
      "Sets a component: setcomp(c, i, x), setcomp(m, row, column, x)."},
     {"ctransform",
      "c=sc c=ssc",
-     nullptr,
+     lower::ctransform,
      {},
      kPure,
      8,

@@ -1,14 +1,145 @@
 // rsl/builtins_light.cpp: rows of the built-in table: lights, ray tracing and illumination.
 #include "rsl/builtin.h"
+#include "rsl/lower_p.h"
 
 namespace kinora::rsl {
 
+namespace lower_light {
+
+// The sum over the records of one set of what `term` makes of each: it gets the record and the sum
+// so far. Ambient records are visited only if `ambient`, and then alone.
+template <class Term>
+V3 sum_of_lights(LowerCall& c, const V3& position, bool ambient, Term&& term) {
+    auto& e = c.low;
+    Value set = e.record_set(position);
+    std::array<Value, 3> sum = {e.f(0), e.f(0), e.f(0)};
+    e.for_each_record(set, sum, c.where(), [&](Value record) {
+        Value kind = e.record_uniform(set, record, kLightKind, jit::Type::I);
+        Value is_ambient = c.b.op(jit::Op::IEq, kind, c.b.i(kLightAmbient));
+        V3 before = {sum[0], sum[1], sum[2]};
+        c.b.begin_if(ambient ? is_ambient : c.b.logical_not(is_ambient));
+        V3 after = term(set, record, before);
+        c.b.end_if();
+        for (size_t k = 0; k < 3; ++k) sum[k] = c.b.merge(after[k], before[k]);
+    });
+    return sum;
+}
+
+// A dark record has Cl = 0, so no formula needs to ask whether it is lit.
+void ambient(LowerCall& c) {
+    c.set(sum_of_lights(c, c.low.read_global(Global::P).v3(), true,
+                        [&](Value set, Value record, const V3& sum) {
+                            return c.low.add(sum, c.low.record_triple(set, record, kLightCl));
+                        }));
+}
+
+Value share(LowerCall& c, Value set, Value record, int field) {
+    return c.b.sub(c.b.f(1), c.low.record_uniform(set, record, field, jit::Type::F));
+}
+
+// RI 3.2: the sum of Cl * max(0, normalize(L) . N). With an axis and an angle only lights within it.
+void diffuse(LowerCall& c) {
+    auto& e = c.low;
+    bool cone = c.args.size() == 3;
+    V3 N = c.v3(cone ? 1 : 0);
+    V3 P = cone ? c.v3(0) : e.read_global(Global::P).v3();
+    Value limit = cone ? e.mul(jit::math::cos(c.b, c.f(2), e.tier), e.length(N)) : e.f(0);
+    c.set(sum_of_lights(c, P, false, [&](Value set, Value record, const V3& sum) {
+        V3 L = e.normalize(e.record_triple(set, record, kLightL));
+        Value cosine = e.dot(L, N);
+        Value amount = c.b.max(cosine, e.f(0));
+        if (cone) amount = c.b.select(c.b.lt(cosine, limit), e.f(0), amount);
+        amount = e.mul(amount, share(c, set, record, kLightNondiffuse));
+        return e.fma(e.record_triple(set, record, kLightCl), amount, sum);
+    }));
+}
+
+// RI 3.2: pow(max(0, N . H), 1/roughness), H half-way between L and V.
+Value specular_term(Emitter& e, const V3& L, const V3& N, const V3& V, Value exponent) {
+    V3 H = e.normalize(e.add(L, V));
+    return e.pow_positive(e.b.max(e.dot(N, H), e.f(0)), exponent);
+}
+
+void specular(LowerCall& c) {
+    auto& e = c.low;
+    V3 N = c.v3(0), V = c.v3(1);
+    Value exponent = e.div(e.f(1), c.f(2));
+    c.set(sum_of_lights(c, e.read_global(Global::P).v3(), false,
+                        [&](Value set, Value record, const V3& sum) {
+                            V3 L = e.normalize(e.record_triple(set, record, kLightL));
+                            Value front = c.b.lt(e.f(0), e.dot(L, N));
+                            Value amount = specular_term(e, L, N, V, exponent);
+                            amount = c.b.select(front, amount, e.f(0));
+                            amount = e.mul(amount, share(c, set, record, kLightNonspecular));
+                            return e.fma(e.record_triple(set, record, kLightCl), amount, sum);
+                        }));
+}
+
+// RI 3.2: pow(max(0, R . L), size), R the eye's mirror direction.
+void phong(LowerCall& c) {
+    auto& e = c.low;
+    V3 N = c.v3(0), V = c.v3(1);
+    V3 unit_N = e.normalize(N), unit_V = e.normalize(V);
+    V3 R = e.fma(unit_N, e.mul(e.f(2), e.dot(unit_V, unit_N)), e.neg(unit_V));
+    Value size = c.f(2);
+    c.set(sum_of_lights(c, e.read_global(Global::P).v3(), false,
+                        [&](Value set, Value record, const V3& sum) {
+                            V3 L = e.normalize(e.record_triple(set, record, kLightL));
+                            Value front = c.b.lt(e.f(0), e.dot(L, N));
+                            Value base = c.b.max(e.dot(R, L), e.f(0));
+                            Value amount = e.pow_positive(base, size);
+                            amount = c.b.select(front, amount, e.f(0));
+                            amount = e.mul(amount, share(c, set, record, kLightNonspecular));
+                            return e.fma(e.record_triple(set, record, kLightCl), amount, sum);
+                        }));
+}
+
+void specularbrdf(LowerCall& c) {
+    auto& e = c.low;
+    Value term = specular_term(e, e.normalize(c.v3(0)), c.v3(1), c.v3(2), e.div(e.f(1), c.f(3)));
+    c.set(V3{term, term, term});
+}
+
+// In an opacity kernel nothing is traced (DESIGN.md decision 6).
+bool traces(LowerCall& c) {
+    return c.low.options.want_Ci;
+}
+
+void trace(LowerCall& c) {
+    if (!traces(c)) return;
+    V3 P = c.v3(0), R = c.v3(1);
+    std::vector<Value> hit = c.low.service("trace", std::array{P[0], P[1], P[2], R[0], R[1], R[2]});
+    if (c.result_type() == BaseType::Float)
+        c.set(hit[3]);
+    else
+        c.set(V3{hit[0], hit[1], hit[2]});
+}
+
+V3 let_through(LowerCall& c) {
+    if (!traces(c)) return c.low.f3(1);
+    V3 from = c.v3(0), to = c.v3(1);
+    std::vector<Value> share_of_light = c.low.service(
+        "transmission", std::array{from[0], from[1], from[2], to[0], to[1], to[2]});
+    return {share_of_light[0], share_of_light[1], share_of_light[2]};
+}
+void transmission(LowerCall& c) {
+    c.set(let_through(c));
+}
+void visibility(LowerCall& c) {
+    V3 t = let_through(c);
+    c.set(c.low.flag(c.b.lt(c.b.f(0), c.b.max(c.b.max(t[0], t[1]), t[2]))));
+}
+
+}  // namespace lower_light
+
 namespace {
+
+namespace lower = lower_light;
 
 const Builtin kRows[] = {
     {"ambient",
      "c=",
-     nullptr,
+     lower::ambient,
      {},
      kLights | kVaryingResult,
      2,
@@ -16,7 +147,7 @@ const Builtin kRows[] = {
      kSurface},
     {"diffuse",
      "c=n c=pnf",
-     nullptr,
+     lower::diffuse,
      {},
      kLights | kVaryingResult,
      8,
@@ -25,7 +156,7 @@ const Builtin kRows[] = {
      "P"},
     {"specular",
      "c=nvf",
-     nullptr,
+     lower::specular,
      {},
      kLights | kVaryingResult,
      16,
@@ -34,7 +165,7 @@ const Builtin kRows[] = {
      "P"},
     {"phong",
      "c=nvf",
-     nullptr,
+     lower::phong,
      {},
      kLights | kVaryingResult,
      16,
@@ -43,14 +174,14 @@ const Builtin kRows[] = {
      "P"},
     {"specularbrdf",
      "c=vnvf",
-     nullptr,
+     lower::specularbrdf,
      {},
      kPure,
      16,
      "The term of specular() for one light: specularbrdf(L, N, V, roughness)."},
     {"trace",
      "c=pv~ f=pv~",
-     nullptr,
+     lower::trace,
      {},
      kService | kTraces | kVaryingResult,
      0,
@@ -58,7 +189,7 @@ const Builtin kRows[] = {
      kSurface | kVolume},
     {"transmission",
      "c=pp~",
-     nullptr,
+     lower::transmission,
      {},
      kService | kTraces | kShadows | kVaryingResult,
      0,
@@ -66,7 +197,7 @@ const Builtin kRows[] = {
      kSurface | kLight},
     {"visibility",
      "f=pp~",
-     nullptr,
+     lower::visibility,
      {},
      kService | kTraces | kShadows | kVaryingResult,
      0,

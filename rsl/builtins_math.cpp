@@ -1,106 +1,267 @@
 // rsl/builtins_math.cpp: rows of the built-in table: mathematics of floats and, componentwise, of
 // triples.
 #include "rsl/builtin.h"
+#include "rsl/lower_p.h"
 
 namespace kinora::rsl {
 
+namespace lower_math {
+
+using Unary = Value (*)(LowerCall& c, Value x);
+using Binary = Value (*)(LowerCall& c, Value x, Value y);
+
+// A function of one or two floats, componentwise on triples.
+template <Unary function>
+void unary(LowerCall& c) {
+    Lowered r{c.result_type(), {}};
+    for (int k = 0; k < r.size(); ++k) r.c[size_t(k)] = function(c, c.args[0].c[size_t(k)]);
+    c.result = r;
+}
+template <Binary function>
+void binary(LowerCall& c) {
+    Lowered r = c.args[0];
+    r.type = c.result_type();
+    for (size_t a = 1; a < c.args.size(); ++a)
+        for (size_t k = 0; k < size_t(r.size()); ++k)
+            r.c[k] = function(c, r.c[k], c.args[a].c[k]);
+    c.result = r;
+}
+// Functions of jit/math.h.
+template <Value (*function)(jit::Builder&, Value, jit::math::Tier)>
+void of_math(LowerCall& c) {
+    c.set(function(c.b, c.f(0), c.low.tier));
+}
+
+Value to_radians(LowerCall& c, Value x) {
+    return c.b.mul(x, c.b.f(0.017453292519943295f));
+}
+Value to_degrees(LowerCall& c, Value x) {
+    return c.b.mul(x, c.b.f(57.29577951308232f));
+}
+Value sqrt(LowerCall& c, Value x) {
+    return c.low.sqrt(x);
+}
+Value abs(LowerCall& c, Value x) {
+    return c.b.abs(x);
+}
+Value sign(LowerCall& c, Value x) {
+    Value negative = c.b.select(c.b.lt(x, c.b.f(0)), c.b.f(-1), c.b.f(0));
+    return c.b.select(c.b.lt(c.b.f(0), x), c.b.f(1), negative);
+}
+Value floor(LowerCall& c, Value x) {
+    return c.b.floor(x);
+}
+Value ceil(LowerCall& c, Value x) {
+    return c.b.op(jit::Op::Ceil, x);
+}
+// Halves go up: floor(x + 0.5), but exact where x + 0.5 would round.
+Value round(LowerCall& c, Value x) {
+    Value whole = c.b.floor(x);
+    Value fraction = c.b.sub(x, whole);
+    return c.b.select(c.b.le(c.b.f(0.5f), fraction), c.b.add(whole, c.b.f(1)), whole);
+}
+Value pow(LowerCall& c, Value x, Value y) {
+    return c.low.pow(x, y);
+}
+Value mod(LowerCall& c, Value x, Value y) {
+    return c.low.mod(x, y);
+}
+Value min(LowerCall& c, Value x, Value y) {
+    return c.b.min(x, y);
+}
+Value max(LowerCall& c, Value x, Value y) {
+    return c.b.max(x, y);
+}
+Value step(LowerCall& c, Value edge, Value x) {
+    return c.b.select(c.b.lt(x, edge), c.b.f(0), c.b.f(1));
+}
+
+void atan(LowerCall& c) {
+    c.set(c.args.size() == 1 ? jit::math::atan(c.b, c.f(0), c.low.tier)
+                             : jit::math::atan2(c.b, c.f(0), c.f(1), c.low.tier));
+}
+
+void log(LowerCall& c) {
+    Value x = jit::math::log(c.b, c.f(0), c.low.tier);
+    if (c.args.size() == 2) x = c.low.div(x, jit::math::log(c.b, c.f(1), c.low.tier));
+    c.set(x);
+}
+
+void clamp(LowerCall& c) {
+    Lowered r{c.result_type(), {}};
+    for (size_t k = 0; k < size_t(r.size()); ++k)
+        r.c[k] = c.low.clamp(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
+    c.result = r;
+}
+
+// mix(a, b, alpha): alpha is a float or has a component for each.
+void mix(LowerCall& c) {
+    Lowered r{c.result_type(), {}};
+    bool one = c.args[2].size() == 1;
+    for (size_t k = 0; k < size_t(r.size()); ++k)
+        r.c[k] = c.low.mix(c.args[0].c[k], c.args[1].c[k], c.args[2].c[one ? 0 : k]);
+    c.result = r;
+}
+
+void smoothstep(LowerCall& c) {
+    Lowered r{c.result_type(), {}};
+    for (size_t k = 0; k < size_t(r.size()); ++k)
+        r.c[k] = c.low.smoothstep(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
+    c.result = r;
+}
+
+// The change of x across the shading point: |Du(x) du| + |Dv(x) dv|.
+Value filter_width(LowerCall& c, Value x) {
+    Value du = c.b.mul(c.b.op(jit::Op::Du, x), c.low.read_global(Global::du).c[0]);
+    Value dv = c.b.mul(c.b.op(jit::Op::Dv, x), c.low.read_global(Global::dv).c[0]);
+    return c.b.add(c.b.abs(du), c.b.abs(dv));
+}
+
+// The step averaged over a box: how much of [low, high] lies above the edge.
+void filterstep(LowerCall& c) {
+    auto& b = c.b;
+    Value low = c.f(1), high = c.f(1);
+    if (c.args.size() == 3) {
+        low = b.min(c.f(1), c.f(2));
+        high = b.max(c.f(1), c.f(2));
+    }
+    Value half = c.args.size() == 3 ? b.f(0) : b.mul(filter_width(c, c.f(1)), b.f(0.5f));
+    Value widen = c.pair("width", 1);
+    if (c.args.size() == 3) {
+        Value centre = b.mul(b.add(low, high), b.f(0.5f));
+        half = b.mul(b.sub(high, low), b.f(0.5f));
+        low = high = centre;
+    }
+    half = b.mul(half, widen);
+    Value width = b.add(half, half);
+    Value share = c.low.div(b.sub(b.add(high, half), c.f(0)), width);
+    Value hard = b.select(b.lt(c.f(1), c.f(0)), b.f(0), b.f(1));
+    Value soft = c.low.clamp(share, b.f(0), b.f(1));
+    c.set(b.select(b.lt(width, b.f(1.17549435e-38f)), hard, soft));
+}
+
+template <jit::Op op>
+void derivative(LowerCall& c) {
+    Lowered r{c.result_type(), {}};
+    for (size_t k = 0; k < size_t(r.size()); ++k) r.c[k] = c.b.op(op, c.args[0].c[k]);
+    c.result = r;
+}
+
+// Deriv(a, b) = Du(a) / Du(b) + Dv(a) / Dv(b).
+void total_derivative(LowerCall& c) {
+    Lowered r{c.result_type(), {}};
+    Value du = c.b.op(jit::Op::Du, c.f(1)), dv = c.b.op(jit::Op::Dv, c.f(1));
+    for (size_t k = 0; k < size_t(r.size()); ++k) {
+        Value by_u = c.low.div(c.b.op(jit::Op::Du, c.args[0].c[k]), du);
+        Value by_v = c.low.div(c.b.op(jit::Op::Dv, c.args[0].c[k]), dv);
+        r.c[k] = c.b.add(by_u, by_v);
+    }
+    c.result = r;
+}
+
+void spline(LowerCall& c);  // rsl/builtins_spline.cpp
+
+}  // namespace lower_math
+
 namespace {
 
+namespace lower = lower_math;
+
 const Builtin kRows[] = {
-    {"radians", "f=f", nullptr, {}, kPure, 1, "Degrees to radians: x * PI / 180."},
-    {"degrees", "f=f", nullptr, {}, kPure, 1, "Radians to degrees: x * 180 / PI."},
-    {"sin", "f=f", nullptr, {}, kPure, 1, "Sine of an angle in radians."},
-    {"cos", "f=f", nullptr, {}, kPure, 1, "Cosine of an angle in radians."},
-    {"tan", "f=f", nullptr, {}, kPure, 2, "Tangent of an angle in radians."},
+    {"radians", "f=f", lower::unary<lower::to_radians>, {}, kPure, 1, "Degrees to radians: x * PI / 180."},
+    {"degrees", "f=f", lower::unary<lower::to_degrees>, {}, kPure, 1, "Radians to degrees: x * 180 / PI."},
+    {"sin", "f=f", lower::of_math<jit::math::sin>, {}, kPure, 1, "Sine of an angle in radians."},
+    {"cos", "f=f", lower::of_math<jit::math::cos>, {}, kPure, 1, "Cosine of an angle in radians."},
+    {"tan", "f=f", lower::of_math<jit::math::tan>, {}, kPure, 2, "Tangent of an angle in radians."},
     {"asin",
      "f=f",
-     nullptr,
+     lower::of_math<jit::math::asin>,
      {},
      kPure,
      2,
      "Arc sine in radians; the argument is clamped to -1..1."},
     {"acos",
      "f=f",
-     nullptr,
+     lower::of_math<jit::math::acos>,
      {},
      kPure,
      2,
      "Arc cosine in radians; the argument is clamped to -1..1."},
     {"atan",
      "f=f f=ff",
-     nullptr,
+     lower::atan,
      {},
      kPure,
      2,
      "Arc tangent of x, or of y / x in the right quadrant: atan(y, x)."},
-    {"exp", "f=f", nullptr, {}, kPure, 1, "e to the power x."},
+    {"exp", "f=f", lower::of_math<jit::math::exp>, {}, kPure, 1, "e to the power x."},
     {"log",
      "f=f f=ff",
-     nullptr,
+     lower::log,
      {},
      kPure,
      2,
      "Natural logarithm, or the logarithm to a base: log(x, base)."},
-    {"sqrt", "f=f c=c p=p v=v n=n", nullptr, {}, kPure, 1, "Square root; 0 for negative x."},
-    {"inversesqrt", "f=f", nullptr, {}, kPure, 2, "1 / sqrt(x); 0 for x <= 0."},
-    {"pow", "f=ff c=cc p=pp v=vv n=nn", nullptr, {}, kPure, 4, "x to the power y."},
+    {"sqrt", "f=f c=c p=p v=v n=n", lower::unary<lower::sqrt>, {}, kPure, 1, "Square root; 0 for negative x."},
+    {"inversesqrt", "f=f", lower::of_math<jit::math::inversesqrt>, {}, kPure, 2, "1 / sqrt(x); 0 for x <= 0."},
+    {"pow", "f=ff c=cc p=pp v=vv n=nn", lower::binary<lower::pow>, {}, kPure, 4, "x to the power y."},
     {"mod",
      "f=ff c=cc p=pp v=vv n=nn",
-     nullptr,
+     lower::binary<lower::mod>,
      {},
      kPure,
      2,
      "x - y * floor(x / y): the remainder with the sign of y."},
-    {"abs", "f=f c=c p=p v=v n=n", nullptr, {}, kPure, 0, "Absolute value."},
-    {"sign", "f=f c=c p=p v=v n=n", nullptr, {}, kPure, 0, "-1, 0 or 1 by the sign of x."},
-    {"floor", "f=f c=c p=p v=v n=n", nullptr, {}, kPure, 0, "Largest integer not above x."},
-    {"ceil", "f=f c=c p=p v=v n=n", nullptr, {}, kPure, 0, "Smallest integer not below x."},
-    {"round", "f=f c=c p=p v=v n=n", nullptr, {}, kPure, 0, "Nearest integer."},
+    {"abs", "f=f c=c p=p v=v n=n", lower::unary<lower::abs>, {}, kPure, 0, "Absolute value."},
+    {"sign", "f=f c=c p=p v=v n=n", lower::unary<lower::sign>, {}, kPure, 0, "-1, 0 or 1 by the sign of x."},
+    {"floor", "f=f c=c p=p v=v n=n", lower::unary<lower::floor>, {}, kPure, 0, "Largest integer not above x."},
+    {"ceil", "f=f c=c p=p v=v n=n", lower::unary<lower::ceil>, {}, kPure, 0, "Smallest integer not below x."},
+    {"round", "f=f c=c p=p v=v n=n", lower::unary<lower::round>, {}, kPure, 0, "Nearest integer."},
     {"min",
      "f=fff* c=ccc* p=ppp* v=vvv* n=nnn*",
-     nullptr,
+     lower::binary<lower::min>,
      {},
      kPure,
      0,
      "The smallest of its arguments, componentwise."},
     {"max",
      "f=fff* c=ccc* p=ppp* v=vvv* n=nnn*",
-     nullptr,
+     lower::binary<lower::max>,
      {},
      kPure,
      0,
      "The largest of its arguments, componentwise."},
     {"clamp",
      "f=fff c=ccc p=ppp v=vvv n=nnn",
-     nullptr,
+     lower::clamp,
      {},
      kPure,
      0,
      "x limited to min..max: clamp(x, min, max)."},
     {"mix",
      "f=fff c=ccf p=ppf v=vvf n=nnf c=ccc p=ppp v=vvv n=nnn m=mmf",
-     nullptr,
+     lower::mix,
      {},
      kPure,
      2,
      "a * (1 - alpha) + b * alpha: mix(a, b, alpha)."},
     {"step",
      "f=ff c=cc p=pp v=vv n=nn",
-     nullptr,
+     lower::binary<lower::step>,
      {},
      kPure,
      0,
      "0 below min, else 1: step(min, x)."},
     {"smoothstep",
      "f=fff c=ccc p=ppp v=vvv n=nnn",
-     nullptr,
+     lower::smoothstep,
      {},
      kPure,
      2,
      "0 below min, 1 above max, a Hermite ramp between: smoothstep(min, max, x)."},
     {"filterstep",
      "f=ff~ f=fff~",
-     nullptr,
+     lower::filterstep,
      {},
      kDerivative,
      4,
@@ -110,14 +271,14 @@ const Builtin kRows[] = {
      "f=ffffff* c=fccccc* p=fppppp* v=fvvvvv* n=fnnnnn* f=sffffff* "
      "c=sfccccc* p=sfppppp* v=sfvvvvv* n=sfnnnnn* f=ff[] c=fc[] p=fp[] "
      "v=fv[] n=fn[] f=sff[] c=sfc[] p=sfp[] v=sfv[] n=sfn[]",
-     nullptr,
+     lower::spline,
      {},
      kPure,
      4,
      "Value at x of the spline through the knots (Catmull-Rom unless a basis is named)."},
     {"Du",
      "f=f c=c v=p v=v v=n",
-     nullptr,
+     lower::derivative<jit::Op::Du>,
      {},
      kDerivative,
      8,
@@ -125,7 +286,7 @@ const Builtin kRows[] = {
      kSurface | kDisplacement | kVolume},
     {"Dv",
      "f=f c=c v=p v=v v=n",
-     nullptr,
+     lower::derivative<jit::Op::Dv>,
      {},
      kDerivative,
      8,
@@ -133,7 +294,7 @@ const Builtin kRows[] = {
      kSurface | kDisplacement | kVolume},
     {"Deriv",
      "f=ff c=cf v=pf v=vf v=nf",
-     nullptr,
+     lower::total_derivative,
      {},
      kDerivative,
      8,

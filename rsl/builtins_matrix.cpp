@@ -1,15 +1,50 @@
 // rsl/builtins_matrix.cpp: rows of the built-in table: matrices.
 #include "rsl/builtin.h"
+#include "rsl/lower_p.h"
 
 namespace kinora::rsl {
 
+namespace lower_matrix {
+
+// mtransform("to", m), mtransform("from", "to", m)
+void mtransform(LowerCall& c) {
+    auto& e = c.low;
+    auto space = [&](size_t k) { return e.space(c.args[k].c[0], c.call.args[k]->place.where); };
+    Lowered m = c.args.back();
+    if (c.args.size() == 3) m = e.to_current(m, space(0));
+    c.result = e.from_current(m, space(c.args.size() - 2));
+}
+void determinant(LowerCall& c) {
+    c.set(c.low.determinant(c.args[0]));
+}
+// The row vector (x, y, z, 1) times m takes the place of m's last row.
+void translate(LowerCall& c) {
+    Lowered m = c.args[0];
+    V3 t = c.v3(1);
+    for (size_t k = 0; k < 4; ++k)
+        m.c[12 + k] = c.low.fma(
+            t[0], m.c[k], c.low.fma(t[1], m.c[4 + k], c.low.fma(t[2], m.c[8 + k], m.c[12 + k])));
+    c.result = m;
+}
+void scale(LowerCall& c) {
+    Lowered m = c.args[0];
+    for (size_t row = 0; row < 3; ++row)
+        for (size_t k = 0; k < 4; ++k)
+            m.c[row * 4 + k] = c.low.mul(m.c[row * 4 + k], c.args[1].c[row]);
+    c.result = m;
+}
+
+}  // namespace lower_matrix
+
 namespace {
 
+namespace lower = lower_matrix;
+
 const Builtin kRows[] = {
-    {"mtransform", "m=sm m=ssm", nullptr, {}, kPure, 8, "A matrix from one space to another."},
-    {"determinant", "f=m", nullptr, {}, kPure, 8, "Determinant."},
-    {"translate", "m=mv", nullptr, {}, kPure, 4, "The matrix with a translation before it."},
-    {"scale", "m=mv", nullptr, {}, kPure, 4, "The matrix with a scaling before it."},
+    {"mtransform", "m=sm m=ssm", lower::mtransform, {}, kPure, 8, "A matrix from one space to another."},
+    {"determinant", "f=m", lower::determinant, {}, kPure, 8, "Determinant."},
+    {"translate", "m=mv", lower::translate, {}, kPure, 4, "The matrix with a translation before it."},
+    {"scale", "m=mv", lower::scale, {}, kPure, 4, "The matrix with a scaling before it."},
 };
 
 }  // namespace

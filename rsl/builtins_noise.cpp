@@ -1,14 +1,52 @@
 // rsl/builtins_noise.cpp: rows of the built-in table: noise and random numbers.
 #include "rsl/builtin.h"
+#include "rsl/lower_p.h"
 
 namespace kinora::rsl {
 
+namespace lower_noise {
+
+// The coordinates of noise(x), (x, y), (p), (p, t); `stride` 2 skips the periods of pnoise.
+std::vector<Value> coordinates(LowerCall& c, size_t first, size_t stride) {
+    std::vector<Value> p;
+    for (size_t k = first; k < c.args.size(); k += stride)
+        p.insert(p.end(), c.args[k].c.begin(), c.args[k].c.begin() + c.args[k].size());
+    return p;
+}
+
+void set(LowerCall& c, const std::vector<Value>& values) {
+    for (size_t k = 0; k < values.size(); ++k) c.result.c[k] = values[k];
+}
+
+int components(const LowerCall& c) {
+    return component_count(c.result_type());
+}
+
+void noise(LowerCall& c) {
+    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, 1), components(c)));
+}
+void pnoise(LowerCall& c) {
+    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, 2), components(c),
+                            coordinates(c, 1, 2)));
+}
+void cellnoise(LowerCall& c) {
+    set(c, jit::math::cellnoise(c.b, coordinates(c, 0, 1), components(c)));
+}
+void random(LowerCall& c) {
+    for (int k = 0; k < components(c); ++k)
+        c.result.c[size_t(k)] = c.low.random01(c.call, k);
+}
+
+}  // namespace lower_noise
+
 namespace {
+
+namespace lower = lower_noise;
 
 const Builtin kRows[] = {
     {"random",
      "f= c= p= v= n=",
-     nullptr,
+     lower::random,
      {},
      kVaryingResult,
      0,
@@ -16,7 +54,7 @@ const Builtin kRows[] = {
     {"noise",
      "f=f f=ff f=p f=pf c=f c=ff c=p c=pf p=f p=ff p=p p=pf v=f v=ff v=p "
      "v=pf n=f n=ff n=p n=pf",
-     nullptr,
+     lower::noise,
      {},
      kPure,
      4,
@@ -24,7 +62,7 @@ const Builtin kRows[] = {
     {"pnoise",
      "f=ff f=ffff f=pp f=pfpf c=ff c=ffff c=pp c=pfpf p=ff p=ffff p=pp "
      "p=pfpf v=ff v=ffff v=pp v=pfpf n=ff n=ffff n=pp n=pfpf",
-     nullptr,
+     lower::pnoise,
      {},
      kPure,
      4,
@@ -32,7 +70,7 @@ const Builtin kRows[] = {
     {"cellnoise",
      "f=f f=ff f=p f=pf c=f c=ff c=p c=pf p=f p=ff p=p p=pf v=f v=ff v=p "
      "v=pf n=f n=ff n=p n=pf",
-     nullptr,
+     lower::cellnoise,
      {},
      kPure,
      0,

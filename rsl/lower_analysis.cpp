@@ -1,0 +1,149 @@
+// rsl/lower_analysis.cpp: what lowering must know of a piece of source before it writes code for it.
+#include "rsl/lower_analysis.h"
+
+#include <algorithm>
+
+#include "rsl/shader.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+template <class T>
+void add_once(std::vector<T>& list, T item) {
+    if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+}
+
+}  // namespace
+
+void ChangeFinder::note_use(const Symbol* symbol) {
+    if (seen_symbols_[symbol->id] & 1) return;
+    seen_symbols_[symbol->id] |= 1;
+    used.push_back(symbol);
+}
+
+void ChangeFinder::written(const Expr* target) {
+    while (target) {
+        if (auto* variable = as_if<VariableExpr>(target)) {
+            const Symbol* symbol = variable->symbol;
+            if (!(seen_symbols_[symbol->id] & 2)) changes.symbols.push_back(symbol);
+            seen_symbols_[symbol->id] |= 2;
+            return;
+        }
+        if (auto* index = as_if<IndexExpr>(target))
+            target = index->array;
+        else if (auto* component = as_if<ComponentExpr>(target))
+            target = component->operand;
+        else
+            return;
+    }
+}
+
+void ChangeFinder::add(const Expr* expr) {
+    if (!expr) return;
+    for_each_operand(*expr, [&](const Expr* operand) { add(operand); });
+    if (auto* variable = as_if<VariableExpr>(expr)) note_use(variable->symbol);
+    if (auto* assign = as_if<AssignExpr>(expr)) written(assign->target);
+    auto* call = as_if<CallExpr>(expr);
+    if (!call) return;
+    if (call->function) {
+        changes.calls = true;
+        for (size_t i = 0; i < call->args.size(); ++i)
+            if (call->function->parameters[i]->output) written(call->args[i]);
+        add(*call->function);
+    } else if (call->builtin) {
+        changes.effects |= call->builtin->effects;
+        if (call->name == "random") changes.random = true;
+        auto& arguments = call->signature->arguments;
+        for (size_t i = 0; i < call->args.size() && i < arguments.size(); ++i)
+            if (arguments[i].output) written(call->args[i]);
+    }
+}
+
+void ChangeFinder::add(const Function& function) {
+    if (seen_functions_[function.id]) return;
+    seen_functions_[function.id] = 1;
+    bool returns = changes.returns;
+    add(function.body);
+    changes.returns = returns;  // a return of the callee stays in it
+}
+
+void ChangeFinder::add(const Stmt* stmt) {
+    if (!stmt) return;
+    for_each_part(
+        *stmt, [&](const Expr* expr) { add(expr); }, [&](const Stmt* part) { add(part); });
+    if (stmt->kind == StmtKind::Return) changes.returns = true;
+    if (auto* jump = as_if<BreakStmt>(stmt)) add_once(changes.breaks, (const Stmt*)jump->loop);
+    if (auto* jump = as_if<ContinueStmt>(stmt)) add_once(changes.continues, (const Stmt*)jump->loop);
+    if (stmt->kind == StmtKind::Illuminate || stmt->kind == StmtKind::Solar)
+        add_once(changes.light_sources, stmt);
+    if (stmt->kind == StmtKind::Illuminance) changes.effects |= kLights;
+}
+
+namespace {
+
+// Walks everything of an Ast once, looking at how arrays are indexed and passed on.
+class ArrayWalk {
+  public:
+    explicit ArrayWalk(const Ast& ast) : marks(ast.symbol_count) {
+        for (const Function* function : ast.functions) visit(function->body);
+        for (const ShaderDefinition* shader : ast.shaders) {
+            for (const Symbol* parameter : shader->parameters)
+                if (parameter->initial) visit(parameter->initial);
+            visit(shader->body);
+        }
+    }
+
+    // A parameter that lies in memory puts its arguments there, and the other way round.
+    void spread() {
+        for (bool again = true; again;) {
+            again = false;
+            for (auto [parameter, argument] : passed) {
+                if (marks[parameter->id] == marks[argument->id]) continue;
+                marks[parameter->id] = marks[argument->id] = 1;
+                again = true;
+            }
+        }
+    }
+
+    std::vector<uint8_t> marks;
+
+  private:
+    static constexpr int kLongest = 64;  // elements kept as values
+
+    void visit(const Stmt* stmt) {
+        for_each_part(
+            *stmt, [&](const Expr* expr) { visit(expr); }, [&](const Stmt* part) { visit(part); });
+        if (auto* declare = as_if<DeclareStmt>(stmt))
+            for (const Symbol* symbol : declare->symbols)
+                if (symbol->type.array_length > kLongest) marks[symbol->id] = 1;
+        if (auto* nested = as_if<FunctionStmt>(stmt)) visit(nested->function->body);
+    }
+
+    void visit(const Expr* expr) {
+        for_each_operand(*expr, [&](const Expr* operand) { visit(operand); });
+        if (auto* index = as_if<IndexExpr>(expr)) {
+            auto* array = as_if<VariableExpr>(index->array);
+            if (array && index->index->kind != ExprKind::Number) marks[array->symbol->id] = 1;
+        }
+        auto* call = as_if<CallExpr>(expr);
+        if (!call || !call->function) return;
+        for (size_t i = 0; i < call->args.size(); ++i) {
+            auto* array = as_if<VariableExpr>(call->args[i]);
+            if (array && array->type.is_array())
+                passed.push_back({call->function->parameters[i], array->symbol});
+        }
+    }
+
+    std::vector<std::pair<const Symbol*, const Symbol*>> passed;
+};
+
+}  // namespace
+
+std::vector<uint8_t> memory_arrays(const Ast& ast) {
+    ArrayWalk walk(ast);
+    walk.spread();
+    return std::move(walk.marks);
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,337 @@
+// rsl/lower_expressions.cpp: expressions and calls as IR values.
+#include "rsl/lower_p.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+// Places of instructions: an expression's own place is back after its operands are written.
+class PlaceScope {
+  public:
+    PlaceScope(Lowering& low, Location where, Location& current)
+        : low_(low), current_(current), before_(current) {
+        low_.b.set_location(current_ = where);
+    }
+    ~PlaceScope() { low_.b.set_location(current_ = before_); }
+
+  private:
+    Lowering& low_;
+    Location& current_;
+    Location before_;
+};
+
+}  // namespace
+
+Lowered Lowering::expr(const Expr& e) {
+    PlaceScope place(*this, e.place.where, where_);
+    switch (e.kind) {
+        case ExprKind::Number: return lowered(BaseType::Float, b.f(float(as<NumberExpr>(e).value)));
+        case ExprKind::String:
+            return lowered(BaseType::String, b.i(intern(as<StringExpr>(e).value)));
+        case ExprKind::Variable: return read(*as<VariableExpr>(e).symbol);
+        case ExprKind::Index: return load(target(e));
+        case ExprKind::Component: {
+            auto& node = as<ComponentExpr>(e);
+            V3 v = expr(*node.operand).v3();
+            return lowered(BaseType::Float, pick(v, index(value(*node.index), 3)));
+        }
+        case ExprKind::Unary: {
+            auto& node = as<UnaryExpr>(e);
+            Lowered x = expr(*node.operand);
+            for (int c = 0; c < x.size(); ++c)
+                x.c[size_t(c)] =
+                    node.op == Op::Not ? b.logical_not(x.c[size_t(c)]) : b.neg(x.c[size_t(c)]);
+            return x;
+        }
+        case ExprKind::Binary: return sum(as<BinaryExpr>(e));
+        case ExprKind::Select: return select_expr(as<SelectExpr>(e));
+        case ExprKind::Assign: return assign(as<AssignExpr>(e));
+        case ExprKind::Call:
+            return as<CallExpr>(e).function ? call_function(as<CallExpr>(e))
+                                            : call_builtin(as<CallExpr>(e));
+        case ExprKind::Cast: return cast(as<CastExpr>(e));
+        case ExprKind::Triple: {
+            Lowered x{e.type.base, {}};
+            for (size_t c = 0; c < 3; ++c) x.c[c] = value(*as<TripleExpr>(e).items[c]);
+            return x;
+        }
+        case ExprKind::Sixteen: {
+            Lowered x{BaseType::Matrix, {}};
+            for (size_t c = 0; c < 16; ++c) x.c[c] = value(*as<SixteenExpr>(e).items[c]);
+            return x;
+        }
+        case ExprKind::ArrayLiteral: break;  // only an initialiser: fill_array
+    }
+    CHECK(false);
+    return {};
+}
+
+// ---- conversions --------------------------------------------------------------------------------
+
+Lowered Lowering::convert(const Lowered& x, BaseType to) {
+    if (x.type == to) return x;
+    if (to == BaseType::Bool) return lowered(to, b.ne(x.c[0], b.f(0)));
+    Value s = x.type == BaseType::Bool ? flag(x.c[0]) : x.c[0];
+    if (to == BaseType::Matrix) {
+        Lowered m = zero(BaseType::Matrix);
+        for (size_t k = 0; k < 4; ++k) m.c[k * 5] = s;
+        return m;
+    }
+    if (is_triple(to) && is_triple(x.type)) return lowered(to, x.v3());
+    if (is_triple(to)) return lowered(to, V3{s, s, s});
+    return lowered(to, s);
+}
+
+Lowered Lowering::cast(const CastExpr& e) {
+    Lowered x = convert(expr(*e.operand), e.to);
+    if (!e.space) return x;
+    Value name = value(*e.space);
+    if (e.to != BaseType::Color) return to_current(x, space(name, e.space->place.where));
+    if (const std::string* text = constant_text(name))
+        return color_space(x, *text, "rgb", e.space->place.where);
+    error(Code::RSL_STRING_NOT_CONSTANT, e.space->place.where, "color");
+    return x;
+}
+
+const std::string* Lowering::constant_text(Value string_id) {
+    int32_t id;
+    return b.constant_i(string_id, &id) ? &interned(id) : nullptr;
+}
+
+// ---- arithmetic ---------------------------------------------------------------------------------
+
+Value Lowering::compare(Op op, const Lowered& x, const Lowered& y) {
+    if (x.type == BaseType::String) {
+        Value same = b.op(jit::Op::IEq, x.c[0], y.c[0]);
+        return op == Op::NotEqual ? b.logical_not(same) : same;
+    }
+    if (x.type == BaseType::Bool) {
+        Value differ = b.op(jit::Op::MXor, x.c[0], y.c[0]);
+        return op == Op::NotEqual ? differ : b.logical_not(differ);
+    }
+    Value all = b.m(true);
+    for (size_t c = 0; c < size_t(x.size()); ++c) {
+        Value one = op == Op::Less           ? b.lt(x.c[c], y.c[c])
+                    : op == Op::LessEqual    ? b.le(x.c[c], y.c[c])
+                    : op == Op::Greater      ? b.gt(x.c[c], y.c[c])
+                    : op == Op::GreaterEqual ? b.ge(x.c[c], y.c[c])
+                                             : b.eq(x.c[c], y.c[c]);
+        all = b.logical_and(all, one);
+    }
+    return op == Op::NotEqual ? b.logical_not(all) : all;
+}
+
+Lowered Lowering::binary(Op op, const Lowered& x, const Lowered& y) {
+    if (op == Op::And) return lowered(BaseType::Bool, b.logical_and(x.c[0], y.c[0]));
+    if (op == Op::Or) return lowered(BaseType::Bool, b.logical_or(x.c[0], y.c[0]));
+    if (op >= Op::Less && op <= Op::NotEqual) return lowered(BaseType::Bool, compare(op, x, y));
+    if (op == Op::Dot) return lowered(BaseType::Float, dot(x.v3(), y.v3()));
+    if (op == Op::Cross) return lowered(BaseType::Vector, cross(x.v3(), y.v3()));
+    if (x.type == BaseType::Matrix && op == Op::Multiply) return multiply(x, y);
+    if (x.type == BaseType::Matrix && op == Op::Divide) return multiply(x, invert(y));
+    Lowered r = x;
+    for (size_t c = 0; c < size_t(x.size()); ++c)
+        r.c[c] = op == Op::Add        ? b.add(x.c[c], y.c[c])
+                 : op == Op::Subtract ? b.sub(x.c[c], y.c[c])
+                 : op == Op::Multiply ? mul(x.c[c], y.c[c])
+                                      : div(x.c[c], y.c[c]);
+    return r;
+}
+
+// Is `e` a product of floats or triples (perhaps a float one, spread to `type`)? Then its factors.
+bool Lowering::as_product(const Expr& e, BaseType type, Lowered& x, Lowered& y) {
+    if (auto* c = as_if<CastExpr>(&e); c && c->implicit && !c->space) {
+        if (!as_product(*c->operand, c->operand->type.base, x, y)) return false;
+        x = convert(x, type);
+        y = convert(y, type);
+        return true;
+    }
+    auto* product = as_if<BinaryExpr>(&e);
+    if (!product || product->op != Op::Multiply || type == BaseType::Matrix) return false;
+    x = expr(*product->left);
+    y = expr(*product->right);
+    return true;
+}
+
+// a * b + c of one expression rounds once (DESIGN.md decision 13).
+Lowered Lowering::sum(const BinaryExpr& e) {
+    bool sums = e.op == Op::Add || e.op == Op::Subtract;
+    Lowered x, y;
+    if (sums && as_product(*e.left, e.type.base, x, y)) {
+        Lowered z = expr(*e.right), r{e.type.base, {}};
+        for (size_t c = 0; c < size_t(r.size()); ++c)
+            r.c[c] = fma(x.c[c], y.c[c], e.op == Op::Add ? z.c[c] : b.neg(z.c[c]));
+        return r;
+    }
+    Lowered left = expr(*e.left);
+    Lowered r = sums ? sum_of(e.op, left, *e.right) : binary(e.op, left, expr(*e.right));
+    if (is_triple(e.type.base) && is_triple(r.type)) r.type = e.type.base;
+    return r;
+}
+
+// left + right or left - right, where right may be a product.
+Lowered Lowering::sum_of(Op op, const Lowered& left, const Expr& right) {
+    Lowered x, y;
+    if (!as_product(right, left.type, x, y)) return binary(op, left, expr(right));
+    Lowered r = left;
+    for (size_t c = 0; c < size_t(r.size()); ++c)
+        r.c[c] = fma(op == Op::Add ? x.c[c] : b.neg(x.c[c]), y.c[c], left.c[c]);
+    return r;
+}
+
+// Sides that call functions run only for their lanes; other sides are cheaper computed for all.
+Lowered Lowering::select_expr(const SelectExpr& e) {
+    Value condition = value(*e.condition);
+    bool known;
+    if (b.constant_m(condition, &known)) return expr(known ? *e.yes : *e.no);
+    ChangeFinder finder(ast());
+    finder.add(e.yes);
+    finder.add(e.no);
+    Lowered r = zero(e.type.base);
+    if (finder.changes.symbols.empty() && finder.changes.effects == 0 && !finder.changes.calls) {
+        Lowered yes = expr(*e.yes), no = expr(*e.no);
+        for (size_t c = 0; c < size_t(r.size()); ++c)
+            r.c[c] = b.select(condition, yes.c[c], no.c[c]);
+        return r;
+    }
+    int slot = new_slot(r);
+    Value before = running;
+    guarded(b.logical_and(before, condition), [&] { write_slot(slot, expr(*e.yes)); });
+    guarded(b.and_not(before, condition), [&] { write_slot(slot, expr(*e.no)); });
+    free_slot(slot);
+    return read_slot(slot);
+}
+
+Lowered Lowering::assign(const AssignExpr& e) {
+    if (e.target->type.is_array()) {
+        auto values = array_values(*e.value);
+        int array = array_of(*as<VariableExpr>(*e.target).symbol);
+        for (size_t k = 0; k < values.size(); ++k) store_element(array, b.i(int(k)), values[k]);
+        return zero(e.target->type.base);
+    }
+    Lowered result;
+    if (e.op == Op::None) {
+        result = expr(*e.value);
+        store(target(*e.target), result);
+        return result;
+    }
+    Target t = target(*e.target);
+    bool sums = e.op == Op::Add || e.op == Op::Subtract;
+    if (sums) {
+        result = sum_of(e.op, load(t), *e.value);
+    } else {
+        Lowered right = expr(*e.value);
+        result = binary(e.op, load(t), right);
+    }
+    store(t, result);
+    return result;
+}
+
+// ---- calls --------------------------------------------------------------------------------------
+
+Lowered Lowering::call_builtin(const CallExpr& e) {
+    LowerCall call{*this, b, e, {}, {}, {}, zero(e.type.base == BaseType::Void ? BaseType::Float
+                                                                              : e.type.base)};
+    size_t plain = e.signature->pairs ? std::min<size_t>(e.pairs, e.args.size()) : e.args.size();
+    auto& declared = e.signature->arguments;
+    for (size_t k = 0; k < plain; ++k) {
+        bool output = k < declared.size() && declared[k].output;
+        bool array = e.args[k]->type.is_array();
+        call.targets.push_back(output && !array ? target(*e.args[k]) : Target{});
+        call.args.push_back(array    ? Lowered{}
+                            : output ? load(call.targets.back())
+                                     : expr(*e.args[k]));
+    }
+    for (size_t k = plain; k + 1 < e.args.size(); k += 2) {
+        const std::string* name = constant_text(value(*e.args[k]));
+        if (name && !e.args[k + 1]->type.is_array())
+            call.pairs.push_back({*name, expr(*e.args[k + 1])});
+    }
+    e.builtin->lower(call);
+    return call.result;
+}
+
+void LowerCall::set_output(int i, const Lowered& value) {
+    low.store(targets[size_t(i)], value);
+}
+
+const std::string* LowerCall::text(int i) const {
+    const std::string* text = low.constant_text(args[size_t(i)].c[0]);
+    if (!text) low.error(Code::RSL_STRING_NOT_CONSTANT, call.args[size_t(i)]->place.where, call.name);
+    return text;
+}
+
+Value LowerCall::pair(std::string_view name, float otherwise) const {
+    for (auto& [key, value] : pairs)
+        if (key == name && value.type != BaseType::String) return value.c[0];
+    return b.f(otherwise);
+}
+
+// The body in place of the call. Output arguments are copied in and out, arrays are shared.
+Lowered Lowering::call_function(const CallExpr& e) {
+    const Function& f = *e.function;
+    std::vector<Lowered> values(e.args.size());
+    std::vector<Target> targets(e.args.size());
+    std::vector<int> arrays(e.args.size(), -1);
+    for (size_t k = 0; k < e.args.size(); ++k) {
+        const Symbol& parameter = *f.parameters[k];
+        if (parameter.type.is_array()) {
+            arrays[k] = array_argument(*e.args[k], parameter);
+        } else if (parameter.output) {
+            targets[k] = target(*e.args[k]);
+            values[k] = load(targets[k]);
+        } else {
+            values[k] = expr(*e.args[k]);
+        }
+    }
+    for (size_t k = 0; k < e.args.size(); ++k) {
+        const Symbol& parameter = *f.parameters[k];
+        if (arrays[k] >= 0) {
+            array_of_[parameter.id] = arrays[k];
+        } else {
+            values[k].type = parameter.type.base;
+            write_slot(slot_of(parameter), values[k]);
+        }
+    }
+    Lowered result = run_function(f, e);
+    for (size_t k = 0; k < e.args.size(); ++k) {
+        const Symbol& parameter = *f.parameters[k];
+        Slot& slot = slots_[size_t(slot_of(parameter))];
+        if (arrays[k] < 0 && parameter.output) store(targets[k], slot.value);
+        if (arrays[k] < 0) slot.live = false;
+        array_of_[parameter.id] = -1;
+    }
+    return result;
+}
+
+// An array handed to a function: itself, or a copy where the function writes to a value parameter.
+int Lowering::array_argument(const Expr& argument, const Symbol& parameter) {
+    int array = array_of(*as<VariableExpr>(argument).symbol);
+    if (parameter.output || !parameter.assigned) return array;
+    std::vector<Lowered> values = array_values(argument);
+    int copy = make_array(parameter, {parameter.type.base, int(values.size())});
+    for (size_t k = 0; k < values.size(); ++k) store_element(copy, b.i(int(k)), values[k]);
+    return copy;
+}
+
+Lowered Lowering::run_function(const Function& f, const CallExpr& e) {
+    Value entered = running;
+    uint32_t path = inline_path;
+    inline_path = inline_path * 31 + e.site + 1;
+    FunctionFrame frame{&f, new_slot(lowered(BaseType::Bool, b.m(false))), -1};
+    if (f.result.base != BaseType::Void) frame.result = new_slot(zero(f.result.base));
+    frames_.push_back(frame);
+    std::vector<Loop> outer_loops;
+    outer_loops.swap(loops_);  // jumps do not leave a function
+    block(f.body->body);
+    outer_loops.swap(loops_);
+    frames_.pop_back();
+    inline_path = path;
+    running = entered;
+    free_slot(frame.returned);
+    if (frame.result < 0) return zero(BaseType::Float);
+    free_slot(frame.result);
+    return read_slot(frame.result);
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,225 @@
+// rsl/lower_lights.cpp: light records read by surfaces, and written by light shaders.
+#include <algorithm>
+
+#include "rsl/lower_p.h"
+
+namespace kinora::rsl {
+
+// ---- records as surfaces read them --------------------------------------------------------------
+
+// Set 0 holds the lights at the grid's own P; any other position asks the service once.
+Value Lowering::record_set(const V3& position) {
+    if (is_input(position, "P")) {
+        out.uses_lights = true;
+        return b.i(0);
+    }
+    return service("lights", position)[0];
+}
+
+Value Lowering::record_field(Value set, Value record, int column, jit::Type type) {
+    return b.op(jit::Op::RecordField, set, record, jit::kNone, column, int(type));
+}
+V3 Lowering::record_triple(Value set, Value record, int column) {
+    return {record_field(set, record, column), record_field(set, record, column + 1),
+            record_field(set, record, column + 2)};
+}
+Value Lowering::record_uniform(Value set, Value record, int field, jit::Type type) {
+    return b.op(jit::Op::RecordUniform, set, record, jit::kNone, field, int(type));
+}
+
+// The column of a light's parameter, and its number among the messages. The type that the first
+// reader wants is kept.
+int Lowering::message_column(std::string_view name, BaseType type, int* index) {
+    int column = kLightMessages;
+    for (size_t k = 0; k < out.light_messages.size(); ++k) {
+        *index = int(k);
+        if (out.light_messages[k] == name &&
+            out.light_message_components[k] == component_count(type))
+            return column;
+        column += out.light_message_components[k];
+    }
+    *index = int(out.light_messages.size());
+    out.light_messages.emplace_back(name);
+    out.light_message_components.push_back(component_count(type));
+    return column;
+}
+
+// "name" asks for lights of the category, "-name" for all others, "" for all.
+Value Lowering::category_matches(Value set, Value record, const Expr& category) {
+    const std::string* text = constant_text(value(category));
+    if (!text) {
+        error(Code::RSL_STRING_NOT_CONSTANT, category.place.where, "illuminance");
+        return b.m(true);
+    }
+    if (text->empty()) return b.m(true);
+    bool without = text->front() == '-';
+    std::string name = text->substr(without ? 1 : 0);
+    auto found = std::find(out.categories.begin(), out.categories.end(), name);
+    int bit = int(found - out.categories.begin());
+    if (found == out.categories.end()) out.categories.push_back(name);
+    Value bits = record_uniform(set, record, kLightCategories, jit::Type::I);
+    Value absent = b.op(jit::Op::IEq, b.iand(bits, b.i(int32_t(1u << (bit & 31)))), b.i(0));
+    return without ? absent : b.logical_not(absent);
+}
+
+// Within `angle` of the axis: cos(angle) |L| |axis| <= L . axis.
+struct Lowering::Cone {
+    bool all = true;
+    V3 axis{};
+    Value cosine = jit::kNone;  // times the length of the axis
+};
+
+Lowering::Cone Lowering::cone(const Expr* axis, const Expr* angle) {
+    if (!axis) return {};
+    V3 a = expr(*axis).v3();
+    Value half = value(*angle);
+    float known;
+    if (b.constant_f(half, &known) && known >= 3.14159f) return {};
+    Value cosine = jit::math::cos(b, half, tier);
+    return {false, a, b.mul(cosine, length(a))};
+}
+
+Value Lowering::inside(const Cone& cone, const V3& L) {
+    if (cone.all) return b.m(true);
+    return b.le(mul(cone.cosine, length(L)), dot(L, cone.axis));
+}
+
+// The loop's counter and mask agree in all lanes, as reading records demands; lanes that do not
+// take part, or have left by break, are kept out by `alive`.
+void Lowering::illuminance(const IlluminanceStmt& stmt) {
+    Lowered position = expr(*stmt.position);
+    Value set = record_set(position.v3());
+    Cone around = cone(stmt.axis, stmt.angle);
+    ChangeFinder finder(ast());
+    finder.add(stmt.body);
+    const Changes& changes = finder.changes;
+    Value outer = running, outer_region = region_;
+    bool was_in_loop = std::exchange(in_loop_, true);
+    Loop jumps = begin_jumps(stmt, changes);
+    int alive = new_slot(lowered(BaseType::Bool, running));
+
+    Value count = b.op(jit::Op::RecordCount, set);
+    region_ = b.begin_loop(b.op(jit::Op::ILt, b.i(0), count), loop_site(stmt));
+    Value record = b.loop_var(b.i(0));
+    std::vector<int> slots = carried_slots(changes);
+    loops_.push_back(jumps);
+    bool leaves = leaves_loop(changes);
+    if (leaves) slots.push_back(alive);
+    Carried carried = open_carried(std::move(slots));
+    loop_counters.push_back(record);
+    running = read_slot(alive).c[0];
+    light_body(stmt, set, record, around, position);
+    if (leaves) {
+        Value rest = running;
+        if (jumps.continued >= 0) rest = b.logical_or(rest, read_slot(jumps.continued).c[0]);
+        write_slot(alive, lowered(BaseType::Bool, rest));
+    }
+    loop_counters.pop_back();
+    loops_.pop_back();
+    std::vector<Value> next = {b.iadd(record, b.i(1))};
+    close_carried(carried, next);
+    b.end_loop(b.op(jit::Op::ILt, next[0], count), next);
+    carried_out(carried);
+    for (int slot : {jumps.broken, jumps.continued, alive})
+        if (slot >= 0) free_slot(slot);
+    in_loop_ = was_in_loop;
+    region_ = outer_region;
+    running = after_loop(changes, outer);
+}
+
+// One turn: the body for the lanes that this record reaches.
+void Lowering::light_body(const IlluminanceStmt& stmt, Value set, Value record,
+                          const Cone& around, const Lowered& position) {
+    Value kind = record_uniform(set, record, kLightKind, jit::Type::I);
+    Value wanted = b.logical_not(b.op(jit::Op::IEq, kind, b.i(kLightAmbient)));
+    if (stmt.category)
+        wanted = b.logical_and(wanted, category_matches(set, record, *stmt.category));
+    guarded(b.logical_and(running, wanted), [&] {
+        V3 L = record_triple(set, record, kLightL);
+        Value dark = b.op(jit::Op::IEq, record_field(set, record, kLightLit, jit::Type::I), b.i(0));
+        Value lit = b.and_not(inside(around, L), dark);
+        guarded(b.logical_and(running, lit), [&] {
+            constexpr Global kSet[] = {Global::L, Global::Cl, Global::Ol, Global::Ps};
+            Slot saved[4];
+            for (size_t k = 0; k < 4; ++k) saved[k] = slots_[size_t(kSet[k])];
+            slots_[size_t(Global::L)] = {true, lowered(BaseType::Vector, L)};
+            slots_[size_t(Global::Cl)] = {
+                true, lowered(BaseType::Color, record_triple(set, record, kLightCl))};
+            slots_[size_t(Global::Ol)] = {
+                true, lowered(BaseType::Color, record_triple(set, record, kLightOl))};
+            slots_[size_t(Global::Ps)] = {true, position};
+            Value outer_set = std::exchange(current_set, set);
+            Value outer_record = std::exchange(current_record, record);
+            statement(*stmt.body);
+            current_set = outer_set;
+            current_record = outer_record;
+            for (size_t k = 0; k < 4; ++k) slots_[size_t(kSet[k])] = saved[k];
+        });
+    });
+}
+
+// ---- records as light shaders write them --------------------------------------------------------
+
+void Lowering::begin_light(const Changes& changes) {
+    for (Global id : {Global::L, Global::Cl, Global::Ol})
+        write_slot(int(id), zero(global_info(id).type.base));
+    for (const Stmt* stmt : changes.light_sources) {
+        Lowered dark = zero(BaseType::Color);
+        light_sources_.push_back({stmt, new_slot(zero(BaseType::Vector)), new_slot(dark),
+                                  new_slot(dark), new_slot(zero(BaseType::Bool))});
+    }
+    bool shadows = !(changes.effects & (kShadows | kTraces));
+    for (const LightSource& light : light_sources_)
+        out.light_statements.push_back(
+            {light.stmt->kind == StmtKind::Solar ? kLightSolar : kLightIlluminate, shadows});
+    if (light_sources_.empty()) out.light_statements.push_back({kLightAmbient, false});
+}
+
+// L points from the light. Lanes outside the cone keep a dark record.
+void Lowering::illuminate(const Stmt& stmt, const Expr* position, const Expr* axis,
+                          const Expr* angle, const Stmt& body) {
+    V3 L;
+    if (position)
+        L = sub(read_global(Global::Ps).v3(), expr(*position).v3());
+    else if (axis)
+        L = normalize(expr(*axis).v3());
+    else
+        L = neg(normalize(read_global(Global::Ns).v3()));
+    Value lit = b.m(true);
+    if (position) lit = inside(cone(axis, angle), L);
+    guarded(b.logical_and(running, lit), [&] {
+        write_slot(int(Global::L), lowered(BaseType::Vector, L));
+        statement(body);
+        for (const LightSource& light : light_sources_) {
+            if (light.stmt != &stmt) continue;
+            write_slot(light.L, read_global(Global::L));
+            write_slot(light.Cl, read_global(Global::Cl));
+            write_slot(light.Ol, read_global(Global::Ol));
+            write_slot(light.lit, lowered(BaseType::Bool, running));
+        }
+    });
+}
+
+void Lowering::light_outputs() {
+    auto triple = [&](const std::string& name, const Lowered& value) {
+        for (int c = 0; c < 3; ++c)
+            b.output({name + component_suffix(value.type, c), jit::Type::F}, value.c[size_t(c)]);
+    };
+    auto record = [&](size_t k, const Lowered& L, const Lowered& Cl, const Lowered& Ol, Value lit) {
+        std::string prefix = "light:" + std::to_string(k) + ":";
+        triple(prefix + "L", L);
+        triple(prefix + "Cl", Cl);
+        triple(prefix + "Ol", Ol);
+        b.output({prefix + "lit", jit::Type::I}, b.select(lit, b.i(1), b.i(0)));
+    };
+    for (size_t k = 0; k < light_sources_.size(); ++k) {
+        const LightSource& light = light_sources_[k];
+        record(k, read_slot(light.L), read_slot(light.Cl), read_slot(light.Ol),
+               read_slot(light.lit).c[0]);
+    }
+    if (light_sources_.empty())
+        record(0, zero(BaseType::Vector), read_global(Global::Cl), read_global(Global::Ol),
+               b.m(true));
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,62 @@
+// rsl/lower_services.cpp: calls of RendererServices, derivatives and random numbers.
+#include "rsl/lower_p.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+// Signatures as rsl/renderer_services.h lists them: i int, f float, a digit repeats what follows.
+struct ServiceRow {
+    std::string_view name;
+    std::string_view params;
+    std::string_view results;
+    bool pure;
+};
+const ServiceRow kServices[] = {
+    {"lights", "fff", "i", true},
+    {"texture", "iffffffffffif", "ffff", true},
+    {"environment", "iffffffffffff", "ffff", true},
+    {"shadow", "iffffff", "fff", true},
+    {"trace", "ffffff", "ffff", true},
+    {"transmission", "ffffff", "fff", true},
+    {"transform", "i", "ffffffffffffffffffffffff", true},
+    {"print", "iffffffffffffffff", "", false},
+};
+
+std::vector<jit::Type> types(std::string_view letters) {
+    std::vector<jit::Type> result;
+    for (char c : letters) result.push_back(c == 'i' ? jit::Type::I : jit::Type::F);
+    return result;
+}
+
+}  // namespace
+
+std::vector<Value> Lowering::service(std::string_view name, std::span<const Value> args) {
+    for (const ServiceRow& row : kServices) {
+        if (row.name != name) continue;
+        int slot = b.declare_service(
+            {std::string(name), types(row.params), types(row.results), row.pure});
+        return b.service(slot, running, args);
+    }
+    CHECK(false);
+    return {};
+}
+
+V3 Lowering::du(const V3& v) {
+    return {b.op(jit::Op::Du, v[0]), b.op(jit::Op::Du, v[1]), b.op(jit::Op::Du, v[2])};
+}
+V3 Lowering::dv(const V3& v) {
+    return {b.op(jit::Op::Dv, v[0]), b.op(jit::Op::Dv, v[1]), b.op(jit::Op::Dv, v[2])};
+}
+
+// DESIGN.md decision 10: a hash of the sample, the place of the call and the loop iterations.
+Value Lowering::random01(const CallExpr& call, int component) {
+    out.uses_rng = true;
+    uint32_t place = (inline_path * 2654435761u) ^ (call.site * 40503u + uint32_t(component));
+    std::vector<Value> keys = {scalar_input("rng", jit::Type::I, jit::Rate::Point),
+                               b.i(int32_t(place))};
+    keys.insert(keys.end(), loop_counters.begin(), loop_counters.end());
+    return jit::math::hash01(b, keys);
+}
+
+}  // namespace kinora::rsl
