@@ -301,6 +301,7 @@ struct IlluminanceStmt : Stmt {
     Expr* angle = nullptr;
     std::span<Expr*> pairs;  // name, value, ...
     Stmt* body = nullptr;
+    std::span<Expr*> args;  // as written, for printing; the checker sorts them into the above
 };
 // illuminate(position [, axis, angle]) body: a light shining from a point; sets L = Ps - position.
 struct IlluminateStmt : Stmt {
@@ -341,12 +342,6 @@ struct Function {
     bool called = false;         // checker: reached from a shader
 };
 
-// #pragma text, as written.
-struct Pragma {
-    std::string_view text;
-    Location where;
-};
-
 struct ShaderDefinition {
     ShaderKind kind = ShaderKind::Surface;
     std::string_view name;
@@ -384,10 +379,9 @@ class NodeArena {
 // One translation unit. Shaders made from it share it.
 struct Ast {
     NodeArena arena;
-    TokenStream tokens;
+    TokenStream tokens;                // with the pragmas
     std::vector<Function*> functions;  // at file level, in order
     std::vector<ShaderDefinition*> shaders;
-    std::vector<Pragma> pragmas;
     uint32_t symbol_count = 0;    // of Symbol::id
     uint32_t function_count = 0;  // of Function::id
     uint32_t site_count = 0;      // of CallExpr::site

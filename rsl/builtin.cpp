@@ -1,0 +1,125 @@
+// rsl/builtin.cpp: decodes the rows and finds them by name.
+#include "rsl/builtin.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "runtime/base/check.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+Type type_of_letter(char letter) {
+    constexpr std::string_view kLetters = "fcpvnmsx?";
+    constexpr BaseType kTypes[] = {BaseType::Float,  BaseType::Color,  BaseType::Point,
+                                   BaseType::Vector, BaseType::Normal, BaseType::Matrix,
+                                   BaseType::String, BaseType::Void,   BaseType::Invalid};
+    size_t at = kLetters.find(letter);
+    CHECK_LT(at, kLetters.size());
+    return {kTypes[at], -1};
+}
+
+Signature parse_signature(std::string_view text) {
+    Signature signature;
+    CHECK(text.size() >= 2 && text[1] == '=');
+    signature.result = type_of_letter(text[0]);
+    for (size_t i = 2; i < text.size(); ++i) {
+        char c = text[i];
+        if (c == '*') {
+            signature.repeats = true;
+            signature.repeated = signature.arguments.back();
+            signature.arguments.pop_back();
+        } else if (c == '~') {
+            signature.pairs = true;
+        } else if (c == '[') {
+            signature.arguments.back().type.array_length = 0;
+            ++i;
+        } else {
+            bool output = c >= 'A' && c <= 'Z';
+            signature.arguments.push_back({type_of_letter(output ? char(c - 'A' + 'a') : c),
+                                           output});
+        }
+    }
+    return signature;
+}
+
+}  // namespace
+
+std::vector<Signature> parse_signatures(std::string_view text) {
+    std::vector<Signature> signatures;
+    while (!text.empty()) {
+        size_t end = std::min(text.find(' '), text.size());
+        if (end > 0) {
+            signatures.push_back(parse_signature(text.substr(0, end)));
+            signatures.back().overload = int(signatures.size()) - 1;
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return signatures;
+}
+
+const std::vector<std::span<const Builtin>>& builtin_groups() {
+    static const std::vector<std::span<const Builtin>> groups = {
+        builtins_math(),    builtins_geometric(), builtins_color(),
+        builtins_noise(),   builtins_light(),     builtins_texture(),
+        builtins_matrix(),  builtins_string(),    builtins_message()};
+    return groups;
+}
+
+namespace {
+
+struct Table {
+    std::unordered_map<std::string_view, std::vector<Overload>> overloads;
+    std::vector<std::string_view> names;
+
+    Table() {
+        for (std::span<const Builtin> group : builtin_groups())
+            for (const Builtin& row : group) {
+                std::vector<Overload>& list = overloads[row.name];
+                if (list.empty()) names.push_back(row.name);
+                for (Signature& s : parse_signatures(row.signature))
+                    list.push_back({&row, std::move(s)});
+            }
+    }
+};
+
+const Table& table() {
+    static const Table instance;
+    return instance;
+}
+
+struct ForeignRow {
+    std::string_view names;
+    std::string_view place;
+};
+constexpr ForeignRow kForeign[] = {
+    {" urandom checkers clearlighting colormap ", "Pixie"},
+    {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture raydepth raylabel "
+     "rayhittest irradiance stof sprintf strlen ",
+     "other renderers"},
+    {" getvar getshader getshaders getlights arraylength resize reserve push pop capacity "
+     "directlighting indirectspecular evaluateSamples generateSamples writeaov readaov ",
+     "RSL 2.0"},
+};
+
+}  // namespace
+
+std::span<const Overload> find_builtin(std::string_view name) {
+    auto found = table().overloads.find(name);
+    if (found == table().overloads.end()) return {};
+    return found->second;
+}
+
+const std::vector<std::string_view>& builtin_names() {
+    return table().names;
+}
+
+std::string_view foreign_builtin(std::string_view name) {
+    std::string padded = " " + std::string(name) + " ";
+    for (const ForeignRow& row : kForeign)
+        if (row.names.find(padded) != std::string_view::npos) return row.place;
+    return "";
+}
+
+}  // namespace kinora::rsl

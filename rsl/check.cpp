@@ -1,0 +1,159 @@
+// rsl/check.cpp: the checker's definitions and scopes.
+#include "rsl/check.h"
+
+#include <algorithm>
+
+namespace kinora::rsl {
+
+Checker::Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, bool broken)
+    : ast_(ast),
+      reporter_(reporter),
+      options_(options),
+      broken_(broken),
+      globals_(size_t(Global::Count)) {}
+
+void Checker::run() {
+    ScopeGuard file_scope(*this);
+    for (Function* f : ast_.functions) declare_function(*f);
+    for (Function* f : ast_.functions) check_function(*f);
+    for (size_t i = 0; i < ast_.shaders.size(); ++i) {
+        for (size_t k = 0; k < i; ++k)
+            if (ast_.shaders[k]->name == ast_.shaders[i]->name)
+                report(Code::RSL_SHADER_REDEFINED, ast_.shaders[i]->place, ast_.shaders[i]->name);
+        check_shader(*ast_.shaders[i]);
+    }
+    find_recursion();
+}
+
+void Checker::check_shader(ShaderDefinition& shader) {
+    unknown_.clear();
+    ScopeGuard scope(*this);
+    check_parameters(shader.parameters);
+    statement(*shader.body);
+}
+
+void Checker::check_function(Function& f) {
+    Within<Function*> function(function_, &f);
+    Within<std::vector<Stmt*>> loops(loops_, {});
+    Within<bool> returned(returned_, false);
+    Within<const char*> light(light_statement_, nullptr);
+    ScopeGuard scope(*this);
+    check_parameters(f.parameters);
+    statement(*f.body);
+    if (f.result.base != BaseType::Void && !returned_ && !broken_)
+        report(Code::RSL_MISSING_RETURN, f.place, f.name);
+}
+
+// A default may use the parameters before it and the globals.
+void Checker::check_parameters(std::span<Symbol*> parameters) {
+    for (Symbol* p : parameters) {
+        check_initial(*p);
+        declare(*p);
+    }
+}
+
+void Checker::check_initial(Symbol& symbol) {
+    bool open = symbol.kind == SymbolKind::FunctionParameter;
+    if (symbol.type.array_length == 0 && !open)
+        report(Code::RSL_UNSIZED_ARRAY, symbol.place, symbol.name);
+    if (symbol.initial)
+        convert_to(symbol.initial, symbol.type, fmt::format("'{}'", symbol.name));
+}
+
+// ---- scopes -------------------------------------------------------------------------------------
+
+void Checker::declare(Symbol& symbol) {
+    std::vector<Symbol*>& variables = scopes_.back().variables;
+    for (const Symbol* other : variables) {
+        if (other->name != symbol.name) continue;
+        report(Code::RSL_REDEFINED, symbol.place, symbol.name)
+            .notes.push_back({other->place.where, "first declared here"});
+        break;
+    }
+    variables.push_back(&symbol);
+}
+
+void Checker::declare_function(Function& f) {
+    std::vector<Function*>& functions = scopes_.back().functions;
+    auto same_types = [](const Symbol* a, const Symbol* b) { return a->type == b->type; };
+    for (const Function* other : functions) {
+        bool same = other->name == f.name &&
+                    std::equal(other->parameters.begin(), other->parameters.end(),
+                               f.parameters.begin(), f.parameters.end(), same_types);
+        if (!same) continue;
+        report(Code::RSL_FUNCTION_REDEFINED, f.place, f.name)
+            .notes.push_back({other->place.where, "first defined here"});
+        return;
+    }
+    functions.push_back(&f);
+}
+
+// Innermost first, the globals last. With `outside_function`, only what is declared outside the
+// function being checked.
+Symbol* Checker::find_variable(std::string_view name, bool outside_function) {
+    for (size_t i = scopes_.size(); i-- > 0;) {
+        if (outside_function && function_ && scopes_[i].owner == function_) continue;
+        const std::vector<Symbol*>& variables = scopes_[i].variables;
+        for (size_t k = variables.size(); k-- > 0;)
+            if (variables[k]->name == name) return variables[k];
+    }
+    const GlobalInfo* info = find_global(name);
+    return info ? global_symbol(*info) : nullptr;
+}
+
+Symbol* Checker::global_symbol(const GlobalInfo& info) {
+    Symbol*& symbol = globals_[size_t(info.id)];
+    if (symbol) return symbol;
+    symbol = ast_.arena.make<Symbol>();
+    symbol->kind = SymbolKind::Global;
+    symbol->name = info.name;
+    symbol->type = info.type;
+    symbol->detail = info.rate == Rate::Varying ? Detail::Varying : Detail::Uniform;
+    symbol->varying = info.rate == Rate::Varying;
+    symbol->output = true;
+    symbol->id = ast_.symbol_count++;
+    symbol->global = &info;
+    return symbol;
+}
+
+std::vector<std::string_view> Checker::variable_names() const {
+    std::vector<std::string_view> names;
+    for (const Scope& scope : scopes_)
+        for (const Symbol* symbol : scope.variables) names.push_back(symbol->name);
+    for (const GlobalInfo& info : globals()) names.push_back(info.name);
+    return names;
+}
+
+// ---- recursion ----------------------------------------------------------------------------------
+
+// Depth-first along the calls; an edge back to a function on the path is a recursion.
+void Checker::find_recursion() {
+    std::vector<std::vector<const CallEdge*>> calls(ast_.function_count);
+    for (const CallEdge& edge : edges_)
+        if (edge.caller) calls[edge.caller->id].push_back(&edge);
+    enum State : uint8_t { kNew, kOpen, kDone };
+    std::vector<State> state(ast_.function_count, kNew);
+    std::vector<std::pair<uint32_t, size_t>> path;  // function id, next call to look at
+    for (const CallEdge& start : edges_) {
+        if (state[start.callee->id] != kNew) continue;
+        path.push_back({start.callee->id, 0});
+        state[start.callee->id] = kOpen;
+        while (!path.empty()) {
+            auto& [id, next] = path.back();
+            if (next == calls[id].size()) {
+                state[id] = kDone;
+                path.pop_back();
+                continue;
+            }
+            const CallEdge& edge = *calls[id][next++];
+            uint32_t callee = edge.callee->id;
+            if (state[callee] == kOpen)
+                report(Code::RSL_RECURSION, edge.call->place, edge.call->name);
+            if (state[callee] != kNew) continue;
+            state[callee] = kOpen;
+            path.push_back({callee, 0});
+        }
+    }
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,176 @@
+// rsl/check.h: the checker: names to symbols and callees, types, overloads and conversions. It
+// completes the tree in place; expressions that cannot be typed become Invalid after one finding,
+// and nothing more is said of what contains them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "rsl/globals.h"
+#include "rsl/reporter.h"
+#include "rsl/shader.h"
+
+namespace kinora::rsl {
+
+// A call from one user function (null: a shader) to another, for the call graph.
+struct CallEdge {
+    const Function* caller;
+    Function* callee;
+    const CallExpr* call;
+};
+
+class Checker {
+  public:
+    // With `broken` (the parser found errors), unknown names are no news and are not reported.
+    Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, bool broken);
+    void run();
+
+  private:
+    struct Scope {
+        std::vector<Symbol*> variables;
+        std::vector<Function*> functions;
+        const Function* owner = nullptr;
+    };
+    // A scope for the life of the guard.
+    struct ScopeGuard {
+        explicit ScopeGuard(Checker& checker) : checker_(checker) {
+            checker_.scopes_.push_back({{}, {}, checker_.function_});
+        }
+        ~ScopeGuard() { checker_.scopes_.pop_back(); }
+        Checker& checker_;
+    };
+    // A value set for the life of the guard.
+    template <class T>
+    struct Within {
+        Within(T& place, T value) : place_(place), before_(std::move(place)) {
+            place_ = std::move(value);
+        }
+        ~Within() { place_ = std::move(before_); }
+        T& place_;
+        T before_;
+    };
+
+    // check.cpp: definitions, scopes
+    void check_shader(ShaderDefinition& shader);
+    void check_function(Function& f);
+    void check_parameters(std::span<Symbol*> parameters);
+    void check_initial(Symbol& symbol);
+    void declare(Symbol& symbol);
+    void declare_function(Function& f);
+    Symbol* find_variable(std::string_view name, bool outside_function);
+    Symbol* global_symbol(const GlobalInfo& info);
+    std::vector<std::string_view> variable_names() const;
+    void find_recursion();
+
+    template <class... Args>
+    Finding& report(const FindingInfo& info, const Place& place, const Args&... args) {
+        const Token& token = ast_.tokens.tokens[place.token];
+        return reporter_.report(info, place.where, token.macro, token.spelling, args...);
+    }
+
+    // check_statement.cpp
+    void statement(Stmt& stmt);
+    void check(BlockStmt& s);
+    void check(DeclareStmt& s);
+    void check(ExternStmt& s);
+    void check(FunctionStmt& s);
+    void check(ExpressionStmt& s);
+    void check(IfStmt& s);
+    void check(WhileStmt& s);
+    void check(ForStmt& s);
+    void check(BreakStmt& s);
+    void check(ContinueStmt& s);
+    void check(ReturnStmt& s);
+    void check(IlluminanceStmt& s);
+    void check(IlluminateStmt& s);
+    void check(SolarStmt& s);
+    void check(GatherStmt& s);
+    void loop_body(Stmt& loop, Stmt& body);
+    Stmt* jump_target(const Stmt& jump, const char* word, int levels);
+    bool sort_illuminance(IlluminanceStmt& s, size_t next);
+    void cone(Expr*& axis, Expr*& angle, const char* statement_name);
+
+    // check_expression.cpp. `wanted` is the type the context would like, Invalid for any.
+    void expression(Expr*& slot, BaseType wanted);
+    BaseType value(Expr*& slot, BaseType wanted);
+    void convert_to(Expr*& slot, Type type, const std::string& what);
+    void bring_to(Expr*& slot, Type type, const std::string& what);
+    void condition(Expr*& slot);
+    void check_number(Expr*& slot, const char* what);
+    void check(Expr*&, NumberExpr& e, BaseType wanted);
+    void check(Expr*&, StringExpr& e, BaseType wanted);
+    void check(Expr*&, VariableExpr& e, BaseType wanted);
+    void check(Expr*& slot, IndexExpr& e, BaseType wanted);
+    void check(Expr*&, ComponentExpr& e, BaseType wanted);
+    void check(Expr*&, SelectExpr& e, BaseType wanted);
+    void check(Expr*&, AssignExpr& e, BaseType wanted);
+    void check(Expr*&, CastExpr& e, BaseType wanted);
+    void check(Expr*&, TripleExpr& e, BaseType wanted);
+    void check(Expr*&, SixteenExpr& e, BaseType wanted);
+    void check(Expr*&, ArrayLiteralExpr& e, BaseType wanted);
+    void array_value(Expr*& slot, Type type, const std::string& what);
+    Symbol* lvalue_symbol(Expr& target);
+    bool check_lvalue(Expr*& slot);
+    void mark_assigned(Symbol& symbol, const Place& place);
+
+    // check_operator.cpp
+    void check(Expr*&, UnaryExpr& e, BaseType wanted);
+    void check(Expr*&, BinaryExpr& e, BaseType wanted);
+    void check_arithmetic(BinaryExpr& e, BaseType wanted);
+    void check_product(BinaryExpr& e);
+    void check_comparison(BinaryExpr& e);
+    template <class Hint>
+    void both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint);
+    BaseType common_type(BaseType a, BaseType b) const;
+    void bad_operands(BinaryExpr& e);
+    bool invalid(const BinaryExpr& e) const;
+
+    // check_call.cpp
+    struct Candidate {
+        Function* function = nullptr;
+        const Overload* builtin = nullptr;
+        int cost = -1;  // -1: does not fit
+    };
+    void check(Expr*&, CallExpr& e, BaseType wanted);
+    void take_channel(CallExpr& e);
+    void check_arguments(CallExpr& e);
+    std::vector<Function*> visible_functions(std::string_view name) const;
+    void call_function(CallExpr& e, std::span<Function* const> functions, BaseType wanted);
+    void call_builtin(CallExpr& e, BaseType wanted);
+    void bind_function(CallExpr& e, Function& f);
+    void bind_builtin(CallExpr& e, const Overload& overload);
+    void bind_argument(CallExpr& e, size_t index, Type type, bool output);
+    int function_cost(const CallExpr& e, const Function& f, BaseType wanted) const;
+    int builtin_cost(const CallExpr& e, const Signature& s, BaseType wanted) const;
+    int pairs_cost(const CallExpr& e, size_t first) const;
+    int argument_cost(const Expr& argument, Type type, bool output) const;
+    void unknown_function(CallExpr& e);
+    void no_overload(CallExpr& e);
+    std::string argument_types(const CallExpr& e) const;
+
+    // check_convert.cpp
+    bool convert(Expr*& slot, BaseType to);
+    bool can_be(const Expr& expr, BaseType type) const;
+    bool is_flexible(const Expr& expr) const;
+
+    Ast& ast_;
+    Reporter& reporter_;
+    const CompileOptions& options_;
+    bool broken_;
+    std::vector<Scope> scopes_;
+    std::vector<Symbol*> globals_;   // by Global, made when first named
+    std::vector<Stmt*> loops_;       // around the statement, outermost first
+    std::vector<CallEdge> edges_;
+    Function* function_ = nullptr;   // being checked
+    bool returned_ = false;          // a return with a value was met in it
+    const char* light_statement_ = nullptr;  // the illuminance, illuminate or solar around
+    std::unordered_set<std::string_view> unknown_;  // variables already reported
+    std::unordered_set<const Symbol*> warned_;      // parameters already warned of
+};
+
+// How well a value of type `from` serves where `to` is wanted: 0 the same, more is worse, -1 not.
+int conversion_cost(BaseType from, BaseType to);
+
+}  // namespace kinora::rsl

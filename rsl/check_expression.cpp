@@ -1,0 +1,234 @@
+// rsl/check_expression.cpp: values, variables, l-values and conversions that the context asks for.
+#include "rsl/check.h"
+
+namespace kinora::rsl {
+
+void Checker::expression(Expr*& slot, BaseType wanted) {
+    visit_expr(*slot, [&](auto& node) { check(slot, node, wanted); });
+}
+
+// Checks the expression as a single value; its type, or Invalid after a finding.
+BaseType Checker::value(Expr*& slot, BaseType wanted) {
+    expression(slot, wanted);
+    if (slot->type.base == BaseType::Void) {
+        const auto* call = as_if<CallExpr>(slot);
+        report(Code::RSL_VOID_VALUE, slot->place, call ? call->name : std::string_view("this"));
+        slot->type = {BaseType::Invalid, -1};
+    } else if (slot->type.is_array()) {
+        report(Code::RSL_ARRAY_AS_VALUE, slot->place);
+        slot->type = {BaseType::Invalid, -1};
+    }
+    return slot->type.base;
+}
+
+// Checks the expression and brings it to the type; `what` names who needs it.
+void Checker::convert_to(Expr*& slot, Type type, const std::string& what) {
+    if (type.is_array()) return array_value(slot, type, what);
+    value(slot, type.base);
+    bring_to(slot, type, what);
+}
+
+// The same for an expression that has been checked.
+void Checker::bring_to(Expr*& slot, Type type, const std::string& what) {
+    BaseType from = slot->type.base;
+    if (from == BaseType::Invalid || type.base == BaseType::Invalid) return;
+    if (convert(slot, type.base)) return;
+    report(Code::RSL_TYPE_MISMATCH, slot->place, what, type_name(type), type_name(from));
+    slot->type = {BaseType::Invalid, -1};
+}
+
+void Checker::array_value(Expr*& slot, Type type, const std::string& what) {
+    if (auto* literal = as_if<ArrayLiteralExpr>(slot)) {
+        for (Expr*& item : literal->items) convert_to(item, type.element(), "the array element");
+        if (literal->items.size() > size_t(type.array_length))
+            report(Code::RSL_ARRAY_LENGTH, slot->place, literal->items.size(), type.array_length);
+        literal->type = type;
+        return;
+    }
+    expression(slot, type.base);
+    if (slot->type.base == BaseType::Invalid) return;
+    bool fits = slot->type.base == type.base && slot->type.is_array() &&
+                (slot->type.array_length == type.array_length || type.array_length == 0 ||
+                 slot->type.array_length == 0);
+    if (!fits)
+        report(Code::RSL_TYPE_MISMATCH, slot->place, what, type_name(type), type_name(slot->type));
+}
+
+void Checker::condition(Expr*& slot) {
+    BaseType type = value(slot, BaseType::Float);
+    if (type == BaseType::Bool || type == BaseType::Invalid) return;
+    if (type != BaseType::Float) {
+        report(Code::RSL_CONDITION, slot->place, type_name(type));
+        return;
+    }
+    auto* cast = ast_.make<CastExpr>(slot->place);
+    cast->to = BaseType::Bool;
+    cast->implicit = true;
+    cast->operand = slot;
+    cast->type = {BaseType::Bool, -1};
+    slot = cast;
+}
+
+void Checker::check_number(Expr*& slot, const char* what) {
+    convert_to(slot, {BaseType::Float, -1}, what);
+}
+
+// ---- values -------------------------------------------------------------------------------------
+
+void Checker::check(Expr*&, NumberExpr& e, BaseType) {
+    e.type = {BaseType::Float, -1};
+}
+
+void Checker::check(Expr*&, StringExpr& e, BaseType) {
+    e.type = {BaseType::String, -1};
+}
+
+// (x, y, z) is what the context wants, a point if it does not say.
+void Checker::check(Expr*&, TripleExpr& e, BaseType wanted) {
+    for (Expr*& item : e.items) check_number(item, "a component");
+    e.type = {is_triple(wanted) ? wanted : BaseType::Point, -1};
+}
+
+void Checker::check(Expr*&, SixteenExpr& e, BaseType) {
+    for (Expr*& item : e.items) check_number(item, "a component");
+    e.type = {BaseType::Matrix, -1};
+}
+
+// Only initialisers may be { }: those go to array_value().
+void Checker::check(Expr*&, ArrayLiteralExpr& e, BaseType) {
+    report(Code::RSL_ARRAY_AS_VALUE, e.place);
+}
+
+void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
+    condition(e.condition);
+    BaseType yes = value(e.yes, wanted);
+    BaseType no = value(e.no, wanted == BaseType::Invalid ? yes : wanted);
+    if (yes == BaseType::Invalid || no == BaseType::Invalid) return;
+    BaseType common = common_type(yes, no);
+    if (common == BaseType::Invalid) {
+        report(Code::RSL_BAD_OPERANDS, e.place, "?:", type_name(yes), type_name(no));
+        return;
+    }
+    convert(e.yes, common);
+    convert(e.no, common);
+    e.type = {common, -1};
+}
+
+void Checker::check(Expr*&, CastExpr& e, BaseType) {
+    if (e.to == BaseType::Void) {
+        value(e.operand, BaseType::Invalid);
+        report(Code::RSL_BAD_OPERAND, e.place, "void", "a value");
+        return;
+    }
+    if (e.space) value(e.space, BaseType::String);
+    BaseType from = value(e.operand, e.to);
+    e.type = {e.to, -1};
+    if (from == BaseType::Invalid) return;
+    if (e.space && !is_triple(e.to) && e.to != BaseType::Matrix) {
+        report(Code::RSL_BAD_SPACE, e.place, type_name(e.to));
+    } else if (conversion_cost(from, e.to) < 0) {
+        report(Code::RSL_TYPE_MISMATCH, e.place,
+               fmt::format("'{}'", type_name(e.to)), "a value that converts to it",
+               type_name(from));
+    } else if (e.space || from == BaseType::Bool) {
+        convert(e.operand, from == BaseType::Bool ? BaseType::Float : e.to);
+        if (e.space) convert(e.operand, e.to);
+    }
+}
+
+// ---- variables ----------------------------------------------------------------------------------
+
+void Checker::check(Expr*&, VariableExpr& e, BaseType) {
+    e.symbol = find_variable(e.name, false);
+    if (e.symbol) {
+        e.type = e.symbol->type;
+        return;
+    }
+    if (broken_ || !unknown_.insert(e.name).second) return;
+    Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.place, e.name);
+    std::string_view near = nearest_name(e.name, variable_names());
+    if (!near.empty()) finding.help = fmt::format("did you mean '{}'?", near);
+}
+
+// array[i], or a component of a triple.
+void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
+    expression(e.array, BaseType::Invalid);
+    check_number(e.index, "an index");
+    if (e.array->type.base == BaseType::Invalid) return;
+    if (e.array->type.is_array()) {
+        e.type = e.array->type.element();
+        return;
+    }
+    if (!is_triple(e.array->type)) {
+        report(Code::RSL_NOT_ARRAY, e.place, type_name(e.array->type));
+        return;
+    }
+    auto* component = ast_.make<ComponentExpr>(e.place);
+    component->operand = e.array;
+    component->index = e.index;
+    component->type = {BaseType::Float, -1};
+    slot = component;
+}
+
+void Checker::check(Expr*&, ComponentExpr& e, BaseType) {
+    e.type = {BaseType::Float, -1};
+}
+
+// ---- assignment ---------------------------------------------------------------------------------
+
+// The variable that a Variable, Index or Component expression is (part of); else null.
+Symbol* Checker::lvalue_symbol(Expr& target) {
+    if (auto* e = as_if<VariableExpr>(&target)) return e->symbol;
+    if (auto* e = as_if<IndexExpr>(&target)) return lvalue_symbol(*e->array);
+    if (auto* e = as_if<ComponentExpr>(&target)) return lvalue_symbol(*e->operand);
+    return nullptr;
+}
+
+// The expression has been checked. False, with a finding, if it cannot be written to.
+bool Checker::check_lvalue(Expr*& slot) {
+    if (slot->type.base == BaseType::Invalid) return false;
+    Symbol* symbol = lvalue_symbol(*slot);
+    if (!symbol) {
+        report(Code::RSL_NOT_ASSIGNABLE, slot->place);
+        return false;
+    }
+    mark_assigned(*symbol, slot->place);
+    return true;
+}
+
+void Checker::mark_assigned(Symbol& symbol, const Place& place) {
+    symbol.assigned = true;
+    bool parameter =
+        symbol.kind == SymbolKind::Parameter || symbol.kind == SymbolKind::FunctionParameter;
+    if (parameter && !symbol.output && warned_.insert(&symbol).second)
+        report(Code::RSL_PARAMETER_ASSIGNED, place, symbol.name);
+}
+
+void Checker::check(Expr*&, AssignExpr& e, BaseType) {
+    expression(e.target, BaseType::Invalid);
+    Type type = e.target->type;
+    if (!check_lvalue(e.target)) {
+        type = {BaseType::Invalid, -1};
+        value(e.value, BaseType::Invalid);
+        return;
+    }
+    const Symbol& symbol = *lvalue_symbol(*e.target);
+    bool factor = (e.op == Op::Multiply || e.op == Op::Divide) && is_triple(type) &&
+                  is_flexible(*e.value) && can_be(*e.value, BaseType::Float);
+    if (type.is_array() && e.op != Op::None) {
+        report(Code::RSL_ARRAY_AS_VALUE, e.target->place);
+    } else if (factor) {
+        check_number(e.value, "the factor");
+        convert(e.value, type.base);
+    } else {
+        convert_to(e.value, type, fmt::format("'{}'", symbol.name));
+    }
+    bool string = type.base == BaseType::String && e.op != Op::None;
+    bool matrix = type.base == BaseType::Matrix && (e.op == Op::Add || e.op == Op::Subtract);
+    if ((string || matrix) && e.value->type.base != BaseType::Invalid)
+        report(Code::RSL_BAD_OPERANDS, e.place, fmt::format("{}=", op_text(e.op)), type_name(type),
+               type_name(e.value->type));
+    e.type = type;
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,123 @@
+// rsl/check_operator.cpp: unary and binary operators.
+#include "rsl/check.h"
+
+namespace kinora::rsl {
+
+void Checker::check(Expr*&, UnaryExpr& e, BaseType wanted) {
+    if (e.op == Op::Not) {
+        condition(e.operand);
+        e.type = {BaseType::Bool, -1};
+        return;
+    }
+    BaseType type = value(e.operand, wanted);
+    if (type == BaseType::Invalid) return;
+    if (type == BaseType::Bool) convert(e.operand, type = BaseType::Float);
+    if (is_numeric(type))
+        e.type = {type, -1};
+    else
+        report(Code::RSL_BAD_OPERAND, e.place, op_text(e.op), type_name(type));
+}
+
+void Checker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
+    switch (e.op) {
+        case Op::And:
+        case Op::Or:
+            condition(e.left);
+            condition(e.right);
+            e.type = {BaseType::Bool, -1};
+            return;
+        case Op::Dot:
+        case Op::Cross: return check_product(e);
+        case Op::Add:
+        case Op::Subtract:
+        case Op::Multiply:
+        case Op::Divide: return check_arithmetic(e, wanted);
+        default: return check_comparison(e);
+    }
+}
+
+// Checks both operands, the one of fixed type first, so that it can help the other: hint(type of the
+// fixed one, the flexible one) is what the flexible one is asked to be.
+template <class Hint>
+void Checker::both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint) {
+    bool left_flexible = is_flexible(*left), right_flexible = is_flexible(*right);
+    if (left_flexible == right_flexible) {
+        value(left, left_flexible ? wanted : BaseType::Invalid);
+        value(right, right_flexible ? wanted : BaseType::Invalid);
+        return;
+    }
+    Expr*& fixed = left_flexible ? right : left;
+    Expr*& flexible = left_flexible ? left : right;
+    BaseType type = value(fixed, BaseType::Invalid);
+    value(flexible, hint(type, *flexible));
+}
+
+bool Checker::invalid(const BinaryExpr& e) const {
+    return e.left->type.base == BaseType::Invalid || e.right->type.base == BaseType::Invalid;
+}
+
+void Checker::bad_operands(BinaryExpr& e) {
+    report(Code::RSL_BAD_OPERANDS, e.place, op_text(e.op), type_name(e.left->type),
+           type_name(e.right->type));
+}
+
+// The type both operands are brought to; Invalid if there is none.
+BaseType Checker::common_type(BaseType a, BaseType b) const {
+    if (a == BaseType::Bool) a = BaseType::Float;
+    if (b == BaseType::Bool) b = BaseType::Float;
+    if (a == b) return a;
+    if (a == BaseType::Float) return is_numeric(b) ? b : BaseType::Invalid;
+    if (b == BaseType::Float) return is_numeric(a) ? a : BaseType::Invalid;
+    if (!is_triple(a) || !is_triple(b)) return BaseType::Invalid;
+    if (a == BaseType::Color || b == BaseType::Color) return BaseType::Color;
+    if (a == BaseType::Point || b == BaseType::Point) return BaseType::Point;
+    return BaseType::Vector;
+}
+
+// A sum wants equal types. In a product with a triple, a noise() or texture() of no stated type is
+// a factor: float ("P += N * noise(P)").
+void Checker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
+    bool product = e.op == Op::Multiply || e.op == Op::Divide;
+    both_sides(e.left, e.right, wanted, [&](BaseType other, const Expr& flexible) {
+        if (!is_triple(other)) return wanted;
+        return product && can_be(flexible, BaseType::Float) ? BaseType::Float : other;
+    });
+    if (invalid(e)) return;
+    BaseType left = e.left->type.base, right = e.right->type.base;
+    BaseType common = common_type(left, right);
+    bool applies = is_numeric(common) && (common != BaseType::Matrix || product);
+    if (!applies) return bad_operands(e);
+    convert(e.left, common);
+    convert(e.right, common);
+    bool difference = e.op == Op::Subtract && left == BaseType::Point && right == BaseType::Point;
+    e.type = {difference ? BaseType::Vector : common, -1};
+}
+
+// a . b and a ^ b.
+void Checker::check_product(BinaryExpr& e) {
+    both_sides(e.left, e.right, BaseType::Vector, [](BaseType other, const Expr&) {
+        return is_triple(other) ? other : BaseType::Vector;
+    });
+    if (invalid(e)) return;
+    BaseType left = e.left->type.base, right = e.right->type.base;
+    if (!is_triple(left) || !is_triple(right)) return bad_operands(e);
+    BaseType common = left == right && is_spatial(left) ? left : BaseType::Vector;
+    convert(e.left, common);
+    convert(e.right, common);
+    e.type = {e.op == Op::Dot ? BaseType::Float : BaseType::Vector, -1};
+}
+
+void Checker::check_comparison(BinaryExpr& e) {
+    both_sides(e.left, e.right, BaseType::Float, [](BaseType other, const Expr&) { return other; });
+    if (invalid(e)) return;
+    BaseType common = common_type(e.left->type.base, e.right->type.base);
+    bool equality = e.op == Op::Equal || e.op == Op::NotEqual;
+    bool applies = common == BaseType::Float ||
+                   (equality && (is_numeric(common) || common == BaseType::String));
+    if (!applies) return bad_operands(e);
+    convert(e.left, common);
+    convert(e.right, common);
+    e.type = {BaseType::Bool, -1};
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,194 @@
+// rsl/check_statement.cpp: statements.
+#include "rsl/check.h"
+
+namespace kinora::rsl {
+
+void Checker::statement(Stmt& stmt) {
+    visit_stmt(stmt, [&](auto& node) { check(node); });
+}
+
+// Nested functions may be called before the place they are defined at.
+void Checker::check(BlockStmt& s) {
+    ScopeGuard scope(*this);
+    for (Stmt* item : s.body)
+        if (auto* nested = as_if<FunctionStmt>(item)) declare_function(*nested->function);
+    for (Stmt* item : s.body) statement(*item);
+}
+
+void Checker::check(DeclareStmt& s) {
+    for (Symbol* symbol : s.symbols) {
+        check_initial(*symbol);
+        declare(*symbol);
+    }
+}
+
+// The name then means the variable outside, of which this is only a reminder.
+void Checker::check(ExternStmt& s) {
+    for (Symbol*& symbol : s.symbols) {
+        Symbol* outer = find_variable(symbol->name, true);
+        if (!outer) {
+            if (!broken_) report(Code::RSL_EXTERN_UNKNOWN, symbol->place, symbol->name);
+            outer = symbol;
+        } else if (outer->type.base != symbol->type.base &&
+                   !(is_triple(outer->type) && is_triple(symbol->type))) {
+            report(Code::RSL_TYPE_MISMATCH, symbol->place, fmt::format("extern '{}'", symbol->name),
+                   type_name(outer->type), type_name(symbol->type));
+        }
+        symbol = outer;
+        scopes_.back().variables.push_back(outer);
+    }
+}
+
+void Checker::check(FunctionStmt& s) {
+    check_function(*s.function);
+}
+
+void Checker::check(ExpressionStmt& s) {
+    Expr* written = s.expression;
+    expression(s.expression, BaseType::Invalid);
+    ExprKind kind = written->kind;
+    if (kind != ExprKind::Assign && kind != ExprKind::Call && kind != ExprKind::Cast &&
+        s.expression->type.base != BaseType::Invalid)
+        report(Code::RSL_NO_EFFECT, s.place);
+}
+
+void Checker::check(IfStmt& s) {
+    condition(s.condition);
+    statement(*s.yes);
+    if (s.no) statement(*s.no);
+}
+
+void Checker::loop_body(Stmt& loop, Stmt& body) {
+    loops_.push_back(&loop);
+    statement(body);
+    loops_.pop_back();
+}
+
+void Checker::check(WhileStmt& s) {
+    condition(s.condition);
+    loop_body(s, *s.body);
+}
+
+void Checker::check(ForStmt& s) {
+    ScopeGuard scope(*this);
+    for (Stmt* item : s.init) statement(*item);
+    if (s.condition) condition(s.condition);
+    for (Expr*& step : s.step) expression(step, BaseType::Invalid);
+    loop_body(s, *s.body);
+}
+
+// ---- jumps --------------------------------------------------------------------------------------
+
+Stmt* Checker::jump_target(const Stmt& jump, const char* word, int levels) {
+    if (loops_.empty()) {
+        report(Code::RSL_BREAK_OUTSIDE_LOOP, jump.place, word);
+        return nullptr;
+    }
+    if (size_t(levels) > loops_.size()) {
+        report(Code::RSL_BREAK_LEVELS, jump.place, word, levels, loops_.size());
+        return nullptr;
+    }
+    return loops_[loops_.size() - size_t(levels)];
+}
+
+void Checker::check(BreakStmt& s) {
+    s.loop = jump_target(s, "break", s.levels);
+}
+
+void Checker::check(ContinueStmt& s) {
+    s.loop = jump_target(s, "continue", s.levels);
+}
+
+void Checker::check(ReturnStmt& s) {
+    if (!function_) {
+        if (s.value) value(s.value, BaseType::Invalid);
+        report(Code::RSL_RETURN_OUTSIDE_FUNCTION, s.place);
+        return;
+    }
+    returned_ = returned_ || s.value;
+    bool returns = function_->result.base != BaseType::Void;
+    if (returns && s.value)
+        convert_to(s.value, function_->result, "the result");
+    else if (returns)
+        report(Code::RSL_RETURN_NOTHING, s.place, type_name(function_->result));
+    else if (s.value)
+        report(Code::RSL_RETURN_VALUE, s.place, function_->name);
+}
+
+// ---- light statements ---------------------------------------------------------------------------
+
+void Checker::cone(Expr*& axis, Expr*& angle, const char* statement_name) {
+    if (axis) convert_to(axis, {BaseType::Vector, -1}, fmt::format("axis of {}", statement_name));
+    if (angle) convert_to(angle, {BaseType::Float, -1}, fmt::format("angle of {}", statement_name));
+}
+
+// illuminance([category,] position [, axis, angle] [, "name", value ...])
+void Checker::check(IlluminanceStmt& s) {
+    constexpr BaseType kWanted[] = {BaseType::Point, BaseType::Vector, BaseType::Float};
+    size_t first = 0;
+    for (size_t k = 0; k < s.args.size(); ++k) {
+        value(s.args[k], k - first < 3 ? kWanted[k - first] : BaseType::Invalid);
+        if (k == 0 && s.args[0]->type.base == BaseType::String) first = 1;
+    }
+    if (!sort_illuminance(s, first)) {
+        report(Code::RSL_ARGUMENT_FORM, s.place, "illuminance",
+               "([category,] position [, axis, angle] [, \"name\", value ...])");
+        return;
+    }
+    bring_to(s.position, {BaseType::Point, -1}, "position of illuminance");
+    if (s.axis) bring_to(s.axis, {BaseType::Vector, -1}, "axis of illuminance");
+    if (s.angle) bring_to(s.angle, {BaseType::Float, -1}, "angle of illuminance");
+    Within<const char*> within(light_statement_, "illuminance");
+    loop_body(s, *s.body);
+}
+
+// Says which argument is what; false when they fit no form.
+bool Checker::sort_illuminance(IlluminanceStmt& s, size_t next) {
+    auto is_string = [&](size_t k) { return s.args[k]->type.base == BaseType::String; };
+    size_t count = s.args.size();
+    if (next == 1) s.category = s.args[0];
+    if (next >= count || is_string(next)) return false;
+    s.position = s.args[next++];
+    if (next < count && !is_string(next)) {
+        if (next + 1 >= count) return false;
+        s.axis = s.args[next];
+        s.angle = s.args[next + 1];
+        next += 2;
+    }
+    s.pairs = s.args.subspan(next);
+    for (size_t k = next; k < count; k += 2)
+        if (!is_string(k)) return false;
+    return s.pairs.size() % 2 == 0;
+}
+
+void Checker::check(IlluminateStmt& s) {
+    convert_to(s.position, {BaseType::Point, -1}, "position of illuminate");
+    cone(s.axis, s.angle, "illuminate");
+    if (light_statement_) {
+        report(Code::RSL_NESTED_ILLUMINATE, s.place, "illuminate", light_statement_);
+        return;
+    }
+    Within<const char*> within(light_statement_, "illuminate");
+    Within<std::vector<Stmt*>> no_loops(loops_, {});
+    statement(*s.body);
+}
+
+void Checker::check(SolarStmt& s) {
+    cone(s.axis, s.angle, "solar");
+    if (light_statement_) {
+        report(Code::RSL_NESTED_ILLUMINATE, s.place, "solar", light_statement_);
+        return;
+    }
+    Within<const char*> within(light_statement_, "solar");
+    Within<std::vector<Stmt*>> no_loops(loops_, {});
+    statement(*s.body);
+}
+
+void Checker::check(GatherStmt& s) {
+    report(Code::RSL_NOT_SUPPORTED, s.place, "gather");
+    for (Expr*& argument : s.args) value(argument, BaseType::Invalid);
+    loop_body(s, *s.body);
+    if (s.missed) statement(*s.missed);
+}
+
+}  // namespace kinora::rsl

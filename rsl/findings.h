@@ -1,0 +1,20 @@
+// rsl/findings.h: the findings of the shading language: rows of findings.def as constants.
+#pragma once
+
+#include <span>
+
+#include "runtime/base/diagnostic.h"
+
+namespace kinora::rsl {
+
+struct Code {
+#define FINDING(code, severity, text, explanation, fix) \
+    static constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
+#include "rsl/findings.def"
+#undef FINDING
+};
+
+// All rows, for --explain and the manual.
+std::span<const FindingInfo* const> finding_rows();
+
+}  // namespace kinora::rsl

@@ -1,0 +1,248 @@
+// rsl/lexer.cpp: text to raw tokens.
+#include "rsl/lexer.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace kinora::rsl {
+
+namespace {
+
+struct PunctRow {
+    std::string_view text;
+    Punct punct;
+};
+constexpr PunctRow kPuncts[] = {
+#define PUNCT(name, text) {text, Punct::name},
+#include "rsl/puncts.def"
+#undef PUNCT
+};
+
+struct WordRow {
+    std::string_view text;
+    Word word;
+};
+constexpr WordRow kWords[] = {
+#define WORD(name, text) {text, Word::name},
+#include "rsl/words.def"
+#undef WORD
+};
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$' || (c & 0x80);
+}
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+}  // namespace
+
+Word find_word(std::string_view text) {
+    if (text.size() < 2 || text.size() > 14) return Word::None;
+    for (const WordRow& row : kWords)
+        if (row.text.front() == text.front() && row.text == text) return row.word;
+    return Word::None;
+}
+
+const char* punct_text(Punct punct) {
+    for (const PunctRow& row : kPuncts)
+        if (row.punct == punct) return row.text.data();
+    return "";
+}
+
+Lexer::Lexer(std::string_view text, const SourceMap& map) : text_(text), map_(&map) {
+    if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
+}
+
+Lexer::Trouble Lexer::take_trouble() {
+    return std::exchange(trouble_, Trouble::None);
+}
+
+Location Lexer::locate(size_t begin, size_t end) const {
+    if (map_->segments.empty()) return {map_->file, uint32_t(begin), uint32_t(end)};
+    return map_->location(uint32_t(begin), uint32_t(end));
+}
+
+// "\n", "\r\n" or "\r".
+size_t Lexer::newline_length(size_t i) const {
+    if (at(i) == '\n') return 1;
+    if (at(i) == '\r') return at(i + 1) == '\n' ? 2 : 1;
+    return 0;
+}
+
+// A backslash, blanks that editors leave behind, and a newline.
+size_t Lexer::continuation_length(size_t i) const {
+    if (at(i) != '\\') return 0;
+    size_t after = i + 1;
+    while (is_blank(at(after))) ++after;
+    size_t newline = newline_length(after);
+    return newline ? after + newline - i : 0;
+}
+
+bool Lexer::skip_comment() {
+    if (at(position_) != '/') return false;
+    if (at(position_ + 1) == '/') {
+        while (position_ < text_.size() && !newline_length(position_))
+            position_ += std::max<size_t>(1, continuation_length(position_));
+        return true;
+    }
+    if (at(position_ + 1) != '*') return false;
+    size_t end = text_.find("*/", position_ + 2);
+    if (end == std::string_view::npos) trouble_ = Trouble::UnterminatedComment;
+    position_ = end == std::string_view::npos ? text_.size() : end + 2;
+    return true;
+}
+
+bool Lexer::skip_space() {
+    size_t begin = position_;
+    while (position_ < text_.size()) {
+        char c = text_[position_];
+        if (is_blank(c) || c == '\0') {
+            ++position_;
+        } else if (size_t newline = newline_length(position_)) {
+            position_ += newline;
+            line_start_ = true;
+        } else if (size_t continued = continuation_length(position_)) {
+            position_ += continued;
+        } else if (!skip_comment()) {
+            break;
+        }
+    }
+    return position_ != begin;
+}
+
+Token Lexer::next() {
+    Token token;
+    token.space_before = skip_space();
+    token.line_start = std::exchange(line_start_, false);
+    size_t begin = position_;
+    if (begin < text_.size()) {
+        punct_ = Punct::None;
+        token.kind = scan(begin);
+        token.punct = punct_;
+        token.text = text_.substr(begin, position_ - begin);
+    } else {
+        line_start_ = token.line_start = true;
+    }
+    token.where = token.spelling = locate(begin, position_);
+    return token;
+}
+
+TokenKind Lexer::scan(size_t begin) {
+    char c = text_[begin];
+    if (is_letter(c)) {
+        while (is_letter(at(position_)) || is_digit(at(position_))) ++position_;
+        return TokenKind::Identifier;
+    }
+    if (is_digit(c) || (c == '.' && is_digit(at(begin + 1)))) {
+        scan_number();
+        return TokenKind::Number;
+    }
+    if (c == '"') {
+        scan_string();
+        return TokenKind::String;
+    }
+    for (const PunctRow& row : kPuncts) {
+        if (!text_.substr(begin).starts_with(row.text)) continue;
+        position_ += row.text.size();
+        punct_ = row.punct;
+        return TokenKind::Punctuator;
+    }
+    ++position_;
+    punct_ = Punct::Other;
+    return TokenKind::Other;
+}
+
+void Lexer::scan_number() {
+    auto digits = [&] {
+        while (is_digit(at(position_))) ++position_;
+    };
+    digits();
+    if (at(position_) == '.') {
+        ++position_;
+        digits();
+    }
+    size_t exponent = position_;
+    if (at(exponent) == 'e' || at(exponent) == 'E') {
+        ++exponent;
+        if (at(exponent) == '+' || at(exponent) == '-') ++exponent;
+        if (is_digit(at(exponent))) {
+            position_ = exponent;
+            digits();
+        }
+    }
+    // C's suffix, tolerated: 0.5f
+    if ((at(position_) == 'f' || at(position_) == 'F') && !is_letter(at(position_ + 1)) &&
+        !is_digit(at(position_ + 1)))
+        ++position_;
+}
+
+void Lexer::scan_string() {
+    for (++position_; position_ < text_.size(); ++position_) {
+        if (text_[position_] == '"') {
+            ++position_;
+            return;
+        }
+        if (size_t continued = continuation_length(position_)) {
+            position_ += continued - 1;
+        } else if (newline_length(position_)) {
+            break;
+        } else if (text_[position_] == '\\') {
+            ++position_;
+        }
+    }
+    position_ = std::min(position_, text_.size());
+    trouble_ = Trouble::UnterminatedString;
+}
+
+std::string_view Lexer::rest_of_line() {
+    size_t begin = position_;
+    while (position_ < text_.size() && !newline_length(position_))
+        position_ += std::max<size_t>(1, continuation_length(position_));
+    position_ = std::min(position_, text_.size());
+    std::string_view line = text_.substr(begin, position_ - begin);
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+    return line;
+}
+
+namespace {
+
+int octal_value(std::string_view text, size_t& i) {
+    int value = 0;
+    for (int n = 0; n < 3 && i < text.size() && text[i] >= '0' && text[i] <= '7'; ++n)
+        value = value * 8 + (text[i++] - '0');
+    --i;
+    return value & 0xff;
+}
+
+}  // namespace
+
+std::string string_value(std::string_view quoted) {
+    if (quoted.starts_with('"')) quoted.remove_prefix(1);
+    if (quoted.ends_with('"')) quoted.remove_suffix(1);
+    constexpr std::string_view kEscapes = "ntrbfv", kMeanings = "\n\t\r\b\f\v";
+    std::string value;
+    value.reserve(quoted.size());
+    for (size_t i = 0; i < quoted.size(); ++i) {
+        if (quoted[i] != '\\' || i + 1 == quoted.size()) {
+            value += quoted[i];
+            continue;
+        }
+        char c = quoted[++i];
+        size_t escape = kEscapes.find(c);
+        if (escape != std::string_view::npos) {
+            value += kMeanings[escape];
+        } else if (c >= '0' && c <= '7') {
+            value += char(octal_value(quoted, i));
+        } else if (c == '\n' || c == '\r' || c == ' ' || c == '\t') {
+            size_t end = quoted.find('\n', i);  // a continued line
+            i = end == std::string_view::npos ? i : end;
+        } else {
+            value += c;
+        }
+    }
+    return value;
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,322 @@
+// rsl/parse_expression.cpp: expressions, by precedence climbing.
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "rsl/lexer.h"
+#include "rsl/parser.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+// The specification's order: '^' binds looser than '*', '.' tighter.
+struct OperatorRow {
+    Punct punct;
+    Op op;
+    int level;
+};
+constexpr OperatorRow kOperators[] = {
+    {Punct::Or, Op::Or, 1},
+    {Punct::And, Op::And, 2},
+    {Punct::Equal, Op::Equal, 3},
+    {Punct::NotEqual, Op::NotEqual, 3},
+    {Punct::Less, Op::Less, 4},
+    {Punct::LessEqual, Op::LessEqual, 4},
+    {Punct::Greater, Op::Greater, 4},
+    {Punct::GreaterEqual, Op::GreaterEqual, 4},
+    {Punct::Add, Op::Add, 5},
+    {Punct::Subtract, Op::Subtract, 5},
+    {Punct::Cross, Op::Cross, 6},
+    {Punct::Multiply, Op::Multiply, 7},
+    {Punct::Divide, Op::Divide, 7},
+    {Punct::Dot, Op::Dot, 8},
+};
+
+const OperatorRow* find_operator(Punct punct) {
+    for (const OperatorRow& row : kOperators)
+        if (row.punct == punct) return &row;
+    return nullptr;
+}
+
+constexpr struct {
+    Punct punct;
+    Op op;
+} kAssignments[] = {{Punct::Assign, Op::None},
+                    {Punct::AddAssign, Op::Add},
+                    {Punct::SubtractAssign, Op::Subtract},
+                    {Punct::MultiplyAssign, Op::Multiply},
+                    {Punct::DivideAssign, Op::Divide}};
+
+bool is_type_word(Word word) {
+    return word >= Word::Float && word <= Word::Void;
+}
+
+struct Depth {
+    explicit Depth(int& depth) : depth_(depth) { ++depth_; }
+    ~Depth() { --depth_; }
+    int& depth_;
+};
+
+}  // namespace
+
+int op_level(Op op) {
+    for (const OperatorRow& row : kOperators)
+        if (row.op == op) return row.level;
+    return 9;
+}
+
+Expr* Parser::bad_expression() {
+    height_ = 1;
+    return make<NumberExpr>(Place{token().where, next_});
+}
+
+// The expression parsed last is a node over the parts of the given height and of height_.
+void Parser::grow(int part_height) {
+    height_ = std::max(height_, part_height) + 1;
+    if (height_ > kMostHeight) error(Code::RSL_TOO_DEEP, token());
+}
+
+Expr* Parser::expression() {
+    Depth depth(depth_);
+    if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
+    if (panic_) return bad_expression();
+    Expr* left = ternary();
+    for (const auto& row : kAssignments) {
+        if (panic_ || !is(row.punct)) continue;
+        uint32_t at = next_;
+        int left_height = height_;
+        advance();
+        auto* node = make<AssignExpr>(left->place);
+        node->op = row.op;
+        node->target = left;
+        node->value = expression();
+        grow(left_height);
+        node->place = place_from(left->place, at);
+        return node;
+    }
+    return left;
+}
+
+Expr* Parser::ternary() {
+    Expr* condition = binary(1);
+    if (panic_ || !is(Punct::Question)) return condition;
+    Depth depth(depth_);
+    if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
+    uint32_t at = next_;
+    advance();
+    auto* node = make<SelectExpr>(condition->place);
+    node->condition = condition;
+    int height = height_;
+    node->yes = expression();
+    height = std::max(height, height_);
+    if (!panic_) expect(Punct::Colon, "':'");
+    node->no = panic_ ? bad_expression() : ternary();
+    grow(height);
+    node->place = place_from(condition->place, at);
+    return node;
+}
+
+Expr* Parser::binary(int lowest) {
+    Expr* left = unary();
+    while (!panic_) {
+        const OperatorRow* row = find_operator(token().punct);
+        if (!row || row->level < lowest) break;
+        uint32_t at = next_;
+        int left_height = height_;
+        advance();
+        auto* node = make<BinaryExpr>(left->place);
+        node->op = row->op;
+        node->left = left;
+        node->right = binary(row->level + 1);
+        grow(left_height);
+        node->place = place_from(left->place, at);
+        left = node;
+    }
+    return left;
+}
+
+Expr* Parser::unary() {
+    Depth depth(depth_);
+    if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
+    if (panic_) return bad_expression();
+    uint32_t at = next_;
+    if (accept(Punct::Add)) return unary();
+    Op op = is(Punct::Subtract) ? Op::Negate : is(Punct::Not) ? Op::Not : Op::None;
+    if (op != Op::None) {
+        advance();
+        auto* node = make<UnaryExpr>({});
+        node->op = op;
+        node->operand = unary();
+        grow(0);
+        node->place = place_from(at);
+        return node;
+    }
+    if (is_type_word(token().word)) return cast();
+    bool c_style = is(Punct::LeftParen) && is_type_word(token(1).word) && is(Punct::RightParen, 2);
+    return c_style ? c_cast() : postfix();
+}
+
+// "color x", "vector "world" x", "float noise(P)".
+Expr* Parser::cast() {
+    uint32_t at = next_;
+    auto* node = make<CastExpr>({});
+    node->to = type_from_name(token().text);
+    advance();
+    if (token().kind == TokenKind::String && node->to != BaseType::String) node->space = string();
+    node->operand = unary();
+    grow(0);
+    node->place = place_from(at);
+    return node;
+}
+
+// "(float) x", as in C.
+Expr* Parser::c_cast() {
+    uint32_t at = next_;
+    auto* node = make<CastExpr>({});
+    node->to = type_from_name(token(1).text);
+    next_ += 3;
+    node->operand = unary();
+    grow(0);
+    node->place = place_from(at);
+    return node;
+}
+
+Expr* Parser::postfix() {
+    Expr* operand = primary();
+    while (!panic_ && is(Punct::LeftBracket)) {
+        uint32_t at = next_;
+        int array_height = height_;
+        advance();
+        auto* node = make<IndexExpr>(operand->place);
+        node->array = operand;
+        node->index = expression();
+        grow(array_height);
+        expect(Punct::RightBracket, "']'");
+        node->place = place_from(operand->place, at);
+        operand = node;
+    }
+    return operand;
+}
+
+Expr* Parser::primary() {
+    const Token& at = token();
+    height_ = 1;
+    if (at.kind == TokenKind::Number) return number();
+    if (at.kind == TokenKind::String) return string();
+    if (is(Punct::LeftParen)) return parenthesised();
+    bool reserved = at.word != Word::None && at.word < Word::Illuminance;
+    if (at.kind != TokenKind::Identifier || reserved) {
+        syntax_error("an expression");
+        return bad_expression();
+    }
+    if (is(Punct::LeftParen, 1)) return call();
+    auto* node = make<VariableExpr>(Place{at.where, next_});
+    node->name = at.text;
+    advance();
+    return node;
+}
+
+Expr* Parser::number() {
+    const Token& at = token();
+    auto* node = make<NumberExpr>(Place{at.where, next_});
+    std::string_view text = at.text;
+    double value = 0;
+    auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    bool too_large = result.ec == std::errc::result_out_of_range && value != 0;
+    if (too_large || std::fabs(value) > std::numeric_limits<float>::max())
+        reporter_.report(Code::RSL_BAD_NUMBER, at, text);
+    else
+        node->value = value;
+    advance();
+    return node;
+}
+
+Expr* Parser::string() {
+    uint32_t at = next_;
+    auto* node = make<StringExpr>({});
+    std::string value;
+    for (; token().kind == TokenKind::String; advance()) value += string_value(token().text);
+    node->value = ast_.arena.copy(value);
+    node->place = place_from(at);
+    return node;
+}
+
+// (x), (x, y, z) or sixteen numbers.
+Expr* Parser::parenthesised() {
+    uint32_t at = next_;
+    advance();
+    std::span<Expr*> items = expression_list(Punct::RightParen);
+    if (panic_) return bad_expression();
+    if (items.size() == 1) {
+        items[0]->place.where = place_from(at).where;
+        return items[0];
+    }
+    Place place = place_from(at);
+    grow(0);
+    if (items.size() == 3) {
+        auto* node = make<TripleExpr>(place);
+        std::copy(items.begin(), items.end(), node->items);
+        return node;
+    }
+    if (items.size() == 16) {
+        auto* node = make<SixteenExpr>(place);
+        node->items = items;
+        return node;
+    }
+    reporter_.report(Code::RSL_ARGUMENT_FORM, place.where, token().macro, {}, "(...)",
+                     "3 numbers for a triple or 16 for a matrix");
+    return make<NumberExpr>(place);
+}
+
+Expr* Parser::call() {
+    uint32_t at = next_;
+    auto* node = make<CallExpr>({});
+    node->name = token().text;
+    node->site = ast_.site_count++;
+    advance();
+    node->args = arguments();
+    grow(0);
+    node->place = place_from(at);
+    return node;
+}
+
+std::span<Expr*> Parser::arguments() {
+    if (!expect(Punct::LeftParen, "'('")) return {};
+    height_ = 0;
+    if (accept(Punct::RightParen)) return {};
+    return expression_list(Punct::RightParen);
+}
+
+// "a, b, c" and the closing token.
+std::span<Expr*> Parser::expression_list(Punct end) {
+    std::vector<Expr*> items;
+    int height = 0;
+    do {
+        items.push_back(expression());
+        height = std::max(height, height_);
+    } while (!panic_ && accept(Punct::Comma));
+    if (!panic_) expect(end, end == Punct::RightParen ? "')'" : "';'");
+    height_ = height;
+    return ast_.arena.copy(items);
+}
+
+long constant_length(const Expr& expr) {
+    if (const auto* number = as_if<NumberExpr>(&expr)) {
+        double value = number->value;
+        return value >= 0 && value <= kMostArrayLength && value == std::floor(value) ? long(value)
+                                                                                     : -1;
+    }
+    const auto* node = as_if<BinaryExpr>(&expr);
+    if (!node) return -1;
+    long a = constant_length(*node->left), b = constant_length(*node->right);
+    if (a < 0 || b < 0) return -1;
+    long value = -1;
+    if (node->op == Op::Add) value = a + b;
+    if (node->op == Op::Subtract) value = a - b;
+    if (node->op == Op::Multiply) value = a * b;
+    if (node->op == Op::Divide && b > 0) value = a / b;
+    return value <= kMostArrayLength ? value : -1;
+}
+
+}  // namespace kinora::rsl

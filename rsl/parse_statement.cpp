@@ -1,0 +1,278 @@
+// rsl/parse_statement.cpp: statements.
+#include "rsl/parser.h"
+
+namespace kinora::rsl {
+
+BlockStmt* Parser::block() {
+    uint32_t at = next_;
+    auto* node = make<BlockStmt>(Place{token().where, at});
+    if (!expect(Punct::LeftBrace, "'{'")) return node;
+    std::vector<Stmt*> body;
+    while (!is(Punct::RightBrace) && !at_end() && !reporter_.full()) {
+        uint32_t before = next_;
+        Stmt* stmt = statement();
+        if (panic_) skip_statement();
+        if (stmt) body.push_back(stmt);
+        if (next_ == before && !is(Punct::RightBrace)) advance();
+    }
+    if (!accept(Punct::RightBrace))
+        error(Code::RSL_UNCLOSED, ast_.tokens.tokens[at], '{');
+    node->body = ast_.arena.copy(body);
+    node->place = place_from(at);
+    return node;
+}
+
+Stmt* Parser::statement() {
+    ++depth_;
+    Stmt* stmt = nullptr;
+    if (depth_ > kMostNesting)
+        error(Code::RSL_TOO_DEEP, token());
+    else
+        stmt = statement_unguarded();
+    --depth_;
+    return stmt;
+}
+
+// Null for an empty or broken statement.
+Stmt* Parser::statement_unguarded() {
+    if (accept(Punct::Semicolon)) return nullptr;
+    if (is(Punct::LeftBrace)) return block();
+    bool call = is(Punct::LeftParen, 1);
+    switch (token().word) {
+        case Word::If: return if_statement();
+        case Word::While: return while_statement();
+        case Word::For: return for_statement();
+        case Word::Break:
+        case Word::Continue: return jump_statement(token().word);
+        case Word::Return: return return_statement();
+        case Word::Extern: return extern_statement();
+        case Word::Illuminance: return call ? illuminance_statement() : expression_statement();
+        case Word::Illuminate: return call ? illuminate_statement() : expression_statement();
+        case Word::Solar: return call ? solar_statement() : expression_statement();
+        case Word::Gather: return call ? gather_statement() : expression_statement();
+        default: break;
+    }
+    if (at_function()) {
+        auto* node = make<FunctionStmt>(Place{token().where, next_});
+        node->function = function(true);
+        return node->function ? node : nullptr;
+    }
+    return at_declaration() ? declaration_statement() : expression_statement();
+}
+
+Stmt* Parser::empty_statement() {
+    return make<BlockStmt>(Place{token().where, next_});
+}
+
+Stmt* Parser::declaration_statement() {
+    uint32_t at = next_;
+    Declaration head;
+    if (!declaration_head(head)) return nullptr;
+    auto* node = make<DeclareStmt>({});
+    node->symbols = declared_symbols(head, SymbolKind::Local);
+    expect_semicolon();
+    node->place = place_from(at);
+    return node;
+}
+
+Stmt* Parser::extern_statement() {
+    uint32_t at = next_;
+    advance();
+    Declaration head;
+    if (!declaration_head(head)) return nullptr;
+    auto* node = make<ExternStmt>({});
+    node->symbols = declared_symbols(head, SymbolKind::Local);
+    expect_semicolon();
+    node->place = place_from(at);
+    return node;
+}
+
+std::span<Symbol*> Parser::declared_symbols(const Declaration& head, SymbolKind kind) {
+    std::vector<Symbol*> symbols;
+    do {
+        Symbol* symbol = declarator(head, kind);
+        if (symbol) symbols.push_back(symbol);
+    } while (!panic_ && accept(Punct::Comma));
+    return ast_.arena.copy(symbols);
+}
+
+Stmt* Parser::expression_statement() {
+    auto* node = make<ExpressionStmt>({});
+    uint32_t at = next_;
+    node->expression = expression();
+    if (panic_) return nullptr;
+    expect_semicolon();
+    node->place = place_from(at);
+    return node;
+}
+
+// "( expression )" of if and while. A bare '=' in it is probably a mistake.
+Expr* Parser::condition() {
+    expect(Punct::LeftParen, "'('");
+    bool wrapped = is(Punct::LeftParen);
+    Expr* value = expression();
+    if (!panic_) expect(Punct::RightParen, "')'");
+    const auto* assign = as_if<AssignExpr>(value);
+    if (!panic_ && assign && assign->op == Op::None && !wrapped)
+        reporter_.report(Code::RSL_ASSIGN_IN_CONDITION, ast_.tokens.tokens[assign->place.token]);
+    return value;
+}
+
+Stmt* Parser::if_statement() {
+    auto* node = make<IfStmt>(Place{token().where, next_});
+    advance();
+    node->condition = condition();
+    if (panic_) return nullptr;
+    node->yes = statement();
+    if (!node->yes) node->yes = empty_statement();
+    if (!panic_ && accept(Word::Else)) {
+        node->no = statement();
+        if (!node->no) node->no = empty_statement();
+    }
+    return node;
+}
+
+Stmt* Parser::while_statement() {
+    auto* node = make<WhileStmt>(Place{token().where, next_});
+    advance();
+    node->condition = condition();
+    if (panic_) return nullptr;
+    node->body = statement();
+    if (!node->body) node->body = empty_statement();
+    return node;
+}
+
+Stmt* Parser::for_statement() {
+    auto* node = make<ForStmt>(Place{token().where, next_});
+    advance();
+    expect(Punct::LeftParen, "'('");
+    std::vector<Stmt*> init;
+    if (!panic_ && at_declaration()) {
+        init.push_back(declaration_statement());
+        if (!init.back()) return nullptr;
+    } else if (!accept(Punct::Semicolon)) {
+        for (Expr* item : expression_list(Punct::Semicolon)) {
+            auto* stmt = make<ExpressionStmt>(item->place);
+            stmt->expression = item;
+            init.push_back(stmt);
+        }
+    }
+    node->init = ast_.arena.copy(init);
+    if (!panic_ && !is(Punct::Semicolon)) node->condition = expression();
+    if (!panic_) expect(Punct::Semicolon, "';'");
+    if (!panic_ && !accept(Punct::RightParen)) node->step = expression_list(Punct::RightParen);
+    if (panic_) return nullptr;
+    node->body = statement();
+    if (!node->body) node->body = empty_statement();
+    return node;
+}
+
+// break; break 2; continue; continue 2;
+Stmt* Parser::jump_statement(Word word) {
+    uint32_t at = next_;
+    advance();
+    int levels = 1;
+    if (token().kind == TokenKind::Number) {
+        const Token& count = token();
+        levels = int(constant_length(*number()));
+        if (levels < 1) {
+            error(Code::RSL_ARGUMENT_FORM, count, word == Word::Break ? "'break'" : "'continue'",
+                  "a whole number of loops");
+            return nullptr;
+        }
+    }
+    expect_semicolon();
+    Place place = place_from(at);
+    if (word == Word::Break) {
+        auto* node = make<BreakStmt>(place);
+        node->levels = levels;
+        return node;
+    }
+    auto* node = make<ContinueStmt>(place);
+    node->levels = levels;
+    return node;
+}
+
+Stmt* Parser::return_statement() {
+    uint32_t at = next_;
+    auto* node = make<ReturnStmt>({});
+    advance();
+    if (!is(Punct::Semicolon) && !is(Punct::RightBrace)) node->value = expression();
+    if (panic_) return nullptr;
+    expect_semicolon();
+    node->place = place_from(at);
+    return node;
+}
+
+Stmt* Parser::illuminance_statement() {
+    uint32_t at = next_;
+    auto* node = make<IlluminanceStmt>({});
+    advance();
+    node->args = arguments();
+    if (panic_) return nullptr;
+    node->place = place_from(at);
+    node->body = statement();
+    if (!node->body) node->body = empty_statement();
+    return node;
+}
+
+Stmt* Parser::illuminate_statement() {
+    uint32_t at = next_;
+    auto* node = make<IlluminateStmt>({});
+    advance();
+    std::span<Expr*> args = arguments();
+    if (panic_) return nullptr;
+    node->place = place_from(at);
+    if (args.size() != 1 && args.size() != 3) {
+        reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "illuminate",
+                         "(position) or (position, axis, angle)");
+        return nullptr;
+    }
+    node->position = args[0];
+    if (args.size() == 3) {
+        node->axis = args[1];
+        node->angle = args[2];
+    }
+    node->body = statement();
+    if (!node->body) node->body = empty_statement();
+    return node;
+}
+
+Stmt* Parser::solar_statement() {
+    uint32_t at = next_;
+    auto* node = make<SolarStmt>({});
+    advance();
+    std::span<Expr*> args = arguments();
+    if (panic_) return nullptr;
+    node->place = place_from(at);
+    if (!args.empty() && args.size() != 2) {
+        reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "solar",
+                         "() or (axis, angle)");
+        return nullptr;
+    }
+    if (args.size() == 2) {
+        node->axis = args[0];
+        node->angle = args[1];
+    }
+    node->body = statement();
+    if (!node->body) node->body = empty_statement();
+    return node;
+}
+
+Stmt* Parser::gather_statement() {
+    uint32_t at = next_;
+    auto* node = make<GatherStmt>({});
+    advance();
+    node->args = arguments();
+    if (panic_) return nullptr;
+    node->place = place_from(at);
+    node->body = statement();
+    if (!node->body) node->body = empty_statement();
+    if (!panic_ && accept(Word::Else)) {
+        node->missed = statement();
+        if (!node->missed) node->missed = empty_statement();
+    }
+    return node;
+}
+
+}  // namespace kinora::rsl

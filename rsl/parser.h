@@ -1,0 +1,122 @@
+// rsl/parser.h: tokens to a syntax tree, by recursive descent. After an error the parser skips to
+// the next statement or definition and says nothing until then.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rsl/ast.h"
+#include "rsl/reporter.h"
+
+namespace kinora::rsl {
+
+inline constexpr int kMostNesting = 400;       // of expressions and statements
+inline constexpr int kMostHeight = 400;        // of an expression's tree, which later passes walk
+inline constexpr int kMostArrayLength = 1 << 20;
+
+class Parser {
+  public:
+    Parser(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
+    void run();
+
+  private:
+    // parser.cpp: tokens, errors, recovery
+    const Token& token(int ahead = 0) const;
+    bool is(Punct punct, int ahead = 0) const { return token(ahead).punct == punct; }
+    bool is(Word word, int ahead = 0) const { return token(ahead).word == word; }
+    bool at_end() const { return token().kind == TokenKind::End; }
+    void advance() { next_ += !at_end(); }
+    bool accept(Punct punct);
+    bool accept(Word word);
+    bool expect(Punct punct, const char* what);
+    void expect_semicolon();
+    std::string_view expect_name(const char* what);
+    void syntax_error(const char* expected);
+    template <class... Args>
+    Finding* error(const FindingInfo& info, const Token& at, const Args&... args) {
+        if (panic_) return nullptr;
+        panic_ = true;
+        return &reporter_.report(info, at, args...);
+    }
+    Place place_from(uint32_t first) const;
+    Place place_from(const Place& first, uint32_t token) const;
+    void skip_statement();
+    void skip_definition();
+    void skip_balanced(Punct open, Punct close);
+    uint32_t after_parens(uint32_t open) const;
+
+    // parse_definition.cpp: shaders, functions, parameters, declarations
+    void definition();
+    bool foreign_definition();
+    bool shader_definition();
+    void function_definition();
+    Function* function(bool typed);
+    std::span<Symbol*> parameters(SymbolKind kind);
+    struct Declaration {
+        Type type;
+        Detail detail = Detail::Unspecified;
+        bool output = false;
+    };
+    bool declaration_head(Declaration& head);
+    Symbol* declarator(const Declaration& head, SymbolKind kind);
+    void array_suffix(Symbol& symbol);
+    Expr* initialiser(Symbol& symbol);
+    bool at_declaration() const;
+    bool at_function() const;
+
+    // parse_statement.cpp
+    Stmt* statement();
+    Stmt* statement_unguarded();
+    BlockStmt* block();
+    Stmt* declaration_statement();
+    Stmt* extern_statement();
+    Stmt* expression_statement();
+    Stmt* if_statement();
+    Stmt* while_statement();
+    Stmt* for_statement();
+    Stmt* jump_statement(Word word);
+    Stmt* return_statement();
+    Stmt* illuminance_statement();
+    Stmt* illuminate_statement();
+    Stmt* solar_statement();
+    Stmt* gather_statement();
+    Stmt* empty_statement();
+    Expr* condition();
+    std::span<Symbol*> declared_symbols(const Declaration& head, SymbolKind kind);
+
+    // parse_expression.cpp
+    Expr* expression();
+    Expr* ternary();
+    Expr* binary(int lowest);
+    Expr* unary();
+    Expr* cast();
+    Expr* c_cast();
+    Expr* postfix();
+    Expr* primary();
+    Expr* number();
+    Expr* string();
+    Expr* parenthesised();
+    Expr* call();
+    Expr* bad_expression();
+    void grow(int part_height);
+    std::span<Expr*> arguments();
+    std::span<Expr*> expression_list(Punct end);
+
+    template <class Node>
+    Node* make(Place place) {
+        return ast_.make<Node>(place);
+    }
+
+    Ast& ast_;
+    Reporter& reporter_;
+    uint32_t next_ = 0;
+    bool panic_ = false;  // an error was reported and nothing has been skipped to yet
+    int depth_ = 0;
+    int height_ = 0;  // of the expression parsed last
+    Function* function_ = nullptr;  // being parsed
+};
+
+// The value of a constant whole-number expression (array lengths); -1 when it is none.
+long constant_length(const Expr& expr);
+
+}  // namespace kinora::rsl

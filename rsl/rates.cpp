@@ -1,0 +1,364 @@
+// rsl/rates.cpp: which values differ from point to point. The shader is walked again and again until
+// no variable changes; calls are walked as if expanded, once for each pattern of argument rates.
+//
+// Two questions are answered at once. `varying`: does the value differ between points? It decides
+// Symbol::varying and Expr::rate. `illegal`: may a declared-uniform variable not take it? A uniform
+// that is assigned under varying control is varying, but still legal to assign to another uniform:
+// the specification judges by declarations.
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "rsl/usage.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+struct Flow {
+    bool constant = true;
+    bool varying = false;
+    bool illegal = false;
+};
+
+Flow join(Flow a, Flow b) {
+    return {a.constant && b.constant, a.varying || b.varying, a.illegal || b.illegal};
+}
+
+constexpr Flow kConstant{true, false, false};
+constexpr Flow kUniform{false, false, false};
+constexpr Flow kVaryingFlow{false, true, true};
+
+// What a function's body does for one pattern of argument rates.
+struct CallSummary {
+    Flow result;
+    std::vector<Flow> outputs;  // by parameter
+};
+
+using Rated = std::unordered_set<const Expr*>;
+
+// Hostile source may ask for more walking than it is worth: then what is known is taken.
+constexpr int kMostSteps = 2'000'000;
+
+class RateWalk {
+  public:
+    RateWalk(const ShaderDefinition& shader, Ast& ast, Reporter& reporter, Rated& rated)
+        : shader_(shader),
+          ast_(ast),
+          reporter_(reporter),
+          rated_(rated),
+          flows_(ast.symbol_count),
+          known_(ast.symbol_count),
+          locals_(ast.function_count) {}
+
+    void run() {
+        for (Symbol* p : shader_.parameters)
+            declare(*p, p->detail == Detail::Varying ? kVaryingFlow : kUniform);
+        do {
+            changed_ = false;
+            calls_.clear();
+            for (Symbol* p : shader_.parameters)
+                if (p->initial) flow(p->initial);
+            walk(*shader_.body);
+        } while (changed_ && steps_ < kMostSteps);
+    }
+
+  private:
+    // ---- variables
+
+    void declare(Symbol& s, Flow flow) {
+        if (s.detail == Detail::Varying) flow = kVaryingFlow;
+        flows_[s.id] = flow;
+        s.varying = s.varying || flow.varying;
+    }
+    // A local starts anew each time its function is walked.
+    void declare_local(Symbol& s) {
+        if (known_[s.id]) return;
+        known_[s.id] = true;
+        declare(s, kConstant);
+        if (s.function) locals_[s.function->id].push_back(&s);
+    }
+    static bool declared_uniform(const Symbol& s) { return s.detail == Detail::Uniform; }
+
+    Flow read(const Symbol& s) const {
+        if (!s.global) return flows_[s.id];
+        return s.global->rate == Rate::Varying    ? kVaryingFlow
+               : s.global->rate == Rate::Constant ? kConstant
+                                                  : kUniform;
+    }
+
+    // `value` is stored in the symbol, or in a part of it that `selector` chooses.
+    void store(Symbol& s, Flow value, Flow selector, const Expr& at) {
+        if (s.global) return;
+        if (declared_uniform(s) && value.illegal) complain(s, at);
+        Flow& flow = flows_[s.id];
+        Flow after = join(flow, value);
+        after.constant = false;
+        after.varying |= selector.varying || control_;
+        if (declared_uniform(s))
+            after.illegal = false;
+        else
+            after.illegal |= after.varying;
+        if (after.varying != flow.varying || after.illegal != flow.illegal ||
+            after.constant != flow.constant) {
+            changed_ = true;
+            if (s.function != walking_) outside_.push_back(s.function);
+        }
+        flow = after;
+        s.varying = s.varying || after.varying;
+    }
+
+    void complain(const Symbol& s, const Expr& at) {
+        if (!reported_.insert(&at).second) return;
+        const Token& token = ast_.tokens.tokens[at.place.token];
+        reporter_
+            .report(Code::RSL_UNIFORM_FROM_VARYING, at.place.where, token.macro, token.spelling,
+                    s.name)
+            .notes.push_back({s.place.where, "declared here"});
+    }
+
+    void store_to(const Expr* target, Flow value, const Expr& at) {
+        Flow selector = kConstant;
+        while (true) {
+            if (const auto* i = as_if<IndexExpr>(target)) {
+                selector = join(selector, flow(i->index));
+                target = i->array;
+            } else if (const auto* c = as_if<ComponentExpr>(target)) {
+                selector = join(selector, flow(c->index));
+                target = c->operand;
+            } else {
+                break;
+            }
+        }
+        if (const auto* v = as_if<VariableExpr>(target)) store(*v->symbol, value, selector, at);
+    }
+
+    // ---- expressions
+
+    Flow flow(Expr* e) {
+        if (!e) return kConstant;
+        Flow f = visit_expr(*e, [&](auto& node) { return at(node); });
+        Rate rate = f.varying ? Rate::Varying : f.constant ? Rate::Constant : Rate::Uniform;
+        bool first = rated_.insert(e).second;
+        e->rate = first ? rate : std::max(e->rate, rate);
+        return f;
+    }
+    Flow flow_all(std::span<Expr*> items) {
+        Flow all = kConstant;
+        for (Expr* item : items) all = join(all, flow(item));
+        return all;
+    }
+
+    Flow at(NumberExpr&) { return kConstant; }
+    Flow at(StringExpr&) { return kConstant; }
+    Flow at(VariableExpr& e) { return read(*e.symbol); }
+    Flow at(IndexExpr& e) { return join(flow(e.array), flow(e.index)); }
+    Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
+    Flow at(UnaryExpr& e) { return flow(e.operand); }
+    Flow at(BinaryExpr& e) { return join(flow(e.left), flow(e.right)); }
+    Flow at(SelectExpr& e) {
+        return join(flow(e.condition), join(flow(e.yes), flow(e.no)));
+    }
+    Flow at(AssignExpr& e) {
+        Flow value = flow(e.value);
+        if (e.op != Op::None) value = join(value, flow(e.target));
+        store_to(e.target, value, e);
+        return flow(e.target);
+    }
+    Flow at(CastExpr& e) {
+        Flow f = join(flow(e.space), flow(e.operand));
+        // Only "current" space stands still against the shading point's frame.
+        if (e.space) f.constant = false;
+        return f;
+    }
+    Flow at(TripleExpr& e) { return flow_all(e.items); }
+    Flow at(SixteenExpr& e) { return flow_all(e.items); }
+    Flow at(ArrayLiteralExpr& e) { return flow_all(e.items); }
+    Flow at(CallExpr& e) { return e.function ? user_call(e) : builtin_call(e); }
+
+    Flow builtin_call(CallExpr& e) {
+        Flow f = flow(e.channel);
+        for (size_t i = 0; i < e.args.size(); ++i) f = join(f, flow(e.args[i]));
+        uint32_t effects = e.builtin->effects;
+        if (effects & kVaryingResult) f = kVaryingFlow;
+        if (effects & (kService | kMessage | kDerivative)) f.constant = false;
+        if (*e.builtin->globals) f = kVaryingFlow;
+        for (size_t i = 0; i < e.signature->arguments.size(); ++i)
+            if (e.signature->arguments[i].output) store_to(e.args[i], f, *e.args[i]);
+        return f;
+    }
+
+    // ---- user functions
+
+    Flow user_call(CallExpr& e) {
+        Function& f = *e.function;
+        std::vector<Flow> arguments;
+        for (size_t i = 0; i < e.args.size(); ++i) {
+            arguments.push_back(flow(e.args[i]));
+            const Symbol& p = *f.parameters[i];
+            if (declared_uniform(p) && arguments[i].illegal) complain_argument(p, e, *e.args[i]);
+        }
+        CallSummary summary = summarise(f, arguments);
+        for (size_t i = 0; i < e.args.size(); ++i)
+            if (f.parameters[i]->output) store_to(e.args[i], summary.outputs[i], *e.args[i]);
+        return summary.result;
+    }
+
+    void complain_argument(const Symbol& p, const CallExpr& call, const Expr& at) {
+        if (!reported_.insert(&at).second) return;
+        const Token& token = ast_.tokens.tokens[at.place.token];
+        reporter_
+            .report(Code::RSL_UNIFORM_ARGUMENT, at.place.where, token.macro, token.spelling,
+                    p.name, call.name)
+            .notes.push_back({p.place.where, "declared here"});
+    }
+
+    static char letter(Flow f) { return char('a' + f.constant + 2 * f.varying + 4 * f.illegal); }
+
+    CallSummary summarise(Function& f, const std::vector<Flow>& arguments) {
+        std::string key = std::to_string(f.id) + (control_ ? '!' : ':');
+        for (Flow a : arguments) key += letter(a);
+        auto found = calls_.find(key);
+        if (found != calls_.end()) return found->second;
+        return calls_[key] = walk_function(f, arguments);
+    }
+
+    // The body's own fixed point: its variables start afresh with each pattern of arguments, those
+    // outside it only ever rise.
+    CallSummary walk_function(Function& f, const std::vector<Flow>& arguments) {
+        for (size_t i = 0; i < arguments.size(); ++i) {
+            Flow a = arguments[i];
+            if (declared_uniform(*f.parameters[i])) a.illegal = false;
+            declare(*f.parameters[i], a);
+        }
+        for (Symbol* local : locals_[f.id]) declare(*local, kConstant);
+        Flow result_before = std::exchange(result_, kConstant);
+        bool returned_before = std::exchange(varying_return_, false);
+        bool changed_before = changed_;
+        auto loops_before = std::exchange(loops_, {});
+        const Function* caller = std::exchange(walking_, &f);
+        do {
+            changed_ = false;
+            walk(*f.body);
+        } while (changed_ && steps_ < kMostSteps);
+        CallSummary summary{result_, {}};
+        for (const Symbol* p : f.parameters) summary.outputs.push_back(flows_[p->id]);
+        walking_ = caller;
+        changed_ = changed_before || std::erase(outside_, caller) > 0;
+        loops_ = std::move(loops_before);
+        varying_return_ = returned_before;
+        result_ = result_before;
+        return summary;
+    }
+
+    // ---- statements
+
+    void walk(Stmt& s) {
+        if (++steps_ > kMostSteps) return;
+        bool control = control_;
+        control_ = control_ || varying_return_;
+        visit_stmt(s, [&](auto& node) { at(node); });
+        control_ = control;
+    }
+    void walk_under(Stmt& s, bool varying) {
+        bool before = control_;
+        control_ = control_ || varying;
+        walk(s);
+        control_ = before;
+    }
+    // Points that have left a loop do not take part in what is assigned in it.
+    void loop(Stmt& s, Stmt& body, Expr* condition, std::span<Expr*> step, bool varying) {
+        // The condition reads what the body stores: the next round of the fixed point sees to it.
+        bool before = control_;
+        loops_.push_back(&s);
+        control_ = control_ || varying || flow(condition).varying || exits_.contains(&s);
+        walk(body);
+        flow_all(step);
+        loops_.pop_back();
+        control_ = before;
+    }
+    void leave(const Stmt* target) {
+        if (!control_) return;
+        for (size_t i = loops_.size(); i-- > 0;) {
+            if (exits_.insert(loops_[i]).second) changed_ = true;
+            if (loops_[i] == target) break;
+        }
+    }
+
+    void at(BlockStmt& s) {
+        for (Stmt* item : s.body) walk(*item);
+    }
+    void at(DeclareStmt& s) {
+        for (Symbol* symbol : s.symbols) {
+            declare_local(*symbol);
+            if (!symbol->initial) continue;
+            Flow value = flow(symbol->initial);
+            store(*symbol, value, kConstant, *symbol->initial);
+        }
+    }
+    void at(ExternStmt&) {}
+    void at(FunctionStmt&) {}
+    void at(ExpressionStmt& s) { flow(s.expression); }
+    void at(IfStmt& s) {
+        bool varying = flow(s.condition).varying;
+        walk_under(*s.yes, varying);
+        if (s.no) walk_under(*s.no, varying);
+    }
+    void at(WhileStmt& s) { loop(s, *s.body, s.condition, {}, false); }
+    void at(ForStmt& s) {
+        for (Stmt* item : s.init) walk(*item);
+        loop(s, *s.body, s.condition, s.step, false);
+    }
+    void at(BreakStmt& s) { leave(s.loop); }
+    void at(ContinueStmt& s) { leave(s.loop); }
+    void at(ReturnStmt& s) {
+        Flow value = s.value ? flow(s.value) : kConstant;
+        result_ = join(result_, value);
+        if (!control_) return;
+        result_ = join(result_, kVaryingFlow);
+        varying_return_ = true;
+        leave(nullptr);
+    }
+    void at(IlluminanceStmt& s) {
+        flow(s.category), flow(s.position), flow(s.axis), flow(s.angle);
+        flow_all(s.pairs);
+        loop(s, *s.body, nullptr, {}, true);
+    }
+    void at(IlluminateStmt& s) {
+        flow(s.position), flow(s.axis), flow(s.angle);
+        walk_under(*s.body, true);
+    }
+    void at(SolarStmt& s) {
+        flow(s.axis), flow(s.angle);
+        walk_under(*s.body, true);
+    }
+    void at(GatherStmt&) {}
+
+    const ShaderDefinition& shader_;
+    Ast& ast_;
+    Reporter& reporter_;
+    Rated& rated_;             // expressions with a rate, of all shaders so far
+    std::vector<Flow> flows_;  // by Symbol::id
+    std::vector<bool> known_;  // by Symbol::id: locals that were met
+    std::vector<std::vector<Symbol*>> locals_;  // by Function::id
+    std::unordered_map<std::string, CallSummary> calls_;
+    const Function* walking_ = nullptr;  // the function whose body is being walked
+    std::vector<const Function*> outside_;  // owners of variables that a callee has changed
+    int steps_ = 0;
+    std::unordered_set<const Expr*> reported_;
+    std::unordered_set<const Stmt*> exits_;  // loops that some points leave before others
+    std::vector<Stmt*> loops_;
+    Flow result_ = kConstant;
+    bool varying_return_ = false;
+    bool control_ = false;
+    bool changed_ = false;
+};
+
+}  // namespace
+
+void infer_rates(Ast& ast, Reporter& reporter) {
+    Rated rated;
+    for (const ShaderDefinition* shader : ast.shaders) RateWalk(*shader, ast, reporter, rated).run();
+}
+
+}  // namespace kinora::rsl

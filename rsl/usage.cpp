@@ -1,0 +1,221 @@
+// rsl/usage.cpp: globals, statements and built-ins against the shader's kind.
+#include "rsl/usage.h"
+
+#include <array>
+
+namespace kinora::rsl {
+
+namespace {
+
+class UsageWalk {
+  public:
+    UsageWalk(Shader& shader, Ast& ast, Reporter& reporter,
+              std::unordered_set<const void*>& reported)
+        : shader_(shader), ast_(ast), reporter_(reporter), reported_(reported) {}
+
+    void run() {
+        for (const Symbol* p : shader_.definition->parameters)
+            if (p->initial) walk(p->initial);
+        walk(*shader_.definition->body);
+        for (const GlobalInfo& info : globals()) {
+            if (read_[size_t(info.id)]) shader_.globals_read.push_back(&info);
+            if (written_[size_t(info.id)]) shader_.globals_written.push_back(&info);
+        }
+    }
+
+  private:
+    enum class Inside : uint8_t { Nothing, Illuminance, Light, Function };
+
+    template <class... Args>
+    void report(const FindingInfo& info, const void* node, const Place& place,
+                const Args&... args) {
+        if (!reported_.insert(node).second) return;
+        const Token& token = ast_.tokens.tokens[place.token];
+        reporter_.report(info, place.where, token.macro, token.spelling, args...);
+    }
+    const char* kind_name() const { return shader_kind_name(shader_.kind); }
+
+    // ---- globals
+
+    void use_global(const VariableExpr& e, bool write) {
+        const GlobalInfo& info = *e.symbol->global;
+        (write ? written_ : read_)[size_t(info.id)] = true;
+        if (!((info.readers | info.writers) & in_kind(shader_.kind)))
+            report(Code::RSL_GLOBAL_NOT_READABLE, &e, e.place, info.name, kind_name());
+        else if (write && !(info.writers & in_kind(shader_.kind)))
+            report(Code::RSL_GLOBAL_NOT_WRITABLE, &e, e.place, info.name, kind_name());
+        else
+            check_inside(e, info.id);
+    }
+
+    // L, Cl and Ol of a surface exist inside illuminance, L of a light inside illuminate and solar.
+    // Functions are called from inside, or hold the statement themselves.
+    void check_inside(const VariableExpr& e, Global id) {
+        bool of_light = id == Global::L || id == Global::Cl || id == Global::Ol;
+        bool surface = shader_.kind == ShaderKind::Surface;
+        if (surface && (of_light || id == Global::Ps) && inside_ == Inside::Nothing)
+            report(Code::RSL_ONLY_IN_ILLUMINANCE, &e, e.place, e.name);
+        if (shader_.kind == ShaderKind::Light && id == Global::L && inside_ == Inside::Nothing)
+            report(Code::RSL_ONLY_IN_ILLUMINATE, &e, e.place, e.name);
+    }
+
+    void read_names(std::string_view names) {
+        while (!names.empty()) {
+            size_t end = std::min(names.find(' '), names.size());
+            if (const GlobalInfo* info = find_global(names.substr(0, end)))
+                read_[size_t(info->id)] = true;
+            names.remove_prefix(std::min(end + 1, names.size()));
+        }
+    }
+
+    // ---- expressions
+
+    void walk(const Expr* e) {
+        if (e) visit_expr(*e, [&](const auto& node) { at(node); });
+    }
+    void walk_all(std::span<Expr* const> items) {
+        for (const Expr* item : items) walk(item);
+    }
+    void write(const Expr* target, bool also_read) {
+        if (const auto* v = as_if<VariableExpr>(target)) {
+            if (!v->symbol || !v->symbol->global) return;
+            if (also_read) read_[size_t(v->symbol->global->id)] = true;
+            use_global(*v, true);
+        } else if (const auto* i = as_if<IndexExpr>(target)) {
+            walk(i->index);
+            write(i->array, true);
+        } else if (const auto* c = as_if<ComponentExpr>(target)) {
+            walk(c->index);
+            write(c->operand, true);
+        }
+    }
+
+    void at(const NumberExpr&) {}
+    void at(const StringExpr&) {}
+    void at(const VariableExpr& e) {
+        if (e.symbol && e.symbol->global) use_global(e, false);
+    }
+    void at(const IndexExpr& e) { walk(e.array), walk(e.index); }
+    void at(const ComponentExpr& e) { walk(e.operand), walk(e.index); }
+    void at(const UnaryExpr& e) { walk(e.operand); }
+    void at(const BinaryExpr& e) { walk(e.left), walk(e.right); }
+    void at(const SelectExpr& e) { walk(e.condition), walk(e.yes), walk(e.no); }
+    void at(const AssignExpr& e) {
+        walk(e.value);
+        write(e.target, e.op != Op::None);
+    }
+    void at(const CastExpr& e) { walk(e.space), walk(e.operand); }
+    void at(const TripleExpr& e) { walk_all(e.items); }
+    void at(const SixteenExpr& e) { walk_all(e.items); }
+    void at(const ArrayLiteralExpr& e) { walk_all(e.items); }
+    void at(const CallExpr& e) {
+        walk(e.channel);
+        if (e.builtin) {
+            builtin_call(e);
+        } else if (e.function) {
+            for (size_t i = 0; i < e.args.size(); ++i)
+                argument(e.args[i], e.function->parameters[i]->output);
+            reach(*e.function);
+        }
+    }
+    void argument(const Expr* e, bool output) {
+        if (output)
+            write(e, true);
+        else
+            walk(e);
+    }
+    void builtin_call(const CallExpr& e) {
+        if (!(e.builtin->legal & in_kind(shader_.kind)))
+            report(Code::RSL_NOT_LEGAL_HERE, &e, e.place, fmt::format("'{}'", e.name), kind_name());
+        read_names(e.builtin->globals);
+        for (size_t i = 0; i < e.args.size(); ++i) {
+            bool fixed = i < e.signature->arguments.size();
+            argument(e.args[i], fixed && e.signature->arguments[i].output);
+        }
+    }
+    void reach(Function& f) {
+        if (!seen_.insert(&f).second) return;
+        f.called = true;
+        shader_.functions.push_back(&f);
+        Inside before = std::exchange(inside_, Inside::Function);
+        walk(*f.body);
+        inside_ = before;
+    }
+
+    // ---- statements
+
+    void walk(const Stmt& s) {
+        visit_stmt(s, [&](const auto& node) { at(node); });
+    }
+    void walk_inside(const Stmt& body, Inside inside) {
+        Inside before = std::exchange(inside_, inside);
+        walk(body);
+        inside_ = before;
+    }
+    void legal(const Stmt& s, bool is, const char* name) {
+        if (!is) report(Code::RSL_STATEMENT_NOT_LEGAL, &s, s.place, name, kind_name());
+    }
+
+    void at(const BlockStmt& s) {
+        for (const Stmt* item : s.body) walk(*item);
+    }
+    void at(const DeclareStmt& s) {
+        for (const Symbol* symbol : s.symbols) walk(symbol->initial);
+    }
+    void at(const ExternStmt&) {}
+    void at(const FunctionStmt&) {}
+    void at(const ExpressionStmt& s) { walk(s.expression); }
+    void at(const IfStmt& s) {
+        walk(s.condition);
+        walk(*s.yes);
+        if (s.no) walk(*s.no);
+    }
+    void at(const WhileStmt& s) {
+        walk(s.condition);
+        walk(*s.body);
+    }
+    void at(const ForStmt& s) {
+        for (const Stmt* item : s.init) walk(*item);
+        walk(s.condition);
+        walk_all(s.step);
+        walk(*s.body);
+    }
+    void at(const BreakStmt&) {}
+    void at(const ContinueStmt&) {}
+    void at(const ReturnStmt& s) { walk(s.value); }
+    void at(const IlluminanceStmt& s) {
+        bool lit = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume;
+        legal(s, lit, "illuminance");
+        walk(s.category), walk(s.position), walk(s.axis), walk(s.angle);
+        walk_all(s.pairs);
+        walk_inside(*s.body, Inside::Illuminance);
+    }
+    void at(const IlluminateStmt& s) {
+        legal(s, shader_.kind == ShaderKind::Light, "illuminate");
+        walk(s.position), walk(s.axis), walk(s.angle);
+        walk_inside(*s.body, Inside::Light);
+    }
+    void at(const SolarStmt& s) {
+        legal(s, shader_.kind == ShaderKind::Light, "solar");
+        walk(s.axis), walk(s.angle);
+        walk_inside(*s.body, Inside::Light);
+    }
+    void at(const GatherStmt&) {}
+
+    Shader& shader_;
+    Ast& ast_;
+    Reporter& reporter_;
+    std::unordered_set<const void*>& reported_;
+    std::unordered_set<const Function*> seen_;
+    std::array<bool, size_t(Global::Count)> read_{}, written_{};
+    Inside inside_ = Inside::Nothing;
+};
+
+}  // namespace
+
+void find_usage(Shader& shader, Ast& ast, Reporter& reporter,
+                std::unordered_set<const void*>& reported) {
+    UsageWalk(shader, ast, reporter, reported).run();
+}
+
+}  // namespace kinora::rsl
