@@ -38,12 +38,11 @@ void SceneBuilder::place_cameras() {
                 {camera, n, node.id.empty() ? description_.cameras[camera].id : node.id});
     }
     if (!scene.cameras.empty()) return;
-    DefaultCamera added = default_camera(played_bounds(), description_.up_axis,
-                                         description_.values);
+    DefaultCamera added =
+        default_camera(played_bounds(), description_.up_axis, description_.values);
     description_.cameras.push_back(added.camera);
     uint32_t node = add_node(std::move(added.node), kNone);
-    scene.cameras.push_back(
-        {uint32_t(description_.cameras.size() - 1), node, "default camera"});
+    scene.cameras.push_back({uint32_t(description_.cameras.size() - 1), node, "default camera"});
     scene.added.push_back("default camera");
 }
 
@@ -59,8 +58,7 @@ bool SceneBuilder::choose_camera() {
             std::string path;
             for (uint32_t n = scene.cameras[c].node; n != kNone; n = scene.nodes[n].parent) {
                 const NodeDefinition& step = description_.nodes[scene.nodes[n].definition];
-                path = (step.id.empty() ? step.name : step.id) +
-                       (path.empty() ? "" : "/" + path);
+                path = (step.id.empty() ? step.name : step.id) + (path.empty() ? "" : "/" + path);
             }
             bool match = pass == 0 ? wanted == path || wanted == node.id || wanted == node.name
                                    : wanted == camera.id || wanted == camera.name;
@@ -103,19 +101,21 @@ void SceneBuilder::place_lights() {
     }
     if (all_constant) return;
     bool ambient = !scene.lights.empty();
-    uint32_t node = add_node(default_light_node(description_.values),
-                             scene.cameras[scene.camera].node);
+    uint32_t node =
+        add_node(default_light_node(description_.values), scene.cameras[scene.camera].node);
     add_light(default_distant_light(diagnostics_), node);
     if (!ambient) add_light(default_ambient_light(description_.values, diagnostics_), node);
 }
 
-// ---- looks ---------------------------------------------------------------------------------------
+// ---- looks
+// ---------------------------------------------------------------------------------------
 
 const MaterialDefinition& SceneBuilder::default_material() {
     if (default_material_.surfaces.empty()) {
         default_material_.name = "default";
         ShaderUse use;
-        use.shader = library_shader("default_surface", diagnostics_);
+        use.shader = description_.default_surface ? description_.default_surface
+                                                  : library_shader("default_surface", diagnostics_);
         default_material_.surfaces.push_back(std::move(use));
     }
     return default_material_;
@@ -190,6 +190,11 @@ bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, 
                 add(l, slot + "_s", "TEXCOORD", st, 0, 1);
                 add(l, slot + "_t", "TEXCOORD", st, 1, 1);
             }
+        }
+        for (const rsl::GlobalInfo* global : layer.shader->globals_read) {
+            if (std::string_view(global->name) != "Cs") continue;
+            const VertexAttribute* color = find_attribute(group, "COLOR", kNone);
+            if (color && color->stride >= 3) add(l, "Cs", "COLOR", color, 0, 3);
         }
         for (const rsl::ShaderParameter& p : layer.shader->parameters) {
             if (p.type.is_array() || p.type.base == rsl::BaseType::String) continue;

@@ -19,7 +19,6 @@ namespace kinora {
 
 Scene::Scene() = default;
 Scene::~Scene() = default;
-Scene::Scene(Scene&&) noexcept = default;
 
 PlayRange play_range(const SceneDescription& description) {
     PlayRange range;
@@ -64,7 +63,8 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     return SceneBuilder(std::move(description), options, diagnostics).run();
 }
 
-// ---- nodes ---------------------------------------------------------------------------------------
+// ---- nodes
+// ---------------------------------------------------------------------------------------
 
 void SceneBuilder::find_moving_nodes() {
     for (const NodeDefinition& node : description_.nodes) {
@@ -127,7 +127,8 @@ uint32_t SceneBuilder::nearest_occurrence(uint32_t definition, uint32_t from) co
     return best;
 }
 
-// ---- meshes and shapes ---------------------------------------------------------------------------
+// ---- meshes and shapes
+// ---------------------------------------------------------------------------
 
 namespace {
 
@@ -213,8 +214,8 @@ void SceneBuilder::add_morph(const MeshUse& use, Shape& shape) {
         auto& p = positions.emplace_back();
         for (const dvec3& x : target.positions)
             p.push_back(vec3(x - (definition.relative ? dvec3(0.0) : mesh.anchor)));
-        normals.push_back(target_normals(target, mesh, description_.meshes[use.mesh],
-                                         definition.relative));
+        normals.push_back(
+            target_normals(target, mesh, description_.meshes[use.mesh], definition.relative));
     }
     std::vector<skin::MorphTargetSource> sources;
     for (size_t t = 0; t < positions.size(); ++t) sources.push_back({positions[t], normals[t]});
@@ -295,7 +296,8 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
 }
 
-// ---- bounds and rows -----------------------------------------------------------------------------
+// ---- bounds and rows
+// -----------------------------------------------------------------------------
 
 Bounds SceneBuilder::bounds_now() const {
     const Scene& scene = *scene_;
@@ -331,8 +333,8 @@ void SceneBuilder::set_bounds() {
     // mesh's place, then about the centre found so.
     if (!scene.shapes.empty()) {
         const Shape& first = scene.shapes.front();
-        scene.origin = dvec3(scene.nodes[first.node].world *
-                             dvec4(scene.meshes[first.mesh].anchor, 1.0));
+        scene.origin =
+            dvec3(scene.nodes[first.node].world * dvec4(scene.meshes[first.mesh].anchor, 1.0));
         for (uint32_t joint : first.joint_nodes)
             if (joint != kNone && first.in_world) scene.origin = scene.nodes[joint].world[3];
     }
@@ -386,9 +388,11 @@ void SceneBuilder::finish_rows() {
         row.hide_backfaces = !mesh.double_sided || scene.looks[surface.look]->hide_backfaces;
         row.positions = shape.rest_positions;
         row.triangles = mesh.groups[surface.group].triangles;
-        if (instanced) row.shape = shape_numbers_.try_emplace({shape.mesh, surface.group},
-                                                              uint32_t(shape_numbers_.size()))
-                                       .first->second;
+        if (instanced)
+            row.shape =
+                shape_numbers_
+                    .try_emplace({shape.mesh, surface.group}, uint32_t(shape_numbers_.size()))
+                    .first->second;
     }
     scene.first_frame = true;
 }

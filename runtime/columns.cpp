@@ -15,13 +15,12 @@ struct Row {
 constexpr Row kRows[] = {
     {"P", kColP, "xyz"},       {"dPdu", kColdPdu, "xyz"}, {"dPdv", kColdPdv, "xyz"},
     {"N", kColN, "xyz"},       {"Ng", kColNg, "xyz"},     {"I", kColI, "xyz"},
-    {"Cs", kColCs, "rgb"},     {"Os", kColOs, "rgb"},     {"dNdu", kColdNdu, "xyz"},
-    {"dNdv", kColdNdv, "xyz"}, {"dIdu", kColdIdu, "xyz"}, {"dIdv", kColdIdv, "xyz"},
-    {"Ps", kColPs, "xyz"},     {"Ns", kColNs, "xyz"},     {"u", kColU, ""},
-    {"v", kColV, ""},          {"du", kColDu, ""},        {"dv", kColDv, ""},
-    {"s", kColS, ""},          {"t", kColT, ""},          {"dsdu", kColdsdu, ""},
-    {"dsdv", kColdsdv, ""},    {"dtdu", kColdtdu, ""},    {"dtdv", kColdtdv, ""},
-    {"rng", kColRng, ""},
+    {"dNdu", kColdNdu, "xyz"}, {"dNdv", kColdNdv, "xyz"}, {"dIdu", kColdIdu, "xyz"},
+    {"dIdv", kColdIdv, "xyz"}, {"Ps", kColPs, "xyz"},     {"Ns", kColNs, "xyz"},
+    {"u", kColU, ""},          {"v", kColV, ""},          {"du", kColDu, ""},
+    {"dv", kColDv, ""},        {"s", kColS, ""},          {"t", kColT, ""},
+    {"dsdu", kColdsdu, ""},    {"dsdv", kColdsdv, ""},    {"dtdu", kColdtdu, ""},
+    {"dtdv", kColdtdv, ""},    {"rng", kColRng, ""},      {"1", kColOne, ""},
 };
 
 uint16_t matrix_column(std::string_view name, std::string_view prefix, uint16_t first) {
@@ -45,8 +44,8 @@ uint16_t find_column(std::string_view name) {
     }
     for (std::string_view space : {"object", "shader"}) {
         for (bool to : {true, false}) {
-            std::string prefix = "space:" + std::string(space) +
-                                 (to ? ":to_current:" : ":from_current:");
+            std::string prefix =
+                "space:" + std::string(space) + (to ? ":to_current:" : ":from_current:");
             uint16_t column = matrix_column(name, prefix, to ? kColToCurrent : kColFromCurrent);
             if (column != kNoColumn) return column;
         }

@@ -14,15 +14,13 @@ enum Column : uint16_t {
     kColN = 9,
     kColNg = 12,
     kColI = 15,
-    kColCs = 18,
-    kColOs = 21,
-    kColdNdu = 24,
-    kColdNdv = 27,
-    kColdIdu = 30,
-    kColdIdv = 33,
-    kColPs = 36,
-    kColNs = 39,
-    kColU = 42,
+    kColdNdu = 18,
+    kColdNdv = 21,
+    kColdIdu = 24,
+    kColdIdv = 27,
+    kColPs = 30,
+    kColNs = 33,
+    kColU = 36,
     kColV,
     kColDu,
     kColDv,
@@ -33,8 +31,8 @@ enum Column : uint16_t {
     kColdtdu,
     kColdtdv,
     kColRng,
-    kColZero,          // a partial derivative that is always 0
-    kColToCurrent,     // space:object:to_current and space:shader:...
+    kColOne,        // 1 everywhere: the derivative of u by u
+    kColToCurrent,  // space:object:to_current and space:shader:...
     kColFromCurrent = kColToCurrent + 12,
     kColVarying = kColFromCurrent + 12,  // then Look::varying, each value and its du and dv
 };

@@ -21,9 +21,12 @@ struct Frame {
 };
 Frame frame_of(UpAxis up) {
     switch (up) {
-        case UpAxis::X: return {dvec3(0, -1, 0), dvec3(1, 0, 0), dvec3(0, 0, 1)};
-        case UpAxis::Y: return {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)};
-        case UpAxis::Z: break;
+        case UpAxis::X:
+            return {dvec3(0, -1, 0), dvec3(1, 0, 0), dvec3(0, 0, 1)};
+        case UpAxis::Y:
+            return {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)};
+        case UpAxis::Z:
+            break;
     }
     return {dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(0, -1, 0)};
 }
@@ -53,9 +56,8 @@ DefaultCamera default_camera(const Bounds& bounds, UpAxis up, std::vector<double
     DefaultCamera result;
     result.node.id = result.node.name = "default camera";
     result.node.transforms.push_back(
-        {TransformKind::Lookat,
-         append(values, {eye.x, eye.y, eye.z, centre.x, centre.y, centre.z, frame.up.x, frame.up.y,
-                         frame.up.z})});
+        {TransformKind::Lookat, append(values, {eye.x, eye.y, eye.z, centre.x, centre.y, centre.z,
+                                                frame.up.x, frame.up.y, frame.up.z})});
     result.camera.id = result.camera.name = "default camera";
     result.camera.y = {append(values, {kDefaultYfov}), 1};
     result.camera.znear = {append(values, {distance * 1e-3}), 1};

@@ -113,8 +113,7 @@ void bake_static(Scene& scene) {
                        glm::cross(linear[0], linear[1]));
         if (shape.mirrored) cofactor = -cofactor;
         for (size_t i = 0; i < mesh.positions.size(); ++i)
-            shape.positions[i] =
-                vec4(vec3(linear * dvec3(mesh.positions[i]) + offset), 0.0f);
+            shape.positions[i] = vec4(vec3(linear * dvec3(mesh.positions[i]) + offset), 0.0f);
         for (size_t i = 0; i < mesh.normals.size(); ++i) {
             dvec3 n = cofactor * dvec3(mesh.normals[i]);
             double length = glm::length(n);

@@ -41,11 +41,15 @@ const char* status_text(raytrace::CameraStatus status) {
             return "the field of view must lie between 0 and 180 degrees";
         case raytrace::CameraStatus::MagnificationNotPositive:
             return "the magnification must be positive";
-        case raytrace::CameraStatus::AspectNotPositive: return "the aspect ratio must be positive";
-        case raytrace::CameraStatus::BadMatrix: return "its node's matrix has no three axes";
-        case raytrace::CameraStatus::BadPicture: return "the picture must have at least one pixel";
+        case raytrace::CameraStatus::AspectNotPositive:
+            return "the aspect ratio must be positive";
+        case raytrace::CameraStatus::BadMatrix:
+            return "its node's matrix has no three axes";
+        case raytrace::CameraStatus::BadPicture:
+            return "the picture must have at least one pixel";
         case raytrace::CameraStatus::Ok:
-        case raytrace::CameraStatus::ClipRangeRepaired: break;
+        case raytrace::CameraStatus::ClipRangeRepaired:
+            break;
     }
     return "";
 }
@@ -90,9 +94,8 @@ std::optional<double> camera_aspect(const Scene& scene) {
     return raytrace::picture_aspect(optics_of(scene));
 }
 
-bool render_frame(Scene& scene, double time, const FrameSettings& settings,
-                  raytrace::Film& film, FrameStats& stats, Diagnostics& diagnostics,
-                  const raytrace::Progress* progress) {
+bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
+                  FrameStats& stats, Diagnostics& diagnostics, const raytrace::Progress* progress) {
     stats = {};
     StageTimer total(stats.total);
     {

@@ -30,8 +30,8 @@ struct FrameSettings {
 // Renders the scene at a time into the film (linear, associated alpha). Findings: camera errors,
 // shader faults, non-finite results. False when the camera makes no picture or `progress` stopped
 // the frame. Allocates nothing once no new kernel or texture is met.
-bool render_frame(Scene& scene, double time, const FrameSettings& settings,
-                  raytrace::Film& film, FrameStats& stats, Diagnostics& diagnostics,
+bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
+                  FrameStats& stats, Diagnostics& diagnostics,
                   const raytrace::Progress* progress = nullptr);
 
 // Width / height of the scene's camera where its optics say so, at its base values.

@@ -1,6 +1,7 @@
 // runtime/grid.cpp: from hits to the columns that kernels read.
 #include "runtime/grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -136,7 +137,6 @@ class Gather {
         if (parameters_) uv(i, hit, corner);
         if (matrices_) matrices(i);
         if (float* rng = grid_.columns[kColRng]) rng[i] = jit::float_of(int32_t(random(hit)));
-        color(i, corner);
     }
 
     void constants() {
@@ -144,7 +144,7 @@ class Gather {
             if (float* c = grid_.columns[size_t(column)])
                 std::fill_n(c, padded(grid_.count()), value);
         };
-        for (int k = 0; k < 3; ++k) fill(kColOs + k, 1.0f);
+        fill(kColOne, 1.0f);
         fill(kColdsdu, 1.0f);
         fill(kColdsdv, 0.0f);
         fill(kColdtdu, 0.0f);
@@ -260,22 +260,6 @@ class Gather {
                 put_float(kColToCurrent + row * 4 + column, i, to_current_[column][row]);
                 put_float(kColFromCurrent + row * 4 + column, i, from_current_[column][row]);
             }
-    }
-
-    void color(size_t i, const Corner& c) {
-        if (!grid_.columns[kColCs] && !grid_.columns[kColCs + 1] && !grid_.columns[kColCs + 2])
-            return;
-        vec3 Cs(1.0f);
-        for (const VertexAttribute& attribute : c.group.definition->attributes) {
-            if (attribute.semantic != "COLOR" || attribute.stride < 3) continue;
-            const float* a = c.attribute(attribute, 0);
-            const float* b = c.attribute(attribute, 1);
-            const float* d = c.attribute(attribute, 2);
-            for (int k = 0; k < 3; ++k)
-                Cs[k] = a[k] + c.u * (b[k] - a[k]) + c.v * (d[k] - a[k]);
-            break;
-        }
-        put(kColCs, i, Cs);
     }
 
     uint32_t random(uint32_t hit) const {

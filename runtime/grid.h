@@ -14,6 +14,15 @@ namespace kinora {
 struct Scene;
 class Shading;
 
+struct Grid;
+
+// What KernelArgs::grid points to: a frame kernel has no grid.
+struct KernelHost {
+    const Scene* scene;
+    const Look* look;
+    Grid* grid;
+};
+
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
 
 constexpr size_t padded(size_t count) {
@@ -23,18 +32,23 @@ constexpr size_t padded(size_t count) {
 // Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
 // Lives on the stack of shade(); what services see through KernelArgs::grid.
 struct Grid {
+    Grid(const Scene& s, const raytrace::HitBatch& h, std::span<const uint32_t> p, const Look* l)
+        : scene(s), hits(h), points(p), look(l) {}
+    Grid(const Grid&) = delete;
+
     const Scene& scene;
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
+    const Look* look;
+    KernelHost host{&scene, look, this};
     uint32_t depth = 0;
     int thread = 0;
     Shading* shading = nullptr;
     Arena* arena = nullptr;
-    std::span<float*> columns;                    // by Column
-    std::span<jit::RecordSet> record_sets;        // [0]: lights at P
+    std::span<float*> columns;              // by Column
+    std::span<jit::RecordSet> record_sets;  // [0]: lights at P
     uint32_t next_record_set = 1;
-    bool shadows = true;                          // false inside opacity kernels
-    const Look* look = nullptr;
+    bool shadows = true;  // false inside opacity kernels
 
     size_t count() const { return points.size(); }
 };

@@ -86,8 +86,7 @@ std::string write_png_file(const std::string& path, const Image8& image, const I
         text.text = const_cast<char*>(value.c_str());
         png_texts.push_back(text);
     }
-    bool ok =
-        png_write_rows(png, info, file.get(), image, png_texts.data(), int(png_texts.size()));
+    bool ok = png_write_rows(png, info, file.get(), image, png_texts.data(), int(png_texts.size()));
     png_destroy_write_struct(&png, &info);
     number = error.number;
     if (!ok) return error.text;
@@ -189,8 +188,8 @@ std::string write_png(const std::string& path, const Image8& image, const ImageT
     });
 }
 
-std::string write_image(const std::string& path, const raytrace::Film& film,
-                        ColorEncoding encoding, const ImageTexts& texts, int* errno_out) {
+std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
+                        const ImageTexts& texts, int* errno_out) {
     if (extension(path) == ".exr")
         return write_whole(path, errno_out, [&](const std::string& temporary, int& number) {
             return write_exr_file(temporary, film, texts, number);

@@ -28,8 +28,8 @@ Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding);
 // Writes by the extension, .png (encoding as given) or .exr (half RGBA, linear, associated; ZIP):
 // to a temporary name beside it, fsync, rename. Makes missing directories. Returns an error text
 // ("No space left on device"), or "" when done; errno_out (if given) gets the system's number.
-std::string write_image(const std::string& path, const raytrace::Film& film,
-                        ColorEncoding encoding, const ImageTexts& texts, int* errno_out = nullptr);
+std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
+                        const ImageTexts& texts, int* errno_out = nullptr);
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
                       int* errno_out = nullptr);
 

@@ -91,13 +91,20 @@ ValueSlot ColladaImport::slot(const collada::TargetRef& ref) const {
         return ValueSlot{offsets[ref.owner][ref.slot] + ref.first, ref.count};
     };
     switch (ref.kind) {
-        case collada::Owner::None: return {};
-        case collada::Owner::Transform: return whole(transform_values_);
-        case collada::Owner::Light: return whole(light_values_);
-        case collada::Owner::Camera: return whole(camera_values_);
-        case collada::Owner::EffectParam: return whole(param_values_);
-        case collada::Owner::EffectCommon: return whole(common_values_);
-        case collada::Owner::MaterialParam: return whole(setparam_values_);
+        case collada::Owner::None:
+            return {};
+        case collada::Owner::Transform:
+            return whole(transform_values_);
+        case collada::Owner::Light:
+            return whole(light_values_);
+        case collada::Owner::Camera:
+            return whole(camera_values_);
+        case collada::Owner::EffectParam:
+            return whole(param_values_);
+        case collada::Owner::EffectCommon:
+            return whole(common_values_);
+        case collada::Owner::MaterialParam:
+            return whole(setparam_values_);
         case collada::Owner::MorphWeight:
             return {morph_values_[ref.owner] + ref.first, ref.count};
     }

@@ -10,9 +10,9 @@
 namespace kinora {
 
 struct ImportOptions {
-    bool allow_external = false;          // read files outside the scene's folder tree
-    std::optional<UpAxis> up_axis;        // instead of the file's
-    std::optional<double> meter;          // instead of the file's
+    bool allow_external = false;                   // read files outside the scene's folder tree
+    std::optional<UpAxis> up_axis;                 // instead of the file's
+    std::optional<double> meter;                   // instead of the file's
     std::vector<std::string> include_directories;  // for #include in shaders
 };
 

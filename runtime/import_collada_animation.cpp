@@ -88,9 +88,9 @@ void ColladaImport::import_animation() {
                                     from.target, text);
         }
         uint32_t base = slot(ref).offset - ref.first;
-        bool element = ref.kind == collada::Owner::Transform && !matrix &&
-                       data_.nodes[ref.owner].transforms[ref.slot].kind ==
-                           collada::TransformKind::Matrix;
+        bool element =
+            ref.kind == collada::Owner::Transform && !matrix &&
+            data_.nodes[ref.owner].transforms[ref.slot].kind == collada::TransformKind::Matrix;
         uint32_t stride = data_.samplers[from.sampler].stride;
         for (uint32_t k = 0; k < ref.count; ++k) {
             // Elements of a <matrix> are numbered by columns there and kept by rows here.

@@ -85,8 +85,7 @@ const collada::ParamValue& ColladaImport::param_value(uint32_t material, uint32_
     return data_.effects[effect].params[param].value;
 }
 
-std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material,
-                                                   const collada::Effect& effect,
+std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const collada::Effect& effect,
                                                    const collada::RslShader& from) {
     const Shaders& shaders = compiled(effect);
     if (shaders.empty()) return std::nullopt;  // errors were reported
@@ -146,11 +145,10 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material,
         bool is_string = parameter->type.base == rsl::BaseType::String;
         if (is_string != (value.type == collada::ParamType::String) ||
             (!is_string && !fits(parameter->type, source.value.count))) {
-            diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
-                                rsl::type_name(parameter->type),
-                                fmt::format("{} of {} number(s)",
-                                            collada::param_type_name(value.type),
-                                            value.numbers.size()));
+            diagnostics_.report(
+                Code::RSL_BIND_TYPE, bind.where, bind.symbol, rsl::type_name(parameter->type),
+                fmt::format("{} of {} number(s)", collada::param_type_name(value.type),
+                            value.numbers.size()));
             continue;
         }
         use.params.push_back(std::move(source));
@@ -302,9 +300,9 @@ void ColladaImport::import_lights() {
     using collada::LightSlot;
     static constexpr const char* kKinds[] = {"collada_ambient", "collada_directional",
                                              "collada_point", "collada_spot"};
-    static constexpr const char* kSlotNames[] = {
-        "lightcolor",           "constant_attenuation", "linear_attenuation",
-        "quadratic_attenuation", "falloff_angle",        "falloff_exponent"};
+    static constexpr const char* kSlotNames[] = {"lightcolor",         "constant_attenuation",
+                                                 "linear_attenuation", "quadratic_attenuation",
+                                                 "falloff_angle",      "falloff_exponent"};
     for (size_t l = 0; l < data_.lights.size(); ++l) {
         const collada::Light& from = data_.lights[l];
         LightDefinition& to = out_.lights.emplace_back();
@@ -317,8 +315,7 @@ void ColladaImport::import_lights() {
             if (effect != collada::kNone && data_.effects[effect].rsl)
                 for (const collada::RslShader& shader : data_.effects[effect].rsl->shaders)
                     if (shader.stage == collada::RslStage::Light && !to.shader.shader)
-                        if (auto use =
-                                shader_use(from.rsl_material, data_.effects[effect], shader))
+                        if (auto use = shader_use(from.rsl_material, data_.effects[effect], shader))
                             to.shader = std::move(*use);
         }
         if (to.shader.shader) continue;

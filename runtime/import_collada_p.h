@@ -41,8 +41,7 @@ class ColladaImport {
     void import_lights();
     MaterialDefinition material(uint32_t index);
     void rsl_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
-    void common_material(uint32_t index, const collada::Effect& effect,
-                         MaterialDefinition& result);
+    void common_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
     std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
                                         const collada::RslShader& shader);
     using Shaders = std::vector<std::shared_ptr<const rsl::Shader>>;

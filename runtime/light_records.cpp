@@ -11,8 +11,8 @@ namespace {
 
 // Columns a light kernel reads, from the points to be lit.
 std::span<float*> light_columns(const Look& look, const Scene& scene, const LightSource& light,
-                                const float* const P[3], const float* const N[3],
-                                const float* rng, size_t count, Arena& arena) {
+                                const float* const P[3], const float* const N[3], const float* rng,
+                                size_t count, Arena& arena) {
     std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
     std::fill(columns.begin(), columns.end(), nullptr);
     vec3 origin(scene.view.camera_from_world * scene.nodes[light.node].world[3]);
@@ -74,7 +74,8 @@ float constant_param(const Look& light, const Scene& scene, std::string_view nam
 
 }  // namespace
 
-// ---- names to output indices, once ---------------------------------------------------------------
+// ---- names to output indices, once
+// ---------------------------------------------------------------
 
 namespace {
 
@@ -112,11 +113,14 @@ LightBinding binding_of(const Look& surface, const Look& light, const Scene& sce
     for (size_t m = 0; m < surface.lowered.light_messages.size(); ++m) {
         int components = surface.lowered.light_message_components[m];
         std::string name = "message:" + surface.lowered.light_messages[m];
+        bool known = false;
         for (int k = 0; k < components; ++k) {
             int output = find_output(kernel, components == 1 ? name : name + "." + "xyz"[k]);
             if (output < 0 && components == 3) output = find_output(kernel, name + "." + "rgb"[k]);
             binding.messages.push_back(output);
+            known |= output >= 0;
         }
+        binding.known.push_back(known);
     }
     return binding;
 }
@@ -131,9 +135,8 @@ void Shading::bind_lights() {
         const Look& look = *scene_.looks[light.look];
         auto& statements = statements_.emplace_back();
         for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
-            statements.push_back(
-                statement_of(look, s, scene_.description->lights[light.definition],
-                             scene_.options.shadows));
+            statements.push_back(statement_of(look, s, scene_.description->lights[light.definition],
+                                              scene_.options.shadows));
         record_count_ += statements.size();
     }
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
@@ -145,7 +148,8 @@ void Shading::bind_lights() {
     }
 }
 
-// ---- in the frame --------------------------------------------------------------------------------
+// ---- in the frame
+// --------------------------------------------------------------------------------
 
 void Shading::run_lights(Grid& grid) {
     size_t count = grid.count();
@@ -181,15 +185,14 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
         const jit::Kernel& kernel = look.full.kernel();
         std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
         for (float*& column : out) column = arena.allocate_span<float>(padded(at.count)).data();
-        Grid lit{grid.scene, grid.hits, grid.points.first(at.count)};
+        Grid lit(grid.scene, grid.hits, grid.points.first(at.count), &look);
         lit.depth = grid.depth;
         lit.thread = grid.thread;
         lit.shading = this;
         lit.arena = &arena;
-        lit.look = &look;
         lit.record_sets = grid.record_sets;
-        lit.columns = light_columns(look, scene_, scene_.lights[l], at.P, at.N, at.rng, at.count,
-                                    arena);
+        lit.columns =
+            light_columns(look, scene_, scene_.lights[l], at.P, at.N, at.rng, at.count, arena);
         run_kernel(look.full, lit, out);
         thread(grid.thread).counters.light_points += at.count;
         const LightBinding& binding = bindings_[grid.look->index][l];
@@ -202,8 +205,8 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
 jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statement& statement,
                                  const LightBinding& binding, std::span<float* const> out,
                                  const float* zeros) {
-    std::span<const float*> columns = grid.arena->allocate_span<const float*>(
-        rsl::kLightMessages + binding.messages.size());
+    std::span<const float*> columns =
+        grid.arena->allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), zeros);
     auto set = [&](size_t column, int output) {
         if (output >= 0) columns[column] = out[size_t(output)];
@@ -228,18 +231,21 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
             shadow(grid, at, statement.kind == rsl::kLightSolar, L,
                    statement.lit < 0 ? nullptr : out[size_t(statement.lit)], Cl);
     }
-    float* uniforms = grid.arena->allocate_span<float>(rsl::kLightUniforms).data();
+    float* uniforms =
+        grid.arena->allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
     uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
     uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
     uniforms[rsl::kLightNondiffuse] = binding.nondiffuse;
     uniforms[rsl::kLightNonspecular] = binding.nonspecular;
+    for (size_t m = 0; m < binding.known.size(); ++m)
+        uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
     // Columns are read at the grid's point, so those of a part of it start before it.
     for (const float*& column : columns) column -= at.first;
     return {columns.data(), uniforms};
 }
 
-void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar,
-                     const float* const L[3], const float* lit, float* const Cl[3]) {
+void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const float* const L[3],
+                     const float* lit, float* const Cl[3]) {
     Thread& own = thread(grid.thread);
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     raytrace::RayPacket16 packet;

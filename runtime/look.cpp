@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/base/check.h"
+#include "runtime/grid.h"
 #include "runtime/scene.h"
 #include "runtime/services.h"
 
@@ -60,8 +61,8 @@ rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool sha
         is_animated(description, source->value))
         return binding;
     double first = description.values[source->value.offset];
-    bool simple = parameter.type == rsl::Type{rsl::BaseType::Float, -1} &&
-                  (first == 0.0 || first == 1.0);
+    bool simple =
+        parameter.type == rsl::Type{rsl::BaseType::Float, -1} && (first == 0.0 || first == 1.0);
     if (!shape && !simple) return binding;
     binding.kind = rsl::ParamBinding::Kind::Constant;
     uint32_t needed = uint32_t(rsl::component_count(parameter.type.base)) *
@@ -127,9 +128,8 @@ FrameInput resolve_param(Look& look, const ParamName& name) {
     for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
         if (parameter.name != name.name || !source) continue;
         if (parameter.type.base == rsl::BaseType::String) {
-            std::string text = name.element < source->strings.size()
-                                   ? source->strings[name.element]
-                                   : std::string();
+            std::string text = name.element < source->strings.size() ? source->strings[name.element]
+                                                                     : std::string();
             input.fixed = jit::float_of(rsl::intern(text));
             return input;
         }
@@ -159,10 +159,10 @@ FrameInput resolve_input(Look& look, std::string_view name) {
         float fixed;
     };
     static constexpr Row kRows[] = {
-        {"time", Source::Time, 0},       {"dtime", Source::Shutter, 0},
-        {"ncomps", Source::Fixed, 3},    {"alpha", Source::Fixed, 1},
+        {"time", Source::Time, 0},        {"dtime", Source::Shutter, 0},
+        {"ncomps", Source::Fixed, 3},     {"alpha", Source::Fixed, 1},
         {"camera:near", Source::Near, 0}, {"camera:far", Source::Far, 0},
-        {"E.x", Source::Fixed, 0},       {"E.y", Source::Fixed, 0},
+        {"E.x", Source::Fixed, 0},        {"E.y", Source::Fixed, 0},
         {"E.z", Source::Fixed, 0},  // current space is the camera's
     };
     FrameInput input;
@@ -206,6 +206,8 @@ void bind_kernel(BoundKernel& bound, Look& look) {
         bound.services.push_back(find_service(service.name));
     if (!bound.pair.frame) return;
     const jit::Kernel& frame = *bound.pair.frame;
+    for (const jit::ServiceInfo& service : frame.services)
+        bound.frame_services.push_back(find_service(service.name));
     for (const jit::InputInfo& input : frame.inputs)
         bound.inputs.push_back(resolve_input(look, input.name));
     for (size_t i = 0; i < frame.inputs.size(); ++i)
@@ -235,8 +237,11 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
         layer.shader = use.shader.get();
         std::vector<bool> shape = rsl::shape_parameters(*use.shader);
         for (size_t p = 0; p < use.shader->parameters.size(); ++p)
-            layer.params.push_back(bind_parameter(use.shader->parameters[p], shape[p], use, look,
-                                                  l, description));
+            layer.params.push_back(
+                bind_parameter(use.shader->parameters[p], shape[p], use, look, l, description));
+        for (const VaryingParam& varying : look.varying)  // globals that the mesh brings
+            if (varying.layer == l && varying.name == "Cs")
+                layer.params.push_back({"Cs", rsl::ParamBinding::Kind::Varying, {}, {}});
     }
     rsl::LowerOptions lower;
     lower.math = options.math;
@@ -266,8 +271,8 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
 void Look::update(const FrameContext& context) {
     for (size_t s = 0; s < spaces.size(); ++s)
         current_from_space[s] = kinora::current_from_space(context.scene, spaces[s], node);
-    full.update(context, current_from_space);
-    if (opacity) opacity->update(context, current_from_space);
+    full.update(context, *this);
+    if (opacity) opacity->update(context, *this);
 }
 
 namespace {
@@ -283,14 +288,17 @@ dvec3 place(rsl::BaseType type, const dmat4& current_from_shader, const double* 
 
 }  // namespace
 
-void BoundKernel::update(const FrameContext& context, std::span<const dmat4> current_from_space) {
+void BoundKernel::update(const FrameContext& context, const Look& look) {
     if (!pair.frame) return;
+    std::span<const dmat4> current_from_space = look.current_from_space;
     using Source = FrameInput::Source;
     const Scene& scene = context.scene;
     auto number = [&](const FrameInput& input) -> float {
         switch (input.source) {
-            case Source::Fixed: return input.fixed;
-            case Source::Value: return float(scene.values[input.index]);
+            case Source::Fixed:
+                return input.fixed;
+            case Source::Value:
+                return float(scene.values[input.index]);
             case Source::Placed: {
                 const dmat4& m = current_from_space[input.space];
                 return float(place(input.type, m, &scene.values[input.index])[input.component]);
@@ -300,10 +308,14 @@ void BoundKernel::update(const FrameContext& context, std::span<const dmat4> cur
                 int row = input.component / 4, column = input.component % 4;
                 return float(input.inverse ? glm::inverse(m)[column][row] : m[column][row]);
             }
-            case Source::Time: return float(context.time);
-            case Source::Shutter: return float(context.shutter);
-            case Source::Near: return float(scene.view.znear);
-            case Source::Far: return float(scene.view.zfar);
+            case Source::Time:
+                return float(context.time);
+            case Source::Shutter:
+                return float(context.shutter);
+            case Source::Near:
+                return float(scene.view.znear);
+            case Source::Far:
+                return float(scene.view.zfar);
         }
         return 0;
     };
@@ -316,6 +328,9 @@ void BoundKernel::update(const FrameContext& context, std::span<const dmat4> cur
     args.out = out.data();
     args.count = 1;
     args.fault = frame_faults.data();
+    args.services = frame_services.data();
+    KernelHost host{&scene, &look, nullptr};
+    args.grid = &host;
     Arena::Mark mark = arena.mark();
     args.scratch = static_cast<std::byte*>(arena.allocate(pair.frame->scratch_bytes));
     pair.frame->run(args);

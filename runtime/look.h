@@ -28,11 +28,11 @@ struct FrameContext {
 // Where a frame-rate input's number comes from, resolved by name once.
 struct FrameInput {
     enum class Source : uint8_t {
-        Fixed,      // `fixed`
-        Value,      // values[index]
-        Placed,     // component `component` of a point-like parameter at values[index], brought
-                    // from shader space to current
-        Space,      // entry (row, column) of space `index`
+        Fixed,   // `fixed`
+        Value,   // values[index]
+        Placed,  // component `component` of a point-like parameter at values[index], brought
+                 // from shader space to current
+        Space,   // entry (row, column) of space `index`
         Time,
         Shutter,
         Near,
@@ -47,22 +47,24 @@ struct FrameInput {
     bool inverse = false;  // Space: from_current
 };
 
+struct Look;
+
 // A kernel pair with its frame block.
 class BoundKernel {
   public:
     // Runs the frame kernel and fills the frame block. No allocation.
-    void update(const FrameContext& context, std::span<const dmat4> current_from_space);
+    void update(const FrameContext& context, const Look& look);
     const jit::Kernel& kernel() const { return *pair.point; }
     const float* frame_block() const { return frame.data(); }
     bool empty() const { return !pair.point; }
 
     jit::KernelPair pair;
-    std::vector<FrameInput> inputs;    // of the frame kernel
-    std::vector<uint16_t> columns;     // of the point kernel's inputs
-    std::vector<jit::ServiceFn> services;  // of the point kernel, by slot
-    std::vector<float> frame;          // the frame block
+    std::vector<FrameInput> inputs;                        // of the frame kernel
+    std::vector<uint16_t> columns;                         // of the point kernel's inputs
+    std::vector<jit::ServiceFn> services, frame_services;  // of both kernels, by slot
+    std::vector<float> frame;                              // the frame block
     std::vector<uint8_t> frame_faults;
-    Arena arena;                       // rows of 16 floats for the frame kernel
+    Arena arena;  // rows of 16 floats for the frame kernel
     std::vector<const float*> in;
     std::vector<float*> out;
 };
@@ -82,13 +84,13 @@ struct VaryingParam {
 
 struct Look {
     LookKind kind = LookKind::Surface;
-    uint32_t index = 0;                  // among Scene::looks
-    std::string name;                    // the material's or light's
-    std::vector<ShaderUse> layers;       // displacements, then surfaces; or one light
-    uint32_t node = kNone;               // scene node of "shader" space (lights; placed parameters)
+    uint32_t index = 0;             // among Scene::looks
+    std::string name;               // the material's or light's
+    std::vector<ShaderUse> layers;  // displacements, then surfaces; or one light
+    uint32_t node = kNone;          // scene node of "shader" space (lights; placed parameters)
     std::vector<VaryingParam> varying;
     uint16_t column_count = kColVarying;
-    rsl::LoweredShader lowered;          // the full kernel's (module moved out)
+    rsl::LoweredShader lowered;  // the full kernel's (module moved out)
     BoundKernel full;
     std::optional<BoundKernel> opacity;  // for shadow rays, unless opaque
     std::vector<std::string> spaces;     // names of frame-rate spaces the kernels read

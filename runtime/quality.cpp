@@ -14,7 +14,9 @@ constexpr Quality kQualities[] = {
 };
 }  // namespace
 
-std::span<const Quality> qualities() { return kQualities; }
+std::span<const Quality> qualities() {
+    return kQualities;
+}
 
 const Quality* find_quality(std::string_view name) {
     for (const Quality& quality : kQualities)

@@ -12,9 +12,9 @@ namespace kinora {
 struct Quality {
     const char* name;
     int samples_per_pixel;
-    jit::math::Tier math;   // transcendental functions: 4 or 1 ULP
-    bool robust;            // Embree's watertight traversal
-    bool always_rebuild;    // a fresh BVH each frame instead of a refitted one
+    jit::math::Tier math;  // transcendental functions: 4 or 1 ULP
+    bool robust;           // Embree's watertight traversal
+    bool always_rebuild;   // a fresh BVH each frame instead of a refitted one
 };
 
 std::span<const Quality> qualities();

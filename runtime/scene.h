@@ -39,7 +39,7 @@ struct Node {
 struct MeshGroup {
     std::string symbol;
     std::vector<uint32_t> triangles;
-    std::vector<uint32_t> normal_corners;  // entry of Mesh::normals for each corner
+    std::vector<uint32_t> normal_corners;        // entry of Mesh::normals for each corner
     const PrimitiveGroup* definition = nullptr;  // texture coordinates, colours
 };
 struct Mesh {
@@ -60,13 +60,13 @@ struct Shape {
     uint32_t skin = kNone;   // index into SceneDescription::skins
     uint32_t morph = kNone;  // index into Scene::morphs
     dmat4 conversion{1.0};
-    bool in_world = false;   // a skin's result is in world space; its node's matrix does not apply
+    bool in_world = false;  // a skin's result is in world space; its node's matrix does not apply
     std::vector<uint32_t> joint_nodes;  // scene nodes
 
     // Where the triangles stand now: own buffers (accel space) for static and deforming shapes,
     // the mesh's own for instanced ones.
     std::vector<vec4> positions, normals;
-    dmat4 world{1.0};   // world_from_mesh: the node's matrix and the conversion (not the anchor)
+    dmat4 world{1.0};  // world_from_mesh: the node's matrix and the conversion (not the anchor)
     bool mirrored = false;
     uint32_t positions_version = 0;
 
@@ -84,7 +84,7 @@ struct Surface {
     uint32_t shape = kNone;
     uint32_t group = kNone;
     uint32_t look = kNone;
-    uint32_t material = kNone;           // index into description.materials, kNone: the default
+    uint32_t material = kNone;            // index into description.materials, kNone: the default
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
     // Vertex inputs of the look's varying parameters, in the order of Look::varying.
     std::vector<const VertexAttribute*> varying;
@@ -107,7 +107,7 @@ enum class ShadowMode : uint8_t { Auto, Explicit, Off };
 
 // What a scene is built for; part of what the kernels are.
 struct SceneOptions {
-    std::string camera;             // "": the first instance in document order
+    std::string camera;  // "": the first instance in document order
     jit::math::Tier math = jit::math::Tier::Precise;
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
@@ -122,7 +122,7 @@ class Shading;  // runtime/shading.h
 struct Scene {
     Scene();
     ~Scene();
-    Scene(Scene&&) noexcept;
+    Scene(const Scene&) = delete;
 
     std::shared_ptr<SceneDescription> description;
     std::vector<double> values;
@@ -137,7 +137,7 @@ struct Scene {
     std::vector<LightSource> lights;
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<Look>> looks;
-    uint32_t camera = 0;  // into cameras
+    uint32_t camera = 0;             // into cameras
     std::vector<std::string> added;  // "default camera", "default light": what --list shows
 
     dvec3 origin{0.0};

@@ -29,17 +29,17 @@ struct ValueSlot {
 // Whose numbers a channel writes; the bit that a change sets. Node bits are per definition.
 enum class TransformKind : uint8_t { Translate, Rotate, Scale, Matrix, Lookat, Skew };
 
-// Values as in COLLADA: Translate xyz; Rotate axis xyz + degrees; Scale xyz; Matrix 16 in document (row-major) order;
-// Lookat eye, interest, up; Skew degrees, rotated axis, translated axis.
+// Values as in COLLADA: Translate xyz; Rotate axis xyz + degrees; Scale xyz; Matrix 16 in document
+// (row-major) order; Lookat eye, interest, up; Skew degrees, rotated axis, translated axis.
 struct Transform {
     TransformKind kind;
     uint32_t value;  // offset into values
 };
 
 struct VertexBinding {
-    std::string param;      // the shader parameter (or texcoord name of profile_COMMON)
-    std::string semantic;   // "TEXCOORD"
-    uint32_t set = kNone;   // kNone: the lowest
+    std::string param;     // the shader parameter (or texcoord name of profile_COMMON)
+    std::string semantic;  // "TEXCOORD"
+    uint32_t set = kNone;  // kNone: the lowest
 };
 
 // A material as it is put on one primitive group of one instance.
@@ -77,9 +77,9 @@ struct NodeDefinition {
 struct VertexAttribute {
     std::string semantic;
     uint32_t set = 0;
-    uint32_t stride = 0;                // floats an entry
-    std::vector<float> values;          // stride x entries
-    std::vector<uint32_t> corners;      // entry of each corner, 3 a triangle
+    uint32_t stride = 0;            // floats an entry
+    std::vector<float> values;      // stride x entries
+    std::vector<uint32_t> corners;  // entry of each corner, 3 a triangle
 };
 
 // Triangles that wear one material.
@@ -174,6 +174,7 @@ struct SceneDescription {
     std::vector<LightDefinition> lights;
     std::vector<CameraDefinition> cameras;
     std::vector<ClipDefinition> clips;
+    std::shared_ptr<const rsl::Shader> default_surface;  // of surfaces without material; null: ours
     anim::Animation animation;
     std::vector<bool> animated;  // per value: some channel writes it
     std::optional<double> start_time, end_time, frame_rate;

@@ -2,9 +2,11 @@
 #include "runtime/services.h"
 
 #include <cstdio>
+#include <glm/matrix.hpp>
 
 #include "rsl/renderer_services.h"
 #include "runtime/base/check.h"
+#include "runtime/print.h"
 #include "runtime/shading_p.h"
 #include "runtime/texture.h"
 
@@ -17,8 +19,15 @@ constexpr int kLanes = jit::kMaxLanes;
 const float* argument(const jit::ServiceCall& call, int index) {
     return call.args + index * kLanes;
 }
-float* result(const jit::ServiceCall& call, int index) { return call.results + index * kLanes; }
-Grid& grid_of(const jit::ServiceCall& call) { return *static_cast<Grid*>(call.grid); }
+float* result(const jit::ServiceCall& call, int index) {
+    return call.results + index * kLanes;
+}
+const KernelHost& host_of(const jit::ServiceCall& call) {
+    return *static_cast<const KernelHost*>(call.grid);
+}
+Grid& grid_of(const jit::ServiceCall& call) {
+    return *host_of(call).grid;
+}
 
 void triples(const jit::ServiceCall& call, int first, vec3* out) {
     for (int i = 0; i < kLanes; ++i)
@@ -35,8 +44,12 @@ void lights(const jit::ServiceCall& call) {
     for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
 }
 
-void texture(const jit::ServiceCall& call) { lookup_texture(call); }
-void environment(const jit::ServiceCall& call) { lookup_environment(call); }
+void texture(const jit::ServiceCall& call) {
+    lookup_texture(call);
+}
+void environment(const jit::ServiceCall& call) {
+    lookup_environment(call);
+}
 
 // Shadow maps are of a scan-line age: where one is asked for, the truth is at hand.
 void shadow(const jit::ServiceCall& call) {
@@ -66,17 +79,18 @@ void transmission(const jit::ServiceCall& call) {
 }
 
 void transform(const jit::ServiceCall& call) {
-    Grid& grid = grid_of(call);
+    const KernelHost& host = host_of(call);
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         int32_t space = jit::bits_of(argument(call, 0)[i]);
-        size_t point = std::min(size_t(call.first + i), grid.count() - 1);
-        uint32_t node = grid.look->node;
-        if (grid.look->kind == LookKind::Surface) {
+        uint32_t node = host.look->node;
+        if (host.grid && host.look->kind == LookKind::Surface) {
+            const Grid& grid = *host.grid;
+            size_t point = std::min(size_t(call.first + i), grid.count() - 1);
             const Surface& surface = grid.scene.surfaces[grid.hits.instance[grid.points[point]]];
             node = grid.scene.shapes[surface.shape].node;
         }
-        dmat4 to = current_from_space(grid.scene, rsl::interned(space), node);
+        dmat4 to = current_from_space(*host.scene, rsl::interned(space), node);
         dmat4 from = glm::inverse(to);
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column) {
@@ -86,16 +100,22 @@ void transform(const jit::ServiceCall& call) {
     }
 }
 
-void print(const jit::ServiceCall& call) { grid_of(call).shading->print(grid_of(call), call); }
+// At frame rate it prints at once: once per instance and frame.
+void print(const jit::ServiceCall& call) {
+    if (Grid* grid = host_of(call).grid)
+        grid->shading->print(*grid, call);
+    else
+        std::fputs(print_text(call, 0).c_str(), stdout);
+}
 
 struct Row {
     std::string_view name;
     jit::ServiceFn function;
 };
 constexpr Row kRows[] = {
-    {"lights", lights},           {"texture", texture}, {"environment", environment},
-    {"shadow", shadow},           {"trace", trace},     {"transmission", transmission},
-    {"transform", transform},     {"print", print},
+    {"lights", lights},       {"texture", texture}, {"environment", environment},
+    {"shadow", shadow},       {"trace", trace},     {"transmission", transmission},
+    {"transform", transform}, {"print", print},
 };
 static_assert(std::size(kRows) == std::size(rsl::kServiceNames));
 

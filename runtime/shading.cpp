@@ -17,7 +17,9 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     opacity_points += o.opacity_points;
 }
 
-Shading::Shading(Scene& scene) : scene_(scene) { bind_lights(); }
+Shading::Shading(Scene& scene) : scene_(scene) {
+    bind_lights();
+}
 Shading::~Shading() = default;
 
 void Shading::begin_frame(double time, double shutter, uint32_t seed) {
@@ -48,10 +50,11 @@ void Shading::begin_frame(double time, double shutter, uint32_t seed) {
 ShadingCounters Shading::end_frame(Diagnostics& diagnostics) {
     ShadingCounters total;
     for (auto& thread : threads_) total += thread->counters;
+    flush_prints();
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
-        const BoundKernel* kernels[] = {&scene_.looks[l]->full,
-                                        scene_.looks[l]->opacity ? &*scene_.looks[l]->opacity
-                                                                 : nullptr};
+        const BoundKernel* kernels[] = {&scene_.looks[l]->full, scene_.looks[l]->opacity
+                                                                    ? &*scene_.looks[l]->opacity
+                                                                    : nullptr};
         for (size_t k = 0; k < 2; ++k) {
             if (!kernels[k]) continue;
             const auto& sites = kernels[k]->kernel().fault_sites;
@@ -66,16 +69,14 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics) {
     return total;
 }
 
-void Shading::shade(const raytrace::HitBatch& hits, int thread_id,
-                    raytrace::ShadeResult& result) {
+void Shading::shade(const raytrace::HitBatch& hits, int thread_id, raytrace::ShadeResult& result) {
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
     // A counting sort by look keeps the hits' order within each, so rows stay together.
     size_t looks = scene_.looks.size();
     std::span<uint32_t> begin = own.arena.allocate_span<uint32_t>(looks + 1);
     std::fill(begin.begin(), begin.end(), 0u);
-    for (size_t i = 0; i < hits.count; ++i)
-        ++begin[scene_.surfaces[hits.instance[i]].look + 1];
+    for (size_t i = 0; i < hits.count; ++i) ++begin[scene_.surfaces[hits.instance[i]].look + 1];
     for (size_t l = 0; l < looks; ++l) begin[l + 1] += begin[l];
     std::span<uint32_t> order = own.arena.allocate_span<uint32_t>(hits.count);
     std::span<uint32_t> next = own.arena.allocate_span<uint32_t>(looks);
@@ -93,20 +94,15 @@ namespace {
 
 constexpr size_t kRecordSets = 64;  // handles a grid may hold at once
 
-Grid make_grid(const Scene& scene, const raytrace::HitBatch& hits,
-               std::span<const uint32_t> points, const Look& look, int thread, Shading& shading,
-               Arena& arena) {
-    Grid grid{scene, hits, points};
-    grid.depth = hits.depth;
+void prepare(Grid& grid, int thread, Shading& shading, Arena& arena) {
+    grid.depth = grid.hits.depth;
     grid.thread = thread;
     grid.shading = &shading;
     grid.arena = &arena;
-    grid.look = &look;
-    grid.columns = arena.allocate_span<float*>(look.column_count);
+    grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
     grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
-    return grid;
 }
 
 std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena) {
@@ -136,12 +132,11 @@ void Shading::run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* 
     args.in = in.data();
     args.out = out.data();
     args.frame = bound.frame_block();
-    args.scratch =
-        static_cast<std::byte*>(grid.arena->allocate(bound.kernel().scratch_bytes));
+    args.scratch = static_cast<std::byte*>(grid.arena->allocate(bound.kernel().scratch_bytes));
     args.fault = own.faults[2 * grid.look->index + (&bound != &grid.look->full)].data();
     args.services = bound.services.data();
     args.record_sets = grid.record_sets.data();
-    args.grid = &grid;
+    args.grid = &grid.host;
     args.count = int32_t(grid.count());
     bound.kernel().run(args);
 }
@@ -150,7 +145,8 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
                          const Look& look, int thread_id, raytrace::ShadeResult& result) {
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
-    Grid grid = make_grid(scene_, hits, points, look, thread_id, *this, own.arena);
+    Grid grid(scene_, hits, points, &look);
+    prepare(grid, thread_id, *this, own.arena);
     want_columns(grid, look.full.columns);
     if (look.lowered.uses_lights) {
         want_triple(grid, kColP);
@@ -188,9 +184,9 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
         }
         for (size_t at = 0; at < count; at += kGridPoints) {
             Arena::Mark grid_mark = own.arena.mark();
-            std::span<const uint32_t> part =
-                points.subspan(at, std::min(kGridPoints, count - at));
-            Grid grid = make_grid(scene_, hits, part, look, thread_id, *this, own.arena);
+            std::span<const uint32_t> part = points.subspan(at, std::min(kGridPoints, count - at));
+            Grid grid(scene_, hits, part, &look);
+            prepare(grid, thread_id, *this, own.arena);
             grid.shadows = false;
             want_columns(grid, look.opacity->columns);
             if (look.lowered.uses_lights) {
@@ -199,15 +195,13 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
             }
             gather(grid);
             if (look.lowered.uses_lights) run_lights(grid);
-            std::span<float*> out =
-                take_outputs(look.opacity->kernel(), grid.count(), own.arena);
+            std::span<float*> out = take_outputs(look.opacity->kernel(), grid.count(), own.arena);
             run_kernel(*look.opacity, grid, out);
             own.counters.opacity_points += grid.count();
             float* Oi[3];
             find_triple(look.opacity->kernel(), out, "Oi", Oi);
             for (size_t i = 0; i < part.size(); ++i)
-                for (int k = 0; k < 3; ++k)
-                    result[part[i]][k] = Oi[k] ? Oi[k][i] : 1.0f;
+                for (int k = 0; k < 3; ++k) result[part[i]][k] = Oi[k] ? Oi[k][i] : 1.0f;
             own.arena.release(grid_mark);
         }
     }

@@ -42,6 +42,8 @@ class Shading : public raytrace::SurfaceShading {
                float* distance);
     // Light that passes from P to Q (current space) for the lanes of mask.
     void transmission(const Grid& grid, uint32_t mask, const vec3* P, const vec3* Q, vec3* result);
+    // A shader's printf: kept with its pixel, printed in picture order after the frame.
+    void print(const Grid& grid, const jit::ServiceCall& call);
     // Light records at other points than the grid's own; their handle.
     int32_t lights_at(Grid& grid, const jit::ServiceCall& call);
 
@@ -58,7 +60,8 @@ class Shading : public raytrace::SurfaceShading {
     struct LightBinding {
         int32_t categories = 0;
         float nondiffuse = 0, nonspecular = 0;
-        std::vector<int> messages;  // output columns
+        std::vector<int> messages;   // output columns
+        std::vector<int32_t> known;  // per message: the light has that parameter
     };
 
   private:
@@ -78,14 +81,15 @@ class Shading : public raytrace::SurfaceShading {
     // transmission.cpp
     void pass_transparent(int thread, raytrace::RayBatch& rays, vec3* through);
     void opacity(const raytrace::HitBatch& hits, int thread, vec3* Oi);
+    void flush_prints();  // print.cpp
 
     Scene& scene_;
     std::vector<std::unique_ptr<Thread>> threads_;
     uint32_t seed_ = 0;
     bool any_transparent_ = false;
     size_t record_count_ = 0;
-    std::vector<std::vector<Statement>> statements_;    // [light]
-    std::vector<std::vector<LightBinding>> bindings_;   // [look][light]
+    std::vector<std::vector<Statement>> statements_;   // [light]
+    std::vector<std::vector<LightBinding>> bindings_;  // [look][light]
     mat3 camera_from_accel_{1.0f};
     vec3 eye_{0.0f};
     friend void gather(Grid&);

@@ -17,6 +17,11 @@ struct Shading::Thread {
         raytrace::RayBatch rays;
         raytrace::HitStore hits;
     };
+    struct Print {
+        uint32_t pixel_y, pixel_x, sample, order;
+        std::string text;
+    };
+    std::vector<Print> prints;
     std::vector<std::unique_ptr<Level>> levels;
     size_t level = 0;  // levels in use
 };
@@ -47,7 +52,7 @@ struct Shading::LightPoints {
     const float* error[3];
     const float* Ng[3];  // accel space
     const float* rng = nullptr;
-    size_t first = 0;    // grid point of element 0: what record columns are relative to
+    size_t first = 0;  // grid point of element 0: what record columns are relative to
 };
 
 inline vec3 triple(const float* const columns[3], size_t i) {

@@ -19,8 +19,8 @@ std::string texture_name_string(const TextureName& name) {
     if (is_plain) return name.path;
     return fmt::format("{}{}{}{}{}{} {} {}", name.path, kSeparator,
                        kWrapLetters[size_t(name.wrap_s)], kWrapLetters[size_t(name.wrap_t)],
-                       name.nearest ? 'n' : 'l', name.data ? 'd' : 'c',
-                       fmt::join(name.border, " "), fmt::join(name.uv, " "));
+                       name.nearest ? 'n' : 'l', name.data ? 'd' : 'c', fmt::join(name.border, " "),
+                       fmt::join(name.uv, " "));
 }
 
 TextureName parse_texture_name(std::string_view text) {

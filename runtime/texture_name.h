@@ -18,10 +18,10 @@ struct TextureName {
     std::string path;
     TextureWrap wrap_s = TextureWrap::Wrap;
     TextureWrap wrap_t = TextureWrap::Wrap;
-    bool nearest = false;                          // no filtering at all
-    bool data = false;                             // bump, masks: never decoded from sRGB
+    bool nearest = false;  // no filtering at all
+    bool data = false;     // bump, masks: never decoded from sRGB
     std::array<float, 4> border{0, 0, 0, 0};
-    std::array<float, 4> uv{1, 1, 0, 0};           // s' = s * uv[0] + uv[2], t' = t * uv[1] + uv[3]
+    std::array<float, 4> uv{1, 1, 0, 0};  // s' = s * uv[0] + uv[2], t' = t * uv[1] + uv[3]
 };
 
 std::string texture_name_string(const TextureName& name);  // the bare path when all is default

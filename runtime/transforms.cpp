@@ -86,7 +86,9 @@ constexpr MatrixOf kMatrixOf[] = {translate, rotate, scale, matrix, lookat, skew
 
 }  // namespace
 
-dmat4 transform_matrix(TransformKind kind, const double* v) { return kMatrixOf[size_t(kind)](v); }
+dmat4 transform_matrix(TransformKind kind, const double* v) {
+    return kMatrixOf[size_t(kind)](v);
+}
 
 dmat4 node_matrix(const NodeDefinition& node, std::span<const double> values) {
     dmat4 m(1.0);
@@ -109,8 +111,7 @@ void update_transforms(Scene& scene) {
         node.moved = scene.first_frame || own || above;
         if (!node.moved) continue;
         dmat4 local =
-            node.conversion *
-            node_matrix(scene.description->nodes[node.definition], scene.values);
+            node.conversion * node_matrix(scene.description->nodes[node.definition], scene.values);
         dmat4 world = node.parent == kNone ? local : scene.nodes[node.parent].world * local;
         if (is_finite(world)) node.world = world;
     }

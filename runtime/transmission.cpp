@@ -10,6 +10,7 @@ namespace kinora {
 
 namespace {
 
+constexpr float kMiss = 1e30f;          // distance of a ray that met nothing
 constexpr int kTransparentRounds = 16;  // DESIGN.md decision 6
 
 // gamma(4) of the magnitudes: a point that came from current space through a rotation and a sum.
@@ -43,9 +44,8 @@ void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* th
     for (int round = 0; round < kTransparentRounds && rays.count > 0; ++round) {
         NestedWavefront nested(own);
         nested->hits.reserve(kGridPoints);
-        const raytrace::HitBatch& hits =
-            raytrace::trace(scene_.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits,
-                            own.counters.trace);
+        const raytrace::HitBatch& hits = raytrace::trace(
+            scene_.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits, own.counters.trace);
         if (hits.count == 0) break;
         std::span<vec3> Oi = own.arena.allocate_span<vec3>(hits.count);
         opacity(hits, thread_id, Oi.data());
@@ -89,10 +89,10 @@ void Shading::transmission(const Grid& grid, uint32_t mask, const vec3* P, const
         vec3 way = to - from;
         float length = glm::length(way);
         // Both ends keep clear of the surfaces they may lie on.
-        float clear = 2 * std::max({error.x, error.y, error.z});
+        float clear = 2 * std::max(error.x, std::max(error.y, error.z));
         if (!(length > 2 * clear)) continue;
-        set_nested_ray(rays, rays.count, from + way * (clear / length), way,
-                       1 - 2 * clear / length, grid.hits, grid.points[0]);
+        set_nested_ray(rays, rays.count, from + way * (clear / length), way, 1 - 2 * clear / length,
+                       grid.hits, grid.points[0]);
         rays.slot[rays.count] = uint32_t(rays.count);
         lanes[rays.count++] = i;
     }
@@ -101,8 +101,7 @@ void Shading::transmission(const Grid& grid, uint32_t mask, const vec3* P, const
     size_t count = rays.count;
     for (size_t r = 0; r < count; ++r) through[r] = vec3(1.0f);
     if (any_transparent_) pass_transparent(grid.thread, rays, through);
-    for (size_t r = 0; r < count; ++r)
-        result[lanes[r]] = blocked[r] ? vec3(0.0f) : through[r];
+    for (size_t r = 0; r < count; ++r) result[lanes[r]] = blocked[r] ? vec3(0.0f) : through[r];
 }
 
 void Shading::trace(const Grid& grid, uint32_t mask, const vec3* P, const vec3* R, vec3* color,
@@ -111,7 +110,7 @@ void Shading::trace(const Grid& grid, uint32_t mask, const vec3* P, const vec3* 
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     for (int i = 0; i < jit::kMaxLanes; ++i) {
         color[i] = vec3(0.0f);
-        distance[i] = std::numeric_limits<float>::infinity();
+        distance[i] = kMiss;
     }
     if (!grid.shadows || grid.depth >= kMaxDepth) return;
     NestedWavefront nested(own);
@@ -125,15 +124,14 @@ void Shading::trace(const Grid& grid, uint32_t mask, const vec3* P, const vec3* 
         vec3 error = transform_error(P[i], eye_);
         float length = glm::length(dir);
         if (!(length > 0)) continue;
-        float clear = 2 * std::max({error.x, error.y, error.z});
+        float clear = 2 * std::max(error.x, std::max(error.y, error.z));
         set_nested_ray(rays, rays.count, from + dir * (clear / length), dir,
                        std::numeric_limits<float>::infinity(), grid.hits, grid.points[0]);
         rays.slot[rays.count++] = i;
     }
     nested->hits.reserve(kGridPoints);
-    const raytrace::HitBatch& hits =
-        raytrace::trace(scene_.accel, rays, raytrace::kMaskAll, grid.depth + 1, nested->hits,
-                        own.counters.trace);
+    const raytrace::HitBatch& hits = raytrace::trace(
+        scene_.accel, rays, raytrace::kMaskAll, grid.depth + 1, nested->hits, own.counters.trace);
     if (hits.count == 0) return;
     Arena::Mark mark = own.arena.mark();
     raytrace::ShadeResult result;

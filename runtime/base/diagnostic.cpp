@@ -45,6 +45,11 @@ FileId SourceFiles::add(std::string name, std::string text) {
     return FileId(files_.size() - 1);
 }
 
+FileId SourceFiles::count() const {
+    std::lock_guard lock(mutex_);
+    return FileId(files_.size());
+}
+
 const SourceFiles::File& SourceFiles::at(FileId file) const {
     std::lock_guard lock(mutex_);
     CHECK_LT(file, files_.size());

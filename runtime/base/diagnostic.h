@@ -61,6 +61,7 @@ class SourceFiles {
   public:
     // Keeps a copy of `text`.
     FileId add(std::string name, std::string text);
+    FileId count() const;  // ids are 0 .. count() - 1
     const std::string& name(FileId file) const;
     std::string_view text(FileId file) const;
     LineColumn line_column(FileId file, uint32_t offset) const;

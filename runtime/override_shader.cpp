@@ -1,0 +1,53 @@
+// runtime/override_shader.cpp: shaders from files on materials by glob.
+#include "runtime/override_shader.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+
+#include "runtime/findings.h"
+
+namespace kinora {
+
+bool override_shader(SceneDescription& description, const std::string& pattern,
+                     const std::string& file, const std::vector<std::string>& include_directories,
+                     Diagnostics& diagnostics) {
+    rsl::CompileOptions options;
+    options.include_directories = include_directories;
+    auto shaders = rsl::compile_file(file, options, diagnostics);
+    std::shared_ptr<const rsl::Shader> chosen;
+    for (auto& shader : shaders)
+        if (!chosen && (shader->kind == rsl::ShaderKind::Surface ||
+                        shader->kind == rsl::ShaderKind::Displacement))
+            chosen = std::move(shader);
+    if (!chosen) {
+        if (!shaders.empty())
+            diagnostics.report(Code::RSL_SHADER_MISSING, Location{}, "surface", " in " + file);
+        return false;
+    }
+    bool matched = false;
+    for (MaterialDefinition& material : description.materials) {
+        bool match = fnmatch(pattern.c_str(), material.id.c_str(), 0) == 0 ||
+                     fnmatch(pattern.c_str(), material.name.c_str(), 0) == 0;
+        if (!match) continue;
+        matched = true;
+        bool surface = chosen->kind == rsl::ShaderKind::Surface;
+        std::vector<ShaderUse>& stack = surface ? material.surfaces : material.displacements;
+        ShaderUse use;
+        use.shader = chosen;
+        for (const ShaderUse& old : stack)
+            for (const ParamSource& source : old.params)
+                if (std::any_of(chosen->parameters.begin(), chosen->parameters.end(),
+                                [&](const auto& p) { return p.name == source.name; }))
+                    use.params.push_back(source);
+        stack.assign(1, use);
+    }
+    if (pattern == "*" && chosen->kind == rsl::ShaderKind::Surface) {
+        description.default_surface = chosen;
+        matched = true;
+    }
+    if (!matched) diagnostics.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
+    return matched;
+}
+
+}  // namespace kinora

@@ -1,0 +1,19 @@
+// runtime/override_shader.h: --shader MATERIAL=FILE.sl: a look tried on without editing the scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+// Compiles FILE.sl and puts its surface (or displacement) shader on every material whose id or name
+// matches the glob `pattern`; parameters of the same name keep their sources. Errors are findings;
+// false then. A pattern that matches nothing is an error, "*" also reaches the default material.
+bool override_shader(SceneDescription& description, const std::string& pattern,
+                     const std::string& file, const std::vector<std::string>& include_directories,
+                     Diagnostics& diagnostics);
+
+}  // namespace kinora

@@ -1,0 +1,26 @@
+// runtime/programs/exit_codes.h: what the programs' exit codes mean; --help prints them.
+#pragma once
+
+namespace kinora {
+
+enum ExitCode : int {
+    kExitOk = 0,
+    kExitSomeFailed = 1,  // some frames or files failed
+    kExitUsage = 2,
+    kExitUnreadable = 3,     // scene unreadable
+    kExitShader = 4,         // shader error
+    kExitMissingAsset = 5,   // under --strict
+    kExitUnwritable = 6,     // output cannot be written
+    kExitRetry = 75,         // retry may help: disk full, out of memory
+    kExitInterrupted = 130,  // SIGINT
+    kExitTerminated = 143,   // SIGTERM
+};
+
+inline constexpr const char* kExitCodeHelp =
+    "Exit codes: 0 ok; 1 some frames or files failed; 2 usage; 3 scene unreadable; 4 shader "
+    "error;\n"
+    "5 missing asset under --strict; 6 output cannot be written; 75 retry may help (disk full, "
+    "out\n"
+    "of memory); 130/143 stopped by a signal, finished frames kept.";
+
+}  // namespace kinora

@@ -1,0 +1,395 @@
+// runtime/programs/kinora_render.cpp: a scene to a sequence of pictures.
+#include <fmt/format.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "runtime/base/parallel.h"
+#include "runtime/findings.h"
+#include "runtime/frame.h"
+#include "runtime/import_collada.h"
+#include "runtime/override_shader.h"
+#include "runtime/programs/contact_sheet.h"
+#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/list_scene.h"
+#include "runtime/programs/render_options.h"
+
+namespace kinora {
+
+namespace {
+
+// Set by the first signal; the frame under way is dropped. A second signal stops at once.
+volatile std::sig_atomic_t g_signal = 0;
+
+void on_signal(int number) {
+    if (g_signal) _exit(128 + number);
+    g_signal = number;
+}
+
+struct FrameRecord {
+    int64_t frame;
+    std::string file;
+    FrameStats stats;
+    double write_ms = 0;
+    bool skipped = false;
+};
+
+class Render {
+  public:
+    explicit Render(const RenderOptions& options)
+        : options_(options), progress_(options.progress, 1) {}
+
+    int run() {
+        if (int code = load()) return code;
+        if (!options_.list.empty()) {
+            std::fputs(list_scene(*scene_, options_.list).c_str(), stdout);
+            return flush_findings();
+        }
+        dump();
+        if (options_.output.empty() && options_.contact_sheet.empty()) return flush_findings();
+        int code = frames();
+        if (options_.stats) print_stats();
+        return code;
+    }
+
+  private:
+    int load();
+    int exit_code_of_findings(int otherwise) const;
+    int flush_findings();
+    void dump() const;
+    int frames();
+    int one_frame(int64_t frame, double time, size_t index);
+    std::string fingerprint(double time) const;
+    void print_stats() const;
+    SceneOptions scene_options() const;
+
+    const RenderOptions& options_;
+    Diagnostics diagnostics_;
+    size_t shown_ = 0;  // findings printed so far
+    std::unique_ptr<Scene> scene_;
+    FrameSettings settings_;
+    raytrace::Film film_;
+    ProgressReport progress_;
+    ContactSheet sheet_;
+    std::vector<FrameRecord> records_;
+    FrameRate rate_;
+    Stopwatch since_start_;
+    double load_ms_ = 0, build_ms_ = 0, first_ray_ms_ = 0;
+    XXH64_hash_t scene_hash_ = 0;
+};
+
+int Render::exit_code_of_findings(int otherwise) const {
+    for (const Finding& finding : diagnostics_.findings()) {
+        if (finding.severity != Severity::Error) continue;
+        if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
+        if (finding.info == &Code::CAMERA_UNKNOWN || finding.info == &Code::MATERIAL_UNKNOWN)
+            return kExitUsage;
+    }
+    return otherwise;
+}
+
+// Prints what is new; returns the exit code that missing assets call for under --strict.
+int Render::flush_findings() {
+    progress_.clear();
+    int code = kExitOk;
+    const auto& findings = diagnostics_.findings();
+    for (; shown_ < findings.size(); ++shown_) {
+        const Finding& finding = findings[shown_];
+        Severity least = options_.quiet     ? Severity::Error
+                         : options_.verbose ? Severity::Hint
+                                            : Severity::Warning;
+        std::string_view id = finding.info->code;
+        if (options_.strict && (id.starts_with("FILE_") || id.starts_with("IMAGE_")))
+            code = kExitMissingAsset;
+        if (finding.severity >= least)
+            std::fputs(format_finding(finding, diagnostics_.files).c_str(), stderr);
+    }
+    return code;
+}
+
+SceneOptions Render::scene_options() const {
+    SceneOptions o;
+    o.camera = options_.camera;
+    o.math = options_.quality.math;
+    o.target = options_.target;
+    o.shadows = options_.shadows;
+    o.accel.robust = options_.quality.robust;
+    o.accel.always_rebuild = options_.quality.always_rebuild;
+    o.accel.background = false;  // a frame depends on its time alone
+    o.want_dumps = !options_.dump.empty();
+    return o;
+}
+
+int Render::load() {
+    set_thread_count(options_.threads);
+    if (!options_.target_missing.empty())
+        diagnostics_.report(Code::TARGET_UNAVAILABLE, Location{}, options_.target_missing,
+                            jit::best_target().name);
+    Stopwatch watch;
+    ImportOptions import;
+    import.allow_external = options_.allow_external;
+    import.up_axis = options_.up_axis;
+    import.meter = options_.meter;
+    import.include_directories = options_.include_directories;
+    std::optional<SceneDescription> description =
+        import_collada(options_.scene, import, diagnostics_);
+    if (!description) {
+        flush_findings();
+        return kExitUnreadable;
+    }
+    for (const auto& [pattern, file] : options_.shaders)
+        override_shader(*description, pattern, file, options_.include_directories, diagnostics_);
+    load_ms_ = watch.restart();
+    SceneOptions scene_options = this->scene_options();
+    PlayRange range = play_range(*description);
+    rate_ = options_.fps.value_or(frame_rate_of(range.rate));
+    if (!options_.clip.empty()) {
+        const ClipDefinition* clip = find_clip(*description, options_.clip);
+        if (!clip) {
+            flush_findings();
+            std::fprintf(stderr, "kinora-render: no clip '%s'; --list clips shows them\n",
+                         options_.clip.c_str());
+            return kExitUsage;
+        }
+        range.start = clip->start;
+        range.end = clip->end;
+    }
+    scene_options.start_time = range.start;
+    scene_options.end_time = range.end;
+    if (exit_code_of_findings(0) == 0)
+        scene_ = build_scene(std::make_shared<SceneDescription>(std::move(*description)),
+                             scene_options, diagnostics_);
+    build_ms_ = watch.ms();
+    int strict = flush_findings();
+    int code = exit_code_of_findings(scene_ ? kExitOk : kExitUnreadable);
+    if (code == kExitOk) code = strict;
+    return code;
+}
+
+void Render::dump() const {
+    for (const auto& [stage, text] : scene_->options.dumps)
+        for (const std::string& wanted : options_.dump)
+            if (stage == wanted || stage.starts_with(wanted + ":"))
+                std::printf("; stage %s\n%s\n", stage.c_str(), text.c_str());
+}
+
+// What the picture depends on: all texts read, the options, the engine, the time.
+std::string Render::fingerprint(double time) const {
+    const RenderOptions& o = options_;
+    std::string text = fmt::format(
+        "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} filter {} {} seed {} "
+        "shadows {} nan {} color {} camera {} up {} unit {} time {:a}",
+        KINORA_VERSION, scene_hash_, settings_.width, settings_.height, o.quality.name,
+        o.quality.samples_per_pixel, int(o.quality.math), o.quality.robust,
+        o.quality.always_rebuild, o.filter, o.filter_width, o.seed, int(o.shadows), int(o.nan),
+        int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), time);
+    if (o.background)
+        text +=
+            fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
+    for (const auto& [material, file] : o.shaders) text += fmt::format(" {}={}", material, file);
+    return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription& description) {
+    XXH64_hash_t hash = 0;
+    for (FileId f = 0; f < diagnostics.files.count(); ++f) {
+        std::string_view text = diagnostics.files.text(f);
+        hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);
+    }
+    // Textures by name, size and time of change.
+    for (const MaterialDefinition& material : description.materials)
+        for (const ShaderUse& use : material.surfaces)
+            for (const ParamSource& source : use.params)
+                for (const std::string& text : source.strings) {
+                    std::error_code code;
+                    std::filesystem::path path(text.substr(0, text.find('\x1f')));
+                    auto size = std::filesystem::file_size(path, code);
+                    std::string stamp = text + (code ? "" : fmt::format("{}", size));
+                    auto time = std::filesystem::last_write_time(path, code);
+                    if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
+                    hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
+                }
+    return hash;
+}
+
+int Render::one_frame(int64_t frame, double time, size_t index) {
+    FrameRecord& record = records_.emplace_back();
+    record.frame = frame;
+    if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
+    std::string print = fingerprint(time);
+    bool wants_file = !record.file.empty();
+    if (wants_file && options_.skip_existing &&
+        read_image_text(record.file, "kinora/fingerprint") == print) {
+        record.skipped = true;
+        progress_.frame_skipped(frame, index, record.file);
+        return kExitOk;
+    }
+    settings_.integrator.seed = options_.seed * 0x9e3779b9u + uint32_t(frame);
+    auto on_tile = [&](int done, int total) {
+        progress_.tile(frame, index, done, total);
+        return g_signal == 0;
+    };
+    raytrace::Progress progress(on_tile);
+    if (first_ray_ms_ == 0) first_ray_ms_ = since_start_.ms();
+    bool whole =
+        render_frame(*scene_, time, settings_, film_, record.stats, diagnostics_, &progress);
+    if (g_signal) return 128 + g_signal;
+    flush_findings();
+    if (!whole) return kExitSomeFailed;
+    Stopwatch watch;
+    if (wants_file) {
+        int number = 0;
+        std::string error = write_image(
+            record.file, film_, options_.color,
+            {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}}, &number);
+        if (!error.empty()) {
+            diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, record.file, error);
+            flush_findings();
+            return number == ENOSPC || number == EDQUOT || number == ENOMEM ? kExitRetry
+                                                                            : kExitUnwritable;
+        }
+    }
+    if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
+    record.write_ms = watch.ms();
+    progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
+    return kExitOk;
+}
+
+int Render::frames() {
+    const SceneDescription& description = *scene_->description;
+    double aspect = camera_aspect(*scene_).value_or(16.0 / 9.0);
+    settings_.width = options_.width ? options_.width : 640;
+    settings_.height = options_.height
+                           ? options_.height
+                           : std::clamp(int(std::lround(settings_.width / aspect)), 1, 65536);
+    settings_.integrator.samples_per_pixel = options_.quality.samples_per_pixel;
+    settings_.integrator.filter = raytrace::find_pixel_filter(options_.filter);
+    settings_.integrator.filter_width = options_.filter_width;
+    settings_.integrator.background = options_.background;
+    settings_.integrator.nan = options_.nan;
+    std::vector<std::pair<int64_t, double>> list;  // frame, time
+    if (options_.time) {
+        list.emplace_back(std::llround(*options_.time * rate_.value()), *options_.time);
+    } else if (options_.frames) {
+        for (int64_t frame : *options_.frames) list.emplace_back(frame, rate_.time(frame));
+    } else {
+        int64_t first = std::llround(scene_->options.start_time * rate_.value());
+        int64_t last = std::llround(scene_->options.end_time * rate_.value());
+        for (int64_t frame = first; frame <= last; ++frame)
+            list.emplace_back(frame, rate_.time(frame));
+    }
+    if (list.size() > 1 && !options_.output.empty() && !OutputName(options_.output).has_token()) {
+        std::fprintf(stderr,
+                     "kinora-render: %zu frames need a frame token in -o, like %s; or choose one "
+                     "with --frames\n",
+                     list.size(), "f.####.png");
+        return kExitUsage;
+    }
+    scene_hash_ = hash_inputs(diagnostics_, description);
+    progress_ = ProgressReport(options_.progress, list.size());
+    int result = kExitOk;
+    for (size_t i = 0; i < list.size(); ++i) {
+        int code = one_frame(list[i].first, list[i].second, i);
+        if (code == kExitOk) continue;
+        if (g_signal) {
+            progress_.clear();
+            return code;
+        }
+        if (!options_.keep_going) return code;
+        result = kExitSomeFailed;
+    }
+    progress_.clear();
+    if (!options_.contact_sheet.empty()) {
+        int number = 0;
+        std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
+        if (!error.empty()) {
+            diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, options_.contact_sheet, error);
+            flush_findings();
+            return number == ENOSPC ? kExitRetry : kExitUnwritable;
+        }
+    }
+    return result;
+}
+
+void Render::print_stats() const {
+    jit::CacheStats cache = jit::cache_stats();
+    const jit::Target& target = options_.target ? *options_.target : jit::best_target();
+    if (!options_.stats_json) {
+        for (const FrameRecord& r : records_) {
+            if (r.skipped) continue;
+            const FrameStats& s = r.stats;
+            std::printf(
+                "frame %lld: %.2f ms = animate %.2f skin %.2f refit %.2f trace %.2f shade %.2f; "
+                "write %.2f; %.2f Mrays/s, %.2f Mpoints/s\n",
+                static_cast<long long>(r.frame), s.total, s.animate, s.skin, s.refit, s.trace,
+                s.shade, r.write_ms, double(s.rays) / s.total * 1e-3,
+                double(s.shading_points) / s.total * 1e-3);
+        }
+        std::printf(
+            "target %s (%d lanes), %d threads; load %.1f ms, build %.1f ms, first ray after %.1f "
+            "ms; %zu kernels in %.2f ms, %zu bytes of code; peak memory %.1f MB\n",
+            target.name, target.lanes, thread_count(), load_ms_, build_ms_, first_ray_ms_,
+            cache.kernels, cache.total_ms, cache.code_bytes, double(peak_memory_bytes()) * 1e-6);
+        return;
+    }
+    nlohmann::ordered_json json;
+    json["target"] = target.name;
+    json["lanes"] = target.lanes;
+    json["threads"] = thread_count();
+    json["load_ms"] = load_ms_;
+    json["build_ms"] = build_ms_;
+    json["first_ray_ms"] = first_ray_ms_;
+    json["kernels"] = cache.kernels;
+    json["compile_ms"] = cache.total_ms;
+    json["code_bytes"] = cache.code_bytes;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    json["frames"] = nlohmann::ordered_json::array();
+    for (const FrameRecord& r : records_) {
+        const FrameStats& s = r.stats;
+        nlohmann::ordered_json frame = {{"frame", r.frame}, {"file", r.file}};
+        if (r.skipped) {
+            frame["skipped"] = true;
+        } else {
+            frame.update({{"total_ms", s.total},
+                          {"animate_ms", s.animate},
+                          {"skin_ms", s.skin},
+                          {"refit_ms", s.refit},
+                          {"trace_ms", s.trace},
+                          {"shade_ms", s.shade},
+                          {"write_ms", r.write_ms},
+                          {"rays", s.rays},
+                          {"rays_per_second", double(s.rays) / s.total * 1e3},
+                          {"shading_points", s.shading_points},
+                          {"points_per_second", double(s.shading_points) / s.total * 1e3},
+                          {"refits", s.refits},
+                          {"rebuilds", s.rebuilds},
+                          {"non_finite", s.non_finite}});
+        }
+        json["frames"].push_back(std::move(frame));
+    }
+    std::printf("%s\n", json.dump(2).c_str());
+}
+
+}  // namespace
+
+}  // namespace kinora
+
+int main(int argc, char** argv) {
+    kinora::RenderOptions options;
+    if (std::optional<int> code = kinora::parse_render_options(argc, argv, options)) return *code;
+    struct sigaction action {};
+    action.sa_handler = kinora::on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return kinora::Render(options).run();
+    } catch (const std::bad_alloc&) {
+        std::fputs("kinora-render: out of memory\n", stderr);
+        return kinora::kExitRetry;
+    }
+}

@@ -1,0 +1,187 @@
+// runtime/programs/render_options.cpp: kinora-render's command line.
+#include "runtime/programs/render_options.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <thread>
+
+#include "runtime/programs/exit_codes.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr const char* kListKinds = "cameras, clips, materials, shaders, lights or all";
+
+int parse_threads(const std::string& text) {
+    int cores = std::max(1, int(std::thread::hardware_concurrency()));
+    if (text == "all") return cores;
+    int n = 0;
+    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc() || *end != 0 || n == 0)
+        throw CLI::ValidationError("--threads", "takes a number, -N (all but N) or 'all'");
+    return n > 0 ? n : std::max(1, cores + n);
+}
+
+void parse_size(const std::string& text, RenderOptions& o) {
+    char tail = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &o.width, &o.height, &tail) != 2 || o.width < 1 ||
+        o.height < 1 || o.width > 65536 || o.height > 65536)
+        throw CLI::ValidationError("--size", "takes WIDTHxHEIGHT, each 1 to 65536");
+}
+
+vec3 parse_color(const std::string& text) {
+    vec3 c;
+    char tail = 0;
+    if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c.x, &c.y, &c.z, &tail) != 3)
+        throw CLI::ValidationError("--background", "takes R,G,B");
+    return c;
+}
+
+void choose_target(const std::string& name, RenderOptions& o) {
+    const jit::Target* target = jit::find_target(name);
+    if (!target) {
+        std::string names;
+        for (const jit::Target& t : jit::targets()) names += fmt::format(" {}", t.name);
+        throw CLI::ValidationError("--target", "knows" + names);
+    }
+    if (target->supported())
+        o.target = target;
+    else
+        o.target_missing = name;
+}
+
+// An enumeration by name.
+template <class T>
+CLI::CheckedTransformer names(std::initializer_list<std::pair<const std::string, T>> rows) {
+    return CLI::CheckedTransformer(std::map<std::string, T>(rows), CLI::ignore_case);
+}
+
+}  // namespace
+
+std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o) {
+    CLI::App app("kinora-render: COLLADA scenes with RSL shaders to pictures", "kinora-render");
+    app.footer(kExitCodeHelp);
+    app.set_version_flag("--version", "kinora-render " KINORA_VERSION);
+    app.add_option("scene", o.scene, "the scene: .dae")->required();
+    app.add_option("-o,--output", o.output,
+                   "file; with a frame token (#### or %04d) for several frames; .png or .exr");
+    std::string frames, fps, size, threads = "all", target, quality{kDefaultQuality}, background;
+    app.add_option("--frames", frames, "1-240, 1-240x2, 300, 10-1x-1, comma separated");
+    app.add_option("--time", o.time, "one picture at this time, seconds");
+    app.add_option("--fps", fps, "frames per second: 24, 23.976 or 24000/1001");
+    app.add_option("--clip", o.clip, "play this clip's range");
+    app.add_option("--size", size, "WIDTHxHEIGHT in pixels (640 x 640/aspect)");
+    app.add_option("--camera", o.camera, "node path or id, else camera id");
+    app.add_option("--threads", threads, "N, -N (all but N) or all");
+    app.add_option("--target", target, "avx512, avx2 or interp (the best this CPU has)");
+    app.add_option("--quality", quality, "draft, preview, final or reference");
+    std::optional<int> spp;
+    std::optional<jit::math::Tier> math;
+    std::optional<bool> robust, rebuild;
+    app.add_option("--spp", spp, "samples per pixel")->check(CLI::Range(1, 1 << 20));
+    app.add_option("--math", math, "precise (1 ULP) or fast (4 ULP)")
+        ->transform(names<jit::math::Tier>(
+            {{"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}}));
+    app.add_option("--robust", robust, "watertight traversal: on or off");
+    app.add_option("--bvh", rebuild, "refit or rebuild each frame")
+        ->transform(names<bool>({{"refit", false}, {"rebuild", true}}));
+    app.add_option("--filter", o.filter, "pixel filter: box, triangle or gaussian")
+        ->check(CLI::Validator(
+            [](std::string& name) {
+                return raytrace::find_pixel_filter(name) ? "" : "no such filter";
+            },
+            "FILTER"));
+    app.add_option("--filter-width", o.filter_width, "in pixels (the filter's own)");
+    app.add_option("--seed", o.seed, "of all sampling");
+    app.add_option("--shadows", o.shadows, "auto, explicit or off")
+        ->transform(names<ShadowMode>({{"auto", ShadowMode::Auto},
+                                       {"explicit", ShadowMode::Explicit},
+                                       {"off", ShadowMode::Off}}));
+    app.add_option("--background", background, "R,G,B instead of transparent");
+    app.add_option("--nan", o.nan, "non-finite results become zero, magenta or keep")
+        ->transform(names<raytrace::NanPolicy>({{"zero", raytrace::NanPolicy::Zero},
+                                                {"magenta", raytrace::NanPolicy::Magenta},
+                                                {"keep", raytrace::NanPolicy::Keep}}));
+    app.add_option("--color", o.color, "srgb (PNG encoded) or legacy (as computed)")
+        ->transform(names<ColorEncoding>(
+            {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}}));
+    std::vector<std::string> shaders;
+    app.add_option("--shader", shaders, "MATERIAL=FILE.sl: try a shader; MATERIAL may be a glob");
+    app.add_option("-I", o.include_directories, "where shaders find #include files");
+    app.add_option("--up", o.up_axis, "X, Y or Z instead of the file's up axis")
+        ->transform(names<UpAxis>({{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}}));
+    app.add_option("--unit", o.meter, "metres per unit instead of the file's");
+    app.add_flag("--allow-external", o.allow_external, "read files outside the scene's folder");
+    bool overwrite = false;
+    auto* skip = app.add_flag("--skip-existing", o.skip_existing,
+                              "keep whole files of the same scene and options");
+    app.add_flag("--overwrite", overwrite, "write every frame (the default)")->excludes(skip);
+    app.add_flag("--keep-going", o.keep_going, "go on after a frame that failed");
+    app.add_flag("--strict", o.strict, "missing assets are errors");
+    std::string stats = "none", progress;
+    app.add_option("--stats", stats, "what each stage took, per frame: text or json")
+        ->expected(0, 1)
+        ->default_str("text")
+        ->check(CLI::IsMember({"text", "json", "none"}));
+    app.add_option("--progress", progress, "bar, lines or none")
+        ->check(CLI::IsMember({"bar", "lines", "none"}));
+    app.add_option("--list", o.list, kListKinds)
+        ->expected(0, 1)
+        ->default_str("all")
+        ->check(CLI::IsMember({"cameras", "clips", "materials", "shaders", "lights", "all"}));
+    app.add_option("--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm")->delimiter(',');
+    app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
+    app.add_flag("-v,--verbose", o.verbose, "say more");
+    app.add_flag("-q,--quiet", o.quiet, "say only errors");
+    try {
+        app.parse(argc, argv);
+        std::string error;
+        if (!frames.empty()) {
+            o.frames = parse_frames(frames, error);
+            if (!o.frames) throw CLI::ValidationError("--frames", error);
+        }
+        if (!fps.empty() && !(o.fps = parse_frame_rate(fps)))
+            throw CLI::ValidationError("--fps", "takes a positive number or a fraction");
+        if (!size.empty()) parse_size(size, o);
+        if (!background.empty()) o.background = parse_color(background);
+        o.threads = parse_threads(threads);
+        if (!target.empty()) choose_target(target, o);
+        const Quality* row = find_quality(quality);
+        if (!row)
+            throw CLI::ValidationError("--quality", "knows draft, preview, final and reference");
+        o.quality = *row;
+        if (spp) o.quality.samples_per_pixel = *spp;
+        if (math) o.quality.math = *math;
+        if (robust) o.quality.robust = *robust;
+        if (rebuild) o.quality.always_rebuild = *rebuild;
+        for (const std::string& shader : shaders) {
+            size_t equals = shader.find('=');
+            if (equals == std::string::npos || equals == 0 || equals + 1 == shader.size())
+                throw CLI::ValidationError("--shader", "takes MATERIAL=FILE.sl");
+            o.shaders.emplace_back(shader.substr(0, equals), shader.substr(equals + 1));
+        }
+        bool listing = app.count("--list") > 0;
+        if (listing && o.list.empty()) o.list = "all";
+        if (!listing && o.output.empty() && o.contact_sheet.empty() && o.dump.empty())
+            throw CLI::RequiredError("-o FILE (or --list, --dump)");
+        if (!o.output.empty() && !is_image_path(o.output))
+            throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
+        if (app.count("--stats")) {
+            o.stats = stats != "none";
+            o.stats_json = stats == "json";
+        }
+        o.progress = isatty(STDERR_FILENO) ? ProgressStyle::Bar : ProgressStyle::Lines;
+        if (progress == "bar") o.progress = ProgressStyle::Bar;
+        if (progress == "lines") o.progress = ProgressStyle::Lines;
+        if (progress == "none" || o.quiet) o.progress = ProgressStyle::None;
+    } catch (const CLI::ParseError& error) {
+        int code = app.exit(error);
+        return code == 0 ? kExitOk : kExitUsage;
+    }
+    return std::nullopt;
+}
+
+}  // namespace kinora

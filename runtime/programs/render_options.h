@@ -1,0 +1,58 @@
+// runtime/programs/render_options.h: what kinora-render was asked for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/image_io.h"
+#include "runtime/programs/frame_list.h"
+#include "runtime/programs/progress.h"
+#include "runtime/quality.h"
+#include "runtime/scene.h"
+
+namespace kinora {
+
+struct RenderOptions {
+    std::string scene;
+    std::string output;
+    std::string contact_sheet;
+    std::optional<std::vector<int64_t>> frames;
+    std::optional<double> time;  // seconds: one frame at that time
+    std::optional<FrameRate> fps;
+    std::string clip;
+    int width = 0, height = 0;  // 0: 640 x 640 / aspect
+    std::string camera;
+    int threads = 0;  // 0: all
+    const jit::Target* target = nullptr;
+    std::string target_missing;  // asked for, not on this CPU
+    Quality quality;             // the row with single options put over it
+    std::string filter = "gaussian";
+    double filter_width = 0;
+    uint32_t seed = 0;
+    ShadowMode shadows = ShadowMode::Auto;
+    std::optional<vec3> background;
+    raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
+    ColorEncoding color = ColorEncoding::Srgb;
+    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
+    std::vector<std::string> include_directories;
+    std::optional<UpAxis> up_axis;
+    std::optional<double> meter;
+    bool allow_external = false;
+    bool skip_existing = false;
+    bool keep_going = false;
+    bool strict = false;
+    bool stats = false, stats_json = false;
+    bool quiet = false, verbose = false;
+    ProgressStyle progress = ProgressStyle::Lines;
+    std::string list;               // "cameras", ..., "all"; "" = render
+    std::vector<std::string> dump;  // stages: "ir", "ir:fold", "asm", ...
+};
+
+// Reads the command line. Returns an exit code when there is nothing to render (help, usage error,
+// which is printed), nothing otherwise.
+std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& options);
+
+}  // namespace kinora
