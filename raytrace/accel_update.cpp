@@ -1,11 +1,8 @@
 // raytrace/accel_update.cpp: keeps the trees fit: what changed is refitted, what grew is rebuilt.
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <map>
 #include <utility>
 
-#include "raytrace/accel_state_p.h"
+#include "raytrace/updater_p.h"
 
 namespace kinora::raytrace {
 
@@ -14,59 +11,12 @@ namespace {
 // LOW rebuilds in a row without growth after which a mesh is built well and refitted again.
 constexpr int kCalmUpdates = 4;
 
-uint32_t mask_of(const Geometry& g) {
-    return g.opaque ? kMaskOpaque : kMaskNotOpaque;
-}
-
-bool same_buffers(const Geometry& a, const Geometry& b) {
-    return a.positions.data() == b.positions.data() && a.positions.size() == b.positions.size() &&
-           a.triangles.data() == b.triangles.data() && a.triangles.size() == b.triangles.size() &&
-           a.topology_version == b.topology_version;
-}
-
 bool same_role(const Geometry& a, const Geometry& b) {
     return a.id == b.id && a.kind == b.kind && a.opaque == b.opaque && a.shape == b.shape &&
            a.hide_backfaces == b.hide_backfaces && a.mirrored == b.mirrored;
 }
 
 }  // namespace
-
-// The steps of one update. A class only to share the names of the state's parts.
-class Updater {
-  public:
-    explicit Updater(Accel::State& state) : s(state) {}
-    void run(std::span<const Geometry> geometry);
-
-  private:
-    bool must_start_anew(std::span<const Geometry> geometry) const;
-    void start_anew(std::span<const Geometry> geometry);
-    void add_static_groups();
-    void add_deforming(uint32_t row);
-    void add_instanced(uint32_t row);
-    void build_shape(Shape& shape, bool dynamic);
-    void map_row(uint32_t row);
-    bool sound(const Geometry& g);
-    void note(GeometryIssue issue, uint32_t id, uint32_t count);
-    BoxAreas watch(const Geometry& g);
-
-    bool update_deforming(uint32_t row, const Geometry& now);
-    void refit_or_rebuild(Row& row);
-    void rebuild(Row& row, BuildQuality quality, double area);
-    void rebuild_low(Row& row, double area);
-    bool update_shape(uint32_t row, const Geometry& now);
-    bool update_instance(uint32_t row, const Geometry& now, bool shape_changed);
-
-    void limit_origins();
-    void start_background();
-    void take_up_background();
-    bool filtered(const Geometry& g) const { return s.policy.fixed_winner || g.hide_backfaces; }
-    BuildQuality deforming_quality() const {
-        return s.policy.always_rebuild ? BuildQuality::Medium : BuildQuality::Refit;
-    }
-
-    Accel::State& s;
-    bool want_background_ = false;
-};
 
 void Updater::note(GeometryIssue issue, uint32_t id, uint32_t count) {
     s.report.issues.push_back({issue, id, count});
@@ -238,138 +188,6 @@ void Updater::rebuild_low(Row& row, double area) {
     ++s.report.low_rebuilds;
 }
 
-void Updater::build_shape(Shape& shape, bool dynamic) {
-    const Geometry& g = s.rows[shape.first_row].seen;
-    watch(g);
-    shape.dynamic = dynamic;
-    shape.scene = EmbreeScene(dynamic, s.policy.robust);
-    bool refit = dynamic && !s.policy.always_rebuild;
-    // Rows of one shape may differ in mask and sides, so the instance carries the mask, and the
-    // filter is there if any row might need it.
-    bool filter = s.policy.fixed_winner || s.any_hidden_backfaces;
-    shape.mesh = EmbreeMesh(g.positions, g.triangles,
-                            refit ? BuildQuality::Refit : BuildQuality::Medium, kMaskAll, filter);
-    shape.scene.attach(shape.mesh, 0);
-    shape.scene.commit();
-    ++s.report.rebuilds;
-}
-
-void Updater::add_instanced(uint32_t index) {
-    Row& row = s.rows[index];
-    row.slot = uint32_t(s.map.slots.size());
-    s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
-    if (!row.usable) return;
-    for (uint32_t k = 0; k < s.shapes.size() && row.seen.shape != kNone; ++k)
-        if (s.rows[s.shapes[k].first_row].seen.shape == row.seen.shape) row.shape = k;
-    if (row.shape == kNone) {
-        row.shape = uint32_t(s.shapes.size());
-        s.shapes.emplace_back().first_row = index;
-        build_shape(s.shapes.back(), false);
-    }
-    update_instance(index, row.seen, true);
-}
-
-// The first row of a shape speaks for it. Returns whether its tree changed.
-bool Updater::update_shape(uint32_t index, const Geometry& now) {
-    Row& row = s.rows[index];
-    if (row.shape == kNone || s.shapes[row.shape].first_row != index) return false;
-    Shape& shape = s.shapes[row.shape];
-    const bool same = same_buffers(row.seen, now);
-    if (same && row.seen.positions_version == now.positions_version) return false;
-    dmat4 matrix = row.seen.accel_from_local;  // compared by update_instance
-    row.seen = now;
-    row.seen.accel_from_local = matrix;
-    if (!same || !shape.dynamic) {
-        build_shape(shape, same);
-        // Instances hold on to the scene they were made of.
-        for (Row& r : s.rows)
-            if (r.shape == row.shape && r.attached) {
-                s.top.detach(r.slot);
-                r.attached = false;
-            }
-    } else {
-        shape.mesh.vertices_moved();
-        shape.scene.commit();
-        ++(s.policy.always_rebuild ? s.report.rebuilds : s.report.refits);
-    }
-    return true;
-}
-
-bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_changed) {
-    Row& row = s.rows[index];
-    if (row.shape == kNone) return false;
-    const bool moved =
-        std::memcmp(&row.seen.accel_from_local, &now.accel_from_local, sizeof(dmat4)) != 0;
-    row.seen = now;
-    if (!moved && !shape_changed) return false;
-    s.report.matrices += moved;
-    if (!make_placement(now.accel_from_local, row.placement)) {
-        note(GeometryIssue::SingularMatrix, now.id, 1);
-        if (row.attached) s.top.detach(row.slot);
-        row.attached = false;
-        return true;
-    }
-    if (!row.attached) row.instance = EmbreeInstance(s.shapes[row.shape].scene, mask_of(now));
-    row.instance.set_matrix(row.placement.m);
-    if (!row.attached) s.top.attach(row.instance, row.slot);
-    row.attached = true;
-    map_row(index);
-    return true;
-}
-
-void Updater::limit_origins() {
-    s.largest_origin = kLargest;
-    for (const Row& row : s.rows)
-        if (row.seen.kind == GeometryKind::Instanced && row.attached)
-            s.largest_origin = std::min(s.largest_origin, row.placement.largest_origin);
-}
-
-void Updater::start_background() {
-    if (s.background) return;
-    s.background = std::make_unique<BackgroundBuild>();
-    BackgroundBuild& build = *s.background;
-    build.scene = EmbreeScene(true, s.policy.robust);
-    for (auto& group : s.groups) build.scene.attach(group->mesh, group->slot);
-    for (uint32_t i = 0; i < s.rows.size(); ++i) {
-        Row& row = s.rows[i];
-        const Geometry& g = row.seen;
-        if (g.kind != GeometryKind::Deforming || !row.usable) continue;
-        auto& copy = build.copies.emplace_back();
-        copy.row = i;
-        copy.area = box_areas(g.positions, g.triangles, s.partial).sum;
-        copy.positions.assign(g.positions.begin(), g.positions.end());
-        copy.mesh =
-            EmbreeMesh(copy.positions, g.triangles, BuildQuality::Refit, mask_of(g), filtered(g));
-        build.scene.attach(copy.mesh, row.slot);
-    }
-    build.thread = std::thread([&build] {
-        build.scene.commit();
-        build.done.store(true, std::memory_order_release);
-    });
-    ++s.report.background_started;
-}
-
-// The rows' current vertices go into the finished tree by one refit.
-void Updater::take_up_background() {
-    if (!s.background || !s.background->done.load(std::memory_order_acquire)) return;
-    BackgroundBuild& build = *s.background;
-    build.thread.join();
-    for (auto& copy : build.copies) {
-        Row& row = s.rows[copy.row];
-        copy.mesh.vertices_moved_to(row.seen.positions);
-        row.mesh = std::move(copy.mesh);
-        row.quality = BuildQuality::Refit;
-        row.area_at_build = copy.area;
-        row.calm_updates = 0;
-    }
-    for (Row& row : s.rows)
-        if (row.seen.kind == GeometryKind::Instanced && row.attached)
-            build.scene.attach(row.instance, row.slot);
-    s.top = std::move(build.scene);
-    s.background.reset();
-    ++s.report.background_finished;
-}
-
 void Updater::run(std::span<const Geometry> geometry) {
     if (must_start_anew(geometry)) return start_anew(geometry);
     take_up_background();
@@ -404,11 +222,6 @@ const AccelUpdate& Accel::update(std::span<const Geometry> geometry) {
     state_->report.issues = std::move(issues);
     Updater(*state_).run(geometry);
     return state_->report;
-}
-
-void Accel::wait_for_background() {
-    if (!state_->background) return;
-    while (!state_->background->done.load(std::memory_order_acquire)) std::this_thread::yield();
 }
 
 }  // namespace kinora::raytrace

@@ -98,8 +98,8 @@ void set_matrices(dvec3 eye_world, Camera& c) {
 }
 
 // d(v / |v|) = (dv - n (n . dv)) / |v|, n = v / |v|.
-vec3 unit_differential(dvec3 n, double len, dvec3 dv) {
-    return vec3((dv - n * dot(n, dv)) / len);
+vec3 unit_differential(dvec3 n, double inverse_length, dvec3 dv) {
+    return vec3((dv - n * dot(n, dv)) * inverse_length);
 }
 
 }  // namespace
@@ -144,11 +144,12 @@ CameraRay camera_ray(const Camera& camera, double x, double y) {
     } else {
         const dvec3 v = camera.forward + across;
         per_depth = length(v);
-        const dvec3 n = v / per_depth;
+        const double inverse_length = 1 / per_depth;
+        const dvec3 n = v * inverse_length;
         ray.org = vec3(camera.eye);
         ray.dir = vec3(n);
-        ray.ddir_dx = unit_differential(n, per_depth, dx);
-        ray.ddir_dy = unit_differential(n, per_depth, dy);
+        ray.ddir_dx = unit_differential(n, inverse_length, dx);
+        ray.ddir_dy = unit_differential(n, inverse_length, dy);
     }
     ray.tnear = camera.clip ? float(camera.znear * per_depth) : 0.0f;
     ray.tfar =

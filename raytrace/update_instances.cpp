@@ -1,0 +1,97 @@
+// raytrace/update_instances.cpp: shapes shared by instances, and the instances' matrices.
+#include <algorithm>
+#include <cstring>
+
+#include "raytrace/updater_p.h"
+
+namespace kinora::raytrace {
+
+void Updater::build_shape(Shape& shape, bool dynamic) {
+    const Geometry& g = s.rows[shape.first_row].seen;
+    watch(g);
+    shape.dynamic = dynamic;
+    shape.scene = EmbreeScene(dynamic, s.policy.robust);
+    bool refit = dynamic && !s.policy.always_rebuild;
+    // Rows of one shape may differ in mask and sides, so the instance carries the mask, and the
+    // filter is there if any row might need it.
+    bool filter = s.policy.fixed_winner || s.any_hidden_backfaces;
+    shape.mesh = EmbreeMesh(g.positions, g.triangles,
+                            refit ? BuildQuality::Refit : BuildQuality::Medium, kMaskAll, filter);
+    shape.scene.attach(shape.mesh, 0);
+    shape.scene.commit();
+    ++s.report.rebuilds;
+}
+
+void Updater::add_instanced(uint32_t index) {
+    Row& row = s.rows[index];
+    row.slot = uint32_t(s.map.slots.size());
+    s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
+    if (!row.usable) return;
+    auto known = shape_of_.find(row.seen.shape);
+    if (known != shape_of_.end()) {
+        row.shape = known->second;
+    } else {
+        row.shape = uint32_t(s.shapes.size());
+        if (row.seen.shape != kNone) shape_of_[row.seen.shape] = row.shape;
+        s.shapes.emplace_back().first_row = index;
+        build_shape(s.shapes.back(), false);
+    }
+    update_instance(index, row.seen, true);
+}
+
+// The first row of a shape speaks for it. Returns whether its tree changed.
+bool Updater::update_shape(uint32_t index, const Geometry& now) {
+    Row& row = s.rows[index];
+    if (row.shape == kNone || s.shapes[row.shape].first_row != index) return false;
+    Shape& shape = s.shapes[row.shape];
+    const bool same = same_buffers(row.seen, now);
+    if (same && row.seen.positions_version == now.positions_version) return false;
+    dmat4 matrix = row.seen.accel_from_local;  // compared by update_instance
+    row.seen = now;
+    row.seen.accel_from_local = matrix;
+    if (!same || !shape.dynamic) {
+        build_shape(shape, same);
+        // Instances hold on to the scene they were made of.
+        for (Row& r : s.rows)
+            if (r.shape == row.shape && r.attached) {
+                s.top.detach(r.slot);
+                r.attached = false;
+            }
+    } else {
+        shape.mesh.vertices_moved();
+        shape.scene.commit();
+        ++(s.policy.always_rebuild ? s.report.rebuilds : s.report.refits);
+    }
+    return true;
+}
+
+bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_changed) {
+    Row& row = s.rows[index];
+    if (row.shape == kNone) return false;
+    const bool moved =
+        std::memcmp(&row.seen.accel_from_local, &now.accel_from_local, sizeof(dmat4)) != 0;
+    row.seen = now;
+    if (!moved && !shape_changed) return false;
+    s.report.matrices += moved;
+    if (!make_placement(now.accel_from_local, row.placement)) {
+        note(GeometryIssue::SingularMatrix, now.id, 1);
+        if (row.attached) s.top.detach(row.slot);
+        row.attached = false;
+        return true;
+    }
+    if (!row.attached) row.instance = EmbreeInstance(s.shapes[row.shape].scene, mask_of(now));
+    row.instance.set_matrix(row.placement.m);
+    if (!row.attached) s.top.attach(row.instance, row.slot);
+    row.attached = true;
+    map_row(index);
+    return true;
+}
+
+void Updater::limit_origins() {
+    s.largest_origin = kLargest;
+    for (const Row& row : s.rows)
+        if (row.seen.kind == GeometryKind::Instanced && row.attached)
+            s.largest_origin = std::min(s.largest_origin, row.placement.largest_origin);
+}
+
+}  // namespace kinora::raytrace

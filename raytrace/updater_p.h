@@ -1,0 +1,58 @@
+// raytrace/updater_p.h: the steps of one Accel::update.
+#pragma once
+
+#include <map>
+
+#include "raytrace/accel_state_p.h"
+
+namespace kinora::raytrace {
+
+inline uint32_t mask_of(const Geometry& g) {
+    return g.opaque ? kMaskOpaque : kMaskNotOpaque;
+}
+
+inline bool same_buffers(const Geometry& a, const Geometry& b) {
+    return a.positions.data() == b.positions.data() && a.positions.size() == b.positions.size() &&
+           a.triangles.data() == b.triangles.data() && a.triangles.size() == b.triangles.size() &&
+           a.topology_version == b.topology_version;
+}
+
+// The steps of one update. A class only to share the names of the state's parts.
+class Updater {
+  public:
+    explicit Updater(Accel::State& state) : s(state) {}
+    void run(std::span<const Geometry> geometry);
+
+  private:
+    bool must_start_anew(std::span<const Geometry> geometry) const;
+    void start_anew(std::span<const Geometry> geometry);
+    void add_static_groups();
+    void add_deforming(uint32_t row);
+    void add_instanced(uint32_t row);
+    void build_shape(Shape& shape, bool dynamic);
+    void map_row(uint32_t row);
+    bool sound(const Geometry& g);
+    void note(GeometryIssue issue, uint32_t id, uint32_t count);
+    BoxAreas watch(const Geometry& g);
+
+    bool update_deforming(uint32_t row, const Geometry& now);
+    void refit_or_rebuild(Row& row);
+    void rebuild(Row& row, BuildQuality quality, double area);
+    void rebuild_low(Row& row, double area);
+    bool update_shape(uint32_t row, const Geometry& now);
+    bool update_instance(uint32_t row, const Geometry& now, bool shape_changed);
+
+    void limit_origins();
+    void start_background();
+    void take_up_background();
+    bool filtered(const Geometry& g) const { return s.policy.fixed_winner || g.hide_backfaces; }
+    BuildQuality deforming_quality() const {
+        return s.policy.always_rebuild ? BuildQuality::Medium : BuildQuality::Refit;
+    }
+
+    Accel::State& s;
+    std::map<uint32_t, uint32_t> shape_of_;  // Geometry::shape -> index of its Shape
+    bool want_background_ = false;
+};
+
+}  // namespace kinora::raytrace
