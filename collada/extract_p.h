@@ -118,7 +118,6 @@ struct SourceView {
     std::vector<uint32_t> columns;  // where each of `stride` stands within array_stride
     size_t offset = 0, array_stride = 1;
     const Element* array = nullptr;
-    std::vector<std::string_view> names;  // of the params
 };
 // Reads accessor and counts of a <source>; array->text is not parsed. False: reported, unusable.
 bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& view);
@@ -127,7 +126,6 @@ struct DoubleSource {
     uint32_t stride = 0;
     size_t count = 0;
     std::vector<double> values;
-    std::vector<std::string> names;
 };
 DoubleSource read_double_source(Extraction& x, Link source);
 // All words of a Name_array, IDREF_array or SIDREF_array source.

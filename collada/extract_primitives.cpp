@@ -39,13 +39,10 @@ uint32_t use_offset(Inputs& inputs, uint32_t offset, uint32_t limit, std::string
     return append(inputs.offsets, OffsetUse{offset, limit, std::string(semantic)});
 }
 
-uint32_t input_offset(Extraction& x, Link input, uint32_t ordinal) {
+uint32_t input_offset(Extraction& x, Link input) {
     uint64_t offset = 0;
     const Attribute* a = input.element->attribute("offset");
-    if (!a) {
-        x.diag.report(Code::SCHEMA_MISSING_ATTRIBUTE, x.where(input), "input", "offset");
-        return ordinal;
-    }
+    if (!a) return 0;  // check_elements reports it
     if (parse_count(a->value, offset) && offset < kMaxOffset) return uint32_t(offset);
     x.diag.report(Code::PRIM_INPUT, x.where(input, "offset"), input.element->value("semantic"),
                   std::string("its offset is no number in range"));
@@ -83,11 +80,10 @@ void add_input(MeshReader& mesh, Link link, uint32_t offset, Inputs& inputs) {
 Inputs read_inputs(MeshReader& mesh, Link primitive) {
     Inputs inputs;
     std::vector<std::pair<Link, uint32_t>> others;
-    uint32_t ordinal = 0;
     for (const Element& child : primitive.element->children()) {
         if (child.name != "input") continue;
         Link link{primitive.doc, &child};
-        uint32_t offset = input_offset(mesh.x, link, ordinal++);
+        uint32_t offset = input_offset(mesh.x, link);
         if (offset == kNone) continue;
         inputs.stride = std::max(inputs.stride, offset + 1);
         if (child.value("semantic") != "VERTEX") {

@@ -50,19 +50,37 @@ void check_array_count(Extraction& x, Link array, size_t values) {
     if (count != values) x.diag.report(Code::SRC_COUNT, x.where(array, "count"), count, values);
 }
 
-// The named <param>s; unnamed ones are skipped by the specification, unless all are.
+// How many numbers of the array one <param> covers: "float4x4" is 16, "float3" 3, others 1.
+uint32_t param_width(std::string_view type) {
+    if (!type.starts_with("float") && !type.starts_with("double") && !type.starts_with("int"))
+        return 1;
+    size_t digit = type.find_first_of("234");
+    if (digit == type.npos) return 1;
+    uint32_t width = uint32_t(type[digit] - '0');
+    bool matrix = digit + 2 < type.size() && type[digit + 1] == 'x';
+    if (matrix && type[digit + 2] >= '2' && type[digit + 2] <= '4')
+        width *= uint32_t(type[digit + 2] - '0');
+    return width;
+}
+
+// The columns of named <param>s; unnamed ones are skipped by the specification, unless all are.
 void read_columns(const Element& accessor, SourceView& view) {
-    uint32_t column = 0;
+    constexpr uint32_t kMaxColumns = 4096;
+    uint32_t column = 0, params = 0;
     for (const Element& child : accessor.children()) {
-        if (child.name != "param") continue;
-        if (child.attribute("name")) {
-            view.columns.push_back(column);
-            view.names.push_back(child.value("name"));
-        }
-        if (++column >= 4096) break;
+        if (child.name != "param" || column >= kMaxColumns) continue;
+        uint32_t width = param_width(child.value("type"));
+        for (uint32_t i = 0; i < width && child.attribute("name"); ++i)
+            view.columns.push_back(column + i);
+        column += width;
+        ++params;
     }
-    if (view.columns.empty())
-        for (uint32_t i = 0; i < column; ++i) view.columns.push_back(i);
+    bool none_named = view.columns.empty();
+    // Some exporters give a matrix one param of type float.
+    bool matrix = params == 1 && column == 1 && accessor.value("stride") == "16";
+    if (!none_named && !matrix) return;
+    view.columns.clear();
+    for (uint32_t i = 0; i < (matrix ? 16 : column); ++i) view.columns.push_back(i);
 }
 
 }  // namespace
@@ -118,7 +136,6 @@ DoubleSource read_double_source(Extraction& x, Link source) {
     if (!read_accessor(x, source, values.size(), view)) return out;
     out.stride = view.stride;
     out.count = view.count;
-    out.names.assign(view.names.begin(), view.names.end());
     bool dense = view.offset == 0 && view.array_stride == view.stride;
     if (dense) {
         values.resize(view.count * view.stride);

@@ -39,7 +39,9 @@ void check_indices(const SceneData& s) {
             ASSERT_LT(m.geometry, s.geometries.size());
             ASSERT_TRUE(below(m.morph, s.morphs.size()));
             ASSERT_TRUE(below(m.skin, s.skins.size()));
-            if (m.skin != kNone) ASSERT_EQ(m.joint_nodes.size(), s.skins[m.skin].joints.size());
+            if (m.skin != kNone) {
+                ASSERT_EQ(m.joint_nodes.size(), s.skins[m.skin].joints.size());
+            }
             for (uint32_t j : m.joint_nodes) ASSERT_TRUE(below(j, s.nodes.size()));
             for (const auto& b : m.materials) ASSERT_TRUE(below(b.material, s.materials.size()));
         }
