@@ -41,7 +41,12 @@ struct Avx2 {
         Vec size = _mm256_andnot_ps(set(-0.0f), det);
         return ~_mm256_movemask_ps(_mm256_and_ps(safe(square), safe(size))) & 0xff;
     }
-    static Vec repeat(const float* p) { return _mm256_broadcast_ps((const __m128*)p); }
+    using Weights = const float*;  // broadcast from memory: loads are spare here, shuffles are not
+    static Weights weights(const float* p) { return p; }
+    template <int I>
+    static Vec weight(Weights w) {
+        return _mm256_broadcast_ss(w + I);
+    }
     // c[i] = column i of the two matrices (m[0], m[1]) and (m[2], m[3]).
     static void transpose_lanes(const Vec m[4], Vec c[4]) {
         c[0] = _mm256_permute2f128_ps(m[0], m[2], 0x20);

@@ -41,7 +41,12 @@ struct Avx512 {
     static uint32_t outside(Vec square, Vec det) {
         return ~(safe(square) & safe(_mm512_abs_ps(det))) & 0xffffu;
     }
-    static Vec repeat(const float* p) { return _mm512_broadcast_f32x4(_mm_loadu_ps(p)); }
+    using Weights = Vec;  // four weights, once a lane: shuffles are spare here, loads are not
+    static Weights weights(const float* p) { return _mm512_broadcast_f32x4(_mm_loadu_ps(p)); }
+    template <int I>
+    static Vec weight(Weights w) {
+        return splat<I>(w);
+    }
     // c[i] = column i of the four matrices m.
     static void transpose_lanes(const Vec m[4], Vec c[4]) {
         Vec m01_low = _mm512_shuffle_f32x4(m[0], m[1], _MM_SHUFFLE(1, 0, 1, 0));

@@ -16,17 +16,19 @@ namespace kinora::skin {
 namespace {
 
 constexpr uint32_t kBlock = 16;
-// vectors; w[v] holds the vertex's weights of this set, once in each lane.
+
+// acc = or += weight * matrix by influence k of kLanes vertices. A vertex's matrix fills 4 / kLanes
+// vectors; w[v] stands for the vertex's weights of this set.
 template <class V, uint32_t kSet, uint32_t k, bool kFirst>
 KINORA_INLINE void add_influence(const float* palette, const uint32_t* places,
-                                 const typename V::Vec* w, typename V::Vec acc[4]) {
+                                 const typename V::Weights* w, typename V::Vec acc[4]) {
     constexpr uint32_t kParts = 4 / V::kLanes;
 #pragma GCC unroll 4
     for (uint32_t i = 0; i < 4; ++i) {
         const uint32_t vertex = i / kParts, part = i % kParts;
         const float* matrix = palette + places[vertex * kSet + k];
         const auto m = V::load(matrix + part * 4 * V::kLanes);
-        const auto weight = V::template splat<k>(w[vertex]);
+        const auto weight = V::template weight<k>(w[vertex]);
         acc[i] = kFirst ? V::mul(m, weight) : V::fma(m, weight, acc[i]);
     }
 }
@@ -35,9 +37,9 @@ KINORA_INLINE void add_influence(const float* palette, const uint32_t* places,
 template <class V, uint32_t kSet, bool kFirst>
 KINORA_INLINE void add_set(const float* palette, const float* weights, const uint32_t* places,
                            typename V::Vec acc[4]) {
-    typename V::Vec w[V::kLanes];
+    typename V::Weights w[V::kLanes];
 #pragma GCC unroll 4
-    for (uint32_t v = 0; v < V::kLanes; ++v) w[v] = V::repeat(weights + v * kSet);
+    for (uint32_t v = 0; v < V::kLanes; ++v) w[v] = V::weights(weights + v * kSet);
     add_influence<V, kSet, 0, kFirst>(palette, places, w, acc);
     if constexpr (kSet > 1) add_influence<V, kSet, 1, false>(palette, places, w, acc);
     if constexpr (kSet > 2) add_influence<V, kSet, 2, false>(palette, places, w, acc);

@@ -55,7 +55,12 @@ struct Portable {
         }
         return bits;
     }
-    static Vec repeat(const float* p) { return load(p); }
+    using Weights = const float*;
+    static Weights weights(const float* p) { return p; }
+    template <int I>
+    static Vec weight(Weights w) {
+        return set(w[I]);
+    }
     static void transpose_lanes(const Vec m[4], Vec c[4]) {
         for (int i = 0; i < 4; ++i) c[i] = m[i];
     }

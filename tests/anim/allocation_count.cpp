@@ -17,6 +17,10 @@ void* operator new(size_t bytes) {
     if (void* p = std::malloc(bytes ? bytes : 1)) return p;
     throw std::bad_alloc();
 }
+void* operator new(size_t bytes, const std::nothrow_t&) noexcept {
+    ++g_allocations;
+    return std::malloc(bytes ? bytes : 1);
+}
 void* operator new(size_t bytes, std::align_val_t alignment) {
     ++g_allocations;
     void* p = nullptr;
