@@ -2,6 +2,9 @@
 #include "jit/target.h"
 
 #include "jit/interp.h"
+#if defined(__x86_64__)
+#include "jit/x64/x64.h"
+#endif
 #include "runtime/base/check.h"
 
 namespace kinora::jit {
@@ -13,6 +16,10 @@ bool always() {
 }
 
 constexpr Target kTargets[] = {
+#if defined(__x86_64__)
+    {"avx512", 16, avx512_supported, emit_avx512},
+    {"avx2", 8, avx2_supported, emit_avx2},
+#endif
     {"interp", kMaxLanes, always, emit_interp},
 };
 

@@ -1,0 +1,181 @@
+// jit/x64/x64_control.cpp: If and Loop. A region is entered when any lane runs it; what lanes see
+// differently is blended under the mask, unless all lanes agree.
+#include "jit/x64/x64_emit_p.h"
+
+namespace kinora::jit::x64 {
+
+namespace {
+
+// Registers that count iterations, by depth of the loop; deeper ones count in memory.
+constexpr x86::Gp kCounters[] = {x86::r8d, x86::r9d, x86::r10d, x86::r11d};
+
+}  // namespace
+
+void Emit::op_If() {
+    Value end = structure_.end_of[at_];
+    for (Value m = end + 1; inst(m).op == Op::Merge; ++m) copy(m, inst(m).b);
+    ifs_.push_back({a_.newLabel(), record_set_, record_});
+    if (!plan_.branch[at_]) return;
+    set_if_any(now().a);
+    a_.jz(ifs_.back().end);
+}
+
+void Emit::op_EndIf() {
+    auto begin = static_cast<Value>(now().imm);
+    Value mask = inst(begin).a;
+    for (Value m = at_ + 1; inst(m).op == Op::Merge; ++m) {
+        if (plan_.values[begin].masked)
+            merge_into(m, inst(m).a, mask);
+        else
+            copy(m, inst(m).a);
+    }
+    const OpenIf& open = ifs_.back();
+    a_.bind(open.end);
+    if (record_set_ != open.record_set || record_ != open.record) record_ = kNone;
+    ifs_.pop_back();
+    for (Value m = at_ + 1; inst(m).op == Op::Merge; ++m) fill_slot(m);
+}
+
+// A value written in several places reaches its slot when the last write is done.
+void Emit::fill_slot(Value v) {
+    const Place& p = place(v);
+    if (p.reg < 0 || p.slot < 0) return;
+    if (is_mask(v))
+        store_mask_slot(v, x86::k(static_cast<uint32_t>(p.reg)));
+    else
+        store_slot(v, vec(p.reg));
+}
+
+// Sets the flags for begin_body; copying the first values of variables in between leaves them.
+void Emit::op_Loop() {
+    bool masked = plan_.values[at_].masked;
+    OpenLoop loop{at_, a_.newLabel(), a_.newLabel(), {}};
+    if (!plan_.calls && loops_.size() < std::size(kCounters))
+        loop.counter = kCounters[loops_.size()];
+    loops_.push_back(loop);
+    if (!masked) {
+        set_if_any(now().a);
+    } else if (isa_.wide) {
+        x86::KReg to = mask_target();
+        x86::KReg entering = mask_reg(now().a, 7);
+        // Padding lanes never loop: what services left in them may be anything.
+        a_.kmovw(x86::k0, x86::ptr(x86::r13, kValidBits));
+        a_.kandw(to, entering, x86::k0);
+        finish_mask(to);
+        a_.kortestw(to, to);
+    } else {
+        x86::Vec to = target();
+        a_.vandps(to, reg(now().a, 1), x86::ptr(x86::r13, kValidVector));
+        finish(to);
+        a_.vmovmskps(x86::eax, to);
+        a_.test(x86::eax, x86::eax);
+    }
+    if (structure_.header_of[at_] == at_) begin_body(at_);
+}
+
+void Emit::op_LoopVar() {
+    auto begin = static_cast<Value>(now().imm);
+    copy(at_, now().a);
+    if (structure_.header_of[begin] == at_) begin_body(begin);
+}
+
+void Emit::begin_body(Value begin) {
+    const OpenLoop& loop = loops_.back();
+    record_ = kNone;
+    a_.jz(loop.exit);
+    auto& hoists = allocation_.loop_hoists;
+    for (size_t k = 0; k < hoists.size(); ++k)
+        if (hoists[k].first == begin) load_constant(hoists[k].second);
+    if (loop.counter.isValid())
+        a_.mov(loop.counter, module_.loop_budget);
+    else
+        a_.mov(counter(), module_.loop_budget);
+    a_.bind(loop.header);
+}
+
+x86::Mem Emit::counter() const {
+    return x86::dword_ptr(x86::r15, layout_.counters + 4 * static_cast<int32_t>(loops_.size() - 1));
+}
+
+void Emit::op_EndLoop() {
+    auto begin = static_cast<Value>(now().imm);
+    const OpenLoop& loop = loops_.back();
+    update_variables(begin);
+    a_.jz(loop.exit);
+    if (loop.counter.isValid())
+        a_.dec(loop.counter);
+    else
+        a_.dec(counter());
+    a_.jnz(loop.header);
+    a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, fault)));
+    a_.mov(x86::byte_ptr(x86::rax, inst(begin).imm), 1);
+    a_.bind(loop.exit);
+    record_ = kNone;
+    for (Value v = begin + 1; v <= structure_.header_of[begin]; ++v) fill_slot(v);
+    loops_.pop_back();
+}
+
+// All variables change at once, and the mask with them: a variable is written when no other still
+// reads it, and a cycle is broken by keeping one old value in memory.
+void Emit::update_variables(Value loop) {
+    bool masked = plan_.values[loop].masked;
+    std::span<const Value> next = f_.args_of(now());
+    Value next_mask = root(now().a);
+    updates_.clear();
+    for (size_t k = 0; k < next.size(); ++k) {
+        Value variable = loop + 1 + static_cast<Value>(k);
+        if (root(next[k]) == variable) continue;
+        updates_.push_back({variable, root(next[k])});
+        // The next mask is read last, after the variable it may be.
+        if (variable == next_mask) save(1, variable);
+    }
+    while (!updates_.empty()) {
+        size_t k = 0;
+        while (k < updates_.size() && is_read_later(updates_[k].variable, k)) ++k;
+        if (k == updates_.size()) save(0, updates_[k = 0].variable);
+        if (masked)
+            merge_into(updates_[k].variable, updates_[k].next, loop);
+        else
+            copy(updates_[k].variable, updates_[k].next);
+        updates_.erase(updates_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    update_mask(loop, next_mask);
+    saved_[0] = saved_[1] = kNone;
+}
+
+// Keeps the old value of a variable in swap row k, where reads of it go until the loop's end.
+void Emit::save(int k, Value variable) {
+    if (is_mask(variable))
+        a_.kmovw(row(layout_.swap + kRow * k), mask_reg(variable, 7));
+    else
+        a_.emit(Id::kIdVmovaps, row(layout_.swap + kRow * k), reg(variable, 0));
+    saved_[k] = variable;
+}
+
+bool Emit::is_read_later(Value variable, size_t except) const {
+    if (saved_[0] == variable || saved_[1] == variable) return false;
+    for (size_t k = 0; k < updates_.size(); ++k)
+        if (k != except && updates_[k].next == variable) return true;
+    return false;
+}
+
+// Leaves the flags for the branch back: not zero if a lane runs on.
+void Emit::update_mask(Value loop, Value next_mask) {
+    if (!plan_.values[loop].masked) return set_if_any(next_mask);
+    bool memory = place(loop).reg < 0;
+    if (isa_.wide) {
+        x86::KReg to = memory ? x86::k7 : x86::k(static_cast<uint32_t>(place(loop).reg));
+        a_.kandw(to, mask_reg(loop, 7), mask_reg(next_mask, 0));
+        if (memory) store_mask_slot(loop, to);
+        a_.kortestw(to, to);
+    } else {
+        x86::Vec to = memory ? scratch(0) : vec(place(loop).reg);
+        x86::Vec old = reg(loop, 1);
+        a_.emit(Id::kIdVandps, to, old, operand(next_mask));
+        if (memory) store_slot(loop, to);
+        a_.vmovmskps(x86::eax, to);
+        a_.test(x86::eax, x86::eax);
+    }
+}
+
+}  // namespace kinora::jit::x64

@@ -1,0 +1,171 @@
+// jit/x64/x64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
+#include "jit/x64/x64_emit_p.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/base/check.h"
+
+namespace kinora::jit::x64 {
+
+const Emit::Member Emit::kMembers[] = {
+#define OP(name, operands, result, flags, meaning) &Emit::op_##name,
+#include "jit/ops.def"
+#undef OP
+};
+
+Emit::Emit(ModuleState& state, size_t function_index)
+    : state_(state),
+      module_(state.module),
+      f_(state.module.functions[function_index]),
+      isa_(state.isa),
+      is_kernel_(function_index == 0),
+      index_(function_index),
+      a_(state.a),
+      structure_(f_),
+      plan_(plan_function(module_, f_, structure_, isa_)),
+      allocation_(
+          allocate_registers(f_, structure_, plan_.values, limits(isa_, plan_, is_kernel_))) {
+    lay_out();
+}
+
+bool Emit::uses_valid_lanes() const {
+    for (Value v = 0; v < f_.insts.size(); ++v) {
+        Op op = inst(v).op;
+        if (op == Op::Service || op == Op::Fault) return true;
+        if (op == Op::Loop && plan_.values[v].masked) return true;
+    }
+    return false;
+}
+
+void Emit::lay_out() {
+    auto take = [&](size_t bytes) {
+        int32_t at = layout_.bytes;
+        layout_.bytes += static_cast<int32_t>((bytes + kRow - 1) / kRow * kRow);
+        return at;
+    };
+    // The caller fills in parameters at the frame's start and finds the results behind them.
+    layout_.params = take(is_kernel_ ? 0 : f_.params.size() * kRow);
+    layout_.results = take(is_kernel_ ? 0 : f_.results.size() * kRow);
+    layout_.vectors = take(static_cast<size_t>(allocation_.slots[0] * 4 * isa_.lanes));
+    layout_.masks = take(static_cast<size_t>(allocation_.slots[1] * 8));
+    layout_.swap = take(2 * kRow);
+    layout_.lanes_a = take(kRow);
+    layout_.lanes_b = take(kRow);
+    size_t args = 0, results = 0, depth = 0, deepest = 0;
+    for (const Inst& i : f_.insts) {
+        if (i.op == Op::Loop) deepest = std::max(deepest, ++depth);
+        if (i.op == Op::EndLoop) --depth;
+        if (i.op != Op::Service) continue;
+        args = std::max<size_t>(args, i.arg_count);
+        results = std::max(results, module_.services[static_cast<size_t>(i.imm)].results.size());
+    }
+    layout_.counters = take(4 * deepest);
+    layout_.service_args = take(args * kRow);
+    layout_.service_results = take(results * kRow);
+    for (const ArrayInfo& array : f_.arrays) {
+        layout_.arrays.push_back(layout_.bytes);
+        layout_.bytes += array.length * 4 * isa_.lanes;
+    }
+    take(static_cast<size_t>((kRow - layout_.bytes % kRow) % kRow));
+    layout_.bytes = (layout_.bytes + kRow - 1) / kRow * kRow;
+}
+
+void Emit::emit_function(bool listing) {
+    if (is_kernel_)
+        emit_kernel(listing);
+    else
+        emit_local(listing);
+}
+
+void Emit::emit_kernel(bool listing) {
+    static constexpr x86::Gp kSaved[] = {x86::rbx, x86::rbp, x86::r12,
+                                         x86::r13, x86::r14, x86::r15};
+    for (const x86::Gp& gp : kSaved) a_.push(gp);
+    a_.sub(x86::rsp, 8);  // calls find the stack aligned to 16
+    a_.mov(x86::rbx, x86::rdi);
+    a_.mov(x86::r12, x86::ptr(x86::rbx, offsetof(KernelArgs, in)));
+    a_.mov(x86::r14, x86::ptr(x86::rbx, offsetof(KernelArgs, frame)));
+    a_.mov(x86::r13, x86::ptr(x86::rbx, offsetof(KernelArgs, scratch)));
+    a_.lea(x86::r15, x86::ptr(x86::r13, state_.globals_bytes));
+    broadcast_frame();
+    for (Value v : allocation_.function_hoists) load_constant(v);
+    Label group = a_.newLabel();
+    a_.xor_(x86::ebp, x86::ebp);
+    a_.bind(group);
+    if (state_.uses_valid) find_valid_lanes();
+    emit_body(listing);
+    a_.add(x86::rbp, 4 * isa_.lanes);
+    a_.mov(x86::eax, x86::dword_ptr(x86::rbx, offsetof(KernelArgs, count)));
+    a_.shl(x86::rax, 2);
+    a_.cmp(x86::rbp, x86::rax);
+    a_.jb(group);
+    a_.vzeroupper();
+    a_.add(x86::rsp, 8);
+    for (size_t k = std::size(kSaved); k-- > 0;) a_.pop(kSaved[k]);
+    a_.ret();
+}
+
+// A function of the module: same registers, its own frame behind the caller's.
+void Emit::emit_local(bool listing) {
+    a_.bind(state_.entries[index_]);
+    if (plan_.calls) a_.sub(x86::rsp, 8);
+    emit_body(listing);
+    if (plan_.calls) a_.add(x86::rsp, 8);
+    a_.ret();
+}
+
+// Which lanes of this group hold points: those before `count`.
+void Emit::find_valid_lanes() {
+    a_.mov(x86::ecx, x86::ebp);
+    a_.shr(x86::ecx, 2);
+    a_.mov(x86::eax, x86::dword_ptr(x86::rbx, offsetof(KernelArgs, count)));
+    a_.sub(x86::eax, x86::ecx);
+    if (!isa_.wide) {
+        a_.vmovd(x86::xmm15, x86::eax);
+        a_.vpbroadcastd(x86::ymm15, x86::xmm15);
+        a_.vpcmpgtd(x86::ymm15, x86::ymm15, state_.pool.iota());
+        a_.vmovaps(x86::ptr(x86::r13, kValidVector), x86::ymm15);
+    }
+    // bzhi saturates its count at 255 only.
+    a_.mov(x86::ecx, isa_.lanes);
+    a_.cmp(x86::eax, x86::ecx);
+    a_.cmovg(x86::eax, x86::ecx);
+    a_.mov(x86::edx, -1);
+    a_.bzhi(x86::edx, x86::edx, x86::eax);
+    a_.mov(x86::dword_ptr(x86::r13, kValidBits), x86::edx);
+}
+
+// AVX2 has no broadcast inside an instruction, so frame slots become rows once a call.
+void Emit::broadcast_frame() {
+    for (size_t slot = 0; slot < state_.frame_row.size(); ++slot) {
+        int32_t index = state_.frame_row[slot];
+        if (index < 0) continue;
+        a_.vbroadcastss(x86::ymm15, x86::ptr(x86::r14, 4 * static_cast<int32_t>(slot)));
+        a_.vmovaps(x86::ptr(x86::r13, kFrameRows + 32 * index), x86::ymm15);
+    }
+}
+
+void Emit::emit_body(bool listing) {
+    zero_arrays();
+    record_ = kNone;
+    for (at_ = 0; at_ < f_.insts.size(); ++at_) {
+        if (listing) comment();
+        for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
+            if (place(v).reg >= 0 && place(v).in_reg(at_)) load_memory(vec(place(v).reg), home(v));
+        if (plan_.values[at_].fused) continue;
+        (this->*kMembers[static_cast<size_t>(inst(at_).op)])();
+    }
+}
+
+void Emit::comment() {
+    const Inst& i = now();
+    std::string text = fmt::format("%{} = {}", at_, op_info(i.op).name);
+    for (Value v : {i.a, i.b, i.c})
+        if (v != kNone) text += fmt::format(" %{}", v);
+    if (plan_.values[at_].fused) text += " (fused)";
+    a_.commentf("; %s", text.c_str());
+}
+
+}  // namespace kinora::jit::x64

@@ -1,0 +1,238 @@
+// jit/x64/x64_emit_p.h: writes one function as machine code.
+//
+// Registers while code runs:
+//   rbx KernelArgs   r12 in[]   r14 frame block   rbp byte offset of the lane group in a column
+//   r13 globals of the kernel in scratch   r15 this function's frame in scratch
+//   rax rcx rdx rsi scratch   rdi the record read last   r8..r11 loop counters (if no calls)
+//   the last two vector registers, k0 and k7: scratch within one IR instruction
+#pragma once
+
+#include <asmjit/x86.h>
+
+#include <string>
+#include <vector>
+
+#include "jit/target.h"
+#include "jit/x64/x64_plan_p.h"
+#include "jit/x64/x64_pool_p.h"
+
+namespace kinora::jit::x64 {
+
+namespace x86 = asmjit::x86;
+using Id = x86::Inst::Id;
+using asmjit::InstId;
+using asmjit::Label;
+using asmjit::Operand;
+
+inline constexpr int kRow = 4 * kMaxLanes;  // bytes of a row of lanes in memory shared with C++
+
+// The kernel's globals, at the start of scratch (r13).
+inline constexpr int kValidBits = 0;     // uint32: lanes of this group that hold points
+inline constexpr int kValidVector = 32;  // AVX2: the same as a vector mask
+inline constexpr int kServiceCall = 64;  // a ServiceCall
+inline constexpr int kFrameRows = 128;   // AVX2: frame slots in use, broadcast
+
+// What the functions of a module share.
+struct ModuleState {
+    const Module& module;
+    const Isa& isa;
+    x86::Assembler& a;
+    Pool& pool;
+    std::vector<Label> entries;      // of functions
+    std::vector<int32_t> frame_row;  // AVX2: frame slot -> row at kFrameRows, -1 if unused
+    int32_t globals_bytes = kFrameRows;
+    bool uses_valid = false;  // something asks which lanes hold points
+};
+
+// Where things lie in a function's frame (offsets from r15).
+struct FrameLayout {
+    int32_t params = 0, results = 0;   // rows
+    int32_t vectors = 0, masks = 0;    // spill slots
+    int32_t swap = 0;                  // two rows for old values of loop variables
+    int32_t lanes_a = 0, lanes_b = 0;  // rows for per-lane work
+    int32_t counters = 0;              // loop counters by depth
+    int32_t service_args = 0, service_results = 0;
+    std::vector<int32_t> arrays;
+    int32_t bytes = 0;
+};
+
+class Emit {
+  public:
+    Emit(ModuleState& state, size_t function_index);
+
+    // Frame size is known before code is written.
+    int32_t frame_bytes() const { return layout_.bytes; }
+    void emit_function(bool listing);
+    bool uses_valid_lanes() const;
+    // For tests: "" if the register allocation is proven right.
+    std::string check() const {
+        return check_allocation(f_, structure_, plan_.values, allocation_);
+    }
+
+  private:
+    struct OpenLoop {
+        Value begin;
+        Label header, exit;
+        x86::Gp counter;  // invalid: in memory
+    };
+
+    // One per row of ops.def: an op without a member does not compile.
+#define OP(name, operands, result, flags, meaning) void op_##name();
+#include "jit/ops.def"
+#undef OP
+    using Member = void (Emit::*)();
+    static const Member kMembers[static_cast<size_t>(Op::Count)];
+
+    // x64_emit.cpp
+    void lay_out();
+    void lay_out_calls();
+    void emit_kernel(bool listing);
+    void emit_local(bool listing);
+    void emit_body(bool listing);
+    void find_valid_lanes();
+    void broadcast_frame();
+    void comment();
+
+    // x64_memory.cpp
+    void zero_arrays();
+
+    // x64_operands.cpp: places of values
+    const Inst& inst(Value v) const {
+        return f_.insts[v];
+    }
+    const Inst& now() const {
+        return f_.insts[at_];
+    }
+    Value root(Value v) const {
+        return inst(v).op == Op::LoopOut ? inst(v).a : v;
+    }
+    const Place& place(Value v) const {
+        return allocation_.places[v];
+    }
+    bool is_mask(Value v) const {
+        return isa_.wide && inst(v).type == Type::M;
+    }
+    bool is_zero(Value v) const;
+    bool in_register(Value v) const {
+        v = root(v);
+        return place(v).in_reg(at_) && v != saved_[0] && v != saved_[1];
+    }
+    x86::Vec vec(int index) const;
+    x86::Xmm xmm(const x86::Vec& v) const {
+        return x86::xmm(v.id());
+    }
+    x86::Vec scratch(int k) const {
+        return vec(isa_.vector_registers + k);
+    }
+    x86::Gp next_gp();
+    x86::Mem home(Value v);  // memory, with its broadcast where it has one
+    x86::Mem slot(Value v) const;
+    x86::Mem row(int32_t offset) const {
+        return x86::ptr(x86::r15, offset);
+    }
+    x86::Mem constant(uint32_t bits) const;
+    Operand operand(Value v);                  // register or memory
+    x86::Vec reg(Value v, int scratch_index);  // register, loaded into that scratch if need be
+    void load(const x86::Vec& to, Value v);
+    void load_constant(Value v);  // into the register it was given
+    void load_memory(const x86::Vec& to, const x86::Mem& from);
+    x86::Vec target() {
+        return target_of(at_);
+    }  // where the instruction's value goes
+    x86::Vec target_of(Value v) const;
+    void finish(const x86::Vec& value) {
+        store_slot(at_, value);
+    }
+    void store_slot(Value v, const x86::Vec& value);
+    x86::KReg mask_reg(Value v, int scratch_index);
+    x86::KReg mask_target() const;
+    void finish_mask(const x86::KReg& value) {
+        store_mask_slot(at_, value);
+    }
+    void store_mask_slot(Value v, const x86::KReg& value);
+    void load_mask(const x86::KReg& to, Value v);
+    void copy(Value to, Value from);  // any class; `to` is being defined
+
+    // x64_arith.cpp
+    void binary(InstId id, bool commutative);
+    void unary(InstId id);
+    void unary_imm(InstId id, int imm);
+    void with_constant(InstId id, uint32_t bits);
+    void shift(InstId id);
+
+    // x64_masks.cpp
+    struct Compare {
+        InstId id;
+        int imm;
+    };
+    Compare predicate(Op op, bool negate, bool swapped) const;
+    void compare();
+    void compare_into(const Operand& to, const Inst& compare, bool negate, const x86::KReg* under);
+    void mask_binary(InstId wide_id, InstId id);
+    void blend(const x86::Vec& to, const x86::Vec& otherwise, Value then, Value mask);
+    void blend_mask(const x86::KReg& to, Value otherwise, Value then, Value mask);
+    void merge_into(Value variable, Value then, Value mask);
+    void set_if_any(Value mask);  // flags: not zero if any lane is set
+    void mask_bits(const x86::Gp& to, Value mask);
+
+    // x64_control.cpp
+    struct Update {
+        Value variable, next;
+    };
+    void fill_slot(Value v);
+    void begin_body(Value loop);
+    x86::Mem counter() const;
+    void update_variables(Value loop);
+    void update_mask(Value loop, Value next_mask);
+    void save(int k, Value variable);
+    bool is_read_later(Value variable, size_t except) const;
+
+    // In memory shared with C++ a mask lane is all ones or zero
+    void finish_typed(const x86::Vec& lanes);
+    void load_result(const x86::Mem& from);
+    void store_typed(const x86::Mem& to, Value v);
+    void index_to(const x86::Gp& to, Value index, int32_t length);
+    void clamp_lanes(const x86::Vec& to, Value index, int32_t length);
+    template <class ReadLane>
+    void gather_by_lane(int32_t length, ReadLane&& read_lane);
+    void gather_words(const x86::Gp& base, int32_t offset);
+    int32_t array_length() const;
+    int32_t array_offset() const;
+    x86::Mem array_element(Value index);
+    void element_words(Value index);
+    void store_under(const x86::Mem& to, Value value, Value mask);
+    void scatter_by_lane(Value value, Value mask);
+
+    // x64_records.cpp
+    void lane_to(const x86::Gp& to, Value index);
+    void find_record();
+    void read_record(bool uniform);
+
+    // x64_calls.cpp
+    void pass_arguments(int32_t to, bool to_service);
+
+    ModuleState& state_;
+    const Module& module_;
+    const Function& f_;
+    const Isa& isa_;
+    const bool is_kernel_;
+    const size_t index_;
+    x86::Assembler& a_;
+    Structure structure_;
+    FunctionPlan plan_;
+    Allocation allocation_;
+    FrameLayout layout_;
+    std::vector<OpenLoop> loops_;
+    struct OpenIf {
+        Label end;
+        Value record_set, record;  // what rdi pointed at when it was entered
+    };
+    std::vector<OpenIf> ifs_;
+    std::vector<Update> updates_;
+    Value saved_[2] = {kNone, kNone};  // variables whose old value lies in the swap rows
+    Value at_ = 0;
+    unsigned gp_turn_ = 0;
+    Value record_set_ = kNone, record_ = kNone;  // rdi points at this record
+};
+
+}  // namespace kinora::jit::x64

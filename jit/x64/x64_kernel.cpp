@@ -1,0 +1,157 @@
+// jit/x64/x64_kernel.cpp: from a module to a kernel: emits the functions it reaches, and the pool.
+#include <algorithm>
+#include <chrono>
+#include <deque>
+
+#include "jit/code_memory.h"
+#include "jit/x64/x64.h"
+#include "jit/x64/x64_check.h"
+#include "jit/x64/x64_emit_p.h"
+#include "runtime/base/check.h"
+
+namespace kinora::jit {
+
+namespace x64 {
+
+namespace {
+
+// Registers 14, 15 (AVX2) and 30, 31 (AVX-512) are the emitter's scratch; k0 and k7 too.
+constexpr Isa kAvx2 = {"avx2", 8, false, 14, 0};
+constexpr Isa kAvx512 = {"avx512", 16, true, 30, 7};
+
+struct X64Kernel final : Kernel {
+    void run(const KernelArgs& args) const override { entry(&args); }
+
+    std::shared_ptr<const CodeMemory> code;
+    KernelFn entry = nullptr;
+};
+
+// Functions that the kernel calls, directly or not, callers first; the kernel is the first.
+std::vector<size_t> reached(const Module& module) {
+    std::vector<size_t> order = {0};
+    std::vector<bool> seen(module.functions.size());
+    for (size_t k = 0; k < order.size(); ++k)
+        for (const Inst& inst : module.functions[order[k]].insts) {
+            if (inst.op != Op::Call || seen[static_cast<size_t>(inst.imm)]) continue;
+            seen[static_cast<size_t>(inst.imm)] = true;
+            order.push_back(static_cast<size_t>(inst.imm));
+        }
+    return order;
+}
+
+// Bytes that a call of function `index` takes, its callees' frames included (no call is cyclic).
+size_t stack_bytes(const Module& module, size_t index, const std::vector<size_t>& frames,
+                   std::vector<size_t>& known) {
+    if (known[index] != 0) return known[index];
+    size_t deepest = 0;
+    for (const Inst& inst : module.functions[index].insts)
+        if (inst.op == Op::Call)
+            deepest = std::max(deepest,
+                               stack_bytes(module, static_cast<size_t>(inst.imm), frames, known));
+    return known[index] = frames[index] + deepest;
+}
+
+void number_frame_rows(ModuleState& state, std::span<const size_t> functions) {
+    if (state.isa.wide) return;
+    state.frame_row.assign(static_cast<size_t>(state.module.frame_slots), -1);
+    int32_t rows = 0;
+    for (size_t index : functions)
+        for (const Inst& inst : state.module.functions[index].insts) {
+            if (inst.op != Op::FrameLoad) continue;
+            int32_t& row = state.frame_row[static_cast<size_t>(inst.imm)];
+            if (row < 0) row = rows++;
+        }
+    state.globals_bytes = (kFrameRows + 32 * rows + kRow - 1) / kRow * kRow;
+}
+
+// Describes the module to its callers; everything but the code.
+void describe(const Module& module, const Isa& isa, Kernel& kernel) {
+    kernel.name = module.name;
+    kernel.inputs = module.inputs;
+    kernel.outputs = module.outputs;
+    kernel.services = module.services;
+    kernel.fault_sites = module.fault_sites;
+    kernel.frame_slots = module.frame_slots;
+    kernel.target = isa.name;
+}
+
+struct Emitted {
+    asmjit::CodeHolder code;
+    asmjit::StringLogger log;
+    size_t scratch_bytes = 0;
+    std::string fault;  // of the register allocation, if asked for
+};
+
+void emit_module(const Module& module, const Isa& isa, bool listing, bool check, Emitted& out) {
+    out.code.init(asmjit::Environment::host());
+    if (listing) out.code.setLogger(&out.log);
+    x86::Assembler a(&out.code);
+    Pool pool(a, isa.wide ? 1 : 8);
+    ModuleState state{module, isa, a, pool, {}, {}};
+    std::vector<size_t> functions = reached(module);
+    state.entries.resize(module.functions.size());
+    for (size_t index : functions) state.entries[index] = a.newLabel();
+    number_frame_rows(state, functions);
+
+    std::deque<Emit> emits;
+    std::vector<size_t> frames(module.functions.size(), 0), known(frames.size(), 0);
+    for (size_t index : functions) {
+        const Emit& emit = emits.emplace_back(state, index);
+        frames[index] = static_cast<size_t>(emit.frame_bytes());
+        state.uses_valid = state.uses_valid || emit.uses_valid_lanes();
+        if (check && out.fault.empty()) out.fault = emit.check();
+    }
+    out.scratch_bytes =
+        static_cast<size_t>(state.globals_bytes) + stack_bytes(module, 0, frames, known);
+    for (Emit& emit : emits) emit.emit_function(listing);
+    pool.place(a);
+}
+
+std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* assembly) {
+    auto start = std::chrono::steady_clock::now();
+    Emitted emitted;
+    emit_module(module, isa, assembly != nullptr, false, emitted);
+    if (assembly != nullptr) *assembly = emitted.log.data();
+    const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
+    auto kernel = std::make_shared<X64Kernel>();
+    kernel->code = make_executable({bytes.data(), bytes.size()});
+    if (kernel->code == nullptr) return nullptr;
+    describe(module, isa, *kernel);
+    kernel->scratch_bytes = emitted.scratch_bytes;
+    kernel->code_bytes = bytes.size();
+    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->code->data()));
+    std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    kernel->compile_ms = took.count();
+    return kernel;
+}
+
+}  // namespace
+
+}  // namespace x64
+
+std::string check_x64_allocation(const Module& module, bool avx512) {
+    x64::Emitted emitted;
+    x64::emit_module(module, avx512 ? x64::kAvx512 : x64::kAvx2, false, true, emitted);
+    return emitted.fault;
+}
+
+bool avx2_supported() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+}
+
+bool avx512_supported() {
+    return avx2_supported() && __builtin_cpu_supports("avx512f") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512bw");
+}
+
+std::shared_ptr<Kernel> emit_avx2(const Module& module, std::string* assembly) {
+    return x64::emit(module, x64::kAvx2, assembly);
+}
+
+std::shared_ptr<Kernel> emit_avx512(const Module& module, std::string* assembly) {
+    return x64::emit(module, x64::kAvx512, assembly);
+}
+
+}  // namespace kinora::jit

@@ -1,0 +1,93 @@
+// jit/x64/x64_records.cpp: records of a grid (light answers): sets[a].records[b].
+#include "jit/x64/x64_emit_p.h"
+
+namespace kinora::jit::x64 {
+
+static_assert(sizeof(RecordSet) == 16 && sizeof(Record) == 16);
+
+// One lane's int. If lanes need not agree the value is that of a lane that runs the loop we are in:
+// those that have left it keep older indices.
+void Emit::lane_to(const x86::Gp& to, Value index) {
+    index = root(index);
+    Value loop = structure_.loop_of[at_];
+    if (inst(index).op == Op::ConstI) {
+        a_.mov(to, inst(index).imm);
+    } else if (!plan_.agree[index] && loop != kNone && plan_.values[loop].masked) {
+        a_.emit(Id::kIdVmovaps, row(layout_.lanes_a), reg(index, 0));
+        mask_bits(to, loop);
+        a_.tzcnt(to, to);
+        a_.mov(to, x86::ptr(x86::r15, to.r64(), 2, layout_.lanes_a));
+    } else if (in_register(index)) {
+        a_.vmovd(to, xmm(vec(place(index).reg)));
+    } else {
+        x86::Mem word = home(index);
+        word.resetBroadcast();
+        word.setSize(4);
+        a_.mov(to, word);
+    }
+}
+
+void Emit::op_RecordCount() {
+    lane_to(x86::eax, now().a);
+    a_.mov(x86::rcx, x86::ptr(x86::rbx, offsetof(KernelArgs, record_sets)));
+    a_.shl(x86::rax, 4);
+    x86::Vec to = target();
+    a_.emit(Id::kIdVpbroadcastd, to, x86::ptr(x86::rcx, x86::rax, 0, offsetof(RecordSet, count)));
+    finish(to);
+}
+
+// rdi = the record, or null if the set is empty. It is kept from read to read until control flow
+// joins or another record is read.
+void Emit::find_record() {
+    if (record_ == root(now().b) && record_set_ == root(now().a)) return;
+    record_ = root(now().b);
+    record_set_ = root(now().a);
+    lane_to(x86::eax, now().a);
+    a_.mov(x86::rdx, x86::ptr(x86::rbx, offsetof(KernelArgs, record_sets)));
+    a_.shl(x86::rax, 4);
+    a_.add(x86::rdx, x86::rax);
+    gp_turn_ = 0;
+    lane_to(x86::eax, now().b);
+    // The index is held in 0..count-1.
+    a_.xor_(x86::ecx, x86::ecx);
+    a_.test(x86::eax, x86::eax);
+    a_.cmovs(x86::eax, x86::ecx);
+    a_.mov(x86::ecx, x86::ptr(x86::rdx, offsetof(RecordSet, count)));
+    a_.lea(x86::esi, x86::ptr(x86::rcx, -1));
+    a_.cmp(x86::eax, x86::esi);
+    a_.cmovg(x86::eax, x86::esi);
+    a_.shl(x86::rax, 4);
+    a_.mov(x86::rdi, x86::ptr(x86::rdx, offsetof(RecordSet, records)));
+    a_.add(x86::rdi, x86::rax);
+    a_.xor_(x86::eax, x86::eax);
+    a_.test(x86::ecx, x86::ecx);
+    a_.cmovle(x86::rdi, x86::rax);
+}
+
+void Emit::read_record(bool uniform) {
+    find_record();
+    x86::Vec to = is_mask(at_) ? scratch(0) : target();
+    Label none = a_.newLabel();
+    a_.vxorps(xmm(to), xmm(to), xmm(to));
+    a_.test(x86::rdi, x86::rdi);
+    a_.jz(none);
+    if (uniform) {
+        a_.mov(x86::rcx, x86::ptr(x86::rdi, offsetof(Record, uniforms)));
+        a_.emit(Id::kIdVbroadcastss, to, x86::ptr(x86::rcx, 4 * now().imm));
+    } else {
+        a_.mov(x86::rcx, x86::ptr(x86::rdi, offsetof(Record, columns)));
+        a_.mov(x86::rcx, x86::ptr(x86::rcx, 8 * now().imm));
+        a_.emit(Id::kIdVmovups, to, x86::ptr(x86::rcx, x86::rbp));
+    }
+    a_.bind(none);
+    finish_typed(to);
+}
+
+void Emit::op_RecordField() {
+    read_record(false);
+}
+void Emit::op_RecordUniform() {
+    read_record(true);
+}
+
+}  // namespace kinora::jit::x64
