@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 
@@ -31,8 +32,28 @@ bool within(float x, float limit) {
     return std::abs(x) <= limit;
 }
 
+// Whether all sixteen rays can go to Embree as they are: nearly always so. One loop without
+// branches, which the compiler turns into vector code. A usual |dir|^2 implies a finite direction.
+bool all_sound(const RayPacket16& rays, float far) {
+    uint32_t sound = 1;
+    for (int i = 0; i < kPacket; ++i) {
+        const float x = rays.dir_x[i], y = rays.dir_y[i], z = rays.dir_z[i];
+        const float length2 = x * x + y * y + z * z;
+        sound &= uint32_t(std::abs(rays.org_x[i]) <= far) &
+                 uint32_t(std::abs(rays.org_y[i]) <= far) &
+                 uint32_t(std::abs(rays.org_z[i]) <= far) & uint32_t(length2 >= kSmallestDir2) &
+                 uint32_t(length2 <= kLargestDir2) & uint32_t(rays.tnear[i] >= 0) &
+                 uint32_t(rays.tnear[i] <= FLT_MAX) & uint32_t(rays.tnear[i] <= rays.tfar[i]);
+    }
+    return sound != 0;
+}
+
 Lanes classify(const RayPacket16& rays, float far) {
     Lanes lanes;
+    if (all_sound(rays, far)) {
+        lanes.sound = rays.active;
+        return lanes;
+    }
     for (int i = 0; i < kPacket; ++i) {
         const float x = rays.dir_x[i], y = rays.dir_y[i], z = rays.dir_z[i];
         const float length2 = x * x + y * y + z * z;

@@ -199,6 +199,29 @@ TEST(Refit, ARebuildInTheBackgroundIsTakenUpAndRefittedToThePresent) {
     EXPECT_EQ(update().refits, 1);
 }
 
+TEST(Refit, UpdatesAndRaysGoOnDuringBackgroundRebuilds) {
+    MovingTube moving(60, 80);
+    TestMesh still = sphere(0.4, {2, 0, 0}, 200, 100), ball = sphere(0.3, {-2, 0, 0});
+    std::vector<Geometry> rows{moving.rows[0], still.geometry(8),
+                               ball.geometry(9, GeometryKind::Instanced)};
+    Accel accel, rebuilt({.always_rebuild = true});
+    int started = 0, finished = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+        moving.bend_to(0.1 * frame);
+        const float size = frame % 8 < 4 ? 1.0f : 1.35f;
+        for (vec4& p : moving.mesh.positions) p *= size;
+        rows[0].positions_version = uint32_t(frame);
+        rows[2].accel_from_local[3].y = 0.1 * frame;
+        const AccelUpdate& u = accel.update(rows);
+        started += u.background_started;
+        finished += u.background_finished;
+        rebuilt.update(rows);
+        expect_same_hits(accel, rebuilt, 300);
+    }
+    EXPECT_GT(started, 0);
+    EXPECT_LE(finished, started);
+}
+
 TEST(Refit, AChangedTopologyIsRebuiltAloneEvenDuringABackgroundRebuild) {
     MovingTube a(40, 60), b(20, 30);
     std::vector<Geometry> rows{a.rows[0], b.rows[0]};
