@@ -1,0 +1,115 @@
+// tests/rsl/lower_expression_test.cpp: arithmetic, conversions and built-ins as compiled, against
+// hand-computed values and the rows of EXTREMES.md.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/rsl/run_shader.h"
+
+namespace kinora::rsl {
+namespace {
+
+TEST(LowerExpression, ComputesArithmetic) {
+    EXPECT_EQ(evaluate("1 + 2 * 3"), 7);
+    EXPECT_EQ(evaluate("x * x - 1", "float x = s + 3;"), 8);
+    EXPECT_EQ(evaluate("(1 < 2) + (2 < 1)"), 1);
+    EXPECT_EQ(evaluate("s > 0 ? 1 : 2"), 2);
+}
+
+TEST(LowerExpression, DividesAsRslDoes) {
+    EXPECT_EQ(evaluate("1 / s"), 0);  // row 47
+    EXPECT_EQ(evaluate("0 / 0"), 0);
+    EXPECT_EQ(evaluate("1 / (s + 1e-40)"), 0);
+    EXPECT_EQ(evaluate("1 / (s + 4)"), 0.25f);
+}
+
+struct Case {
+    const char* expression;
+    float value;
+};
+
+class EdgeRows : public testing::TestWithParam<Case> {};
+
+TEST_P(EdgeRows, HaveTheirOutcome) {
+    // zero is varying, so that nothing folds.
+    EXPECT_FLOAT_EQ(evaluate(GetParam().expression, "float zero = s;"), GetParam().value)
+        << GetParam().expression;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Extremes, EdgeRows,
+    testing::Values(Case{"pow(zero - 2, 0.5)", 0}, Case{"pow(zero - 2, zero + 3)", -8},
+                    Case{"pow(zero - 2, 2)", 4}, Case{"pow(zero, zero)", 1},
+                    Case{"pow(zero, zero - 1)", 0}, Case{"sqrt(zero - 1)", 0},
+                    Case{"inversesqrt(zero)", 0}, Case{"inversesqrt(zero - 1)", 0},
+                    Case{"log(zero)", -87.336544f}, Case{"acos(zero + 1.000001)", 0},
+                    Case{"asin(zero - 2)", -1.5707964f}, Case{"atan(zero, zero)", 0},
+                    Case{"mod(zero - 0.25, 1)", 0.75f}, Case{"mod(zero + 5, -3)", -1},
+                    Case{"mod(zero + 5, zero)", 0}, Case{"smoothstep(1, 1, zero)", 0},
+                    Case{"smoothstep(1, 1, zero + 1)", 1}, Case{"smoothstep(1, 0, zero + 0.5)", 0},
+                    Case{"step(zero + 2, 2)", 1}, Case{"clamp(zero + 5, 3, 1)", 1},
+                    Case{"length(vector(zero, 0, 0))", 0},
+                    Case{"xcomp(normalize(vector(zero, 0, 0)))", 0},
+                    Case{"xcomp(normalize(vector(zero + 1e-30, 0, 0)))", 1},
+                    Case{"xcomp(normalize(vector(zero + 1e30, 0, 0)))", 1},
+                    Case{"length(vector(zero + 1e20, 1e20, 1e20))", 1.7320508e20f},
+                    Case{"spline(zero - 1, 0, 1, 2, 3)", 1}, Case{"spline(zero + 2, 0, 1, 2, 3)", 2},
+                    Case{"spline(zero + 0.5, 0, 1, 2, 3)", 1.5f},
+                    Case{"float noise(point(zero + 3, 5, 7))", 0.5f},
+                    Case{"round(zero - 2.5)", -2}, Case{"round(zero + 2.5)", 3},
+                    Case{"sign(zero - 3)", -1}, Case{"comp(color(1, 2, 3), zero + 9)", 3}));
+
+TEST(LowerExpression, FoldsProductsWithZero) {
+    RunShader shader("surface t(float k = 0;) { Ci = k * noise(P); Oi = 1; }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    EXPECT_EQ(shader.kernels.point->inputs.size(), 0u);
+    EXPECT_EQ(shader.lowered.opacity, LoweredShader::Opacity::Opaque);
+}
+
+TEST(LowerExpression, KeepsTripleComponents) {
+    RunShader shader(
+        "surface t() { color c = color(1, 2, 3); c[1] = 7; vector v = vector c; Ci = c; Oi = "
+        "color(v . vector(1, 1, 1)); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.g"][0], 7);
+    EXPECT_EQ(out["Oi.r"][0], 11);
+}
+
+TEST(LowerExpression, InvertsMatrices) {
+    EXPECT_NEAR(evaluate("comp(m * (1 / m), 2, 2)",
+                         "matrix m = (2,0,0,0, 1,3,0,0, 0,s,4,0, 5,6,7,1);"),
+                1, 1e-6);
+    EXPECT_NEAR(evaluate("determinant(m)", "matrix m = (2,0,0,0, 1,3,0,0, 0,s,4,0, 5,6,7,1);"), 24,
+                1e-5);
+    EXPECT_EQ(evaluate("xcomp(transform(translate(m, vector(1, 2, 3)), point(1, 1, 1)))",
+                       "matrix m = 1;"),
+              2);
+}
+
+TEST(LowerExpression, ConvertsColorSpaces) {
+    EXPECT_NEAR(evaluate("comp(color \"hsv\" (1/3, 1, 1), 1)"), 1, 1e-6);
+    EXPECT_NEAR(evaluate("comp(ctransform(\"hsv\", color(0.5, 0.5, 0.5)), 0)"), 0, 0);
+    EXPECT_NEAR(evaluate("comp(ctransform(\"hsl\", color(0.25, 0.5, 0.75)), 2)"), 0.5, 1e-6);
+    EXPECT_NEAR(evaluate("comp(ctransform(\"xyY\", \"rgb\", ctransform(\"xyY\", color(0.2, 0.5, "
+                         "0.7))), 2)"),
+                0.7, 1e-4);
+}
+
+TEST(LowerExpression, ReportsWhatItCannotCompile) {
+    std::vector<std::string> spaces = {"node7"};
+    LowerOptions options;
+    options.spaces = &spaces;
+    RunShader shader("surface t() { point p = transform(\"shadr\", P); Ci = color(xcomp(p)); }",
+                     options);
+    EXPECT_FALSE(shader.ok());
+    EXPECT_NE(shader.findings().find("test.sl:1"), std::string::npos);
+    EXPECT_NE(shader.findings().find("did you mean 'shader'"), std::string::npos)
+        << shader.findings();
+    RunShader large("surface t(float i = 0;) { float a[200000]; a[s] = 1; Ci = a[t]; }");
+    EXPECT_NE(large.findings().find("array 'a' is too large"), std::string::npos)
+        << large.findings();
+}
+
+}  // namespace
+}  // namespace kinora::rsl

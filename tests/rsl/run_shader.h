@@ -1,0 +1,193 @@
+// tests/rsl/run_shader.h: compiles shader source and runs it on a few points: what the tests of the
+// language and of its programs share.
+#pragma once
+
+#include <bit>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "jit/compiler.h"
+#include "rsl/lower.h"
+#include "runtime/base/arena.h"
+
+namespace kinora::rsl {
+
+// One light's answer, the same for all points unless columns are given.
+struct TestLight {
+    LightKind kind = kLightIlluminate;
+    float L[3] = {0, 0, 1};
+    float Cl[3] = {1, 1, 1};
+    float Ol[3] = {1, 1, 1};
+    int lit = 1;
+    uint32_t categories = 0;  // bits by LoweredShader::categories
+    float nondiffuse = 0;
+    float nonspecular = 0;
+    std::vector<float> messages;  // components in the order of LoweredShader::light_messages
+};
+
+// A stack of shaders from source text to outputs. Inputs are named as in renderer_services.h and 0
+// unless set; spaces are the identity. Services that a shader calls are looked up in `services`.
+class RunShader {
+  public:
+    // Compiles every shader of the source and lowers the last one, or with `stack` all in order.
+    explicit RunShader(const std::string& source, LowerOptions options = {},
+                       std::vector<ParamBinding> params = {}, bool stack = false,
+                       const char* target = "interp") {
+        ShaderSource text{source, {}};
+        text.map.file = diagnostics.files.add("test.sl", source);
+        text.map.segments = {{0, 0}};
+        shaders = compile(text, {}, diagnostics);
+        if (shaders.empty()) return;
+        std::vector<Layer> layers;
+        for (auto& shader : shaders)
+            if (stack || &shader == &shaders.back()) layers.push_back({shader.get(), params});
+        std::optional<LoweredShader> result = lower(layers, options, diagnostics);
+        if (!result) return;
+        lowered = std::move(*result);
+        verdict = jit::verify(lowered.module);
+        if (!verdict.empty()) return;
+        kernels = jit::compile(lowered.module, {jit::find_target(target), nullptr});
+    }
+
+    bool ok() const { return kernels.point != nullptr; }
+    // All findings, as a user sees them.
+    std::string findings() const {
+        std::string all = verdict;
+        for (const Finding& f : diagnostics.findings())
+            all += format_finding(f, diagnostics.files);
+        return all;
+    }
+
+    void set(const std::string& name, std::vector<float> points) { inputs[name] = points; }
+    void set(const std::string& name, float value) { inputs[name] = {value}; }
+    void set3(const std::string& name, float x, float y, float z, const char* parts = "xyz") {
+        const float values[] = {x, y, z};
+        for (int c = 0; c < 3; ++c) set(name + "." + parts[c], values[c]);
+    }
+    void set_int(const std::string& name, int32_t value) { set(name, std::bit_cast<float>(value)); }
+
+    // Runs `count` points; outputs by name.
+    std::map<std::string, std::vector<float>> run(int count = 1) {
+        arena.reset();
+        std::vector<float> frame;
+        if (kernels.frame) frame = run_kernel(*kernels.frame, 1, nullptr, nullptr);
+        auto records = light_records();
+        std::vector<float> flat = run_kernel(*kernels.point, count, frame.data(), &records);
+        std::map<std::string, std::vector<float>> result;
+        for (size_t k = 0; k < kernels.point->outputs.size(); ++k)
+            result[kernels.point->outputs[k].name] = {flat.begin() + long(k) * count,
+                                                      flat.begin() + long(k + 1) * count};
+        return result;
+    }
+    // One output at one point.
+    float value(const std::string& name) {
+        auto all = run(1);
+        return all.count(name) ? all[name][0] : std::nanf("");
+    }
+
+    Diagnostics diagnostics;
+    std::vector<std::unique_ptr<Shader>> shaders;
+    LoweredShader lowered;
+    std::string verdict;  // of jit::verify: "" when well formed
+    jit::KernelPair kernels;
+    std::map<std::string, std::vector<float>> inputs;
+    std::vector<TestLight> lights;
+    std::map<std::string, jit::ServiceFn> services;
+    std::vector<uint8_t> faults;  // of the last run, by fault site
+
+  private:
+    static constexpr size_t kPad = jit::kMaxLanes;
+
+    float* column(float value, int count) {
+        size_t padded = (size_t(count) + kPad - 1) / kPad * kPad;
+        float* data = arena.allocate_span<float>(padded).data();
+        std::fill(data, data + padded, value);
+        return data;
+    }
+
+    // "space:x:to_current:RC" is 1 where R is C; "1" is 1.
+    static float missing(const std::string& name) {
+        if (name == "1") return 1;
+        if (name.rfind("space:", 0) != 0) return 0;
+        return name[name.size() - 1] == name[name.size() - 2] ? 1.0f : 0.0f;
+    }
+
+    const float* input_column(const std::string& name, int count) {
+        auto found = inputs.find(name);
+        if (found == inputs.end()) return column(missing(name), count);
+        const std::vector<float>& points = found->second;
+        float* data = column(points.back(), count);
+        if (points.size() > 1)
+            std::copy_n(points.begin(), std::min(points.size(), size_t(count)), data);
+        return data;
+    }
+
+    jit::RecordSet light_records() {
+        auto list = arena.allocate_span<jit::Record>(lights.size());
+        for (size_t k = 0; k < lights.size(); ++k) {
+            const TestLight& light = lights[k];
+            auto columns = arena.allocate_span<const float*>(kLightMessages + light.messages.size());
+            for (size_t c = 0; c < 3; ++c) {
+                columns[kLightL + c] = column(light.L[c], 256);
+                columns[kLightCl + c] = column(light.Cl[c], 256);
+                columns[kLightOl + c] = column(light.Ol[c], 256);
+            }
+            columns[kLightLit] = column(std::bit_cast<float>(light.lit), 256);
+            for (size_t c = 0; c < light.messages.size(); ++c)
+                columns[kLightMessages + c] = column(light.messages[c], 256);
+            auto uniforms = arena.allocate_span<float>(kLightUniforms + 8);
+            uniforms[kLightKind] = std::bit_cast<float>(int(light.kind));
+            uniforms[kLightCategories] = std::bit_cast<float>(light.categories);
+            uniforms[kLightNondiffuse] = light.nondiffuse;
+            uniforms[kLightNonspecular] = light.nonspecular;
+            for (size_t c = 0; c < 8; ++c)
+                uniforms[kLightUniforms + c] = std::bit_cast<float>(light.messages.empty() ? 0 : 1);
+            list[k] = {columns.data(), uniforms.data()};
+        }
+        return {int32_t(lights.size()), list.data()};
+    }
+
+    std::vector<float> run_kernel(const jit::Kernel& kernel, int count, const float* frame,
+                                  const jit::RecordSet* records) {
+        auto in = arena.allocate_span<const float*>(kernel.inputs.size() + 1);
+        for (size_t k = 0; k < kernel.inputs.size(); ++k)
+            in[k] = input_column(kernel.inputs[k].name, count);
+        auto outs = arena.allocate_span<float*>(kernel.outputs.size() + 1);
+        for (size_t k = 0; k < kernel.outputs.size(); ++k) outs[k] = column(0, count);
+        auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size() + 1);
+        for (size_t k = 0; k < kernel.services.size(); ++k)
+            functions[k] = services.at(kernel.services[k].name);
+        faults.assign(kernel.fault_sites.size() + 1, 0);
+        jit::KernelArgs args;
+        args.in = in.data();
+        args.out = outs.data();
+        args.frame = frame;
+        args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes + 64));
+        args.fault = faults.data();
+        args.services = functions.data();
+        args.record_sets = records;
+        args.grid = this;
+        args.count = count;
+        kernel.run(args);
+        std::vector<float> flat;
+        for (size_t k = 0; k < kernel.outputs.size(); ++k)
+            flat.insert(flat.end(), outs[k], outs[k] + count);
+        return flat;
+    }
+
+    Arena arena;
+};
+
+// A float expression's value in a surface shader, with the declarations in `setup` before it.
+inline float evaluate(const std::string& expression, const std::string& setup = "") {
+    RunShader shader("surface t() { " + setup + " Ci = color(float(" + expression + ")); }");
+    if (!shader.ok()) {
+        fprintf(stderr, "%s", shader.findings().c_str());
+        return std::nanf("");
+    }
+    return shader.value("Ci.r");
+}
+
+}  // namespace kinora::rsl
