@@ -164,6 +164,7 @@ void Emit::op_ArrayStore() {
     bool all = inst(mask).op == Op::ConstM && inst(mask).imm != 0;
     if (plan_.agree[now().a]) {
         x86::Mem to = array_element(now().a);
+        gp_turn_ = 1;  // rax may be part of the address
         if (all) return store_typed(to, value);
         store_under(to, value, mask);
     } else if (isa_.wide) {
@@ -181,9 +182,7 @@ void Emit::op_ArrayStore() {
     }
 }
 
-// rax may be part of the address, so operands take other pointers.
 void Emit::store_under(const x86::Mem& to, Value value, Value mask) {
-    gp_turn_ = 1;
     if (isa_.wide) {
         x86::Vec from = scratch(0);
         if (is_mask(value))

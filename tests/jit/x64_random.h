@@ -28,6 +28,7 @@ class RandomCode {
     }
     void begin_function(const std::vector<Type>& params) {
         for (Type t : params) of(t).push_back(b_.param(t));
+        running_.push_back(m_values_[0]);  // the first parameter
         begin();
     }
 
@@ -311,6 +312,7 @@ class RandomCode {
             std::vector<Value> args;
             for (Type t : m_.functions[callee].params) args.push_back(any(t));
             Value mask = running_mask();
+            args[0] = mask;
             keep(mask, b_.call(callee, mask, args));
             return;
         }
@@ -344,7 +346,7 @@ inline Module random_x64_module(uint32_t seed, int ops, bool calls) {
             size_t index = add_function(module, "f" + std::to_string(k), {Type::F, Type::M});
             RandomCode code(module, index, random);
             code.callees = callees;
-            code.begin_function({Type::F, Type::I, Type::M, Type::F});
+            code.begin_function({Type::M, Type::F, Type::I, Type::M, Type::F});
             code.code(ops / 4);
             Value results[] = {code.any(Type::F), code.any(Type::M)};
             code.builder().ret(results);
