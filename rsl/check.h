@@ -164,7 +164,7 @@ class Checker {
     std::vector<Stmt*> loops_;       // around the statement, outermost first
     std::vector<CallEdge> edges_;
     Function* function_ = nullptr;   // being checked
-    bool returned_ = false;          // a return with a value was met in it
+    bool returned_ = false;          // a return was met in it
     const char* light_statement_ = nullptr;  // the illuminance, illuminate or solar around
     std::unordered_set<std::string_view> unknown_;  // variables already reported
     std::unordered_set<const Symbol*> warned_;      // parameters already warned of

@@ -283,7 +283,7 @@ void Checker::unknown_function(CallExpr& e) {
     for (const Scope& scope : scopes_)
         for (const Function* f : scope.functions) names.push_back(f->name);
     std::string_view near = nearest_name(e.name, names);
-    if (!near.empty()) finding.help = fmt::format("did you mean '{}'?", near);
+    if (near.size() > 1) finding.help = fmt::format("did you mean '{}'?", near);
 }
 
 }  // namespace kinora::rsl

@@ -147,7 +147,7 @@ void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     if (broken_ || !unknown_.insert(e.name).second) return;
     Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.place, e.name);
     std::string_view near = nearest_name(e.name, variable_names());
-    if (!near.empty()) finding.help = fmt::format("did you mean '{}'?", near);
+    if (near.size() > 1) finding.help = fmt::format("did you mean '{}'?", near);
 }
 
 // array[i], or a component of a triple.

@@ -105,7 +105,7 @@ void Checker::check(ReturnStmt& s) {
         report(Code::RSL_RETURN_OUTSIDE_FUNCTION, s.place);
         return;
     }
-    returned_ = returned_ || s.value;
+    returned_ = true;
     bool returns = function_->result.base != BaseType::Void;
     if (returns && s.value)
         convert_to(s.value, function_->result, "the result");

@@ -54,7 +54,8 @@ Lexer::Lexer(std::string_view text, const SourceMap& map) : text_(text), map_(&m
     if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
 }
 
-Lexer::Trouble Lexer::take_trouble() {
+Lexer::Trouble Lexer::take_trouble(Location& where) {
+    where = locate(trouble_begin_, trouble_begin_ + 1);
     return std::exchange(trouble_, Trouble::None);
 }
 
@@ -88,7 +89,10 @@ bool Lexer::skip_comment() {
     }
     if (at(position_ + 1) != '*') return false;
     size_t end = text_.find("*/", position_ + 2);
-    if (end == std::string_view::npos) trouble_ = Trouble::UnterminatedComment;
+    if (end == std::string_view::npos) {
+        trouble_ = Trouble::UnterminatedComment;
+        trouble_begin_ = position_;
+    }
     position_ = end == std::string_view::npos ? text_.size() : end + 2;
     return true;
 }
@@ -178,6 +182,7 @@ void Lexer::scan_number() {
 }
 
 void Lexer::scan_string() {
+    size_t begin = position_;
     for (++position_; position_ < text_.size(); ++position_) {
         if (text_[position_] == '"') {
             ++position_;
@@ -193,6 +198,7 @@ void Lexer::scan_string() {
     }
     position_ = std::min(position_, text_.size());
     trouble_ = Trouble::UnterminatedString;
+    trouble_begin_ = begin;
 }
 
 std::string_view Lexer::rest_of_line() {

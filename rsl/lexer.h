@@ -19,7 +19,8 @@ class Lexer {
     Lexer(std::string_view text, const SourceMap& map);
 
     Token next();  // an End token at the end, again and again
-    Trouble take_trouble();
+    // What was wrong with the text up to the last token, once; `where` gets its place.
+    Trouble take_trouble(Location& where);
 
     // The rest of the line as text, trimmed, comments included; the lexer goes on at the next line.
     std::string_view rest_of_line();
@@ -41,6 +42,7 @@ class Lexer {
     size_t position_ = 0;
     bool line_start_ = true;
     Trouble trouble_ = Trouble::None;
+    size_t trouble_begin_ = 0;
     Punct punct_ = Punct::None;
 };
 

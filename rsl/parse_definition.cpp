@@ -32,9 +32,9 @@ bool Parser::foreign_definition() {
     return true;
 }
 
-// "surface name(...) {...}". The kind's word is also a name: "light(...)" is a function.
+// "surface name(...) {...}".
 bool Parser::shader_definition() {
-    if (!is_shader_word(token().word) || is(Punct::LeftParen, 1)) return false;
+    if (!is_shader_word(token().word)) return false;
     uint32_t at = next_;
     auto kind = ShaderKind(int(token().word) - int(Word::Surface));
     advance();
@@ -50,11 +50,25 @@ bool Parser::shader_definition() {
     return true;
 }
 
+// "sruface x()": perhaps a misspelt kind of shader.
+void Parser::unknown_definition() {
+    const Token& at = token();
+    bool two_names = at.kind == TokenKind::Identifier && token(1).kind == TokenKind::Identifier;
+    std::vector<std::string_view> kinds;
+    for (int k = 0; k <= int(ShaderKind::Transformation); ++k)
+        kinds.push_back(shader_kind_name(ShaderKind(k)));
+    std::string_view near = two_names ? nearest_name(at.text, kinds) : std::string_view();
+    if (near.empty()) return syntax_error("a shader or function definition");
+    Finding* finding = error(Code::RSL_SYNTAX, at, "a shader or function definition",
+                             fmt::format("'{}'", at.text));
+    if (finding) finding->help = fmt::format("did you mean '{}'?", near);
+}
+
 void Parser::function_definition() {
     bool typed = is_type_word(token().word);
     bool named = token(typed).kind == TokenKind::Identifier && is(Punct::LeftParen, typed ? 2 : 1);
     if (!named) {
-        syntax_error("a shader or function definition");
+        unknown_definition();
         return;
     }
     if (Function* f = function(typed)) ast_.functions.push_back(f);

@@ -1,4 +1,6 @@
 // rsl/parse_statement.cpp: statements.
+#include <utility>
+
 #include "rsl/parser.h"
 
 namespace kinora::rsl {
@@ -15,7 +17,7 @@ BlockStmt* Parser::block() {
         if (stmt) body.push_back(stmt);
         if (next_ == before && !is(Punct::RightBrace)) advance();
     }
-    if (!accept(Punct::RightBrace))
+    if (!accept(Punct::RightBrace) && !std::exchange(unclosed_, true))
         error(Code::RSL_UNCLOSED, ast_.tokens.tokens[at], '{');
     node->body = ast_.arena.copy(body);
     node->place = place_from(at);
@@ -70,8 +72,8 @@ Stmt* Parser::declaration_statement() {
     if (!declaration_head(head)) return nullptr;
     auto* node = make<DeclareStmt>({});
     node->symbols = declared_symbols(head, SymbolKind::Local);
-    expect_semicolon();
     node->place = place_from(at);
+    expect_semicolon();
     return node;
 }
 
@@ -82,8 +84,8 @@ Stmt* Parser::extern_statement() {
     if (!declaration_head(head)) return nullptr;
     auto* node = make<ExternStmt>({});
     node->symbols = declared_symbols(head, SymbolKind::Local);
-    expect_semicolon();
     node->place = place_from(at);
+    expect_semicolon();
     return node;
 }
 
@@ -101,9 +103,9 @@ Stmt* Parser::expression_statement() {
     uint32_t at = next_;
     node->expression = expression();
     if (panic_) return nullptr;
-    expect_semicolon();
     node->place = place_from(at);
-    return node;
+    expect_semicolon();
+    return panic_ ? nullptr : node;
 }
 
 // "( expression )" of if and while. A bare '=' in it is probably a mistake.
@@ -181,8 +183,8 @@ Stmt* Parser::jump_statement(Word word) {
             return nullptr;
         }
     }
-    expect_semicolon();
     Place place = place_from(at);
+    expect_semicolon();
     if (word == Word::Break) {
         auto* node = make<BreakStmt>(place);
         node->levels = levels;
@@ -199,8 +201,8 @@ Stmt* Parser::return_statement() {
     advance();
     if (!is(Punct::Semicolon) && !is(Punct::RightBrace)) node->value = expression();
     if (panic_) return nullptr;
-    expect_semicolon();
     node->place = place_from(at);
+    expect_semicolon();
     return node;
 }
 

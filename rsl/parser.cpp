@@ -80,6 +80,8 @@ void Parser::expect_semicolon() {
         return;
     }
     const Token& last = ast_.tokens.tokens[next_ - 1];
+    bool cut = last.kind == TokenKind::String && (last.text.size() < 2 || last.text.back() != '"');
+    if (cut) return;  // the string without its end, reported already, has swallowed the semicolon
     Location behind{last.where.file, last.where.end, last.where.end};
     reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, "';'",
                      describe(token()));
@@ -146,7 +148,11 @@ void Parser::skip_statement() {
 
 void Parser::skip_definition() {
     panic_ = false;
-    while (!at_end() && !is(Punct::LeftBrace) && !is(Punct::Semicolon)) advance();
+    for (int depth = 0; !at_end() && !is(Punct::LeftBrace); advance()) {
+        depth += is(Punct::LeftParen);
+        depth -= is(Punct::RightParen);
+        if (depth <= 0 && is(Punct::Semicolon)) break;
+    }
     if (is(Punct::LeftBrace)) skip_balanced(Punct::LeftBrace, Punct::RightBrace);
     while (accept(Punct::Semicolon)) {
     }

@@ -50,6 +50,7 @@ class Parser {
     bool foreign_definition();
     bool shader_definition();
     void function_definition();
+    void unknown_definition();
     Function* function(bool typed);
     std::span<Symbol*> parameters(SymbolKind kind);
     struct Declaration {
@@ -111,6 +112,7 @@ class Parser {
     Reporter& reporter_;
     uint32_t next_ = 0;
     bool panic_ = false;  // an error was reported and nothing has been skipped to yet
+    bool unclosed_ = false;  // the file's end was met inside a block, and said
     int depth_ = 0;
     int height_ = 0;  // of the expression parsed last
     Function* function_ = nullptr;  // being parsed

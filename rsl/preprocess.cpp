@@ -55,21 +55,22 @@ void Preprocessor::run(const ShaderSource& source) {
     read_file();
 }
 
-void Preprocessor::report_trouble(const Token& token) {
-    switch (files_.back().lexer.take_trouble()) {
+void Preprocessor::report_trouble() {
+    Location where;
+    switch (files_.back().lexer.take_trouble(where)) {
         case Lexer::Trouble::None: break;
         case Lexer::Trouble::UnterminatedString:
-            reporter_.report(Code::RSL_UNTERMINATED_STRING, token);
+            reporter_.report(Code::RSL_UNTERMINATED_STRING, where, 0, {});
             break;
         case Lexer::Trouble::UnterminatedComment:
-            reporter_.report(Code::RSL_UNTERMINATED_COMMENT, token);
+            reporter_.report(Code::RSL_UNTERMINATED_COMMENT, where, 0, {});
             break;
     }
 }
 
 Token Preprocessor::raw_next() {
     Token token = files_.back().lexer.next();
-    if (!skipping()) report_trouble(token);
+    if (!skipping()) report_trouble();
     return token;
 }
 

@@ -67,7 +67,7 @@ class Preprocessor {
     Token raw_next();
     Token peek_raw();
     void emit(Token token);
-    void report_trouble(const Token& token);
+    void report_trouble();
     void enter_text(std::string_view text, const SourceMap& map, std::string path);
     void finish_file();
 

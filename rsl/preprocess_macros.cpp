@@ -72,7 +72,11 @@ bool Preprocessor::try_expand(Token& token) {
             give_up(token);
             return true;
         }
-        if (!read_arguments(token, macro, arguments)) return true;
+        if (!read_arguments(token, macro, arguments)) {
+            token.kind = TokenKind::Number;  // so that the parser has nothing more to say
+            token.text = "0";
+            return false;
+        }
     }
     out_.macros.push_back({macro.name, macro.definition, token.macro});
     TokenList replacement =
