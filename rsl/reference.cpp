@@ -1,0 +1,371 @@
+// rsl/reference.cpp: shaders and their expressions, at one point.
+#include "rsl/reference.h"
+
+#include <algorithm>
+
+#include "rsl/reference_p.h"
+#include "runtime/base/check.h"
+
+namespace kinora::rsl {
+
+// ---- variables ----------------------------------------------------------------------------------
+
+template <class Real>
+auto Reference<Real>::global(Global id) -> Item& {
+    auto found = globals_.find(id);
+    if (found == globals_.end()) found = globals_.emplace(id, first_value(id)).first;
+    return found->second;
+}
+
+template <class Real>
+auto Reference<Real>::storage(const Symbol& symbol) -> Storage& {
+    Storage& items = variables_[&symbol];
+    size_t length = symbol.type.is_array() ? size_t(std::max(symbol.type.array_length, 1)) : 1;
+    if (items.size() < length) items.resize(length, Item(symbol.type.base));
+    return items;
+}
+
+template <class Real>
+void Reference<Real>::declare(const Symbol& symbol) {
+    Storage items;
+    if (auto* literal = as_if<ArrayLiteralExpr>(symbol.initial)) {
+        for (const Expr* e : literal->items) items.push_back(convert(expr(*e), symbol.type.base));
+    } else if (symbol.initial && symbol.type.is_array()) {
+        items = storage(*as<VariableExpr>(*symbol.initial).symbol);
+    } else if (symbol.initial) {
+        items.push_back(convert(expr(*symbol.initial), symbol.type.base));
+    }
+    variables_[&symbol] = items;
+    storage(symbol);  // the rest is 0
+}
+
+// A float as an index: truncated, clamped (EXTREMES.md row 71).
+template <class Real>
+size_t Reference<Real>::index(const Expr& e, size_t length) {
+    Real x = expr(e).c[0].x;
+    Real last = Real(length - 1);
+    if (!(x > -1 && x < last + 1)) ++result.faults;
+    return size_t(decide(int(x > 0 ? std::min(x, last) : Real(0))));
+}
+
+// Where an l-value is; *component is -1, or the component of the triple there.
+template <class Real>
+auto Reference<Real>::place(const Expr& target, int* component) -> Item* {
+    *component = -1;
+    if (auto* node = as_if<ComponentExpr>(&target)) {
+        int none;
+        Item* whole = place(*node->operand, &none);
+        *component = int(index(*node->index, 3));
+        return whole;
+    }
+    if (auto* node = as_if<IndexExpr>(&target)) {
+        Storage& items = storage(*as<VariableExpr>(*node->array).symbol);
+        return &items[index(*node->index, items.size())];
+    }
+    const Symbol& symbol = *as<VariableExpr>(target).symbol;
+    return symbol.global ? &global(symbol.global->id) : &storage(symbol)[0];
+}
+
+template <class Real>
+void Reference<Real>::store(const Expr& target, const Item& value) {
+    int component;
+    Item* at = place(target, &component);
+    if (component >= 0)
+        at->c[size_t(component)] = value.c[0];
+    else
+        at->c = value.c;
+}
+
+// ---- expressions --------------------------------------------------------------------------------
+
+template <class Real>
+auto Reference<Real>::expr(const Expr& e) -> Item {
+    switch (e.kind) {
+        case ExprKind::Number:
+            return {BaseType::Float, Number(Real(as<NumberExpr>(e).value))};
+        case ExprKind::String:
+            return {BaseType::String, Number(Real(intern(as<StringExpr>(e).value)))};
+        case ExprKind::Variable:
+        case ExprKind::Index: {
+            int none;
+            return *place(e, &none);
+        }
+        case ExprKind::Component: {
+            auto& node = as<ComponentExpr>(e);
+            Item whole = expr(*node.operand);
+            return {BaseType::Float, whole.c[index(*node.index, 3)]};
+        }
+        case ExprKind::Unary: {
+            auto& node = as<UnaryExpr>(e);
+            Item x = expr(*node.operand);
+            if (node.op == Op::Not) return {BaseType::Bool, Number(Real(!x.truth()))};
+            for (Number& c : x.c) c = -c;
+            return x;
+        }
+        case ExprKind::Binary: {
+            auto& node = as<BinaryExpr>(e);
+            Item left = expr(*node.left);
+            Item r = binary(node.op, left, expr(*node.right));
+            if (is_triple(r.type) && is_triple(e.type.base)) r.type = e.type.base;
+            return r;
+        }
+        case ExprKind::Select: {
+            auto& node = as<SelectExpr>(e);
+            return expr(decide(expr(*node.condition).truth()) ? *node.yes : *node.no);
+        }
+        case ExprKind::Assign:
+            return assign(as<AssignExpr>(e));
+        case ExprKind::Call:
+            return as<CallExpr>(e).function ? call_function(as<CallExpr>(e))
+                                            : call_builtin(as<CallExpr>(e));
+        case ExprKind::Cast:
+            return cast(as<CastExpr>(e));
+        case ExprKind::Triple: {
+            Item x(e.type.base);
+            for (size_t k = 0; k < 3; ++k) x.c[k] = expr(*as<TripleExpr>(e).items[k]).c[0];
+            return x;
+        }
+        case ExprKind::Sixteen: {
+            Item x(BaseType::Matrix);
+            for (size_t k = 0; k < 16; ++k) x.c[k] = expr(*as<SixteenExpr>(e).items[k]).c[0];
+            return x;
+        }
+        case ExprKind::ArrayLiteral:
+            break;  // only as an initialiser: declare()
+    }
+    CHECK(false);
+    return {};
+}
+
+template <class Real>
+auto Reference<Real>::convert(const Item& x, BaseType to) const -> Item {
+    if (x.type == to) return x;
+    if (to == BaseType::Bool) return {to, Number(Real(x.c[0].x != 0))};
+    Item r(to);
+    if (to == BaseType::Matrix)
+        for (size_t k = 0; k < 4; ++k) r.c[k * 5] = x.c[0];
+    else
+        for (size_t k = 0; k < r.size(); ++k) r.c[k] = x.c[is_triple(x.type) ? k : 0];
+    return r;
+}
+
+template <class Real>
+auto Reference<Real>::cast(const CastExpr& e) -> Item {
+    Item x = convert(expr(*e.operand), e.to);
+    if (!e.space) return x;
+    std::string name = expr(*e.space).text();
+    if (e.to != BaseType::Color) return by_matrix(x, space(name, "to_current"));
+    Vec<Real> c = color_space(vec(x), name, "rgb");
+    return {e.to, c[0], c[1], c[2]};
+}
+
+template <class Real>
+bool Reference<Real>::compare(Op op, const Item& a, const Item& b) {
+    bool all = true;
+    for (size_t k = 0; k < a.size(); ++k) {
+        Real x = a.c[k].x, y = b.c[k].x;
+        all = all && (op == Op::Less           ? x < y
+                      : op == Op::LessEqual    ? x <= y
+                      : op == Op::Greater      ? x > y
+                      : op == Op::GreaterEqual ? x >= y
+                                               : x == y);
+    }
+    return decide(op == Op::NotEqual ? !all : all);
+}
+
+template <class Real>
+auto Reference<Real>::binary(Op op, const Item& a, const Item& b) -> Item {
+    if (op == Op::And) return {BaseType::Bool, Number(Real(a.truth() && b.truth()))};
+    if (op == Op::Or) return {BaseType::Bool, Number(Real(a.truth() || b.truth()))};
+    if (op >= Op::Less && op <= Op::NotEqual)
+        return {BaseType::Bool, Number(Real(compare(op, a, b)))};
+    if (op == Op::Dot) return {BaseType::Float, dot(vec(a), vec(b))};
+    if (op == Op::Cross) {
+        Vec<Real> r = cross(vec(a), vec(b));
+        return {BaseType::Vector, r[0], r[1], r[2]};
+    }
+    if (a.type == BaseType::Matrix && op == Op::Multiply) return by_matrix(a, b.c);
+    if (a.type == BaseType::Matrix && op == Op::Divide) return by_matrix(a, inverse(b.c));
+    Item r(a.type);
+    for (size_t k = 0; k < a.size(); ++k)
+        r.c[k] = op == Op::Add        ? a.c[k] + b.c[k]
+                 : op == Op::Subtract ? a.c[k] - b.c[k]
+                 : op == Op::Multiply ? a.c[k] * b.c[k]
+                                      : a.c[k] / b.c[k];
+    return r;
+}
+
+template <class Real>
+auto Reference<Real>::assign(const AssignExpr& e) -> Item {
+    if (e.target->type.is_array()) {
+        storage(*as<VariableExpr>(*e.target).symbol) = storage(*as<VariableExpr>(*e.value).symbol);
+        return Item(e.target->type.base);
+    }
+    Item value = expr(*e.value);
+    if (e.op != Op::None) value = binary(e.op, expr(*e.target), value);
+    store(*e.target, value);
+    return value;
+}
+
+// ---- calls --------------------------------------------------------------------------------------
+
+// Arguments are copied in before the body runs and, if output, copied out after it.
+template <class Real>
+auto Reference<Real>::call_function(const CallExpr& e) -> Item {
+    const Function& f = *e.function;
+    std::vector<Storage> values;
+    for (const Expr* argument : e.args)
+        values.push_back(argument->type.is_array() ? storage(*as<VariableExpr>(*argument).symbol)
+                                                   : Storage{expr(*argument)});
+    for (size_t k = 0; k < e.args.size(); ++k) variables_[f.parameters[k]] = values[k];
+    uint32_t path = inline_path;
+    inline_path = inline_path * 31 + e.site + 1;
+    returned_ = Item(f.result.base);
+    block(f.body->body);
+    inline_path = path;
+    Item value = returned_;
+    for (size_t k = 0; k < e.args.size(); ++k) {
+        if (!f.parameters[k]->output) continue;
+        Storage after = variables_[f.parameters[k]];
+        if (e.args[k]->type.is_array())
+            storage(*as<VariableExpr>(*e.args[k]).symbol) = after;
+        else
+            store(*e.args[k], after[0]);
+    }
+    return value;
+}
+
+template <class Real>
+auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
+    RefCall<Real> call{*this, e, {}, {}, {}, Item(e.type.base)};
+    size_t plain = e.signature->pairs ? std::min<size_t>(e.pairs, e.args.size()) : e.args.size();
+    for (size_t k = 0; k < plain; ++k) {
+        bool array = e.args[k]->type.is_array();
+        call.arrays.push_back(array ? storage(*as<VariableExpr>(*e.args[k]).symbol) : Storage{});
+        call.args.push_back(array ? Item(e.args[k]->type.base) : expr(*e.args[k]));
+    }
+    for (size_t k = plain; k + 1 < e.args.size(); k += 2)
+        if (!e.args[k + 1]->type.is_array())
+            call.pairs.push_back({expr(*e.args[k]).text(), expr(*e.args[k + 1])});
+    const RefFn& ref = e.builtin->ref;
+    if constexpr (std::is_same_v<Real, float>) {
+        CHECK(ref.single != nullptr);
+        ref.single(call);
+    } else {
+        CHECK(ref.precise != nullptr);
+        ref.precise(call);
+    }
+    for (size_t k = 0; k < plain && k < e.signature->arguments.size(); ++k)
+        if (e.signature->arguments[k].output && !e.args[k]->type.is_array())
+            store(*e.args[k], call.args[k]);
+    return call.result;
+}
+
+// ---- shaders ------------------------------------------------------------------------------------
+
+template <class Real>
+void Reference<Real>::output(const std::string& name, const Item& value) {
+    for (size_t k = 0; k < value.size(); ++k) {
+        std::string suffix = value.type == BaseType::Color    ? std::string(".") + "rgb"[k]
+                             : is_triple(value.type)          ? std::string(".") + "xyz"[k]
+                             : value.type == BaseType::Matrix ? "." + std::to_string(k)
+                                                              : "";
+        result.values[name + suffix] = double(value.c[k].x);
+    }
+}
+
+// Displacements hand N and P to each other and N to surfaces; surfaces lie over those before.
+template <class Real>
+void Reference<Real>::run_layer(const Layer& next) {
+    const Shader& shader = *next.shader;
+    bool displacement = shader.kind == ShaderKind::Displacement;
+    std::map<Global, Item> kept;
+    for (auto& [id, value] : globals_)
+        if (id == Global::N || (id == Global::P && displacement)) kept[id] = value;
+    globals_ = std::move(kept);
+    layer = &next;
+    layer_index = size_t(&next - layers_.data());
+    inline_path = inline_path * 31 + 7;
+    if (shader.kind == ShaderKind::Light)
+        for (Global id : {Global::L, Global::Cl, Global::Ol})
+            globals_[id] = Item(global_info(id).type.base);
+    for (const ShaderParameter& p : shader.parameters)
+        variables_[p.symbol] =
+            p.type.is_array() ? array_parameter(*p.symbol) : Storage{parameter(*p.symbol, -1)};
+    block(shader.definition->body->body);
+    for (const ShaderParameter& p : shader.parameters)
+        if (!p.type.is_array()) {
+            output("aov:" + std::string(p.name), variables_[p.symbol][0]);
+            output("message:" + std::string(p.name), variables_[p.symbol][0]);
+        }
+    if (displacement || shader.kind == ShaderKind::Light) return;
+    Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));
+    for (size_t k = 0; k < 3 && have_surface_; ++k) {
+        Number through = Number(1) - Oi[k];
+        Ci[k] = Ci[k] + through * Ci_[k];
+        Oi[k] = Oi[k] + through * Oi_[k];
+    }
+    Ci_ = Ci, Oi_ = Oi, have_surface_ = true;
+}
+
+// One record for each illuminate or solar statement, in the order of the text.
+static void find_sources(const Stmt* stmt, std::vector<const Stmt*>& found) {
+    if (!stmt) return;
+    if (auto* node = as_if<BlockStmt>(stmt))
+        for (const Stmt* s : node->body) find_sources(s, found);
+    if (auto* node = as_if<IfStmt>(stmt)) {
+        find_sources(node->yes, found);
+        find_sources(node->no, found);
+    }
+    if (auto* node = as_if<WhileStmt>(stmt)) find_sources(node->body, found);
+    if (auto* node = as_if<ForStmt>(stmt)) find_sources(node->body, found);
+    if (stmt->kind == StmtKind::Illuminate || stmt->kind == StmtKind::Solar) found.push_back(stmt);
+}
+
+template <class Real>
+void Reference<Real>::light_outputs() {
+    Item no_L(BaseType::Vector), black(BaseType::Color);
+    if (sources_.empty())
+        sources_.push_back({nullptr, no_L, global(Global::Cl), global(Global::Ol), true});
+    for (size_t k = 0; k < sources_.size(); ++k) {
+        std::string prefix = "light:" + std::to_string(k) + ":";
+        output(prefix + "L", sources_[k].L);
+        output(prefix + "Cl", sources_[k].Cl);
+        output(prefix + "Ol", sources_[k].Ol);
+        result.values[prefix + "lit"] = sources_[k].lit;
+    }
+}
+
+template <class Real>
+ReferenceResult Reference<Real>::run() {
+    const Shader& last = *layers_.back().shader;
+    if (last.kind == ShaderKind::Light) {
+        std::vector<const Stmt*> statements;
+        find_sources(last.definition->body, statements);
+        for (const Stmt* s : statements)
+            sources_.push_back(
+                {s, Item(BaseType::Vector), Item(BaseType::Color), Item(BaseType::Color), false});
+    }
+    for (const Layer& l : layers_) run_layer(l);
+    if (last.kind == ShaderKind::Light) {
+        light_outputs();
+        return result;
+    }
+    if (have_surface_) {
+        output("Ci", {BaseType::Color, Ci_[0], Ci_[1], Ci_[2]});
+        output("Oi", {BaseType::Color, Oi_[0], Oi_[1], Oi_[2]});
+    }
+    output("N", global(Global::N));
+    output("P", global(Global::P));
+    return result;
+}
+
+template <class Real>
+ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInputs& inputs) {
+    if (layers.empty()) return {};
+    return Reference<Real>(layers, inputs).run();
+}
+template ReferenceResult run_reference<float>(std::span<const Layer>, const ReferenceInputs&);
+template ReferenceResult run_reference<double>(std::span<const Layer>, const ReferenceInputs&);
+
+}  // namespace kinora::rsl

@@ -1,0 +1,173 @@
+// rsl/reference_control.cpp: statements, at one point.
+#include "rsl/reference_p.h"
+
+namespace kinora::rsl {
+
+namespace {
+constexpr int kLoopBudget = 1'000'000;  // EXTREMES.md row 72
+}
+
+template <class Real>
+RefFlow Reference<Real>::block(std::span<Stmt* const> body) {
+    for (const Stmt* stmt : body) {
+        RefFlow flow = statement(*stmt);
+        if (flow.kind != RefFlow::Next) return flow;
+    }
+    return {};
+}
+
+template <class Real>
+RefFlow Reference<Real>::statement(const Stmt& stmt) {
+    switch (stmt.kind) {
+        case StmtKind::Block:
+            return block(as<BlockStmt>(stmt).body);
+        case StmtKind::Declare:
+            for (const Symbol* symbol : as<DeclareStmt>(stmt).symbols) declare(*symbol);
+            return {};
+        case StmtKind::Expression:
+            expr(*as<ExpressionStmt>(stmt).expression);
+            return {};
+        case StmtKind::If: {
+            auto& node = as<IfStmt>(stmt);
+            if (decide(expr(*node.condition).truth())) return statement(*node.yes);
+            return node.no ? statement(*node.no) : RefFlow{};
+        }
+        case StmtKind::While: {
+            auto& node = as<WhileStmt>(stmt);
+            return loop(stmt, node.condition, *node.body, {});
+        }
+        case StmtKind::For: {
+            auto& node = as<ForStmt>(stmt);
+            block(node.init);
+            return loop(stmt, node.condition, *node.body, node.step);
+        }
+        case StmtKind::Break:
+            return {RefFlow::Break, as<BreakStmt>(stmt).loop};
+        case StmtKind::Continue:
+            return {RefFlow::Continue, as<ContinueStmt>(stmt).loop};
+        case StmtKind::Return:
+            if (const Expr* value = as<ReturnStmt>(stmt).value) returned_ = expr(*value);
+            return {RefFlow::Return, nullptr};
+        case StmtKind::Illuminance:
+            return illuminance(as<IlluminanceStmt>(stmt));
+        case StmtKind::Illuminate: {
+            auto& node = as<IlluminateStmt>(stmt);
+            return illuminate(stmt, node.position, node.axis, node.angle, *node.body);
+        }
+        case StmtKind::Solar: {
+            auto& node = as<SolarStmt>(stmt);
+            return illuminate(stmt, nullptr, node.axis, node.angle, *node.body);
+        }
+        case StmtKind::Extern:
+        case StmtKind::DefineFunction:
+        case StmtKind::Gather:
+            break;  // nothing to do; gather is an error of the checker
+    }
+    return {};
+}
+
+template <class Real>
+bool Reference<Real>::ends_loop(RefFlow& flow, const Stmt& stmt, bool& leave) {
+    leave = flow.kind == RefFlow::Break || flow.kind == RefFlow::Return ||
+            (flow.kind == RefFlow::Continue && flow.loop != &stmt);
+    bool mine = flow.kind != RefFlow::Return && flow.loop == &stmt;
+    if (mine) flow = {};
+    return leave;
+}
+
+template <class Real>
+RefFlow Reference<Real>::loop(const Stmt& stmt, const Expr* condition, const Stmt& body,
+                              std::span<Expr* const> step) {
+    RefFlow flow;
+    bool leave = false;
+    loop_counters.push_back(0);
+    for (int turn = 0; !condition || decide(expr(*condition).truth()); ++turn) {
+        if (turn >= kLoopBudget) {
+            ++result.faults;
+            break;
+        }
+        loop_counters.back() = turn;
+        flow = statement(body);
+        if (ends_loop(flow, stmt, leave)) break;
+        for (const Expr* e : step) expr(*e);
+    }
+    loop_counters.pop_back();
+    return flow;
+}
+
+// "name" asks for lights of the category, "-name" for all others, "" for all.
+static bool matches(const ReferenceLight& light, std::string category) {
+    if (category.empty()) return true;
+    bool without = category[0] == '-';
+    if (without) category.erase(0, 1);
+    bool has = false;
+    for (const std::string& name : light.categories) has = has || name == category;
+    return has != without;
+}
+
+template <class Real>
+RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
+    std::string category = stmt.category ? expr(*stmt.category).text() : "";
+    Item position = expr(*stmt.position);
+    Vec<Real> axis = stmt.axis ? vec(expr(*stmt.axis)) : Vec<Real>{};
+    Number angle = stmt.angle ? expr(*stmt.angle).c[0] : Number();
+    constexpr Global kSet[] = {Global::L, Global::Cl, Global::Ol, Global::Ps};
+    RefFlow flow;
+    bool leave = false;
+    loop_counters.push_back(0);
+    for (size_t k = 0; k < in.lights.size() && !leave; ++k) {
+        const ReferenceLight& l = in.lights[k];
+        loop_counters.back() = int32_t(k);
+        auto triple = [](BaseType type, const std::array<double, 3>& c) {
+            return Item(type, Number(Real(c[0])), Number(Real(c[1])), Number(Real(c[2])));
+        };
+        Item L = triple(BaseType::Vector, l.L);
+        bool reached = l.kind != kLightAmbient && l.lit && matches(l, category) &&
+                       in_cone(vec(L), stmt.axis ? &axis : nullptr, angle);
+        if (!reached) continue;
+        Item saved[4];
+        for (size_t i = 0; i < 4; ++i) saved[i] = global(kSet[i]);
+        global(Global::L) = L;
+        global(Global::Cl) = triple(BaseType::Color, l.Cl);
+        global(Global::Ol) = triple(BaseType::Color, l.Ol);
+        global(Global::Ps) = position;
+        const ReferenceLight* outer = std::exchange(light, &l);
+        flow = statement(*stmt.body);
+        light = outer;
+        for (size_t i = 0; i < 4; ++i) global(kSet[i]) = saved[i];
+        ends_loop(flow, stmt, leave);
+    }
+    loop_counters.pop_back();
+    return flow;
+}
+
+// In a light: what the statement sends to Ps. Without a position it is solar.
+template <class Real>
+RefFlow Reference<Real>::illuminate(const Stmt& stmt, const Expr* position, const Expr* axis,
+                                    const Expr* angle, const Stmt& body) {
+    Vec<Real> L;
+    if (position)
+        L = vec(global(Global::Ps)) - vec(expr(*position));
+    else if (axis)
+        L = normalize(vec(expr(*axis)));
+    else
+        L = Number(-1) * normalize(vec(global(Global::Ns)));
+    if (position && axis) {
+        Vec<Real> a = vec(expr(*axis));
+        if (!in_cone(L, &a, expr(*angle).c[0])) return {};
+    }
+    global(Global::L) = {BaseType::Vector, L[0], L[1], L[2]};
+    RefFlow flow = statement(body);
+    for (Source& source : sources_)
+        if (source.stmt == &stmt)
+            source = {&stmt, global(Global::L), global(Global::Cl), global(Global::Ol), true};
+    return flow;
+}
+
+#define KINORA_CONTROL_METHODS(Real)                                 \
+    template RefFlow Reference<Real>::block(std::span<Stmt* const>); \
+    template RefFlow Reference<Real>::statement(const Stmt&);
+KINORA_CONTROL_METHODS(float)
+KINORA_CONTROL_METHODS(double)
+
+}  // namespace kinora::rsl

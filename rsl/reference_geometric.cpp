@@ -1,0 +1,168 @@
+// rsl/reference_geometric.cpp: geometric built-ins at one point.
+#include "rsl/reference_p.h"
+
+namespace kinora::rsl::ref {
+
+namespace {
+
+template <class Real>
+Vec<Real> along_u(const Vec<Real>& a) {
+    return {Dual<Real>(a[0].u), Dual<Real>(a[1].u), Dual<Real>(a[2].u)};
+}
+template <class Real>
+Vec<Real> along_v(const Vec<Real>& a) {
+    return {Dual<Real>(a[0].v), Dual<Real>(a[1].v), Dual<Real>(a[2].v)};
+}
+
+template <class Real>
+struct Bent {
+    Vec<Real> direction;
+    bool total;
+};
+// RenderMan Interface 3.2: k = 1 - eta^2 (1 - (I.N)^2); total reflection where k < 0.
+template <class Real>
+Bent<Real> bend(RefCall<Real>& c, const Vec<Real>& I, const Vec<Real>& N, const Dual<Real>& eta) {
+    using Number = Dual<Real>;
+    Number IN = dot(I, N);
+    Number k = Number(1) - eta * eta * (Number(1) - IN * IN);
+    if (c.eval.decide(k.x < 0)) return {{}, true};
+    return {eta * I - (eta * IN + rsl::sqrt(k)) * N, false};
+}
+
+template <class Real>
+Vec<Real> mirrored(const Vec<Real>& I, const Vec<Real>& N) {
+    return I - (Real(2) * dot(I, N)) * N;
+}
+
+}  // namespace
+
+template <class Real>
+void xcomp(RefCall<Real>& c) {
+    c.set(c.v(0)[0]);
+}
+template <class Real>
+void ycomp(RefCall<Real>& c) {
+    c.set(c.v(0)[1]);
+}
+template <class Real>
+void zcomp(RefCall<Real>& c) {
+    c.set(c.v(0)[2]);
+}
+template <class Real>
+void setxcomp(RefCall<Real>& c) {
+    c.args[0].c[0] = c.f(1);
+}
+template <class Real>
+void setycomp(RefCall<Real>& c) {
+    c.args[0].c[1] = c.f(1);
+}
+template <class Real>
+void setzcomp(RefCall<Real>& c) {
+    c.args[0].c[2] = c.f(1);
+}
+template <class Real>
+void length(RefCall<Real>& c) {
+    c.set(rsl::length(c.v(0)));
+}
+template <class Real>
+void normalize(RefCall<Real>& c) {
+    c.set(rsl::normalize(c.v(0)));
+}
+template <class Real>
+void distance(RefCall<Real>& c) {
+    c.set(rsl::length(c.v(0) - c.v(1)));
+}
+template <class Real>
+void reflect(RefCall<Real>& c) {
+    c.set(mirrored(c.v(0), c.v(1)));
+}
+
+template <class Real>
+void ptlined(RefCall<Real>& c) {
+    using Number = Dual<Real>;
+    Vec<Real> q = c.v(0), a = c.v(1), ab = c.v(2) - a;
+    Number t = rsl::clamp(dot(q - a, ab) / dot(ab, ab), Number(0), Number(1));
+    c.set(rsl::length(q - (a + t * ab)));
+}
+
+template <class Real>
+void area(RefCall<Real>& c) {
+    Vec<Real> p = c.v(0);
+    Dual<Real> du = constant(c.eval.global(Global::du).c[0]);
+    Dual<Real> dv = constant(c.eval.global(Global::dv).c[0]);
+    c.set(constant(rsl::length(cross(du * along_u(p), dv * along_v(p)))));
+}
+
+// Row 64: N where I . Nref = 0.
+template <class Real>
+void faceforward(RefCall<Real>& c) {
+    Vec<Real> ref = c.args.size() == 3 ? c.v(2) : vec(c.eval.global(Global::Ng));
+    bool away = c.eval.decide(dot(c.v(1), ref).x > 0);
+    c.set(away ? Dual<Real>(-1) * c.v(0) : c.v(0));
+}
+
+template <class Real>
+void refract(RefCall<Real>& c) {
+    c.set(bend(c, c.v(0), c.v(1), c.f(2)).direction);
+}
+
+// Fresnel's equations for unpolarised light; I and N of length 1. Row 62: total reflection, and
+// eta = 0, give kr = 1.
+template <class Real>
+void fresnel(RefCall<Real>& c) {
+    using Number = Dual<Real>;
+    Vec<Real> I = rsl::normalize(c.v(0)), N = rsl::normalize(c.v(1));
+    Number eta = c.f(2);
+    Bent<Real> t = bend(c, I, N, eta);
+    Number kr(1);
+    if (!t.total && eta.x > 0) {
+        Number cos_i = rsl::abs(dot(I, N)), cos_t = rsl::abs(dot(t.direction, N));
+        Number s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+        Number p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+        kr = rsl::clamp(Real(0.5) * (s * s + p * p), Number(0), Number(1));
+    }
+    c.args[3].c[0] = kr;
+    c.args[4].c[0] = Number(1) - kr;
+    if (c.args.size() < 7) return;
+    c.set_output(5, mirrored(I, N));
+    c.set_output(6, t.direction);
+}
+
+template <class Real>
+void depth(RefCall<Real>& c) {
+    using Number = Dual<Real>;
+    Number near(c.eval.number("camera:near", 0)), far(c.eval.number("camera:far", 0));
+    c.set((c.v(0)[2] - near) / (far - near));
+}
+
+// Du(p) ^ Dv(p) on the side of Ng; its own derivatives are those of N as it came.
+template <class Real>
+void calculatenormal(RefCall<Real>& c) {
+    Vec<Real> p = c.v(0);
+    Vec<Real> n = cross(along_u(p), along_v(p));
+    Vec<Real> u = vec(c.eval.first_value(Global::dPdu)), v = vec(c.eval.first_value(Global::dPdv));
+    Vec<Real> Ng = vec(c.eval.global(Global::Ng)), N = vec(c.eval.first_value(Global::N));
+    if (c.eval.decide(dot(cross(u, v), Ng).x < 0)) n = Dual<Real>(-1) * n;
+    for (size_t k = 0; k < 3; ++k) n[k].u = N[k].u, n[k].v = N[k].v;
+    c.set(n);
+}
+
+KINORA_RSL_DEFINE_REF(xcomp)
+KINORA_RSL_DEFINE_REF(ycomp)
+KINORA_RSL_DEFINE_REF(zcomp)
+KINORA_RSL_DEFINE_REF(setxcomp)
+KINORA_RSL_DEFINE_REF(setycomp)
+KINORA_RSL_DEFINE_REF(setzcomp)
+KINORA_RSL_DEFINE_REF(length)
+KINORA_RSL_DEFINE_REF(normalize)
+KINORA_RSL_DEFINE_REF(distance)
+KINORA_RSL_DEFINE_REF(reflect)
+KINORA_RSL_DEFINE_REF(ptlined)
+KINORA_RSL_DEFINE_REF(area)
+KINORA_RSL_DEFINE_REF(faceforward)
+KINORA_RSL_DEFINE_REF(refract)
+KINORA_RSL_DEFINE_REF(fresnel)
+KINORA_RSL_DEFINE_REF(depth)
+KINORA_RSL_DEFINE_REF(calculatenormal)
+
+}  // namespace kinora::rsl::ref

@@ -1,0 +1,158 @@
+// rsl/reference_inputs.cpp: first values of globals and parameters, by the names of kernel inputs
+// (rsl/renderer_services.h).
+#include "rsl/reference_p.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+// .x .y .z, .r .g .b, .0 to .15, or nothing.
+std::string suffix(BaseType type, size_t component) {
+    if (type == BaseType::Matrix) return "." + std::to_string(component);
+    if (type == BaseType::Color) return std::string(".") + "rgb"[component];
+    return is_triple(type) ? std::string(".") + "xyz"[component] : "";
+}
+
+// Globals with their derivatives; "1" stands for a slope of 1.
+struct Row {
+    Global id;
+    const char* du;
+    const char* dv;
+};
+constexpr Row kSlopes[] = {
+    {Global::P, "dPdu", "dPdv"}, {Global::N, "dNdu", "dNdv"}, {Global::I, "dIdu", "dIdv"},
+    {Global::u, "1", ""},        {Global::v, "", "1"},        {Global::s, "dsdu", "dsdv"},
+    {Global::t, "dtdu", "dtdv"},
+};
+
+template <class Real>
+RefValue<Real> spread(BaseType type, Real x) {
+    return {type, Dual<Real>(x), Dual<Real>(x), Dual<Real>(x)};
+}
+
+}  // namespace
+
+template <class Real>
+Real Reference<Real>::number(const std::string& name, Real otherwise) const {
+    auto found = in.values.find(name);
+    return found == in.values.end() ? otherwise : Real(found->second);
+}
+
+template <class Real>
+auto Reference<Real>::input(const std::string& name, BaseType type, const std::string& du,
+                            const std::string& dv) const -> Item {
+    Item value(type);
+    auto slope = [&](const std::string& from, size_t k) {
+        if (from == "1") return Real(1);
+        bool partial = !from.empty() && from[0] == ':';  // of a parameter
+        std::string full = partial ? name + suffix(type, k) + from : from + suffix(type, k);
+        return from.empty() ? Real(0) : number(full, 0);
+    };
+    for (size_t k = 0; k < value.size(); ++k)
+        value.c[k] = {number(name + suffix(type, k), 0), slope(du, k), slope(dv, k)};
+    return value;
+}
+
+template <class Real>
+auto Reference<Real>::first_value(Global id) -> Item {
+    const GlobalInfo& info = global_info(id);
+    BaseType type = info.type.base;
+    bool light_shader = layer->shader->kind == ShaderKind::Light;
+    for (const ParamBinding& bound : layer->params)  // Cs, Os
+        if (bound.name == info.name)
+            return input("param:" + std::to_string(layer_index) + ":" + bound.name, type);
+    switch (id) {
+        case Global::Cs:
+        case Global::Os:
+        case Global::Oi:
+        case Global::alpha:
+            return spread(type, Real(1));
+        case Global::ncomps:
+            return spread(type, Real(3));
+        case Global::PI:
+            return spread(type, Real(3.14159265358979323846));
+        case Global::Ps:
+            return light_shader ? input("Ps", type) : first_value(Global::P);
+        case Global::Ns:
+            return light_shader ? input("Ns", type) : first_value(Global::N);
+        default:
+            break;
+    }
+    if (light_shader && id == Global::N) return input("Ns", type);
+    if (light_shader && id == Global::P) {
+        auto at = [&](const char* row) {
+            return Number(number(std::string("space:shader:to_current:") + row + "3", 0));
+        };
+        return {type, at("0"), at("1"), at("2")};
+    }
+    if (light_shader && id == Global::I) {
+        Vec<Real> I = vec(global(Global::Ps)) - vec(global(Global::E));
+        return {type, I[0], I[1], I[2]};
+    }
+    bool given = id == Global::E || id == Global::time || id == Global::dtime;
+    if (light_shader && !given) return Item(type);
+    for (const Row& row : kSlopes)
+        if (row.id == id) return input(std::string(info.name), type, row.du, row.dv);
+    return input(std::string(info.name), type);
+}
+
+// `element` of an array parameter, or -1.
+template <class Real>
+auto Reference<Real>::parameter(const Symbol& symbol, int element) -> Item {
+    BaseType type = symbol.type.base;
+    const ParamBinding* bound = nullptr;
+    for (const ParamBinding& b : layer->params)
+        if (b.name == symbol.name) bound = &b;
+    if (!bound || bound->kind == ParamBinding::Kind::Default) {
+        if (element >= 0 || !symbol.initial) return Item(type);
+        return convert(expr(*symbol.initial), type);
+    }
+    size_t first = size_t(std::max(element, 0));
+    Item value(type);
+    if (bound->kind == ParamBinding::Kind::Constant) {
+        if (type == BaseType::String && first < bound->strings.size())
+            value.c[0] = Real(intern(bound->strings[first]));
+        for (size_t k = 0; k < value.size() && type != BaseType::String; ++k)
+            if (first * value.size() + k < bound->constant.size())
+                value.c[k] = Real(bound->constant[first * value.size() + k]);
+        return value;
+    }
+    std::string name = "param:" + std::to_string(layer_index) + ":" + std::string(symbol.name);
+    if (element >= 0) name += "[" + std::to_string(element) + "]";
+    if (bound->kind == ParamBinding::Kind::Frame) return input(name, type);
+    return input(name, type, ":du", ":dv");
+}
+
+template <class Real>
+auto Reference<Real>::array_parameter(const Symbol& symbol) -> std::vector<Item> {
+    std::vector<Item> items;
+    for (int k = 0; k < symbol.type.array_length; ++k) items.push_back(parameter(symbol, k));
+    auto* literal = as_if<ArrayLiteralExpr>(symbol.initial);
+    bool bound = false;
+    for (const ParamBinding& b : layer->params)
+        bound = bound || (b.name == symbol.name && b.kind != ParamBinding::Kind::Default);
+    if (!literal || bound) return items;
+    for (size_t k = 0; k < literal->items.size() && k < items.size(); ++k)
+        items[k] = convert(expr(*literal->items[k]), symbol.type.base);
+    return items;
+}
+
+template <class Real>
+std::vector<double> Reference<Real>::service(std::string_view name,
+                                             std::vector<double> args) const {
+    return in.service ? in.service(name, args) : std::vector<double>{};
+}
+
+#define KINORA_INPUT_METHODS(Real)                                                               \
+    template Real Reference<Real>::number(const std::string&, Real) const;                       \
+    template auto Reference<Real>::input(const std::string&, BaseType, const std::string&,       \
+                                         const std::string&) const->Item;                        \
+    template auto Reference<Real>::first_value(Global)->Item;                                    \
+    template auto Reference<Real>::parameter(const Symbol&, int)->Item;                          \
+    template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;            \
+    template std::vector<double> Reference<Real>::service(std::string_view, std::vector<double>) \
+        const;
+KINORA_INPUT_METHODS(float)
+KINORA_INPUT_METHODS(double)
+
+}  // namespace kinora::rsl

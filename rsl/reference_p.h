@@ -1,0 +1,226 @@
+// rsl/reference_p.h: the state of the reference evaluator, shared by its files and the meanings of
+// built-ins.
+#pragma once
+
+#include <unordered_map>
+
+#include "rsl/reference.h"
+#include "rsl/reference_builtins.h"
+#include "rsl/reference_dual_p.h"
+
+namespace kinora::rsl {
+
+// One RSL value. Strings are intern ids, Bools 0 or 1, both in c[0]; matrices are row-major for row
+// vectors, as in the source.
+template <class Real>
+struct RefValue {
+    using Number = Dual<Real>;
+    BaseType type = BaseType::Void;
+    std::array<Number, 16> c{};
+
+    RefValue() = default;
+    explicit RefValue(BaseType t) : type(t) {}
+    RefValue(BaseType t, Number x) : type(t) { c[0] = x; }
+    RefValue(BaseType t, Number x, Number y, Number z) : type(t) { c[0] = x, c[1] = y, c[2] = z; }
+    size_t size() const { return size_t(component_count(type)); }
+    bool truth() const { return c[0].x != 0; }
+    const std::string& text() const { return interned(int32_t(c[0].x)); }
+};
+
+// Triples as vectors.
+template <class Real>
+using Vec = std::array<Dual<Real>, 3>;
+template <class Real>
+Vec<Real> vec(const RefValue<Real>& a) {
+    return {a.c[0], a.c[1], a.c[2]};
+}
+template <class Real>
+Vec<Real> operator+(const Vec<Real>& a, const Vec<Real>& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Real>
+Vec<Real> operator-(const Vec<Real>& a, const Vec<Real>& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Real>
+Vec<Real> operator*(const Dual<Real>& k, const Vec<Real>& a) {
+    return {k * a[0], k * a[1], k * a[2]};
+}
+template <class Real>
+Dual<Real> dot(const Vec<Real>& a, const Vec<Real>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Real>
+Vec<Real> cross(const Vec<Real>& a, const Vec<Real>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+// Rows 59, 60: free of overflow and underflow; 0 stays 0.
+template <class Real>
+Dual<Real> length(const Vec<Real>& a) {
+    Real largest = std::max({std::fabs(a[0].x), std::fabs(a[1].x), std::fabs(a[2].x)});
+    if (!(largest > 0) || std::isinf(largest)) return {largest};
+    int exponent = std::ilogb(largest);
+    Real scale = std::ldexp(Real(1), -exponent);
+    Vec<Real> b = Dual<Real>(scale) * a;
+    return Dual<Real>(std::ldexp(Real(1), exponent)) * sqrt(dot(b, b));
+}
+template <class Real>
+Vec<Real> normalize(const Vec<Real>& a) {
+    Real largest = std::max({std::fabs(a[0].x), std::fabs(a[1].x), std::fabs(a[2].x)});
+    if (!(largest > 0)) return {};
+    Vec<Real> b = Dual<Real>(std::ldexp(Real(1), -std::ilogb(largest))) * a;
+    Dual<Real> one(1);
+    return (one / length(b)) * b;
+}
+
+template <class Real>
+class Reference;
+
+// A call to a built-in: arguments in, `result` and the output arguments (in `args`) out.
+template <class Real>
+struct RefCall {
+    using Number = Dual<Real>;
+    Reference<Real>& eval;
+    const CallExpr& call;
+    std::vector<RefValue<Real>> args;                 // pairs are not among them
+    std::vector<std::vector<RefValue<Real>>> arrays;  // of array arguments, by argument
+    std::vector<std::pair<std::string, RefValue<Real>>> pairs;
+    RefValue<Real> result;
+
+    Number f(size_t i) const { return args[i].c[0]; }
+    Vec<Real> v(size_t i) const { return vec(args[i]); }
+    const std::string& text(size_t i) const { return args[i].text(); }
+    void set(Number x) { result.c[0] = x; }
+    void set(const Vec<Real>& x) { result.c[0] = x[0], result.c[1] = x[1], result.c[2] = x[2]; }
+    void set_output(size_t i, const Vec<Real>& x) { args[i] = {args[i].type, x[0], x[1], x[2]}; }
+    Number pair(std::string_view name, Real otherwise) const {
+        for (auto& [key, value] : pairs)
+            if (key == name) return value.c[0];
+        return otherwise;
+    }
+};
+
+// How a statement ended: by itself, or on its way to a loop or out of the function.
+struct RefFlow {
+    enum Kind { Next, Break, Continue, Return } kind = Next;
+    const Stmt* loop = nullptr;
+};
+
+template <class Real>
+class Reference {
+  public:
+    using Number = Dual<Real>;
+    using Item = RefValue<Real>;
+    using Matrix = std::array<Number, 16>;
+
+    Reference(std::span<const Layer> layers, const ReferenceInputs& inputs)
+        : in(inputs), layers_(layers) {}
+    ReferenceResult run();
+
+    const ReferenceInputs& in;
+    ReferenceResult result;
+    const Layer* layer = nullptr;
+    size_t layer_index = 0;
+    const ReferenceLight* light = nullptr;  // inside illuminance
+    std::vector<int32_t> loop_counters;
+    uint32_t inline_path = 0;
+
+    Item& global(Global id);
+    // Notes a decision that rounding may turn, and gives it back.
+    template <class T>
+    T decide(T value) {
+        result.decisions = (result.decisions ^ uint64_t(int64_t(value))) * 0x9e3779b97f4a7c15u;
+        result.decisions ^= result.decisions >> 29;
+        return value;
+    }
+    // reference_inputs.cpp
+    Item input(const std::string& name, BaseType type, const std::string& du = "",
+               const std::string& dv = "") const;
+    Real number(const std::string& name, Real otherwise) const;
+    Item first_value(Global id);
+    Item parameter(const Symbol& symbol, int element);
+    std::vector<Item> array_parameter(const Symbol& symbol);
+    std::vector<double> service(std::string_view name, std::vector<double> args) const;
+
+    // reference_spaces.cpp; matrices on row vectors
+    Matrix space(const std::string& name, const char* direction) const;
+    Item to_space(const Item& x, const std::string& from, const std::string& to) const;
+    Item by_matrix(const Item& x, const Matrix& m) const;
+    Matrix inverse(const Matrix& m) const;
+    // reference_color.cpp
+    Vec<Real> color_space(const Vec<Real>& color, const std::string& from, const std::string& to);
+
+    // reference_light.cpp: f(light) for those that reach the cone around the point.
+    template <class F>
+    void for_each_light(const Vec<Real>* axis, const Number& angle, F&& f);
+    bool in_cone(const Vec<Real>& L, const Vec<Real>* axis, const Number& angle);
+    std::vector<Item> messages(std::string_view name);
+
+    // reference.cpp
+    Item expr(const Expr& e);
+    Item convert(const Item& x, BaseType to) const;
+
+  private:
+    using Storage = std::vector<Item>;
+
+    Storage& storage(const Symbol& symbol);
+    Item* place(const Expr& target, int* component);
+    size_t index(const Expr& e, size_t length);
+    Item binary(Op op, const Item& a, const Item& b);
+    bool compare(Op op, const Item& a, const Item& b);
+    Item cast(const CastExpr& e);
+    Item assign(const AssignExpr& e);
+    Item call_function(const CallExpr& e);
+    Item call_builtin(const CallExpr& e);
+    void declare(const Symbol& symbol);
+    void store(const Expr& target, const Item& value);
+
+    RefFlow statement(const Stmt& stmt);
+    RefFlow block(std::span<Stmt* const> body);
+    RefFlow loop(const Stmt& stmt, const Expr* condition, const Stmt& body,
+                 std::span<Expr* const> step);
+    RefFlow illuminance(const IlluminanceStmt& stmt);
+    RefFlow illuminate(const Stmt& stmt, const Expr* position, const Expr* axis, const Expr* angle,
+                       const Stmt& body);
+    // Has the flow reached this loop? Then whether to go on with the next turn.
+    bool ends_loop(RefFlow& flow, const Stmt& stmt, bool& leave);
+
+    void run_layer(const Layer& next);
+    void output(const std::string& name, const Item& value);
+    void light_outputs();
+
+    std::span<const Layer> layers_;
+    std::unordered_map<const Symbol*, Storage> variables_;
+    std::map<Global, Item> globals_;
+    Item returned_;
+    struct Source {
+        const Stmt* stmt;
+        Item L, Cl, Ol;
+        bool lit;
+    };
+    std::vector<Source> sources_;
+    Vec<Real> Ci_{}, Oi_{};
+    bool have_surface_ = false;
+};
+
+template <class Real>
+bool Reference<Real>::in_cone(const Vec<Real>& L, const Vec<Real>* axis, const Number& angle) {
+    if (!axis || angle.x >= Real(3.14159)) return true;
+    return decide(std::cos(angle.x) * length(*axis).x * length(L).x <= dot(L, *axis).x);
+}
+
+template <class Real>
+template <class F>
+void Reference<Real>::for_each_light(const Vec<Real>* axis, const Number& angle, F&& f) {
+    for (const ReferenceLight& l : in.lights) {
+        if (l.kind == kLightAmbient || !l.lit) continue;
+        Vec<Real> L = {Real(l.L[0]), Real(l.L[1]), Real(l.L[2])};
+        if (in_cone(L, axis, angle)) f(l, L);
+    }
+}
+
+#define KINORA_RSL_DEFINE_REF(name)        \
+    template void name(RefCall<float>& c); \
+    template void name(RefCall<double>& c);
+
+}  // namespace kinora::rsl
