@@ -25,7 +25,9 @@ std::vector<fs::path> scene_files() {
     return files;
 }
 
-bool is_library_only(const fs::path& path) { return path.filename() == "library_geometries.dae"; }
+bool is_library_only(const fs::path& path) {
+    return path.filename() == "library_geometries.dae";
+}
 
 // Every index of the scene must be in range: the promise of scene.h.
 void check_indices(const SceneData& s) {

@@ -1,0 +1,168 @@
+// tests/collada/document_test.cpp: the element tree, its places, encodings and XML errors.
+#include <gtest/gtest.h>
+
+#include "tests/collada/reading.h"
+
+namespace kinora::collada {
+namespace {
+
+const std::string kRoot =
+    "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">";
+
+TEST(Document, KeepsTheBytesOfElementsAttributesAndText) {
+    Reading r;
+    std::string text = kRoot +
+                       "<asset><unit meter='0.5' name=\"a&amp;b\"/><up_axis> Z_UP "
+                       "</up_axis></asset></COLLADA>";
+    r.document = read_document_text("t.dae", text, r.diag);
+    ASSERT_TRUE(r.document);
+    const Element& asset = *r.document->root().child("asset");
+    const Element& unit = *asset.child("unit");
+    auto bytes = [&](ByteRange b) { return text.substr(b.begin, b.end - b.begin); };
+    EXPECT_EQ(bytes(unit.bytes), "<unit meter='0.5' name=\"a&amp;b\"/>");
+    EXPECT_EQ(bytes(unit.attributes[0].bytes), "meter='0.5'");
+    EXPECT_EQ(bytes(unit.attributes[1].value_bytes), "a&amp;b");
+    EXPECT_EQ(unit.value("name"), "a&b");
+    const Element& up = *asset.child("up_axis");
+    EXPECT_EQ(up.text, " Z_UP ");
+    EXPECT_EQ(bytes(up.bytes), "<up_axis> Z_UP </up_axis>");
+    EXPECT_EQ(bytes(up.start_tag), "<up_axis>");
+    Location where = r.document->text_location(up);
+    EXPECT_EQ(text.substr(where.begin, where.end - where.begin), "Z_UP");
+    EXPECT_EQ(up.parent, &asset);
+    EXPECT_TRUE(asset.text.empty());
+}
+
+TEST(Document, MapsDecodedTextToTheFile) {
+    Reading r;
+    std::string text = kRoot + "<extra>a&lt;b\r\nc<![CDATA[d<e]]>f&#65;g</extra></COLLADA>";
+    r.document = read_document_text("t.dae", text, r.diag);
+    ASSERT_TRUE(r.document);
+    const Element& extra = *r.document->root().child("extra");
+    ASSERT_EQ(extra.text, "a<b\ncd<efAg");
+    SourceMap map = r.document->source_map(extra);
+    for (char c : {'a', 'b', 'c', 'd', 'e', 'f', 'g'}) {
+        uint32_t at = uint32_t(extra.text.find(c));
+        // Unique letters of the content: the last place in the file before its end tag.
+        size_t content = text.find("<extra>") + 7;
+        EXPECT_EQ(map.file_offset(at), text.find(c, c == 'c' ? text.find("\n") : content)) << c;
+    }
+}
+
+TEST(Document, SyntaxErrorsHaveTheirPlaceAndKeepWhatWasWhole) {
+    Reading r;
+    std::string text = kRoot + "\n<library_lights>\n<light id='a'/>\n<light id='b'>\n </broken>";
+    r.document = read_document_text("t.dae", text, r.diag);
+    ASSERT_TRUE(r.document);
+    EXPECT_FALSE(r.document->whole());
+    EXPECT_EQ(r.place("XML_SYNTAX"), "5:4");
+    EXPECT_NE(r.document->find("a"), nullptr);
+    EXPECT_EQ(r.document->find("b"), nullptr);
+    EXPECT_EQ(r.diag.findings()[0].notes.size(), 1u);
+}
+
+TEST(Document, KnowsWhatIsNoXml) {
+    struct {
+        std::string bytes, code;
+    } cases[] = {{"", "XML_EMPTY"},
+                 {" \n\t", "XML_EMPTY"},
+                 {"\x1f\x8b\x08...", "XML_ENCODING"},
+                 {"PK\x03\x04...", "XML_ENCODING"},
+                 {"version https://git-lfs.github.com/spec/v1\n", "XML_ENCODING"},
+                 {"hello", "XML_SYNTAX"},
+                 {"<html/>", "DOC_ROOT"}};
+    for (const auto& c : cases) {
+        Reading r;
+        r.document = read_document_text("t.dae", c.bytes, r.diag);
+        EXPECT_FALSE(r.document) << c.bytes;
+        EXPECT_EQ(r.count(c.code), 1u) << c.bytes << r.all();
+    }
+    Reading r;
+    EXPECT_FALSE(read_document("/nonexistent/x.dae", r.diag));
+    EXPECT_EQ(r.count("XML_OPEN"), 1u);
+}
+
+std::string utf16(const std::string& ascii, bool big, bool bom) {
+    std::string out = bom ? (big ? "\xfe\xff" : "\xff\xfe") : "";
+    for (char c : ascii) {
+        if (big) out += '\0';
+        out += c;
+        if (!big) out += '\0';
+    }
+    return out;
+}
+
+TEST(Document, ReadsUtf16WithPlacesInItsTranscript) {
+    std::string text = kRoot + "\n<bogus/>\n</COLLADA>";
+    for (bool big : {false, true})
+        for (bool bom : {false, true}) {
+            Reading r;
+            r.document = read_document_text("t.dae", utf16(text, big, bom), r.diag);
+            ASSERT_TRUE(r.document);
+            check_elements(*r.document, r.diag);
+            EXPECT_EQ(r.place("SCHEMA_UNKNOWN_ELEMENT"), "2:1");
+        }
+}
+
+TEST(Document, ReadsBomLatin1AndBrokenUtf8) {
+    Reading bom;
+    bom.document = read_document_text("t.dae", "\xef\xbb\xbf" + kRoot + "</COLLADA>", bom.diag);
+    EXPECT_TRUE(bom.document);
+    EXPECT_TRUE(bom.diag.findings().empty()) << bom.all();
+    Reading latin;
+    latin.document = read_document_text(
+        "t.dae",
+        "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" + kRoot + "<extra>\xe9</extra></COLLADA>",
+        latin.diag);
+    ASSERT_TRUE(latin.document);
+    EXPECT_EQ(latin.document->root().child("extra")->text, "\xc3\xa9");
+    Reading broken;
+    broken.document =
+        read_document_text("t.dae", kRoot + "<extra>\xe9!</extra></COLLADA>", broken.diag);
+    ASSERT_TRUE(broken.document);
+    EXPECT_EQ(broken.document->root().child("extra")->text, "\xc3\xa9!");
+    EXPECT_EQ(broken.count("XML_RECODED"), 1u);
+}
+
+TEST(Document, RefusesEntitiesAndDepth) {
+    Reading r;
+    std::string bomb = "<!DOCTYPE COLLADA [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>" + kRoot +
+                       "<extra>&b;</extra></COLLADA>";
+    read_document_text("t.dae", bomb, r.diag);
+    EXPECT_EQ(r.count("XML_ENTITY"), 1u);
+    Reading deep;
+    std::string text = kRoot;
+    for (int i = 0; i < 100000; ++i) text += "<node>";
+    read_document_text("t.dae", text, deep.diag);
+    EXPECT_EQ(deep.count("XML_DEPTH"), 1u);
+}
+
+TEST(Document, VersionsNamespacesAndDoubleIdsAreChecked) {
+    Reading r;
+    r.document = read_document_text(
+        "t.dae",
+        "<COLLADA xmlns=\"http://www.collada.org/2008/03/COLLADASchema\" version=\"1.4.1\">"
+        "<library_lights><light id=\"a\"/><light id=\"a\"/></library_lights></COLLADA>",
+        r.diag);
+    ASSERT_TRUE(r.document);
+    EXPECT_EQ(r.pointed("DOC_NAMESPACE"), "http://www.collada.org/2008/03/COLLADASchema");
+    EXPECT_EQ(r.count("ID_DUPLICATE"), 1u);
+    EXPECT_NE(r.document->find("a")->next_same_id, nullptr);
+    Reading v;
+    v.document = read_document_text("t.dae", "<COLLADA version=\"1.3\"/>", v.diag);
+    EXPECT_EQ(v.pointed("DOC_VERSION"), "1.3");
+}
+
+TEST(Document, TheElementTableIsClosedUnderItsOwnNames) {
+    // Every file of ours uses only what the table knows.
+    for (const char* name : {"matte.dae", "skinned.dae", "common.dae"}) {
+        Reading r;
+        r.document = read_document(test_file(name), r.diag);
+        ASSERT_TRUE(r.document);
+        check_elements(*r.document, r.diag);
+        EXPECT_TRUE(r.diag.findings().empty()) << r.all();
+    }
+}
+
+}  // namespace
+}  // namespace kinora::collada
