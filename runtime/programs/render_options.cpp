@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <thread>
 
 #include "runtime/programs/exit_codes.h"

@@ -1,0 +1,4 @@
+/* collada_ambient.sl: COLLADA 1.4.1 <ambient>. */
+light collada_ambient(color lightcolor = 1;) {
+    Cl = lightcolor;
+}

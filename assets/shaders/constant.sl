@@ -1,0 +1,5 @@
+/* constant.sl: the surface's own color, without light. */
+surface constant() {
+    Oi = Os;
+    Ci = Os * Cs;
+}
