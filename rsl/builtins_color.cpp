@@ -1,6 +1,7 @@
 // rsl/builtins_color.cpp: rows of the built-in table: colors and components.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
+#include "rsl/reference_builtins.h"
 
 namespace kinora::rsl {
 
@@ -71,21 +72,21 @@ const Builtin kRows[] = {
     {"comp",
      "f=cf f=pf f=vf f=nf f=mff",
      lower::comp,
-     {},
+     KINORA_RSL_REF(ref::comp),
      kPure,
      0,
      "A component: comp(c, i), comp(m, row, column)."},
     {"setcomp",
      "x=Cff x=Pff x=Vff x=Nff x=Mfff",
      lower::setcomp,
-     {},
+     KINORA_RSL_REF(ref::setcomp),
      kPure,
      0,
      "Sets a component: setcomp(c, i, x), setcomp(m, row, column, x)."},
     {"ctransform",
      "c=sc c=ssc",
      lower::ctransform,
-     {},
+     KINORA_RSL_REF(ref::ctransform),
      kPure,
      8,
      "A color from one space to another: rgb hsv hsl xyz xyY YIQ."},

@@ -1,6 +1,7 @@
 // rsl/builtins_light.cpp: rows of the built-in table: lights, ray tracing and illumination.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
+#include "rsl/reference_builtins.h"
 
 namespace kinora::rsl {
 
@@ -140,7 +141,7 @@ const Builtin kRows[] = {
     {"ambient",
      "c=",
      lower::ambient,
-     {},
+     KINORA_RSL_REF(ref::ambient),
      kLights | kVaryingResult,
      2,
      "Sum of the ambient lights.",
@@ -148,7 +149,7 @@ const Builtin kRows[] = {
     {"diffuse",
      "c=n c=pnf",
      lower::diffuse,
-     {},
+     KINORA_RSL_REF(ref::diffuse),
      kLights | kVaryingResult,
      8,
      "Lambert reflection of all lights: sum of Cl * max(0, L . N).",
@@ -157,7 +158,7 @@ const Builtin kRows[] = {
     {"specular",
      "c=nvf",
      lower::specular,
-     {},
+     KINORA_RSL_REF(ref::specular),
      kLights | kVaryingResult,
      16,
      "Specular reflection of all lights: specular(N, V, roughness).",
@@ -166,7 +167,7 @@ const Builtin kRows[] = {
     {"phong",
      "c=nvf",
      lower::phong,
-     {},
+     KINORA_RSL_REF(ref::phong),
      kLights | kVaryingResult,
      16,
      "Phong reflection of all lights: phong(N, V, size).",
@@ -175,14 +176,14 @@ const Builtin kRows[] = {
     {"specularbrdf",
      "c=vnvf",
      lower::specularbrdf,
-     {},
+     KINORA_RSL_REF(ref::specularbrdf),
      kPure,
      16,
      "The term of specular() for one light: specularbrdf(L, N, V, roughness)."},
     {"trace",
      "c=pv~ f=pv~",
      lower::trace,
-     {},
+     KINORA_RSL_REF(ref::trace),
      kService | kTraces | kVaryingResult,
      0,
      "Color seen from a point in a direction, or the distance of what is hit.",
@@ -190,7 +191,7 @@ const Builtin kRows[] = {
     {"transmission",
      "c=pp~",
      lower::transmission,
-     {},
+     KINORA_RSL_REF(ref::transmission),
      kService | kTraces | kShadows | kVaryingResult,
      0,
      "Light let through between two points.",
@@ -198,7 +199,7 @@ const Builtin kRows[] = {
     {"visibility",
      "f=pp~",
      lower::visibility,
-     {},
+     KINORA_RSL_REF(ref::visibility),
      kService | kTraces | kShadows | kVaryingResult,
      0,
      "1 if two points see each other, else 0.",

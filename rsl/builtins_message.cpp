@@ -2,6 +2,7 @@
 // renderer.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
+#include "rsl/reference_builtins.h"
 
 namespace kinora::rsl {
 
@@ -92,7 +93,7 @@ const Builtin kRows[] = {
      "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
      "f=sM[] f=sS[]",
      lower::lightsource,
-     {},
+     KINORA_RSL_REF(ref::lightsource),
      kMessage | kVaryingResult,
      0,
      "Value of a parameter of the light in an illuminance loop."},
@@ -155,7 +156,7 @@ const Builtin kRows[] = {
     {"shadername",
      "s= s=s",
      lower::shadername,
-     {},
+     KINORA_RSL_REF(ref::shadername),
      kMessage,
      0,
      "Name of this shader, or of the one of a kind."},

@@ -1,6 +1,7 @@
 // rsl/builtins_noise.cpp: rows of the built-in table: noise and random numbers.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
+#include "rsl/reference_builtins.h"
 
 namespace kinora::rsl {
 
@@ -47,7 +48,7 @@ const Builtin kRows[] = {
     {"random",
      "f= c= p= v= n=",
      lower::random,
-     {},
+     KINORA_RSL_REF(ref::random),
      kVaryingResult,
      0,
      "A random number in 0..1 for each point and call."},
@@ -55,7 +56,7 @@ const Builtin kRows[] = {
      "f=f f=ff f=p f=pf c=f c=ff c=p c=pf p=f p=ff p=p p=pf v=f v=ff v=p "
      "v=pf n=f n=ff n=p n=pf",
      lower::noise,
-     {},
+     KINORA_RSL_REF(ref::noise),
      kPure,
      4,
      "Smooth noise of 1 to 4 dimensions in 0..1, about 0.5; the type wanted chooses the result."},
@@ -63,7 +64,7 @@ const Builtin kRows[] = {
      "f=ff f=ffff f=pp f=pfpf c=ff c=ffff c=pp c=pfpf p=ff p=ffff p=pp "
      "p=pfpf v=ff v=ffff v=pp v=pfpf n=ff n=ffff n=pp n=pfpf",
      lower::pnoise,
-     {},
+     KINORA_RSL_REF(ref::pnoise),
      kPure,
      4,
      "Periodic noise: each coordinate followed by its period."},
@@ -71,7 +72,7 @@ const Builtin kRows[] = {
      "f=f f=ff f=p f=pf c=f c=ff c=p c=pf p=f p=ff p=p p=pf v=f v=ff v=p "
      "v=pf n=f n=ff n=p n=pf",
      lower::cellnoise,
-     {},
+     KINORA_RSL_REF(ref::cellnoise),
      kPure,
      0,
      "A random number in 0..1, constant in each unit cell."},

@@ -4,6 +4,7 @@
 
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
+#include "rsl/reference_builtins.h"
 
 namespace kinora::rsl {
 
@@ -146,7 +147,7 @@ namespace {
 namespace lower = lower_string;
 
 const Builtin kRows[] = {
-    {"concat", "s=sss*", lower::concat, {}, kPure, 0, "Its arguments, one after the other."},
+    {"concat", "s=sss*", lower::concat, KINORA_RSL_REF(ref::concat), kPure, 0, "Its arguments, one after the other."},
     {"format",
      "s=s?*",
      lower::format,
@@ -157,14 +158,14 @@ const Builtin kRows[] = {
     {"match",
      "f=ss",
      lower::match,
-     {},
+     KINORA_RSL_REF(ref::match),
      kPure,
      0,
      "1 if the pattern (a regular expression) occurs in the string: match(pattern, string)."},
     {"printf",
      "x=s?*",
      lower::print,
-     {},
+     KINORA_RSL_REF(ref::printf),
      kPrints,
      0,
      "Prints text with %f %c %p %m %s replaced by the arguments."},

@@ -1,6 +1,7 @@
 // rsl/builtins_texture.cpp: rows of the built-in table: textures and maps.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
+#include "rsl/reference_builtins.h"
 
 namespace kinora::rsl {
 
@@ -113,21 +114,21 @@ namespace lower = lower_texture;
 
 const Builtin kRows[] = {
     // Two rows: only the forms without coordinates read s and t.
-    {"texture", "f=s~ c=s~", lower::texture, {}, kService | kDerivative, 0,
+    {"texture", "f=s~ c=s~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
      "Filtered texture at the surface's s, t; texture(name[channel]).", kAnyShader, "s t"},
-    {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", lower::texture, {}, kService | kDerivative, 0,
+    {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
      "Filtered texture at s, t or over a quadrilateral; texture(name[channel], s, t)."},
     {"environment",
      "f=sv~ c=sv~ f=svvvv~ c=svvvv~",
      lower::environment,
-     {},
+     KINORA_RSL_REF(ref::environment),
      kService | kDerivative,
      0,
      "Environment map in a direction."},
     {"shadow",
      "f=sp~ c=sp~ f=spppp~ c=spppp~",
      lower::shadow,
-     {},
+     KINORA_RSL_REF(ref::shadow),
      kService | kShadows | kVaryingResult,
      0,
      "Share of shadow at a point, by map or ray.",
