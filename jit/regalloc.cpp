@@ -317,6 +317,9 @@ class Allocator {
     }
 
     void assign_slots() {
+        bool any = false;
+        for (Value v = 0; v < n_ && !any; ++v) any = needs_slot(v);
+        if (!any) return;
         for (Value at = 0; at < n_; ++at) {
             const Inst& inst = f_.insts[at];
             // New slots are taken before old ones are freed: a Merge starts while its If reads.

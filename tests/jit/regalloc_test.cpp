@@ -1,0 +1,118 @@
+// tests/jit/regalloc_test.cpp: allocations of random programs are proven right, and the checker
+// finds every kind of damage done to one.
+#include "jit/regalloc.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/jit/x64_random.h"
+
+namespace kinora::jit {
+namespace {
+
+struct Case {
+    Module module;
+    std::vector<ValuePlan> plan;
+
+    const Function& function() const { return module.kernel(); }
+};
+
+// A plain target: everything but constants wants a vector register.
+Case make_case(uint32_t seed) {
+    Case c{test::random_x64_module(seed, 80, seed % 2 == 0), {}};
+    const Function& f = c.function();
+    c.plan.resize(f.insts.size());
+    for (Value v = 0; v < f.insts.size(); ++v) {
+        const Inst& inst = f.insts[v];
+        ValuePlan& p = c.plan[v];
+        bool constant = inst.op == Op::ConstF || inst.op == Op::ConstI || inst.op == Op::ConstM;
+        if (inst.type != Type::None && !constant && inst.op != Op::LoopOut)
+            p.cls = inst.type == Type::M ? RegClass::Mask : RegClass::Vector;
+        p.hoist = inst.op == Op::ConstF;
+        p.home = inst.op == Op::Input;
+        p.masked = true;
+        p.clobber = inst.op == Op::Call || inst.op == Op::Service;
+    }
+    return c;
+}
+
+Allocation allocate(const Case& c, const Structure& structure, int vectors, int masks) {
+    AllocationLimits limits;
+    limits.registers[0] = vectors;
+    limits.registers[1] = masks;
+    limits.hoist_function = true;
+    for (const ValuePlan& p : c.plan) limits.hoist_function &= !p.clobber;
+    return allocate_registers(c.function(), structure, c.plan, limits);
+}
+
+TEST(RegisterAllocation, IsProvenForAnyNumberOfRegisters) {
+    for (uint32_t seed = 1; seed < 400; ++seed) {
+        Case c = make_case(seed);
+        Structure structure(c.function());
+        for (int registers : {1, 2, 3, 5, 8, 14, 30}) {
+            Allocation a = allocate(c, structure, registers, 1 + registers / 4);
+            ASSERT_EQ(check_allocation(c.function(), structure, c.plan, a), "")
+                << "seed " << seed << ", " << registers << " registers\n"
+                << print(c.module);
+            for (const Place& p : a.places) ASSERT_LT(p.reg, registers);
+        }
+    }
+}
+
+TEST(RegisterAllocation, NeedsNoSlotsWhenRegistersSuffice) {
+    Module m;
+    add_function(m, "kernel", {});
+    Builder b(m, 0);
+    Value x = b.input({"x", Type::F, Rate::Point, "", ""});
+    Value y = x;
+    for (int k = 0; k < 100; ++k) y = b.fma(y, x, y);
+    b.output({"y", Type::F}, y);
+    b.finish();
+    Case c{m, std::vector<ValuePlan>(m.kernel().insts.size())};
+    for (Value v = 0; v + 1 < c.plan.size(); ++v) c.plan[v].cls = RegClass::Vector;
+    c.plan[0].home = true;
+    Structure structure(c.function());
+    Allocation a = allocate(c, structure, 2, 0);
+    EXPECT_EQ(a.slots[0], 0);
+    EXPECT_EQ(check_allocation(c.function(), structure, c.plan, a), "");
+}
+
+// The last position outside Ifs and Loops that reads v from its register, 0 if none.
+Value last_plain_read(const Case& c, const Structure& structure, const Allocation& a, Value v) {
+    Value last = 0;
+    for (Value at = 0; at < a.places.size(); ++at)
+        for_each_use(c.function(), structure, c.plan, at, [&](Value used) {
+            if (used == v && structure.top[at] == at && a.places[v].in_reg(at)) last = at;
+        });
+    return last;
+}
+
+// A value put into the register of another that is still to be read is found.
+TEST(RegisterAllocation, CheckerFindsDamage) {
+    int damaged = 0;
+    for (uint32_t seed = 1; seed < 60; ++seed) {
+        Case c = make_case(seed);
+        Structure structure(c.function());
+        Allocation good = allocate(c, structure, 6, 3);
+        for (Value v = 0; v < good.places.size(); ++v) {
+            if (good.places[v].reg < 0 || c.plan[v].cls == RegClass::None) continue;
+            Value read = last_plain_read(c, structure, good, v);
+            for (Value w = v + 1; w < read; ++w) {
+                const Place &p = good.places[v], &q = good.places[w];
+                bool plain = structure.top[w] == w && c.function().insts[w].op != Op::Merge;
+                if (!plain || c.plan[w].cls != c.plan[v].cls || !q.in_reg(w) || q.reg == p.reg)
+                    continue;
+                if (p.begin >= w || c.plan[w].home) continue;
+                Allocation bad = good;
+                bad.places[w].reg = p.reg;
+                EXPECT_NE(check_allocation(c.function(), structure, c.plan, bad), "")
+                    << "seed " << seed << ": %" << w << " over %" << v;
+                ++damaged;
+                break;
+            }
+        }
+    }
+    EXPECT_GT(damaged, 100);
+}
+
+}  // namespace
+}  // namespace kinora::jit
