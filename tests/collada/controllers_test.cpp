@@ -1,0 +1,138 @@
+// tests/collada/controllers_test.cpp: skins, morphs and the joints they find.
+#include <gtest/gtest.h>
+
+#include "tests/collada/reading.h"
+
+namespace kinora::collada {
+namespace {
+
+TEST(Skin, ReadsMatricesJointsAndInfluences) {
+    Reading r;
+    read_file(r, test_file("skinned.dae"));
+    ASSERT_TRUE(r.scene && r.scene->skins.size() == 1) << r.all();
+    const Skin& skin = r.scene->skins[0];
+    EXPECT_EQ(skin.bind_shape_matrix[3], dvec4(5, 6, 7, 1));
+    EXPECT_EQ(skin.joints, (std::vector<std::string>{"Upper Arm", "hand"}));  // joined again
+    EXPECT_EQ(r.count("SKIN_JOINT_NAMES"), 1u);
+    EXPECT_EQ(skin.inverse_bind[0][3], dvec4(1, 2, 3, 1));
+    EXPECT_EQ(skin.inverse_bind[1], dmat4(1.0));
+    EXPECT_EQ(skin.offsets, (std::vector<uint32_t>{0, 1, 3, 4}));
+    EXPECT_EQ(skin.influence_joints, (std::vector<int32_t>{0, 0, 1, -1}));
+    EXPECT_EQ(skin.influence_weights, (std::vector<float>{1, 0.25f, 0.75f, 1}));
+    const MeshInstance& mesh = r.node("body").meshes.at(0);
+    EXPECT_EQ(mesh.skin, 0u);
+    EXPECT_EQ(mesh.morph, 0u);
+    ASSERT_EQ(mesh.joint_nodes.size(), 2u);
+    EXPECT_EQ(r.scene->nodes[mesh.joint_nodes[0]].id, "arm");
+    EXPECT_EQ(r.scene->nodes[mesh.joint_nodes[1]].id, "hand-id");
+}
+
+TEST(Morph, LeavesOutMissingTargetsAndKeepsWeightsAligned) {
+    Reading r;
+    read_file(r, test_file("skinned.dae"));
+    ASSERT_TRUE(r.scene && r.scene->morphs.size() == 1);
+    const Morph& morph = r.scene->morphs[0];
+    EXPECT_EQ(morph.method, MorphMethod::Relative);
+    ASSERT_EQ(morph.targets.size(), 1u);
+    EXPECT_EQ(r.scene->geometries[morph.targets[0]].id, "big");
+    EXPECT_EQ(morph.weights, (std::vector<double>{0.25}));
+    EXPECT_EQ(r.count("MORPH_TARGET_MISSING"), 1u);
+}
+
+std::string skin_document(const std::string& joints, const std::string& array,
+                          const std::string& weights, const std::string& nodes,
+                          const std::string& skeleton) {
+    return with_scene(
+        "<library_geometries><geometry id=\"g\"><mesh>" +
+            float_source("pos", "0 0 0 1 0 0 0 1 0", 3, "XYZ") +
+            "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#pos\"/></vertices>"
+            "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>"
+            "<p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
+            "<library_controllers><controller id=\"c\"><skin source=\"#g\"><source id=\"j\"><" +
+            array + " id=\"ja\" count=\"2\">" + joints + "</" + array +
+            "><technique_common><accessor source=\"#ja\" "
+            "count=\"2\"/></technique_common></source>" +
+            float_source("w", "1 0.5 2", 3, "W") +
+            "<joints><input semantic=\"JOINT\" source=\"#j\"/></joints><vertex_weights count=\"3\">"
+            "<input semantic=\"JOINT\" source=\"#j\" offset=\"0\"/><input semantic=\"WEIGHT\" "
+            "source=\"#w\" offset=\"1\"/>" +
+            weights + "</vertex_weights></skin></controller></library_controllers>",
+        nodes + "<node id=\"body\"><instance_controller url=\"#c\">" + skeleton +
+            "</instance_controller></node>");
+}
+
+const std::string kWeights = "<vcount>1 1 1</vcount><v>0 0 1 0 0 0</v>";
+
+TEST(Skin, JointsFallBackToIdNameAndTheWholeScene) {
+    struct {
+        std::string joints, array, nodes, skeleton, finding;
+    } cases[] = {
+        {"a b", "Name_array", "<node sid=\"a\" id=\"x\"><node sid=\"b\" id=\"y\"/></node>",
+         "<skeleton>#x</skeleton>", ""},
+        {"x y", "Name_array", "<node id=\"x\"><node id=\"y\"/></node>", "<skeleton>#x</skeleton>",
+         "SKIN_JOINT_FALLBACK"},
+        {"a b", "Name_array", "<node name=\"a\" id=\"x\"><node name=\"b\" id=\"y\"/></node>",
+         "<skeleton>#x</skeleton>", "SKIN_JOINT_FALLBACK"},
+        {"x y", "IDREF_array", "<node id=\"x\"><node id=\"y\"/></node>", "<skeleton>#x</skeleton>",
+         ""},
+        {"a b", "Name_array", "<node sid=\"a\" id=\"x\"/><node sid=\"b\" id=\"y\"/>",
+         "<skeleton>#x</skeleton>", "SKIN_OUTSIDE_SKELETON"},
+        {"a b", "Name_array", "<node sid=\"a\" id=\"x\"/><node sid=\"b\" id=\"y\"/>", "",
+         "SKIN_NO_SKELETON"},
+        {"a b", "Name_array", "<node sid=\"a\" id=\"x\"/><node sid=\"b\" id=\"y\"/>",
+         "<skeleton>#x</skeleton><skeleton>#y</skeleton>", ""},
+    };
+    for (const auto& c : cases) {
+        Reading r;
+        read_text(r, skin_document(c.joints, c.array, kWeights, c.nodes, c.skeleton));
+        ASSERT_TRUE(r.scene) << r.all();
+        const MeshInstance& mesh = r.node("body").meshes.at(0);
+        ASSERT_EQ(mesh.joint_nodes.size(), 2u);
+        EXPECT_EQ(r.scene->nodes.at(mesh.joint_nodes[0]).id, "x");
+        EXPECT_EQ(r.scene->nodes.at(mesh.joint_nodes[1]).id, "y");
+        if (c.finding.empty()) {
+            EXPECT_EQ(r.count("SKIN_JOINT_FALLBACK") + r.count("SKIN_OUTSIDE_SKELETON"), 0u)
+                << r.all();
+        } else {
+            EXPECT_EQ(r.count(c.finding), 1u) << r.all();
+        }
+    }
+}
+
+TEST(Skin, BadInfluencesAreLeftOut) {
+    Reading r;
+    read_text(r, skin_document("a b", "Name_array", "<vcount>2 1 0</vcount><v>7 0 0 0 0 9</v>",
+                               "<node sid=\"a\" id=\"x\"/>", ""));
+    ASSERT_TRUE(r.scene && r.scene->skins.size() == 1) << r.all();
+    const Skin& skin = r.scene->skins[0];
+    EXPECT_EQ(skin.offsets, (std::vector<uint32_t>{0, 1, 1, 1}));
+    EXPECT_EQ(r.count("SKIN_INDEX"), 1u);
+    EXPECT_EQ(r.count("SKIN_ZERO_INFLUENCE"), 1u);
+    EXPECT_EQ(r.count("SKIN_IBM_COUNT"), 1u);
+    EXPECT_EQ(r.count("SKIN_JOINT_UNRESOLVED"), 1u);
+    EXPECT_EQ(r.node("body").meshes.at(0).joint_nodes.at(1), kNone);
+}
+
+TEST(Skin, WeightSumsAreReportedWithTheWorst) {
+    Reading r;
+    read_text(r, skin_document("a b", "Name_array", "<vcount>1 1 1</vcount><v>0 0 0 1 0 2</v>",
+                               "<node sid=\"a\"/><node sid=\"b\"/>", ""));
+    ASSERT_EQ(r.count("SKIN_WEIGHT_SUM"), 1u);
+    for (const Finding& f : r.diag.findings())
+        if (f.info->code == std::string_view("SKIN_WEIGHT_SUM")) {
+            EXPECT_EQ(f.message, "the weights of 2 vertices do not sum to 1 (worst: 2)");
+        }
+}
+
+TEST(Skin, ShortDataIsNoCrash) {
+    for (const char* weights : {"", "<vcount>9 9 9</vcount><v>0 0</v>", "<vcount>1</vcount>",
+                                "<vcount>-5 1 1 1 1</vcount><v>0</v>"}) {
+        Reading r;
+        read_text(r, skin_document("a b", "Name_array", weights, "<node sid=\"a\"/>", ""));
+        ASSERT_TRUE(r.scene);
+        EXPECT_EQ(r.node("body").meshes.size(), 1u);
+    }
+}
+
+}  // namespace
+}  // namespace kinora::collada
