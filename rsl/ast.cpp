@@ -38,8 +38,8 @@ const char* shader_kind_name(ShaderKind kind) {
 }
 
 const char* op_text(Op op) {
-    constexpr const char* kTexts[] = {"",  "+",  "-", "*",  "/",  ".",  "^",  "<", "<=",
-                                      ">", ">=", "==", "!=", "&&", "||", "!", "-"};
+    constexpr const char* kTexts[] = {
+        "", "+", "-", "*", "/", ".", "^", "<", "<=", ">", ">=", "==", "!=", "&&", "||", "!", "-"};
     return kTexts[int(op)];
 }
 

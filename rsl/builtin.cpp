@@ -37,8 +37,8 @@ Signature parse_signature(std::string_view text) {
             ++i;
         } else {
             bool output = c >= 'A' && c <= 'Z';
-            signature.arguments.push_back({type_of_letter(output ? char(c - 'A' + 'a') : c),
-                                           output});
+            signature.arguments.push_back(
+                {type_of_letter(output ? char(c - 'A' + 'a') : c), output});
         }
     }
     return signature;
@@ -61,9 +61,9 @@ std::vector<Signature> parse_signatures(std::string_view text) {
 
 const std::vector<std::span<const Builtin>>& builtin_groups() {
     static const std::vector<std::span<const Builtin>> groups = {
-        builtins_math(),    builtins_geometric(), builtins_color(),
-        builtins_noise(),   builtins_light(),     builtins_texture(),
-        builtins_matrix(),  builtins_string(),    builtins_message()};
+        builtins_math(),   builtins_geometric(), builtins_color(),
+        builtins_noise(),  builtins_light(),     builtins_texture(),
+        builtins_matrix(), builtins_string(),    builtins_message()};
     return groups;
 }
 

@@ -56,8 +56,7 @@ void Checker::check_initial(Symbol& symbol) {
     bool open = symbol.kind == SymbolKind::FunctionParameter;
     if (symbol.type.array_length == 0 && !open)
         report(Code::RSL_UNSIZED_ARRAY, symbol.place, symbol.name);
-    if (symbol.initial)
-        convert_to(symbol.initial, symbol.type, fmt::format("'{}'", symbol.name));
+    if (symbol.initial) convert_to(symbol.initial, symbol.type, fmt::format("'{}'", symbol.name));
 }
 
 // ---- scopes -------------------------------------------------------------------------------------

@@ -160,12 +160,12 @@ class Checker {
     const CompileOptions& options_;
     bool broken_;
     std::vector<Scope> scopes_;
-    std::vector<Symbol*> globals_;   // by Global, made when first named
-    std::vector<Stmt*> loops_;       // around the statement, outermost first
+    std::vector<Symbol*> globals_;  // by Global, made when first named
+    std::vector<Stmt*> loops_;      // around the statement, outermost first
     std::vector<CallEdge> edges_;
-    Function* function_ = nullptr;   // being checked
-    bool returned_ = false;          // a return was met in it
-    const char* light_statement_ = nullptr;  // the illuminance, illuminate or solar around
+    Function* function_ = nullptr;                  // being checked
+    bool returned_ = false;                         // a return was met in it
+    const char* light_statement_ = nullptr;         // the illuminance, illuminate or solar around
     std::unordered_set<std::string_view> unknown_;  // variables already reported
     std::unordered_set<const Symbol*> warned_;      // parameters already warned of
 };

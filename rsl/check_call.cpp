@@ -8,8 +8,8 @@ namespace kinora::rsl {
 
 namespace {
 
-constexpr int kArgumentWeight = 64;   // an argument's conversion outweighs any of the result's
-constexpr int kUnwantedResult = 50;   // a result that does not convert to what is wanted
+constexpr int kArgumentWeight = 64;  // an argument's conversion outweighs any of the result's
+constexpr int kUnwantedResult = 50;  // a result that does not convert to what is wanted
 
 int result_cost(Type result, BaseType wanted) {
     if (wanted == BaseType::Invalid) return 0;
@@ -23,12 +23,18 @@ struct HintRow {
     const char* help;
 };
 constexpr HintRow kHints[] = {
-    {"dot", "write 'a . b'"},          {"cross", "write 'a ^ b'"},
-    {"lerp", "use mix(a, b, x)"},      {"frac", "use mod(x, 1)"},
-    {"fract", "use mod(x, 1)"},        {"fmod", "use mod(x, y)"},
-    {"saturate", "use clamp(x, 0, 1)"}, {"rsqrt", "use inversesqrt(x)"},
-    {"fabs", "use abs(x)"},            {"rand", "use random()"},
-    {"powf", "use pow(x, y)"},         {"atan2", "use atan(y, x)"},
+    {"dot", "write 'a . b'"},
+    {"cross", "write 'a ^ b'"},
+    {"lerp", "use mix(a, b, x)"},
+    {"frac", "use mod(x, 1)"},
+    {"fract", "use mod(x, 1)"},
+    {"fmod", "use mod(x, y)"},
+    {"saturate", "use clamp(x, 0, 1)"},
+    {"rsqrt", "use inversesqrt(x)"},
+    {"fabs", "use abs(x)"},
+    {"rand", "use random()"},
+    {"powf", "use pow(x, y)"},
+    {"atan2", "use atan(y, x)"},
     {"tex2D", "use texture(name, s, t)"},
 };
 
@@ -218,8 +224,8 @@ void Checker::bind_argument(CallExpr& e, size_t index, Type type, bool output) {
         if (argument->type.base == BaseType::Bool) convert(argument, BaseType::Float);
         return;
     }
-    bool fits = type.is_array() ? argument_cost(*argument, type, false) >= 0
-                                : convert(argument, type.base);
+    bool fits =
+        type.is_array() ? argument_cost(*argument, type, false) >= 0 : convert(argument, type.base);
     if (!fits)
         report(Code::RSL_TYPE_MISMATCH, argument->place,
                fmt::format("argument {} of '{}'", index + 1, e.name), type_name(type),

@@ -36,8 +36,10 @@ bool Checker::convert(Expr*& slot, BaseType to) {
 // built-in with several result types, or an operator on such.
 bool Checker::is_flexible(const Expr& expr) const {
     switch (expr.kind) {
-        case ExprKind::Triple: return true;
-        case ExprKind::Unary: return is_flexible(*as<UnaryExpr>(expr).operand);
+        case ExprKind::Triple:
+            return true;
+        case ExprKind::Unary:
+            return is_flexible(*as<UnaryExpr>(expr).operand);
         case ExprKind::Binary: {
             const auto& e = as<BinaryExpr>(expr);
             bool arithmetic = e.op >= Op::Add && e.op <= Op::Divide;
@@ -55,7 +57,8 @@ bool Checker::is_flexible(const Expr& expr) const {
                 return o.signature.result != overloads[0].signature.result;
             });
         }
-        default: return false;
+        default:
+            return false;
     }
 }
 
@@ -63,8 +66,10 @@ bool Checker::is_flexible(const Expr& expr) const {
 bool Checker::can_be(const Expr& expr, BaseType type) const {
     if (!is_flexible(expr)) return conversion_cost(expr.type.base, type) == 0;
     switch (expr.kind) {
-        case ExprKind::Triple: return is_triple(type);
-        case ExprKind::Unary: return can_be(*as<UnaryExpr>(expr).operand, type);
+        case ExprKind::Triple:
+            return is_triple(type);
+        case ExprKind::Unary:
+            return can_be(*as<UnaryExpr>(expr).operand, type);
         case ExprKind::Binary: {
             const auto& e = as<BinaryExpr>(expr);
             bool left = is_flexible(*e.left), right = is_flexible(*e.right);
@@ -77,11 +82,11 @@ bool Checker::can_be(const Expr& expr, BaseType type) const {
         }
         case ExprKind::Call: {
             std::span<const Overload> overloads = find_builtin(as<CallExpr>(expr).name);
-            return std::any_of(overloads.begin(), overloads.end(), [&](const Overload& o) {
-                return o.signature.result.base == type;
-            });
+            return std::any_of(overloads.begin(), overloads.end(),
+                               [&](const Overload& o) { return o.signature.result.base == type; });
         }
-        default: return false;
+        default:
+            return false;
     }
 }
 

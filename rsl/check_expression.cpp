@@ -127,9 +127,8 @@ void Checker::check(Expr*&, CastExpr& e, BaseType) {
     if (e.space && !is_triple(e.to) && e.to != BaseType::Matrix) {
         report(Code::RSL_BAD_SPACE, e.place, type_name(e.to));
     } else if (conversion_cost(from, e.to) < 0) {
-        report(Code::RSL_TYPE_MISMATCH, e.place,
-               fmt::format("'{}'", type_name(e.to)), "a value that converts to it",
-               type_name(from));
+        report(Code::RSL_TYPE_MISMATCH, e.place, fmt::format("'{}'", type_name(e.to)),
+               "a value that converts to it", type_name(from));
     } else if (e.space || from == BaseType::Bool) {
         convert(e.operand, from == BaseType::Bool ? BaseType::Float : e.to);
         if (e.space) convert(e.operand, e.to);

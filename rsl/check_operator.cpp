@@ -27,17 +27,20 @@ void Checker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
             e.type = {BaseType::Bool, -1};
             return;
         case Op::Dot:
-        case Op::Cross: return check_product(e);
+        case Op::Cross:
+            return check_product(e);
         case Op::Add:
         case Op::Subtract:
         case Op::Multiply:
-        case Op::Divide: return check_arithmetic(e, wanted);
-        default: return check_comparison(e);
+        case Op::Divide:
+            return check_arithmetic(e, wanted);
+        default:
+            return check_comparison(e);
     }
 }
 
-// Checks both operands, the one of fixed type first, so that it can help the other: hint(type of the
-// fixed one, the flexible one) is what the flexible one is asked to be.
+// Checks both operands, the one of fixed type first, so that it can help the other: hint(type of
+// the fixed one, the flexible one) is what the flexible one is asked to be.
 template <class Hint>
 void Checker::both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint) {
     bool left_flexible = is_flexible(*left), right_flexible = is_flexible(*right);

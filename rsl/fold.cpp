@@ -47,11 +47,20 @@ std::optional<ConstantValue> fold(const BinaryExpr& e) {
     for (size_t i = 0; i < a->size(); ++i) {
         float &x = (*a)[i], y = (*b)[i];
         switch (e.op) {
-            case Op::Add: x += y; break;
-            case Op::Subtract: x -= y; break;
-            case Op::Multiply: x *= y; break;
-            case Op::Divide: x /= y; break;
-            default: return {};
+            case Op::Add:
+                x += y;
+                break;
+            case Op::Subtract:
+                x -= y;
+                break;
+            case Op::Multiply:
+                x *= y;
+                break;
+            case Op::Divide:
+                x /= y;
+                break;
+            default:
+                return {};
         }
     }
     return of(*std::move(a));

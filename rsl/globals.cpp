@@ -15,9 +15,8 @@ constexpr uint8_t kinds(std::string_view letters) {
 }
 
 constexpr GlobalInfo kGlobals[] = {
-#define GLOBAL(name, type, rate, readers, writers, doc)                                      \
-    {#name,       Global::name,   {BaseType::type, -1}, Rate::rate, kinds(readers), \
-     kinds(writers), doc},
+#define GLOBAL(name, type, rate, readers, writers, doc) \
+    {#name, Global::name, {BaseType::type, -1}, Rate::rate, kinds(readers), kinds(writers), doc},
 #include "rsl/globals.def"
 #undef GLOBAL
 };

@@ -17,20 +17,13 @@ struct OperatorRow {
     int level;
 };
 constexpr OperatorRow kOperators[] = {
-    {Punct::Or, Op::Or, 1},
-    {Punct::And, Op::And, 2},
-    {Punct::Equal, Op::Equal, 3},
-    {Punct::NotEqual, Op::NotEqual, 3},
-    {Punct::Less, Op::Less, 4},
-    {Punct::LessEqual, Op::LessEqual, 4},
-    {Punct::Greater, Op::Greater, 4},
-    {Punct::GreaterEqual, Op::GreaterEqual, 4},
-    {Punct::Add, Op::Add, 5},
-    {Punct::Subtract, Op::Subtract, 5},
-    {Punct::Cross, Op::Cross, 6},
-    {Punct::Multiply, Op::Multiply, 7},
-    {Punct::Divide, Op::Divide, 7},
-    {Punct::Dot, Op::Dot, 8},
+    {Punct::Or, Op::Or, 1},           {Punct::And, Op::And, 2},
+    {Punct::Equal, Op::Equal, 3},     {Punct::NotEqual, Op::NotEqual, 3},
+    {Punct::Less, Op::Less, 4},       {Punct::LessEqual, Op::LessEqual, 4},
+    {Punct::Greater, Op::Greater, 4}, {Punct::GreaterEqual, Op::GreaterEqual, 4},
+    {Punct::Add, Op::Add, 5},         {Punct::Subtract, Op::Subtract, 5},
+    {Punct::Cross, Op::Cross, 6},     {Punct::Multiply, Op::Multiply, 7},
+    {Punct::Divide, Op::Divide, 7},   {Punct::Dot, Op::Dot, 8},
 };
 
 const OperatorRow* find_operator(Punct punct) {

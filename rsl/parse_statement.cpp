@@ -41,18 +41,29 @@ Stmt* Parser::statement_unguarded() {
     if (is(Punct::LeftBrace)) return block();
     bool call = is(Punct::LeftParen, 1);
     switch (token().word) {
-        case Word::If: return if_statement();
-        case Word::While: return while_statement();
-        case Word::For: return for_statement();
+        case Word::If:
+            return if_statement();
+        case Word::While:
+            return while_statement();
+        case Word::For:
+            return for_statement();
         case Word::Break:
-        case Word::Continue: return jump_statement(token().word);
-        case Word::Return: return return_statement();
-        case Word::Extern: return extern_statement();
-        case Word::Illuminance: return call ? illuminance_statement() : expression_statement();
-        case Word::Illuminate: return call ? illuminate_statement() : expression_statement();
-        case Word::Solar: return call ? solar_statement() : expression_statement();
-        case Word::Gather: return call ? gather_statement() : expression_statement();
-        default: break;
+        case Word::Continue:
+            return jump_statement(token().word);
+        case Word::Return:
+            return return_statement();
+        case Word::Extern:
+            return extern_statement();
+        case Word::Illuminance:
+            return call ? illuminance_statement() : expression_statement();
+        case Word::Illuminate:
+            return call ? illuminate_statement() : expression_statement();
+        case Word::Solar:
+            return call ? solar_statement() : expression_statement();
+        case Word::Gather:
+            return call ? gather_statement() : expression_statement();
+        default:
+            break;
     }
     if (at_function()) {
         auto* node = make<FunctionStmt>(Place{token().where, next_});

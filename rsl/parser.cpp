@@ -83,8 +83,7 @@ void Parser::expect_semicolon() {
     bool cut = last.kind == TokenKind::String && (last.text.size() < 2 || last.text.back() != '"');
     if (cut) return;  // the string without its end, reported already, has swallowed the semicolon
     Location behind{last.where.file, last.where.end, last.where.end};
-    reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, "';'",
-                     describe(token()));
+    reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, "';'", describe(token()));
 }
 
 std::string_view Parser::expect_name(const char* what) {

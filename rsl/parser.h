@@ -10,8 +10,8 @@
 
 namespace kinora::rsl {
 
-inline constexpr int kMostNesting = 400;       // of expressions and statements
-inline constexpr int kMostHeight = 400;        // of an expression's tree, which later passes walk
+inline constexpr int kMostNesting = 400;  // of expressions and statements
+inline constexpr int kMostHeight = 400;   // of an expression's tree, which later passes walk
 inline constexpr int kMostArrayLength = 1 << 20;
 
 class Parser {
@@ -111,10 +111,10 @@ class Parser {
     Ast& ast_;
     Reporter& reporter_;
     uint32_t next_ = 0;
-    bool panic_ = false;  // an error was reported and nothing has been skipped to yet
+    bool panic_ = false;     // an error was reported and nothing has been skipped to yet
     bool unclosed_ = false;  // the file's end was met inside a block, and said
     int depth_ = 0;
-    int height_ = 0;  // of the expression parsed last
+    int height_ = 0;                // of the expression parsed last
     Function* function_ = nullptr;  // being parsed
 };
 

@@ -58,7 +58,8 @@ void Preprocessor::run(const ShaderSource& source) {
 void Preprocessor::report_trouble() {
     Location where;
     switch (files_.back().lexer.take_trouble(where)) {
-        case Lexer::Trouble::None: break;
+        case Lexer::Trouble::None:
+            break;
         case Lexer::Trouble::UnterminatedString:
             reporter_.report(Code::RSL_UNTERMINATED_STRING, where, 0, {});
             break;
@@ -70,7 +71,11 @@ void Preprocessor::report_trouble() {
 
 Token Preprocessor::raw_next() {
     Token token = files_.back().lexer.next();
-    if (!skipping()) report_trouble();
+    Location ignored;
+    if (skipping())
+        files_.back().lexer.take_trouble(ignored);
+    else
+        report_trouble();
     return token;
 }
 

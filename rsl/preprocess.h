@@ -15,11 +15,11 @@
 namespace kinora::rsl {
 
 // Bounds that keep hostile or mistaken source from hanging us.
-inline constexpr size_t kMostTokens = 1'000'000;     // made by expansion, in one compile
+inline constexpr size_t kMostTokens = 1'000'000;  // made by expansion, in one compile
 inline constexpr size_t kMostIncludeDepth = 64;
 inline constexpr size_t kMostIncludes = 1000;
-inline constexpr int kMostMacroNesting = 200;        // of macro calls inside arguments
-inline constexpr int kMostConditionNesting = 200;    // of parentheses in #if
+inline constexpr int kMostMacroNesting = 200;      // of macro calls inside arguments
+inline constexpr int kMostConditionNesting = 200;  // of parentheses in #if
 
 struct Macro {
     std::string_view name;
@@ -50,8 +50,8 @@ class Preprocessor {
     // An open #if.
     struct Condition {
         Location where;
-        bool active = false;      // the group being read counts
-        bool done = false;        // a group has counted, or none may
+        bool active = false;  // the group being read counts
+        bool done = false;    // a group has counted, or none may
         bool saw_else = false;
     };
     // Tokens to be read before the file's next ones.
@@ -128,7 +128,7 @@ class Preprocessor {
     std::vector<File> files_;
     std::vector<Condition> conditions_;
     std::vector<Pending> pending_;
-    size_t floor_ = 0;  // pending_ below it is out of reach (argument expansion)
+    size_t floor_ = 0;       // pending_ below it is out of reach (argument expansion)
     bool isolated_ = false;  // reading a list, not the file
     int nesting_ = 0;
     size_t spent_ = 0;

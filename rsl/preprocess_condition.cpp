@@ -13,11 +13,11 @@ struct OperatorRow {
     int level;
 };
 constexpr OperatorRow kOperators[] = {
-    {Punct::Or, 1},         {Punct::And, 2},           {Punct::BitOr, 3},     {Punct::Cross, 4},
-    {Punct::BitAnd, 5},     {Punct::Equal, 6},         {Punct::NotEqual, 6},  {Punct::Less, 7},
-    {Punct::LessEqual, 7},  {Punct::Greater, 7},       {Punct::GreaterEqual, 7},
-    {Punct::ShiftLeft, 8},  {Punct::ShiftRight, 8},    {Punct::Add, 9},       {Punct::Subtract, 9},
-    {Punct::Multiply, 10},  {Punct::Divide, 10},       {Punct::Modulo, 10},
+    {Punct::Or, 1},         {Punct::And, 2},     {Punct::BitOr, 3},        {Punct::Cross, 4},
+    {Punct::BitAnd, 5},     {Punct::Equal, 6},   {Punct::NotEqual, 6},     {Punct::Less, 7},
+    {Punct::LessEqual, 7},  {Punct::Greater, 7}, {Punct::GreaterEqual, 7}, {Punct::ShiftLeft, 8},
+    {Punct::ShiftRight, 8}, {Punct::Add, 9},     {Punct::Subtract, 9},     {Punct::Multiply, 10},
+    {Punct::Divide, 10},    {Punct::Modulo, 10},
 };
 
 class ConditionParser {
@@ -71,25 +71,44 @@ class ConditionParser {
     long long apply(Punct op, long long a, long long b) {
         auto ua = static_cast<unsigned long long>(a), ub = static_cast<unsigned long long>(b);
         switch (op) {
-            case Punct::Or: return a || b;
-            case Punct::And: return a && b;
-            case Punct::BitOr: return a | b;
-            case Punct::Cross: return a ^ b;
-            case Punct::BitAnd: return a & b;
-            case Punct::Equal: return a == b;
-            case Punct::NotEqual: return a != b;
-            case Punct::Less: return a < b;
-            case Punct::LessEqual: return a <= b;
-            case Punct::Greater: return a > b;
-            case Punct::GreaterEqual: return a >= b;
-            case Punct::ShiftLeft: return static_cast<long long>(ua << (ub & 63));
-            case Punct::ShiftRight: return a >> (ub & 63);
-            case Punct::Add: return static_cast<long long>(ua + ub);
-            case Punct::Subtract: return static_cast<long long>(ua - ub);
-            case Punct::Multiply: return static_cast<long long>(ua * ub);
-            case Punct::Divide: return b == 0 ? fail() : b == -1 ? negate(a) : a / b;
-            case Punct::Modulo: return b == 0 ? fail() : b == -1 ? 0 : a % b;
-            default: return fail();
+            case Punct::Or:
+                return a || b;
+            case Punct::And:
+                return a && b;
+            case Punct::BitOr:
+                return a | b;
+            case Punct::Cross:
+                return a ^ b;
+            case Punct::BitAnd:
+                return a & b;
+            case Punct::Equal:
+                return a == b;
+            case Punct::NotEqual:
+                return a != b;
+            case Punct::Less:
+                return a < b;
+            case Punct::LessEqual:
+                return a <= b;
+            case Punct::Greater:
+                return a > b;
+            case Punct::GreaterEqual:
+                return a >= b;
+            case Punct::ShiftLeft:
+                return static_cast<long long>(ua << (ub & 63));
+            case Punct::ShiftRight:
+                return a >> (ub & 63);
+            case Punct::Add:
+                return static_cast<long long>(ua + ub);
+            case Punct::Subtract:
+                return static_cast<long long>(ua - ub);
+            case Punct::Multiply:
+                return static_cast<long long>(ua * ub);
+            case Punct::Divide:
+                return b == 0 ? fail() : b == -1 ? negate(a) : a / b;
+            case Punct::Modulo:
+                return b == 0 ? fail() : b == -1 ? 0 : a % b;
+            default:
+                return fail();
         }
     }
 

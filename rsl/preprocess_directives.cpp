@@ -9,13 +9,20 @@
 namespace kinora::rsl {
 
 const Preprocessor::DirectiveRow Preprocessor::kDirectives[] = {
-    {"define", false, &Preprocessor::run_define},   {"undef", false, &Preprocessor::run_undef},
-    {"include", false, &Preprocessor::run_include}, {"pragma", false, &Preprocessor::run_pragma},
-    {"error", false, &Preprocessor::run_error},     {"line", false, &Preprocessor::run_nothing},
-    {"ident", false, &Preprocessor::run_nothing},   {"warning", false, &Preprocessor::run_nothing},
-    {"if", true, &Preprocessor::run_if},            {"ifdef", true, &Preprocessor::run_ifdef},
-    {"ifndef", true, &Preprocessor::run_ifndef},    {"elif", true, &Preprocessor::run_elif},
-    {"else", true, &Preprocessor::run_else},        {"endif", true, &Preprocessor::run_endif},
+    {"define", false, &Preprocessor::run_define},
+    {"undef", false, &Preprocessor::run_undef},
+    {"include", false, &Preprocessor::run_include},
+    {"pragma", false, &Preprocessor::run_pragma},
+    {"error", false, &Preprocessor::run_error},
+    {"line", false, &Preprocessor::run_nothing},
+    {"ident", false, &Preprocessor::run_nothing},
+    {"warning", false, &Preprocessor::run_nothing},
+    {"if", true, &Preprocessor::run_if},
+    {"ifdef", true, &Preprocessor::run_ifdef},
+    {"ifndef", true, &Preprocessor::run_ifndef},
+    {"elif", true, &Preprocessor::run_elif},
+    {"else", true, &Preprocessor::run_else},
+    {"endif", true, &Preprocessor::run_endif},
 };
 
 Preprocessor::TokenList Preprocessor::directive_tokens() {

@@ -79,8 +79,7 @@ bool Preprocessor::try_expand(Token& token) {
         }
     }
     out_.macros.push_back({macro.name, macro.definition, token.macro});
-    TokenList replacement =
-        substitute(macro, arguments, uint32_t(out_.macros.size() - 1), token);
+    TokenList replacement = substitute(macro, arguments, uint32_t(out_.macros.size() - 1), token);
     if (!spend(replacement.size() + 1, token)) return true;
     if (!replacement.empty()) {
         replacement.front().space_before = token.space_before;
@@ -140,8 +139,8 @@ bool Preprocessor::fit_arguments(const Token& name, const Macro& macro,
     if (wanted == 0 && arguments.size() == 1 && arguments[0].empty()) arguments.clear();
     if (macro.variadic && arguments.size() + 1 == wanted) arguments.emplace_back();
     if (arguments.size() == wanted) return true;
-    Finding& finding = reporter_.report(Code::RSL_MACRO_ARGUMENTS, name, name.text, wanted,
-                                        arguments.size());
+    Finding& finding =
+        reporter_.report(Code::RSL_MACRO_ARGUMENTS, name, name.text, wanted, arguments.size());
     finding.notes.push_back({macro.definition, "defined here"});
     return false;
 }
@@ -197,8 +196,8 @@ Token Preprocessor::paste(const Token& left, const Token& right, const Token& at
     return token;
 }
 
-// The replacement with parameters replaced, # and ## done. Tokens of the replacement stand where the
-// macro is used; tokens of arguments stay where they are.
+// The replacement with parameters replaced, # and ## done. Tokens of the replacement stand where
+// the macro is used; tokens of arguments stay where they are.
 Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
                                                  const std::vector<TokenList>& arguments,
                                                  uint32_t use, const Token& name) {

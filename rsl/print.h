@@ -16,7 +16,7 @@ using SymbolNote = std::function<std::string(const Symbol& symbol)>;
 std::string print_expr(const Expr& expr, const ExprNote& note = {});
 std::string print_tree(const Ast& ast, const ExprNote& note = {}, const SymbolNote& symbols = {});
 
-std::string number_text(double value);       // shortest text that reads back as the same double
+std::string number_text(double value);      // shortest text that reads back as the same double
 std::string quoted(std::string_view text);  // a string literal
 
 }  // namespace kinora::rsl

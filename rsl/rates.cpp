@@ -1,5 +1,6 @@
-// rsl/rates.cpp: which values differ from point to point. The shader is walked again and again until
-// no variable changes; calls are walked as if expanded, once for each pattern of argument rates.
+// rsl/rates.cpp: which values differ from point to point. The shader is walked again and again
+// until no variable changes; calls are walked as if expanded, once for each pattern of argument
+// rates.
 //
 // Two questions are answered at once. `varying`: does the value differ between points? It decides
 // Symbol::varying and Expr::rate. `illegal`: may a declared-uniform variable not take it? A uniform
@@ -156,9 +157,7 @@ class RateWalk {
     Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
     Flow at(UnaryExpr& e) { return flow(e.operand); }
     Flow at(BinaryExpr& e) { return join(flow(e.left), flow(e.right)); }
-    Flow at(SelectExpr& e) {
-        return join(flow(e.condition), join(flow(e.yes), flow(e.no)));
-    }
+    Flow at(SelectExpr& e) { return join(flow(e.condition), join(flow(e.yes), flow(e.no))); }
     Flow at(AssignExpr& e) {
         Flow value = flow(e.value);
         if (e.op != Op::None) value = join(value, flow(e.target));
@@ -208,8 +207,8 @@ class RateWalk {
         if (!reported_.insert(&at).second) return;
         const Token& token = ast_.tokens.tokens[at.place.token];
         reporter_
-            .report(Code::RSL_UNIFORM_ARGUMENT, at.place.where, token.macro, token.spelling,
-                    p.name, call.name)
+            .report(Code::RSL_UNIFORM_ARGUMENT, at.place.where, token.macro, token.spelling, p.name,
+                    call.name)
             .notes.push_back({p.place.where, "declared here"});
     }
 
@@ -337,12 +336,12 @@ class RateWalk {
     const ShaderDefinition& shader_;
     Ast& ast_;
     Reporter& reporter_;
-    Rated& rated_;             // expressions with a rate, of all shaders so far
-    std::vector<Flow> flows_;  // by Symbol::id
-    std::vector<bool> known_;  // by Symbol::id: locals that were met
+    Rated& rated_;                              // expressions with a rate, of all shaders so far
+    std::vector<Flow> flows_;                   // by Symbol::id
+    std::vector<bool> known_;                   // by Symbol::id: locals that were met
     std::vector<std::vector<Symbol*>> locals_;  // by Function::id
     std::unordered_map<std::string, CallSummary> calls_;
-    const Function* walking_ = nullptr;  // the function whose body is being walked
+    const Function* walking_ = nullptr;     // the function whose body is being walked
     std::vector<const Function*> outside_;  // owners of variables that a callee has changed
     int steps_ = 0;
     std::unordered_set<const Expr*> reported_;
@@ -358,7 +357,8 @@ class RateWalk {
 
 void infer_rates(Ast& ast, Reporter& reporter) {
     Rated rated;
-    for (const ShaderDefinition* shader : ast.shaders) RateWalk(*shader, ast, reporter, rated).run();
+    for (const ShaderDefinition* shader : ast.shaders)
+        RateWalk(*shader, ast, reporter, rated).run();
 }
 
 }  // namespace kinora::rsl

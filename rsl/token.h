@@ -57,8 +57,8 @@ struct PragmaToken {
 };
 
 struct TokenStream {
-    std::vector<Token> tokens;      // ends with an End token
-    std::vector<MacroUse> macros;   // [0] is no macro
+    std::vector<Token> tokens;     // ends with an End token
+    std::vector<MacroUse> macros;  // [0] is no macro
     std::vector<PragmaToken> pragmas;
     bool truncated = false;         // expansion or includes went over their limits
     std::deque<std::string> texts;  // what the tokens' views point into

@@ -11,7 +11,8 @@
 namespace kinora::rsl {
 
 // Fills shader.globals_read, globals_written and functions, and reports what its kind must not use.
-// `reported` holds the nodes that have a finding already: functions are walked once for each shader.
+// `reported` holds the nodes that have a finding already: functions are walked once for each
+// shader.
 void find_usage(Shader& shader, Ast& ast, Reporter& reporter,
                 std::unordered_set<const void*>& reported);
 

@@ -1,0 +1,196 @@
+// tests/rsl/check_test.cpp: each file of tests/rsl/files gives exactly the findings it says, and
+// the facts of shaders that compile.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/rsl/source_text.h"
+
+namespace kinora::rsl {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// "//! 12:5 error RSL_CODE text": the text stands in the message or the help. A file whose end is
+// broken on purpose has them in a .expect beside it.
+struct Expected {
+    std::string place, severity, code, text;
+};
+std::vector<Expected> expected_findings(const fs::path& path) {
+    fs::path beside = path;
+    beside.replace_extension(".expect");
+    std::istringstream lines(read(fs::exists(beside) ? beside : path));
+    std::vector<Expected> all;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("//! ")) continue;
+        std::istringstream words(line.substr(4));
+        Expected e;
+        words >> e.place >> e.severity >> e.code >> std::ws;
+        std::getline(words, e.text);
+        all.push_back(e);
+    }
+    return all;
+}
+
+TEST(CheckFiles, GiveExactlyTheFindingsTheyExpect) {
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(KINORA_SOURCE_DIR "/tests/rsl/files")) {
+        if (entry.path().extension() != ".sl") continue;
+        SCOPED_TRACE(entry.path().string());
+        TestSource source(read(entry.path()));
+        auto shaders = compile(source.source, front_end_only(), source.diagnostics);
+        const auto& findings = source.diagnostics.findings();
+        auto expected = expected_findings(entry.path());
+        ASSERT_EQ(findings.size(), expected.size()) << source.messages();
+        for (size_t i = 0; i < findings.size(); ++i) {
+            LineColumn at = source.diagnostics.files.line_column(findings[i].where.file,
+                                                                 findings[i].where.begin);
+            EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].place);
+            EXPECT_EQ(severity_name(findings[i].severity), expected[i].severity);
+            EXPECT_EQ(findings[i].info->code, expected[i].code);
+            std::string said = findings[i].message + "\n" + findings[i].help;
+            EXPECT_NE(said.find(expected[i].text), std::string::npos) << said;
+        }
+        EXPECT_EQ(shaders.empty(), source.diagnostics.has_errors());
+        ++files;
+    }
+    EXPECT_GE(files, 70);
+}
+
+std::vector<std::unique_ptr<Shader>> compiled(TestSource& source) {
+    auto shaders = compile(source.source, front_end_only(), source.diagnostics);
+    EXPECT_FALSE(shaders.empty()) << source.messages();
+    return shaders;
+}
+
+TEST(Check, ReportsPlacesInTheFileThatHoldsTheText) {
+    // The text as an XML reader hands it over: "<code>" is 6 bytes, "&lt;" became "<".
+    std::string file = "<code>surface x() {\n if (s &lt; bad) Ci = 1; }</code>";
+    std::string text = "surface x() {\n if (s < bad) Ci = 1; }";
+    Diagnostics diagnostics;
+    ShaderSource source{text, {}};
+    source.map.file = diagnostics.files.add("scene.dae", file);
+    uint32_t less = uint32_t(text.find('<'));
+    source.map.segments = {{0, 6}, {less + 1, less + 1 + 6 + 3}};
+    compile(source, front_end_only(), diagnostics);
+    ASSERT_EQ(diagnostics.findings().size(), 1u);
+    EXPECT_EQ(diagnostics.findings()[0].where.begin, file.find("bad"));
+}
+
+TEST(Check, DefaultsFoldWhereNothingRuns) {
+    TestSource source(
+        "surface x(float a = 1 + 2 * 3, b = -PI; color c = 0.5, d = color(1, 2, 3) / 2;"
+        "point p = point \"shader\" (1, 2, 3); string s[3] = {\"a\", \"b\"}; float e = radians(1);"
+        "float none; matrix m = 2) { Ci = a; }");
+    auto shaders = compiled(source);
+    const auto& p = shaders[0]->parameters;
+    EXPECT_EQ(p[0].constant->numbers, std::vector<float>({7}));
+    EXPECT_EQ(p[1].constant->numbers, std::vector<float>({-3.14159265f}));
+    EXPECT_EQ(p[2].constant->numbers, std::vector<float>({0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(p[3].constant->numbers, std::vector<float>({0.5f, 1, 1.5f}));
+    EXPECT_FALSE(p[4].constant);
+    EXPECT_EQ(p[5].constant->strings, std::vector<std::string>({"a", "b", ""}));
+    EXPECT_FALSE(p[6].constant);
+    EXPECT_EQ(p[7].constant->numbers, std::vector<float>({0}));
+    EXPECT_EQ(p[8].constant->numbers[5], 2);
+    EXPECT_EQ(p[8].constant->numbers[1], 0);
+}
+
+TEST(Check, ListsTheGlobalsReadAndWritten) {
+    TestSource source(
+        "float f() { return t; }\n"
+        "surface x() { vector n = faceforward(N, I); Ci += f() * Cs; Oi[0] = n[0]; }");
+    auto shaders = compiled(source);
+    auto names = [](const auto& list) {
+        std::string text;
+        for (const GlobalInfo* g : list) text += std::string(g->name) + " ";
+        return text;
+    };
+    EXPECT_EQ(names(shaders[0]->globals_read), "Cs N Ng t I Ci Oi ");
+    EXPECT_EQ(names(shaders[0]->globals_written), "Ci Oi ");
+    ASSERT_EQ(shaders[0]->functions.size(), 1u);
+    EXPECT_EQ(shaders[0]->functions[0]->name, "f");
+}
+
+// The type that noise() gets in each place.
+TEST(Check, TheWantedTypeChoosesTheOverload) {
+    struct Row {
+        const char* statement;
+        const char* call;
+    };
+    for (const Row& row :
+         {Row{"float a = noise(P);", "float noise"}, Row{"color a = noise(P);", "color noise"},
+          Row{"point a = noise(P);", "point noise"}, Row{"color a = noise(P) * 2;", "color noise"},
+          Row{"vector a = N * noise(P);", "float noise"},
+          Row{"point a = P + noise(P);", "point noise"},
+          Row{"float a = abs(.5 - noise(P));", "float noise"},
+          Row{"color a = mix(Cs, Os, noise(P));", "float noise"},
+          Row{"float a = xcomp(point noise(P));", "point noise"},
+          Row{"float a = N . noise(P);", "normal noise"},
+          Row{"if (noise(P) > 0.5) Ci = 1;", "float noise"}}) {
+        TestSource source(fmt::format("surface x() {{ {} }}", row.statement));
+        auto shaders = compiled(source);
+        std::string types = print_types(*shaders[0]->ast);
+        size_t at = types.find("noise(P");
+        size_t brace = types.find("){", at);
+        std::string_view type = std::string_view(types).substr(brace + 2);
+        EXPECT_EQ(std::string(type.substr(0, type.find(' '))) + " noise", row.call)
+            << row.statement;
+    }
+}
+
+TEST(Check, RatesFollowWhatValuesDependOn) {
+    TestSource source(
+        "float pass(float a) { return a; }\n"
+        "surface x(float k = 1) {\n"
+        "  float uni = k * 2, vary = s, ctl = 1, loop = 0, fu = pass(k), fv = pass(s);\n"
+        "  if (s > 0.5) ctl = 2;\n"
+        "  float i; for (i = 0; i < 4; i += 1) { loop += 1; if (t > i) break; }\n"
+        "  Ci = uni + vary + ctl + loop + fu + fv; }");
+    auto shaders = compiled(source);
+    std::string types = print_types(*shaders[0]->ast);
+    EXPECT_NE(types.find("uni = k{float uniform} * 2{float uniform}{uniform"), std::string::npos);
+    for (const char* name : {"vary", "ctl", "loop", "fv"}) {
+        for (Stmt* stmt : shaders[0]->definition->body->body)
+            if (const auto* d = as_if<DeclareStmt>(stmt))
+                for (const Symbol* symbol : d->symbols) {
+                    bool uniform = symbol->name == "uni" || symbol->name == "fu";
+                    EXPECT_FALSE(uniform && symbol->varying) << symbol->name;
+                    EXPECT_TRUE(symbol->name != name || symbol->varying) << name;
+                }
+    }
+}
+
+TEST(Check, AMissingRowIsAnErrorNamingTheFunction) {
+    TestSource source("surface x() { Ci = occlusion(P, N, 16); }");
+    CompileOptions options;  // as programs compile
+    bool have = find_builtin("occlusion")[0].builtin->lower != nullptr;
+    compile(source.source, options, source.diagnostics);
+    if (!have) {
+        EXPECT_NE(source.messages().find("'occlusion' is not supported yet"), std::string::npos);
+        EXPECT_NE(source.messages().find("test.sl:1:20"), std::string::npos);
+    }
+}
+
+TEST(Check, EverySignatureIsWellFormed) {
+    for (auto group : builtin_groups())
+        for (const Builtin& row : group) {
+            auto signatures = parse_signatures(row.signature);
+            EXPECT_FALSE(signatures.empty()) << row.name;
+            EXPECT_FALSE(std::string_view(row.doc).empty()) << row.name;
+        }
+    EXPECT_EQ(find_builtin("mix").size(), 10u);
+    EXPECT_TRUE(find_builtin("dot").empty());
+    EXPECT_EQ(foreign_builtin("urandom"), "Pixie");
+}
+
+}  // namespace
+}  // namespace kinora::rsl

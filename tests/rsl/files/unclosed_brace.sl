@@ -1,0 +1,3 @@
+surface x() {
+    if (s > 0.5) {
+        Ci = 1;

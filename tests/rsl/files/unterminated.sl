@@ -1,0 +1,5 @@
+surface x() {
+    string a = "abc;
+    Ci = 1;
+}
+/* never closed

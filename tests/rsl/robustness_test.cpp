@@ -1,0 +1,79 @@
+// tests/rsl/robustness_test.cpp: damaged source gives findings, never a crash or a hang. What it
+// must not do is seen by the sanitizers; here it only has to end, and to say why it made no shader.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "tests/rsl/source_text.h"
+
+namespace kinora::rsl {
+namespace {
+
+std::vector<std::string> samples() {
+    std::vector<std::string> texts;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(KINORA_SOURCE_DIR "/tests/rsl/files")) {
+        if (entry.path().extension() != ".sl") continue;
+        std::ifstream in(entry.path(), std::ios::binary);
+        texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    }
+    std::sort(texts.begin(), texts.end());
+    return texts;
+}
+
+void survives(std::string text) {
+    TestSource source(std::move(text));
+    auto shaders = compile(source.source, front_end_only(), source.diagnostics);
+    EXPECT_EQ(shaders.empty(), source.diagnostics.has_errors()) << source.text;
+    for (const auto& shader : shaders) print_types(*shader->ast);
+    source.messages();
+}
+
+TEST(Robustness, TruncatedSource) {
+    for (const std::string& text : samples())
+        for (size_t length = 0; length < text.size(); length += 7) survives(text.substr(0, length));
+}
+
+TEST(Robustness, ChangedBytes) {
+    std::mt19937 random(1);
+    for (const std::string& text : samples())
+        for (int trial = 0; trial < 40; ++trial) {
+            std::string damaged = text;
+            for (unsigned edits = 1 + random() % 4; edits > 0; --edits)
+                damaged[random() % damaged.size()] = char(random());
+            survives(damaged);
+        }
+}
+
+TEST(Robustness, SwappedPieces) {
+    std::mt19937 random(2);
+    std::vector<std::string> texts = samples();
+    for (int trial = 0; trial < 1500; ++trial) {
+        const std::string& a = texts[random() % texts.size()];
+        const std::string& b = texts[random() % texts.size()];
+        size_t cut = random() % a.size(), from = random() % b.size();
+        survives(a.substr(0, cut) + b.substr(from, random() % 80) + a.substr(cut));
+    }
+}
+
+TEST(Robustness, DroppedAndDoubledTokens) {
+    std::mt19937 random(3);
+    for (const std::string& text : samples()) {
+        TestSource source(text);
+        TokenStream tokens = preprocess(source.source, {}, source.diagnostics);
+        for (int trial = 0; trial < 20; ++trial) {
+            size_t at = random() % tokens.tokens.size();
+            bool drop = random() % 2;
+            std::string damaged;
+            for (size_t i = 0; i < tokens.tokens.size(); ++i)
+                for (int n = 0; n < (i != at ? 1 : drop ? 0 : 2); ++n)
+                    (damaged += tokens.tokens[i].text) += ' ';
+            survives(damaged);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kinora::rsl
