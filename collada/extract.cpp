@@ -1,6 +1,5 @@
 // collada/extract.cpp: the order in which what <scene> reaches is read.
 #include <algorithm>
-#include <filesystem>
 
 #include "collada/extract_p.h"
 
@@ -46,8 +45,7 @@ void read_visual_scene(Extraction& x, Link scene) {
 std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
                                  const ExtractOptions& options) {
     Extraction x{diag, options};
-    std::error_code error;
-    add_document(x, document, std::filesystem::weakly_canonical(document.path(), error).string());
+    add_document(x, document, real_path(document.path()));
     x.scene.asset = x.scene.documents[0].asset;
     Link scene = find_visual_scene(x);
     if (!scene) {

@@ -28,7 +28,7 @@ uint32_t linked_document(Extraction& x, Link from, std::string_view file, Locati
         return kNone;
     }
     std::error_code error;
-    std::string real = std::filesystem::weakly_canonical(path, error).string();
+    std::string real = real_path(path);
     auto known = x.doc_by_path.find(real);
     if (known != x.doc_by_path.end()) return known->second;
     if (x.docs.size() >= x.options.max_documents) {
@@ -110,10 +110,10 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
     return {};
 }
 
-uint32_t add_document(Extraction& x, const Document& document, const std::string& real_path) {
+uint32_t add_document(Extraction& x, const Document& document, const std::string& real) {
     uint32_t index = uint32_t(x.docs.size());
     x.docs.push_back(&document);
-    x.doc_by_path[real_path] = index;
+    x.doc_by_path[real] = index;
     check_elements(document, x.diag);
     x.scene.documents.push_back({document.path(), read_asset(document, x.diag), document.file()});
     return index;

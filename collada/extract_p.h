@@ -71,7 +71,7 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds);
 // The element with this id in one document whose name is in `kinds`, or null; reports nothing.
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds);
 // Adds a document already read; its <asset> is read.
-uint32_t add_document(Extraction& x, const Document& document, const std::string& real_path);
+uint32_t add_document(Extraction& x, const Document& document, const std::string& real);
 // Index into scene.conversions for things of `to` used in `from`; kNone if the same.
 uint32_t conversion(Extraction& x, uint32_t from, uint32_t to);
 
@@ -84,6 +84,8 @@ void read_time_range(Extraction& x, Link visual_scene);
 std::string percent_decode(std::string_view text);
 // The path a URI means for a document, not checked to exist: schemes, %xx and backslashes undone.
 std::string path_of_uri(const Document& document, std::string_view uri);
+// Absolute, with links followed as far as it exists.
+std::string real_path(const std::string& path);
 // True when `path` (existing or not) lies in the folder tree of the root document, or all may.
 bool inside_tree(const Extraction& x, const std::string& path);
 

@@ -53,20 +53,26 @@ std::string path_of_uri(const Document& document, std::string_view uri) {
             path.erase(0, 1);
     }
     if (path.empty()) return {};
-    if (path.front() == '/' || starts_with_drive(path)) return path;
-    return document.directory() + path;
+    bool absolute = path.front() == '/' || starts_with_drive(path);
+    if (!absolute) path = document.directory() + path;
+    return std::filesystem::path(path).lexically_normal().string();
+}
+
+std::string real_path(const std::string& path) {
+    std::error_code error;
+    // Absolute first: a relative path of nothing that exists would stay relative.
+    std::filesystem::path absolute = std::filesystem::absolute(path, error);
+    if (error) return path;
+    std::filesystem::path real = std::filesystem::weakly_canonical(absolute, error);
+    return error ? path : real.string();
 }
 
 bool inside_tree(const Extraction& x, const std::string& path) {
     namespace fs = std::filesystem;
     if (x.options.allow_external) return true;
-    std::error_code error;
     std::string folder = x.document(0).directory();
-    fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
-    if (error) return false;
-    fs::path file = fs::weakly_canonical(path, error);
-    if (error) return false;
-    fs::path relative = file.lexically_relative(root);
+    fs::path root = real_path(folder.empty() ? "." : folder);
+    fs::path relative = fs::path(real_path(path)).lexically_relative(root);
     return !relative.empty() && *relative.begin() != "..";
 }
 
