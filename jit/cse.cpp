@@ -1,9 +1,11 @@
-// jit/cse.cpp: equal pure values are computed once, and loop-invariant ones before their loop.
+// jit/cse.cpp: equal pure values and calls are computed once, loop-invariant values before their
+// loop.
 //
 // Two walks. The first gives each value a leader (the first equal one that is visible) and a home:
 // the region in which it can stand, which is outside of every loop that it does not depend on. The
 // second writes the function with leaders only, each in its home. Nothing is moved out of an If
 // unless it also leaves a loop.
+#include <algorithm>
 #include <bit>
 
 #include "jit/analysis.h"
@@ -30,7 +32,8 @@ uint32_t hash(const Inst& inst, uint32_t epoch) {
 
 class CommonValues {
   public:
-    explicit CommonValues(Function& function) : r_(function) {
+    CommonValues(const Module& module, Function& function, const std::vector<bool>& effects)
+        : m_(module), effects_(effects), r_(function) {
         size_t count = r_.old.size();
         leader_.resize(count);
         home_.assign(count, 0);
@@ -68,9 +71,31 @@ class CommonValues {
             close_region();
         } else if (is_pure(inst.op) || (op_info(inst.op).flags & kRead)) {
             lead_value(v);
-        } else if (inst.op == Op::ArrayStore || inst.op == Op::Service || inst.op == Op::Call) {
+        } else if (inst.op == Op::Call || inst.op == Op::Service) {
+            is_effect_free(inst) ? lead_call(v) : void(++epoch_);
+        } else if (inst.op == Op::Result) {
+            leader_[v] = leader_[inst.a] + (v - inst.a);
+        } else if (inst.op == Op::ArrayStore) {
             ++epoch_;
         }
+    }
+
+    bool is_effect_free(const Inst& inst) const {
+        auto index = static_cast<size_t>(inst.imm);
+        return inst.op == Op::Call ? !effects_[index] : m_.services[index].pure;
+    }
+
+    // Calls are merged where they stand, never moved: a mask may keep them from running.
+    void lead_call(Value v) {
+        Inst& key = keys_[v] = r_.old[v];
+        key.a = leader_[key.a];
+        key.args = static_cast<uint32_t>(call_args_.size());
+        for (Value arg : r_.old_args_of(r_.old[v])) call_args_.push_back(leader_[arg]);
+        key.imm2 = 0;
+        for (size_t k = key.args; k < call_args_.size(); ++k)
+            key.imm2 = static_cast<int32_t>(static_cast<uint32_t>(key.imm2) * 31 + call_args_[k]);
+        epochs_[v] = epoch_;
+        if (Value found = find_or_insert(v); found != kNone) leader_[v] = found;
     }
 
     void open_region(Value v) {
@@ -121,9 +146,12 @@ class CommonValues {
         }
     }
 
-    static bool equal(const Inst& x, const Inst& y) {
-        return x.op == y.op && x.type == y.type && x.a == y.a && x.b == y.b && x.c == y.c &&
-               x.imm == y.imm && x.imm2 == y.imm2;
+    bool equal(const Inst& x, const Inst& y) const {
+        bool same = x.op == y.op && x.type == y.type && x.a == y.a && x.b == y.b && x.c == y.c &&
+                    x.imm == y.imm && x.imm2 == y.imm2;
+        auto args = call_args_.begin();
+        return same && (x.arg_count == 0 ||
+                        std::equal(args + x.args, args + x.args + x.arg_count, args + y.args));
     }
 
     // The outermost region that sees all operands, if a loop lies between it and here.
@@ -161,11 +189,8 @@ class CommonValues {
             if (leader_[v] == v && is_leaf(r_.old[v].op)) r_.copy(v);
         for (Value v = 0; v < r_.old.size(); ++v) {
             for (Value k = first_before_[v]; k != kNone; k = next_before_[k]) copy_leader(k);
-            if (r_.old[v].op == Op::Param || is_leaf(r_.old[v].op) || moved_[v]) {
-                r_.renamed[v] = r_.renamed[leader_[v]];
-                continue;
-            }
-            if (leader_[v] != v)
+            bool done = r_.old[v].op == Op::Param || is_leaf(r_.old[v].op) || moved_[v];
+            if (done || leader_[v] != v)
                 r_.renamed[v] = r_.renamed[leader_[v]];
             else
                 copy_leader(v);
@@ -185,7 +210,10 @@ class CommonValues {
         r_.copy(v);
     }
 
+    const Module& m_;
+    const std::vector<bool>& effects_;
     Rewrite r_;
+    std::vector<Value> call_args_;  // leaders of the arguments of calls seen
     std::vector<Value> leader_;
     std::vector<uint32_t> home_;
     std::vector<Inst> keys_;
@@ -201,7 +229,8 @@ class CommonValues {
 }  // namespace
 
 void cse(Module& module) {
-    for (Function& function : module.functions) CommonValues(function).run();
+    std::vector<bool> effects = has_effects(module);
+    for (Function& function : module.functions) CommonValues(module, function, effects).run();
 }
 
 }  // namespace kinora::jit

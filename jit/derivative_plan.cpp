@@ -87,12 +87,16 @@ class Planner {
         }
     }
 
-    uint8_t input_activity(int32_t first, int32_t count) const {
-        uint8_t bits = 0;
+    // A row of inputs has partials where all of it has; "1" (the coordinate itself) is no row.
+    uint8_t input_activity(int32_t first, int32_t count, bool row) const {
+        uint8_t bits = kBoth;
+        auto named = [&](const std::string& name) {
+            return !name.empty() && (!row || name != "1");
+        };
         for (int32_t k = first; k < first + count; ++k) {
             const InputInfo& input = m_.inputs[static_cast<size_t>(k)];
-            if (!input.du.empty()) bits |= kAlongU;
-            if (!input.dv.empty()) bits |= kAlongV;
+            if (!named(input.du)) bits &= static_cast<uint8_t>(~kAlongU);
+            if (!named(input.dv)) bits &= static_cast<uint8_t>(~kAlongV);
         }
         return bits;
     }

@@ -101,6 +101,27 @@ std::string same_after_hoist(const Module& module, uint64_t seed) {
     return difference(*kernel, before, after);
 }
 
+// Derivatives must not change what was there, and the module that has them must survive the rest.
+std::string same_with_derivatives(const Module& module, uint64_t seed) {
+    Module plain = with_derivatives(module, seed);
+    differentiate(plain);
+    if (std::string error = verify(plain); !error.empty()) return error + "\n" + print(plain);
+    Module point = plain, frame;
+    optimize(point, &frame);
+    for (const Module* m : {&point, &frame})
+        if (std::string error = verify(*m); !error.empty()) return error + "\n" + print(*m);
+    World world = world_of(seed);
+    auto kernel = interp(module);
+    RunResult before = world.run(*kernel);
+    RunResult after = world.run(*interp(plain));
+    RunResult last = world.run_pair(interp(frame).get(), *interp(point));
+    forgive_loop_fault(after, last);
+    std::string wrong = difference(*interp(plain), after, last);
+    if (!wrong.empty()) return "after optimize: " + wrong;
+    forgive_loop_fault(before, after);
+    return difference(*kernel, before, after);
+}
+
 std::string same_after_optimize(const Module& module, uint64_t seed) {
     Module point = module, frame;
     optimize(point, &frame);
@@ -127,6 +148,10 @@ TEST(Fuzz, EachPassKeepsTheMeaning) {
 
 TEST(Fuzz, HoistKeepsTheMeaning) {
     fuzz(same_after_hoist, programs());
+}
+
+TEST(Fuzz, DerivativesKeepTheMeaning) {
+    fuzz(same_with_derivatives, programs());
 }
 
 TEST(Fuzz, AllPassesTogetherKeepTheMeaning) {

@@ -88,6 +88,15 @@ TEST(Cse, ReadsAgainAfterAStore) {
     EXPECT_EQ(count(module, Op::ArrayLoad), 2);
 }
 
+TEST(Cse, MergesPureCallsOfEqualArguments) {
+    Module module = read(
+        "%0 = input.f\n%1 = constm #1\n%2 = input.f\nservice %1, [%0]\n%4 = result.f %3\n"
+        "service %1, [%2]\n%6 = result.f %5\n%7 = add %4, %6\nreturn [%7]\nend\n");
+    cse(module);
+    EXPECT_EQ(verify(module), "") << print(module);
+    EXPECT_EQ(count(module, Op::Service), 1);
+}
+
 TEST(Dce, DropsWhatNothingNeedsCyclesIncluded) {
     Module module = read(
         "array \"t\" f 2\n%0 = input.f\n%1 = input.f #1\n%2 = constm #1\n%3 = consti\n"

@@ -30,6 +30,10 @@ extern const int kPolicyCount;
 // sets of a World (world.h).
 Module random_module(uint64_t seed, const RandomPolicy& policy, int size);
 
+// The same program with Du and Dv of values all over it, two of which become the outputs "du" and
+// "dv" after the others; inputs have partials.
+Module with_derivatives(const Module& module, uint64_t seed);
+
 // Floats at the edges: zeros, denormals, limits, infinities, NaN, halves, powers of two.
 extern const float kEdgeFloats[];
 extern const int kEdgeFloatCount;
