@@ -24,20 +24,22 @@ Num fade(Num t) {
     return (t * t) * (t * cubic);
 }
 
-// cell modulo period, both integers held in floats; the quotient may be one off for huge cells.
-Num wrapped(Num cell, Num period) {
-    Num rest = fma(-period, floor(cell / period), cell);
-    rest = select(rest < 0.0f, rest + period, rest);
-    return select(rest < period, rest, 0.0f);
+// cell modulo period. The quotient in float may be off by up to 2^-24 of itself, so a second step
+// takes what the first left over, and the last corrections are by one period.
+Int wrapped(Int cell, Int period) {
+    for (int step = 0; step < 2; ++step)
+        cell = cell - truncate(floor(to_float(cell) / to_float(period))) * period;
+    cell = select(cell < 0, cell + period, cell);
+    return cell - select((cell - period) < 0, integer(cell, 0), period);
 }
 
 // The two planes around a point of a periodic lattice; the period is a whole number, at least 1
 // (EXTREMES.md row 70).
 std::array<Int, 2> periodic_planes(Num cell, Num period) {
-    Num whole = floor(at_most(at_least(period, num(cell, 1.0f)), num(cell, kLatticeLimit)));
-    Num lower = wrapped(cell, whole);
-    Num next = lower + 1.0f;
-    return {truncate(lower), truncate(select(next < whole, next, 0.0f))};
+    Int whole = truncate(at_most(at_least(period, num(cell, 1.0f)), num(cell, kLatticeLimit)));
+    Int lower = wrapped(truncate(cell), whole);
+    Int next = lower + 1;
+    return {lower, select((next - whole) < 0, next, integer(next, 0))};
 }
 
 Axis axis(Num coordinate, const Num* period, size_t dimension) {

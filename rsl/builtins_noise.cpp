@@ -7,10 +7,10 @@ namespace kinora::rsl {
 
 namespace lower_noise {
 
-// The coordinates of noise(x), (x, y), (p), (p, t); `stride` 2 skips the periods of pnoise.
-std::vector<Value> coordinates(LowerCall& c, size_t first, size_t stride) {
+// The coordinates that arguments first .. end-1 hold: (x), (x, y), (p), (p, t).
+std::vector<Value> coordinates(LowerCall& c, size_t first, size_t end) {
     std::vector<Value> p;
-    for (size_t k = first; k < c.args.size(); k += stride)
+    for (size_t k = first; k < end; ++k)
         p.insert(p.end(), c.args[k].c.begin(), c.args[k].c.begin() + c.args[k].size());
     return p;
 }
@@ -24,14 +24,15 @@ int components(const LowerCall& c) {
 }
 
 void noise(LowerCall& c) {
-    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, 1), components(c)));
+    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, c.args.size()), components(c)));
 }
 void pnoise(LowerCall& c) {
-    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, 2), components(c),
-                            coordinates(c, 1, 2)));
+    size_t half = c.args.size() / 2;
+    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, half), components(c),
+                            coordinates(c, half, 2 * half)));
 }
 void cellnoise(LowerCall& c) {
-    set(c, jit::math::cellnoise(c.b, coordinates(c, 0, 1), components(c)));
+    set(c, jit::math::cellnoise(c.b, coordinates(c, 0, c.args.size()), components(c)));
 }
 void random(LowerCall& c) {
     for (int k = 0; k < components(c); ++k)
@@ -58,7 +59,7 @@ const Builtin kRows[] = {
      lower::noise,
      KINORA_RSL_REF(ref::noise),
      kPure,
-     4,
+     16,
      "Smooth noise of 1 to 4 dimensions in 0..1, about 0.5; the type wanted chooses the result."},
     {"pnoise",
      "f=ff f=ffff f=pp f=pfpf c=ff c=ffff c=pp c=pfpf p=ff p=ffff p=pp "
@@ -66,8 +67,8 @@ const Builtin kRows[] = {
      lower::pnoise,
      KINORA_RSL_REF(ref::pnoise),
      kPure,
-     4,
-     "Periodic noise: each coordinate followed by its period."},
+     16,
+     "Periodic noise: the coordinates, then their periods."},
     {"cellnoise",
      "f=f f=ff f=p f=pf c=f c=ff c=p c=pf p=f p=ff p=p p=pf v=f v=ff v=p "
      "v=pf n=f n=ff n=p n=pf",

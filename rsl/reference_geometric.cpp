@@ -111,7 +111,7 @@ void refract(RefCall<Real>& c) {
 template <class Real>
 void fresnel(RefCall<Real>& c) {
     using Number = Dual<Real>;
-    Vec<Real> I = rsl::normalize(c.v(0)), N = rsl::normalize(c.v(1));
+    Vec<Real> I = c.v(0), N = c.v(1);
     Number eta = c.f(2);
     Bent<Real> t = bend(c, I, N, eta);
     Number kr(1);

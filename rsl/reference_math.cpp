@@ -37,6 +37,7 @@ Dual<Real> modulo(RefCall<Real>& c, const Dual<Real>& x, const Dual<Real>& y) {
     Real turns = c.eval.decide(std::floor(x.x / y.x));
     Real r = std::fmod(x.x, y.x);
     if (r != 0 && (r < 0) != (y.x < 0)) r += y.x;
+    if (c.eval.decide(float(r) == float(y.x))) return {};  // stays below y when rounded
     return {r, x.u - turns * y.u, x.v - turns * y.v};
 }
 

@@ -8,9 +8,9 @@ namespace {
 
 // Arguments as coordinates one after the other: points have three.
 template <class Real>
-std::vector<Dual<Real>> coordinates(const RefCall<Real>& c, size_t first, size_t step) {
+std::vector<Dual<Real>> coordinates(const RefCall<Real>& c, size_t first, size_t end) {
     std::vector<Dual<Real>> list;
-    for (size_t i = first; i < c.args.size(); i += step)
+    for (size_t i = first; i < end; ++i)
         list.insert(list.end(), c.args[i].c.begin(), c.args[i].c.begin() + long(c.args[i].size()));
     return list;
 }
@@ -50,16 +50,17 @@ void smooth_noise(RefCall<Real>& c, const std::vector<Dual<Real>>& p,
 
 template <class Real>
 void noise(RefCall<Real>& c) {
-    smooth_noise(c, coordinates(c, 0, 1), {});
+    smooth_noise(c, coordinates(c, 0, c.args.size()), {});
 }
-// Coordinates and periods take turns.
+// All coordinates, then their periods.
 template <class Real>
 void pnoise(RefCall<Real>& c) {
-    smooth_noise(c, coordinates(c, 0, 2), coordinates(c, 1, 2));
+    size_t half = c.args.size() / 2;
+    smooth_noise(c, coordinates(c, 0, half), coordinates(c, half, 2 * half));
 }
 template <class Real>
 void cellnoise(RefCall<Real>& c) {
-    std::vector<Dual<Real>> p = coordinates(c, 0, 1);
+    std::vector<Dual<Real>> p = coordinates(c, 0, c.args.size());
     Real x[4], out[3];
     for (size_t d = 0; d < p.size(); ++d) {
         x[d] = p[d].x;

@@ -106,6 +106,14 @@ TEST(Noise, RepeatsWithItsPeriod) {
     for (size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 4e-5);
 }
 
+TEST(Noise, HugePeriodsAndCellsWrapExactly) {
+    Columns in(2);
+    for (float x : {-0.25f, -1e6f - 0.5f, 123456.5f, 8388607.5f})
+        for (float period : {1e9f, 16777217.0f, 3.0f, 1e20f, 0.0f, 7.9f})
+            in[0].push_back(x), in[1].push_back(period);
+    EXPECT_LT(worst_difference(in, noise_kernel(1, 1, true).run(in), 1, true), 2e-6);
+}
+
 struct Moments {
     double mean, deviation, lowest, highest;
 };
