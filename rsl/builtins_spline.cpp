@@ -16,12 +16,22 @@ struct Basis {
 };
 constexpr float kSixth = 1.0f / 6;
 const Basis kBases[] = {
-    {"catmull-rom", 1, {{-0.5f, 1.5f, -1.5f, 0.5f}, {1, -2.5f, 2, -0.5f}, {-0.5f, 0, 0.5f, 0}, {0, 1, 0, 0}}},
+    {"catmull-rom",
+     1,
+     {{-0.5f, 1.5f, -1.5f, 0.5f}, {1, -2.5f, 2, -0.5f}, {-0.5f, 0, 0.5f, 0}, {0, 1, 0, 0}}},
     {"bezier", 3, {{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 3, 0, 0}, {1, 0, 0, 0}}},
-    {"bspline", 1,
-     {{-kSixth, 0.5f, -0.5f, kSixth}, {0.5f, -1, 0.5f, 0}, {-0.5f, 0, 0.5f, 0}, {kSixth, 4 * kSixth, kSixth, 0}}},
-    {"b-spline", 1,
-     {{-kSixth, 0.5f, -0.5f, kSixth}, {0.5f, -1, 0.5f, 0}, {-0.5f, 0, 0.5f, 0}, {kSixth, 4 * kSixth, kSixth, 0}}},
+    {"bspline",
+     1,
+     {{-kSixth, 0.5f, -0.5f, kSixth},
+      {0.5f, -1, 0.5f, 0},
+      {-0.5f, 0, 0.5f, 0},
+      {kSixth, 4 * kSixth, kSixth, 0}}},
+    {"b-spline",
+     1,
+     {{-kSixth, 0.5f, -0.5f, kSixth},
+      {0.5f, -1, 0.5f, 0},
+      {-0.5f, 0, 0.5f, 0},
+      {kSixth, 4 * kSixth, kSixth, 0}}},
     {"hermite", 2, {{2, 1, -2, 1}, {-3, -2, 3, -1}, {0, 1, 0, 0}, {1, 0, 0, 0}}},
     {"linear", 1, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, -1, 1, 0}, {0, 1, 0, 0}}},
 };

@@ -72,10 +72,10 @@ void texture(LowerCall& c) {
             if (key == name) return value.c[0];
         return width;
     };
-    set_texels(c, c.low.service("texture", std::array{c.f(0), channel(c), at.s, at.t, at.dsdx,
-                                                      at.dtdx, at.dsdy, at.dtdy, c.pair("blur", 0),
-                                                      width_of("swidth"), width_of("twidth"),
-                                                      filter_name(c), c.pair("fill", 0)}));
+    set_texels(c, c.low.service("texture",
+                                std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx,
+                                           at.dsdy, at.dtdy, c.pair("blur", 0), width_of("swidth"),
+                                           width_of("twidth"), filter_name(c), c.pair("fill", 0)}));
 }
 
 void environment(LowerCall& c) {
@@ -114,24 +114,16 @@ namespace lower = lower_texture;
 
 const Builtin kRows[] = {
     // Two rows: only the forms without coordinates read s and t.
-    {"texture", "f=s~ c=s~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
-     "Filtered texture at the surface's s, t; texture(name[channel]).", kAnyShader, "s t"},
-    {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
+    {"texture", "f=s~ c=s~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative,
+     0, "Filtered texture at the surface's s, t; texture(name[channel]).", kAnyShader, "s t"},
+    {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", lower::texture,
+     KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
      "Filtered texture at s, t or over a quadrilateral; texture(name[channel], s, t)."},
-    {"environment",
-     "f=sv~ c=sv~ f=svvvv~ c=svvvv~",
-     lower::environment,
-     KINORA_RSL_REF(ref::environment),
-     kService | kDerivative,
-     0,
+    {"environment", "f=sv~ c=sv~ f=svvvv~ c=svvvv~", lower::environment,
+     KINORA_RSL_REF(ref::environment), kService | kDerivative, 0,
      "Environment map in a direction."},
-    {"shadow",
-     "f=sp~ c=sp~ f=spppp~ c=spppp~",
-     lower::shadow,
-     KINORA_RSL_REF(ref::shadow),
-     kService | kShadows | kVaryingResult,
-     0,
-     "Share of shadow at a point, by map or ray.",
+    {"shadow", "f=sp~ c=sp~ f=spppp~ c=spppp~", lower::shadow, KINORA_RSL_REF(ref::shadow),
+     kService | kShadows | kVaryingResult, 0, "Share of shadow at a point, by map or ray.",
      kSurface | kLight},
     {"bump",
      "n=snvv~ n=snvvff~",

@@ -7,9 +7,8 @@ namespace kinora::rsl {
 using ColorMatrix = double[3][3];
 
 // CIE XYZ for the primaries and white (D65) of ITU-R BT.709.
-inline constexpr ColorMatrix kXyzFromRgb = {{0.412453, 0.357580, 0.180423},
-                                            {0.212671, 0.715160, 0.072169},
-                                            {0.019334, 0.119193, 0.950227}};
+inline constexpr ColorMatrix kXyzFromRgb = {
+    {0.412453, 0.357580, 0.180423}, {0.212671, 0.715160, 0.072169}, {0.019334, 0.119193, 0.950227}};
 inline constexpr ColorMatrix kRgbFromXyz = {{3.240479, -1.537150, -0.498535},
                                             {-0.969256, 1.875991, 0.041556},
                                             {0.055648, -0.204043, 1.057311}};

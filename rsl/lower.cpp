@@ -127,7 +127,7 @@ class Stack {
 
     Lowering& low_;
     std::span<const Layer> layers_;
-    Lowered N_, P_;             // as the displacements left them
+    Lowered N_, P_;  // as the displacements left them
     bool have_N_ = false, have_P_ = false;
     Lowered left_N_, left_P_;
     V3 Ci_{}, Oi_{};

@@ -1,4 +1,5 @@
-// rsl/lower_analysis.cpp: what lowering must know of a piece of source before it writes code for it.
+// rsl/lower_analysis.cpp: what lowering must know of a piece of source before it writes code for
+// it.
 #include "rsl/lower_analysis.h"
 
 #include <algorithm>
@@ -74,7 +75,8 @@ void ChangeFinder::add(const Stmt* stmt) {
         *stmt, [&](const Expr* expr) { add(expr); }, [&](const Stmt* part) { add(part); });
     if (stmt->kind == StmtKind::Return) changes.returns = true;
     if (auto* jump = as_if<BreakStmt>(stmt)) add_once(changes.breaks, (const Stmt*)jump->loop);
-    if (auto* jump = as_if<ContinueStmt>(stmt)) add_once(changes.continues, (const Stmt*)jump->loop);
+    if (auto* jump = as_if<ContinueStmt>(stmt))
+        add_once(changes.continues, (const Stmt*)jump->loop);
     if (stmt->kind == StmtKind::Illuminate || stmt->kind == StmtKind::Solar)
         add_once(changes.light_sources, stmt);
     if (stmt->kind == StmtKind::Illuminance) changes.effects |= kLights;

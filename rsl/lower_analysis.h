@@ -10,14 +10,14 @@ namespace kinora::rsl {
 // What a statement or expression may change or do, functions it calls included. A loop carries just
 // these.
 struct Changes {
-    std::vector<const Symbol*> symbols;     // written, each once
-    std::vector<const Stmt*> breaks;        // loops that a break leaves
-    std::vector<const Stmt*> continues;     // loops that a continue goes on with
-    std::vector<const Stmt*> light_sources; // illuminate and solar statements
-    bool returns = false;                   // from the function it stands in
-    bool random = false;                    // calls random()
-    bool calls = false;                     // calls functions of the source
-    uint32_t effects = 0;                   // Effects of all built-ins called, joined
+    std::vector<const Symbol*> symbols;      // written, each once
+    std::vector<const Stmt*> breaks;         // loops that a break leaves
+    std::vector<const Stmt*> continues;      // loops that a continue goes on with
+    std::vector<const Stmt*> light_sources;  // illuminate and solar statements
+    bool returns = false;                    // from the function it stands in
+    bool random = false;                     // calls random()
+    bool calls = false;                      // calls functions of the source
+    uint32_t effects = 0;                    // Effects of all built-ins called, joined
 };
 
 // Collects the changes of any number of nodes.
@@ -49,18 +49,27 @@ void for_each_operand(const Expr& expr, F&& f) {
     switch (expr.kind) {
         case ExprKind::Number:
         case ExprKind::String:
-        case ExprKind::Variable: return;
-        case ExprKind::Index: f(as<IndexExpr>(expr).array), f(as<IndexExpr>(expr).index); return;
+        case ExprKind::Variable:
+            return;
+        case ExprKind::Index:
+            f(as<IndexExpr>(expr).array), f(as<IndexExpr>(expr).index);
+            return;
         case ExprKind::Component:
             f(as<ComponentExpr>(expr).operand), f(as<ComponentExpr>(expr).index);
             return;
-        case ExprKind::Unary: f(as<UnaryExpr>(expr).operand); return;
-        case ExprKind::Binary: f(as<BinaryExpr>(expr).left), f(as<BinaryExpr>(expr).right); return;
+        case ExprKind::Unary:
+            f(as<UnaryExpr>(expr).operand);
+            return;
+        case ExprKind::Binary:
+            f(as<BinaryExpr>(expr).left), f(as<BinaryExpr>(expr).right);
+            return;
         case ExprKind::Select:
             f(as<SelectExpr>(expr).condition), f(as<SelectExpr>(expr).yes);
             f(as<SelectExpr>(expr).no);
             return;
-        case ExprKind::Assign: f(as<AssignExpr>(expr).value), f(as<AssignExpr>(expr).target); return;
+        case ExprKind::Assign:
+            f(as<AssignExpr>(expr).value), f(as<AssignExpr>(expr).target);
+            return;
         case ExprKind::Call:
             for (const Expr* arg : as<CallExpr>(expr).args) f(arg);
             if (as<CallExpr>(expr).channel) f(as<CallExpr>(expr).channel);
@@ -101,8 +110,11 @@ void for_each_part(const Stmt& stmt, OnExpr&& on_expr, OnStmt&& on_stmt) {
         case StmtKind::Extern:
         case StmtKind::DefineFunction:
         case StmtKind::Break:
-        case StmtKind::Continue: return;
-        case StmtKind::Expression: e(as<ExpressionStmt>(stmt).expression); return;
+        case StmtKind::Continue:
+            return;
+        case StmtKind::Expression:
+            e(as<ExpressionStmt>(stmt).expression);
+            return;
         case StmtKind::If: {
             auto& node = as<IfStmt>(stmt);
             e(node.condition), s(node.yes), s(node.no);
@@ -121,7 +133,9 @@ void for_each_part(const Stmt& stmt, OnExpr&& on_expr, OnStmt&& on_stmt) {
             s(node.body);
             return;
         }
-        case StmtKind::Return: e(as<ReturnStmt>(stmt).value); return;
+        case StmtKind::Return:
+            e(as<ReturnStmt>(stmt).value);
+            return;
         case StmtKind::Illuminance: {
             auto& node = as<IlluminanceStmt>(stmt);
             e(node.category), e(node.position), e(node.axis), e(node.angle);

@@ -7,20 +7,30 @@ namespace kinora::rsl {
 
 void Lowering::statement(const Stmt& stmt) {
     switch (stmt.kind) {
-        case StmtKind::Block: return block(as<BlockStmt>(stmt).body);
+        case StmtKind::Block:
+            return block(as<BlockStmt>(stmt).body);
         case StmtKind::Declare:
             for (const Symbol* symbol : as<DeclareStmt>(stmt).symbols) declare(*symbol);
             return;
         case StmtKind::Extern:
-        case StmtKind::DefineFunction: return;
-        case StmtKind::Expression: expr(*as<ExpressionStmt>(stmt).expression); return;
-        case StmtKind::If: return branch(as<IfStmt>(stmt));
+        case StmtKind::DefineFunction:
+            return;
+        case StmtKind::Expression:
+            expr(*as<ExpressionStmt>(stmt).expression);
+            return;
+        case StmtKind::If:
+            return branch(as<IfStmt>(stmt));
         case StmtKind::While:
-        case StmtKind::For: return loop(stmt);
-        case StmtKind::Break: return jump(as<BreakStmt>(stmt).loop, true);
-        case StmtKind::Continue: return jump(as<ContinueStmt>(stmt).loop, false);
-        case StmtKind::Return: return return_from(as<ReturnStmt>(stmt));
-        case StmtKind::Illuminance: return illuminance(as<IlluminanceStmt>(stmt));
+        case StmtKind::For:
+            return loop(stmt);
+        case StmtKind::Break:
+            return jump(as<BreakStmt>(stmt).loop, true);
+        case StmtKind::Continue:
+            return jump(as<ContinueStmt>(stmt).loop, false);
+        case StmtKind::Return:
+            return return_from(as<ReturnStmt>(stmt));
+        case StmtKind::Illuminance:
+            return illuminance(as<IlluminanceStmt>(stmt));
         case StmtKind::Illuminate: {
             auto& node = as<IlluminateStmt>(stmt);
             return illuminate(stmt, node.position, node.axis, node.angle, *node.body);
@@ -54,8 +64,7 @@ void Lowering::block(std::span<Stmt* const> body) {
 void Lowering::run_statements(std::span<Stmt* const> body) {
     Value entered = running;
     for (size_t k = 0; k < body.size(); ++k) {
-        if (running != entered)
-            return guarded(running, [&] { run_statements(body.subspan(k)); });
+        if (running != entered) return guarded(running, [&] { run_statements(body.subspan(k)); });
         statement(*body[k]);
     }
 }
@@ -201,9 +210,7 @@ void Lowering::loop(const Stmt& stmt) {
     for (const Expr* step : node.step) finder.add(step);
     run_loop(
         stmt, finder.changes,
-        [&] {
-            return node.condition ? b.logical_and(running, value(*node.condition)) : running;
-        },
+        [&] { return node.condition ? b.logical_and(running, value(*node.condition)) : running; },
         [&] { statement(*node.body); },
         [&] {
             for (const Expr* step : node.step) expr(*step);

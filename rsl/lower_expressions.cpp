@@ -25,11 +25,14 @@ class PlaceScope {
 Lowered Lowering::expr(const Expr& e) {
     PlaceScope place(*this, e.place.where, where_);
     switch (e.kind) {
-        case ExprKind::Number: return lowered(BaseType::Float, b.f(float(as<NumberExpr>(e).value)));
+        case ExprKind::Number:
+            return lowered(BaseType::Float, b.f(float(as<NumberExpr>(e).value)));
         case ExprKind::String:
             return lowered(BaseType::String, b.i(intern(as<StringExpr>(e).value)));
-        case ExprKind::Variable: return read(*as<VariableExpr>(e).symbol);
-        case ExprKind::Index: return load(target(e));
+        case ExprKind::Variable:
+            return read(*as<VariableExpr>(e).symbol);
+        case ExprKind::Index:
+            return load(target(e));
         case ExprKind::Component: {
             auto& node = as<ComponentExpr>(e);
             V3 v = expr(*node.operand).v3();
@@ -43,13 +46,17 @@ Lowered Lowering::expr(const Expr& e) {
                     node.op == Op::Not ? b.logical_not(x.c[size_t(c)]) : b.neg(x.c[size_t(c)]);
             return x;
         }
-        case ExprKind::Binary: return sum(as<BinaryExpr>(e));
-        case ExprKind::Select: return select_expr(as<SelectExpr>(e));
-        case ExprKind::Assign: return assign(as<AssignExpr>(e));
+        case ExprKind::Binary:
+            return sum(as<BinaryExpr>(e));
+        case ExprKind::Select:
+            return select_expr(as<SelectExpr>(e));
+        case ExprKind::Assign:
+            return assign(as<AssignExpr>(e));
         case ExprKind::Call:
             return as<CallExpr>(e).function ? call_function(as<CallExpr>(e))
                                             : call_builtin(as<CallExpr>(e));
-        case ExprKind::Cast: return cast(as<CastExpr>(e));
+        case ExprKind::Cast:
+            return cast(as<CastExpr>(e));
         case ExprKind::Triple: {
             Lowered x{e.type.base, {}};
             for (size_t c = 0; c < 3; ++c) x.c[c] = value(*as<TripleExpr>(e).items[c]);
@@ -60,7 +67,8 @@ Lowered Lowering::expr(const Expr& e) {
             for (size_t c = 0; c < 16; ++c) x.c[c] = value(*as<SixteenExpr>(e).items[c]);
             return x;
         }
-        case ExprKind::ArrayLiteral: break;  // only an initialiser: fill_array
+        case ExprKind::ArrayLiteral:
+            break;  // only an initialiser: fill_array
     }
     CHECK(false);
     return {};
@@ -230,8 +238,13 @@ Lowered Lowering::assign(const AssignExpr& e) {
 // ---- calls --------------------------------------------------------------------------------------
 
 Lowered Lowering::call_builtin(const CallExpr& e) {
-    LowerCall call{*this, b, e, {}, {}, {}, zero(e.type.base == BaseType::Void ? BaseType::Float
-                                                                              : e.type.base)};
+    LowerCall call{*this,
+                   b,
+                   e,
+                   {},
+                   {},
+                   {},
+                   zero(e.type.base == BaseType::Void ? BaseType::Float : e.type.base)};
     size_t plain = e.signature->pairs ? std::min<size_t>(e.pairs, e.args.size()) : e.args.size();
     auto& declared = e.signature->arguments;
     for (size_t k = 0; k < plain; ++k) {
@@ -257,7 +270,8 @@ void LowerCall::set_output(int i, const Lowered& value) {
 
 const std::string* LowerCall::text(int i) const {
     const std::string* text = low.constant_text(args[size_t(i)].c[0]);
-    if (!text) low.error(Code::RSL_STRING_NOT_CONSTANT, call.args[size_t(i)]->place.where, call.name);
+    if (!text)
+        low.error(Code::RSL_STRING_NOT_CONSTANT, call.args[size_t(i)]->place.where, call.name);
     return text;
 }
 

@@ -59,8 +59,8 @@ struct GlobalConstant {
     float value;
 };
 const GlobalConstant kConstants[] = {
-    {Global::Cs, 1}, {Global::Os, 1}, {Global::ncomps, 3}, {Global::alpha, 1}, {Global::Oi, 1},
-    {Global::PI, 3.14159265358979f},
+    {Global::Cs, 1},    {Global::Os, 1}, {Global::ncomps, 3},
+    {Global::alpha, 1}, {Global::Oi, 1}, {Global::PI, 3.14159265358979f},
 };
 
 }  // namespace
@@ -98,8 +98,8 @@ static Lowered light_global(Lowering& low, const GlobalInfo& info) {
         V3 origin;
         for (int r = 0; r < 3; ++r)
             origin[size_t(r)] =
-                low.scalar_input("space:shader:to_current:" + std::to_string(r) + "3",
-                                 jit::Type::F, jit::Rate::Frame);
+                low.scalar_input("space:shader:to_current:" + std::to_string(r) + "3", jit::Type::F,
+                                 jit::Rate::Frame);
         return lowered(BaseType::Point, origin);
     }
     if (info.id == Global::I) {
@@ -120,8 +120,8 @@ Lowered Lowering::global_input(Global id) {
     bool behind = kind() == ShaderKind::Volume || kind() == ShaderKind::Imager;
     if (behind && (id == Global::Ci || id == Global::Oi))
         return input(std::string(info.name), type, jit::Rate::Point);
-    auto rows = light ? std::span<const GlobalInput>(kLightInputs)
-                      : std::span<const GlobalInput>(kInputs);
+    auto rows =
+        light ? std::span<const GlobalInput>(kLightInputs) : std::span<const GlobalInput>(kInputs);
     for (const GlobalInput& row : rows)
         if (row.id == id) return input(row.name, type, row.rate, row.du, row.dv);
     for (const GlobalConstant& row : kConstants)
@@ -155,8 +155,8 @@ Lowered Lowering::bound_value(const ParamBinding& bound, std::string_view name, 
     size_t first = size_t(element) * n;
     for (size_t c = 0; c < n; ++c) {
         if (bound.kind != ParamBinding::Kind::Constant)
-            result.c[c] =
-                b.input(element_input(name, type.base, bound, type.is_array() ? element : -1, int(c)));
+            result.c[c] = b.input(
+                element_input(name, type.base, bound, type.is_array() ? element : -1, int(c)));
         else if (type.base == BaseType::String && size_t(element) < bound.strings.size())
             result.c[c] = b.i(intern(bound.strings[size_t(element)]));
         else if (type.base != BaseType::String && first + c < bound.constant.size())

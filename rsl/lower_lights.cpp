@@ -128,8 +128,8 @@ void Lowering::illuminance(const IlluminanceStmt& stmt) {
 }
 
 // One turn: the body for the lanes that this record reaches.
-void Lowering::light_body(const IlluminanceStmt& stmt, Value set, Value record,
-                          const Cone& around, const Lowered& position) {
+void Lowering::light_body(const IlluminanceStmt& stmt, Value set, Value record, const Cone& around,
+                          const Lowered& position) {
     Value kind = record_uniform(set, record, kLightKind, jit::Type::I);
     Value wanted = b.logical_not(b.op(jit::Op::IEq, kind, b.i(kLightAmbient)));
     if (stmt.category)

@@ -126,7 +126,9 @@ Value Emitter::length(const V3& x) {
 
 V3 Emitter::normalize(const V3& x) {
     Scaled s = scaled(x, false);
-    return scale(s.x, jit::math::inversesqrt(b, s.squared, tier));
+    // sqrt and division round correctly: as exact as an inverse square root made from them.
+    Value inverse = b.div(b.f(1), b.sqrt(s.squared));
+    return scale(s.x, b.select(b.lt(b.f(0), s.squared), inverse, b.f(0)));
 }
 
 }  // namespace kinora::rsl

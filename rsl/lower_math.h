@@ -55,13 +55,11 @@ class Emitter {
     Value div(Value x, Value y);
     Value clamp(Value x, Value low, Value high) { return b.min(b.max(x, low), high); }
     // Exact at alpha 0 and 1.
-    Value mix(Value x, Value y, Value alpha) {
-        return fma(y, alpha, mul(x, b.sub(b.f(1), alpha)));
-    }
-    Value sqrt(Value x);               // 0 for negative x
-    Value pow(Value x, Value y);       // any x: rows 44-46
+    Value mix(Value x, Value y, Value alpha) { return fma(y, alpha, mul(x, b.sub(b.f(1), alpha))); }
+    Value sqrt(Value x);          // 0 for negative x
+    Value pow(Value x, Value y);  // any x: rows 44-46
     Value pow_positive(Value x, Value y) { return jit::math::pow(b, x, y, tier); }  // x >= 0
-    Value mod(Value x, Value y);       // rows 52-54
+    Value mod(Value x, Value y);                                                    // rows 52-54
     Value smoothstep(Value low, Value high, Value x);
     // floor(x) as an int, for 0 <= x < length; anything outside is clamped, NaN gives 0.
     Value index(Value x, int length);
@@ -75,8 +73,8 @@ class Emitter {
     V3 select(Value mask, const V3& x, const V3& y);
     Value dot(const V3& x, const V3& y);
     V3 cross(const V3& x, const V3& y);
-    Value length(const V3& x);     // row 60
-    V3 normalize(const V3& x);     // row 59
+    Value length(const V3& x);  // row 60
+    V3 normalize(const V3& x);  // row 59
 
     // Where `mask`: the values `body` returns, else `outer`; body's code runs only when some lane
     // needs it.

@@ -1,9 +1,10 @@
-// rsl/lower_p.h: the state of lowering one kernel, shared by the lower_*.cpp files and the built-ins.
+// rsl/lower_p.h: the state of lowering one kernel, shared by the lower_*.cpp files and the
+// built-ins.
 //
 // Variables are SSA values in slots. A branch (guarded) runs its body in an If and merges the slots
 // that changed, which a trail of old values tells; a loop carries the slots that ChangeFinder finds
-// in its body. `running` (Emitter) is the mask of the lanes that execute; break, continue and return
-// take lanes out of it, after which the rest of each block stands in an If of its own.
+// in its body. `running` (Emitter) is the mask of the lanes that execute; break, continue and
+// return take lanes out of it, after which the rest of each block stands in an If of its own.
 #pragma once
 
 #include <optional>
@@ -40,8 +41,8 @@ struct LowerCall {
     Lowering& low;
     jit::Builder& b;
     const CallExpr& call;
-    std::vector<Lowered> args;     // values; of outputs, before the call; pairs are not among them
-    std::vector<Target> targets;   // of output arguments
+    std::vector<Lowered> args;    // values; of outputs, before the call; pairs are not among them
+    std::vector<Target> targets;  // of output arguments
     std::vector<std::pair<std::string, Lowered>> pairs;
     Lowered result;
 
@@ -105,9 +106,9 @@ class Lowering : public Emitter {
     void end_scope(std::span<Stmt* const> body);
     std::vector<Lowered> array_values(const Expr& array);  // all elements
     Lowered zero(BaseType type);
-    Lowered global_input(Global id);                       // as the kernel receives it
-    Lowered input(const std::string& name, BaseType type, jit::Rate rate, const std::string& du = "",
-                  const std::string& dv = "");
+    Lowered global_input(Global id);  // as the kernel receives it
+    Lowered input(const std::string& name, BaseType type, jit::Rate rate,
+                  const std::string& du = "", const std::string& dv = "");
     Value scalar_input(const std::string& name, jit::Type type, jit::Rate rate);
     // Is v exactly the global's unmodified input?
     bool is_input(const V3& v, const char* name);
@@ -129,7 +130,7 @@ class Lowering : public Emitter {
     void guarded(Value mask, Body&& body);
     struct Loop {
         const Stmt* stmt;
-        int broken = -1;     // slots of masks, -1 if the loop has no such jump
+        int broken = -1;  // slots of masks, -1 if the loop has no such jump
         int continued = -1;
     };
     // Opens the variables that a loop carries: call right after begin_loop; close() right before
@@ -173,7 +174,7 @@ class Lowering : public Emitter {
     V3 record_triple(Value set, Value record, int column);
     Value record_uniform(Value set, Value record, int field, jit::Type type);
     int message_column(std::string_view name, BaseType type, int* index);
-    Value current_set = jit::kNone;     // inside illuminance
+    Value current_set = jit::kNone;  // inside illuminance
     Value current_record = jit::kNone;
 
     // lower_spaces.cpp. A matrix of four rows for row vectors; `to_current` or `from_current`.
@@ -221,9 +222,9 @@ class Lowering : public Emitter {
     struct Array {
         BaseType element = BaseType::Float;
         int length = 0;
-        int first_slot = -1;            // elements as values
-        std::vector<int> memory;        // arrays of the IR, one a component
-        std::vector<int> inputs;        // first input of each component: a parameter never written
+        int first_slot = -1;      // elements as values
+        std::vector<int> memory;  // arrays of the IR, one a component
+        std::vector<int> inputs;  // first input of each component: a parameter never written
     };
     struct Undo {
         int slot;
@@ -259,8 +260,7 @@ class Lowering : public Emitter {
     void return_from(const ReturnStmt& stmt);
     Space variable_space(Value name);
     void unknown_space(const std::string& name, Location where);
-    Lowered change_space(const Lowered& x, bool identity, const Lowered& m,
-                         const Lowered& inverse);
+    Lowered change_space(const Lowered& x, bool identity, const Lowered& m, const Lowered& inverse);
     const ParamBinding* binding(std::string_view name) const;
     Lowered bound_value(const ParamBinding& bound, std::string_view name, Type type, int element);
     jit::InputInfo element_input(std::string_view name, BaseType type, const ParamBinding& bound,
@@ -270,12 +270,12 @@ class Lowering : public Emitter {
 
     std::vector<Slot> slots_;
     std::vector<Undo> trail_;
-    std::vector<int> seen_;               // by slot: the merge that met it last
+    std::vector<int> seen_;  // by slot: the merge that met it last
     int merge_number_ = 0;
     int symbol_base_ = int(Global::Count);  // slot of symbol 0 of this layer's Ast
-    std::vector<int> array_of_;           // by Symbol::id, -1: none yet
+    std::vector<int> array_of_;             // by Symbol::id, -1: none yet
     std::vector<Array> arrays_;
-    std::vector<uint8_t> in_memory_;      // by Symbol::id
+    std::vector<uint8_t> in_memory_;  // by Symbol::id
     std::vector<Loop> loops_;
     std::vector<FunctionFrame> frames_;
     struct LightSource {

@@ -34,8 +34,8 @@ std::vector<jit::Type> types(std::string_view letters) {
 std::vector<Value> Lowering::service(std::string_view name, std::span<const Value> args) {
     for (const ServiceRow& row : kServices) {
         if (row.name != name) continue;
-        int slot = b.declare_service(
-            {std::string(name), types(row.params), types(row.results), row.pure});
+        int slot =
+            b.declare_service({std::string(name), types(row.params), types(row.results), row.pure});
         return b.service(slot, running, args);
     }
     CHECK(false);

@@ -33,10 +33,10 @@ Lowering::Space Lowering::space(Value name, Location where) {
         Lowered m = convert(lowered(BaseType::Float, b.f(1)), BaseType::Matrix);
         for (int row = 0; row < 4; ++row)
             for (int column = 0; column < (projective ? 4 : 3); ++column)
-                m.c[size_t(row * 4 + column)] = scalar_input(
-                    "space:" + *text + ":" + direction + ":" + std::to_string(column) +
-                        std::to_string(row),
-                    jit::Type::F, of_point ? jit::Rate::Point : jit::Rate::Frame);
+                m.c[size_t(row * 4 + column)] =
+                    scalar_input("space:" + *text + ":" + direction + ":" + std::to_string(column) +
+                                     std::to_string(row),
+                                 jit::Type::F, of_point ? jit::Rate::Point : jit::Rate::Frame);
         return m;
     };
     return {false, matrix("to_current"), matrix("from_current")};
@@ -184,10 +184,14 @@ Lowered Lowering::change_space(const Lowered& x, bool identity, const Lowered& m
                                const Lowered& inverse) {
     if (identity) return x;
     switch (x.type) {
-        case BaseType::Point: return lowered(x.type, transform_point(x.v3(), m));
-        case BaseType::Normal: return lowered(x.type, transform_normal(x.v3(), inverse));
-        case BaseType::Matrix: return multiply(x, m);
-        default: return lowered(x.type, transform_vector(x.v3(), m));
+        case BaseType::Point:
+            return lowered(x.type, transform_point(x.v3(), m));
+        case BaseType::Normal:
+            return lowered(x.type, transform_normal(x.v3(), inverse));
+        case BaseType::Matrix:
+            return multiply(x, m);
+        default:
+            return lowered(x.type, transform_vector(x.v3(), m));
     }
 }
 

@@ -42,8 +42,7 @@ void Lowering::merge_changes(size_t mark, Value mask, Value outer_running) {
         if (!undo.old.live) slot.live = false;
         if (!slot.live) continue;
         for (int c = 0; c < slot.value.size(); ++c)
-            slot.value.c[size_t(c)] =
-                b.merge(slot.value.c[size_t(c)], undo.old.value.c[size_t(c)]);
+            slot.value.c[size_t(c)] = b.merge(slot.value.c[size_t(c)], undo.old.value.c[size_t(c)]);
     }
     bool none;
     if (running == mask)
@@ -137,9 +136,9 @@ void Lowering::fill_array(int array, const Expr* initial) {
     if (literal)
         for (const Expr* item : literal->items) values.push_back(expr(*item));
     for (int k = 0; k < arrays_[size_t(array)].length; ++k)
-        store_element(array, b.i(k),
-                      size_t(k) < values.size() ? values[size_t(k)]
-                                                : zero(arrays_[size_t(array)].element));
+        store_element(
+            array, b.i(k),
+            size_t(k) < values.size() ? values[size_t(k)] : zero(arrays_[size_t(array)].element));
 }
 
 // A shader parameter: its inputs where it is only read, else an array filled with them.
@@ -281,8 +280,8 @@ void Lowering::store(const Target& t, const Lowered& value) {
         all.component = jit::kNone;
         whole = load(all);
         for (int c = 0; c < 3; ++c)
-            whole.c[size_t(c)] = b.select(b.op(jit::Op::IEq, t.component, b.i(c)), value.c[0],
-                                          whole.c[size_t(c)]);
+            whole.c[size_t(c)] =
+                b.select(b.op(jit::Op::IEq, t.component, b.i(c)), value.c[0], whole.c[size_t(c)]);
     }
     if (t.slot >= 0)
         write_slot(t.slot, whole);

@@ -36,7 +36,8 @@
 namespace kinora::rsl {
 
 // Columns of a light record, as RecordField reads them. L points from the surface to the light,
-// not normalised (solar: unit length). lit is an int. Messages the surface asks for follow.
+// not normalised (solar: unit length). lit is an int. Messages the surface asks for follow; they are
+// 0 where the light has no such parameter.
 enum LightColumn { kLightL = 0, kLightCl = 3, kLightOl = 6, kLightLit = 9, kLightMessages = 10 };
 
 // Uniforms of a light record, as RecordUniform reads them.

@@ -2,8 +2,9 @@
 // language and of its programs share.
 #pragma once
 
+#include <algorithm>
 #include <bit>
-#include <cstring>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct TestLight {
     uint32_t categories = 0;  // bits by LoweredShader::categories
     float nondiffuse = 0;
     float nonspecular = 0;
-    std::vector<float> messages;  // components in the order of LoweredShader::light_messages
+    std::vector<float> messages = {};  // components in the order of LoweredShader::light_messages
 };
 
 // A stack of shaders from source text to outputs. Inputs are named as in renderer_services.h and 0
@@ -55,8 +56,7 @@ class RunShader {
     // All findings, as a user sees them.
     std::string findings() const {
         std::string all = verdict;
-        for (const Finding& f : diagnostics.findings())
-            all += format_finding(f, diagnostics.files);
+        for (const Finding& f : diagnostics.findings()) all += format_finding(f, diagnostics.files);
         return all;
     }
 
@@ -71,6 +71,7 @@ class RunShader {
     // Runs `count` points; outputs by name.
     std::map<std::string, std::vector<float>> run(int count = 1) {
         arena.reset();
+        faults = 0;
         std::vector<float> frame;
         if (kernels.frame) frame = run_kernel(*kernels.frame, 1, nullptr, nullptr);
         auto records = light_records();
@@ -95,10 +96,11 @@ class RunShader {
     std::map<std::string, std::vector<float>> inputs;
     std::vector<TestLight> lights;
     std::map<std::string, jit::ServiceFn> services;
-    std::vector<uint8_t> faults;  // of the last run, by fault site
+    int faults = 0;  // sites that reported in the last run, of the frame kernel too
 
   private:
     static constexpr size_t kPad = jit::kMaxLanes;
+    static constexpr size_t kMessages = 8;
 
     float* column(float value, int count) {
         size_t padded = (size_t(count) + kPad - 1) / kPad * kPad;
@@ -128,21 +130,22 @@ class RunShader {
         auto list = arena.allocate_span<jit::Record>(lights.size());
         for (size_t k = 0; k < lights.size(); ++k) {
             const TestLight& light = lights[k];
-            auto columns = arena.allocate_span<const float*>(kLightMessages + light.messages.size());
+            auto columns = arena.allocate_span<const float*>(kLightMessages + kMessages);
             for (size_t c = 0; c < 3; ++c) {
                 columns[kLightL + c] = column(light.L[c], 256);
                 columns[kLightCl + c] = column(light.Cl[c], 256);
                 columns[kLightOl + c] = column(light.Ol[c], 256);
             }
             columns[kLightLit] = column(std::bit_cast<float>(light.lit), 256);
-            for (size_t c = 0; c < light.messages.size(); ++c)
-                columns[kLightMessages + c] = column(light.messages[c], 256);
-            auto uniforms = arena.allocate_span<float>(kLightUniforms + 8);
+            for (size_t c = 0; c < kMessages; ++c)
+                columns[kLightMessages + c] =
+                    column(c < light.messages.size() ? light.messages[c] : 0, 256);
+            auto uniforms = arena.allocate_span<float>(kLightUniforms + kMessages);
             uniforms[kLightKind] = std::bit_cast<float>(int(light.kind));
             uniforms[kLightCategories] = std::bit_cast<float>(light.categories);
             uniforms[kLightNondiffuse] = light.nondiffuse;
             uniforms[kLightNonspecular] = light.nonspecular;
-            for (size_t c = 0; c < 8; ++c)
+            for (size_t c = 0; c < kMessages; ++c)
                 uniforms[kLightUniforms + c] = std::bit_cast<float>(light.messages.empty() ? 0 : 1);
             list[k] = {columns.data(), uniforms.data()};
         }
@@ -159,18 +162,20 @@ class RunShader {
         auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size() + 1);
         for (size_t k = 0; k < kernel.services.size(); ++k)
             functions[k] = services.at(kernel.services[k].name);
-        faults.assign(kernel.fault_sites.size() + 1, 0);
+        auto reported = arena.allocate_span<uint8_t>(kernel.fault_sites.size() + 1);
+        std::fill(reported.begin(), reported.end(), uint8_t(0));
         jit::KernelArgs args;
         args.in = in.data();
         args.out = outs.data();
         args.frame = frame;
         args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes + 64));
-        args.fault = faults.data();
+        args.fault = reported.data();
         args.services = functions.data();
         args.record_sets = records;
         args.grid = this;
         args.count = count;
         kernel.run(args);
+        faults += int(std::count(reported.begin(), reported.end(), uint8_t(1)));
         std::vector<float> flat;
         for (size_t k = 0; k < kernel.outputs.size(); ++k)
             flat.insert(flat.end(), outs[k], outs[k] + count);

@@ -1,0 +1,205 @@
+// tests/rsl/lower_lights_test.cpp: light records read and written, layers, and what a kernel says
+// of itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/rsl/run_shader.h"
+
+namespace kinora::rsl {
+namespace {
+
+TEST(LowerLights, MatteSumsItsLights) {
+    RunShader shader(
+        "surface m() { normal Nf = faceforward(normalize(N), I); Ci = ambient() + "
+        "diffuse(Nf); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    EXPECT_TRUE(shader.lowered.uses_lights);
+    shader.set3("N", 0, 0, 2);
+    shader.set3("Ng", 0, 0, 1);
+    shader.set3("I", 0, 0, -5);
+    shader.lights = {{kLightAmbient, {}, {0.1f, 0.2f, 0.3f}},
+                     {kLightIlluminate, {0, 3, 4}, {1, 1, 1}},
+                     {kLightSolar, {0, 0, -1}, {9, 9, 9}}};
+    auto out = shader.run(17);
+    EXPECT_FLOAT_EQ(out["Ci.r"][0], 0.1f + 0.8f);
+    EXPECT_FLOAT_EQ(out["Ci.b"][16], 0.3f + 0.8f);
+    EXPECT_EQ(out["Oi.r"][0], 1);
+}
+
+TEST(LowerLights, NondiffuseAndNonspecularLightsAreLeftOut) {
+    RunShader shader(
+        "surface m() { Ci = color(comp(diffuse(N), 0), comp(specular(N, normalize(-I),"
+        " 0.1), 0), comp(phong(N, -I, 10), 0)); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    shader.set3("N", 0, 0, 1);
+    shader.set3("I", 0, 0, -1);
+    TestLight light;
+    light.nondiffuse = 1;
+    light.nonspecular = 0.25f;
+    shader.lights = {light};
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 0);
+    EXPECT_FLOAT_EQ(out["Ci.g"][0], 0.75f);
+    EXPECT_FLOAT_EQ(out["Ci.b"][0], 0.75f);
+}
+
+TEST(LowerLights, IlluminanceTestsConeLitAndCategory) {
+    RunShader shader(
+        "surface t() { color n = 0; illuminance(P, N, PI/2) n += color(1, 0, 0); "
+        "illuminance(\"key\", P) n += color(0, 1, 0); illuminance(\"-key\", P, N, 4) n += Cl * "
+        "color(0, 0, 1); Ci = n; }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    ASSERT_EQ(shader.lowered.categories, std::vector<std::string>{"key"});
+    shader.set3("N", 0, 0, 1);
+    TestLight front, behind, key, dark, ambient;
+    behind.L[2] = -1;
+    behind.Cl[2] = 5;
+    key.categories = 1;
+    dark.lit = 0;
+    ambient.kind = kLightAmbient;
+    shader.lights = {front, behind, ambient, key, dark};
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 2);
+    EXPECT_EQ(out["Ci.g"][0], 1);
+    EXPECT_EQ(out["Ci.b"][0], 6);
+}
+
+TEST(LowerLights, IlluminanceCanBeLeftPerLane) {
+    RunShader shader(
+        "surface t() { float n = 0; illuminance(P) { if (n >= s) break; n += 1; if (n "
+        "== 2) continue; n += 0.25; } Ci = n; }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    shader.lights.resize(4);
+    shader.set("s", {0, 1, 2, 100});
+    EXPECT_EQ(shader.run(4)["Ci.r"], (std::vector<float>{0, 1.25f, 2.5f, 5}));
+}
+
+TEST(LowerLights, LightsourceReadsMessages) {
+    RunShader shader(
+        "surface t() { float n = 7; float has = 0; illuminance(P) { has += "
+        "lightsource(\"falloff\", n); } Ci = color(has, n, 0); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    ASSERT_EQ(shader.lowered.light_messages, std::vector<std::string>{"falloff"});
+    TestLight with, without;
+    with.messages = {3};
+    shader.lights = {without};
+    EXPECT_EQ(shader.run()["Ci.g"][0], 7);
+    shader.lights = {with};
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 1);
+    EXPECT_EQ(out["Ci.g"][0], 3);
+}
+
+TEST(LowerLights, LightsWriteOneRecordAStatement) {
+    RunShader light(
+        "light l(float intensity = 8;) { illuminate(point \"shader\" (0, 0, 0), vector(0, 0, -1), "
+        "PI/4) { Cl = intensity / (L . L); } solar(vector(0, 0, -2), 0) Cl = 0.5; }");
+    ASSERT_TRUE(light.ok()) << light.findings();
+    ASSERT_EQ(light.lowered.light_statements.size(), 2u);
+    EXPECT_EQ(light.lowered.light_statements[0].kind, kLightIlluminate);
+    EXPECT_EQ(light.lowered.light_statements[1].kind, kLightSolar);
+    EXPECT_TRUE(light.lowered.light_statements[0].casts_shadow);
+    light.set("Ps.z", std::vector<float>{-2, 2});
+    auto out = light.run(2);
+    EXPECT_EQ(out["light:0:Cl.r"], (std::vector<float>{2, 0}));
+    EXPECT_EQ(out["light:0:L.z"][0], -2);
+    EXPECT_EQ(std::bit_cast<int>(out["light:0:lit"][0]), 1);
+    EXPECT_EQ(std::bit_cast<int>(out["light:0:lit"][1]), 0);
+    EXPECT_EQ(out["light:1:L.z"][1], -1);
+    EXPECT_EQ(out["light:1:Cl.g"][1], 0.5f);
+}
+
+TEST(LowerLights, AmbientLightsHaveNoStatement) {
+    RunShader light("light a(color lightcolor = color(1, 2, 3);) { Cl = 2 * lightcolor; }");
+    ASSERT_TRUE(light.ok()) << light.findings();
+    ASSERT_EQ(light.lowered.light_statements.size(), 1u);
+    EXPECT_EQ(light.lowered.light_statements[0].kind, kLightAmbient);
+    EXPECT_EQ(light.value("light:0:Cl.b"), 6);
+}
+
+TEST(LowerLights, ShadowCallsSwitchAutomaticShadowsOff) {
+    RunShader light("light l() { illuminate(P) Cl = 1 - float shadow(\"map\", Ps); }");
+    ASSERT_TRUE(light.ok()) << light.findings();
+    EXPECT_FALSE(light.lowered.light_statements[0].casts_shadow);
+}
+
+TEST(LowerLayers, SurfacesCompositeTopFirst) {
+    RunShader stack(
+        "surface below() { Ci = color(1, 1, 1); Oi = 1; } surface above() { Oi = 0.25; "
+        "Ci = Oi * color(0, 1, 0); }",
+        {}, {}, true);
+    ASSERT_TRUE(stack.ok()) << stack.findings();
+    auto out = stack.run();
+    EXPECT_FLOAT_EQ(out["Ci.r"][0], 0.75f);
+    EXPECT_FLOAT_EQ(out["Ci.g"][0], 1);
+    EXPECT_FLOAT_EQ(out["Oi.b"][0], 1);
+}
+
+TEST(LowerLayers, DisplacementsBendTheNormalAndRestoreP) {
+    RunShader stack(
+        "displacement d(output float amount = 2;) { P += amount * N; N = normal(1, 0, 0); } "
+        "surface t() { float a = 0; float has = displacement(\"amount\", a); Ci = color(zcomp(P), "
+        "xcomp(N), a * has); }",
+        {}, {}, true);
+    ASSERT_TRUE(stack.ok()) << stack.findings();
+    stack.set3("N", 0, 0, 1);
+    stack.set3("P", 0, 0, 5);
+    auto out = stack.run();
+    EXPECT_EQ(out["Ci.r"][0], 5);
+    EXPECT_EQ(out["Ci.g"][0], 1);
+    EXPECT_EQ(out["Ci.b"][0], 2);
+}
+
+TEST(LowerKernel, JudgesOpacity) {
+    auto opacity = [](const std::string& body, std::vector<ParamBinding> params = {}) {
+        RunShader shader("surface t(float a = 0.5; string m = \"\";) { " + body + " }", {}, params);
+        EXPECT_TRUE(shader.ok()) << shader.findings();
+        return shader.lowered.opacity;
+    };
+    using Opacity = LoweredShader::Opacity;
+    EXPECT_EQ(opacity("Ci = 1;"), Opacity::Opaque);
+    EXPECT_EQ(opacity("Oi = Os; Ci = Oi * Cs;"), Opacity::Opaque);
+    EXPECT_EQ(opacity("Oi = a;"), Opacity::Constant);
+    EXPECT_EQ(opacity("Oi = a;", {{"a", ParamBinding::Kind::Frame, {}, {}}}), Opacity::Constant);
+    EXPECT_EQ(opacity("Oi = s;"), Opacity::Computed);
+    EXPECT_EQ(opacity("if (m != \"\") Oi = float texture(m);"), Opacity::Opaque);
+}
+
+TEST(LowerKernel, BindsParameters) {
+    using Kind = ParamBinding::Kind;
+    RunShader shader(
+        "surface t(float a = 1; color c = 0; varying float w = s; float list[2] = {1, 2};) { Ci = "
+        "color(a, comp(c, 1), w + list[1]); }",
+        {},
+        {{"a", Kind::Constant, {4}, {}}, {"c", Kind::Frame, {}, {}}, {"w", Kind::Varying, {}, {}}});
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    shader.set("param:0:c.g", 3);
+    shader.set("param:0:w", 5);
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 4);
+    EXPECT_EQ(out["Ci.g"][0], 3);
+    EXPECT_EQ(out["Ci.b"][0], 7);
+}
+
+TEST(LowerKernel, FindsTheParametersThatShapeIt) {
+    RunShader shader(
+        "surface t(float n = 3; float k = 1; string map = \"\"; float edge = 0.5;) { float i; "
+        "float "
+        "limit = 2 * n; float x = 0; for (i = 0; i < limit; i += 1) x += k; if (s > edge) x = 0; "
+        "if (map != \"\") x = 1; Ci = x; }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    EXPECT_EQ(shape_parameters(*shader.shaders[0]), (std::vector<bool>{true, false, true, false}));
+}
+
+TEST(LowerKernel, WritesAovs) {
+    LowerOptions options;
+    options.aovs = {"shine", "none"};
+    RunShader shader(
+        "surface t(output varying color shine = 0;) { shine = color(1, 2, 3); Ci = 0; }", options);
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    EXPECT_EQ(shader.value("aov:shine.g"), 2);
+}
+
+}  // namespace
+}  // namespace kinora::rsl
