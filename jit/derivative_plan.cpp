@@ -62,9 +62,9 @@ class Planner {
         auto of = [&](Value x) { return x == kNone ? uint8_t{0} : active_[x]; };
         switch (inst.op) {
             case Op::Input:
-                return input_activity(inst.imm, 1);
+                return input_activity(inst.imm, 1, false);
             case Op::InputGather:
-                return input_activity(inst.imm, inst.imm2);
+                return input_activity(inst.imm, inst.imm2, true);
             case Op::Param:
                 return params_;
             case Op::ArrayLoad:
