@@ -247,14 +247,15 @@ auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
     for (size_t k = plain; k + 1 < e.args.size(); k += 2)
         if (!e.args[k + 1]->type.is_array())
             call.pairs.push_back({expr(*e.args[k]).text(), expr(*e.args[k + 1])});
-    const RefFn& ref = e.builtin->ref;
-    if constexpr (std::is_same_v<Real, float>) {
-        CHECK(ref.single != nullptr);
-        ref.single(call);
-    } else {
-        CHECK(ref.precise != nullptr);
-        ref.precise(call);
-    }
+    void (*meaning)(RefCall<Real>&) = nullptr;
+    if constexpr (std::is_same_v<Real, float>)
+        meaning = e.builtin->ref.single;
+    else
+        meaning = e.builtin->ref.precise;
+    if (meaning)
+        meaning(call);
+    else
+        result.missing = e.builtin->name;
     for (size_t k = 0; k < plain && k < e.signature->arguments.size(); ++k)
         if (e.signature->arguments[k].output && !e.args[k]->type.is_array())
             store(*e.args[k], call.args[k]);

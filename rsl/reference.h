@@ -44,7 +44,8 @@ struct ReferenceResult {
     // A hash of the branches taken and of the whole numbers that floor, step and the like gave. Two
     // runs with different decisions (float and double near an edge) are not comparable.
     uint64_t decisions = 0;
-    int faults = 0;  // loops ended by their budget, indices outside their arrays
+    std::string missing;  // a built-in that was called and whose row has no reference; "" if none
+    int faults = 0;       // loops ended by their budget, indices outside their arrays
 };
 
 // Runs a stack of displacement and surface shaders, or one light. Parameters come from their
