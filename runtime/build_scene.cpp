@@ -13,6 +13,7 @@
 #include "runtime/deform.h"
 #include "runtime/findings.h"
 #include "runtime/shading.h"
+#include "runtime/texture.h"
 #include "runtime/transforms.h"
 
 namespace kinora {
@@ -53,6 +54,7 @@ std::unique_ptr<Scene> SceneBuilder::run() {
     if (!choose_camera()) return nullptr;
     place_lights();
     if (!make_looks()) return nullptr;
+    preload_textures(description_);
     finish_rows();
     scene_->shading = std::make_unique<Shading>(*scene_);
     return std::move(scene_);

@@ -8,6 +8,7 @@
 #include "runtime/base/stats.h"
 #include "runtime/deform.h"
 #include "runtime/findings.h"
+#include "runtime/texture.h"
 #include "runtime/transforms.h"
 
 namespace kinora {
@@ -124,6 +125,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
                                      settings.integrator, scene.scratch, counters, progress);
     ShadingCounters shading = scene.shading->end_frame(diagnostics);
+    report_textures(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();
     stats.rays = counters.trace.rays + counters.trace.shadow_rays + shading.trace.rays +

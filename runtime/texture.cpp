@@ -1,25 +1,172 @@
-// runtime/texture.cpp: texture lookups for shaders.
+// runtime/texture.cpp: the texture services: names and arguments to the sampler.
 #include "runtime/texture.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <string_view>
+
+#include "jit/ir.h"
+#include "rsl/renderer_services.h"
+#include "runtime/scene_description.h"
+#include "runtime/texture_sample.h"
+#include "runtime/texture_store.h"
 
 namespace kinora {
 
 namespace {
 
-void checks(const jit::ServiceCall& call, int s_argument) {
-    for (int i = 0; i < jit::kMaxLanes; ++i) {
-        float s = call.args[s_argument * jit::kMaxLanes + i];
-        float t = call.args[(s_argument + 1) * jit::kMaxLanes + i];
-        bool on = (int(std::floor(s * 8)) + int(std::floor(t * 8))) & 1;
-        const float color[4] = {on ? 1.0f : 0.0f, 0.0f, on ? 1.0f : 0.0f, 1.0f};
-        for (int k = 0; k < 4; ++k) call.results[k * jit::kMaxLanes + i] = color[k];
-    }
+constexpr int kLanes = jit::kMaxLanes;
+
+const float* argument(const jit::ServiceCall& call, int index) {
+    return call.args + index * kLanes;
 }
+
+// The "filter" parameter; any other name is the default, anisotropic.
+struct FilterRow {
+    std::string_view name;
+    TextureFilter filter;
+};
+constexpr FilterRow kFilters[] = {
+    {"point", TextureFilter::Nearest},       {"nearest", TextureFilter::Nearest},
+    {"closest", TextureFilter::Nearest},     {"bilinear", TextureFilter::Bilinear},
+    {"trilinear", TextureFilter::Trilinear},
+};
+TextureFilter filter_of(int32_t name) {
+    if (name == 0) return TextureFilter::Anisotropic;
+    static const auto ids = [] {
+        std::array<int32_t, std::size(kFilters)> interned;
+        for (size_t i = 0; i < interned.size(); ++i) interned[i] = rsl::intern(kFilters[i].name);
+        return interned;
+    }();
+    for (size_t i = 0; i < ids.size(); ++i)
+        if (ids[i] == name) return kFilters[i].filter;
+    return TextureFilter::Anisotropic;
+}
+
+// The lanes of `mask` whose int in this row is the first one's.
+uint32_t lanes_like_first(const float* row, uint32_t mask) {
+    int32_t first = jit::bits_of(row[std::countr_zero(mask)]);
+    uint32_t same = 0;
+    for (int i = 0; i < kLanes; ++i) same |= uint32_t(jit::bits_of(row[i]) == first) << i;
+    return same & mask;
+}
+
+void fill_lanes(uint32_t mask, const float* fill, float* results) {
+    for (int k = 0; k < 4; ++k)
+        for (int i = 0; i < kLanes; ++i)
+            if (mask >> i & 1) results[k * kLanes + i] = fill[i];
+}
+
+// The texture of lanes that share a name; null for none.
+const Texture* texture_of(const float* names, uint32_t mask) {
+    const Texture* texture =
+        TextureStore::process().find(jit::bits_of(names[std::countr_zero(mask)]));
+    if (texture && !texture->image->error.empty())
+        texture->image->asked.store(true, std::memory_order_relaxed);
+    return texture;
+}
+
+// Directions as coordinates, footprints as their angles: lanes without a direction leave `mask`.
+struct DirectionRows {
+    alignas(64) float s[kLanes], t[kLanes], ds[kLanes], dt[kLanes];
+    uint32_t mask = 0;
+};
+DirectionRows directions(const jit::ServiceCall& call) {
+    DirectionRows rows;
+    constexpr float kPiF = 3.14159265358979f;
+    for (int i = 0; i < kLanes; ++i) {
+        float v[9];  // R, dRdx, dRdy
+        for (int k = 0; k < 9; ++k) v[k] = argument(call, 2 + k)[i];
+        float large = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+        float sum = v[0] + v[1] + v[2];
+        bool usable = large > 0 && large < HUGE_VALF && sum == sum;
+        float scale = usable ? 1.0f / large : 0.0f;
+        if (!(scale < HUGE_VALF)) scale = 0.0f, usable = false;  // 1 / a denormal
+        for (float& x : v) x *= scale;
+        latlong_of_direction(v[0], v[1], v[2], rows.s[i], rows.t[i]);
+        auto squared = [&](int k) {
+            return v[k] * v[k] + v[k + 1] * v[k + 1] + v[k + 2] * v[k + 2];
+        };
+        float length = std::sqrt(squared(0));
+        float angle = std::sqrt(std::max(squared(3), squared(6))) / length;
+        float around = std::sqrt(v[0] * v[0] + v[2] * v[2]) / length;  // cosine of the latitude
+        rows.dt[i] = angle / kPiF;
+        rows.ds[i] = std::min(0.5f * rows.dt[i] / std::max(around, 1e-4f), 1.0f);
+        rows.mask |= uint32_t(usable) << i;
+    }
+    return rows;
+}
+
+constexpr auto filled_row(float value) {
+    std::array<float, kLanes> row{};
+    row.fill(value);
+    return row;
+}
+constexpr auto kZeros = filled_row(0), kOnes = filled_row(1);
 
 }  // namespace
 
-void lookup_texture(const jit::ServiceCall& call) { checks(call, 2); }
-void lookup_environment(const jit::ServiceCall& call) { checks(call, 2); }
+void lookup_texture(const jit::ServiceCall& call) {
+    enum { Name, Channel, S, T, Dsdx, Dtdx, Dsdy, Dtdy, Blur, Swidth, Twidth, Filter, Fill };
+    auto row = [&](int index) { return argument(call, index); };
+    TextureLanes lanes{row(Channel), row(S),    row(T),      row(Dsdx),   row(Dtdx), row(Dsdy),
+                       row(Dtdy),    row(Blur), row(Swidth), row(Twidth), row(Fill), call.results};
+    for (uint32_t left = call.mask; left;) {
+        uint32_t same = lanes_like_first(row(Name), left);
+        same = lanes_like_first(row(Filter), same);
+        left &= ~same;
+        int32_t filter = jit::bits_of(row(Filter)[std::countr_zero(same)]);
+        if (const Texture* texture = texture_of(row(Name), same))
+            sample_texture(texture->image->pyramid, texture->modes, filter_of(filter), same, lanes);
+        else
+            fill_lanes(same, row(Fill), call.results);
+    }
+}
+
+void lookup_environment(const jit::ServiceCall& call) {
+    enum { Name, Channel, Blur = 11, Fill = 12 };
+    auto row = [&](int index) { return argument(call, index); };
+    DirectionRows at = directions(call);
+    TextureLanes lanes{row(Channel),  at.s,          at.t,      at.ds,
+                       kZeros.data(), kZeros.data(), at.dt,     row(Blur),
+                       kOnes.data(),  kOnes.data(),  row(Fill), call.results};
+    TextureName modes;
+    modes.wrap_t = TextureWrap::Clamp;
+    fill_lanes(call.mask & ~at.mask, row(Fill), call.results);
+    for (uint32_t left = call.mask & at.mask; left;) {
+        uint32_t same = lanes_like_first(row(Name), left);
+        left &= ~same;
+        if (const Texture* texture = texture_of(row(Name), same)) {
+            modes.nearest = texture->modes.nearest;
+            sample_texture(texture->image->pyramid, modes, TextureFilter::Anisotropic, same, lanes);
+        } else {
+            fill_lanes(same, row(Fill), call.results);
+        }
+    }
+}
+
+void preload_textures(const SceneDescription& description) {
+    std::vector<std::string> names;
+    auto add_strings = [&](const ShaderUse& use) {
+        for (const ParamSource& source : use.params)
+            names.insert(names.end(), source.strings.begin(), source.strings.end());
+        if (!use.shader) return;
+        for (const rsl::ShaderParameter& parameter : use.shader->parameters)
+            if (parameter.constant)
+                names.insert(names.end(), parameter.constant->strings.begin(),
+                             parameter.constant->strings.end());
+    };
+    for (const MaterialDefinition& material : description.materials) {
+        for (const ShaderUse& use : material.displacements) add_strings(use);
+        for (const ShaderUse& use : material.surfaces) add_strings(use);
+    }
+    for (const LightDefinition& light : description.lights) add_strings(light.shader);
+    TextureStore::process().preload(names);
+}
+
+void report_textures(Diagnostics& diagnostics) {
+    TextureStore::process().report(diagnostics);
+}
 
 }  // namespace kinora

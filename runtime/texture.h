@@ -1,13 +1,32 @@
-// runtime/texture.h: texture and environment lookups for shaders.
+// runtime/texture.h: textures as shaders and scenes see them.
 #pragma once
 
 #include "jit/target.h"
 
 namespace kinora {
 
+class Diagnostics;
+struct SceneDescription;
+
 // The services "texture" and "environment" (rsl/renderer_services.h lists arguments and results).
-// An image that cannot be read gives magenta and black checks and one finding.
+// Thread-safe; without locks and allocations once the names have been met. A name is
+// texture_name.h's string. s, t = 0, 0 is the lower left corner of the image; a lookup whose s or t
+// is NaN, and one of the name "", gives the fill colour. Grey images answer as r = g = b. Channels
+// the image has not are the fill colour; alpha, channel 3, is 1. An image that cannot be read gives
+// magenta and black checks and a finding of report_textures.
 void lookup_texture(const jit::ServiceCall& call);
+
+// The map is a latitude-longitude image as OpenEXR defines it: y is up, the centre looks along +z
+// and +x lies a quarter of the width left of it. R is taken as it is, in the map's own space. The
+// direction 0 gives the fill colour.
 void lookup_environment(const jit::ServiceCall& call);
+
+// Reads, in parallel, the images named by the string parameters of a scene's materials and lights,
+// so that no frame has to. Strings that name no file are no error: they may not be images at all.
+void preload_textures(const SceneDescription& description);
+
+// Reports the images that lookups asked for and that cannot be read: one finding a file and scene
+// (Code::IMAGE_UNREADABLE). Call it after a frame, while nothing is looked up.
+void report_textures(Diagnostics& diagnostics);
 
 }  // namespace kinora

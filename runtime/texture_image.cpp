@@ -1,0 +1,181 @@
+// runtime/texture_image.cpp: image files to pixels: PNG by libpng, the rest by the module.
+#include "runtime/texture_image.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <optional>
+
+#include "runtime/image_io.h"
+#include "runtime/images_module/images_module.h"
+
+namespace kinora {
+
+namespace {
+
+// The module's functions, or why there are none.
+struct ImagesModule {
+    decltype(&kinora_decode_image) decode = nullptr;
+    decltype(&kinora_free_image) free = nullptr;
+    std::string error;
+};
+
+// Beside the programs: BIN/../lib. It stays open: OpenImageIO does not survive being unloaded.
+ImagesModule open_module() {
+    ImagesModule module;
+    std::error_code code;
+    std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
+    std::string path =
+        (program.parent_path().parent_path() / "lib" / "libkinora_images.so").string();
+    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle) {
+        module.decode =
+            reinterpret_cast<decltype(module.decode)>(dlsym(handle, "kinora_decode_image"));
+        module.free = reinterpret_cast<decltype(module.free)>(dlsym(handle, "kinora_free_image"));
+    }
+    if (!module.decode || !module.free) {
+        const char* error = dlerror();
+        module.error = error ? error : path + " lacks a function";
+    }
+    return module;
+}
+
+const ImagesModule& images_module() {
+    static const ImagesModule module = open_module();
+    return module;
+}
+
+constexpr size_t kPngHeader = 29;  // signature, then IHDR: width 16, height 20, depth 24, method 28
+using Header = std::array<unsigned char, kPngHeader>;
+
+uint64_t big_endian_32(const unsigned char* at) {
+    return uint64_t(at[0]) << 24 | uint64_t(at[1]) << 16 | uint64_t(at[2]) << 8 | at[3];
+}
+
+bool is_png(const Header& header) {
+    return std::memcmp(header.data(), "\x89PNG\r\n\x1a\n", 8) == 0;
+}
+
+// At most 8 bits, not interlaced: what read_png reads whole.
+bool is_plain_png(const Header& header) {
+    return is_png(header) && header[24] <= 8 && header[28] == 0;
+}
+
+// The start of the file, zeros beyond its end; or why it cannot be had.
+std::string read_header(const std::string& path, Header& header) {
+    std::error_code code;
+    if (!std::filesystem::exists(path, code)) return "no such file";
+    if (!std::filesystem::is_regular_file(path, code)) return "not a file";
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                         std::fclose);
+    if (!file) return std::strerror(errno);
+    header.fill(0);
+    if (std::fread(header.data(), 1, header.size(), file.get()) == 0) return "the file is empty";
+    return "";
+}
+
+// Why an image of this size is refused, or "".
+std::string refuse_size(uint64_t width, uint64_t height) {
+    bool fits = std::max(width, height) <= kMaxTextureSide && width * height <= kMaxTexturePixels;
+    if (fits) return "";
+    return "it is too large, " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+std::string read_plain_png(const std::string& path, TextureImage& image) {
+    std::optional<Image8> pixels = read_png(path);
+    if (!pixels) return "the PNG file is damaged";
+    image.width = pixels->width;
+    image.height = pixels->height;
+    image.encoded = true;
+    image.bytes = std::move(pixels->rgba);
+    return "";
+}
+
+// Where each of r g b a comes from: a channel of the file, or -1 (0 for colours, 1 for alpha).
+struct ChannelMap {
+    int from[4] = {-1, -1, -1, -1};
+    int colors = 0;
+};
+ChannelMap channel_map(int channels, int alpha) {
+    ChannelMap map;
+    for (int c = 0; c < channels && map.colors < 3; ++c)
+        if (c != alpha) map.from[map.colors++] = c;
+    map.from[3] = alpha;
+    bool grey = map.colors == 1;
+    if (grey) {
+        map.from[1] = map.from[2] = map.from[0];
+        map.colors = 3;
+    }
+    return map;
+}
+
+template <class T>
+void expand(const KinoraImage& source, const ChannelMap& map, T one, std::vector<T>& rgba) {
+    size_t pixels = size_t(source.width) * size_t(source.height);
+    rgba.resize(pixels * 4);
+    const T* in = static_cast<const T*>(source.pixels);
+    for (size_t i = 0; i < pixels; ++i, in += source.channels)
+        for (int c = 0; c < 4; ++c)
+            rgba[i * 4 + size_t(c)] = map.from[c] >= 0 ? in[map.from[c]] : c == 3 ? one : T(0);
+}
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+std::string read_by_module(const std::string& path, TextureImage& image) {
+    const ImagesModule& module = images_module();
+    if (!module.decode) return module.error;
+    KinoraImage source;
+    if (module.decode(path.c_str(), kMaxTexturePixels, &source) != 0)
+        return source.error[0] ? first_line(source.error) : "unknown format";
+    std::unique_ptr<KinoraImage, decltype(module.free)> owner(&source, module.free);
+    std::string refused = refuse_size(uint64_t(source.width), uint64_t(source.height));
+    if (!refused.empty()) return refused;
+    image.width = source.width;
+    image.height = source.height;
+    image.encoded = source.encoded != 0;
+    ChannelMap map = channel_map(source.channels, source.alpha_channel);
+    image.colors = std::max(map.colors, 1);
+    if (source.is_float)
+        expand(source, map, 1.0f, image.floats);
+    else
+        expand(source, map, uint8_t(255), image.bytes);
+    return "";
+}
+
+}  // namespace
+
+std::string read_texture_image(const std::string& path, TextureImage& image) {
+    image = {};
+    Header header;
+    if (std::string error = read_header(path, header); !error.empty()) return error;
+    try {
+        if (is_png(header)) {
+            uint64_t width = big_endian_32(&header[16]), height = big_endian_32(&header[20]);
+            if (std::string error = refuse_size(width, height); !error.empty()) return error;
+        }
+        return is_plain_png(header) ? read_plain_png(path, image) : read_by_module(path, image);
+    } catch (const std::bad_alloc&) {
+        return "not enough memory";
+    }
+}
+
+TextureImage checks_image() {
+    TextureImage image;
+    image.width = image.height = 8;
+    for (int i = 0; i < 64; ++i) {
+        uint8_t on = ((i & 7) + (i >> 3)) & 1 ? 255 : 0;
+        image.bytes.insert(image.bytes.end(), {on, 0, on, 255});
+    }
+    return image;
+}
+
+}  // namespace kinora

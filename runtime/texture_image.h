@@ -1,0 +1,34 @@
+// runtime/texture_image.h: an image file's pixels, as they were encoded.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace kinora {
+
+// RGBA rows from the top, unassociated as in the file; either bytes or floats. Grey is expanded to
+// r = g = b; alpha is 1 where the file has none.
+struct TextureImage {
+    int width = 0, height = 0;
+    int colors = 3;        // colour channels that mean something, 1 to 3
+    bool encoded = false;  // integers in the file: sRGB, unless they are data
+    std::vector<uint8_t> bytes;
+    std::vector<float> floats;  // integers of 16 bits are 0..1
+
+    bool is_float() const { return !floats.empty(); }
+};
+
+// Larger images are refused (16384 x 8192 is the last to pass): a pyramid of bytes takes 10.7 bytes
+// a pixel, one of floats twice as much.
+inline constexpr uint64_t kMaxTexturePixels = uint64_t(1) << 27;
+inline constexpr uint64_t kMaxTextureSide = 65536;
+
+// Decodes a file: plain PNG by libpng, all else by the OpenImageIO module, which is opened when it
+// is first needed. Returns "" or why it failed. Thread-safe.
+std::string read_texture_image(const std::string& path, TextureImage& image);
+
+// 8x8 checks of magenta and black, what is seen in place of an unreadable image.
+TextureImage checks_image();
+
+}  // namespace kinora

@@ -1,0 +1,125 @@
+// runtime/texture_store.cpp: names to textures without locks; files read once.
+#include "runtime/texture_store.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "rsl/renderer_services.h"
+#include "runtime/base/parallel.h"
+#include "runtime/findings.h"
+
+namespace kinora {
+
+namespace {
+
+std::unique_ptr<StoredImage> read_image(const std::string& path, bool data) {
+    auto image = std::make_unique<StoredImage>();
+    image->path = path;
+    TextureImage pixels;
+    image->error = read_texture_image(path, pixels);
+    if (image->error.empty()) {
+        try {
+            image->pyramid = TexturePyramid(pixels, pixels.encoded && !data);
+        } catch (const std::bad_alloc&) {
+            image->error = "not enough memory";
+        }
+    }
+    if (!image->error.empty()) image->pyramid = TexturePyramid(checks_image(), false);
+    return image;
+}
+
+}  // namespace
+
+TextureStore::~TextureStore() {
+    for (auto& chunk : chunks_) delete chunk.load();
+}
+
+TextureStore& TextureStore::process() {
+    static TextureStore store;
+    return store;
+}
+
+const Texture* TextureStore::find(int32_t name) {
+    uint32_t chunk_index = uint32_t(name) >> kChunkBits;
+    if (chunk_index < kChunks) {
+        if (Chunk* chunk = chunks_[chunk_index].load(std::memory_order_acquire)) {
+            uint32_t place = uint32_t(name) & ((1u << kChunkBits) - 1);
+            if (const Texture* known = (*chunk)[place].load(std::memory_order_acquire))
+                return known;
+        }
+    }
+    return name > 0 ? meet(name) : nullptr;
+}
+
+// Names beyond the last chunk are found by the map, under the lock.
+const Texture* TextureStore::meet(int32_t name) {
+    std::lock_guard lock(mutex_);
+    std::unique_ptr<Texture>& texture = textures_[name];
+    if (!texture) {
+        TextureName modes = parse_texture_name(rsl::interned(name));
+        texture = std::make_unique<Texture>(Texture{modes, image(modes.path, modes.data)});
+        if (!texture->image->error.empty()) texture->modes.nearest = true;  // sharp checks
+    }
+    uint32_t chunk_index = uint32_t(name) >> kChunkBits;
+    if (chunk_index < kChunks) {
+        Chunk* chunk = chunks_[chunk_index].load(std::memory_order_relaxed);
+        if (!chunk) {
+            chunk = new Chunk{};
+            chunks_[chunk_index].store(chunk, std::memory_order_release);
+        }
+        uint32_t place = uint32_t(name) & ((1u << kChunkBits) - 1);
+        (*chunk)[place].store(texture.get(), std::memory_order_release);
+    }
+    return texture.get();
+}
+
+// The mutex is held.
+const StoredImage* TextureStore::image(const std::string& path, bool data) {
+    std::unique_ptr<StoredImage>& known = images_[{path, data}];
+    if (!known) known = read_image(path, data);
+    return known.get();
+}
+
+void TextureStore::preload(std::span<const std::string> names) {
+    std::set<std::pair<std::string, bool>> wanted;
+    {
+        std::lock_guard lock(mutex_);
+        for (auto& [key, image] : images_) image->reported = false;
+        for (const std::string& name : names) {
+            TextureName parsed = parse_texture_name(name);
+            std::error_code code;
+            if (std::filesystem::is_regular_file(parsed.path, code) &&
+                !images_.count({parsed.path, parsed.data}))
+                wanted.emplace(parsed.path, parsed.data);
+        }
+    }
+    // Read without the lock: a worker that waits for it could hold up the one that owns it.
+    std::vector<std::pair<std::string, bool>> keys(wanted.begin(), wanted.end());
+    std::vector<std::unique_ptr<StoredImage>> read(keys.size());
+    parallel_for(0, keys.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) read[i] = read_image(keys[i].first, keys[i].second);
+    });
+    std::lock_guard lock(mutex_);
+    for (size_t i = 0; i < keys.size(); ++i) images_.try_emplace(keys[i], std::move(read[i]));
+}
+
+void TextureStore::report(Diagnostics& diagnostics) {
+    std::lock_guard lock(mutex_);
+    const std::string* last = nullptr;  // both decodings of a path are neighbours
+    for (auto& [key, image] : images_) {
+        if (image->error.empty() || !image->asked.load(std::memory_order_relaxed)) continue;
+        bool known = image->reported || (last && *last == image->path);
+        image->reported = true;
+        last = &image->path;
+        if (!known)
+            diagnostics.report(Code::IMAGE_UNREADABLE, Location{}, image->path, image->error);
+    }
+}
+
+int TextureStore::images() const {
+    std::lock_guard lock(mutex_);
+    return int(images_.size());
+}
+
+}  // namespace kinora

@@ -1,0 +1,66 @@
+// runtime/texture_store.h: the images that names stand for, each read once.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/texture_name.h"
+#include "runtime/texture_pyramid.h"
+
+namespace kinora {
+
+// Pixels of a file, shared by all names with that path.
+struct StoredImage {
+    std::string path;
+    TexturePyramid pyramid;
+    std::string error;                       // why it cannot be read, or ""; then it is checks
+    mutable std::atomic<bool> asked{false};  // by a lookup; only kept where there is an error
+    bool reported = false;
+};
+
+struct Texture {
+    TextureName modes;
+    const StoredImage* image;
+};
+
+class TextureStore {
+  public:
+    TextureStore() = default;
+    ~TextureStore();
+    TextureStore(const TextureStore&) = delete;
+
+    static TextureStore& process();  // the one that shaders use
+
+    // The texture of an interned name, read now if it has not been met: then, and only then, it
+    // locks and allocates. Null for the name "".
+    const Texture* find(int32_t name);
+
+    // Reads the files that these names (texture_name.h) stand for, in parallel; names without a
+    // file are skipped. Forgets that unreadable files were reported: a new scene begins.
+    void preload(std::span<const std::string> names);
+
+    // One finding for each unreadable file that find's callers asked for and that is not reported.
+    void report(Diagnostics& diagnostics);
+
+    int images() const;
+
+  private:
+    static constexpr int kChunkBits = 10, kChunks = 1 << 14;
+    using Chunk = std::array<std::atomic<const Texture*>, 1 << kChunkBits>;
+    const Texture* meet(int32_t name);
+    const StoredImage* image(const std::string& path, bool data);
+
+    std::array<std::atomic<Chunk*>, kChunks> chunks_{};  // by name
+    mutable std::mutex mutex_;                           // guards the maps and changes of chunks_
+    std::map<int32_t, std::unique_ptr<Texture>> textures_;
+    std::map<std::pair<std::string, bool>, std::unique_ptr<StoredImage>> images_;  // path, is data
+};
+
+}  // namespace kinora
