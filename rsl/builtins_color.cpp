@@ -45,8 +45,7 @@ void setcomp(LowerCall& c) {
         std::array<Value, 4> items = {v.c[4 * r], v.c[4 * r + 1], v.c[4 * r + 2], v.c[4 * r + 3]};
         put(c, items, c.f(2), c.f(3));
         Value here = c.b.op(jit::Op::IEq, row, c.b.i(int(r)));
-        for (size_t k = 0; k < 4; ++k)
-            v.c[4 * r + k] = c.b.select(here, items[k], v.c[4 * r + k]);
+        for (size_t k = 0; k < 4; ++k) v.c[4 * r + k] = c.b.select(here, items[k], v.c[4 * r + k]);
     }
     c.set_output(0, v);
 }
@@ -69,26 +68,11 @@ namespace {
 namespace lower = lower_color;
 
 const Builtin kRows[] = {
-    {"comp",
-     "f=cf f=pf f=vf f=nf f=mff",
-     lower::comp,
-     KINORA_RSL_REF(ref::comp),
-     kPure,
-     0,
+    {"comp", "f=cf f=pf f=vf f=nf f=mff", lower::comp, KINORA_RSL_REF(ref::comp), kPure, 0,
      "A component: comp(c, i), comp(m, row, column)."},
-    {"setcomp",
-     "x=Cff x=Pff x=Vff x=Nff x=Mfff",
-     lower::setcomp,
-     KINORA_RSL_REF(ref::setcomp),
-     kPure,
-     0,
-     "Sets a component: setcomp(c, i, x), setcomp(m, row, column, x)."},
-    {"ctransform",
-     "c=sc c=ssc",
-     lower::ctransform,
-     KINORA_RSL_REF(ref::ctransform),
-     kPure,
-     8,
+    {"setcomp", "x=Cff x=Pff x=Vff x=Nff x=Mfff", lower::setcomp, KINORA_RSL_REF(ref::setcomp),
+     kPure, 0, "Sets a component: setcomp(c, i, x), setcomp(m, row, column, x)."},
+    {"ctransform", "c=sc c=ssc", lower::ctransform, KINORA_RSL_REF(ref::ctransform), kPure, 8,
      "A color from one space to another: rgb hsv hsl xyz xyY YIQ."},
 };
 

@@ -38,7 +38,8 @@ Value share(LowerCall& c, Value set, Value record, int field) {
     return c.b.sub(c.b.f(1), c.low.record_uniform(set, record, field, jit::Type::F));
 }
 
-// RI 3.2: the sum of Cl * max(0, normalize(L) . N). With an axis and an angle only lights within it.
+// RI 3.2: the sum of Cl * max(0, normalize(L) . N). With an axis and an angle only lights within
+// it.
 void diffuse(LowerCall& c) {
     auto& e = c.low;
     bool cone = c.args.size() == 3;
@@ -119,8 +120,8 @@ void trace(LowerCall& c) {
 V3 let_through(LowerCall& c) {
     if (!traces(c)) return c.low.f3(1);
     V3 from = c.v3(0), to = c.v3(1);
-    std::vector<Value> share_of_light = c.low.service(
-        "transmission", std::array{from[0], from[1], from[2], to[0], to[1], to[2]});
+    std::vector<Value> share_of_light =
+        c.low.service("transmission", std::array{from[0], from[1], from[2], to[0], to[1], to[2]});
     return {share_of_light[0], share_of_light[1], share_of_light[2]};
 }
 void transmission(LowerCall& c) {
@@ -138,71 +139,24 @@ namespace {
 namespace lower = lower_light;
 
 const Builtin kRows[] = {
-    {"ambient",
-     "c=",
-     lower::ambient,
-     KINORA_RSL_REF(ref::ambient),
-     kLights | kVaryingResult,
-     2,
-     "Sum of the ambient lights.",
-     kSurface},
-    {"diffuse",
-     "c=n c=pnf",
-     lower::diffuse,
-     KINORA_RSL_REF(ref::diffuse),
-     kLights | kVaryingResult,
-     8,
-     "Lambert reflection of all lights: sum of Cl * max(0, L . N).",
-     kSurface,
-     "P"},
-    {"specular",
-     "c=nvf",
-     lower::specular,
-     KINORA_RSL_REF(ref::specular),
-     kLights | kVaryingResult,
-     16,
-     "Specular reflection of all lights: specular(N, V, roughness).",
-     kSurface,
-     "P"},
-    {"phong",
-     "c=nvf",
-     lower::phong,
-     KINORA_RSL_REF(ref::phong),
-     kLights | kVaryingResult,
-     16,
-     "Phong reflection of all lights: phong(N, V, size).",
-     kSurface,
-     "P"},
-    {"specularbrdf",
-     "c=vnvf",
-     lower::specularbrdf,
-     KINORA_RSL_REF(ref::specularbrdf),
-     kPure,
-     16,
+    {"ambient", "c=", lower::ambient, KINORA_RSL_REF(ref::ambient), kLights | kVaryingResult, 2,
+     "Sum of the ambient lights.", kSurface},
+    {"diffuse", "c=n c=pnf", lower::diffuse, KINORA_RSL_REF(ref::diffuse), kLights | kVaryingResult,
+     8, "Lambert reflection of all lights: sum of Cl * max(0, L . N).", kSurface, "P"},
+    {"specular", "c=nvf", lower::specular, KINORA_RSL_REF(ref::specular), kLights | kVaryingResult,
+     16, "Specular reflection of all lights: specular(N, V, roughness).", kSurface, "P"},
+    {"phong", "c=nvf", lower::phong, KINORA_RSL_REF(ref::phong), kLights | kVaryingResult, 16,
+     "Phong reflection of all lights: phong(N, V, size).", kSurface, "P"},
+    {"specularbrdf", "c=vnvf", lower::specularbrdf, KINORA_RSL_REF(ref::specularbrdf), kPure, 16,
      "The term of specular() for one light: specularbrdf(L, N, V, roughness)."},
-    {"trace",
-     "c=pv~ f=pv~",
-     lower::trace,
-     KINORA_RSL_REF(ref::trace),
-     kService | kTraces | kVaryingResult,
-     0,
-     "Color seen from a point in a direction, or the distance of what is hit.",
-     kSurface | kVolume},
-    {"transmission",
-     "c=pp~",
-     lower::transmission,
-     KINORA_RSL_REF(ref::transmission),
-     kService | kTraces | kShadows | kVaryingResult,
-     0,
-     "Light let through between two points.",
+    {"trace", "c=pv~ f=pv~", lower::trace, KINORA_RSL_REF(ref::trace),
+     kService | kTraces | kVaryingResult, 0,
+     "Color seen from a point in a direction, or the distance of what is hit.", kSurface | kVolume},
+    {"transmission", "c=pp~", lower::transmission, KINORA_RSL_REF(ref::transmission),
+     kService | kTraces | kShadows | kVaryingResult, 0, "Light let through between two points.",
      kSurface | kLight},
-    {"visibility",
-     "f=pp~",
-     lower::visibility,
-     KINORA_RSL_REF(ref::visibility),
-     kService | kTraces | kShadows | kVaryingResult,
-     0,
-     "1 if two points see each other, else 0.",
+    {"visibility", "f=pp~", lower::visibility, KINORA_RSL_REF(ref::visibility),
+     kService | kTraces | kShadows | kVaryingResult, 0, "1 if two points see each other, else 0.",
      kSurface | kLight},
     {"occlusion",
      "f=pnf~ f=spnf~",

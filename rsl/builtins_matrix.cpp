@@ -42,10 +42,14 @@ namespace {
 namespace lower = lower_matrix;
 
 const Builtin kRows[] = {
-    {"mtransform", "m=sm m=ssm", lower::mtransform, KINORA_RSL_REF(ref::mtransform), kPure, 8, "A matrix from one space to another."},
-    {"determinant", "f=m", lower::determinant, KINORA_RSL_REF(ref::determinant), kPure, 8, "Determinant."},
-    {"translate", "m=mv", lower::translate, KINORA_RSL_REF(ref::translate), kPure, 4, "The matrix with a translation before it."},
-    {"scale", "m=mv", lower::scale, KINORA_RSL_REF(ref::scale), kPure, 4, "The matrix with a scaling before it."},
+    {"mtransform", "m=sm m=ssm", lower::mtransform, KINORA_RSL_REF(ref::mtransform), kPure, 8,
+     "A matrix from one space to another."},
+    {"determinant", "f=m", lower::determinant, KINORA_RSL_REF(ref::determinant), kPure, 8,
+     "Determinant."},
+    {"translate", "m=mv", lower::translate, KINORA_RSL_REF(ref::translate), kPure, 4,
+     "The matrix with a translation before it."},
+    {"scale", "m=mv", lower::scale, KINORA_RSL_REF(ref::scale), kPure, 4,
+     "The matrix with a scaling before it."},
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// rsl/builtins_message.cpp: rows of the built-in table: messages between shaders and questions to the
-// renderer.
+// rsl/builtins_message.cpp: rows of the built-in table: messages between shaders and questions to
+// the renderer.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
@@ -36,8 +36,8 @@ void lightsource(LowerCall& c) {
     const Lowered& before = c.args[1];
     if (before.type == BaseType::Float && (*name == "__nondiffuse" || *name == "__nonspecular")) {
         int field = *name == "__nondiffuse" ? kLightNondiffuse : kLightNonspecular;
-        c.set_output(1, lowered(BaseType::Float,
-                                e.record_uniform(set, record, field, jit::Type::F)));
+        c.set_output(1,
+                     lowered(BaseType::Float, e.record_uniform(set, record, field, jit::Type::F)));
         return c.set(c.b.f(1));
     }
     int message;
@@ -47,8 +47,8 @@ void lightsource(LowerCall& c) {
     jit::Type type = before.type == BaseType::String ? jit::Type::I : jit::Type::F;
     Lowered value = before;
     for (int k = 0; k < value.size(); ++k)
-        value.c[size_t(k)] = c.b.select(known, e.record_field(set, record, column + k, type),
-                                        before.c[size_t(k)]);
+        value.c[size_t(k)] =
+            c.b.select(known, e.record_field(set, record, column + k, type), before.c[size_t(k)]);
     c.set_output(1, value);
     c.set(e.flag(known));
 }
@@ -92,10 +92,7 @@ const Builtin kRows[] = {
     {"lightsource",
      "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
      "f=sM[] f=sS[]",
-     lower::lightsource,
-     KINORA_RSL_REF(ref::lightsource),
-     kMessage | kVaryingResult,
-     0,
+     lower::lightsource, KINORA_RSL_REF(ref::lightsource), kMessage | kVaryingResult, 0,
      "Value of a parameter of the light in an illuminance loop."},
     {"atmosphere",
      "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
@@ -153,12 +150,7 @@ const Builtin kRows[] = {
      kMessage | kVaryingResult,
      0,
      "A fact about the ray that sees the point: 1 if known."},
-    {"shadername",
-     "s= s=s",
-     lower::shadername,
-     KINORA_RSL_REF(ref::shadername),
-     kMessage,
-     0,
+    {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername), kMessage, 0,
      "Name of this shader, or of the one of a kind."},
 };
 

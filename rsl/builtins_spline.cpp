@@ -83,14 +83,16 @@ void spline(LowerCall& c) {
     Value t = b.sub(scaled, piece);
     std::array<Lowered, 4> knot;
     for (int k = 0; k < 4; ++k) knot[size_t(k)] = knot_of(c, knots, *basis, piece, pieces, k);
-    // Horner over the rows of m.
+    // Weights first: at t = 0 and 1 they are exact, so the curve meets its knots exactly.
+    std::array<Value, 4> weight;
+    for (size_t k = 0; k < 4; ++k) {
+        weight[k] = b.f(basis->m[0][k]);
+        for (size_t r = 1; r < 4; ++r) weight[k] = c.low.fma(weight[k], t, b.f(basis->m[r][k]));
+    }
     for (size_t j = 0; j < size_t(c.result.size()); ++j) {
-        auto row = [&](size_t r) {
-            Value sum = b.f(0);
-            for (size_t k = 4; k-- > 0;) sum = c.low.fma(b.f(basis->m[r][k]), knot[k].c[j], sum);
-            return sum;
-        };
-        c.result.c[j] = c.low.fma(c.low.fma(c.low.fma(row(0), t, row(1)), t, row(2)), t, row(3));
+        Value sum = b.f(0);
+        for (size_t k = 4; k-- > 0;) sum = c.low.fma(weight[k], knot[k].c[j], sum);
+        c.result.c[j] = sum;
     }
 }
 

@@ -21,8 +21,8 @@ std::vector<Conversion> conversions(const std::string& format) {
     for (size_t k = 0; k + 1 < format.size(); ++k) {
         if (format[k] != '%') continue;
         size_t end = k + 1;
-        while (end < format.size() && std::string_view("0123456789.-+ #").find(format[end]) !=
-                                          std::string_view::npos)
+        while (end < format.size() &&
+               std::string_view("0123456789.-+ #").find(format[end]) != std::string_view::npos)
             ++end;
         if (end < format.size() && format[end] != '%') result.push_back({k, end + 1, format[end]});
         k = end;
@@ -147,7 +147,8 @@ namespace {
 namespace lower = lower_string;
 
 const Builtin kRows[] = {
-    {"concat", "s=sss*", lower::concat, KINORA_RSL_REF(ref::concat), kPure, 0, "Its arguments, one after the other."},
+    {"concat", "s=sss*", lower::concat, KINORA_RSL_REF(ref::concat), kPure, 0,
+     "Its arguments, one after the other."},
     {"format",
      "s=s?*",
      lower::format,
@@ -155,19 +156,9 @@ const Builtin kRows[] = {
      kPure,
      0,
      "Text with %f %c %p %m %s replaced by the arguments."},
-    {"match",
-     "f=ss",
-     lower::match,
-     KINORA_RSL_REF(ref::match),
-     kPure,
-     0,
+    {"match", "f=ss", lower::match, KINORA_RSL_REF(ref::match), kPure, 0,
      "1 if the pattern (a regular expression) occurs in the string: match(pattern, string)."},
-    {"printf",
-     "x=s?*",
-     lower::print,
-     KINORA_RSL_REF(ref::printf),
-     kPrints,
-     0,
+    {"printf", "x=s?*", lower::print, KINORA_RSL_REF(ref::printf), kPrints, 0,
      "Prints text with %f %c %p %m %s replaced by the arguments."},
 };
 

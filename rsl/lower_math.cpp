@@ -39,14 +39,19 @@ Value Emitter::pow(Value x, Value y) {
         if (k == 1) return x;
         if (k == 2) return b.mul(x, x);
     }
-    Value p = jit::math::pow(b, b.abs(x), y, tier);
+    Value p = pow_positive(b.abs(x), y);  // 0 to a negative power is 0
     Value whole = b.eq(b.floor(y), y);
     Value half = b.mul(y, b.f(0.5f));
     Value odd = b.ne(b.floor(half), half);
     Value negative = b.select(whole, b.select(odd, b.neg(p), p), b.f(0));
-    Value result = b.select(b.lt(x, b.f(0)), negative, p);
-    // 0 to a negative power is 0.
-    return b.select(b.logical_and(b.eq(x, b.f(0)), b.lt(y, b.f(0))), b.f(0), result);
+    return b.select(b.lt(x, b.f(0)), negative, p);
+}
+
+Value Emitter::pow_positive(Value x, Value y) {
+    Value p = jit::math::pow(b, x, y, tier);
+    float k;
+    if (b.constant_f(y, &k) && k >= 0) return p;
+    return b.select(b.logical_and(b.eq(x, b.f(0)), b.lt(y, b.f(0))), b.f(0), p);
 }
 
 Value Emitter::mod(Value x, Value y) {

@@ -56,10 +56,10 @@ class Emitter {
     Value clamp(Value x, Value low, Value high) { return b.min(b.max(x, low), high); }
     // Exact at alpha 0 and 1.
     Value mix(Value x, Value y, Value alpha) { return fma(y, alpha, mul(x, b.sub(b.f(1), alpha))); }
-    Value sqrt(Value x);          // 0 for negative x
-    Value pow(Value x, Value y);  // any x: rows 44-46
-    Value pow_positive(Value x, Value y) { return jit::math::pow(b, x, y, tier); }  // x >= 0
-    Value mod(Value x, Value y);                                                    // rows 52-54
+    Value sqrt(Value x);                   // 0 for negative x
+    Value pow(Value x, Value y);           // any x: rows 44-46
+    Value pow_positive(Value x, Value y);  // x >= 0
+    Value mod(Value x, Value y);           // rows 52-54
     Value smoothstep(Value low, Value high, Value x);
     // floor(x) as an int, for 0 <= x < length; anything outside is clamped, NaN gives 0.
     Value index(Value x, int length);

@@ -50,6 +50,31 @@ TEST(Assets, AllShadersLowerAndRunFinite) {
     EXPECT_GE(count, 20);
 }
 
+TEST(Assets, EveryTargetGivesTheSameBits) {
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        for (const char* name : {"matte", "plastic", "marble", "wood", "spotlight", "pointlight"}) {
+            RunShader expected(asset(name));
+            RunShader shader(asset(name), {}, {}, false, target.name);
+            ASSERT_TRUE(shader.ok()) << shader.findings();
+            std::vector<float> x, z;
+            for (int k = 0; k < 37; ++k) x.push_back(0.37f * float(k) - 3), z.push_back(-1 - x[0]);
+            for (RunShader* each : {&expected, &shader}) {
+                set_up(*each);
+                each->set("P.x", x);
+                each->set("Ps.x", x);
+                each->set("Ps.z", -3);
+                each->set("I.y", z);
+            }
+            auto want = expected.run(37), got = shader.run(37);
+            for (auto& [output, values] : want)
+                for (size_t k = 0; k < values.size(); ++k)
+                    EXPECT_EQ(std::bit_cast<int>(values[k]), std::bit_cast<int>(got[output][k]))
+                        << target.name << " " << name << " " << output << " " << k;
+        }
+    }
+}
+
 TEST(Assets, ColladaOpacityFollowsItsModes) {
     using Kind = ParamBinding::Kind;
     auto opacity = [](const char* mode) {

@@ -1,0 +1,92 @@
+// tests/rsl/lower_derivative_test.cpp: Du, Dv, area and calculatenormal of what shaders compute.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/rsl/run_shader.h"
+
+namespace kinora::rsl {
+namespace {
+
+// A plane with P = (u, v, 0), s = u.
+struct OnPlane : RunShader {
+    explicit OnPlane(const std::string& source, bool stack = false)
+        : RunShader(source, {}, {}, stack) {
+        EXPECT_TRUE(ok()) << findings();
+        set3("dPdu", 1, 0, 0);
+        set3("dPdv", 0, 1, 0);
+        set3("N", 0, 0, 1);
+        set3("Ng", 0, 0, 1);
+        set("u", 0.25f);
+        set("s", 3);
+        set("dsdu", 1);
+        set("du", 0.5f);
+        set("dv", 0.25f);
+    }
+};
+
+TEST(LowerDerivative, FollowsTheChainRule) {
+    OnPlane shader(
+        "surface t() { Ci = color(Du(u), Dv(u), Du(s * s)); Oi = "
+        "color(Deriv(s * s, u), area(P), Du(sin(s))); }");
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 1);
+    EXPECT_EQ(out["Ci.g"][0], 0);
+    EXPECT_EQ(out["Ci.b"][0], 6);
+    EXPECT_EQ(out["Oi.r"][0], 6);
+    EXPECT_EQ(out["Oi.g"][0], 0.125f);
+    EXPECT_NEAR(out["Oi.b"][0], std::cos(3.0), 1e-6);
+}
+
+TEST(LowerDerivative, BranchesGiveTheTakenSide) {
+    OnPlane shader(
+        "surface t() { float x; if (s > 2) x = 2 * s; else x = 7 * s; float i; "
+        "for (i = 0; i < 3; i += 1) x *= 2; Ci = Du(x); }");
+    EXPECT_EQ(shader.value("Ci.r"), 16);
+}
+
+TEST(LowerDerivative, DisplacedNormalsTilt) {
+    OnPlane shader(
+        "displacement d() { N = calculatenormal(P + 0.5 * u * N); } surface t() "
+        "{ normal n = normalize(N); Ci = color(xcomp(n), ycomp(n), zcomp(n)); }",
+        true);
+    auto out = shader.run();
+    // The slope is 1/2 along u.
+    EXPECT_FLOAT_EQ(out["Ci.r"][0], -0.5f / std::sqrt(1.25f));
+    EXPECT_FLOAT_EQ(out["Ci.b"][0], 1 / std::sqrt(1.25f));
+}
+
+TEST(LowerDerivative, CalculatednormalTakesItsSideFromNg) {
+    OnPlane shader("surface t() { Ci = color(zcomp(calculatenormal(P)), 0, 0); }");
+    EXPECT_EQ(shader.value("Ci.r"), 1);
+    shader.set3("Ng", 0, 0, -1);
+    EXPECT_EQ(shader.value("Ci.r"), -1);
+}
+
+TEST(LowerDerivative, FilterstepSpansThePixel) {
+    OnPlane shader(
+        "surface t() { Ci = color(filterstep(3, s), filterstep(2, s), "
+        "filterstep(3.125, s)); }");
+    auto out = shader.run();
+    EXPECT_FLOAT_EQ(out["Ci.r"][0], 0.5f);
+    EXPECT_FLOAT_EQ(out["Ci.g"][0], 1);
+    EXPECT_FLOAT_EQ(out["Ci.b"][0], 0.25f);
+}
+
+TEST(LowerDerivative, TexturesGetTheirFootprint) {
+    OnPlane shader("surface t() { Ci = color texture(\"a\", 2 * s, v); }");
+    shader.services["texture"] = [](const jit::ServiceCall& call) {
+        for (int k = 0; k < jit::kMaxLanes; ++k) {
+            call.results[k] = call.args[4 * jit::kMaxLanes + k];                       // dsdx
+            call.results[jit::kMaxLanes + k] = call.args[7 * jit::kMaxLanes + k];      // dtdy
+            call.results[2 * jit::kMaxLanes + k] = call.args[2 * jit::kMaxLanes + k];  // s
+        }
+    };
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 1);      // 2 ds/du du
+    EXPECT_EQ(out["Ci.g"][0], 0.25f);  // dv/dv dv
+    EXPECT_EQ(out["Ci.b"][0], 6);
+}
+
+}  // namespace
+}  // namespace kinora::rsl
