@@ -30,6 +30,8 @@ class Allocator {
         scan();
         hoist_over_function();
         assign_slots();
+        for (Value v = 0; v < n_; ++v)
+            if (plan_[v].alias != kNone) place(v) = place(plan_[v].alias);
         return std::move(out_);
     }
 
@@ -37,11 +39,13 @@ class Allocator {
     Place& place(Value v) { return out_.places[v]; }
     int cls(Value v) const { return static_cast<int>(plan_[v].cls) - 1; }
     bool wants_register(Value v) const {
-        return plan_[v].cls != RegClass::None && !plan_[v].fused && f_.insts[v].op != Op::LoopOut;
+        return plan_[v].cls != RegClass::None && !plan_[v].fused && plan_[v].alias == kNone &&
+               f_.insts[v].op != Op::LoopOut;
     }
     template <class Use>
     void uses(Value at, Use&& use) {
-        for_each_use(f_, s_, plan_, at, use);
+        for_each_use(f_, s_, plan_, at,
+                     [&](Value v) { use(plan_[v].alias == kNone ? v : plan_[v].alias); });
     }
 
     // The outermost loop whose body holds `at` but not the definition at `begin`, or kNone.
@@ -181,13 +185,13 @@ class Allocator {
         occupy(v, reg);
     }
 
-    // A dying operand's register lets Fma and copies work in place.
+    // A dying operand's register lets Fma and Select work in place.
     int preferred(Value v, Value at) {
         int c = cls(v);
         const Inst& inst = f_.insts[v];
         const Value operands[] = {inst.c, inst.a, inst.b};
+        if (inst.op != Op::Fma && inst.op != Op::Select) return std::countr_zero(free_[c]);
         for (Value from : operands) {
-            if (inst.op != Op::Fma || from == kNone) continue;
             const Place& p = place(from);
             if (plan_[from].cls == plan_[v].cls && p.end == at && p.in_reg(at) &&
                 (free_[c] >> p.reg & 1))

@@ -22,6 +22,7 @@ inline constexpr int kRegClasses = 2;  // Vector, Mask
 // What a target says about each instruction's value before allocation.
 struct ValuePlan {
     RegClass cls = RegClass::None;  // None: needs no register
+    Value alias = kNone;            // lies where this LoopVar lies: it is the next value of it
     bool fused = false;             // computed inside its only user, which then uses its operands
     bool home = false;     // lies in memory anyway (an input): needs no store, may be loaded late
     bool hoist = false;    // a constant operand in memory: a register if one is free over a region

@@ -110,14 +110,17 @@ class Checker {
                 if (f_.insts[later].b != f_.insts[m].b && share_register(m, f_.insts[later].b, at))
                     fail(at, m, "overwrites an outer value still to be copied");
         }
-        for (Value m = end + 1; f_.insts[m].op == Op::Merge; ++m) put(at, m, false);
+        for (Value m = end + 1; f_.insts[m].op == Op::Merge; ++m)
+            if (!stays(m)) put(at, m, false);
         Contents skipped = now_;
         walk(at + 1, end);
         for_each_use(f_, s_, plan_, end, [&](Value v) { read(end, v); });
         Value m = end + 1;
         for (; f_.insts[m].op == Op::Merge; ++m)
-            if (plan_[m].cls != RegClass::None) read_whole(end, m);
+            if (plan_[m].cls != RegClass::None) read_whole(end, m, stays(m) ? plan_[m].alias : m);
         now_.meet(skipped);
+        for (m = end + 1; f_.insts[m].op == Op::Merge; ++m)
+            if (stays(m)) put(end, m);
         for (m = end + 1; f_.insts[m].op == Op::Merge; ++m) store_slot(m);
         return m;
     }
@@ -138,7 +141,9 @@ class Checker {
         for (bool again = true; again && error_.empty();) {
             Contents entry = now_;
             walk(header + 1, end);
-            for_each_use(f_, s_, plan_, end, [&](Value v) { read(end, v); });
+            for_each_use(f_, s_, plan_, end, [&](Value v) {
+                if (!replaced(at, v)) read(end, v);
+            });
             for (Value v = at + 1; v <= header; ++v) put(end, v, false);
             Contents exit = now_;
             now_ = entry;
@@ -148,6 +153,13 @@ class Checker {
         now_.meet(skipped);
         for (Value v = at + 1; v <= header; ++v) store_slot(v);
         return end + 1;
+    }
+
+    // A variable whose next value lies in its place already.
+    bool replaced(Value loop, Value v) const {
+        if (v <= loop || v > s_.header_of[loop]) return false;
+        Value next = f_.args_of(f_.insts[s_.end_of[loop]])[v - loop - 1];
+        return plan_[next].alias == v;
     }
 
     bool share_register(Value a, Value b, Value at) const {
@@ -163,11 +175,14 @@ class Checker {
         for (int k = 0; k < op_info(inst.op).operand_count; ++k) read_operand(at, operands[k]);
     }
 
+    // Its outer value is the variable whose place it shares: nothing is copied at the If.
+    bool stays(Value m) const { return plan_[m].alias != kNone && plan_[m].alias == f_.insts[m].b; }
+
     // A Merge's place was filled at the If and must be untouched at the end.
-    void read_whole(Value at, Value m) {
+    void read_whole(Value at, Value m, Value wanted) {
         const Place& p = al_.places[m];
-        if (p.reg >= 0 ? now_.registers[cls(m)][reg(m)] != m
-                       : p.slot >= 0 && now_.slots[cls(m)][static_cast<size_t>(p.slot)] != m)
+        if (p.reg >= 0 ? now_.registers[cls(m)][reg(m)] != wanted
+                       : p.slot >= 0 && now_.slots[cls(m)][static_cast<size_t>(p.slot)] != wanted)
             fail(at, m, "lost its place inside its if");
     }
 

@@ -16,12 +16,20 @@ constexpr int kNearest = 8, kDown = 9, kUp = 10, kTowardsZero = 11;
 }  // namespace
 
 void Emit::binary(InstId id, bool commutative) {
-    Value a = now().a, b = now().b;
+    x86::Vec to = target();
+    binary_into(to, id, now(), commutative, nullptr);
+    finish(to);
+}
+
+// `under`, if given: lanes that are off keep what `to` holds.
+void Emit::binary_into(const x86::Vec& to, InstId id, const Inst& op, bool commutative,
+                       const x86::KReg* under) {
+    Value a = op.a, b = op.b;
     if (commutative && !in_register(a) && in_register(b)) std::swap(a, b);
     x86::Vec left = reg(a, 1);
-    x86::Vec to = target();
-    a_.emit(id, to, left, operand(b));
-    finish(to);
+    Operand right = operand(b);
+    if (under != nullptr) a_.k(*under);
+    a_.emit(id, to, left, right);
 }
 
 void Emit::unary(InstId id) {
@@ -155,11 +163,21 @@ constexpr FmaForm kFma[2][2] = {
 
 }  // namespace
 
-// The destination is one of the operands: a dying one whose register we were given, else one that
-// is loaded from memory anyway, else a copy of the addend.
 void Emit::op_Fma() {
+    x86::Vec to = target();
+    fma_into(to, now(), nullptr);
+    finish(to);
+}
+
+bool Emit::lies_in(const x86::Vec& r, Value v) const {
+    return in_register(v) && static_cast<uint32_t>(place(root(v)).reg) == r.id();
+}
+
+// The destination is one of the operands: a dying one whose register we were given, else one that
+// is loaded from memory anyway, else a copy of the addend. With `under` it must be the first.
+void Emit::fma_into(const x86::Vec& to, const Inst& fma, const x86::KReg* under) {
     bool negative[3] = {};
-    Value v[3] = {now().a, now().b, now().c};
+    Value v[3] = {fma.a, fma.b, fma.c};
     for (int k = 0; k < 3; ++k)
         if (plan_.values[v[k]].fused) {
             negative[k] = true;
@@ -167,26 +185,26 @@ void Emit::op_Fma() {
         }
     auto [a, b, c] = v;
     const FmaForm& form = kFma[negative[0] != negative[1]][negative[2]];
-    x86::Vec to = target();
-    auto lies_in_target = [&](Value x) { return in_register(x) && vec(place(root(x)).reg) == to; };
-    if (lies_in_target(b) || (!in_register(a) && in_register(b))) std::swap(a, b);
-    if (lies_in_target(a) && !lies_in_target(c)) {
-        if (in_register(b)) {
-            a_.emit(form.mul12_add3, to, reg(b, 1), operand(c));
-        } else {
-            x86::Vec addend = reg(c, 1);
-            a_.emit(form.mul13_add2, to, addend, operand(b));
-        }
-    } else if (!lies_in_target(c) && in_register(c) && !in_register(b)) {
+    auto emit = [&](InstId id, const x86::Vec& second, const Operand& third) {
+        if (under != nullptr) a_.k(*under);
+        a_.emit(id, to, second, third);
+    };
+    if (lies_in(to, b) || (!in_register(a) && in_register(b))) std::swap(a, b);
+    if (lies_in(to, a) && !lies_in(to, c)) {
+        x86::Vec second = reg(in_register(b) ? b : c, 1);
+        if (in_register(b))
+            emit(form.mul12_add3, second, operand(c));
+        else
+            emit(form.mul13_add2, second, operand(b));
+    } else if (!lies_in(to, c) && in_register(c) && !in_register(b)) {
         // Not in place: start from the factor that is in memory.
         load(to, b);
-        a_.emit(form.mul12_add3, to, reg(a, 1), operand(c));
+        emit(form.mul12_add3, reg(a, 1), operand(c));
     } else {
         x86::Vec factor = reg(a, 1);
-        if (!lies_in_target(c)) load(to, c);
-        a_.emit(form.mul23_add1, to, factor, operand(b));
+        if (!lies_in(to, c)) load(to, c);
+        emit(form.mul23_add1, factor, operand(b));
     }
-    finish(to);
 }
 
 // Constants, frame values and inputs are operands in memory; those that were given a register are

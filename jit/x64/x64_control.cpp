@@ -124,7 +124,7 @@ void Emit::update_variables(Value loop) {
     updates_.clear();
     for (size_t k = 0; k < next.size(); ++k) {
         Value variable = loop + 1 + static_cast<Value>(k);
-        if (root(next[k]) == variable) continue;
+        if (root(next[k]) == variable || plan_.values[next[k]].alias == variable) continue;
         updates_.push_back({variable, root(next[k])});
         // The next mask is read last, after the variable it may be.
         if (variable == next_mask) save(1, variable);

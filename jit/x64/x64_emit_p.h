@@ -155,6 +155,10 @@ class Emit {
 
     // x64_arith.cpp
     void binary(InstId id, bool commutative);
+    void binary_into(const x86::Vec& to, InstId id, const Inst& op, bool commutative,
+                     const x86::KReg* under);
+    bool lies_in(const x86::Vec& r, Value v) const;
+    void fma_into(const x86::Vec& to, const Inst& fma, const x86::KReg* under);
     void unary(InstId id);
     void unary_imm(InstId id, int imm);
     void with_constant(InstId id, uint32_t bits);
@@ -170,6 +174,8 @@ class Emit {
     void compare_into(const Operand& to, const Inst& compare, bool negate, const x86::KReg* under);
     void mask_binary(InstId wide_id, InstId id);
     void blend(const x86::Vec& to, const x86::Vec& otherwise, Value then, Value mask);
+    void select_computed();
+    void arm_into(const x86::Vec& to, const Inst& arm, const x86::KReg* under);
     void blend_mask(const x86::KReg& to, Value otherwise, Value then, Value mask);
     void merge_into(Value variable, Value then, Value mask);
     void set_if_any(Value mask);  // flags: not zero if any lane is set
@@ -205,6 +211,7 @@ class Emit {
 
     // x64_records.cpp
     void lane_to(const x86::Gp& to, Value index);
+    x86::Mem find_set();
     void find_record();
     void read_record(bool uniform);
 

@@ -161,6 +161,7 @@ void Emit::op_Select() {
         blend_mask(mask_target(), otherwise, then, mask);
         return finish_mask(mask_target());
     }
+    if (plan_.values[then].fused) return select_computed();
     x86::Vec to = target();
     if (isa_.wide && is_zero(otherwise)) {
         x86::KReg k = mask_reg(mask, 7);
@@ -177,6 +178,31 @@ void Emit::op_Select() {
         a_.emit(Id::kIdVandnps, to, m, operand(otherwise));
     } else {
         blend(to, reg(otherwise, 0), then, mask);
+    }
+    finish(to);
+}
+
+void Emit::arm_into(const x86::Vec& to, const Inst& arm, const x86::KReg* under) {
+    if (arm.op == Op::Fma) return fma_into(to, arm, under);
+    InstId id = arm.op == Op::Add   ? Id::kIdVaddps
+                : arm.op == Op::Sub ? Id::kIdVsubps
+                                    : Id::kIdVmulps;
+    binary_into(to, id, arm, arm.op != Op::Sub, under);
+}
+
+// The arm is computed over the other one where the mask is set; beside it if that lives on.
+void Emit::select_computed() {
+    Value otherwise = now().c;
+    const Inst& arm = inst(now().b);
+    x86::Vec to = target();
+    if (lies_in(to, otherwise)) {
+        x86::KReg k = mask_reg(now().a, 7);
+        arm_into(to, arm, &k);
+    } else {
+        arm_into(scratch(0), arm, nullptr);
+        x86::Vec other = reg(otherwise, 1);
+        a_.k(mask_reg(now().a, 7));
+        a_.emit(Id::kIdVblendmps, to, other, scratch(0));
     }
     finish(to);
 }

@@ -24,6 +24,7 @@ class Planner {
         count_uses();
         for (Value v = 0; v < n; ++v) plan_value(v);
         for (Value v = 0; v < n; ++v) fuse_operands(v);
+        alias_variables();
         return std::move(plan_);
     }
 
@@ -118,9 +119,8 @@ class Planner {
 
     // May `v` be computed inside its user at `at`?
     bool fusible(Value v, Value at) const {
-        return uses_[v] == 1 && s_.loop_of[v] == s_.loop_of[at] && !is_fused_into(v);
+        return uses_[v] == 1 && s_.loop_of[v] == s_.loop_of[at];
     }
-    bool is_fused_into(Value v) const { return f_.insts[v].op == Op::LoopOut; }
 
     void fuse_operands(Value at) {
         const Inst& inst = f_.insts[at];
@@ -138,9 +138,69 @@ class Planner {
             case Op::MAndNot:
                 if (isa_.wide) fuse_compare(inst.b, at);
                 return;
+            case Op::Select:
+                return fuse_arm(inst, at);
             default:
                 return;
         }
+    }
+
+    // AVX-512: an arm computed under the mask, over the other arm.
+    void fuse_arm(const Inst& select, Value at) {
+        if (!isa_.wide || value(at).cls != RegClass::Vector || select.b == select.c) return;
+        const Inst& arm = f_.insts[select.b];
+        bool in_place = arm.op == Op::Add || arm.op == Op::Sub || arm.op == Op::Mul ||
+                        (arm.op == Op::Fma && arm.c == select.c);
+        if (in_place && fusible(select.b, at)) value(select.b).fused = true;
+    }
+
+    // In a loop that all lanes run together, the next value of a variable is computed where the
+    // variable lies, if the variable is not read after that.
+    void alias_variables() {
+        bool any = false;
+        for (Value v = 0; v < f_.insts.size(); ++v)
+            any = any || (f_.insts[v].op == Op::Loop && !value(v).masked);
+        if (!any) return;
+        find_last_reads();
+        for (Value v = 0; v < f_.insts.size(); ++v)
+            if (f_.insts[v].op == Op::Loop && !value(v).masked) alias_variables_of(v);
+    }
+
+    // Its own EndLoop apart, which alias_variables_of looks at.
+    void find_last_reads() {
+        last_read_.assign(f_.insts.size(), 0);
+        for (Value at = 0; at < f_.insts.size(); ++at) {
+            for_each_use(f_, s_, plan_.values, at, [&](Value v) {
+                const Inst& inst = f_.insts[v];
+                if (inst.op == Op::LoopVar && at < s_.end_of[static_cast<Value>(inst.imm)])
+                    last_read_[v] = at;
+            });
+        }
+    }
+
+    void alias_variables_of(Value loop) {
+        const Inst& end = f_.insts[s_.end_of[loop]];
+        std::span<const Value> next = f_.args_of(end);
+        for (size_t k = 0; k < next.size(); ++k) {
+            Value variable = loop + 1 + static_cast<Value>(k);
+            bool read_at_end = end.a == variable;
+            for (Value v : next) read_at_end |= v == variable;
+            if (!read_at_end && may_alias(loop, variable, next[k])) value(next[k]).alias = variable;
+        }
+    }
+
+    bool may_alias(Value loop, Value variable, Value next) const {
+        const Inst& inst = f_.insts[next];
+        const ValuePlan& p = plan_.values[next];
+        if (p.cls != plan_.values[variable].cls || p.cls == RegClass::None || p.home || p.fused ||
+            p.alias != kNone || s_.loop_of[next] != loop || inst.op == Op::LoopVar ||
+            inst.op == Op::Loop || inst.op == Op::LoopOut)
+            return false;
+        if (inst.op != Op::Merge) return last_read_[variable] <= next;
+        // A Merge is first written at its If, or at its EndIf if it starts as the variable.
+        auto begin = static_cast<Value>(inst.imm);
+        return inst.b == variable ? last_read_[variable] < s_.end_of[begin]
+                                  : last_read_[variable] < begin;
     }
 
     // AVX2 has inverted compares for floats only.
@@ -157,7 +217,8 @@ class Planner {
     const Isa& isa_;
     FunctionPlan plan_;
     std::vector<uint32_t> uses_;
-    std::vector<Value> user_;  // the last one
+    std::vector<Value> user_;       // the last one
+    std::vector<Value> last_read_;  // of a LoopVar, inside its loop
 };
 
 }  // namespace

@@ -27,12 +27,27 @@ void Emit::lane_to(const x86::Gp& to, Value index) {
     }
 }
 
+// The record set of the instruction, by rdx.
+x86::Mem Emit::find_set() {
+    gp_turn_ = 0;
+    int32_t offset = 0;
+    if (inst(now().a).op == Op::ConstI)
+        offset = inst(now().a).imm * static_cast<int32_t>(sizeof(RecordSet));
+    else
+        lane_to(x86::eax, now().a);
+    a_.mov(x86::rdx, x86::ptr(x86::rbx, offsetof(KernelArgs, record_sets)));
+    if (inst(now().a).op != Op::ConstI) {
+        a_.shl(x86::rax, 4);
+        a_.add(x86::rdx, x86::rax);
+    }
+    gp_turn_ = 0;
+    return x86::ptr(x86::rdx, offset);
+}
+
 void Emit::op_RecordCount() {
-    lane_to(x86::eax, now().a);
-    a_.mov(x86::rcx, x86::ptr(x86::rbx, offsetof(KernelArgs, record_sets)));
-    a_.shl(x86::rax, 4);
+    x86::Mem set = find_set();
     x86::Vec to = target();
-    a_.emit(Id::kIdVpbroadcastd, to, x86::ptr(x86::rcx, x86::rax, 0, offsetof(RecordSet, count)));
+    a_.emit(Id::kIdVpbroadcastd, to, set.cloneAdjusted(offsetof(RecordSet, count)));
     finish(to);
 }
 
@@ -42,22 +57,18 @@ void Emit::find_record() {
     if (record_ == root(now().b) && record_set_ == root(now().a)) return;
     record_ = root(now().b);
     record_set_ = root(now().a);
-    lane_to(x86::eax, now().a);
-    a_.mov(x86::rdx, x86::ptr(x86::rbx, offsetof(KernelArgs, record_sets)));
-    a_.shl(x86::rax, 4);
-    a_.add(x86::rdx, x86::rax);
-    gp_turn_ = 0;
+    x86::Mem set = find_set();
     lane_to(x86::eax, now().b);
     // The index is held in 0..count-1.
     a_.xor_(x86::ecx, x86::ecx);
     a_.test(x86::eax, x86::eax);
     a_.cmovs(x86::eax, x86::ecx);
-    a_.mov(x86::ecx, x86::ptr(x86::rdx, offsetof(RecordSet, count)));
+    a_.mov(x86::ecx, set.cloneAdjusted(offsetof(RecordSet, count)));
     a_.lea(x86::esi, x86::ptr(x86::rcx, -1));
     a_.cmp(x86::eax, x86::esi);
     a_.cmovg(x86::eax, x86::esi);
     a_.shl(x86::rax, 4);
-    a_.mov(x86::rdi, x86::ptr(x86::rdx, offsetof(RecordSet, records)));
+    a_.mov(x86::rdi, set.cloneAdjusted(offsetof(RecordSet, records)));
     a_.add(x86::rdi, x86::rax);
     a_.xor_(x86::eax, x86::eax);
     a_.test(x86::ecx, x86::ecx);
