@@ -366,10 +366,10 @@ ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInpu
     if (layers.empty()) return {};
     return Reference<Real>(layers, inputs).run();
 }
-#define KINORA_REFERENCE_METHODS(Real)                                        \
-    template auto Reference<Real>::expr(const Expr&)->Item;                  \
+#define KINORA_REFERENCE_METHODS(Real)                                         \
+    template auto Reference<Real>::expr(const Expr&)->Item;                    \
     template auto Reference<Real>::convert(const Item&, BaseType) const->Item; \
-    template auto Reference<Real>::global(Global)->Item&;                     \
+    template auto Reference<Real>::global(Global)->Item&;                      \
     template void Reference<Real>::declare(const Symbol&);
 KINORA_REFERENCE_METHODS(float)
 KINORA_REFERENCE_METHODS(double)

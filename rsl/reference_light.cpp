@@ -27,16 +27,16 @@ Vec<Real> color_of(const std::array<double, 3>& c) {
     return {Dual<Real>(Real(c[0])), Dual<Real>(Real(c[1])), Dual<Real>(Real(c[2]))};
 }
 
-// Sum over the lights in the hemisphere of N of Cl * weight(L normalised).
+// Sum over the lights within `angle` of N of Cl * weight(L normalised).
 template <class Real, class F>
-void sum_lights(RefCall<Real>& c, const Vec<Real>& N, double ReferenceLight::*off, F weight) {
+void sum_lights(RefCall<Real>& c, const Vec<Real>& N, double ReferenceLight::*off, F weight,
+                Dual<Real> angle = Dual<Real>(Real(1.57079632679))) {
     Vec<Real> sum{};
-    c.eval.for_each_light(&N, Dual<Real>(Real(1.57079632679)),
-                          [&](const ReferenceLight& light, const Vec<Real>& L) {
-                              Dual<Real> k = weight(rsl::normalize(L));
-                              k = Real(1 - light.*off) * k;
-                              sum = sum + k * color_of<Real>(light.Cl);
-                          });
+    c.eval.for_each_light(&N, angle, [&](const ReferenceLight& light, const Vec<Real>& L) {
+        Dual<Real> k = weight(rsl::normalize(L));
+        k = Real(1 - light.*off) * k;
+        sum = sum + k * color_of<Real>(light.Cl);
+    });
     c.set(sum);
 }
 
@@ -77,16 +77,20 @@ void ambient(RefCall<Real>& c) {
     c.set(sum);
 }
 
-// Appendix A of the RenderMan Interface 3.2 for these four.
+// RenderMan Interface 3.2, section 15: N and V are expected to have length 1; phong() sees to it.
 template <class Real>
 void diffuse(RefCall<Real>& c) {
-    Vec<Real> N = rsl::normalize(c.v(c.args.size() == 1 ? 0 : 1));
-    sum_lights(c, N, &ReferenceLight::nondiffuse,
-               [&](const Vec<Real>& L) { return rsl::max(Dual<Real>(0), dot(L, N)); });
+    bool cone = c.args.size() == 3;
+    Vec<Real> N = c.v(cone ? 1 : 0);
+    auto weight = [&](const Vec<Real>& L) { return rsl::max(Dual<Real>(0), dot(L, N)); };
+    if (cone)
+        sum_lights(c, N, &ReferenceLight::nondiffuse, weight, c.f(2));
+    else
+        sum_lights(c, N, &ReferenceLight::nondiffuse, weight);
 }
 template <class Real>
 void specular(RefCall<Real>& c) {
-    Vec<Real> N = rsl::normalize(c.v(0)), V = rsl::normalize(c.v(1));
+    Vec<Real> N = c.v(0), V = c.v(1);
     sum_lights(c, N, &ReferenceLight::nonspecular,
                [&](const Vec<Real>& L) { return highlight(L, N, V, c.f(2)); });
 }
@@ -100,8 +104,7 @@ void phong(RefCall<Real>& c) {
 }
 template <class Real>
 void specularbrdf(RefCall<Real>& c) {
-    Dual<Real> k =
-        highlight(rsl::normalize(c.v(0)), rsl::normalize(c.v(1)), rsl::normalize(c.v(2)), c.f(3));
+    Dual<Real> k = highlight(rsl::normalize(c.v(0)), c.v(1), c.v(2), c.f(3));
     c.set({k, k, k});
 }
 

@@ -217,6 +217,32 @@ TEST(Atan2, FastIsWithinFourUlp) {
     EXPECT_LE(worst_atan2(Tier::Fast).ulp, 4.0);
 }
 
+bool same_bits(float a, float b) {
+    return std::bit_cast<int32_t>(a) == std::bit_cast<int32_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
+}
+
+// DESIGN.md decision 13; in the IEEE default mode this holds for the fast tier as well.
+TEST_P(UnaryMath, GivesTheSameBitsOnEveryTarget) {
+    std::vector<float> x = edge_values();
+    Samples s;
+    for (int i = 0; i < 20'000; ++i) x.push_back(s.pattern());
+    for (int i = 0; i < 20'000; ++i) x.push_back(s.uniform(GetParam().lo, GetParam().hi));
+    auto write = [&](Builder& b, std::span<const Value> in) {
+        return std::vector<Value>{GetParam().function(b, in[0], Tier::Precise),
+                                  GetParam().function(b, in[0], Tier::Fast)};
+    };
+    auto expected = MathKernel(1, write).run({x});
+    for (const Target& target : targets()) {
+        if (!target.supported()) continue;
+        auto got = MathKernel(1, write, target.name).run({x});
+        for (size_t tier = 0; tier < 2; ++tier)
+            for (size_t i = 0; i < x.size(); ++i)
+                ASSERT_TRUE(same_bits(expected[tier][i], got[tier][i]))
+                    << target.name << " tier " << tier << " at " << x[i];
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Rows, UnaryMath, ::testing::ValuesIn(kUnary), name_of);
 
 }  // namespace

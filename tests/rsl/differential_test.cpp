@@ -27,14 +27,19 @@ struct Random {
     float uniform(float lo, float hi) { return lo + (hi - lo) * float(next() * 0x1p-32); }
     float argument(bool moderate) {
         if (moderate) return uniform(-2, 2);
-        static const float kEdges[] = {0, -0.0f, 1, -1, 0.5f, -0.5f, 2, 3, 1e-7f, 1e-30f, 1e-40f, 100,
+        static const float kEdges[] = {0,    -0.0f, 1,     -1,          0.5f,      -0.5f,
+                                       2,    3,     1e-7f, 1e-30f,      1e-40f,    100,
                                        1e9f, -3e9f, 1e20f, 0.99999994f, 1.0000001f};
         switch (next() % 8) {
-            case 0: return kEdges[next() % std::size(kEdges)];
+            case 0:
+                return kEdges[next() % std::size(kEdges)];
             case 1:
-            case 2: return uniform(0, 1);
-            case 3: return uniform(-100, 100);
-            default: return uniform(-2, 2);
+            case 2:
+                return uniform(0, 1);
+            case 3:
+                return uniform(-100, 100);
+            default:
+                return uniform(-2, 2);
         }
     }
 };
@@ -71,7 +76,8 @@ bool moderate(std::string_view name) {
     return kRows.count(name) > 0;
 }
 
-// A surface that calls one overload with parameters a0, a1, ... and puts what comes out into r0, ...
+// A surface that calls one overload with parameters a0, a1, ... and puts what comes out into r0,
+// ...
 struct RowShader {
     std::string source;
     std::vector<ParamBinding> params;
@@ -92,9 +98,11 @@ class RowWriter {
         std::string_view row_name = row_.name;
         if (row_name == "refract" || row_name == "fresnel")
             for (const char* name : {"param:0:a0", "param:0:a1"}) make_unit(name);
-        for (const char* ratio : {"param:0:a2", "param:0:a3"})  // eta, roughness
-            if (row_name == "fresnel" || row_name == "specularbrdf")
-                for (float& x : shader_.columns[ratio]) x = 0.1f + std::fabs(x);
+        for (const char* ratio : {"param:0:a2", "param:0:a3"})  // eta, roughness: positive
+            if (auto found = shader_.columns.find(ratio);
+                found != shader_.columns.end() &&
+                (row_name == "fresnel" || row_name == "specularbrdf"))
+                for (float& x : found->second) x = 0.1f + std::fabs(x);
         std::string call = std::string(row_.name) + "(" + call_ + ")";
         if (signature_.result.base == BaseType::Void)
             body_ += call + "; ";
@@ -105,7 +113,7 @@ class RowWriter {
         return shader_;
     }
 
-    static constexpr size_t kPoints = 512;
+    static constexpr size_t kPoints = 160;
 
   private:
     void argument(size_t k, const Signature::Argument& argument) {
@@ -136,7 +144,8 @@ class RowWriter {
     void column(const std::string& name, BaseType type, bool one) {
         for (int c = 0; c < component_count(type); ++c)
             for (size_t i = 0; i < (one ? 1 : kPoints); ++i)
-                shader_.columns[name + suffix(type, c)].push_back(random_.argument(moderate(row_.name)));
+                shader_.columns[name + suffix(type, c)].push_back(
+                    random_.argument(moderate(row_.name)));
     }
 
     // Directions that the row expects to have length 1.
@@ -267,8 +276,8 @@ TEST(Rows, LoweredCodeAgreesWithTheReference) {
             for (const Signature& signature : parse_signatures(row.signature)) {
                 RowReport report = run_row(row, signature);
                 ++rows, points += report.compared, undecided += report.undecided;
-                EXPECT_LE(report.worst, 1) << row.name << " overload " << signature.overload << " "
-                                           << report.example;
+                EXPECT_LE(report.worst, 1)
+                    << row.name << " overload " << signature.overload << " " << report.example;
             }
         }
     }
@@ -286,8 +295,7 @@ Columns random_point(uint64_t seed) {
     Columns c;
     auto triple = [&](const std::string& name, auto make, const char* parts = "xyz") {
         for (int k = 0; k < 3; ++k)
-            for (size_t i = 0; i < kPoints; ++i)
-                c[name + "." + parts[k]].push_back(make(k));
+            for (size_t i = 0; i < kPoints; ++i) c[name + "." + parts[k]].push_back(make(k));
     };
     triple("P", [&](int) { return r.uniform(-3, 3); });
     triple("Ps", [&](int) { return r.uniform(-3, 3); });
@@ -486,7 +494,8 @@ TEST(Shaders, LoweredCodeAgreesWithTheReference) {
 }
 
 bool same_bits(float a, float b) {
-    return std::bit_cast<int32_t>(a) == std::bit_cast<int32_t>(b) || (std::isnan(a) && std::isnan(b));
+    return std::bit_cast<int32_t>(a) == std::bit_cast<int32_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
 }
 
 TEST(Shaders, GiveTheSameBitsOnEveryTarget) {
