@@ -4,6 +4,7 @@
 #include "collada/document.h"
 #include "collada/findings.h"
 #include "collada/numbers_p.h"
+#include "runtime/base/check.h"
 
 namespace kinora::collada {
 
@@ -60,7 +61,9 @@ class ElementTable {
             if (word == "*") type.any_child = true;
             size_t colon = word.find(':');
             std::string_view name = word.substr(0, colon);
-            type.children[name] = find(colon == word.npos ? word : word.substr(colon + 1));
+            const ElementType* child = find(colon == word.npos ? word : word.substr(colon + 1));
+            CHECK(child || word == "*");  // a row that names a type without one
+            type.children[name] = child;
         }
     }
     std::unordered_map<std::string_view, ElementType> types_;

@@ -1,20 +1,16 @@
 // collada/document_reader.cpp: expat's events become the element tree.
-#include <expat.h>
+#include "collada/document_reader_p.h"
 
 #include <cstring>
-#include <fstream>
 
-#include "collada/document.h"
 #include "collada/encoding_p.h"
-#include "collada/findings.h"
 
 namespace kinora::collada {
 
 namespace {
 
 constexpr size_t kMaxDepth = 256;
-constexpr size_t kMaxBytes = 0x7fffffff;  // places are 32 bits
-constexpr size_t kChunk = 32 << 20;       // expat copies what it is given
+constexpr size_t kChunk = 32 << 20;  // expat copies what it is given
 constexpr uint32_t kMaxElements = 30'000'000;
 
 bool is_space(char c) {
@@ -27,128 +23,7 @@ bool all_space(std::string_view text) {
     return true;
 }
 
-// Small pieces out of the arena, whose own steps are 64 bytes.
-class Pool {
-  public:
-    explicit Pool(Arena& arena) : arena_(arena) {}
-
-    void* take(size_t bytes) {
-        bytes = (bytes + 7) & ~size_t(7);
-        if (bytes > left_) {
-            if (bytes > kBlock / 4) return arena_.allocate(bytes);
-            next_ = static_cast<char*>(arena_.allocate(kBlock));
-            left_ = kBlock;
-        }
-        void* taken = next_;
-        next_ += bytes;
-        left_ -= bytes;
-        return taken;
-    }
-
-    template <class T>
-    std::span<const T> copy(std::span<const T> items) {
-        if (items.empty()) return {};
-        T* to = static_cast<T*>(take(items.size_bytes()));
-        std::memcpy(static_cast<void*>(to), items.data(), items.size_bytes());
-        return {to, items.size()};
-    }
-
-    std::string_view copy(std::string_view text) {
-        auto c = copy(std::span<const char>(text.data(), text.size()));
-        return {c.data(), c.size()};
-    }
-
-  private:
-    static constexpr size_t kBlock = 64 * 1024;
-    Arena& arena_;
-    char* next_ = nullptr;
-    size_t left_ = 0;
-};
-
-// A run of text that stands in the file as it is, or (scratch >= 0) was decoded.
-struct Piece {
-    uint32_t file_begin;
-    uint32_t length;
-    int64_t scratch;
-};
-
-struct OpenElement {
-    Element* element;
-    Element* last_child;
-    size_t first_piece;
-    size_t first_scratch;
-};
-
 }  // namespace
-
-class DocumentReader {
-  public:
-    DocumentReader(std::string path, FileId file, Diagnostics& diag)
-        : diag_(diag), text_(diag.files.text(file)), pool_(document_.arena_) {
-        document_.path_ = std::move(path);
-        size_t slash = document_.path_.find_last_of('/');
-        if (slash != std::string::npos) document_.directory_ = document_.path_.substr(0, slash + 1);
-        document_.file_ = file;
-    }
-
-    std::optional<Document> read();
-    bool bad_utf8() const { return bad_utf8_; }
-
-  private:
-    static void XMLCALL on_start(void* self, const XML_Char* name, const XML_Char** attributes) {
-        static_cast<DocumentReader*>(self)->start_element(name, attributes);
-    }
-    static void XMLCALL on_end(void* self, const XML_Char*) {
-        static_cast<DocumentReader*>(self)->end_element();
-    }
-    static void XMLCALL on_text(void* self, const XML_Char* text, int length) {
-        static_cast<DocumentReader*>(self)->add_text(text, size_t(length));
-    }
-    static void XMLCALL on_entity(void* self, const XML_Char* name, int, const XML_Char*, int,
-                                  const XML_Char*, const XML_Char*, const XML_Char*,
-                                  const XML_Char*) {
-        auto* reader = static_cast<DocumentReader*>(self);
-        reader->stop(Code::XML_ENTITY, std::string(name));
-    }
-
-    void start_element(const XML_Char* name, const XML_Char** attributes);
-    void end_element();
-    void add_text(const char* text, size_t length);
-    std::span<const Attribute> read_attributes(ByteRange tag, const XML_Char** decoded);
-    std::string_view local_name(std::string_view name) const;
-    void finish_text(const OpenElement& open);
-    void register_id(Element& element);
-    void close_after_error();
-    void report_syntax();
-    void check_root();
-
-    template <class... Args>
-    void stop(const FindingInfo& info, const Args&... args) {
-        diag_.report(info, here(), args...);
-        stopped_ = true;
-        XML_StopParser(parser_, XML_FALSE);
-    }
-    uint32_t offset() const { return uint32_t(XML_GetCurrentByteIndex(parser_)); }
-    Location here() const {
-        uint32_t begin = uint32_t(std::min(size_t(offset()), text_.size()));
-        return {document_.file_, begin, begin};
-    }
-
-    Diagnostics& diag_;
-    Document document_;
-    std::string_view text_;
-    Pool pool_;
-    XML_Parser parser_ = nullptr;
-    std::vector<OpenElement> open_;
-    std::vector<Piece> pieces_;
-    std::string scratch_;
-    std::vector<Attribute> attributes_;
-    std::unordered_map<std::string_view, Element*> last_with_id_;
-    Element* root_ = nullptr;
-    std::string_view prefix_;  // "collada:" when the root is written <collada:COLLADA>
-    bool stopped_ = false;
-    bool bad_utf8_ = false;
-};
 
 std::string_view DocumentReader::local_name(std::string_view name) const {
     return !prefix_.empty() && name.starts_with(prefix_) ? name.substr(prefix_.size()) : name;
@@ -385,52 +260,6 @@ std::optional<Document> DocumentReader::read() {
     }
     check_root();
     return std::move(document_);
-}
-
-std::optional<Document> read_document_text(const std::string& path, std::string bytes,
-                                           Diagnostics& diag) {
-    auto no_text = [&] { return Location{diag.files.add(path, {}), 0, 0}; };
-    if (all_space(bytes)) {
-        diag.report(Code::XML_EMPTY, no_text());
-        return std::nullopt;
-    }
-    DecodedText decoded = decode_text(std::move(bytes));
-    if (!decoded.error.empty()) {
-        diag.report(Code::XML_ENCODING, no_text(), decoded.error);
-        return std::nullopt;
-    }
-    if (decoded.text.size() > kMaxBytes) {
-        diag.report(Code::XML_LIMIT, no_text(), std::string("more than 2 GiB"));
-        return std::nullopt;
-    }
-    FileId file = diag.files.add(path, std::move(decoded.text));
-    if (!decoded.recoded.empty())
-        diag.report(Code::XML_RECODED, Location{file, 0, 0}, decoded.recoded);
-    DocumentReader reader(path, file, diag);
-    std::optional<Document> document = reader.read();
-    if (!reader.bad_utf8()) return document;
-    file = diag.files.add(path, utf8_from_latin1(diag.files.text(file)));
-    diag.report(Code::XML_RECODED, Location{file, 0, 0}, std::string("Latin-1, not UTF-8"));
-    return DocumentReader(path, file, diag).read();
-}
-
-std::optional<Document> read_document(const std::string& path, Diagnostics& diag) {
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    std::string bytes;
-    bool read = false;
-    if (in) {
-        std::streamoff size = in.tellg();
-        if (size >= 0 && size < std::streamoff(1) << 40) {
-            bytes.resize(size_t(size));
-            in.seekg(0);
-            read = bool(in.read(bytes.data(), size)) || size == 0;
-        }
-    }
-    if (!read) {
-        diag.report(Code::XML_OPEN, Location{}, path, std::string(std::strerror(errno)));
-        return std::nullopt;
-    }
-    return read_document_text(path, std::move(bytes), diag);
 }
 
 }  // namespace kinora::collada

@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "collada/document.h"
+#include "collada/effects.h"
+#include "collada/meshes.h"
+#include "collada/values.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/base/math.h"
 
 namespace kinora::collada {
-
-inline constexpr uint32_t kNone = ~0u;
 
 enum class UpAxis : uint8_t { X, Y, Z };
 
@@ -26,37 +27,6 @@ struct Asset {
     double meter = 1.0;  // metres per unit
     std::string unit_name;
     UpAxis up_axis = UpAxis::Y;
-};
-
-// Up to 16 numbers that a channel can write.
-struct Slot {
-    std::array<double, 16> values{};
-    uint8_t count = 0;  // 0: absent from the file (values then hold the format's default, if any)
-    std::string sid;
-    Location where;
-    bool present() const { return count > 0; }
-};
-
-// --- what a channel or a <bind target> names ----------------------------------------------------
-
-enum class Owner : uint8_t {
-    None,
-    Transform,      // nodes[owner].transforms[slot]
-    Light,          // lights[owner].slots[slot]      (slot = LightSlot)
-    Camera,         // cameras[owner].slots[slot]     (slot = CameraSlot)
-    EffectParam,    // effects[owner].params[slot].value
-    EffectCommon,   // effects[owner].common.slots[slot]  (slot = CommonSlot)
-    MaterialParam,  // materials[owner].setparams[slot].value
-    MorphWeight,    // morphs[owner].weights, the whole list; component = weight index
-};
-
-struct TargetRef {
-    Owner kind = Owner::None;
-    uint32_t owner = kNone;
-    uint32_t slot = 0;
-    uint32_t first = 0;         // first component of the slot's values that is written
-    uint32_t count = 0;         // how many in a row
-    bool whole_matrix = false;  // all 16 of a <matrix>: decomposed when LINEAR
 };
 
 // --- nodes ---------------------------------------------------------------------------------------
@@ -139,76 +109,6 @@ struct Node {
     Location where;
 };
 
-// --- geometries ----------------------------------------------------------------------------------
-
-// Values of a <source>, without the unnamed params of its accessor. No NaN or infinity.
-struct FloatSource {
-    std::string id;
-    uint32_t stride = 0;        // floats per entry: 2 or 3 for TEXCOORD, 3 or 4 for COLOR, ...
-    std::vector<float> values;  // stride * entries
-};
-
-struct VertexInput {
-    std::string semantic;  // NORMAL TEXCOORD COLOR TANGENT TEXTANGENT TEXBINORMAL UV or a user's
-    uint32_t set = 0;      // 0 when not written
-    uint32_t source = 0;   // index into Geometry::sources
-    uint32_t list = 0;     // index into PrimitiveGroup::indices
-};
-
-// The triangles of one <triangles>, <polylist>, ... element: corner 3t+k is corner k of triangle t.
-struct PrimitiveGroup {
-    std::string material;                        // symbol, "" if none
-    std::vector<VertexInput> inputs;             // all but POSITION
-    std::vector<std::vector<uint32_t>> indices;  // [0]: positions; one list per distinct offset
-    uint32_t triangle_count() const { return uint32_t(indices[0].size() / 3); }
-    Location where;
-};
-
-// A mesh, triangulated. Position i is the one that skins and morph targets speak of.
-struct Geometry {
-    std::string id, name;
-    std::vector<dvec3> positions;
-    std::vector<FloatSource> sources;
-    std::vector<PrimitiveGroup> groups;  // every one has indices[0] and at least one triangle
-    bool double_sided = true;            // from <extra>; false hides back faces from camera rays
-    uint32_t line_count = 0;             // <lines>/<linestrips> segments read and not shaded
-    Location where;
-};
-
-// --- controllers ---------------------------------------------------------------------------------
-
-enum class JointNames : uint8_t { Name, Idref, Sidref };
-
-// Vertex i has influences [offsets[i], offsets[i+1]). Weights are as written (sums are not
-// normalised; NaN became 0). joint -1 is the bind shape itself.
-struct Skin {
-    std::string id;
-    uint32_t geometry = kNone;
-    uint32_t morph = kNone;  // the skin's source is this morph (over `geometry`)
-    bool has_bind_shape_matrix = false;
-    dmat4 bind_shape_matrix{1.0};
-    JointNames joint_kind = JointNames::Name;
-    std::vector<std::string> joints;
-    std::vector<dmat4> inverse_bind;  // one per joint
-    std::vector<uint32_t> offsets;    // geometry positions + 1
-    std::vector<int32_t> influence_joints;
-    std::vector<float> influence_weights;
-    Location where;
-};
-
-enum class MorphMethod : uint8_t { Normalized, Relative };
-
-// Targets have as many positions as the base. Normals of a target are in its own sources/groups.
-struct Morph {
-    std::string id;
-    uint32_t geometry = kNone;  // the base mesh
-    MorphMethod method = MorphMethod::Normalized;
-    std::vector<uint32_t> targets;  // geometries
-    std::vector<double> weights;    // one per target: base values that channels write
-    Location where;
-    Location weights_where;
-};
-
 // --- animation -----------------------------------------------------------------------------------
 
 enum class Interpolation : uint8_t { Linear, Step, Bezier, Hermite, Cardinal, Bspline };
@@ -277,161 +177,6 @@ struct Light {
     std::optional<bool> shadows;    // <shadows> of that extra
     Location where;
     const Slot& operator[](LightSlot s) const { return slots[size_t(s)]; }
-};
-
-// --- effects, materials, images ------------------------------------------------------------------
-
-enum class ParamType : uint8_t {
-    Float,
-    Float2,
-    Float3,
-    Float4,
-    Float4x4,
-    Int,
-    Bool,
-    Point,
-    Color,
-    Vector,
-    Normal,
-    Matrix,
-    String,
-    Count
-};
-uint32_t component_count(ParamType type);  // 1 2 3 4 16 1 1 3 3 3 3 16; String 1
-const char* param_type_name(ParamType type);
-
-// Numbers in the order of the file (matrices too). A colour has 3: see DESIGN section 5.
-struct ParamValue {
-    ParamType type = ParamType::Float;
-    uint32_t array_length = 0;  // 0: no array
-    std::vector<double> numbers;
-    std::vector<std::string> strings;
-    uint32_t image = kNone;  // String only: it names this image's id
-    Location where;
-};
-
-enum class ParamScope : uint8_t { Effect, ProfileCommon, ProfileRsl, Technique };
-
-struct Param {
-    std::string sid;
-    std::string semantic;
-    ParamScope scope = ParamScope::Effect;
-    ParamValue value;
-    Location where;
-};
-
-struct Image {
-    std::string id, name;
-    std::string uri;   // as written
-    std::string path;  // the file found; "" if none (IMAGE_MISSING was reported)
-    Location where;
-};
-
-enum class Wrap : uint8_t { Wrap, Mirror, Clamp, Border, None };
-enum class Filter : uint8_t { None, Nearest, Linear };
-
-struct TextureSampler {
-    std::string sid;
-    uint32_t image = kNone;
-    Wrap wrap_s = Wrap::Wrap, wrap_t = Wrap::Wrap;
-    Filter min = Filter::Linear, mag = Filter::Linear, mip = Filter::Linear;
-    vec4 border_color{0, 0, 0, 0};
-    // uv' = uv * repeat + offset, from MAYA/MAX3D/OKINO extras.
-    vec2 repeat{1, 1}, offset{0, 0};
-    Location where;
-};
-
-enum class CommonModel : uint8_t { Constant, Lambert, Phong, Blinn };
-enum class CommonSlot : uint8_t {
-    Emission,
-    Ambient,
-    Diffuse,
-    Specular,
-    Shininess,
-    Reflective,
-    Reflectivity,
-    Transparent,
-    Transparency,
-    IndexOfRefraction,
-    Bump,
-    Count
-};
-enum class SlotSource : uint8_t { Absent, Value, Param, Texture };
-enum class Opaque : uint8_t { AOne, RgbZero, AZero, RgbOne };
-
-struct CommonValue {
-    SlotSource source = SlotSource::Absent;
-    Slot slot;                 // Value: 4 (colour) or 1 (float) numbers
-    uint32_t param = kNone;    // Param: index into Effect::params
-    uint32_t sampler = kNone;  // Texture: index into Effect::samplers
-    std::string texcoord;      // Texture: the name bind_vertex_input speaks of, "" if none
-    Location where;
-};
-
-struct CommonShading {
-    std::string technique_sid;
-    CommonModel model = CommonModel::Constant;
-    std::array<CommonValue, size_t(CommonSlot::Count)> slots;
-    Opaque opaque = Opaque::AOne;  // of <transparent>
-    bool double_sided = true;
-    Location where;
-    const CommonValue& operator[](CommonSlot s) const { return slots[size_t(s)]; }
-};
-
-enum class RslStage : uint8_t { Surface, Displacement, Light, Volume, Transformation, Imager };
-
-struct RslCode {
-    std::string text;
-    SourceMap map;     // text offset -> place in the .dae or the .sl
-    std::string path;  // of the included file; the document's for <code>
-};
-
-struct RslBind {
-    std::string symbol;
-    uint32_t param = kNone;  // index into Effect::params; kNone: `literal`
-    ParamValue literal;
-    Location where;
-};
-
-struct RslShader {
-    RslStage stage = RslStage::Surface;
-    std::string name;  // the function to run; "" when not written: the code's only shader
-    std::vector<RslBind> binds;
-    uint32_t pass = 0;
-    Location where;
-};
-
-struct RslShading {
-    std::string technique_sid;
-    std::vector<RslCode> codes;      // one translation unit: in order
-    std::vector<RslShader> shaders;  // in document order
-    Location where;
-};
-
-struct Effect {
-    std::string id, name;
-    std::vector<Param> params;  // all scopes; a sid is looked up innermost first
-    std::vector<TextureSampler> samplers;
-    std::optional<CommonShading> common;
-    std::optional<RslShading> rsl;  // wins over common
-    uint32_t document = 0;
-    Location where;
-};
-
-struct SetParam {
-    std::string ref;
-    uint32_t param = kNone;  // index into the effect's params; kNone: the effect has no such one
-    ParamValue value;
-    Location where;
-};
-
-// A material, or an <instance_effect> inside an RSL <extra> (id "" then).
-struct Material {
-    std::string id, name;
-    uint32_t effect = kNone;  // kNone: unresolved, reported; use the default material
-    std::vector<SetParam> setparams;
-    std::string volume_target;  // <extra> RSL "interior" or "exterior"; "" if silent
-    Location where;
 };
 
 // --- the whole -----------------------------------------------------------------------------------

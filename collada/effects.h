@@ -1,0 +1,169 @@
+// collada/effects.h: effects (profile_RSL, profile_COMMON), materials and images.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collada/values.h"
+
+namespace kinora::collada {
+
+// --- effects, materials, images ------------------------------------------------------------------
+
+enum class ParamType : uint8_t {
+    Float,
+    Float2,
+    Float3,
+    Float4,
+    Float4x4,
+    Int,
+    Bool,
+    Point,
+    Color,
+    Vector,
+    Normal,
+    Matrix,
+    String,
+    Count
+};
+uint32_t component_count(ParamType type);  // 1 2 3 4 16 1 1 3 3 3 3 16; String 1
+const char* param_type_name(ParamType type);
+
+// Numbers in the order of the file (matrices too). A colour has 3: see DESIGN section 5.
+struct ParamValue {
+    ParamType type = ParamType::Float;
+    uint32_t array_length = 0;  // 0: no array
+    std::vector<double> numbers;
+    std::vector<std::string> strings;
+    uint32_t image = kNone;  // String only: it names this image's id
+    Location where;
+};
+
+enum class ParamScope : uint8_t { Effect, ProfileCommon, ProfileRsl, Technique };
+
+struct Param {
+    std::string sid;
+    std::string semantic;
+    ParamScope scope = ParamScope::Effect;
+    ParamValue value;
+    Location where;
+};
+
+struct Image {
+    std::string id, name;
+    std::string uri;   // as written
+    std::string path;  // the file found; "" if none (IMAGE_MISSING was reported)
+    Location where;
+};
+
+enum class Wrap : uint8_t { Wrap, Mirror, Clamp, Border, None };
+enum class Filter : uint8_t { None, Nearest, Linear };
+
+struct TextureSampler {
+    std::string sid;
+    uint32_t image = kNone;
+    Wrap wrap_s = Wrap::Wrap, wrap_t = Wrap::Wrap;
+    Filter min = Filter::Linear, mag = Filter::Linear, mip = Filter::Linear;
+    vec4 border_color{0, 0, 0, 0};
+    // uv' = uv * repeat + offset, from MAYA/MAX3D/OKINO extras.
+    vec2 repeat{1, 1}, offset{0, 0};
+    Location where;
+};
+
+enum class CommonModel : uint8_t { Constant, Lambert, Phong, Blinn };
+enum class CommonSlot : uint8_t {
+    Emission,
+    Ambient,
+    Diffuse,
+    Specular,
+    Shininess,
+    Reflective,
+    Reflectivity,
+    Transparent,
+    Transparency,
+    IndexOfRefraction,
+    Bump,
+    Count
+};
+enum class SlotSource : uint8_t { Absent, Value, Param, Texture };
+enum class Opaque : uint8_t { AOne, RgbZero, AZero, RgbOne };
+
+struct CommonValue {
+    SlotSource source = SlotSource::Absent;
+    Slot slot;                 // Value: 4 (colour) or 1 (float) numbers
+    uint32_t param = kNone;    // Param: index into Effect::params
+    uint32_t sampler = kNone;  // Texture: index into Effect::samplers
+    std::string texcoord;      // Texture: the name bind_vertex_input speaks of, "" if none
+    Location where;
+};
+
+struct CommonShading {
+    std::string technique_sid;
+    CommonModel model = CommonModel::Constant;
+    std::array<CommonValue, size_t(CommonSlot::Count)> slots;
+    Opaque opaque = Opaque::AOne;  // of <transparent>
+    bool double_sided = true;
+    Location where;
+    const CommonValue& operator[](CommonSlot s) const { return slots[size_t(s)]; }
+};
+
+enum class RslStage : uint8_t { Surface, Displacement, Light, Volume, Transformation, Imager };
+
+struct RslCode {
+    std::string text;
+    SourceMap map;     // text offset -> place in the .dae or the .sl
+    std::string path;  // of the included file; the document's for <code>
+};
+
+struct RslBind {
+    std::string symbol;
+    uint32_t param = kNone;  // index into Effect::params; kNone: `literal`
+    ParamValue literal;
+    Location where;
+};
+
+struct RslShader {
+    RslStage stage = RslStage::Surface;
+    std::string name;  // the function to run; "" when not written: the code's only shader
+    std::vector<RslBind> binds;
+    uint32_t pass = 0;
+    Location where;
+};
+
+struct RslShading {
+    std::string technique_sid;
+    std::vector<RslCode> codes;      // one translation unit: in order
+    std::vector<RslShader> shaders;  // in document order
+    Location where;
+};
+
+struct Effect {
+    std::string id, name;
+    std::vector<Param> params;  // all scopes; a sid is looked up innermost first
+    std::vector<TextureSampler> samplers;
+    std::optional<CommonShading> common;
+    std::optional<RslShading> rsl;  // wins over common
+    uint32_t document = 0;
+    Location where;
+};
+
+struct SetParam {
+    std::string ref;
+    uint32_t param = kNone;  // index into the effect's params; kNone: the effect has no such one
+    ParamValue value;
+    Location where;
+};
+
+// A material, or an <instance_effect> inside an RSL <extra> (id "" then).
+struct Material {
+    std::string id, name;
+    uint32_t effect = kNone;  // kNone: unresolved, reported; use the default material
+    std::vector<SetParam> setparams;
+    std::string volume_target;  // <extra> RSL "interior" or "exterior"; "" if silent
+    Location where;
+};
+
+}  // namespace kinora::collada

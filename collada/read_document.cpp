@@ -1,0 +1,64 @@
+// collada/read_document.cpp: from a file or memory through its encoding to a document.
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "collada/document_reader_p.h"
+#include "collada/encoding_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+constexpr size_t kMaxBytes = 0x7fffffff;  // places are 32 bits
+
+}  // namespace
+
+std::optional<Document> read_document_text(const std::string& path, std::string bytes,
+                                           Diagnostics& diag) {
+    auto no_text = [&] { return Location{diag.files.add(path, {}), 0, 0}; };
+    if (trim(bytes).empty()) {
+        diag.report(Code::XML_EMPTY, no_text());
+        return std::nullopt;
+    }
+    DecodedText decoded = decode_text(std::move(bytes));
+    if (!decoded.error.empty()) {
+        diag.report(Code::XML_ENCODING, no_text(), decoded.error);
+        return std::nullopt;
+    }
+    if (decoded.text.size() > kMaxBytes) {
+        diag.report(Code::XML_LIMIT, no_text(), std::string("more than 2 GiB"));
+        return std::nullopt;
+    }
+    FileId file = diag.files.add(path, std::move(decoded.text));
+    if (!decoded.recoded.empty())
+        diag.report(Code::XML_RECODED, Location{file, 0, 0}, decoded.recoded);
+    DocumentReader reader(path, file, diag);
+    std::optional<Document> document = reader.read();
+    if (!reader.bad_utf8()) return document;
+    file = diag.files.add(path, utf8_from_latin1(diag.files.text(file)));
+    diag.report(Code::XML_RECODED, Location{file, 0, 0}, std::string("Latin-1, not UTF-8"));
+    return DocumentReader(path, file, diag).read();
+}
+
+std::optional<Document> read_document(const std::string& path, Diagnostics& diag) {
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    std::string bytes;
+    bool read = false;
+    if (in) {
+        std::streamoff size = in.tellg();
+        if (size >= 0 && size < std::streamoff(1) << 40) {
+            bytes.resize(size_t(size));
+            in.seekg(0);
+            read = bool(in.read(bytes.data(), size)) || size == 0;
+        }
+    }
+    if (!read) {
+        diag.report(Code::XML_OPEN, Location{}, path, std::string(std::strerror(errno)));
+        return std::nullopt;
+    }
+    return read_document_text(path, std::move(bytes), diag);
+}
+
+}  // namespace kinora::collada
