@@ -19,6 +19,7 @@ constexpr anim::Behaviour kBehaviours[] = {  // by collada::Behavior
 
 // Swaps rows and columns of every 4x4 whose entries are `width` numbers each.
 void transpose_matrices(std::vector<double>& numbers, size_t width) {
+    if (numbers.empty() || width == 0) return;
     std::vector<double> original = numbers;
     size_t matrix = 16 * width;
     for (size_t begin = 0; begin + matrix <= numbers.size(); begin += matrix)

@@ -259,7 +259,16 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     return kExitOk;
 }
 
+// From here on a signal lets go of the frame under way; before, it just ends the process.
+void catch_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
 int Render::frames() {
+    catch_signals();
     const SceneDescription& description = *scene_->description;
     double aspect = camera_aspect(*scene_).value_or(16.0 / 9.0);
     settings_.width = options_.width ? options_.width : 640;
@@ -381,10 +390,6 @@ void Render::print_stats() const {
 int main(int argc, char** argv) {
     kinora::RenderOptions options;
     if (std::optional<int> code = kinora::parse_render_options(argc, argv, options)) return *code;
-    struct sigaction action {};
-    action.sa_handler = kinora::on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     try {
         return kinora::Render(options).run();
