@@ -1,0 +1,40 @@
+// runtime/programs/kinora_shade.cpp: the shader writer's tool: a command line to its command.
+#include "runtime/programs/kinora_shade.h"
+
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <string_view>
+
+#include "runtime/programs/exit_codes.h"
+
+namespace kinora {
+
+namespace {
+
+struct Command {
+    std::string_view name;
+    int (*run)(const ShadeOptions&);
+};
+constexpr Command kCommands[] = {
+    {"check", shade_check}, {"info", shade_info},   {"run", shade_run},
+    {"dump", shade_dump},   {"bench", shade_bench}, {"manual", shade_manual},
+};
+
+}  // namespace
+
+}  // namespace kinora
+
+int main(int argc, char** argv) {
+    kinora::ShadeOptions options;
+    if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options)) return *code;
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        for (const kinora::Command& command : kinora::kCommands)
+            if (command.name == options.command) return command.run(options);
+    } catch (const std::bad_alloc&) {
+        std::fputs("kinora-shade: out of memory\n", stderr);
+        return kinora::kExitRetry;
+    }
+    return kinora::kExitUsage;
+}

@@ -1,0 +1,49 @@
+// runtime/programs/kinora_shade.h: what kinora-shade was asked for, and the commands that do it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jit/math.h"
+#include "jit/target.h"
+#include "rsl/shader.h"
+
+namespace kinora {
+
+struct ShadeOptions {
+    std::string command;
+    std::string source;  // FILE.sl, SCENE.dae#effect or - for stdin; for `manual` a built-in's name
+    std::string shader;  // which of the source; "": the first
+    rsl::CompileOptions compile;
+    bool preprocess_only = false;  // -E
+    bool warnings_fail = false;    // -Werror
+    bool json = false;             // info
+    bool quiet = false, verbose = false;
+    std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE
+    int width = 256, height = 256;                            // of the grid of points
+    bool sphere = false;
+    bool flip = false;  // a light shines along -z of its space
+    std::string output = "Ci";
+    const jit::Target* target = nullptr;  // null: run: the best; bench: all this CPU supports
+    jit::math::Tier math = jit::math::Tier::Precise;
+    int iterations = 0;               // 0: the command's own
+    std::string compare;              // "", "interp", "reference"
+    std::string file;                 // -o
+    std::vector<std::string> stages;  // dump
+};
+
+// Reads the command line. Returns an exit code when there is nothing to do (help, usage error,
+// which is printed), nothing otherwise.
+std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& options);
+
+// The commands; each returns an exit code.
+int shade_check(const ShadeOptions& options);   // kinora_shade_check.cpp
+int shade_info(const ShadeOptions& options);    // kinora_shade_info.cpp
+int shade_run(const ShadeOptions& options);     // kinora_shade_run.cpp
+int shade_dump(const ShadeOptions& options);    // kinora_shade_dump.cpp
+int shade_bench(const ShadeOptions& options);   // kinora_shade_bench.cpp
+int shade_manual(const ShadeOptions& options);  // kinora_shade_manual.cpp
+
+}  // namespace kinora

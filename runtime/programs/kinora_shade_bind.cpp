@@ -1,0 +1,189 @@
+// runtime/programs/kinora_shade_bind.cpp: parameter values from text, the outputs wanted.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <glm/matrix.hpp>
+
+#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/kinora_shade_kernel.h"
+#include "runtime/shader_library.h"
+
+namespace kinora {
+
+namespace {
+
+using rsl::BaseType;
+
+int usage(const std::string& text) {
+    std::fprintf(stderr, "kinora-shade: %s\n", text.c_str());
+    return kExitUsage;
+}
+
+size_t elements(const rsl::Type& type) {
+    return type.is_array() ? size_t(std::max(type.array_length, 1)) : 1;
+}
+size_t width_of(const rsl::Type& type) {
+    return size_t(rsl::component_count(type.base));
+}
+
+// "1,0.5 0.25" as numbers; false if it is not that.
+bool parse_numbers(const std::string& text, std::vector<double>& numbers) {
+    const char *at = text.data(), *end = at + text.size();
+    auto gap = [](char c) { return c == ',' || c == ' '; };
+    while (true) {
+        at = std::find_if_not(at, end, gap);
+        if (at == end) return !numbers.empty();
+        double number = 0;
+        auto [rest, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || (rest != end && !gap(*rest))) return false;
+        numbers.push_back(number);
+        at = rest;
+    }
+}
+
+const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, const std::string& name) {
+    for (const rsl::ShaderParameter& parameter : shader.parameters)
+        if (parameter.name == name) return &parameter;
+    return nullptr;
+}
+
+int unknown_parameter(const rsl::Shader& shader, const std::string& name) {
+    std::vector<std::string_view> names;
+    std::string all;
+    for (const rsl::ShaderParameter& parameter : shader.parameters) {
+        names.push_back(parameter.name);
+        all += fmt::format(" {}", parameter.name);
+    }
+    std::string_view near = nearest_name(name, names);
+    return usage(fmt::format("shader '{}' has no parameter '{}'{}", shader.name, name,
+                             !near.empty() ? fmt::format("; did you mean '{}'?", near)
+                             : all.empty() ? "; it has none"
+                                           : "; it has" + all));
+}
+
+// A --param as numbers or strings that fit the parameter; one number spreads over a triple.
+int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, ShadeParam& out) {
+    out.name = std::string(parameter.name);
+    if (parameter.type.base == BaseType::String) {
+        out.strings.push_back(text);
+        return kExitOk;
+    }
+    if (!parse_numbers(text, out.numbers))
+        return usage(fmt::format("--param {}: '{}' is no {}", out.name, text,
+                                 rsl::type_name(parameter.type)));
+    size_t needed = elements(parameter.type) * width_of(parameter.type);
+    if (out.numbers.size() == 1 && rsl::is_triple(parameter.type))
+        out.numbers.resize(3, out.numbers[0]);
+    if (out.numbers.size() != needed)
+        return usage(fmt::format("--param {}: a {} takes {} numbers, not {}", out.name,
+                                 rsl::type_name(parameter.type), needed, out.numbers.size()));
+    return kExitOk;
+}
+
+std::string component_suffix(BaseType type, size_t c) {
+    if (type == BaseType::Matrix) return fmt::format(".{}", c);
+    if (type == BaseType::Color) return std::string(".") + "rgb"[c];
+    return rsl::is_triple(type) ? std::string(".") + "xyz"[c] : "";
+}
+
+// Point-like values are given in shader space.
+void place(BaseType type, const dmat4& current_from_shader, double* v) {
+    dvec3 value(v[0], v[1], v[2]);
+    dmat3 linear(current_from_shader);
+    if (type == BaseType::Point)
+        value = dvec3(current_from_shader * dvec4(value, 1.0));
+    else if (type == BaseType::Normal)
+        value = glm::transpose(glm::inverse(linear)) * value;
+    else
+        value = linear * value;
+    for (int k = 0; k < 3; ++k) v[k] = value[k];
+}
+
+void bind_value(const rsl::ShaderParameter& parameter, bool shape, size_t layer,
+                const ShadeParam& param, const Patch& patch, ShadeStack& stack) {
+    rsl::ParamBinding binding;
+    binding.name = param.name;
+    BaseType base = parameter.type.base;
+    size_t width = width_of(parameter.type), count = elements(parameter.type);
+    if (base == BaseType::String) {
+        binding.kind = rsl::ParamBinding::Kind::Constant;
+        binding.strings = param.strings;
+    } else {
+        std::vector<double> numbers = param.numbers;
+        numbers.resize(count * width, numbers.empty() ? 0.0 : numbers.back());
+        for (size_t e = 0; e < count && rsl::is_spatial(base); ++e)
+            place(base, patch.current_from_space("shader"), &numbers[e * width]);
+        binding.kind = shape ? rsl::ParamBinding::Kind::Constant : rsl::ParamBinding::Kind::Frame;
+        for (size_t e = 0; e < count; ++e)
+            for (size_t c = 0; c < width; ++c) {
+                float value = float(numbers[e * width + c]);
+                std::string element = parameter.type.is_array() ? fmt::format("[{}]", e) : "";
+                stack.values[fmt::format("param:{}:{}{}{}", layer, param.name, element,
+                                         component_suffix(base, c))] = value;
+                if (shape) binding.constant.push_back(value);
+            }
+    }
+    stack.layers[layer].params.push_back(std::move(binding));
+}
+
+int choose_outputs(const std::string& output, const rsl::Shader& shader, ShadeStack& stack) {
+    if (output == "Ci" || output == "Oi") return kExitOk;
+    if (output == "N" || output == "P") {
+        (output == "N" ? stack.lower.want_N : stack.lower.want_P) = true;
+        return kExitOk;
+    }
+    std::vector<std::string_view> names = {"Ci", "Oi", "N", "P"};
+    std::string all = "Ci, Oi, N, P";
+    for (const rsl::ShaderParameter& parameter : shader.parameters) {
+        if (!parameter.output) continue;
+        if (parameter.name == output) {
+            stack.lower.aovs.push_back(output);
+            return kExitOk;
+        }
+        names.push_back(parameter.name);
+        all += fmt::format(", {}", parameter.name);
+    }
+    std::string_view near = nearest_name(output, names);
+    return usage(
+        fmt::format("'{}' is no output of shader '{}'; {}", output, shader.name,
+                    near.empty() ? "outputs are " + all : fmt::format("did you mean '{}'?", near)));
+}
+
+}  // namespace
+
+int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl::Shader& shader,
+               const Patch& patch, ShadeStack& stack) {
+    stack.light = shader.kind == rsl::ShaderKind::Light;
+    stack.lower.math = options.math;
+    stack.layers.push_back({&shader, {}});
+    std::vector<ShadeParam> params;
+    for (const ShadeParam& param : source.params)
+        if (find_parameter(shader, param.name)) params.push_back(param);
+    for (const auto& [name, text] : options.params) {
+        const rsl::ShaderParameter* parameter = find_parameter(shader, name);
+        if (!parameter) return unknown_parameter(shader, name);
+        std::erase_if(params, [&](const ShadeParam& p) { return p.name == name; });
+        if (int code = parse_param(*parameter, text, params.emplace_back())) return code;
+    }
+    std::vector<bool> shape = rsl::shape_parameters(shader);
+    for (const ShadeParam& param : params) {
+        const rsl::ShaderParameter* parameter = find_parameter(shader, param.name);
+        bind_value(*parameter, shape[size_t(parameter - shader.parameters.data())], 0, param, patch,
+                   stack);
+    }
+    if (shader.kind == rsl::ShaderKind::Displacement) {
+        Diagnostics unused;
+        stack.library.push_back(library_shader("matte", unused));
+        stack.layers.push_back({stack.library.back().get(), {}});
+    }
+    if (stack.light) {
+        if (options.output == "Ci") return kExitOk;
+        return usage("a light's picture is what it gives a white surface; it has no --output " +
+                     options.output);
+    }
+    return choose_outputs(options.output, shader, stack);
+}
+
+}  // namespace kinora

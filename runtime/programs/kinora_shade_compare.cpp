@@ -1,0 +1,150 @@
+// runtime/programs/kinora_shade_compare.cpp: differences to the interpreter and the reference.
+#include "runtime/programs/kinora_shade_compare.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include "rsl/reference.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kReferencePoints = 4096;
+
+// The largest difference so far and where it is.
+struct Worst {
+    double difference = -1;
+    std::string output;
+    size_t point = 0;
+    double got = 0, wanted = 0;
+
+    void meet(double a, double b, const std::string& name, size_t i) {
+        double d = std::isnan(a) && std::isnan(b) ? 0 : std::fabs(a - b);
+        if (std::isnan(d)) d = a == b ? 0 : INFINITY;
+        if (d <= difference) return;
+        *this = {d, name, i, a, b};
+    }
+    void print(const Patch& patch) const {
+        if (difference <= 0) return;
+        const PatchPoint& p = patch[point];
+        std::printf("largest difference %.3g: %s at u %.5g v %.5g is %.9g, not %.9g\n", difference,
+                    output.c_str(), p.u, p.v, got, wanted);
+    }
+};
+
+bool same_bits(float a, float b) {
+    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
+}
+
+// A service as the reference asks for it: one lane, doubles.
+rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& kernel) {
+    return [&](std::string_view name, std::span<const double> arguments) {
+        std::vector<jit::Type> params, results;
+        for (const auto* k : {kernel.pair().point.get(), kernel.pair().frame.get()})
+            for (size_t s = 0; k && s < k->services.size(); ++s)
+                if (k->services[s].name == name) {
+                    params = k->services[s].params;
+                    results = k->services[s].results;
+                }
+        std::vector<float> in((arguments.size() + 1) * jit::kMaxLanes), out(32 * jit::kMaxLanes);
+        for (size_t a = 0; a < arguments.size(); ++a) {
+            bool is_int = a < params.size() && params[a] == jit::Type::I;
+            in[a * jit::kMaxLanes] =
+                is_int ? jit::float_of(int32_t(arguments[a])) : float(arguments[a]);
+        }
+        shade_service(name)({const_cast<Patch*>(&patch), in.data(), out.data(), 1, 0, 1});
+        std::vector<double> answer;
+        for (size_t r = 0; r < results.size(); ++r) {
+            float value = out[r * jit::kMaxLanes];
+            answer.push_back(results[r] == jit::Type::I ? jit::bits_of(value) : double(value));
+        }
+        return answer;
+    };
+}
+
+rsl::ReferenceInputs frame_inputs(const ShadeStack& stack, const Patch& patch) {
+    rsl::ReferenceInputs inputs;
+    for (const auto& [name, value] : stack.values) inputs.values[name] = double(value);
+    for (const char* space : {"world", "object", "shader", "screen", "NDC", "raster"})
+        for (const char* way : {":to_current:", ":from_current:"})
+            for (char row = '0'; row < '4'; ++row)
+                for (char column = '0'; column < '4'; ++column) {
+                    std::string name = std::string("space:") + space + way + row + column;
+                    float value = 0;
+                    if (space_entry(patch, name, value)) inputs.values[name] = double(value);
+                }
+    for (const ShadeLight& light : shade_lights()) {
+        rsl::ReferenceLight& out = inputs.lights.emplace_back();
+        out.kind = light.kind;
+        for (size_t k = 0; k < 3; ++k) {
+            out.L[k] = double(light.L[int(k)]);
+            out.Cl[k] = double(light.Cl[int(k)]);
+            out.Ol[k] = 1;
+        }
+    }
+    return inputs;
+}
+
+}  // namespace
+
+void compare_with_interpreter(const ShadeStack& stack, const Patch& patch,
+                              const ShadeKernel& kernel, Diagnostics& diagnostics) {
+    ShadeKernel other;
+    if (!other.compile(stack, jit::find_target("interp"), diagnostics)) return;
+    other.bind(stack, patch);
+    other.run();
+    ShadeOutputs wanted = other.outputs();
+    size_t differing = 0, total = 0;
+    Worst worst;
+    for (const auto& [name, values] : kernel.outputs())
+        for (size_t i = 0; i < values.size(); ++i, ++total) {
+            float w = wanted[name][i];
+            if (same_bits(values[i], w)) continue;
+            ++differing;
+            worst.meet(double(values[i]), double(w), name, i);
+        }
+    std::printf("interp: %zu of %zu values differ in bits\n", differing, total);
+    worst.print(patch);
+}
+
+void compare_with_reference(const ShadeStack& stack, const Patch& patch,
+                            const ShadeKernel& kernel) {
+    rsl::ReferenceInputs inputs = frame_inputs(stack, patch);
+    inputs.service = reference_service(patch, kernel);
+    std::vector<std::pair<std::string, PatchInput>> columns;
+    for (const std::string& name : patch_input_names())
+        columns.emplace_back(name, PatchInput(patch, name));
+    ShadeOutputs outputs = kernel.outputs();
+    Worst worst;
+    size_t compared = 0, undecided = 0;
+    size_t step = std::max<size_t>(1, patch.count() / kReferencePoints);
+    for (size_t i = 0; i < patch.count(); i += step) {
+        for (const auto& [name, input] : columns) {
+            float value = input.value(patch[i]);
+            inputs.values[name] = name == "rng" ? double(jit::bits_of(value)) : double(value);
+        }
+        rsl::ReferenceResult exact = rsl::run_reference<double>(stack.layers, inputs);
+        rsl::ReferenceResult single = rsl::run_reference<float>(stack.layers, inputs);
+        if (!exact.missing.empty()) {
+            std::printf("reference: has no meaning for '%s' yet\n", exact.missing.c_str());
+            return;
+        }
+        if (exact.decisions != single.decisions) {
+            ++undecided;
+            continue;
+        }
+        ++compared;
+        for (const auto& [name, values] : outputs)
+            if (auto found = exact.values.find(name); found != exact.values.end())
+                worst.meet(double(values[i]), found->second, name, i);
+    }
+    std::printf("reference: %zu points compared, %zu near a decision left out\n", compared,
+                undecided);
+    worst.print(patch);
+    if (compared > 0 && worst.difference == 0) std::printf("no difference\n");
+}
+
+}  // namespace kinora

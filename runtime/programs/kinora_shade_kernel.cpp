@@ -1,0 +1,201 @@
+// runtime/programs/kinora_shade_kernel.cpp: lowers, compiles and runs shaders over a patch.
+#include "runtime/programs/kinora_shade_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "raytrace/accel.h"
+#include "runtime/base/check.h"
+#include "runtime/base/stats.h"
+#include "runtime/findings.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kSlice = 1024;  // points in one call, as the renderer has it
+
+size_t padded(size_t count) {
+    return (count + jit::kMaxLanes - 1) / jit::kMaxLanes * jit::kMaxLanes;
+}
+
+const std::vector<float>& output(const ShadeOutputs& outputs, const std::string& name,
+                                 const std::vector<float>& missing) {
+    auto found = outputs.find(name);
+    return found == outputs.end() ? missing : found->second;
+}
+
+// What a light's statements give a white matte surface that faces the eye or the sphere's outside.
+ShadeOutputs illuminate(const ShadeOutputs& light, const rsl::LoweredShader& lowered,
+                        const Patch& patch) {
+    ShadeOutputs result;
+    std::vector<float> missing(patch.count(), 0.0f);
+    for (const char* part : {"r", "g", "b"}) result[std::string("Ci.") + part] = missing;
+    for (size_t s = 0; s < lowered.light_statements.size(); ++s) {
+        std::string prefix = "light:" + std::to_string(s) + ":";
+        const std::vector<float>* L[3];
+        for (size_t k = 0; k < 3; ++k) L[k] = &output(light, prefix + "L." + "xyz"[k], missing);
+        for (size_t k = 0; k < 3; ++k) {
+            const std::vector<float>& Cl = output(light, prefix + "Cl." + "rgb"[k], missing);
+            std::vector<float>& Ci = result[std::string("Ci.") + "rgb"[k]];
+            for (size_t i = 0; i < patch.count(); ++i) {
+                vec3 to_light = -vec3((*L[0])[i], (*L[1])[i], (*L[2])[i]);
+                float length = glm::length(to_light);
+                float cosine = glm::dot(to_light, patch[i].N) / length;
+                if (lowered.light_statements[s].kind == rsl::kLightAmbient) cosine = 1;
+                Ci[i] += Cl[i] * (cosine > 0 ? cosine : 0.0f);
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+bool ShadeKernel::compile(const ShadeStack& stack, const jit::Target* target,
+                          Diagnostics& diagnostics,
+                          std::vector<std::pair<std::string, std::string>>* dumps) {
+    Stopwatch watch;
+    std::optional<rsl::LoweredShader> lowered = rsl::lower(stack.layers, stack.lower, diagnostics);
+    if (!lowered) return false;
+    lower_ms = watch.ms();
+    lowered_ = std::move(*lowered);
+    pair_ = jit::compile(std::move(lowered_.module), {target, dumps});
+    return pair_.point != nullptr;
+}
+
+float* ShadeKernel::column(size_t count, float value) {
+    float* data = arena_.allocate_span<float>(padded(count)).data();
+    std::fill_n(data, padded(count), value);
+    return data;
+}
+
+void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
+    stack_ = &stack;
+    patch_ = &patch;
+    const jit::Kernel& kernel = *pair_.point;
+    for (const jit::InputInfo& info : kernel.inputs) {
+        float* data = column(patch.count(), 0);
+        PatchInput input(patch, info.name);
+        CHECK(input.found);
+        for (size_t i = 0; i < padded(patch.count()) && patch.count() > 0; ++i)
+            data[i] = input.value(patch[std::min(i, patch.count() - 1)]);
+        in_.push_back(data);
+    }
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) out_.push_back(column(patch.count(), 0));
+    for (const jit::ServiceInfo& service : kernel.services)
+        services_.push_back(shade_service(service.name));
+    faults_.assign(kernel.fault_sites.size() + 1, 0);
+    size_t scratch = kernel.scratch_bytes;
+    if (pair_.frame) {
+        for (const jit::ServiceInfo& service : pair_.frame->services)
+            frame_services_.push_back(shade_service(service.name));
+        frame_faults_.assign(pair_.frame->fault_sites.size() + 1, 0);
+        scratch = std::max(scratch, pair_.frame->scratch_bytes);
+    }
+    scratch_ = static_cast<std::byte*>(arena_.allocate(scratch + 64));
+    fill_records();
+}
+
+void ShadeKernel::fill_records() {
+    size_t messages = 0;
+    for (int components : lowered_.light_message_components) messages += size_t(components);
+    const float* zeros = column(kSlice, 0);
+    for (const ShadeLight& light : shade_lights()) {
+        auto columns = arena_.allocate_span<const float*>(rsl::kLightMessages + messages);
+        std::fill(columns.begin(), columns.end(), zeros);
+        for (size_t k = 0; k < 3; ++k) {
+            columns[rsl::kLightL + k] = column(kSlice, light.L[int(k)]);
+            columns[rsl::kLightCl + k] = column(kSlice, light.Cl[int(k)]);
+            columns[rsl::kLightOl + k] = column(kSlice, 1);
+        }
+        columns[rsl::kLightLit] = column(kSlice, jit::float_of(1));
+        float* uniforms = column(rsl::kLightUniforms + lowered_.light_messages.size(), 0);
+        uniforms[rsl::kLightKind] = jit::float_of(light.kind);
+        records_.push_back({columns.data(), uniforms});
+    }
+    record_set_ = {int32_t(records_.size()), records_.data()};
+}
+
+void ShadeKernel::run_frame() {
+    if (!pair_.frame) return;
+    const jit::Kernel& kernel = *pair_.frame;
+    Arena::Mark mark = arena_.mark();
+    std::vector<const float*> in;
+    for (const jit::InputInfo& info : kernel.inputs) {
+        auto value = stack_->values.find(info.name);
+        PatchInput input(*patch_, info.name);
+        in.push_back(
+            column(1, value != stack_->values.end() ? value->second : input.value(PatchPoint{})));
+    }
+    std::vector<float*> out;
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) out.push_back(column(1, 0));
+    jit::KernelArgs args;
+    args.in = in.data();
+    args.out = out.data();
+    args.scratch = scratch_;
+    args.fault = frame_faults_.data();
+    args.services = frame_services_.data();
+    args.record_sets = &record_set_;
+    args.grid = const_cast<Patch*>(patch_);
+    args.count = 1;
+    kernel.run(args);
+    frame_.clear();
+    for (float* value : out) frame_.push_back(*value);
+    arena_.release(mark);
+}
+
+void ShadeKernel::run() {
+    std::optional<raytrace::DenormalGuard> flush;  // the fast tier's mode (DESIGN.md decision 13)
+    if (stack_->lower.math == jit::math::Tier::Fast) flush.emplace();
+    run_frame();
+    std::vector<const float*> in(in_.size());
+    std::vector<float*> out(out_.size());
+    jit::KernelArgs args;
+    args.in = in.data();
+    args.out = out.data();
+    args.frame = frame_.data();
+    args.scratch = scratch_;
+    args.fault = faults_.data();
+    args.services = services_.data();
+    args.record_sets = &record_set_;
+    args.grid = const_cast<Patch*>(patch_);
+    for (size_t at = 0; at < patch_->count(); at += kSlice) {
+        for (size_t k = 0; k < in.size(); ++k) in[k] = in_[k] + at;
+        for (size_t k = 0; k < out.size(); ++k) out[k] = out_[k] + at;
+        args.count = int32_t(std::min(kSlice, patch_->count() - at));
+        pair_.point->run(args);
+    }
+}
+
+std::vector<std::string> ShadeKernel::output_names() const {
+    std::vector<std::string> names;
+    for (const jit::OutputInfo& info : pair_.point->outputs) names.push_back(info.name);
+    return names;
+}
+
+ShadeOutputs ShadeKernel::outputs() const {
+    ShadeOutputs outputs;
+    for (size_t o = 0; o < out_.size(); ++o)
+        outputs[pair_.point->outputs[o].name] = {out_[o], out_[o] + patch_->count()};
+    return outputs;
+}
+
+ShadeOutputs ShadeKernel::illumination() const {
+    return illuminate(outputs(), lowered_, *patch_);
+}
+
+void ShadeKernel::report_faults(Diagnostics& diagnostics) const {
+    auto report = [&](const jit::Kernel& kernel, const std::vector<uint8_t>& faults) {
+        for (size_t i = 0; i < kernel.fault_sites.size(); ++i)
+            if (faults[i])
+                diagnostics.report(Code::SHADER_FAULT, kernel.fault_sites[i].where,
+                                   kernel.fault_sites[i].message);
+    };
+    report(*pair_.point, faults_);
+    if (pair_.frame) report(*pair_.frame, frame_faults_);
+}
+
+}  // namespace kinora

@@ -1,0 +1,85 @@
+// runtime/programs/kinora_shade_kernel.h: shaders with values for their parameters, compiled and
+// run over a patch.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "jit/compiler.h"
+#include "rsl/lower.h"
+#include "runtime/base/arena.h"
+#include "runtime/programs/kinora_shade_grid.h"
+#include "runtime/programs/kinora_shade_source.h"
+
+namespace kinora {
+
+// The stack to run, bound: a displacement gets a matte surface over it to be seen.
+struct ShadeStack {
+    std::vector<rsl::Layer> layers;
+    std::map<std::string, float> values;  // by kernel input: "param:0:Kd"
+    rsl::LowerOptions lower;
+    bool light = false;
+    std::vector<std::shared_ptr<const rsl::Shader>> library;  // keeps the matte
+};
+
+// Binds the effect's and the user's parameters and chooses the outputs. Returns an exit code other
+// than 0 (said on stderr) for unknown or ill-formed parameters and outputs.
+int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl::Shader& shader,
+               const Patch& patch, ShadeStack& stack);
+
+// Outputs of a run by kernel output name: one value a point of the patch.
+using ShadeOutputs = std::map<std::string, std::vector<float>>;
+
+class ShadeKernel {
+  public:
+    // Lowers and compiles; findings go to the source's diagnostics. False if lowering failed.
+    bool compile(const ShadeStack& stack, const jit::Target* target, Diagnostics& diagnostics,
+                 std::vector<std::pair<std::string, std::string>>* dumps = nullptr);
+    // Prepares the columns; the kernel then runs over all points any number of times.
+    void bind(const ShadeStack& stack, const Patch& patch);
+    void run();
+    // Of the last run.
+    ShadeOutputs outputs() const;
+    // What a light gives a white matte patch, as Ci.
+    ShadeOutputs illumination() const;
+    // One finding for each place in the shader that reported a fault while running.
+    void report_faults(Diagnostics& diagnostics) const;
+
+    const rsl::LoweredShader& lowered() const { return lowered_; }
+    const jit::KernelPair& pair() const { return pair_; }
+    std::vector<std::string> output_names() const;
+    double lower_ms = 0;
+
+  private:
+    void run_frame();
+    void fill_records();
+    float* column(size_t count, float value);
+
+    rsl::LoweredShader lowered_;
+    jit::KernelPair pair_;
+    const ShadeStack* stack_ = nullptr;
+    const Patch* patch_ = nullptr;
+    Arena arena_;
+    std::vector<const float*> in_;
+    std::vector<float*> out_;
+    std::vector<float> frame_;
+    std::vector<jit::ServiceFn> services_, frame_services_;
+    std::vector<uint8_t> faults_, frame_faults_;
+    std::byte* scratch_ = nullptr;
+    std::vector<jit::Record> records_;
+    jit::RecordSet record_set_;
+};
+
+// The light that shines on the patch: what kinora-shade's surfaces see.
+struct ShadeLight {
+    rsl::LightKind kind;
+    vec3 L;  // to the light, current space
+    vec3 Cl;
+};
+std::vector<ShadeLight> shade_lights();
+
+// What a service of that name answers on a patch (KernelArgs::grid).
+jit::ServiceFn shade_service(std::string_view name);
+
+}  // namespace kinora

@@ -1,0 +1,93 @@
+// runtime/programs/kinora_shade_manual.cpp: the manual of the built-in functions, from their rows.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "rsl/builtin.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/kinora_shade.h"
+
+namespace kinora {
+
+namespace {
+
+struct EffectRow {
+    uint32_t flag;
+    const char* text;
+};
+constexpr EffectRow kEffects[] = {
+    {rsl::kVaryingResult, "differs from point to point"},
+    {rsl::kDerivative, "takes derivatives of its arguments"},
+    {rsl::kLights, "reads the lights at P"},
+    {rsl::kTraces, "traces rays"},
+    {rsl::kPrints, "prints"},
+    {rsl::kMessage, "reads another shader or the renderer's state"},
+    {rsl::kShadows, "switches a light's automatic shadows off"},
+    {rsl::kUniformOnly, "takes uniform values only"},
+};
+constexpr EffectRow kKinds[] = {
+    {rsl::kSurface, "surface"}, {rsl::kDisplacement, "displacement"},
+    {rsl::kLight, "light"},     {rsl::kVolume, "volume"},
+    {rsl::kImager, "imager"},   {rsl::kTransformation, "transformation"},
+};
+
+std::string argument_text(const rsl::Signature::Argument& argument) {
+    std::string type =
+        argument.type.base == rsl::BaseType::Invalid ? "any" : rsl::type_name(argument.type);
+    return (argument.output ? "output " : "") + type;
+}
+
+std::string prototype(const rsl::Builtin& row, const rsl::Signature& signature) {
+    std::string text = fmt::format("{} {}(", rsl::type_name(signature.result), row.name);
+    std::string separator;
+    auto add = [&](const std::string& item) {
+        text += separator + item;
+        separator = ", ";
+    };
+    for (const rsl::Signature::Argument& argument : signature.arguments)
+        add(argument_text(argument));
+    if (signature.repeats) add(argument_text(signature.repeated) + " ...");
+    if (signature.pairs) add("\"name\", value ...");
+    return text + ")";
+}
+
+void print_row(const rsl::Builtin& row) {
+    for (const rsl::Signature& signature : rsl::parse_signatures(row.signature))
+        std::printf("%s\n", prototype(row, signature).c_str());
+    std::printf("    %s\n", row.doc);
+    for (const EffectRow& effect : kEffects)
+        if (row.effects & effect.flag) std::printf("    It %s.\n", effect.text);
+    if (row.legal != rsl::kAnyShader) {
+        std::printf("    Only in");
+        for (const EffectRow& kind : kKinds)
+            if (row.legal & kind.flag) std::printf(" %s", kind.text);
+        std::printf(" shaders.\n");
+    }
+    if (row.tolerance_ulp > 0)
+        std::printf("    Precise mathematics is within %d ULP.\n", row.tolerance_ulp);
+    if (!row.lower) std::printf("    Known, but not supported yet.\n");
+}
+
+}  // namespace
+
+int shade_manual(const ShadeOptions& options) {
+    bool found = false;
+    for (std::span<const rsl::Builtin> group : rsl::builtin_groups())
+        for (const rsl::Builtin& row : group) {
+            if (options.source.empty())
+                std::printf("%-18s %s%s\n", row.name, row.doc,
+                            row.lower ? "" : " (not supported yet)");
+            else if (options.source == row.name)
+                print_row(row);
+            found |= options.source.empty() || options.source == row.name;
+        }
+    if (found) return kExitOk;
+    std::string_view near = nearest_name(options.source, rsl::builtin_names());
+    std::fprintf(stderr, "kinora-shade: no built-in function '%s'%s\n", options.source.c_str(),
+                 near.empty() ? "; kinora-shade manual lists all"
+                              : fmt::format("; did you mean '{}'?", near).c_str());
+    return kExitUsage;
+}
+
+}  // namespace kinora

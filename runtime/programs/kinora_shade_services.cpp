@@ -1,0 +1,86 @@
+// runtime/programs/kinora_shade_services.cpp: the world around a patch: two lights, textures,
+// nothing for rays to meet.
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "rsl/renderer_services.h"
+#include "runtime/base/check.h"
+#include "runtime/print.h"
+#include "runtime/programs/kinora_shade_kernel.h"
+#include "runtime/texture.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kLanes = jit::kMaxLanes;
+constexpr float kMissDistance = 1e30f;
+
+void fill(const jit::ServiceCall& call, int result, float value) {
+    for (int i = 0; i < kLanes; ++i) call.results[result * kLanes + i] = value;
+}
+
+// The lights are the same everywhere: set 0.
+void lights(const jit::ServiceCall& call) {
+    fill(call, 0, jit::float_of(0));
+}
+void shadow(const jit::ServiceCall& call) {
+    for (int k = 0; k < 3; ++k) fill(call, k, 0.0f);
+}
+void trace(const jit::ServiceCall& call) {
+    for (int k = 0; k < 3; ++k) fill(call, k, 0.0f);
+    fill(call, 3, kMissDistance);
+}
+void transmission(const jit::ServiceCall& call) {
+    for (int k = 0; k < 3; ++k) fill(call, k, 1.0f);
+}
+
+void transform(const jit::ServiceCall& call) {
+    const Patch& patch = *static_cast<const Patch*>(call.grid);
+    for (int i = 0; i < kLanes; ++i) {
+        if (!(call.mask >> i & 1)) continue;
+        dmat4 to = patch.current_from_space(rsl::interned(jit::bits_of(call.args[i])));
+        dmat4 from = glm::inverse(to);
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column) {
+                int k = row * 4 + column;
+                call.results[k * kLanes + i] = float(to[column][row]);
+                call.results[(12 + k) * kLanes + i] = float(from[column][row]);
+            }
+    }
+}
+
+void print(const jit::ServiceCall& call) {
+    for (int lane = 0; lane < call.lanes; ++lane)
+        if (call.mask >> lane & 1) std::fputs(print_text(call, lane).c_str(), stdout);
+}
+
+struct Row {
+    std::string_view name;
+    jit::ServiceFn function;
+};
+constexpr Row kRows[] = {
+    {"lights", lights},       {"texture", lookup_texture},
+    {"shadow", shadow},       {"environment", lookup_environment},
+    {"trace", trace},         {"transmission", transmission},
+    {"transform", transform}, {"print", print},
+};
+static_assert(std::size(kRows) == std::size(rsl::kServiceNames));
+
+}  // namespace
+
+jit::ServiceFn shade_service(std::string_view name) {
+    for (const Row& row : kRows)
+        if (row.name == name) return row.function;
+    check_failed("kinora_shade_services.cpp", 0, "unknown service " + std::string(name));
+}
+
+// As in a scene without lights (DESIGN.md section 5): a distant light from over the camera's left
+// shoulder, and ambient 0.15.
+std::vector<ShadeLight> shade_lights() {
+    return {{rsl::kLightAmbient, vec3(0), vec3(0.15f)},
+            {rsl::kLightSolar, glm::normalize(vec3(-0.5f, 0.7f, -1.0f)), vec3(1)}};
+}
+
+}  // namespace kinora

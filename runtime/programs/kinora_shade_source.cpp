@@ -1,0 +1,153 @@
+// runtime/programs/kinora_shade_source.cpp: reads FILE.sl, SCENE.dae#EFFECT or standard input.
+#include "runtime/programs/kinora_shade_source.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "collada/document.h"
+#include "collada/scene.h"
+#include "runtime/programs/exit_codes.h"
+
+namespace kinora {
+
+namespace {
+
+int complain(int code, const std::string& text) {
+    std::fprintf(stderr, "kinora-shade: %s\n", text.c_str());
+    return code;
+}
+
+int read_file(const std::string& path, ShadeSource& source) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return complain(kExitUnreadable, fmt::format("'{}' is a folder", path));
+    std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
+    if (!file)
+        return complain(kExitUnreadable,
+                        fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
+    char block[65536];
+    while (size_t got = std::fread(block, 1, sizeof block, file)) source.text.append(block, got);
+    bool ok = !std::ferror(file);
+    if (file != stdin) std::fclose(file);
+    if (!ok) return complain(kExitUnreadable, fmt::format("cannot read '{}'", path));
+    source.map.file = source.diagnostics.files.add(path == "-" ? "<stdin>" : path, source.text);
+    return kExitOk;
+}
+
+// The codes of a technique are one translation unit; an included file comes by #include, so that
+// it keeps its own places.
+void join_codes(const collada::RslShading& shading, ShadeSource& source) {
+    for (const collada::RslCode& code : shading.codes) {
+        bool embedded = source.map.file == kNoFile || code.map.file == source.map.file;
+        if (!embedded) {
+            source.text += fmt::format("#include \"{}\"\n", code.path);
+            continue;
+        }
+        source.map.file = code.map.file;
+        uint32_t base = uint32_t(source.text.size());
+        if (code.map.segments.empty()) source.map.segments.push_back({base, 0});
+        for (const SourceMap::Segment& s : code.map.segments)
+            source.map.segments.push_back({base + s.text_offset, s.file_offset});
+        source.text += code.text + "\n";
+    }
+}
+
+void take_binds(const collada::SceneData& data, const collada::Effect& effect,
+                ShadeSource& source) {
+    for (const collada::RslShader& shader : effect.rsl->shaders)
+        for (const collada::RslBind& bind : shader.binds) {
+            const collada::ParamValue& value =
+                bind.param == collada::kNone ? bind.literal : effect.params[bind.param].value;
+            ShadeParam param{bind.symbol, value.numbers, value.strings};
+            if (value.image != collada::kNone) param.strings = {data.images[value.image].path};
+            if (value.type == collada::ParamType::Float4x4)  // COLLADA's are for column vectors
+                for (size_t i = 0; i < param.numbers.size(); ++i)
+                    param.numbers[i] = value.numbers[i / 16 * 16 + i % 4 * 4 + i % 16 / 4];
+            source.params.push_back(std::move(param));
+        }
+}
+
+int read_effect(const std::string& path, const std::string& id, ShadeSource& source) {
+    std::optional<collada::Document> document = collada::read_document(path, source.diagnostics);
+    std::optional<collada::SceneData> data;
+    if (document) data = collada::extract(*document, source.diagnostics);
+    if (!data) return kExitUnreadable;  // findings say why
+    std::string known;
+    for (const collada::Effect& effect : data->effects) {
+        if (!effect.rsl) continue;
+        known += (known.empty() ? "" : ", ") + effect.id;
+        if (effect.id != id) continue;
+        join_codes(*effect.rsl, source);
+        take_binds(*data, effect, source);
+        return kExitOk;
+    }
+    if (known.empty())
+        return complain(kExitUsage, fmt::format("no effect of '{}' has RSL shaders", path));
+    return complain(kExitUsage, fmt::format("{}; '{}' has {}",
+                                            id.empty() ? std::string("name an effect: FILE.dae#ID")
+                                                       : fmt::format("no RSL effect '{}'", id),
+                                            path, known));
+}
+
+}  // namespace
+
+void ShadeSource::print_findings(const ShadeOptions& options) {
+    Severity least = options.quiet     ? Severity::Error
+                     : options.verbose ? Severity::Hint
+                                       : Severity::Warning;
+    const auto& findings = diagnostics.findings();
+    for (; printed_ < findings.size(); ++printed_)
+        if (findings[printed_].severity >= least)
+            std::fputs(format_finding(findings[printed_], diagnostics.files).c_str(), stderr);
+}
+
+bool ShadeSource::failed(const ShadeOptions& options) const {
+    return diagnostics.has_errors() ||
+           (options.warnings_fail && diagnostics.count(Severity::Warning) > 0);
+}
+
+int read_shade_source(const ShadeOptions& options, ShadeSource& source) {
+    size_t hash = options.source.rfind('#');
+    std::string path = options.source.substr(0, hash);
+    bool scene = path.ends_with(".dae") || path.ends_with(".DAE");
+    int code =
+        scene ? read_effect(path, hash == std::string::npos ? "" : options.source.substr(hash + 1),
+                            source)
+              : read_file(options.source, source);
+    if (code != kExitOk) source.print_findings(options);
+    return code;
+}
+
+std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource& source) {
+    if (int code = read_shade_source(options, source)) return code;
+    if (options.preprocess_only) {
+        rsl::TokenStream tokens =
+            rsl::preprocess(source.view(), options.compile, source.diagnostics);
+        source.print_findings(options);
+        std::fputs(rsl::print_preprocessed(tokens).c_str(), stdout);
+        return source.failed(options) ? kExitShader : kExitOk;
+    }
+    source.shaders = rsl::compile(source.view(), options.compile, source.diagnostics);
+    source.print_findings(options);
+    if (source.shaders.empty() || source.failed(options)) return kExitShader;
+    return std::nullopt;
+}
+
+rsl::Shader* choose_shader(const ShadeOptions& options, const ShadeSource& source) {
+    if (options.shader.empty()) return source.shaders.front().get();
+    std::string known;
+    for (const auto& shader : source.shaders) {
+        if (shader->name == options.shader) return shader.get();
+        known += " " + shader->name;
+    }
+    complain(kExitUsage, fmt::format("no shader '{}'; the source has{}", options.shader, known));
+    return nullptr;
+}
+
+}  // namespace kinora

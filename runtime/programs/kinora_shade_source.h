@@ -1,0 +1,49 @@
+// runtime/programs/kinora_shade_source.h: shader text from a file, a scene's effect or stdin.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rsl/shader.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/programs/kinora_shade.h"
+
+namespace kinora {
+
+// A value for a parameter: numbers, or texts for strings.
+struct ShadeParam {
+    std::string name;
+    std::vector<double> numbers;
+    std::vector<std::string> strings;
+};
+
+// What a command works on.
+struct ShadeSource {
+    Diagnostics diagnostics;
+    std::string text;
+    SourceMap map;
+    std::vector<ShadeParam> params;  // an effect's: what its <bind>s give
+    std::vector<std::unique_ptr<rsl::Shader>> shaders;
+
+    rsl::ShaderSource view() const { return {text, map}; }
+    // Prints the findings not yet printed, as the options say.
+    void print_findings(const ShadeOptions& options);
+    // An error was found; a warning counts under -Werror.
+    bool failed(const ShadeOptions& options) const;
+
+  private:
+    size_t printed_ = 0;
+};
+
+// Reads the text. Returns an exit code other than 0 when it cannot be had (said on stderr).
+int read_shade_source(const ShadeOptions& options, ShadeSource& source);
+
+// Reads and compiles; with -E prints the preprocessed text instead. Findings are printed. Returns
+// nothing when shaders stand in `source`, an exit code when the command ends here.
+std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource& source);
+
+// The shader that --shader names, else the first; null (said on stderr) when there is none.
+rsl::Shader* choose_shader(const ShadeOptions& options, const ShadeSource& source);
+
+}  // namespace kinora
