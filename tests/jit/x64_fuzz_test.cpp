@@ -19,10 +19,12 @@ using test::RunInput;
 void mix_service(const ServiceCall& call) {
     for (int lane = 0; lane < call.lanes; ++lane) {
         if ((call.mask >> lane & 1) == 0) continue;
-        auto bits = [&](int k) { return bits_of(call.args[k * kMaxLanes + lane]); };
+        auto bits = [&](int k) {
+            return static_cast<uint32_t>(bits_of(call.args[k * kMaxLanes + lane]));
+        };
         float x = call.args[lane];
         call.results[lane] = x * 0.5f + static_cast<float>((call.first + lane) & 3);
-        call.results[kMaxLanes + lane] = float_of(bits(1) * 3 + 1);
+        call.results[kMaxLanes + lane] = float_of(static_cast<int32_t>(bits(1) * 3 + 1));
     }
 }
 
