@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "raytrace/sampling.h"
 #include "runtime/scene.h"
@@ -99,127 +100,152 @@ mat3 normal_matrix(const dmat4& m, bool mirrored) {
     return mat3(mirrored ? -cofactor : cofactor);
 }
 
+// Rows of one triple; a triple that is wanted in part has all three rows.
+struct Triple {
+    float* c[3] = {};
+    explicit operator bool() const { return c[0]; }
+    void set(size_t i, vec3 value) const {
+        c[0][i] = value.x;
+        c[1][i] = value.y;
+        c[2][i] = value.z;
+    }
+};
+
+// A grid's columns filled run by run: hits of one row share all but their place on the triangle.
 class Gather {
   public:
     Gather(Grid& grid, const mat3& rotation, vec3 eye)
-        : grid_(grid), scene_(grid.scene), rotation_(rotation), eye_(eye) {
-        auto any = [&](std::initializer_list<int> columns) {
-            for (int c : columns)
-                if (grid.columns[size_t(c)]) return true;
-            return false;
-        };
-        partials_ = any({kColdPdu, kColdPdv, kColDu, kColDv, kColdIdu, kColdIdv});
-        normal_partials_ = any({kColdNdu, kColdNdv});
-        parameters_ = partials_ || normal_partials_ || !grid.look->varying.empty() ||
-                      any({kColU, kColV, kColS, kColT});
-        matrices_ = any({kColToCurrent, kColFromCurrent}) ||
-                    std::any_of(grid.columns.begin() + kColToCurrent,
+        : grid_(grid), hits_(grid.hits), scene_(grid.scene), rotation_(rotation), eye_(eye) {
+        P_ = triple_rows(kColP);
+        I_ = triple_rows(kColI);
+        N_ = triple_rows(kColN);
+        Ng_ = triple_rows(kColNg);
+        dPdu_ = triple_rows(kColdPdu);
+        dPdv_ = triple_rows(kColdPdv);
+        dIdu_ = triple_rows(kColdIdu);
+        dIdv_ = triple_rows(kColdIdv);
+        dNdu_ = triple_rows(kColdNdu);
+        dNdv_ = triple_rows(kColdNdv);
+        footprint_ = column(kColDu) || column(kColDv);
+        partials_ = dPdu_ || dPdv_ || dIdu_ || dIdv_ || footprint_;
+        uv_ = column(kColU) || column(kColV) || column(kColS) || column(kColT);
+        parameters_ = uv_ || partials_ || dNdu_ || dNdv_ || !grid.look->varying.empty();
+        matrices_ = std::any_of(grid.columns.begin() + kColToCurrent,
                                 grid.columns.begin() + kColVarying, [](float* c) { return c; });
-        dPdx_ = any({kColDu, kColDv});
     }
 
-    void point(size_t i) {
-        uint32_t hit = grid_.points[i];
-        uint32_t row = grid_.hits.instance[hit];
-        if (row != row_) enter(row);
-        const Surface& surface = scene_.surfaces[row];
-        Corner corner{surface,
-                      *shape_,
-                      *mesh_,
-                      mesh_->groups[surface.group],
-                      grid_.hits.primitive[hit],
-                      grid_.hits.u[hit],
-                      grid_.hits.v[hit]};
-        vec3 Ng = rotation_ * triple(grid_.hits.Ng, hit);
-        place(i, hit);
-        put(kColNg, i, Ng);
-        normal(i, corner, Ng);
-        if (parameters_) uv(i, hit, corner);
-        if (matrices_) matrices(i);
-        if (float* rng = grid_.columns[kColRng]) rng[i] = jit::float_of(int32_t(random(hit)));
-    }
-
-    void constants() {
-        auto fill = [&](int column, float value) {
-            if (float* c = grid_.columns[size_t(column)])
-                std::fill_n(c, padded(grid_.count()), value);
-        };
-        fill(kColOne, 1.0f);
-        fill(kColdsdu, 1.0f);
-        fill(kColdsdv, 0.0f);
-        fill(kColdtdu, 0.0f);
-        fill(kColdtdv, 1.0f);
+    void run() {
+        for (size_t begin = 0; begin < grid_.count();) {
+            uint32_t row = hits_.instance[grid_.points[begin]];
+            size_t end = begin + 1;
+            while (end < grid_.count() && hits_.instance[grid_.points[end]] == row) ++end;
+            enter(row);
+            if (P_) places(begin, end);
+            if (I_) directions(begin, end);
+            if (Ng_) geometric_normals(begin, end);
+            if (N_) normals(begin, end);
+            if (parameters_)
+                for (size_t i = begin; i < end; ++i) parameters_at(i);
+            if (matrices_) matrices(begin, end);
+            begin = end;
+        }
+        if (float* rng = column(kColRng))
+            for (size_t i = 0; i < grid_.count(); ++i)
+                rng[i] = jit::float_of(int32_t(random(grid_.points[i])));
+        constants();
     }
 
   private:
-    void put(int column, size_t i, vec3 value) {
-        for (int k = 0; k < 3; ++k)
-            if (float* c = grid_.columns[size_t(column + k)]) c[i] = value[k];
-    }
-    void put_float(int column, size_t i, float value) {
-        if (float* c = grid_.columns[size_t(column)]) c[i] = value;
+    float* column(size_t c) const { return grid_.columns[c]; }
+
+    Triple triple_rows(uint16_t first) {
+        Triple t;
+        if (!column(first) && !column(first + 1u) && !column(first + 2u)) return t;
+        want_triple(grid_, first);
+        for (size_t k = 0; k < 3; ++k) t.c[k] = column(first + k);
+        return t;
     }
 
-    // Caches what all hits of one row share.
+    // What all hits of one row share.
     void enter(uint32_t row) {
-        row_ = row;
-        shape_ = &scene_.shapes[scene_.surfaces[row].shape];
+        surface_ = &scene_.surfaces[row];
+        shape_ = &scene_.shapes[surface_->shape];
         mesh_ = &scene_.meshes[shape_->mesh];
-        instanced_ = shape_->kind == raytrace::GeometryKind::Instanced;
-        if (instanced_) {
+        if (shape_->kind == raytrace::GeometryKind::Instanced) {
             linear_ = rotation_ * mat3(dmat3(shape_->world));
             normals_ = rotation_ * normal_matrix(shape_->world, shape_->mirrored);
         } else {
             linear_ = normals_ = rotation_;
         }
-        if (matrices_) {
-            dmat4 to = scene_.view.camera_from_world * scene_.nodes[shape_->node].world;
-            to_current_ = mat4(to);
-            from_current_ = mat4(glm::inverse(to));
+    }
+
+    Corner corner(size_t i) const {
+        uint32_t hit = grid_.points[i];
+        return {*surface_, *shape_, *mesh_, mesh_->groups[surface_->group], hits_.primitive[hit],
+                hits_.u[hit], hits_.v[hit]};
+    }
+
+    void places(size_t begin, size_t end) const {
+        for (size_t i = begin; i < end; ++i)
+            P_.set(i, rotation_ * (triple(hits_.P, grid_.points[i]) - eye_));
+    }
+    void directions(size_t begin, size_t end) const {
+        for (size_t i = begin; i < end; ++i) {
+            uint32_t hit = grid_.points[i];
+            I_.set(i, rotation_ * (triple(hits_.P, hit) - triple(hits_.org, hit)));
+        }
+    }
+    void geometric_normals(size_t begin, size_t end) const {
+        for (size_t i = begin; i < end; ++i)
+            Ng_.set(i, rotation_ * triple(hits_.Ng, grid_.points[i]));
+    }
+    void normals(size_t begin, size_t end) const {
+        const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
+        const vec4* entries = shape_->rest_normals.data();
+        for (size_t i = begin; i < end; ++i) {
+            uint32_t hit = grid_.points[i];
+            const uint32_t* c = corners + 3 * size_t(hits_.primitive[hit]);
+            float u = hits_.u[hit], v = hits_.v[hit];
+            vec3 N = normals_ * vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] +
+                                     v * entries[c[2]]);
+            float square = glm::dot(N, N);
+            // A normal that vanishes gives way to the geometric one (EXTREMES row 9).
+            bool sound = square > 0 && square < std::numeric_limits<float>::infinity();
+            N_.set(i, sound ? N / std::sqrt(square) : rotation_ * triple(hits_.Ng, hit));
         }
     }
 
-    void place(size_t i, uint32_t hit) {
-        vec3 P = triple(grid_.hits.P, hit);
-        put(kColP, i, rotation_ * (P - eye_));
-        put(kColI, i, rotation_ * (P - triple(grid_.hits.org, hit)));
-    }
-
-    void normal(size_t i, const Corner& c, vec3 Ng) {
-        if (!grid_.columns[kColN] && !grid_.columns[kColN + 1] && !grid_.columns[kColN + 2]) return;
-        vec3 n0 = c.normal(0), n1 = c.normal(1), n2 = c.normal(2);
-        vec3 N = normals_ * ((1 - c.u - c.v) * n0 + c.u * n1 + c.v * n2);
-        float length = glm::length(N);
-        // A normal that vanishes gives way to the geometric one (EXTREMES row 9).
-        put(kColN, i, length > 0 && std::isfinite(length) ? N / length : Ng);
-    }
-
-    void uv(size_t i, uint32_t hit, const Corner& c) {
+    void parameters_at(size_t i) const {
+        Corner c = corner(i);
         Parameters p = parameters(c);
-        put_float(kColU, i, p.u);
-        put_float(kColV, i, p.v);
-        put_float(kColS, i, p.s);
-        put_float(kColT, i, p.t);
+        auto put = [&](size_t which, float value) {
+            if (float* row = column(which)) row[i] = value;
+        };
+        put(kColU, p.u);
+        put(kColV, p.v);
+        put(kColS, p.s);
+        put(kColT, p.t);
         varying(i, c, p.map);
-        if (normal_partials_) normal_partials(i, c, p.map);
+        if (dNdu_ || dNdv_) normal_partials(i, c, p.map);
         if (!partials_) return;
         std::span<const vec4> x = shape_->rest_positions;
         vec3 p0(x[c.position(0)]), p1(x[c.position(1)]), p2(x[c.position(2)]);
         vec3 e1 = linear_ * (p1 - p0), e2 = linear_ * (p2 - p0);
         vec3 dPdu = p.map.along_u(e1, e2), dPdv = p.map.along_v(e1, e2);
-        put(kColdPdu, i, dPdu);
-        put(kColdPdv, i, dPdv);
-        put(kColdIdu, i, dPdu);
-        put(kColdIdv, i, dPdv);
-        if (!dPdx_) return;
-        vec2 x_step = footprint(dPdu, dPdv, rotation_ * triple(grid_.hits.dPdx, hit));
-        vec2 y_step = footprint(dPdu, dPdv, rotation_ * triple(grid_.hits.dPdy, hit));
-        put_float(kColDu, i, std::max(std::abs(x_step.x), std::abs(y_step.x)));
-        put_float(kColDv, i, std::max(std::abs(x_step.y), std::abs(y_step.y)));
+        if (dPdu_) dPdu_.set(i, dPdu);
+        if (dPdv_) dPdv_.set(i, dPdv);
+        if (dIdu_) dIdu_.set(i, dPdu);
+        if (dIdv_) dIdv_.set(i, dPdv);
+        if (!footprint_) return;
+        uint32_t hit = grid_.points[i];
+        vec2 along_x = footprint(dPdu, dPdv, rotation_ * triple(hits_.dPdx, hit));
+        vec2 along_y = footprint(dPdu, dPdv, rotation_ * triple(hits_.dPdy, hit));
+        put(kColDu, std::max(std::abs(along_x.x), std::abs(along_y.x)));
+        put(kColDv, std::max(std::abs(along_x.y), std::abs(along_y.y)));
     }
 
     // Of the unit normal n = m / |m|: n_u = (m_u - n (n . m_u)) / |m|.
-    void normal_partials(size_t i, const Corner& c, const AffineMap& map) {
+    void normal_partials(size_t i, const Corner& c, const AffineMap& map) const {
         vec3 n0 = normals_ * c.normal(0), n1 = normals_ * c.normal(1), n2 = normals_ * c.normal(2);
         vec3 m = (1 - c.u - c.v) * n0 + c.u * n1 + c.v * n2;
         float length = glm::length(m);
@@ -227,14 +253,14 @@ class Gather {
         auto partial = [&](vec3 d) {
             return length > 0 ? (d - n * glm::dot(n, d)) / length : vec3(0);
         };
-        put(kColdNdu, i, partial(map.along_u(n1 - n0, n2 - n0)));
-        put(kColdNdv, i, partial(map.along_v(n1 - n0, n2 - n0)));
+        if (dNdu_) dNdu_.set(i, partial(map.along_u(n1 - n0, n2 - n0)));
+        if (dNdv_) dNdv_.set(i, partial(map.along_v(n1 - n0, n2 - n0)));
     }
 
-    void varying(size_t i, const Corner& c, const AffineMap& map) {
+    void varying(size_t i, const Corner& c, const AffineMap& map) const {
         for (size_t k = 0; k < grid_.look->varying.size(); ++k) {
             const VaryingParam& param = grid_.look->varying[k];
-            const VertexAttribute* attribute = c.surface.varying[k];
+            const VertexAttribute* attribute = surface_->varying[k];
             for (uint32_t j = 0; j < param.components; ++j) {
                 float x[3] = {0, 0, 0};
                 for (int corner = 0; corner < 3; ++corner) {
@@ -242,56 +268,71 @@ class Gather {
                         uint32_t from = std::min(param.component + j, attribute->stride - 1);
                         x[corner] = c.attribute(*attribute, corner)[from];
                     } else if (param.semantic == "Pref") {
-                        x[corner] = c.mesh.positions[c.position(corner)][int(j)] +
-                                    float(c.mesh.anchor[int(j)]);
+                        x[corner] = mesh_->positions[c.position(corner)][int(j)] +
+                                    float(mesh_->anchor[int(j)]);
                     }
                 }
                 float d1 = x[1] - x[0], d2 = x[2] - x[0];
-                put_float(param.column + int(j), i, x[0] + c.u * d1 + c.v * d2);
-                put_float(param.column + int(param.components + j), i, map.along_u(d1, d2));
-                put_float(param.column + int(2 * param.components + j), i, map.along_v(d1, d2));
+                auto put = [&](uint32_t which, float value) {
+                    if (float* row = column(param.column + which)) row[i] = value;
+                };
+                put(j, x[0] + c.u * d1 + c.v * d2);
+                put(param.components + j, map.along_u(d1, d2));
+                put(2 * param.components + j, map.along_v(d1, d2));
             }
         }
     }
 
-    void matrices(size_t i) {
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 4; ++column) {
-                put_float(kColToCurrent + row * 4 + column, i, to_current_[column][row]);
-                put_float(kColFromCurrent + row * 4 + column, i, from_current_[column][row]);
+    void matrices(size_t begin, size_t end) const {
+        dmat4 to = scene_.view.camera_from_world * scene_.nodes[shape_->node].world;
+        mat4 to_current(to), from_current(glm::inverse(to));
+        for (size_t r = 0; r < 3; ++r)
+            for (size_t c = 0; c < 4; ++c) {
+                auto fill = [&](size_t first, const mat4& m) {
+                    if (float* row = column(first + r * 4 + c))
+                        std::fill(row + begin, row + end, m[int(c)][int(r)]);
+                };
+                fill(kColToCurrent, to_current);
+                fill(kColFromCurrent, from_current);
             }
     }
 
+    void constants() const {
+        static constexpr std::pair<uint16_t, float> kConstants[] = {
+            {kColOne, 1.0f},  {kColdsdu, 1.0f}, {kColdsdv, 0.0f},
+            {kColdtdu, 0.0f}, {kColdtdv, 1.0f}};
+        for (auto [which, value] : kConstants)
+            if (float* row = column(which)) std::fill_n(row, padded(grid_.count()), value);
+    }
+
     uint32_t random(uint32_t hit) const {
-        const raytrace::HitBatch& h = grid_.hits;
-        uint32_t pixel = raytrace::hash(h.pixel_x[hit], h.pixel_y[hit]);
-        return raytrace::hash(pixel, h.sample[hit], h.layer[hit] + 64 * h.depth);
+        uint32_t pixel = raytrace::hash(hits_.pixel_x[hit], hits_.pixel_y[hit]);
+        return raytrace::hash(pixel, hits_.sample[hit], hits_.layer[hit] + 64 * hits_.depth);
     }
 
     Grid& grid_;
+    const raytrace::HitBatch& hits_;
     const Scene& scene_;
     mat3 rotation_;
     vec3 eye_;
-    bool partials_, normal_partials_, parameters_, matrices_, dPdx_;
-    uint32_t row_ = kNone;
+    Triple P_, I_, N_, Ng_, dPdu_, dPdv_, dIdu_, dIdv_, dNdu_, dNdv_;
+    bool footprint_ = false, partials_ = false, uv_ = false, parameters_ = false;
+    bool matrices_ = false;
+    const Surface* surface_ = nullptr;
     const Shape* shape_ = nullptr;
     const Mesh* mesh_ = nullptr;
-    bool instanced_ = false;
     mat3 linear_{1.0f}, normals_{1.0f};
-    mat4 to_current_{1.0f}, from_current_{1.0f};
 };
 
 }  // namespace
 
 void gather(Grid& grid) {
-    Gather gatherer(grid, grid.shading->camera_from_accel_, grid.shading->eye_);
-    for (size_t i = 0; i < grid.count(); ++i) gatherer.point(i);
+    Gather(grid, grid.shading->camera_from_accel_, grid.shading->eye_).run();
     // Padding lanes are copies of the last point.
     size_t last = grid.count() - 1;
     for (float* column : grid.columns)
         if (column)
             for (size_t i = grid.count(); i < padded(grid.count()); ++i) column[i] = column[last];
-    gatherer.constants();
 }
 
 }  // namespace kinora
