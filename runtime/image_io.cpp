@@ -219,11 +219,21 @@ bool png_read(std::FILE* file, png_structp png, png_infop info, Image8* rows) {
     return true;
 }
 
+// Whether the file ends with PNG's last chunk: one that was cut short does not.
+bool png_has_end(std::FILE* file) {
+    constexpr unsigned char kEnd[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    unsigned char last[sizeof kEnd];
+    bool read = std::fseek(file, -long(sizeof last), SEEK_END) == 0 &&
+                std::fread(last, sizeof last, 1, file) == 1;
+    std::rewind(file);
+    return read && std::memcmp(last, kEnd, sizeof last) == 0;
+}
+
 // Opens a PNG and hands it to `use(png, info)` after png_read.
 template <class Use>
 bool with_png(const std::string& path, Image8* rows, Use use) {
     File file(std::fopen(path.c_str(), "rb"));
-    if (!file) return false;
+    if (!file || !png_has_end(file.get())) return false;
     PngError error;
     png_structp png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error, on_png_warning);
@@ -239,8 +249,13 @@ bool with_png(const std::string& path, Image8* rows, Use use) {
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
     if (extension(path) == ".exr") {
         try {
-            Imf::InputFile file(path.c_str());
+            Imf::RgbaInputFile file(path.c_str());
             if (!file.isComplete()) return std::nullopt;
+            // A file cut short throws where its last rows should be.
+            Imath::Box2i window = file.dataWindow();
+            std::vector<Imf::Rgba> row(size_t(window.max.x - window.min.x) + 1);
+            file.setFrameBuffer(row.data() - window.min.x, 1, 0);
+            file.readPixels(window.max.y);
             const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
             return text ? std::optional(text->value()) : std::nullopt;
         } catch (const std::exception&) {

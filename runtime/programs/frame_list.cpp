@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -11,11 +12,13 @@ namespace kinora {
 namespace {
 
 constexpr int64_t kMostFrames = 10'000'000;
+constexpr int64_t kLargestFrame = 1'000'000'000'000;  // times kLargestRate it fits int64
+constexpr int64_t kLargestRate = 1'000'000;
 
 // Reads a whole number at the front of `text` and takes it off.
 bool take_number(std::string_view& text, int64_t& number) {
     auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc()) return false;
+    if (error != std::errc() || number < -kLargestFrame || number > kLargestFrame) return false;
     text.remove_prefix(size_t(end - text.data()));
     return true;
 }
@@ -48,7 +51,8 @@ bool parse_range(std::string_view text, std::vector<int64_t>& frames, std::strin
         return false;
     }
     if (!stepped) step = last >= first ? 1 : -1;
-    int64_t count = (last - first) / step + 1;
+    bool away = (step > 0) != (last >= first) && last != first;  // it never gets there
+    int64_t count = away ? 0 : (last - first) / step + 1;
     if (count > kMostFrames || int64_t(frames.size()) + count > kMostFrames) {
         error = fmt::format("'{}' is more than {} frames", whole, kMostFrames);
         return false;
@@ -76,10 +80,10 @@ std::optional<std::vector<int64_t>> parse_frames(std::string_view text, std::str
 
 FrameRate frame_rate_of(double value) {
     double rounded = std::round(value);
-    if (std::abs(value - rounded) < 1e-9) return {int64_t(rounded), 1};
+    if (rounded >= 1 && std::abs(value - rounded) < 1e-9) return {int64_t(rounded), 1};
     double ntsc = std::ceil(value);  // 23.976 is 24000/1001
     if (std::abs(value - ntsc * 1000.0 / 1001.0) < 0.005) return {int64_t(ntsc) * 1000, 1001};
-    return {int64_t(std::llround(value * 1000.0)), 1000};
+    return {std::max<int64_t>(1, std::llround(value * 1000.0)), 1000};
 }
 
 std::optional<FrameRate> parse_frame_rate(std::string_view text) {
@@ -87,27 +91,31 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
     std::string_view rest = text;
     if (take_number(rest, rate.numerator) && take(rest, "/")) {
         bool ok = take_number(rest, rate.denominator) && rest.empty() && rate.numerator > 0 &&
-                  rate.denominator > 0;
+                  rate.denominator > 0 && rate.numerator <= kLargestRate &&
+                  rate.denominator <= kLargestRate;
         return ok ? std::optional(rate) : std::nullopt;
     }
     double value = 0;
     auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    if (!(value > 0) || value > 1e6) return std::nullopt;
+    if (!(value > 0) || value > double(kLargestRate)) return std::nullopt;
     return frame_rate_of(value);
 }
 
 OutputName::OutputName(std::string pattern) : before_(std::move(pattern)) {
-    if (size_t hash = before_.find_last_of('#'); hash != std::string::npos) {
+    // A token stands in the file's name, not in its folder's.
+    size_t name = before_.rfind('/') + 1;
+    size_t hash = before_.find_last_of('#');
+    if (hash != std::string::npos && hash >= name) {
         size_t first = hash;
-        while (first > 0 && before_[first - 1] == '#') --first;
+        while (first > name && before_[first - 1] == '#') --first;
         digits_ = int(hash - first + 1);
         after_ = before_.substr(hash + 1);
         before_ = before_.substr(0, first);
         return;
     }
     size_t percent = before_.rfind('%');
-    if (percent == std::string::npos) return;
+    if (percent == std::string::npos || percent < name) return;
     size_t d = before_.find('d', percent);
     if (d == std::string::npos) return;
     int width = 1;
