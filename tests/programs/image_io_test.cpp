@@ -1,0 +1,195 @@
+// tests/programs/image_io_test.cpp: pictures come back as they were written, and a name stands for
+// a whole file or for none.
+#include "runtime/image_io.h"
+
+#include <ImfRgbaFile.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace kinora {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ImageIo : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() /
+                  ("kinora_image_io_" + std::to_string(getpid()) + "_" +
+                   testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    size_t files() const {
+        size_t count = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_))
+            count += entry.is_regular_file();
+        return count;
+    }
+    fs::path folder_;
+};
+
+raytrace::Film ramp(int width, int height) {
+    raytrace::Film film(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            film.at(x, y) = vec4(float(x) / float(width), float(y) / float(height), 0.25f, 1.0f);
+    return film;
+}
+
+TEST_F(ImageIo, PngComesBackAsWritten) {
+    Image8 image{7, 5, {}};
+    for (int i = 0; i < 7 * 5 * 4; ++i) image.rgba.push_back(uint8_t(i * 37));
+    ASSERT_EQ(write_png(path("a.png"), image, {{"key", "value"}}), "");
+    auto back = read_png(path("a.png"));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->width, 7);
+    EXPECT_EQ(back->height, 5);
+    EXPECT_EQ(back->rgba, image.rgba);
+    EXPECT_EQ(read_image_text(path("a.png"), "key"), "value");
+    EXPECT_FALSE(read_image_text(path("a.png"), "other"));
+}
+
+TEST_F(ImageIo, ExrKeepsLinearHalfsAndTexts) {
+    raytrace::Film film = ramp(9, 4);
+    film.at(0, 0) = vec4(5.5f, -2.0f, 1024.0f, 0.5f);
+    ASSERT_EQ(
+        write_image(path("a.exr"), film, ColorEncoding::Srgb, {{"kinora/fingerprint", "0123abcd"}}),
+        "");
+    EXPECT_EQ(read_image_text(path("a.exr"), "kinora/fingerprint"), "0123abcd");
+    Imf::RgbaInputFile file(path("a.exr").c_str());
+    ASSERT_EQ(file.dataWindow().max.x, 8);
+    ASSERT_EQ(file.dataWindow().max.y, 3);
+    std::vector<Imf::Rgba> pixels(9 * 4);
+    file.setFrameBuffer(pixels.data(), 1, 9);
+    file.readPixels(0, 3);
+    EXPECT_EQ(float(pixels[0].r), 5.5f);
+    EXPECT_EQ(float(pixels[0].g), -2.0f);
+    EXPECT_EQ(float(pixels[0].b), 1024.0f);
+    EXPECT_EQ(float(pixels[0].a), 0.5f);
+    for (size_t i = 1; i < pixels.size(); ++i)
+        EXPECT_NEAR(float(pixels[i].r), film.rgba[i].x, 0.5f / 1024) << i;
+}
+
+// IEC 61966-2-1: linear 0.5 is 188, 0.21586 is 128 (of 255).
+TEST_F(ImageIo, PngHoldsSrgbAndUnassociatedAlpha) {
+    raytrace::Film film(4, 1);
+    film.at(0, 0) = vec4(0.5f, 0.21586f, 0.0f, 1.0f);
+    film.at(1, 0) = vec4(0.25f, 0.25f, 0.25f, 0.5f);
+    film.at(2, 0) = vec4(std::nanf(""), 7.0f, -1.0f, 1.0f);
+    film.at(3, 0) = vec4(std::numeric_limits<float>::infinity(), 0, 0, 0);
+    Image8 image = to_8_bit(film, ColorEncoding::Srgb);
+    EXPECT_EQ(std::vector<uint8_t>(image.rgba.begin(), image.rgba.begin() + 4),
+              (std::vector<uint8_t>{188, 128, 0, 255}));
+    EXPECT_EQ(std::vector<uint8_t>(image.rgba.begin() + 4, image.rgba.begin() + 8),
+              (std::vector<uint8_t>{188, 188, 188, 128}));
+    EXPECT_EQ(std::vector<uint8_t>(image.rgba.begin() + 8, image.rgba.begin() + 12),
+              (std::vector<uint8_t>{0, 255, 0, 255}));
+    EXPECT_EQ(image.rgba[12], 255);
+    EXPECT_EQ(to_8_bit(film, ColorEncoding::Linear).rgba[0], 128);
+}
+
+TEST_F(ImageIo, NoTemporaryFileStays) {
+    for (const char* name : {"a.png", "b.exr", "deep/er/c.png"})
+        ASSERT_EQ(write_image(path(name), ramp(8, 8), ColorEncoding::Srgb, {}), "") << name;
+    EXPECT_EQ(files(), 3u);
+}
+
+TEST_F(ImageIo, AFileIsReplacedAsAWhole) {
+    ASSERT_EQ(write_image(path("a.png"), ramp(8, 8), ColorEncoding::Srgb, {{"k", "old"}}), "");
+    int old_file = open(path("a.png").c_str(), O_RDONLY);
+    struct stat before {};
+    fstat(old_file, &before);
+    ASSERT_EQ(write_image(path("a.png"), ramp(8, 8), ColorEncoding::Srgb, {{"k", "new"}}), "");
+    struct stat after {};
+    ASSERT_EQ(stat(path("a.png").c_str(), &after), 0);
+    EXPECT_NE(before.st_ino, after.st_ino);  // whoever reads the old one reads it to its end
+    close(old_file);
+    EXPECT_EQ(read_image_text(path("a.png"), "k"), "new");
+}
+
+TEST_F(ImageIo, SaysWhyItCannotWrite) {
+    std::ofstream(path("plain")) << "a file";
+    for (const char* name : {"plain/a.png", "plain/a.exr"}) {
+        int number = 0;
+        EXPECT_NE(write_image(path(name), ramp(4, 4), ColorEncoding::Srgb, {}, &number), "");
+        EXPECT_EQ(number, ENOTDIR) << name;
+    }
+    fs::create_directories(folder_ / "taken.png");
+    int number = 0;
+    EXPECT_NE(write_image(path("taken.png"), ramp(4, 4), ColorEncoding::Srgb, {}, &number), "");
+    EXPECT_EQ(number, EISDIR);
+    std::string longest(300, 'n');
+    for (const char* ending : {".png", ".exr"}) {
+        EXPECT_NE(write_image(path(longest + ending), ramp(4, 4), ColorEncoding::Srgb, {}, &number),
+                  "");
+        EXPECT_EQ(number, ENAMETOOLONG) << ending;
+    }
+    EXPECT_EQ(files(), 1u);
+}
+
+// A limit on the file size makes write(2) fail as a full disk does, at any size one likes.
+TEST_F(ImageIo, AWriteThatFailsAnywhereLeavesNothing) {
+    rlimit saved{};
+    getrlimit(RLIMIT_FSIZE, &saved);
+    auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    raytrace::Film film(64, 64);  // noise does not compress
+    uint32_t state = 1;
+    for (vec4& p : film.rgba)
+        for (int k = 0; k < 4; ++k)
+            p[k] = float((state = state * 1664525u + 1013904223u) >> 8) * 0x1p-24f;
+    for (const char* name : {"a.png", "a.exr"})
+        for (rlim_t size : {0, 1, 100, 1000, 5000, 12000}) {
+            rlimit limit{size, saved.rlim_max};
+            setrlimit(RLIMIT_FSIZE, &limit);
+            int number = 0;
+            std::string error = write_image(path(name), film, ColorEncoding::Srgb, {}, &number);
+            setrlimit(RLIMIT_FSIZE, &saved);
+            EXPECT_NE(error, "") << name << " " << size;
+            EXPECT_EQ(number, EFBIG) << name << " " << size << " " << error;
+            EXPECT_EQ(files(), 0u) << name << " " << size;
+        }
+    std::signal(SIGXFSZ, handler);
+}
+
+TEST_F(ImageIo, ATruncatedOrForeignFileHasNoPicture) {
+    ASSERT_EQ(write_image(path("a.png"), ramp(16, 16), ColorEncoding::Srgb, {{"k", "v"}}), "");
+    ASSERT_EQ(write_image(path("a.exr"), ramp(16, 16), ColorEncoding::Srgb, {{"k", "v"}}), "");
+    for (const char* name : {"a.png", "a.exr"}) {
+        auto size = fs::file_size(path(name));
+        for (auto part : {size - 1, size / 2, size / 8, size * 0}) {
+            fs::copy_file(path(name), path("cut") + fs::path(name).extension().string(),
+                          fs::copy_options::overwrite_existing);
+            std::string cut = path("cut") + fs::path(name).extension().string();
+            fs::resize_file(cut, part);
+            if (cut.ends_with(".png")) {
+                EXPECT_FALSE(read_png(cut)) << part;
+            }
+            EXPECT_FALSE(read_image_text(cut, "k")) << cut << " " << part;
+        }
+    }
+    std::ofstream(path("text.png")) << "no picture";
+    EXPECT_FALSE(read_png(path("text.png")));
+    EXPECT_FALSE(read_image_text(path("text.png"), "k"));
+    EXPECT_FALSE(read_image_text(path("none.exr"), "k"));
+}
+
+TEST_F(ImageIo, KnowsItsExtensions) {
+    for (const char* name : {"a.png", "a.EXR", "x/y.PNG"}) EXPECT_TRUE(is_image_path(name));
+    for (const char* name : {"a.jpg", "png", "a.png.txt", "", ".png"})
+        EXPECT_FALSE(is_image_path(name)) << name;
+}
+
+}  // namespace
+}  // namespace kinora
