@@ -278,7 +278,10 @@ void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const 
         if (Cl[0][i] == 0 && Cl[1][i] == 0 && Cl[2][i] == 0) continue;
         vec3 to_light = accel_from_camera * triple(L, i);
         vec3 P = triple(at.accel, i);
-        vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), triple(at.Ng, i), to_light);
+        vec3 Ng = triple(at.Ng, i);
+        // A point that is on no known surface leaves its error box along the ray itself.
+        if (Ng == vec3(0)) Ng = glm::normalize(to_light);
+        vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light);
         vec3 dir = solar ? to_light : P + to_light - org;
         packet.org_x[filled] = org.x;
         packet.org_y[filled] = org.y;
