@@ -4,9 +4,10 @@
 // is solid (alpha > 127) and where ours is (coverage >= 0.5) are compared by intersection over
 // union. COLLADA.md lists the pictures that differ from the format itself; those are reported and
 // not judged.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include "runtime/frame.h"
@@ -107,7 +108,7 @@ TEST_P(Silhouette, FitsTheSuitesPicture) {
         worst = std::min(worst, intersection_over_union(*wanted, film));
     }
     EXPECT_FALSE(diagnostics.has_errors());
-    fmt::print("{:36} {:.4f} {}\n", test.name, worst, test.known);
+    std::printf("%-36s %.4f %s\n", test.name, worst, test.known);
     if (*test.known == 0) EXPECT_GE(worst, kWanted);
 }
 
