@@ -5,9 +5,7 @@
 #include <png.h>
 #include <unistd.h>
 
-#include <ImfArray.h>
-#include <ImfInputFile.h>
-#include <ImfOutputFile.h>
+#include <ImfIO.h>
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
 
@@ -17,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 namespace kinora {
 
@@ -35,6 +34,13 @@ struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
+
+// Everything written so far is on the disk, or the error text.
+std::string sync_file(std::FILE* file, int& number) {
+    bool ok = !std::ferror(file) && std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+    if (!ok) number = errno ? errno : EIO;
+    return ok ? "" : std::strerror(number);
+}
 
 // A PNG writer or reader with what must outlive its longjmps.
 struct PngError {
@@ -90,16 +96,36 @@ std::string write_png_file(const std::string& path, const Image8& image, const I
     png_destroy_write_struct(&png, &info);
     number = error.number;
     if (!ok) return error.text;
-    if (std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) {
-        number = errno;
-        return std::strerror(errno);
-    }
-    return "";
+    return sync_file(file.get(), number);
 }
+
+// OpenEXR's own file stream closes without a word when the last bytes cannot be written; errors of
+// this one stay in the FILE until sync_file asks for them.
+class ExrStream : public Imf::OStream {
+  public:
+    ExrStream(const std::string& path, std::FILE* file) : OStream(path.c_str()), file_(file) {}
+    void write(const char bytes[], int count) override {
+        if (std::fwrite(bytes, 1, size_t(count), file_) != size_t(count))
+            throw std::runtime_error("write failed");
+    }
+    uint64_t tellp() override { return uint64_t(std::ftell(file_)); }
+    void seekp(uint64_t position) override {
+        if (std::fseek(file_, long(position), SEEK_SET) != 0)
+            throw std::runtime_error("seek failed");
+    }
+
+  private:
+    std::FILE* file_;
+};
 
 std::string write_exr_file(const std::string& path, const raytrace::Film& film,
                            const ImageTexts& texts, int& number) {
     errno = 0;
+    File stream(std::fopen(path.c_str(), "wb"));
+    if (!stream) {
+        number = errno;
+        return std::strerror(errno);
+    }
     try {
         Imf::Header header(film.width, film.height);
         header.compression() = Imf::ZIP_COMPRESSION;
@@ -109,19 +135,15 @@ std::string write_exr_file(const std::string& path, const raytrace::Film& film,
             const vec4& p = film.rgba[i];
             pixels[i] = Imf::Rgba(p.x, p.y, p.z, p.w);
         }
-        Imf::RgbaOutputFile file(path.c_str(), header, Imf::WRITE_RGBA, 0);
+        ExrStream exr(path, stream.get());
+        Imf::RgbaOutputFile file(exr, header, Imf::WRITE_RGBA, 0);
         file.setFrameBuffer(pixels.data(), 1, size_t(film.width));
         file.writePixels(film.height);
     } catch (const std::exception& error) {
         number = errno;
         return errno ? std::strerror(errno) : error.what();
     }
-    int descriptor = open(path.c_str(), O_RDONLY);
-    bool ok = descriptor >= 0 && fsync(descriptor) == 0;
-    number = ok ? 0 : errno;
-    std::string text = ok ? "" : std::strerror(errno);
-    if (descriptor >= 0) close(descriptor);
-    return text;
+    return sync_file(stream.get(), number);
 }
 
 std::string extension(const std::string& path) {

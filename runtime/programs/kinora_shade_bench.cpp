@@ -106,6 +106,7 @@ int shade_bench(const ShadeOptions& options) {
     if (std::optional<int> code = compile_shade_source(options, source)) return *code;
     const rsl::Shader* shader = choose_shader(options, source);
     if (!shader) return kExitUsage;
+    if (!can_run(*shader)) return kExitUsage;
     Patch patch(options.width, options.height, options.sphere);
     if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
     ShadeStack stack;

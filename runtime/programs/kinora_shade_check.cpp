@@ -15,12 +15,6 @@ std::string counted(size_t count, const char* noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-// Lowering finds what only it knows: unknown spaces, arrays too large, constructs without code.
-bool lowers(const rsl::Shader& shader) {
-    return shader.kind == rsl::ShaderKind::Surface ||
-           shader.kind == rsl::ShaderKind::Displacement || shader.kind == rsl::ShaderKind::Light;
-}
-
 }  // namespace
 
 int shade_check(const ShadeOptions& options) {
@@ -32,7 +26,8 @@ int shade_check(const ShadeOptions& options) {
         names += fmt::format("{}{} {}", names.empty() ? "" : ", ",
                              rsl::shader_kind_name(shader->kind), shader->name);
         rsl::Layer layer{shader.get(), {}};
-        if (lowers(*shader)) rsl::lower({&layer, 1}, {}, source.diagnostics);
+        // Lowering finds what only it knows: unknown spaces, arrays too large.
+        if (has_code(*shader)) rsl::lower({&layer, 1}, {}, source.diagnostics);
     }
     source.print_findings(options);
     if (!options.quiet)

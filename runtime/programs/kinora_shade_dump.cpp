@@ -37,6 +37,7 @@ int dump_code(const ShadeOptions& options, const std::vector<std::string>& wante
     if (std::optional<int> code = compile_shade_source(options, source)) return *code;
     const rsl::Shader* shader = choose_shader(options, source);
     if (!shader) return kExitUsage;
+    if (!can_run(*shader)) return kExitUsage;
     Patch patch(1, 1, false);
     ShadeStack stack;
     if (int code = bind_stack(options, source, *shader, patch, stack)) return code;

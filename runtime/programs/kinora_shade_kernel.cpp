@@ -178,8 +178,13 @@ std::vector<std::string> ShadeKernel::output_names() const {
 
 ShadeOutputs ShadeKernel::outputs() const {
     ShadeOutputs outputs;
-    for (size_t o = 0; o < out_.size(); ++o)
-        outputs[pair_.point->outputs[o].name] = {out_[o], out_[o] + patch_->count()};
+    for (size_t o = 0; o < out_.size(); ++o) {
+        const jit::OutputInfo& info = pair_.point->outputs[o];
+        std::vector<float>& values = outputs[info.name];
+        values = {out_[o], out_[o] + patch_->count()};
+        if (info.type == jit::Type::I)
+            for (float& value : values) value = float(jit::bits_of(value));
+    }
     return outputs;
 }
 

@@ -39,7 +39,7 @@ class ShadeKernel {
     // Prepares the columns; the kernel then runs over all points any number of times.
     void bind(const ShadeStack& stack, const Patch& patch);
     void run();
-    // Of the last run.
+    // Of the last run; ints as their values.
     ShadeOutputs outputs() const;
     // What a light gives a white matte patch, as Ci.
     ShadeOutputs illumination() const;

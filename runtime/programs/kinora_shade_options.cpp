@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
+#include "runtime/base/diagnostic.h"
 #include "runtime/image_io.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/kinora_shade.h"
@@ -66,15 +68,17 @@ void add_grid(CLI::App* command, ShadeOptions& o, Texts& texts) {
                      "NAME=VALUE: a number, several with commas, or a text")
         ->allow_extra_args(false);
     command->add_flag("--sphere", o.sphere, "a sphere instead of a square");
-    command->add_flag("--flip", o.flip, "a light shines along -z of its space instead of +z");
+    command->add_flag("--flip", o.flip, "a light shines along +z of its space instead of -z");
     command->add_option("--output", o.output,
                         "Ci, Oi, N, P or an output parameter of the shader (Ci)");
     command->add_option("--target", texts.target, "avx512, avx2 or interp");
     command->add_option("--math", o.math, "precise (1 ULP) or fast (4 ULP)")
         ->transform(CLI::CheckedTransformer(
-            std::map<std::string, jit::math::Tier>{{"precise", jit::math::Tier::Precise},
-                                                   {"fast", jit::math::Tier::Fast}},
-            CLI::ignore_case));
+                        std::map<std::string, jit::math::Tier>{
+                            {"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}},
+                        CLI::ignore_case)
+                        .description(""))
+        ->type_name("NAME");
     command->add_option("--iterations", o.iterations, "how often it is done, for the times")
         ->check(CLI::Range(1, 1000000));
 }
@@ -110,6 +114,19 @@ void add_commands(CLI::App& app, ShadeOptions& o, Texts& texts) {
     }
 }
 
+// A first word that is no command deserves more than "a subcommand is required".
+void check_command(const CLI::App& app, const std::vector<std::string>& words) {
+    if (words.empty() || words.back().starts_with("-")) return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), words.back()) != names.end()) return;
+    std::string_view near = nearest_name(words.back(), {names.begin(), names.end()});
+    throw CLI::ValidationError(
+        "'" + words.back() + "'",
+        near.empty() ? fmt::format("no command; commands are {}", fmt::join(names, ", "))
+                     : fmt::format("no command; did you mean '{}'?", near));
+}
+
 }  // namespace
 
 std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& o) {
@@ -125,6 +142,7 @@ std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& o) {
     for (int i = argc - 1; i > 0; --i)
         words.push_back(std::string(argv[i]) == "-Werror" ? "--Werror" : argv[i]);
     try {
+        check_command(app, words);
         app.parse(words);
         o.command = app.get_subcommands().front()->get_name();
         if (!texts.size.empty()) parse_size(texts.size, o);

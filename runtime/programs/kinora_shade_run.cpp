@@ -17,9 +17,8 @@ namespace {
 
 // The output's columns: three, or one for a float.
 std::vector<std::string> columns_of(const std::string& output, const ShadeOutputs& outputs) {
-    std::string base =
-        output.size() > 1 && outputs.count("aov:" + output) ? "aov:" + output : output;
-    if (outputs.count(base)) return {base};
+    for (const std::string& name : {output, "aov:" + output})
+        if (outputs.count(name)) return {name};
     for (const std::string& stem : {output, "aov:" + output})
         for (const char* parts : {"rgb", "xyz"}) {
             std::vector<std::string> names;
@@ -95,6 +94,7 @@ int shade_run(const ShadeOptions& options) {
     if (std::optional<int> code = compile_shade_source(options, source)) return *code;
     const rsl::Shader* shader = choose_shader(options, source);
     if (!shader) return kExitUsage;
+    if (!can_run(*shader)) return kExitUsage;
     Patch patch(options.width, options.height, options.sphere);
     if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
     ShadeStack stack;

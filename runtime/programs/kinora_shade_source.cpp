@@ -139,6 +139,19 @@ std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource
     return std::nullopt;
 }
 
+bool has_code(const rsl::Shader& shader) {
+    return shader.kind == rsl::ShaderKind::Surface ||
+           shader.kind == rsl::ShaderKind::Displacement || shader.kind == rsl::ShaderKind::Light;
+}
+
+bool can_run(const rsl::Shader& shader) {
+    if (has_code(shader)) return true;
+    complain(kExitUsage,
+             fmt::format("'{}' is of kind {}; surface, displacement and light shaders can be run",
+                         shader.name, rsl::shader_kind_name(shader.kind)));
+    return false;
+}
+
 rsl::Shader* choose_shader(const ShadeOptions& options, const ShadeSource& source) {
     if (options.shader.empty()) return source.shaders.front().get();
     std::string known;

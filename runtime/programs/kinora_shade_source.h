@@ -46,4 +46,8 @@ std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource
 // The shader that --shader names, else the first; null (said on stderr) when there is none.
 rsl::Shader* choose_shader(const ShadeOptions& options, const ShadeSource& source);
 
+// Whether shaders of its kind are compiled to code in this version.
+bool has_code(const rsl::Shader& shader);
+bool can_run(const rsl::Shader& shader);  // the same; says so on stderr if not
+
 }  // namespace kinora

@@ -149,17 +149,27 @@ TEST_F(ImageIo, AWriteThatFailsAnywhereLeavesNothing) {
     for (vec4& p : film.rgba)
         for (int k = 0; k < 4; ++k)
             p[k] = float((state = state * 1664525u + 1013904223u) >> 8) * 0x1p-24f;
-    for (const char* name : {"a.png", "a.exr"})
-        for (rlim_t size : {0, 1, 100, 1000, 5000, 12000}) {
-            rlimit limit{size, saved.rlim_max};
-            setrlimit(RLIMIT_FSIZE, &limit);
-            int number = 0;
-            std::string error = write_image(path(name), film, ColorEncoding::Srgb, {}, &number);
-            setrlimit(RLIMIT_FSIZE, &saved);
-            EXPECT_NE(error, "") << name << " " << size;
-            EXPECT_EQ(number, EFBIG) << name << " " << size << " " << error;
-            EXPECT_EQ(files(), 0u) << name << " " << size;
-        }
+    auto expect_nothing_stays = [&](const std::string& name, const raytrace::Film& picture,
+                                    rlim_t size) {
+        rlimit limit{size, saved.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        int number = 0;
+        std::string error = write_image(path(name), picture, ColorEncoding::Srgb, {}, &number);
+        setrlimit(RLIMIT_FSIZE, &saved);
+        EXPECT_EQ(number, EFBIG) << name << " " << size << " " << error;
+        EXPECT_NE(error, "") << name << " " << size;
+        EXPECT_EQ(files(), 0u) << name << " " << size;
+    };
+    for (const char* name : {"a.png", "a.exr"}) {
+        for (rlim_t size : {0, 1, 100, 1000, 5000, 12000}) expect_nothing_stays(name, film, size);
+        // So small that it is written when the file is closed.
+        for (rlim_t size : {0, 40, 60}) expect_nothing_stays(name, ramp(4, 4), size);
+        // The last byte alone.
+        ASSERT_EQ(write_image(path(name), film, ColorEncoding::Srgb, {}), "");
+        rlim_t whole = fs::file_size(path(name));
+        fs::remove(path(name));
+        expect_nothing_stays(name, film, whole - 1);
+    }
     std::signal(SIGXFSZ, handler);
 }
 

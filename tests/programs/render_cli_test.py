@@ -1,0 +1,158 @@
+"""tests/programs/render_cli_test.py: what kinora-render says and how it exits."""
+import json
+import os
+import resource
+import signal
+
+from programs import MATTE, ProgramTest, main, render
+
+SMALL = ("--size", "24x16", "--spp", "1", "--threads", "1")
+
+
+class ExitCodes(ProgramTest):
+    def test_usage_errors_exit_2_and_say_which_option(self):
+        picture = self.folder / "a.png"
+        rows = [
+            ([], "scene"),
+            ([MATTE], "-o"),
+            ([MATTE, "-o", self.folder / "a.jpg"], ".png"),
+            ([MATTE, "-o", picture, "--frames", "1-x"], "--frames"),
+            ([MATTE, "-o", picture, "--frames", "5-1x1"], "no frame"),
+            ([MATTE, "-o", picture, "--frames", "1-9x0"], "step"),
+            ([MATTE, "-o", picture, "--frames", "1-2"], "####"),
+            ([MATTE, "-o", picture, "--size", "10"], "--size"),
+            ([MATTE, "-o", picture, "--size", "0x5"], "--size"),
+            ([MATTE, "-o", picture, "--threads", "0"], "--threads"),
+            ([MATTE, "-o", picture, "--target", "z80"], "--target"),
+            ([MATTE, "-o", picture, "--quality", "best"], "--quality"),
+            ([MATTE, "-o", picture, "--fps", "0"], "--fps"),
+            ([MATTE, "-o", picture, "--shader", "x.sl"], "--shader"),
+            ([MATTE, "-o", picture, "--camera", "none"], "none"),
+            ([MATTE, "-o", picture, "--clip", "none"], "none"),
+            ([MATTE, "-o", picture, "--no-such-option"], "--no-such-option"),
+        ]
+        for words, text in rows:
+            with self.subTest(words=words):
+                self.expect(render(*words), 2, text)
+        self.assertEqual(self.pictures(), {})
+
+    def test_unreadable_scenes_exit_3(self):
+        text = self.write("text.dae", "no scene")
+        empty = self.write("empty.dae", "")
+        for scene in (self.folder / "missing.dae", text, empty, self.folder):
+            with self.subTest(scene=scene):
+                self.expect(render(scene, "-o", self.folder / "a.png", *SMALL), 3, "error")
+
+    def test_broken_shaders_exit_4_with_their_place(self):
+        bad = self.write("bad.sl", "surface x()\n{\n    Ci = diffus(N);\n}\n")
+        result = render(MATTE, "--shader", f"*={bad}", "-o", self.folder / "a.png", *SMALL)
+        self.expect(result, 4, "bad.sl:3:10: error", "did you mean 'diffuse'")
+        missing = self.folder / "none.sl"
+        self.expect(render(MATTE, "--shader", f"*={missing}", "-o", self.folder / "a.png", *SMALL),
+                    4, "none.sl")
+
+    def test_broken_shader_inside_the_scene_has_the_place_in_the_scene(self):
+        text = MATTE.read_text()
+        self.assertIn("diffuse(", text)
+        scene = self.write("broken.dae", text.replace("diffuse(", "difuse("))
+        line = next(i for i, row in enumerate(scene.read_text().splitlines(), 1) if "difuse(" in row)
+        column = scene.read_text().splitlines()[line - 1].index("difuse(") + 1
+        result = render(scene, "-o", self.folder / "a.png", *SMALL)
+        self.expect(result, 4, f"broken.dae:{line}:{column}: error")
+
+    def test_unwritable_outputs_exit_6_and_leave_nothing(self):
+        self.write("file", "not a folder")
+        (self.folder / "taken.png").mkdir()
+        for name in ("file/a.png", "file/a.exr", "taken.png", "n" * 300 + ".png"):
+            with self.subTest(name=name[:20]):
+                self.expect(render(MATTE, "-o", self.folder / name, *SMALL), 6, "cannot write")
+        self.assertEqual(sorted(f.name for f in self.folder.iterdir()), ["file", "taken.png"])
+
+    def test_a_write_that_fails_half_way_leaves_nothing(self):
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (120, 120))
+        for name in ("a.png", "a.exr"):
+            result = render(MATTE, "-o", self.folder / name, *SMALL, preexec_fn=small_files)
+            self.expect(result, 6, "cannot write")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_keep_going_renders_the_frames_that_can_be(self):
+        (self.folder / "f.0002.png").mkdir()
+        words = (MATTE, "-o", self.folder / "f.####.png", "--frames", "1-3", *SMALL)
+        self.expect(render(*words), 6)
+        self.assertFalse((self.folder / "f.0003.png").exists())
+        self.expect(render(*words, "--keep-going"), 1)
+        self.assertTrue((self.folder / "f.0003.png").exists())
+
+
+class Options(ProgramTest):
+    def test_help_and_version_exit_0(self):
+        self.expect(render("--help"), 0, "--frames", "--skip-existing", "Exit codes", "130")
+        self.expect(render("--version"), 0, "kinora-render ")
+
+    def test_stats_json_has_every_key(self):
+        result = render(MATTE, "-o", self.folder / "f.##.png", "--frames", "1-2", "--stats=json",
+                        *SMALL)
+        self.expect(result, 0)
+        stats = json.loads(result.out)
+        for key in ("target", "lanes", "threads", "load_ms", "build_ms", "first_ray_ms", "kernels",
+                    "compile_ms", "code_bytes", "peak_memory_bytes"):
+            self.assertIn(key, stats)
+        self.assertEqual([frame["frame"] for frame in stats["frames"]], [1, 2])
+        for frame in stats["frames"]:
+            for key in ("animate_ms", "skin_ms", "refit_ms", "trace_ms", "shade_ms", "write_ms",
+                        "total_ms", "rays", "rays_per_second", "shading_points",
+                        "points_per_second", "file"):
+                self.assertIn(key, frame)
+            self.assertGreater(frame["rays"], 0)
+
+    def test_stats_as_text_go_to_stdout_too(self):
+        result = render(MATTE, "-o", self.folder / "a.png", "--stats", *SMALL)
+        self.expect(result, 0, "animate", "kernels", "peak memory")
+
+    def test_lists_what_is_in_the_scene(self):
+        self.expect(render(MATTE, "--list"), 0, "camera", "range")
+        for kind in ("cameras", "clips", "materials", "shaders", "lights"):
+            self.expect(render(MATTE, "--list", kind), 0)
+
+    def test_quiet_says_nothing_when_all_is_well(self):
+        result = self.expect(render(MATTE, "-q", "-o", self.folder / "a.png", *SMALL), 0)
+        self.assertEqual(result.out + result.err, "")
+
+    def test_dumps_the_stages_of_the_kernels(self):
+        self.expect(render(MATTE, "--dump=ir"), 0, "; stage ir")
+
+    def test_frame_times_are_exact_at_ntsc_rates(self):
+        words = ("-o", self.folder / "f.%08d.png", "--frames", "10000000", "--fps", "24000/1001",
+                 "--stats=json", *SMALL)
+        self.expect(render(MATTE, *words), 0)
+        self.assertEqual(list(self.pictures()), ["f.10000000.png"])
+
+    def test_negative_frames_have_names(self):
+        self.expect(render(MATTE, "-o", self.folder / "f.###.png", "--frames=-2--1", *SMALL), 0)
+        self.assertEqual(list(self.pictures()), ["f.-001.png", "f.-002.png"])
+
+    def test_a_contact_sheet_shows_the_frames(self):
+        words = ("--contact-sheet", self.folder / "sheet.png", "--frames", "1-4", *SMALL)
+        self.expect(render(MATTE, *words), 0)
+        self.assertEqual(list(self.pictures()), ["sheet.png"])
+
+    def test_missing_folders_are_made(self):
+        self.expect(render(MATTE, "-o", self.folder / "a/b/c.exr", *SMALL), 0)
+        self.assertTrue(os.path.getsize(self.folder / "a/b/c.exr") > 0)
+
+    def test_a_closed_pipe_does_not_stop_it(self):
+        read, write = os.pipe()
+        os.close(read)
+        import subprocess
+        from programs import command
+        code = subprocess.run(command("kinora-render", MATTE, "-o", self.folder / "a.png", "--stats",
+                                      *SMALL), stdout=write, stderr=write, timeout=60).returncode
+        os.close(write)
+        self.assertEqual(code, 0)
+        self.assertEqual(list(self.pictures()), ["a.png"])
+
+
+if __name__ == "__main__":
+    main()

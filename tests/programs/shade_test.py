@@ -1,0 +1,191 @@
+"""tests/programs/shade_test.py: kinora-shade, the shader writer's tool."""
+import json
+import re
+
+from programs import MATTE, SHADERS, ProgramTest, main, shade, supported_targets
+
+BROKEN = "surface x(float Kd = 1;)\n{\n    Ci = Kd * diffus(N);\n}\n"
+
+
+def ranges(result):
+    """Output component -> (lowest, highest) that `run` printed."""
+    rows = re.findall(r"^(\S+)\s+(\S+) to (\S+), mean", result.out, re.M)
+    return {name: (float(low), float(high)) for name, low, high in rows}
+
+
+class Check(ProgramTest):
+    def test_every_shader_of_ours_is_clean(self):
+        for file in sorted(SHADERS.glob("*.sl")):
+            with self.subTest(file=file.name):
+                self.expect(shade("check", file), 0, "0 errors, 0 warnings")
+
+    def test_errors_have_their_place_and_exit_4(self):
+        file = self.write("x.sl", BROKEN)
+        self.expect(shade("check", file), 4, "x.sl:3:15: error", "did you mean 'diffuse'", "1 error")
+
+    def test_reads_standard_input(self):
+        self.expect(shade("check", "-", stdin=BROKEN), 4, "<stdin>:3:15: error")
+
+    def test_errors_inside_a_scene_have_the_scene_s_place(self):
+        text = MATTE.read_text().replace("diffuse(", "difuse(")
+        scene = self.write("s.dae", text)
+        line, row = next((i, r) for i, r in enumerate(text.splitlines(), 1) if "difuse(" in r)
+        place = f"s.dae:{line}:{row.index('difuse(') + 1}: error"
+        self.expect(shade("check", f"{scene}#Matte"), 4, place)
+        self.expect(shade("check", f"{MATTE}#Matte"), 0, "surface matte")
+
+    def test_unknown_effects_are_usage_errors_that_name_the_known(self):
+        self.expect(shade("check", f"{MATTE}#none"), 2, "Matte")
+        self.expect(shade("check", MATTE), 2, "Matte")
+
+    def test_missing_files_exit_3(self):
+        for source in (self.folder / "none.sl", f"{self.folder}/none.dae#x", self.folder):
+            self.expect(shade("check", source), 3)
+
+    def test_macros_and_includes(self):
+        self.write("inc/k.h", "#define HALF 0.5\n")
+        file = self.write("x.sl", '#include "k.h"\nsurface x() { Ci = HALF * TWICE; Oi = 1; }\n')
+        self.expect(shade("check", file), 4, "k.h")
+        self.expect(shade("check", file, "-I", self.folder / "inc"), 4, "TWICE")
+        words = (file, "-I", self.folder / "inc", "-D", "TWICE=2")
+        self.expect(shade("check", *words), 0)
+        self.expect(shade("check", *words, "-U", "TWICE"), 4, "TWICE")
+        self.expect(shade("check", *words, "-E"), 0, "Ci = 0.5 * 2")
+
+    def test_werror_turns_a_warning_into_exit_4(self):
+        file = self.write("x.sl", "surface x(float k = 1;) { k = 2; Ci = k; }\n")
+        self.expect(shade("check", file), 0, "1 warning")
+        self.expect(shade("check", file, "-Werror"), 4)
+
+
+class Info(ProgramTest):
+    def test_tells_parameters_and_globals(self):
+        self.expect(shade("info", SHADERS / "plastic.sl"), 0, 'surface "plastic"',
+                    "uniform float Ks = 0.5", "uniform color specularcolor", "writes Ci Oi")
+
+    def test_json_says_the_same(self):
+        file = self.write("x.sl", 'displacement x(float a[2] = {1, 2}; varying point q = 0;'
+                                  ' output varying color c = 0; string s = "t";) { N = N; }')
+        shader = json.loads(self.expect(shade("info", "--json", file), 0).out)["shaders"][0]
+        self.assertEqual((shader["name"], shader["kind"]), ("x", "displacement"))
+        rows = {row["name"]: row for row in shader["parameters"]}
+        self.assertEqual(rows["a"]["array"], 2)
+        self.assertEqual(rows["a"]["value"], [1, 2])
+        self.assertEqual((rows["q"]["type"], rows["q"]["detail"]), ("point", "varying"))
+        self.assertTrue(rows["c"]["output"])
+        self.assertEqual(rows["s"]["value"], ["t"])
+        self.assertIn("N", shader["writes"])
+
+
+class Run(ProgramTest):
+    def test_parameters_reach_the_shader(self):
+        file = self.write("x.sl", "surface x(float f = 1; color c = 1; float a[3] = {1, 1, 1};)"
+                                  "{ Ci = color(f, comp(c, 1), a[2]); Oi = 1; }")
+        words = ("--size", "4x4", "--param", "f=0.5", "--param", "c=0,0.25,0", "--param", "a=7,8,9")
+        got = ranges(self.expect(shade("run", file, *words), 0))
+        self.assertEqual(got, {"Ci.r": (0.5, 0.5), "Ci.g": (0.25, 0.25), "Ci.b": (9, 9)})
+
+    def test_wrong_parameters_and_outputs_are_explained(self):
+        plastic = SHADERS / "plastic.sl"
+        self.expect(shade("run", plastic, "--param", "kd=1"), 2, "did you mean 'K")
+        self.expect(shade("run", plastic, "--param", "Kd=a"), 2, "'a' is no float")
+        self.expect(shade("run", plastic, "--param", "Kd=1,2"), 2, "takes 1 numbers")
+        self.expect(shade("run", plastic, "--param", "Kd"), 2, "NAME=VALUE")
+        self.expect(shade("run", plastic, "--output", "Cj"), 2, "did you mean 'Ci'")
+        self.expect(shade("run", plastic, "--size", "4"), 2, "--size")
+        self.expect(shade("run", plastic, "-o", "a.gif"), 2, ".png")
+        self.expect(shade("run", plastic, "--shader", "x"), 2, "plastic")
+
+    def test_the_square_has_the_globals_that_hand_arithmetic_gives(self):
+        rows = {  # of a 2x2 grid on the unit square: u and v are 0.25 or 0.75
+            "u": (0.25, 0.75), "t": (0.25, 0.75), "du": (0.5, 0.5),
+            "xcomp(dPdu)": (1, 1), "ycomp(dPdv)": (1, 1), "zcomp(N)": (-1, -1),
+            "area(P)": (0.25, 0.25), 'xcomp(transform("object", P))': (0.25, 0.75),
+            "length(E)": (0, 0), "depth(P)": (1 / 99, 1 / 99), "Du(s * s)": (0.5, 1.5),
+        }
+        for expression, (low, high) in rows.items():
+            with self.subTest(expression=expression):
+                source = f"surface x() {{ Ci = color(float({expression})); Oi = 1; }}"
+                result = self.expect(shade("run", "-", "--size", "2x2", stdin=source), 0)
+                got = ranges(result)["Ci.r"]
+                self.assertAlmostEqual(got[0], low, places=5)
+                self.assertAlmostEqual(got[1], high, places=5)
+
+    def test_the_sphere_s_normal_agrees_with_its_derivatives(self):
+        source = ("surface x() { normal n = normalize(N); point c = P - N;"
+                  "Ci = color(n . normalize(dPdv ^ dPdu), length(N), zcomp(c)); Oi = 1; }")
+        got = ranges(self.expect(shade("run", "-", "--sphere", "--size", "64x64", stdin=source), 0))
+        self.assertAlmostEqual(abs(got["Ci.r"][0]), 1, places=3)
+        self.assertAlmostEqual(got["Ci.r"][0], got["Ci.r"][1], places=3)
+        self.assertAlmostEqual(got["Ci.g"][1], 1, places=5)
+        self.assertAlmostEqual(got["Ci.b"][0], 4, places=5)
+
+    def test_outputs_are_aovs_normals_and_lights(self):
+        source = "surface x(output varying float k = 0;) { k = 3; Ci = 0; Oi = 1; }"
+        got = ranges(self.expect(shade("run", "-", "--output", "k", "--size", "4x4", stdin=source), 0))
+        self.assertEqual(got, {"aov:k": (3, 3)})
+        self.expect(shade("run", SHADERS / "plastic.sl", "--output", "N", "--size", "4x4"), 0, "N.z")
+        light = ranges(self.expect(shade("run", SHADERS / "pointlight.sl", "--size", "3x3"), 0))
+        self.assertAlmostEqual(light["Ci.r"][1], 1, places=4)  # straight below, at distance 1
+
+    def test_writes_pictures_and_says_when_it_cannot(self):
+        for name in ("a.png", "a.exr"):
+            self.expect(shade("run", SHADERS / "wood.sl", "--size", "16x16", "-o", self.folder / name), 0)
+        self.assertEqual(list(self.pictures()), ["a.exr", "a.png"])
+        self.write("file", "")
+        self.expect(shade("run", SHADERS / "wood.sl", "-o", self.folder / "file/a.png"), 6)
+
+    def test_our_shaders_agree_with_interpreter_and_reference(self):
+        for file in sorted(SHADERS.glob("*.sl")):
+            for shape in ((), ("--sphere",)):
+                with self.subTest(file=file.name, shape=shape):
+                    words = ("run", file, "--size", "40x40", *shape, "--compare")
+                    self.expect(shade(*words, "interp"), 0, "interp: 0 of ")
+                    result = self.expect(shade(*words, "reference"), 0, " points compared")
+                    self.assertGreater(int(re.search(r"(\d+) points comp", result.out)[1]), 0)
+                    worst = re.search(r"largest difference (\S+):", result.out)
+                    self.assertLess(float(worst[1]) if worst else 0, 1e-4, result)
+
+    def test_faults_have_the_loop_s_place(self):
+        source = "surface x() {\n float i = 0;\n while (i > -1) i += 1;\n Ci = i; }"
+        self.expect(shade("run", "-", "--size", "1x1", stdin=source), 0, "<stdin>:3:2: warning")
+
+    def test_shader_kinds_that_do_not_run_are_refused(self):
+        for kind in ("volume", "imager", "transformation"):
+            source = f"{kind} x() {{ }}"
+            self.expect(shade("run", "-", "--size", "2x2", stdin=source), 2, kind)
+            self.expect(shade("check", "-", stdin=source), 0)
+
+
+class DumpBenchManual(ProgramTest):
+    def test_every_stage_shows_its_work(self):
+        rows = {"tokens": "name surface", "ast": "surface constant", "types": "Cs{color varying}",
+                "ir": "; stage ir", "ir:fold": "; stage ir:fold", "asm": "; stage asm"}
+        for stage, text in rows.items():
+            with self.subTest(stage=stage):
+                self.expect(shade("dump", "--stage", stage, SHADERS / "constant.sl"), 0, text)
+        self.expect(shade("dump", "--stage", "x", SHADERS / "constant.sl"), 2, "tokens, ast")
+        self.expect(shade("dump", "--stage", "ir:x", SHADERS / "constant.sl"), 2, "ir:fold")
+
+    def test_bench_times_every_target(self):
+        result = shade("bench", SHADERS / "matte.sl", "--size", "64x64", "--iterations", "2")
+        self.expect(result, 0, "median", "Mpoints/s")
+        self.assertEqual(result.out.count("Mpoints/s"), len(supported_targets()))
+
+    def test_the_manual_knows_the_built_ins(self):
+        self.expect(shade("manual", "smoothstep"), 0, "float smoothstep(float, float, float)")
+        self.expect(shade("manual", "smothstep"), 2, "did you mean 'smoothstep'")
+        self.assertGreater(len(self.expect(shade("manual"), 0).out.splitlines()), 60)
+
+    def test_help_and_wrong_commands(self):
+        self.expect(shade("--help"), 0, "check", "bench", "Exit codes")
+        self.expect(shade("--version"), 0, "kinora-shade ")
+        for name in ("check", "info", "run", "dump", "bench", "manual"):
+            self.expect(shade(name, "--help"), 0)
+        self.expect(shade(), 2)
+        self.expect(shade("chek", "x.sl"), 2, "did you mean 'check'")
+        self.expect(shade("check"), 2, "source")
+
+
+if __name__ == "__main__":
+    main()
