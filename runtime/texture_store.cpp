@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "collada/findings.h"
 #include "rsl/renderer_services.h"
 #include "runtime/base/parallel.h"
 #include "runtime/findings.h"
@@ -27,6 +28,15 @@ std::unique_ptr<StoredImage> read_image(const std::string& path, bool data) {
     }
     if (!image->error.empty()) image->pyramid = TexturePyramid(checks_image(), false);
     return image;
+}
+
+// The reader of the scene says so of files its <image> elements name.
+bool known_missing(const Diagnostics& diagnostics, const std::string& path) {
+    for (const Finding& finding : diagnostics.findings())
+        if (finding.info == &collada::Code::IMAGE_MISSING &&
+            finding.message.find("'" + path + "'") != std::string::npos)
+            return true;
+    return false;
 }
 
 }  // namespace
@@ -112,7 +122,7 @@ void TextureStore::report(Diagnostics& diagnostics) {
         bool known = image->reported || (last && *last == image->path);
         image->reported = true;
         last = &image->path;
-        if (!known)
+        if (!known && !known_missing(diagnostics, image->path))
             diagnostics.report(Code::IMAGE_UNREADABLE, Location{}, image->path, image->error);
     }
 }

@@ -46,7 +46,8 @@ class TextureStore {
     // file are skipped. Forgets that unreadable files were reported: a new scene begins.
     void preload(std::span<const std::string> names);
 
-    // One finding for each unreadable file that find's callers asked for and that is not reported.
+    // One finding for each unreadable file that find's callers asked for and that is not reported,
+    // not even by the reader of the scene (collada::Code::IMAGE_MISSING).
     void report(Diagnostics& diagnostics);
 
     int images() const;
