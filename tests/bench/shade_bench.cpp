@@ -1,0 +1,462 @@
+// tests/bench/shade_bench.cpp: marble, plastic and wood of assets/shaders through the JIT, against
+// the same mathematics hand-written with intrinsics (hand_shaders.h). Fast tier, one thread.
+//
+// One row: TARGET/SHADER/KIND/points/grid. The points are shaded in grids of `grid`; code and data
+// are warm. KIND:
+//   surface  the surface alone, over light records (a distant and an ambient light) already filled
+//   lit      the light kernels or functions fill the records, then the surface runs
+//   bound    as surface, but every parameter that is not 0 or 1 is read from the frame block, as
+//            when a scene sets it (the hand-written code keeps its constants)
+// JIT and hand-written code take turns within one row, both in CPU time. `jit` and `hand` are
+// Mpoints/s in the best iteration of each (others share their caches with whatever else runs),
+// `ratio` is jit / hand. `differs` is the largest difference of Ci between the two.
+// compile/* rows: IR to code, and source text to code, caches cleared.
+#include <benchmark/benchmark.h>
+#include <time.h>
+#include <xmmintrin.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "jit/compiler.h"
+#include "rsl/lower.h"
+#include "runtime/base/arena.h"
+#include "runtime/base/check.h"
+#include "tests/bench/hand_shaders.h"
+
+namespace kinora {
+namespace {
+
+constexpr size_t kLanes = jit::kMaxLanes;
+const float kAxis[3] = {0.35f, -0.5f, 0.79f};  // of the distant light, in current space
+const float kAmbient = 0.15f;
+
+double cpu_seconds() {
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
+}
+
+std::string shader_text(const std::string& name) {
+    std::ifstream file(std::string(KINORA_SOURCE_DIR) + "/assets/shaders/" + name + ".sl");
+    std::stringstream text;
+    text << file.rdbuf();
+    CHECK(!text.str().empty());
+    return text.str();
+}
+
+// ---- points -------------------------------------------------------------------------------------
+
+// A bumpy sheet seen from the origin of current space, in the columns that a grid has.
+struct Points {
+    Arena arena;
+    size_t count;
+    float *P[3], *N[3], *Ng[3], *I[3], *object[3][4];
+
+    explicit Points(size_t n) : count(n) {
+        for (auto* triple : {P, N, Ng, I})
+            for (int k = 0; k < 3; ++k) triple[k] = arena.allocate_span<float>(n).data();
+        const float rows[3][4] = {{0.8f, 0, 0.6f, 0.5f}, {0, 1, 0, -0.25f}, {-0.6f, 0, 0.8f, 0.1f}};
+        for (size_t r = 0; r < 3; ++r)
+            for (size_t c = 0; c < 4; ++c) {
+                object[r][c] = arena.allocate_span<float>(n).data();
+                std::fill_n(object[r][c], n, rows[r][c]);
+            }
+        for (size_t i = 0; i < n; ++i) place(i);
+    }
+    void place(size_t i) {
+        size_t width = size_t(std::sqrt(double(count)));
+        float x = float(i % width) / float(width) * 4 - 2;
+        float y = float(i / width) / float(width) * 4 - 2;
+        float at[3] = {x, y, 5 + 0.3f * std::sin(3 * x) * std::cos(2 * y)};
+        float normal[3] = {0.9f * std::cos(3 * x), -0.6f * std::sin(2 * y), -1};
+        for (int k = 0; k < 3; ++k) {
+            P[k][i] = I[k][i] = at[k];
+            N[k][i] = normal[k];
+            Ng[k][i] = k == 2 ? -1.0f : 0.0f;
+        }
+    }
+    const float* column(const std::string& name) const {
+        auto part = [](char c) { return size_t(c - 'x'); };
+        if (name.starts_with("P.")) return P[part(name.back())];
+        if (name.starts_with("N.")) return N[part(name.back())];
+        if (name.starts_with("Ng.")) return Ng[part(name.back())];
+        if (name.starts_with("I.")) return I[part(name.back())];
+        const std::string object_space = "space:object:from_current:";
+        CHECK(name.starts_with(object_space));
+        return object[size_t(name[name.size() - 2] - '0')][size_t(name.back() - '0')];
+    }
+};
+
+// ---- the JIT's side -----------------------------------------------------------------------------
+
+struct Compiled {
+    Diagnostics diagnostics;
+    std::unique_ptr<rsl::Shader> shader;
+    rsl::Layer layer;
+    rsl::LoweredShader lowered;
+    jit::KernelPair kernels;
+    std::vector<float> frame;
+};
+
+std::unique_ptr<rsl::Shader> front_end(const std::string& text, Diagnostics& diagnostics) {
+    rsl::ShaderSource source{text, {}};
+    source.map.file = diagnostics.files.add("bench.sl", text);
+    source.map.segments = {{0, 0}};
+    auto shaders = rsl::compile(source, {}, diagnostics);
+    CHECK_EQ(shaders.size(), size_t(1));
+    return std::move(shaders[0]);
+}
+
+rsl::LoweredShader lower_fast(const rsl::Layer& layer, Diagnostics& diagnostics) {
+    rsl::LowerOptions options;
+    options.math = jit::math::Tier::Fast;
+    auto lowered = rsl::lower(std::span(&layer, 1), options, diagnostics);
+    CHECK(lowered.has_value());
+    return std::move(*lowered);
+}
+
+// What runtime/look.cpp gives a parameter that the scene sets: 0 and 1 belong to the shape.
+std::vector<rsl::ParamBinding> bound_parameters(const rsl::Shader& shader) {
+    std::vector<rsl::ParamBinding> bindings;
+    for (const rsl::ShaderParameter& p : shader.parameters) {
+        rsl::ParamBinding binding{std::string(p.name), rsl::ParamBinding::Kind::Frame, {}, {}};
+        float first = p.constant->numbers[0];
+        if (p.type == rsl::Type{rsl::BaseType::Float, -1} && (first == 0 || first == 1)) {
+            binding.kind = rsl::ParamBinding::Kind::Constant;
+            binding.constant = {first};
+        }
+        bindings.push_back(binding);
+    }
+    return bindings;
+}
+
+// "param:0:NAME[.c]" and the light's own space, whose z axis is the light's backwards.
+float frame_value(const rsl::Shader& shader, const std::string& name) {
+    if (name.starts_with("space:shader:to_current:"))
+        return name.back() == '2' ? -kAxis[name[name.size() - 2] - '0'] : 0.0f;
+    for (const rsl::ShaderParameter& p : shader.parameters) {
+        std::string prefix = "param:0:" + std::string(p.name);
+        if (!name.starts_with(prefix)) continue;
+        if (name.size() == prefix.size()) return p.constant->numbers[0];
+        size_t component = std::string("rgbxyz").find(name.back()) % 3;
+        return p.constant->numbers[component];
+    }
+    CHECK_EQ(name, "a known frame input");
+    return 0;
+}
+
+std::vector<float> frame_block(const Compiled& compiled) {
+    if (!compiled.kernels.frame) return {};
+    const jit::Kernel& kernel = *compiled.kernels.frame;
+    Arena arena;
+    auto row = [&](float value) {
+        std::span<float> lanes = arena.allocate_span<float>(kLanes);
+        std::fill(lanes.begin(), lanes.end(), value);
+        return lanes.data();
+    };
+    std::vector<const float*> in;
+    for (const jit::InputInfo& info : kernel.inputs)
+        in.push_back(row(frame_value(*compiled.shader, info.name)));
+    std::vector<float*> out;
+    for (size_t k = 0; k < kernel.outputs.size(); ++k) out.push_back(row(0));
+    std::vector<uint8_t> faults(kernel.fault_sites.size() + 1);
+    jit::KernelArgs args;
+    args.in = in.data();
+    args.out = out.data();
+    args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes + 64));
+    args.fault = faults.data();
+    args.count = 1;
+    kernel.run(args);
+    std::vector<float> frame;
+    for (float* lanes : out) frame.push_back(lanes[0]);
+    return frame;
+}
+
+std::unique_ptr<Compiled> compile(const std::string& name, const jit::Target& target, bool bound) {
+    auto result = std::make_unique<Compiled>();
+    result->shader = front_end(shader_text(name), result->diagnostics);
+    result->layer.shader = result->shader.get();
+    if (bound) result->layer.params = bound_parameters(*result->shader);
+    result->lowered = lower_fast(result->layer, result->diagnostics);
+    result->kernels = jit::compile(result->lowered.module, {&target, nullptr});
+    CHECK(result->kernels.point->target == std::string(target.name));
+    result->frame = frame_block(*result);
+    return result;
+}
+
+// A kernel over all grids: the arguments of each are made ready, as a renderer's are when it has
+// gathered a grid.
+class Run {
+  public:
+    Run(const Compiled& compiled, const Points& points, size_t grid)
+        : kernel_(*compiled.kernels.point) {
+        size_t grids = points.count / grid;
+        for (const jit::OutputInfo& info : kernel_.outputs) {
+            out[info.name] = arena_.allocate_span<float>(points.count).data();
+        }
+        faults_.resize(kernel_.fault_sites.size() + 1);
+        auto* scratch = static_cast<std::byte*>(arena_.allocate(kernel_.scratch_bytes + 64));
+        for (size_t g = 0; g < grids; ++g) {
+            auto in = arena_.allocate_span<const float*>(kernel_.inputs.size() + 1);
+            for (size_t k = 0; k < kernel_.inputs.size(); ++k)
+                in[k] = points.column(kernel_.inputs[k].name) + g * grid;
+            auto outs = arena_.allocate_span<float*>(kernel_.outputs.size() + 1);
+            for (size_t k = 0; k < kernel_.outputs.size(); ++k)
+                outs[k] = out[kernel_.outputs[k].name] + g * grid;
+            jit::KernelArgs args;
+            args.in = in.data();
+            args.out = outs.data();
+            args.frame = compiled.frame.data();
+            args.scratch = scratch;
+            args.fault = faults_.data();
+            args.count = int32_t(grid);
+            grids_.push_back(args);
+        }
+    }
+    void set_records(size_t g, const jit::RecordSet* set) { grids_[g].record_sets = set; }
+    void run(size_t g) const { kernel_.run(grids_[g]); }
+    size_t grids() const { return grids_.size(); }
+
+    std::map<std::string, float*> out;
+
+  private:
+    const jit::Kernel& kernel_;
+    Arena arena_;
+    std::vector<uint8_t> faults_;
+    std::vector<jit::KernelArgs> grids_;
+};
+
+// The light kernels and the records over their outputs.
+class JitLights {
+  public:
+    JitLights(const jit::Target& target, const Points& points, size_t grid)
+        : count_(grid),
+          solar_(compile("distantlight", target, false)),
+          ambient_(compile("ambientlight", target, false)),
+          solar_run_(*solar_, points, grid),
+          ambient_run_(*ambient_, points, grid) {
+        size_t grids = points.count / grid;
+        sets_.resize(grids);
+        for (size_t g = 0; g < grids; ++g) {
+            auto records = arena_.allocate_span<jit::Record>(2);
+            records[0] = record(solar_run_, g, rsl::kLightSolar);
+            records[1] = record(ambient_run_, g, rsl::kLightAmbient);
+            sets_[g] = {2, records.data()};
+        }
+    }
+    const jit::RecordSet* set(size_t g) const { return &sets_[g]; }
+    void run(size_t g) {
+        solar_run_.run(g);
+        // As runtime/light_records.cpp: the record's L points from the surface to the light.
+        for (float* L : L_)
+            for (size_t i = g * count_; i < (g + 1) * count_; ++i) L[i] = -L[i];
+        ambient_run_.run(g);
+    }
+
+  private:
+    jit::Record record(Run& run, size_t g, int kind) {
+        auto columns = arena_.allocate_span<const float*>(rsl::kLightMessages);
+        auto put = [&](size_t column, const char* name) {
+            columns[column] = run.out.at(std::string("light:0:") + name) + g * count_;
+        };
+        const char* names[] = {"L.x",  "L.y",  "L.z",  "Cl.r", "Cl.g",
+                               "Cl.b", "Ol.r", "Ol.g", "Ol.b", "lit"};
+        for (size_t k = 0; k < std::size(names); ++k) put(k, names[k]);
+        if (kind == rsl::kLightSolar)
+            for (size_t k = 0; k < 3; ++k) L_[k] = run.out.at(std::string("light:0:") + names[k]);
+        auto uniforms = arena_.allocate_span<float>(rsl::kLightUniforms);
+        uniforms[rsl::kLightKind] = jit::float_of(kind);
+        uniforms[rsl::kLightCategories] = 0;
+        uniforms[rsl::kLightNondiffuse] = uniforms[rsl::kLightNonspecular] = 0;
+        return {columns.data(), uniforms.data()};
+    }
+
+    size_t count_;
+    std::unique_ptr<Compiled> solar_, ambient_;
+    Run solar_run_, ambient_run_;
+    Arena arena_;
+    float* L_[3] = {};
+    std::vector<jit::RecordSet> sets_;
+};
+
+// ---- the hand-written side ----------------------------------------------------------------------
+
+struct HandGrids {
+    HandGrids(const Points& points, size_t grid) : count(grid) {
+        size_t grids = points.count / grid;
+        for (auto* rows : {Ci, Oi, L, Cl, ambient})
+            for (int k = 0; k < 3; ++k) rows[k] = arena.allocate_span<float>(points.count).data();
+        for (size_t g = 0; g < grids; ++g) {
+            size_t at = g * grid;
+            Grid one;
+            for (int k = 0; k < 3; ++k) {
+                one.in.P[k] = points.P[k] + at;
+                one.in.N[k] = points.N[k] + at;
+                one.in.Ng[k] = points.Ng[k] + at;
+                one.in.I[k] = points.I[k] + at;
+                for (int c = 0; c < 4; ++c) one.in.object[k][c] = points.object[k][c] + at;
+                one.out.Ci[k] = Ci[k] + at;
+                one.out.Oi[k] = Oi[k] + at;
+                one.records[0].L[k] = L[k] + at;
+                one.records[0].Cl[k] = Cl[k] + at;
+                one.records[1].Cl[k] = ambient[k] + at;
+            }
+            one.records[1].ambient = true;
+            list.push_back(one);
+        }
+    }
+    void lights(const hand::Shaders& shaders, size_t g) {
+        const hand::Light sun{{kAxis[0], kAxis[1], kAxis[2]}, {1, 1, 1}};
+        const hand::Light sky{{0, 0, 0}, {1, 1, 1}};
+        shaders.solar(sun, list[g].records[0], count);
+        shaders.ambient(sky, list[g].records[1], count);
+    }
+    void surface(hand::Shaders::Surface shade, size_t g) {
+        shade(list[g].in, list[g].out, list[g].records, 2, count);
+    }
+
+    struct Grid {
+        hand::Inputs in;
+        hand::Outputs out;
+        hand::Record records[2];
+    };
+    size_t count;
+    Arena arena;
+    float *Ci[3], *Oi[3], *L[3], *Cl[3], *ambient[3];
+    std::vector<Grid> list;
+};
+
+// ---- rows ---------------------------------------------------------------------------------------
+
+struct ShaderRow {
+    const char* name;
+    hand::Shaders::Surface hand::Shaders::*surface;
+};
+constexpr ShaderRow kShaders[] = {{"marble", &hand::Shaders::marble},
+                                  {"plastic", &hand::Shaders::plastic},
+                                  {"wood", &hand::Shaders::wood}};
+struct WidthRow {
+    const char* target;
+    const hand::Shaders* (*shaders)();
+};
+constexpr WidthRow kWidths[] = {{"avx512", hand::avx512}, {"avx2", hand::avx2}};
+enum class Kind { Surface, Lit, Bound };
+struct KindRow {
+    const char* name;
+    Kind kind;
+};
+constexpr KindRow kKinds[] = {
+    {"surface", Kind::Surface}, {"lit", Kind::Lit}, {"bound", Kind::Bound}};
+
+double largest_difference(const Run& run, const HandGrids& by_hand, size_t count) {
+    double largest = 0;
+    const char* names[] = {"Ci.r", "Ci.g", "Ci.b"};
+    for (int k = 0; k < 3; ++k)
+        for (size_t i = 0; i < count; ++i)
+            largest = std::max(
+                largest, std::abs(double(run.out.at(names[k])[i]) - double(by_hand.Ci[k][i])));
+    return largest;
+}
+
+void shade_row(benchmark::State& state, const WidthRow& width, const ShaderRow& shader, Kind kind) {
+    size_t count = size_t(state.range(0)), grid = size_t(state.range(1));
+    const jit::Target& target = *jit::find_target(width.target);
+    Points points(count);
+    auto surface = compile(shader.name, target, kind == Kind::Bound);
+    Run run(*surface, points, grid);
+    JitLights lights(target, points, grid);
+    HandGrids by_hand(points, grid);
+    const hand::Shaders& shaders = *width.shaders();
+    for (size_t g = 0; g < run.grids(); ++g) {
+        run.set_records(g, lights.set(g));
+        lights.run(g);
+        by_hand.lights(shaders, g);
+    }
+    _mm_setcsr(_mm_getcsr() | 0x8040);  // FTZ and DAZ, as around all fast kernels
+    double jit_time = 1e30, hand_time = 1e30;
+    size_t repeats = std::max<size_t>(1, 32768 / count);
+    for (auto _ : state) {
+        double start = cpu_seconds();
+        for (size_t r = 0; r < repeats; ++r)
+            for (size_t g = 0; g < run.grids(); ++g) {
+                if (kind == Kind::Lit) lights.run(g);
+                run.run(g);
+            }
+        double middle = cpu_seconds();
+        for (size_t r = 0; r < repeats; ++r)
+            for (size_t g = 0; g < run.grids(); ++g) {
+                if (kind == Kind::Lit) by_hand.lights(shaders, g);
+                by_hand.surface(shaders.*shader.surface, g);
+            }
+        double end = cpu_seconds();
+        jit_time = std::min(jit_time, middle - start);
+        hand_time = std::min(hand_time, end - middle);
+        state.SetIterationTime(middle - start);
+    }
+    double shaded = double(count * repeats) * 1e-6;
+    state.counters["jit"] = shaded / jit_time;
+    state.counters["hand"] = shaded / hand_time;
+    state.counters["ratio"] = hand_time / jit_time;
+    state.counters["differs"] = largest_difference(run, by_hand, count);
+}
+
+void ir_to_code(benchmark::State& state, const std::string& name, const jit::Target& target) {
+    auto compiled = compile(name, target, false);
+    double emit_ms = 0;
+    for (auto _ : state) {
+        jit::clear_cache();
+        jit::KernelPair pair = jit::compile(compiled->lowered.module, {&target, nullptr});
+        emit_ms += pair.emit_ms;
+    }
+    state.counters["emit_ms"] = emit_ms / double(state.iterations());
+    state.counters["code_bytes"] = double(compiled->kernels.point->code_bytes);
+}
+
+void source_to_code(benchmark::State& state, const std::string& name, const jit::Target& target) {
+    std::string text = shader_text(name);
+    for (auto _ : state) {
+        jit::clear_cache();
+        Diagnostics diagnostics;
+        auto shader = front_end(text, diagnostics);
+        rsl::Layer layer{shader.get(), {}};
+        jit::compile(lower_fast(layer, diagnostics).module, {&target, nullptr});
+    }
+}
+
+void register_rows() {
+    for (const WidthRow& width : kWidths) {
+        const jit::Target& target = *jit::find_target(width.target);
+        if (!target.supported() || !width.shaders()) continue;
+        for (const ShaderRow& shader : kShaders) {
+            std::string name = shader.name;
+            std::string compile_name = std::string("compile/") + width.target + "/" + name;
+            auto unit = benchmark::kMicrosecond;
+            benchmark::RegisterBenchmark((compile_name + "/ir_to_code").c_str(), ir_to_code, name,
+                                         target)
+                ->Unit(unit);
+            benchmark::RegisterBenchmark((compile_name + "/source_to_code").c_str(), source_to_code,
+                                         name, target)
+                ->Unit(unit);
+            for (const KindRow& kind : kKinds) {
+                std::string label = std::string(width.target) + "/" + name + "/" + kind.name;
+                benchmark::RegisterBenchmark(label.c_str(), shade_row, width, shader, kind.kind)
+                    ->Args({4096, 1024})
+                    ->Args({65536, 1024})
+                    ->Args({4096, 16})
+                    ->UseManualTime()
+                    ->Unit(unit);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kinora
+
+int main(int argc, char** argv) {
+    kinora::register_rows();
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+}
