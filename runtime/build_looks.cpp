@@ -223,16 +223,16 @@ uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
     uint32_t material = use ? use->material : kNone;
     surface.material = material;
     const MaterialDefinition* definition =
-        material != kNone && !description_.materials[material].surfaces.empty()
-            ? &description_.materials[material]
-            : &default_material();
+        material != kNone ? &description_.materials[material] : &default_material();
+    // A material that only displaces shows the default surface.
+    const std::vector<ShaderUse>& surfaces =
+        definition->surfaces.empty() ? default_material().surfaces : definition->surfaces;
     auto look = std::make_unique<Look>();
     look->kind = LookKind::Surface;
     look->name = definition->id.empty() ? definition->name : definition->id;
     look->hide_backfaces = definition->hide_backfaces;
     look->layers = definition->displacements;
-    look->layers.insert(look->layers.end(), definition->surfaces.begin(),
-                        definition->surfaces.end());
+    look->layers.insert(look->layers.end(), surfaces.begin(), surfaces.end());
     std::string key = fmt::format("{}", static_cast<const void*>(definition));
     if (use)
         for (const auto& [name, slot] : use->params) {

@@ -163,9 +163,9 @@ void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
         if (shader.stage == collada::RslStage::Surface) stack = &result.surfaces;
         if (shader.stage == collada::RslStage::Displacement) stack = &result.displacements;
         if (!stack) {
-            if (shader.stage != collada::RslStage::Light)
-                diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
-                                    kStageNames[size_t(shader.stage)]);
+            // LIGHT on geometry would be an area light.
+            diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
+                                kStageNames[size_t(shader.stage)]);
             continue;
         }
         if (auto use = shader_use(index, effect, shader)) stack->push_back(std::move(*use));

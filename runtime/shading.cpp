@@ -72,6 +72,9 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics) {
 void Shading::shade(const raytrace::HitBatch& hits, int thread_id, raytrace::ShadeResult& result) {
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
+    // Precise kernels run in the IEEE default, fast ones flush denormals (DESIGN.md decision 13).
+    std::optional<raytrace::DenormalGuard> flush;
+    if (scene_.options.math == jit::math::Tier::Fast) flush.emplace();
     // A counting sort by look keeps the hits' order within each, so rows stay together.
     size_t looks = scene_.looks.size();
     std::span<uint32_t> begin = own.arena.allocate_span<uint32_t>(looks + 1);
