@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -152,22 +155,29 @@ std::string extension(const std::string& path) {
     return text;
 }
 
+namespace fs = std::filesystem;
+
+// Where a picture is until it is whole: ".NAME.PID.tmp" beside it.
+std::string temporary_name(const fs::path& target) {
+    return (target.parent_path() /
+            ("." + target.filename().string() + "." + std::to_string(getpid()) + ".tmp"))
+        .string();
+}
+
+std::string make_folder(const fs::path& target, int& number) {
+    std::error_code code;
+    if (target.has_parent_path()) fs::create_directories(target.parent_path(), code);
+    number = code.value();
+    return code ? code.message() : "";
+}
+
 // Calls write(temporary name), then renames; the temporary file never stays.
 template <class Write>
 std::string write_whole(const std::string& path, int* errno_out, Write write) {
-    namespace fs = std::filesystem;
-    fs::path target(path);
-    std::error_code code;
     int number = 0;
-    std::string error;
-    if (target.has_parent_path()) fs::create_directories(target.parent_path(), code);
-    std::string temporary = (target.parent_path() / ("." + target.filename().string() + "." +
-                                                     std::to_string(getpid()) + ".tmp"))
-                                .string();
-    if (code) {
-        error = code.message();
-        number = code.value();
-    } else {
+    std::string error = make_folder(path, number);
+    if (error.empty()) {
+        std::string temporary = temporary_name(path);
         error = write(temporary, number);
         if (error.empty() && std::rename(temporary.c_str(), path.c_str()) != 0) {
             number = errno;
@@ -177,6 +187,17 @@ std::string write_whole(const std::string& path, int* errno_out, Write write) {
     }
     if (errno_out) *errno_out = number;
     return error;
+}
+
+// The process of ".NAME.PID.tmp", 0 if the name is not so.
+pid_t writer_of(const std::string& name) {
+    if (!name.starts_with(".") || !name.ends_with(".tmp")) return 0;
+    std::string stem = name.substr(0, name.size() - 4);
+    size_t dot = stem.rfind('.');
+    if (!is_image_path(stem.substr(1, dot - 1))) return 0;
+    int pid = 0;
+    auto [end, error] = std::from_chars(stem.data() + dot + 1, stem.data() + stem.size(), pid);
+    return error == std::errc() && end == stem.data() + stem.size() ? pid : 0;
 }
 
 }  // namespace
@@ -201,6 +222,41 @@ Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding) {
 bool is_image_path(const std::string& path) {
     std::string e = extension(path);
     return e == ".png" || e == ".exr";
+}
+
+std::string try_image_path(const std::string& path, int* errno_out) {
+    int number = 0;
+    std::string error = make_folder(path, number);
+    std::error_code ignored;
+    if (error.empty() && fs::is_directory(path, ignored)) {
+        number = EISDIR;
+        error = std::strerror(EISDIR);
+    }
+    if (error.empty()) {
+        std::string temporary = temporary_name(path);
+        int file = open(temporary.c_str(), O_WRONLY | O_CREAT, 0666);
+        number = file < 0 ? errno : 0;
+        if (file < 0) error = std::strerror(errno);
+        if (file >= 0) {
+            close(file);
+            unlink(temporary.c_str());
+        }
+    }
+    if (errno_out) *errno_out = number;
+    return error;
+}
+
+void remove_stale_images(const std::string& path) {
+    fs::path folder = fs::path(path).parent_path();
+    std::error_code code;
+    for (fs::directory_iterator at(folder.empty() ? "." : folder, code), end; !code && at != end;
+         at.increment(code)) {
+        pid_t writer = writer_of(at->path().filename().string());
+        if (writer <= 0 || kill(writer, 0) == 0 || errno != ESRCH) continue;
+        std::error_code ignored;
+        auto age = fs::file_time_type::clock::now() - fs::last_write_time(at->path(), ignored);
+        if (!ignored && age > std::chrono::minutes(1)) fs::remove(at->path(), ignored);
+    }
 }
 
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,

@@ -33,6 +33,14 @@ std::string write_image(const std::string& path, const raytrace::Film& film, Col
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
                       int* errno_out = nullptr);
 
+// Whether a file could be written there now: makes missing directories, tries a temporary file.
+// Returns an error text, or "".
+std::string try_image_path(const std::string& path, int* errno_out = nullptr);
+
+// Removes temporary files beside `path` that a killed writer left: its process is gone and they
+// have not changed for a minute (another machine may be writing).
+void remove_stale_images(const std::string& path);
+
 // Whether write_image knows the extension.
 bool is_image_path(const std::string& path);
 

@@ -62,6 +62,8 @@ class Render {
     int flush_findings();
     void dump() const;
     int frames();
+    int report_unwritable(const std::string& file, const std::string& error, int number);
+    int refuse_unwritable(const std::string& file);
     int one_frame(int64_t frame, double time, size_t index);
     std::string fingerprint(double time) const;
     void print_stats() const;
@@ -216,6 +218,20 @@ XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription&
     return hash;
 }
 
+int Render::report_unwritable(const std::string& file, const std::string& error, int number) {
+    diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, file, error);
+    flush_findings();
+    bool full = number == ENOSPC || number == EDQUOT || number == ENOMEM;
+    return full ? kExitRetry : kExitUnwritable;
+}
+
+// Before a frame is rendered, not after.
+int Render::refuse_unwritable(const std::string& file) {
+    int number = 0;
+    std::string error = try_image_path(file, &number);
+    return error.empty() ? int(kExitOk) : report_unwritable(file, error, number);
+}
+
 int Render::one_frame(int64_t frame, double time, size_t index) {
     FrameRecord& record = records_.emplace_back();
     record.frame = frame;
@@ -228,6 +244,8 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
         progress_.frame_skipped(frame, index, record.file);
         return kExitOk;
     }
+    if (wants_file)
+        if (int code = refuse_unwritable(record.file)) return code;
     settings_.integrator.seed = options_.seed * 0x9e3779b9u + uint32_t(frame);
     auto on_tile = [&](int done, int total) {
         progress_.tile(frame, index, done, total);
@@ -246,12 +264,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
         std::string error = write_image(
             record.file, film_, options_.color,
             {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}}, &number);
-        if (!error.empty()) {
-            diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, record.file, error);
-            flush_findings();
-            return number == ENOSPC || number == EDQUOT || number == ENOMEM ? kExitRetry
-                                                                            : kExitUnwritable;
-        }
+        if (!error.empty()) return report_unwritable(record.file, error, number);
     }
     if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
     record.write_ms = watch.ms();
@@ -298,6 +311,9 @@ int Render::frames() {
                      list.size(), "f.####.png");
         return kExitUsage;
     }
+    if (!options_.contact_sheet.empty())
+        if (int code = refuse_unwritable(options_.contact_sheet)) return code;
+    if (!options_.output.empty()) remove_stale_images(options_.output);
     scene_hash_ = hash_inputs(diagnostics_, description);
     progress_ = ProgressReport(options_.progress, list.size());
     int result = kExitOk;
@@ -315,11 +331,7 @@ int Render::frames() {
     if (!options_.contact_sheet.empty()) {
         int number = 0;
         std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
-        if (!error.empty()) {
-            diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, options_.contact_sheet, error);
-            flush_findings();
-            return number == ENOSPC ? kExitRetry : kExitUnwritable;
-        }
+        if (!error.empty()) return report_unwritable(options_.contact_sheet, error, number);
     }
     return result;
 }

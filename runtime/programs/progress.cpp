@@ -14,9 +14,10 @@ constexpr int kBarWidth = 32;
 
 void ProgressReport::bar(int64_t frame, double done) {
     double part = done / double(frames_);
+    double rendered = done - double(skipped_);  // frames kept took no time
     std::string left;
-    if (part > 0.01) {
-        int seconds = int(watch_.ms() / part * (1 - part) / 1000);
+    if (part > 0.01 && rendered > 0) {
+        int seconds = int(watch_.ms() / rendered * (double(frames_) - done) / 1000);
         left = fmt::format(", {}:{:02} left", seconds / 60, seconds % 60);
     }
     int filled = int(part * kBarWidth);
@@ -34,7 +35,6 @@ void ProgressReport::tile(int64_t frame, size_t index, int done, int total) {
 }
 
 void ProgressReport::frame_done(int64_t frame, size_t index, const std::string& file, double ms) {
-    ++rendered_;
     if (style_ == ProgressStyle::Lines)
         std::fprintf(stderr, "frame %lld (%zu/%zu) %.1f ms %s\n", static_cast<long long>(frame),
                      index + 1, frames_, ms, file.c_str());
@@ -42,6 +42,7 @@ void ProgressReport::frame_done(int64_t frame, size_t index, const std::string& 
 }
 
 void ProgressReport::frame_skipped(int64_t frame, size_t index, const std::string& file) {
+    ++skipped_;
     if (style_ == ProgressStyle::Lines)
         std::fprintf(stderr, "frame %lld (%zu/%zu) kept %s\n", static_cast<long long>(frame),
                      index + 1, frames_, file.c_str());

@@ -24,7 +24,7 @@ class ProgressReport {
     void bar(int64_t frame, double done);
     ProgressStyle style_;
     size_t frames_;
-    size_t rendered_ = 0;
+    size_t skipped_ = 0;
     Stopwatch watch_;
     Stopwatch last_shown_;
     bool shown_ = false;

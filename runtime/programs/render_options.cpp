@@ -56,8 +56,17 @@ void choose_target(const std::string& name, RenderOptions& o) {
 
 // An enumeration by name.
 template <class T>
-CLI::CheckedTransformer names(std::initializer_list<std::pair<const std::string, T>> rows) {
-    return CLI::CheckedTransformer(std::map<std::string, T>(rows), CLI::ignore_case);
+CLI::Validator names(std::initializer_list<std::pair<const std::string, T>> rows) {
+    return CLI::CheckedTransformer(std::map<std::string, T>(rows), CLI::ignore_case)
+        .description("");
+}
+
+// Options that take a name say so in the help, not what CLI11 calls its type.
+void name_types(CLI::App& app) {
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_type_name() == "ENUM") option->type_name("NAME");
+        if (option->get_type_name() == "BOOLEAN") option->type_name("NAME");
+    }
 }
 
 }  // namespace
@@ -137,6 +146,7 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
     app.add_flag("-v,--verbose", o.verbose, "say more");
     app.add_flag("-q,--quiet", o.quiet, "say only errors");
+    name_types(app);
     try {
         app.parse(argc, argv);
         std::string error;

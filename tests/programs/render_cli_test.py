@@ -63,9 +63,12 @@ class ExitCodes(ProgramTest):
     def test_unwritable_outputs_exit_6_and_leave_nothing(self):
         self.write("file", "not a folder")
         (self.folder / "taken.png").mkdir()
+        endless = ("--size", "4000x4000", "--spp", "1000000")  # refused before it is rendered
         for name in ("file/a.png", "file/a.exr", "taken.png", "n" * 300 + ".png"):
             with self.subTest(name=name[:20]):
-                self.expect(render(MATTE, "-o", self.folder / name, *SMALL), 6, "cannot write")
+                self.expect(render(MATTE, "-o", self.folder / name, *endless), 6, "cannot write")
+        sheet = ("--contact-sheet", self.folder / "file/a.png")
+        self.expect(render(MATTE, *sheet, *endless), 6, "cannot write")
         self.assertEqual(sorted(f.name for f in self.folder.iterdir()), ["file", "taken.png"])
 
     def test_a_write_that_fails_half_way_leaves_nothing(self):
