@@ -30,11 +30,14 @@ inline float4 load_texel(const FloatTexel* texel) {
 }
 // The bits of a half moved to a float's place are the value times 2^-112.
 inline float4 load_texel(const HalfTexel* texel) {
+    using long2 = uint64_t __attribute__((vector_size(16)));
+    using short8 = uint16_t __attribute__((vector_size(16)));
     using int4 = uint32_t __attribute__((vector_size(16)));
-    int4 bits = int4{texel->c[0], texel->c[1], texel->c[2], texel->c[3]} << 13;
-    float4 value;
-    std::memcpy(&value, &bits, sizeof value);
-    return value * 0x1p112f;
+    uint64_t packed;
+    std::memcpy(&packed, texel, sizeof packed);
+    short8 spread =
+        __builtin_shuffle(short8(long2{packed, 0}), short8{}, short8{0, 8, 1, 9, 2, 10, 3, 11});
+    return float4(int4(spread) << 13) * 0x1p112f;
 }
 
 // One size of the image. Texels lie in 8x8 tiles, tiles in rows, row 0 at the bottom (t = 0):
