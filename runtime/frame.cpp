@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
@@ -14,6 +15,8 @@
 namespace kinora {
 
 namespace {
+
+constexpr double kFarSizes = 1e5;  // DESIGN.md decision 18
 
 raytrace::CameraOptics optics_of(const Scene& scene) {
     const CameraDefinition& camera =
@@ -60,8 +63,16 @@ bool update_camera(Scene& scene, const FrameSettings& settings, Diagnostics& dia
     raytrace::CameraStatus status =
         raytrace::make_camera(optics_of(scene), scene.nodes[source.node].world, settings.width,
                               settings.height, scene.origin, scene.size, scene.view);
-    if (!raytrace::is_error(status)) return true;
     const CameraDefinition& camera = scene.description->cameras[source.definition];
+    if (!raytrace::is_error(status)) {
+        if (scene.first_frame && status == raytrace::CameraStatus::ClipRangeRepaired &&
+            camera.znear.present() && camera.zfar.present())
+            diagnostics.report(Code::CAMERA_CLIP, camera.where, source.name);
+        double distance = glm::length(scene.view.eye);
+        if (scene.first_frame && distance > kFarSizes * scene.size)
+            diagnostics.report(Code::SCENE_FAR, camera.where, distance);
+        return true;
+    }
     diagnostics.report(Code::CAMERA_OPTICS, camera.where, source.name, status_text(status));
     return false;
 }
