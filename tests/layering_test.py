@@ -3,7 +3,7 @@
 
 Each source file belongs to the longest target folder above it. A target may include its own folder
 and those of the targets it links, directly or through them, and that of a module it opens
-(add_dependencies). Private headers (*_p.h) stay in their folder and its tests, and packages that
+(add_dependencies). Private headers (*_p.h) stay in their folder, its tests and the benchmarks, and packages that
 stand behind one file are included there alone.
 """
 import os
@@ -13,6 +13,7 @@ from pathlib import Path
 
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
 SOURCE_FOLDERS = ("runtime", "collada", "rsl", "jit", "anim", "skin", "raytrace", "tests")
+LEAVES = ("jit", "anim", "skin", "collada", "raytrace")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]', re.M)
 
 # Packages behind few files (DESIGN.md decisions 14, 19, 21): header pattern -> files that may.
@@ -60,8 +61,10 @@ def read_targets():
             if not words or "${" in words[0] or words[0].startswith("$"):
                 continue
             if command == "kinora_library":
-                target = targets.setdefault("kinora_" + words[0], Target("kinora_" + words[0], folder))
-                target.links += after(words[1:], {"LINK", "PRIVATE"}, {"SOURCES", "LINK", "PRIVATE"})
+                name = "kinora_" + words[0]
+                target = targets.setdefault(name, Target(name, folder))
+                target.links += after(words[1:], {"LINK", "PRIVATE"},
+                                      {"SOURCES", "LINK", "PRIVATE"})
             elif command in ("add_library", "add_executable"):
                 targets.setdefault(words[0], Target(words[0], folder))
             elif command == "add_dependencies" and words[0] in targets:
@@ -127,7 +130,7 @@ def check_includes(path, text, rules):
         folder = folder_of(header, rules)
         if header.startswith("tests/") and not is_test:
             faults.append(where + f"{header}: a test's header")
-        mirrored = path.startswith(f"tests/{folder}/")
+        mirrored = path.startswith((f"tests/{folder}/", "tests/bench/"))
         if header.endswith("_p.h") and folder != own and not mirrored:
             faults.append(where + f"{header} is private to {folder}")
         if not is_test and folder and own and folder not in rules[own]:
@@ -135,7 +138,7 @@ def check_includes(path, text, rules):
     return faults, count
 
 
-def test_cases(rules, targets):
+def test_cases(rules):
     """(name, faults) of every claim."""
     by_folder = {folder: [] for folder in rules}
     by_folder["tests"] = []
@@ -152,13 +155,15 @@ def test_cases(rules, targets):
         counts[key] += count
     for folder, faults in sorted(by_folder.items()):
         links = ", ".join(sorted(rules.get(folder, set()) - {folder})) or "nothing"
-        name = "tests: private headers and packages" if folder == "tests" else f"{folder} includes {links}"
+        name = f"{folder} includes {links}"
+        if folder == "tests":
+            name = "tests: private headers and packages"
         yield f"{name} ({counts[folder]} includes)", faults
     yield "every source file belongs to a target's folder", orphans
     base = rules.get("runtime/base", set())
     yield "runtime/base includes no other folder", sorted(base - {"runtime/base"})
-    leaves = [f"{f} reaches {sorted(rules[f])}" for f in ("jit", "anim", "skin", "collada", "raytrace")
-              if f in rules and rules[f] != {f, "runtime/base"}]
+    leaves = [f"{leaf} reaches {sorted(rules[leaf])}" for leaf in LEAVES
+              if leaf in rules and rules[leaf] != {leaf, "runtime/base"}]
     yield "the leaves do not know each other", leaves
     rsl = rules.get("rsl", set()) - {"rsl", "jit", "runtime/base"}
     yield "rsl knows jit and base only", sorted(rsl)
@@ -187,7 +192,8 @@ def self_check(rules):
 def main():
     targets = read_targets()
     rules = folder_rules(targets)
-    cases = list(test_cases(rules, targets)) + [("the checker finds planted faults", self_check(rules))]
+    cases = list(test_cases(rules))
+    cases.append(("the checker finds planted faults", self_check(rules)))
     failed = 0
     for name, faults in cases:
         print(f"{'FAILED' if faults else 'ok    '} {name}")

@@ -141,6 +141,10 @@ void compare_with_reference(const ShadeStack& stack, const Patch& patch,
             if (auto found = exact.values.find(name); found != exact.values.end())
                 worst.meet(double(values[i]), found->second, name, i);
     }
+    for (const jit::ServiceInfo& service : kernel.pair().point->services)
+        if (service.name == "texture" || service.name == "environment")
+            std::printf("reference: reads %s unfiltered, so large pixels differ\n",
+                        service.name.c_str());
     std::printf("reference: %zu points compared, %zu near a decision left out\n", compared,
                 undecided);
     worst.print(patch);

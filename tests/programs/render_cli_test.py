@@ -3,8 +3,9 @@ import json
 import os
 import resource
 import signal
+import subprocess
 
-from programs import MATTE, ProgramTest, main, render
+from programs import MATTE, ProgramTest, command, main, render
 
 SMALL = ("--size", "24x16", "--spp", "1", "--threads", "1")
 
@@ -48,15 +49,16 @@ class ExitCodes(ProgramTest):
         result = render(MATTE, "--shader", f"*={bad}", "-o", self.folder / "a.png", *SMALL)
         self.expect(result, 4, "bad.sl:3:10: error", "did you mean 'diffuse'")
         missing = self.folder / "none.sl"
-        self.expect(render(MATTE, "--shader", f"*={missing}", "-o", self.folder / "a.png", *SMALL),
-                    4, "none.sl")
+        result = render(MATTE, "--shader", f"*={missing}", "-o", self.folder / "a.png", *SMALL)
+        self.expect(result, 4, "none.sl")
 
     def test_broken_shader_inside_the_scene_has_the_place_in_the_scene(self):
         text = MATTE.read_text()
         self.assertIn("diffuse(", text)
         scene = self.write("broken.dae", text.replace("diffuse(", "difuse("))
-        line = next(i for i, row in enumerate(scene.read_text().splitlines(), 1) if "difuse(" in row)
-        column = scene.read_text().splitlines()[line - 1].index("difuse(") + 1
+        rows = scene.read_text().splitlines()
+        line = next(i for i, row in enumerate(rows, 1) if "difuse(" in row)
+        column = rows[line - 1].index("difuse(") + 1
         result = render(scene, "-o", self.folder / "a.png", *SMALL)
         self.expect(result, 4, f"broken.dae:{line}:{column}: error")
 
@@ -148,10 +150,8 @@ class Options(ProgramTest):
     def test_a_closed_pipe_does_not_stop_it(self):
         read, write = os.pipe()
         os.close(read)
-        import subprocess
-        from programs import command
-        code = subprocess.run(command("kinora-render", MATTE, "-o", self.folder / "a.png", "--stats",
-                                      *SMALL), stdout=write, stderr=write, timeout=60).returncode
+        words = command("kinora-render", MATTE, "-o", self.folder / "a.png", "--stats", *SMALL)
+        code = subprocess.run(words, stdout=write, stderr=write, timeout=60).returncode
         os.close(write)
         self.assertEqual(code, 0)
         self.assertEqual(list(self.pictures()), ["a.png"])

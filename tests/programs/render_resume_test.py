@@ -83,7 +83,7 @@ class Resume(ProgramTest):
                 self.assertLess(time.monotonic(), deadline)
                 time.sleep(0.01)
             process.send_signal(number)
-            self.assertEqual(process.wait(timeout=5), code)
+            self.assertEqual(process.wait(timeout=30), code)
             self.assertGreater(len(self.pictures(folder)), 0)
 
     def test_two_processes_in_one_folder_both_finish(self):

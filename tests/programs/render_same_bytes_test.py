@@ -1,4 +1,4 @@
-"""tests/programs/render_same_bytes_test.py: the same frame is the same file, however it was made."""
+"""tests/programs/render_same_bytes_test.py: a frame is the same file however it was made."""
 import unittest
 
 from programs import SCENES, ProgramTest, main, render, supported_targets

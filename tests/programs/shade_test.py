@@ -21,7 +21,8 @@ class Check(ProgramTest):
 
     def test_errors_have_their_place_and_exit_4(self):
         file = self.write("x.sl", BROKEN)
-        self.expect(shade("check", file), 4, "x.sl:3:15: error", "did you mean 'diffuse'", "1 error")
+        self.expect(shade("check", file), 4, "x.sl:3:15: error", "did you mean 'diffuse'",
+                    "1 error")
 
     def test_reads_standard_input(self):
         self.expect(shade("check", "-", stdin=BROKEN), 4, "<stdin>:3:15: error")
@@ -122,15 +123,18 @@ class Run(ProgramTest):
 
     def test_outputs_are_aovs_normals_and_lights(self):
         source = "surface x(output varying float k = 0;) { k = 3; Ci = 0; Oi = 1; }"
-        got = ranges(self.expect(shade("run", "-", "--output", "k", "--size", "4x4", stdin=source), 0))
+        result = shade("run", "-", "--output", "k", "--size", "4x4", stdin=source)
+        got = ranges(self.expect(result, 0))
         self.assertEqual(got, {"aov:k": (3, 3)})
-        self.expect(shade("run", SHADERS / "plastic.sl", "--output", "N", "--size", "4x4"), 0, "N.z")
+        plastic = SHADERS / "plastic.sl"
+        self.expect(shade("run", plastic, "--output", "N", "--size", "4x4"), 0, "N.z")
         light = ranges(self.expect(shade("run", SHADERS / "pointlight.sl", "--size", "3x3"), 0))
         self.assertAlmostEqual(light["Ci.r"][1], 1, places=4)  # straight below, at distance 1
 
     def test_writes_pictures_and_says_when_it_cannot(self):
         for name in ("a.png", "a.exr"):
-            self.expect(shade("run", SHADERS / "wood.sl", "--size", "16x16", "-o", self.folder / name), 0)
+            words = ("run", SHADERS / "wood.sl", "--size", "16x16", "-o", self.folder / name)
+            self.expect(shade(*words), 0)
         self.assertEqual(list(self.pictures()), ["a.exr", "a.png"])
         self.write("file", "")
         self.expect(shade("run", SHADERS / "wood.sl", "-o", self.folder / "file/a.png"), 6)
