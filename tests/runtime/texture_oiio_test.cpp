@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "texture_lookup.h"
 
@@ -13,10 +15,11 @@ namespace {
 
 // A float image as a file for OpenImageIO; removed with the object.
 struct ImageFile {
-    std::string path = (std::filesystem::temp_directory_path() /
-                        ("kinora_oiio_" + std::to_string(getpid()) + ".tif"))
-                           .string();
-    explicit ImageFile(const TextureImage& image) {
+    std::string path;
+    ImageFile(const TextureImage& image, const char* name)
+        : path((std::filesystem::temp_directory_path() /
+                ("kinora_oiio_" + std::to_string(getpid()) + name + ".tif"))
+                   .string()) {
         auto output = OIIO::ImageOutput::create(path);
         OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeDesc::FLOAT);
         spec.attribute("oiio:UnassociatedAlpha", 0);
@@ -27,17 +30,18 @@ struct ImageFile {
     ~ImageFile() { std::filesystem::remove(path); }
 };
 
-struct System {
-    OIIO::TextureSystem* system = OIIO::TextureSystem::create(false);
-    System() { system->attribute("automip", 1); }
-    ~System() { OIIO::TextureSystem::destroy(system); }
-};
+// The shared one, never destroyed: 2.4.7 deletes it with another type than it made it with.
+OIIO::TextureSystem* texture_system() {
+    OIIO::TextureSystem* system = OIIO::TextureSystem::create(true);
+    system->attribute("automip", 1);
+    return system;
+}
 
 TEST(AgainstOpenImageIO, BilinearLookupsAgree) {
     TextureImage image = float_image(48, 20);
     TexturePyramid pyramid(image, false);
-    ImageFile file(image);
-    System oiio;
+    ImageFile file(image, "noise");
+    OIIO::TextureSystem* oiio = texture_system();
     const std::pair<TextureWrap, OIIO::TextureOpt::Wrap> wraps[] = {
         {TextureWrap::Wrap, OIIO::TextureOpt::WrapPeriodic},
         {TextureWrap::Mirror, OIIO::TextureOpt::WrapMirror},
@@ -59,9 +63,9 @@ TEST(AgainstOpenImageIO, BilinearLookupsAgree) {
             q.t = place(random);
             Rgba got = look_up(pyramid, modes, TextureFilter::Bilinear, q);
             Rgba want{};
-            ASSERT_TRUE(oiio.system->texture(OIIO::ustring(file.path), options, q.s, 1 - q.t, 0, 0,
-                                             0, 0, 4, want.data()))
-                << oiio.system->geterror();
+            ASSERT_TRUE(oiio->texture(OIIO::ustring(file.path), options, q.s, 1 - q.t, 0, 0, 0, 0,
+                                      4, want.data()))
+                << oiio->geterror();
             for (size_t c = 0; c < 4; ++c)
                 ASSERT_NEAR(got[c], want[c], 3e-4) << int(ours) << " at " << q.s << " " << q.t;
         }
@@ -79,8 +83,8 @@ TEST(AgainstOpenImageIO, TrilinearLookupsAgreeOnSmoothImages) {
                                 {0.5f + 0.4f * std::sin(float(x) * 0.0490874f),
                                  0.5f + 0.4f * std::cos(float(y) * 0.0981748f), 0.5f, 1.0f});
     TexturePyramid pyramid(image, false);
-    ImageFile file(image);
-    System oiio;
+    ImageFile file(image, "waves");
+    OIIO::TextureSystem* oiio = texture_system();
     OIIO::TextureOpt options;
     options.swrap = options.twrap = OIIO::TextureOpt::WrapPeriodic;
     options.interpmode = OIIO::TextureOpt::InterpBilinear;
@@ -95,10 +99,63 @@ TEST(AgainstOpenImageIO, TrilinearLookupsAgreeOnSmoothImages) {
         q.dsdx = q.dtdy = width;
         Rgba got = look_up(pyramid, TextureName(), TextureFilter::Trilinear, q);
         Rgba want{};
-        ASSERT_TRUE(oiio.system->texture(OIIO::ustring(file.path), options, q.s, 1 - q.t, width, 0,
-                                         0, -width, 4, want.data()))
-            << oiio.system->geterror();
+        ASSERT_TRUE(oiio->texture(OIIO::ustring(file.path), options, q.s, 1 - q.t, width, 0, 0,
+                                  -width, 4, want.data()))
+            << oiio->geterror();
         for (size_t c = 0; c < 4; ++c) ASSERT_NEAR(got[c], want[c], 0.02);
+    }
+}
+
+// Colour under alpha 0 stays, 16 bits stay 16 bits, grey spreads to r g b.
+TEST(ReadTextureImage, KeepsWhatOtherFormatsHold) {
+    struct Row {
+        const char* extension;
+        OIIO::TypeDesc::BASETYPE type;
+        int channels;
+        float tolerance;
+        bool encoded;
+    };
+    const Row rows[] = {
+        {"tga", OIIO::TypeDesc::UINT8, 4, 0.51f / 255, true},
+        {"tif", OIIO::TypeDesc::UINT8, 4, 0.51f / 255, true},
+        {"bmp", OIIO::TypeDesc::UINT8, 3, 0.51f / 255, true},
+        {"png", OIIO::TypeDesc::UINT8, 4, 0.51f / 255, true},
+        {"png", OIIO::TypeDesc::UINT16, 4, 0.51f / 65535, true},
+        {"png", OIIO::TypeDesc::UINT16, 1, 0.51f / 65535, true},
+        {"jpg", OIIO::TypeDesc::UINT8, 1, 0.08f, true},
+        {"exr", OIIO::TypeDesc::FLOAT, 3, 0, false},
+        {"exr", OIIO::TypeDesc::HALF, 4, 0.0005f, false},
+    };
+    for (const Row& row : rows) {
+        SCOPED_TRACE(std::string(row.extension) + " " + std::to_string(row.channels));
+        constexpr int kWidth = 9, kHeight = 6;
+        std::vector<float> pixels;
+        for (int i = 0; i < kWidth * kHeight; ++i)
+            for (int c = 0; c < row.channels; ++c)
+                pixels.push_back(c == 3 ? float(i % 3) / 2 : float(i + 3 * c) / 64);
+        std::string path = (std::filesystem::temp_directory_path() /
+                            ("kinora_read_" + std::to_string(getpid()) + "." + row.extension))
+                               .string();
+        auto output = OIIO::ImageOutput::create(path);
+        OIIO::ImageSpec spec(kWidth, kHeight, row.channels, row.type);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        ASSERT_TRUE(output->open(path, spec));
+        ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
+        output->close();
+        TextureImage image;
+        EXPECT_EQ(read_texture_image(path, image), "");
+        std::filesystem::remove(path);
+        ASSERT_EQ(image.width, kWidth);
+        ASSERT_EQ(image.height, kHeight);
+        EXPECT_EQ(image.encoded, row.encoded);
+        for (int i = 0; i < kWidth * kHeight; ++i)
+            for (int c = 0; c < 4; ++c) {
+                size_t at = size_t(i * 4 + c);
+                float got = image.is_float() ? image.floats[at] : float(image.bytes[at]) / 255;
+                int from = c < row.channels ? c : c == 3 ? -1 : 0;
+                float want = from < 0 ? 1 : pixels[size_t(i * row.channels + from)];
+                ASSERT_NEAR(got, want, row.tolerance) << i << " " << c;
+            }
     }
 }
 
