@@ -3,8 +3,8 @@
 
 Each source file belongs to the longest target folder above it. A target may include its own folder
 and those of the targets it links, directly or through them, and that of a module it opens
-(add_dependencies). Private headers (*_p.h) stay in their folder, its tests and the benchmarks, and packages that
-stand behind one file are included there alone.
+(add_dependencies). Private headers (*_p.h) stay in their folder, its tests and the benchmarks;
+packages that stand behind one file are included there alone.
 """
 import os
 import re

@@ -77,8 +77,9 @@ int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, 
     if (out.numbers.size() == 1 && rsl::is_triple(parameter.type))
         out.numbers.resize(3, out.numbers[0]);
     if (out.numbers.size() != needed)
-        return usage(fmt::format("--param {}: a {} takes {} numbers, not {}", out.name,
-                                 rsl::type_name(parameter.type), needed, out.numbers.size()));
+        return usage(fmt::format("--param {}: a {} takes {} number{}, not {}", out.name,
+                                 rsl::type_name(parameter.type), needed, needed == 1 ? "" : "s",
+                                 out.numbers.size()));
     return kExitOk;
 }
 

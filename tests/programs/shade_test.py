@@ -90,7 +90,7 @@ class Run(ProgramTest):
         plastic = SHADERS / "plastic.sl"
         self.expect(shade("run", plastic, "--param", "kd=1"), 2, "did you mean 'K")
         self.expect(shade("run", plastic, "--param", "Kd=a"), 2, "'a' is no float")
-        self.expect(shade("run", plastic, "--param", "Kd=1,2"), 2, "takes 1 numbers")
+        self.expect(shade("run", plastic, "--param", "Kd=1,2"), 2, "takes 1 number, not 2")
         self.expect(shade("run", plastic, "--param", "Kd"), 2, "NAME=VALUE")
         self.expect(shade("run", plastic, "--output", "Cj"), 2, "did you mean 'Ci'")
         self.expect(shade("run", plastic, "--size", "4"), 2, "--size")
