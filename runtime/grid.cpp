@@ -181,8 +181,9 @@ class Gather {
 
     Corner corner(size_t i) const {
         uint32_t hit = grid_.points[i];
-        return {*surface_, *shape_, *mesh_, mesh_->groups[surface_->group], hits_.primitive[hit],
-                hits_.u[hit], hits_.v[hit]};
+        return {
+            *surface_,    *shape_,     *mesh_, mesh_->groups[surface_->group], hits_.primitive[hit],
+            hits_.u[hit], hits_.v[hit]};
     }
 
     void places(size_t begin, size_t end) const {
@@ -206,8 +207,8 @@ class Gather {
             uint32_t hit = grid_.points[i];
             const uint32_t* c = corners + 3 * size_t(hits_.primitive[hit]);
             float u = hits_.u[hit], v = hits_.v[hit];
-            vec3 N = normals_ * vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] +
-                                     v * entries[c[2]]);
+            vec3 N = normals_ *
+                     vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] + v * entries[c[2]]);
             float square = glm::dot(N, N);
             // A normal that vanishes gives way to the geometric one (EXTREMES row 9).
             bool sound = square > 0 && square < std::numeric_limits<float>::infinity();
@@ -298,9 +299,11 @@ class Gather {
     }
 
     void constants() const {
-        static constexpr std::pair<uint16_t, float> kConstants[] = {
-            {kColOne, 1.0f},  {kColdsdu, 1.0f}, {kColdsdv, 0.0f},
-            {kColdtdu, 0.0f}, {kColdtdv, 1.0f}};
+        static constexpr std::pair<uint16_t, float> kConstants[] = {{kColOne, 1.0f},
+                                                                    {kColdsdu, 1.0f},
+                                                                    {kColdsdv, 0.0f},
+                                                                    {kColdtdu, 0.0f},
+                                                                    {kColdtdv, 1.0f}};
         for (auto [which, value] : kConstants)
             if (float* row = column(which)) std::fill_n(row, padded(grid_.count()), value);
     }

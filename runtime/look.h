@@ -115,8 +115,4 @@ struct LookOptions {
 bool compile_look(Look& look, const SceneDescription& description, const LookOptions& options,
                   Diagnostics& diagnostics);
 
-// current_from_space of a named space at the scene's present state: "world", "camera", "screen",
-// "NDC", "raster", "object"/"shader" of `node`, or a node's id.
-dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node);
-
 }  // namespace kinora

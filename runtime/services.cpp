@@ -8,6 +8,7 @@
 #include "runtime/base/check.h"
 #include "runtime/print.h"
 #include "runtime/shading_p.h"
+#include "runtime/spaces.h"
 #include "runtime/texture.h"
 
 namespace kinora {

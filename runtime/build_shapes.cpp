@@ -1,0 +1,193 @@
+// runtime/build_shapes.cpp: meshes on nodes, with the morphs and skins that deform them.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/build_mesh.h"
+#include "runtime/build_scene_p.h"
+#include "runtime/findings.h"
+
+namespace kinora {
+
+namespace {
+
+bool is_identity(const dmat4& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (std::abs(m[c][r] - (c == r ? 1.0 : 0.0)) > 1e-9) return false;
+    return true;
+}
+
+// Repeated static meshes are instanced when baking them would take more triangles than this: an
+// instance level costs 20-29 % of the trace rate (DESIGN.md decision 19).
+constexpr size_t kBakedTriangles = 200'000;
+
+}  // namespace
+
+void SceneBuilder::place_meshes() {
+    Scene& scene = *scene_;
+    std::vector<bool> deforms(description_.meshes.size(), false);
+    std::vector<size_t> uses(description_.meshes.size(), 0);
+    for (const Node& node : scene.nodes)
+        for (const MeshUse& use : description_.nodes[node.definition].meshes) {
+            deforms[use.mesh] = deforms[use.mesh] || use.skin != kNone || use.morph != kNone;
+            ++uses[use.mesh];
+        }
+    for (size_t m = 0; m < description_.meshes.size(); ++m)
+        scene.meshes.push_back(uses[m] ? build_mesh(description_.meshes[m], deforms[m]) : Mesh());
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n)
+        for (const MeshUse& use : description_.nodes[scene.nodes[n].definition].meshes) {
+            if (scene.meshes[use.mesh].groups.empty()) continue;
+            bool repeated = uses[use.mesh] > 1;
+            place_mesh(use, n, repeated);
+        }
+}
+
+void SceneBuilder::place_mesh(const MeshUse& use, uint32_t node, bool repeated) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[use.mesh];
+    uint32_t index = uint32_t(scene.shapes.size());
+    Shape& shape = scene.shapes.emplace_back();
+    shape.mesh = use.mesh;
+    shape.node = node;
+    shape.skin = use.skin;
+    shape.morph = use.morph;
+    shape.conversion = use.conversion;
+    size_t triangles = 0;
+    for (const MeshGroup& group : mesh.groups) triangles += group.triangles.size() / 3;
+    if (use.skin != kNone || use.morph != kNone) {
+        shape.kind = raytrace::GeometryKind::Deforming;
+        if (use.morph != kNone) add_morph(use, shape);
+        add_skin(use, node, shape);
+    } else if (scene.nodes[node].can_move || (repeated && triangles > kBakedTriangles)) {
+        shape.kind = raytrace::GeometryKind::Instanced;
+    }
+    shape.world = scene.nodes[node].world * shape.conversion;
+    shape.mirrored = glm::determinant(dmat3(shape.world)) < 0;
+    if (shape.kind != raytrace::GeometryKind::Instanced) {
+        shape.positions.resize(mesh.positions.size());
+        shape.normals.resize(mesh.normals.size());
+    }
+    for (uint32_t g = 0; g < mesh.groups.size(); ++g) {
+        Surface surface;
+        surface.shape = index;
+        surface.group = g;
+        scene.surfaces.push_back(surface);
+        uses_.push_back(&use);
+    }
+}
+
+void SceneBuilder::add_morph(const MeshUse& use, Shape& shape) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[use.mesh];
+    scene.morphs.resize(description_.morphs.size());
+    shape.morphed_positions.resize(mesh.positions.size());
+    shape.morphed_normals.resize(mesh.normals.size());
+    if (!scene.morphs[use.morph].base_positions.empty()) return;
+    const MorphDefinition& definition = description_.morphs[use.morph];
+    std::vector<vec3> base(mesh.positions.begin(), mesh.positions.end());
+    std::vector<vec3> base_normals(mesh.normals.begin(), mesh.normals.end());
+    std::vector<std::vector<vec3>> positions, normals;
+    for (uint32_t t : definition.targets) {
+        const MeshDefinition& target = description_.meshes[t];
+        auto& p = positions.emplace_back();
+        for (const dvec3& x : target.positions)
+            p.push_back(vec3(x - (definition.relative ? dvec3(0.0) : mesh.anchor)));
+        normals.push_back(
+            target_normals(target, mesh, description_.meshes[use.mesh], definition.relative));
+    }
+    std::vector<skin::MorphTargetSource> sources;
+    for (size_t t = 0; t < positions.size(); ++t) sources.push_back({positions[t], normals[t]});
+    uint32_t mismatched = 0;
+    scene.morphs[use.morph] = skin::build_morph(
+        definition.relative ? skin::MorphMethod::Relative : skin::MorphMethod::Normalized, base,
+        base_normals, sources, &mismatched);
+    if (mismatched)
+        diagnostics_.report(Code::MORPH_VERTEX_COUNT, definition.where, definition.id, mismatched);
+}
+
+// A target's normals in the order of the base's entries: the file's, where target and base have the
+// same corners; smooth ones where neither has any; else none (the base's stay).
+std::vector<vec3> SceneBuilder::target_normals(const MeshDefinition& target, const Mesh& base,
+                                               const MeshDefinition& base_definition,
+                                               bool relative) {
+    auto normals_of = [](const PrimitiveGroup& group) {
+        const VertexAttribute* found = nullptr;
+        for (const VertexAttribute& a : group.attributes)
+            if (a.semantic == "NORMAL" && a.stride >= 3) found = &a;
+        return found;
+    };
+    std::vector<vec3> result(base.normals.size(), vec3(0.0f));
+    bool smooth = true;
+    for (const PrimitiveGroup& group : base_definition.groups) smooth &= !normals_of(group);
+    if (smooth && target.positions.size() == base_definition.positions.size()) {
+        MeshDefinition moved = base_definition;
+        for (size_t i = 0; i < moved.positions.size(); ++i)
+            moved.positions[i] = target.positions[i] + (relative ? moved.positions[i] : dvec3(0.0));
+        Mesh mesh = build_mesh(moved, true);
+        for (size_t i = 0; i < result.size(); ++i)
+            result[i] = vec3(mesh.normals[i]) - (relative ? vec3(base.normals[i]) : vec3(0.0f));
+        return result;
+    }
+    if (target.groups.size() != base_definition.groups.size()) return {};
+    for (size_t g = 0; g < target.groups.size(); ++g) {
+        const VertexAttribute* normals = normals_of(target.groups[g]);
+        const std::vector<uint32_t>& entries = base.groups[g].normal_corners;
+        if (!normals || normals->corners.size() != entries.size()) return {};
+        for (size_t c = 0; c < entries.size(); ++c) {
+            const float* v = &normals->values[size_t(normals->corners[c]) * normals->stride];
+            result[entries[c]] = vec3(v[0], v[1], v[2]);
+        }
+    }
+    return result;
+}
+
+void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
+    Scene& scene = *scene_;
+    const Mesh& mesh = scene.meshes[use.mesh];
+    skin::InfluenceSource source;
+    std::vector<uint32_t> first(mesh.positions.size() + 1, 0);
+    std::vector<int32_t> joints;
+    std::vector<double> weights;
+    std::string id = description_.meshes[use.mesh].id;
+    Location where;
+    if (use.skin == kNone) {  // a morph alone: one matrix moves everything
+        joints.assign(mesh.positions.size(), 0);
+        weights.assign(mesh.positions.size(), 1.0);
+        for (size_t i = 0; i < first.size(); ++i) first[i] = uint32_t(i);
+        source.joint_count = 1;
+    } else {
+        const SkinDefinition& definition = description_.skins[use.skin];
+        id = definition.id;
+        where = definition.where;
+        first.assign(definition.offsets.begin(), definition.offsets.end());
+        joints = definition.joints;
+        weights.assign(definition.weights.begin(), definition.weights.end());
+        source.joint_count = uint32_t(definition.inverse_bind.size());
+        shape.skeleton.inverse_bind = definition.inverse_bind;
+        shape.skeleton.bind_shape = definition.bind_shape;
+        for (uint32_t j = 0; j < source.joint_count; ++j) {
+            shape.skeleton.nodes.push_back(j);
+            uint32_t joint = j < use.joint_nodes.size() ? use.joint_nodes[j] : kNone;
+            shape.joint_nodes.push_back(nearest_occurrence(joint, node));
+        }
+        shape.joint_world.resize(source.joint_count, dmat4(1.0));
+        dmat4 world = scene.nodes[node].world * shape.conversion;
+        shape.in_world = !is_identity(definition.bind_shape) || is_identity(world);
+        if (!shape.in_world) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
+    }
+    source.first = first;
+    source.joints = joints;
+    source.weights = weights;
+    skin::SkinRepairs repairs;
+    shape.skin_mesh = skin::build_skin(source, mesh.normal_positions, &repairs);
+    shape.palette.resize(source.joint_count + 1);
+    if (repairs.weight_sum)
+        diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
+                            repairs.worst_sum);
+    if (repairs.unweighted)
+        diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
+}
+
+}  // namespace kinora

@@ -1,0 +1,68 @@
+// runtime/spaces.cpp: the coordinate systems that shaders name.
+#include "runtime/spaces.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+#include "runtime/scene.h"
+
+namespace kinora {
+
+namespace {
+
+// Camera space to screen: x right, y up, the shorter side of the picture spanning -1..1; z is 0 at
+// the near and 1 at the far plane (RISpec 3.2, camera).
+dmat4 screen_from_camera(const raytrace::Camera& view) {
+    double shorter = std::min(view.half_width, view.half_height);
+    dmat4 m(0.0);
+    m[0][0] = m[1][1] = 1.0 / shorter;
+    double n = view.znear, f = view.zfar;
+    if (view.orthographic) {
+        m[2][2] = 1.0 / (f - n);
+        m[3][2] = -n / (f - n);
+        m[3][3] = 1.0;
+    } else {
+        m[2][2] = f / (f - n);
+        m[3][2] = -f * n / (f - n);
+        m[2][3] = 1.0;
+    }
+    return m;
+}
+
+// NDC: 0..1 over the picture, y down.
+dmat4 ndc_from_screen(const raytrace::Camera& view) {
+    double shorter = std::min(view.half_width, view.half_height);
+    dmat4 m(1.0);
+    m[0][0] = 0.5 * shorter / view.half_width;
+    m[1][1] = -0.5 * shorter / view.half_height;
+    m[3] = dvec4(0.5, 0.5, 0, 1);
+    return m;
+}
+
+}  // namespace
+
+dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node) {
+    const raytrace::Camera& view = scene.view;
+    if (name == "current" || name == "camera") return dmat4(1.0);
+    if (name == "world") return view.camera_from_world;
+    if (name == "shader" || name == "object")
+        return node == kNone ? view.camera_from_world
+                             : view.camera_from_world * scene.nodes[node].world;
+    dmat4 screen = screen_from_camera(view);
+    if (name == "screen") return glm::inverse(screen);
+    dmat4 ndc = ndc_from_screen(view) * screen;
+    if (name == "NDC") return glm::inverse(ndc);
+    if (name == "raster") {
+        dmat4 raster(1.0);
+        raster[0][0] = view.width;
+        raster[1][1] = view.height;
+        return glm::inverse(raster * ndc);
+    }
+    for (const Node& n : scene.nodes) {
+        const NodeDefinition& definition = scene.description->nodes[n.definition];
+        if (definition.id == name) return view.camera_from_world * n.world;
+    }
+    return dmat4(1.0);
+}
+
+}  // namespace kinora
