@@ -11,9 +11,9 @@ FPS = 24.0
 
 # effect: (stage, shader, {parameter: the newparam's value}): all that a material or light may set.
 EFFECTS = {
-    "statue-rsl": ("SURFACE", "statue", {"veining": 0.8, "Ks": 0.3, "scale": 3.0,
+    "statue-rsl": ("SURFACE", "statue", {"veining": 0.85, "Ks": 0.3, "scale": 5.0,
                                          "bodycolor": (0.78, 0.74, 0.68),
-                                         "cloudcolor": (0.55, 0.54, 0.53)}),
+                                         "cloudcolor": (0.50, 0.49, 0.49)}),
     "planks-rsl": ("SURFACE", "planks", {"Kr": 0.22}),
     "plaster-rsl": ("SURFACE", "plaster", {"surface_color": (0.045, 0.135, 0.14),
                                            "unevenness": 0.12}),
@@ -40,7 +40,7 @@ MATERIALS = {
 }
 
 LIGHTS = {
-    "key": ("softspot-rsl", {"intensity": 29.0}),
+    "key": ("softspot-rsl", {"intensity": 28.0}),
     "rim": ("softspot-rsl", {"intensity": 11.0, "lightcolor": (0.55, 0.75, 1.0), "radius": 0.08}),
     "sky": ("skylight-rsl", {}),
 }

@@ -43,6 +43,23 @@ def joints():
     return table
 
 
+def hair():
+    """A cap of curls above and behind a hairline."""
+    cap = df.ellipsoid((-0.018, 0, 1.655), (0.112, 0.094, 0.114))
+
+    def distance(p):
+        q = (p - np.array((-0.018, 0, 1.655))) / np.array((0.112, 0.094, 0.114))
+        around = np.arctan2(q[:, 1], q[:, 0])
+        height = np.arcsin(np.clip(q[:, 2] / np.maximum(np.linalg.norm(q, axis=1), 1e-9), -1, 1))
+        row = height * 5.2
+        curls = np.cos(2 * np.pi * row) * np.cos(around * 13 * np.cos(0.8 * height))
+        hairline = (p - np.array((0.058, 0, 1.69))) @ np.array((0.78, 0, -0.63))
+        nape = 1.575 - p[:, 2]
+        return np.maximum(cap(p) - 0.006 * curls, np.maximum(hairline, nape))
+
+    return distance
+
+
 def head_solid():
     skull = df.ellipsoid((-0.012, 0, 1.648), (0.108, 0.088, 0.112))
     face = df.ellipsoid((0.028, 0, 1.61), (0.076, 0.068, 0.108))
@@ -62,7 +79,7 @@ def head_solid():
     solid = df.join(0.014, solid, nose)
     lips = df.join(0.004, df.capsule((0.0905, -0.019, 1.5625), (0.0905, 0.019, 1.5625), 0.0068),
                    df.capsule((0.0895, -0.015, 1.5505), (0.0895, 0.015, 1.5505), 0.0075))
-    return df.join(0.010, solid, lips)
+    return df.join(0.008, df.join(0.010, solid, lips), hair())
 
 
 def arm_solids(m):
@@ -169,8 +186,8 @@ def shoe_solids(m):
 
 
 def headphones():
-    band = df.ring((-0.01, 0, 1.645), (1, 0, 0), 0.122, 0.011, ((0, 0, 1.64), (0, 0, 1)))
-    pad = df.ring((-0.01, 0, 1.652), (1, 0, 0), 0.116, 0.015, ((0, 0, 1.725), (0, 0, 1)))
+    band = df.ring((-0.01, 0, 1.66), (1, 0, 0), 0.126, 0.011, ((0, 0, 1.64), (0, 0, 1)))
+    pad = df.ring((-0.01, 0, 1.668), (1, 0, 0), 0.120, 0.015, ((0, 0, 1.74), (0, 0, 1)))
     solid = df.join(0.008, band, pad)
     for side in (-1, 1):
         cup = df.disc((-0.01, 0.119 * side, 1.62), (0, 1, 0), 0.046, 0.019, 0.012)

@@ -109,8 +109,8 @@ def arm_turns(chest, phase, side):
     drop = turn("x", -side * 27)
     upper = base @ turn("x", side * 2) @ turn("y", 2 + 27 * swing) @ drop
     inwards = turn("z", -side * 14)
-    fore = base @ inwards @ turn("y", -24 + 31 * swing - 12 * (1 - late)) @ drop
-    hand = base @ inwards @ turn("y", -30 + 31 * swing - 15 * (1 - late)) @ turn("x", -side * 22)
+    fore = base @ inwards @ turn("y", -16 + 28 * swing - 6 * (1 - late)) @ drop
+    hand = base @ inwards @ turn("y", -22 + 28 * swing - 8 * (1 - late)) @ turn("x", -side * 22)
     curl = turn("x", -side * 20)
     return {"clavicle": chest @ turn("z", 3 * side * swing), "upperarm": upper, "forearm": fore,
             "hand": hand, "fingers": hand @ curl, "thumb": hand @ turn("z", -side * 10)}

@@ -40,7 +40,7 @@ def skinned_mesh(rig, name, material, points, quads, influences):
 
 
 def build_statue(rig, material, cell):
-    points, quads = df.surface(wb.body(), (-0.2, -0.68, 0.0), (0.2, 0.68, 1.8), cell)
+    points, quads = df.surface(wb.body(), (-0.2, -0.68, 0.0), (0.2, 0.68, 1.82), cell)
     influences = wb.weights(points, quads, wb.body_solids())
     skinned_mesh(rig, "statue", material, points, quads, influences)
 
@@ -56,7 +56,7 @@ def build_shoes(rig, material, cell):
 
 
 def build_headphones(rig, material, cell):
-    points, quads = df.surface(wb.headphones(), (-0.1, -0.2, 1.54), (0.08, 0.2, 1.81), cell)
+    points, quads = df.surface(wb.headphones(), (-0.1, -0.2, 1.54), (0.08, 0.2, 1.83), cell)
     skinned_mesh(rig, "headphones", material, points, quads, [[("head", 1.0)]] * len(points))
 
 

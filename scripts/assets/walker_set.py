@@ -178,7 +178,7 @@ def build_lights():
 
 
 def build_camera():
-    """A slow dolly beside the walker that swings from ahead of him to his side."""
+    """A slow dolly that keeps ahead of the walker and lets him come nearer."""
     camera = bpy.data.cameras.new("camera")
     camera.lens, camera.sensor_width = 38, 36
     camera.clip_start, camera.clip_end = 0.1, 40
@@ -190,8 +190,8 @@ def build_camera():
         t = (frame - 1) / (gait.FRAMES - 1)
         t = t * t * (3 - 2 * t) * 0.6 + 0.4 * t
         walker = gait.START + gait.STRIDE * gait.FRAMES / gait.CYCLE * (frame - 1) / gait.FRAMES
-        thing.location = (-0.05 + 1.75 * t, -4.05 + 0.35 * math.sin(math.pi * t), 1.12 + 0.18 * t)
-        look = Vector((0.62 * walker + 0.22 + 0.15 * t, 0.35, 0.94))
+        thing.location = (0.55 + 2.0 * t, -3.35 - 0.25 * t, 1.02 + 0.25 * t)
+        look = Vector((0.80 * walker + 0.42, 0.25, 0.94 - 0.03 * t))
         direction = look - thing.location
         thing.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
         thing.keyframe_insert("location", frame=frame)

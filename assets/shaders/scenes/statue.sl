@@ -14,7 +14,7 @@ float turbulence(point p; uniform float octaves) {
 }
 
 surface statue(float Ka = 1; float Kd = 0.85; float Ks = 0.3; float roughness = 0.08;
-               float scale = 3; float veining = 0.8;
+               float scale = 5; float veining = 0.85;
                color bodycolor = color(0.78, 0.74, 0.68);
                color cloudcolor = color(0.55, 0.54, 0.53);
                color veincolor = color(0.12, 0.12, 0.15);
@@ -27,9 +27,9 @@ surface statue(float Ka = 1; float Kd = 0.85; float Ks = 0.3; float roughness = 
     /* Veins run where a bent field crosses its middle; clouds are its slow part. */
     float bend = turbulence(Pshade, 6);
     float field = float noise(1.1 * Pshade + 0.9 * bend * vector(1, 0.5, -0.7));
-    float vein = 1 - smoothstep(0, 0.055, abs(field - 0.5));
-    vein *= smoothstep(0.35, 0.6, float noise(1.7 * Pshade + vector(7, 3, 5)));
-    float cloud = smoothstep(0.35, 1.0, bend);
+    float vein = 1 - smoothstep(0, 0.06, abs(field - 0.5));
+    vein *= smoothstep(0.28, 0.52, float noise(1.7 * Pshade + vector(7, 3, 5)));
+    float cloud = smoothstep(0.3, 0.85, bend);
     color Ct = mix(bodycolor, cloudcolor, cloud);
     Ct = mix(Ct, veincolor, veining * vein);
 
