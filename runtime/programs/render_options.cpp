@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <thread>
 
 #include "runtime/programs/exit_codes.h"
@@ -14,6 +15,9 @@ namespace kinora {
 
 namespace {
 
+constexpr int kMostThreads = 1024;
+constexpr double kMostSeconds = 1e9;
+constexpr double kMostFilterWidth = 64;  // pixels
 constexpr const char* kListKinds = "cameras, clips, materials, shaders, lights or all";
 
 int parse_threads(const std::string& text) {
@@ -23,6 +27,8 @@ int parse_threads(const std::string& text) {
     auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
     if (error != std::errc() || *end != 0 || n == 0)
         throw CLI::ValidationError("--threads", "takes a number, -N (all but N) or 'all'");
+    if (n > kMostThreads)
+        throw CLI::ValidationError("--threads", fmt::format("takes {} at most", kMostThreads));
     return n > 0 ? n : std::max(1, cores + n);
 }
 
@@ -36,7 +42,8 @@ void parse_size(const std::string& text, RenderOptions& o) {
 vec3 parse_color(const std::string& text) {
     vec3 c;
     char tail = 0;
-    if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c.x, &c.y, &c.z, &tail) != 3)
+    if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c.x, &c.y, &c.z, &tail) != 3 ||
+        !std::isfinite(c.x + c.y + c.z))
         throw CLI::ValidationError("--background", "takes R,G,B");
     return c;
 }
@@ -52,6 +59,18 @@ void choose_target(const std::string& name, RenderOptions& o) {
         o.target = target;
     else
         o.target_missing = name;
+}
+
+// NaN is in no range.
+void check_range(const char* option, double value, double low, double high, const char* what) {
+    if (!(value >= low && value <= high)) throw CLI::ValidationError(option, what);
+}
+
+void check_stages(const std::vector<std::string>& stages) {
+    for (const std::string& stage : stages)
+        if (stage != "ir" && stage != "asm" && !stage.starts_with("ir:"))
+            throw CLI::ValidationError(
+                "--dump", "takes ir, ir:PASS or asm; kinora-shade dump shows the earlier stages");
 }
 
 // An enumeration by name.
@@ -159,6 +178,12 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
         if (!size.empty()) parse_size(size, o);
         if (!background.empty()) o.background = parse_color(background);
         o.threads = parse_threads(threads);
+        if (o.time)
+            check_range("--time", *o.time, -kMostSeconds, kMostSeconds, "takes up to 1e9 seconds");
+        check_range("--filter-width", o.filter_width, 0, kMostFilterWidth,
+                    "takes 0 (the filter's own) to 64 pixels");
+        if (o.meter) check_range("--unit", *o.meter, 1e-15, 1e15, "takes metres, more than 0");
+        check_stages(o.dump);
         if (!target.empty()) choose_target(target, o);
         const Quality* row = find_quality(quality);
         if (!row)
