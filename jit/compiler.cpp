@@ -38,6 +38,9 @@ constexpr Pass kBeforeHoist[] = {
 };
 constexpr Pass kAfterHoist[] = {{"dce", dce}};
 
+// Fused loops show that Ifs in them have one mask, fused Ifs that they compute the same.
+constexpr int kFuseRounds = 2;
+
 void dump(Dumps* dumps, const std::string& stage, const Module& module) {
     if (dumps != nullptr) dumps->push_back({stage, print(module)});
 }
@@ -56,6 +59,8 @@ void optimize(Module& module, Module* frame, Dumps* dumps) {
     IeeeScope ieee;  // folding computes as precise kernels do
     dump(dumps, "ir", module);
     run_passes(module, kBeforeHoist, "ir:", dumps);
+    for (int round = 0; round < kFuseRounds && fuse(module); ++round) cse(module);
+    dump(dumps, "ir:fuse", module);
     if (frame != nullptr) {
         *frame = hoist(module);
         dump(dumps, "ir:hoist", module);

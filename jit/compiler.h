@@ -16,6 +16,7 @@ void inline_calls(Module& module);   // one call site or under 40 instructions
 void differentiate(Module& module);  // Du, Dv -> dual numbers for the values that reach them
 void fold(Module& module);           // constants and exact identities
 void cse(Module& module);            // equal pure values once; loop-invariant ones before loops
+bool fuse(Module& module);           // loops over the same records, Ifs of one mask; true if any
 void dce(Module& module);            // what nothing needs
 // Splits frame-rate work off: returns the frame kernel (all its outputs are frame block slots, all
 // its inputs frame inputs), leaving `module` with FrameLoads and point inputs only.

@@ -44,6 +44,7 @@ class CommonValues {
         last_before_.assign(count, kNone);
         next_before_.assign(count, kNone);
         regions_.push_back({kNone, 0, 0, true});
+        find_writing_loops();
     }
 
     void run() {
@@ -59,6 +60,20 @@ class CommonValues {
         uint32_t depth;
         bool open;
     };
+
+    // What a loop's body writes is seen by the body's next round.
+    void find_writing_loops() {
+        writes_.assign(r_.old.size(), false);
+        std::vector<Value> around;
+        for (Value v = 0; v < r_.old.size(); ++v) {
+            const Inst& inst = r_.old[v];
+            bool call = inst.op == Op::Call || inst.op == Op::Service;
+            if (inst.op == Op::Loop) around.push_back(v);
+            if (inst.op == Op::EndLoop) around.pop_back();
+            if (inst.op == Op::ArrayStore || (call && !is_effect_free(inst)))
+                for (Value loop : around) writes_[loop] = true;
+        }
+    }
 
     void lead(Value v) {
         const Inst& inst = r_.old[v];
@@ -101,12 +116,11 @@ class CommonValues {
     void open_region(Value v) {
         regions_.push_back({v, current_, regions_[current_].depth + 1, true});
         current_ = static_cast<uint32_t>(regions_.size() - 1);
-        // What a loop's body writes is seen by the body's next round.
-        if (r_.old[v].op == Op::Loop) ++epoch_;
+        if (writes_[v]) ++epoch_;
     }
 
     void close_region() {
-        if (r_.old[regions_[current_].begin].op == Op::Loop) ++epoch_;
+        if (writes_[regions_[current_].begin]) ++epoch_;
         regions_[current_].open = false;
         current_ = regions_[current_].parent;
     }
@@ -221,6 +235,7 @@ class CommonValues {
     std::vector<Value> table_;  // open addressing
     std::vector<Value> first_before_, last_before_, next_before_;
     std::vector<bool> moved_;
+    std::vector<bool> writes_;  // Loops around a store or a call with effects
     std::vector<Region> regions_;
     uint32_t current_ = 0;
     uint32_t epoch_ = 0;
