@@ -20,11 +20,13 @@ class Planner {
         size_t n = f_.insts.size();
         plan_.values.resize(n);
         plan_.branch.assign(n, 0);
+        plan_.in_range.assign(n, false);
         plan_.agree = lanes_agree(m_, f_);
         count_uses();
         for (Value v = 0; v < n; ++v) plan_value(v);
         for (Value v = 0; v < n; ++v) fuse_operands(v);
         alias_variables();
+        for (Value v = 0; v < n; ++v) plan_.in_range[v] = reads_in_range(f_.insts[v]);
         return std::move(plan_);
     }
 
@@ -92,6 +94,29 @@ class Planner {
             default:
                 break;
         }
+    }
+
+    // Record `b` of a loop over all records: it starts at c >= 0 if c < count, goes on with
+    // b + 1 if that is < count. All lanes agree, and nothing is called that could change the set.
+    bool reads_in_range(const Inst& read) const {
+        if (read.op != Op::RecordField && read.op != Op::RecordUniform) return false;
+        const Inst& index = f_.insts[read.b];
+        if (index.op != Op::LoopVar || (plan_.calls && f_.insts[read.a].op != Op::ConstI))
+            return false;
+        auto loop = static_cast<Value>(index.imm);
+        const Inst& end = f_.insts[s_.end_of[loop]];
+        const Inst& start = f_.insts[index.a];
+        Value next = f_.args_of(end)[read.b - loop - 1];
+        const Inst& step = f_.insts[next];
+        return !plan_.values[loop].masked && start.op == Op::ConstI && start.imm >= 0 &&
+               step.op == Op::IAdd && step.a == read.b && f_.insts[step.b].op == Op::ConstI &&
+               f_.insts[step.b].imm == 1 && is_below_count(f_.insts[loop].a, index.a, read.a) &&
+               is_below_count(end.a, next, read.a);
+    }
+    bool is_below_count(Value mask, Value index, Value set) const {
+        const Inst& less = f_.insts[mask];
+        return less.op == Op::ILt && less.a == index && f_.insts[less.b].op == Op::RecordCount &&
+               f_.insts[less.b].a == set;
     }
 
     // An input read once is an operand in memory where it is used.

@@ -22,7 +22,9 @@ struct FunctionPlan {
     std::vector<ValuePlan> values;
     std::vector<bool> agree;   // the value is the same in all lanes
     std::vector<bool> branch;  // of If: jump over the body when no lane runs it
-    bool calls = false;        // has a Call or Service: no register lives through
+    // Of record reads: the loop around holds the index in range and the set is not empty.
+    std::vector<bool> in_range;
+    bool calls = false;  // has a Call or Service: no register lives through
 };
 
 FunctionPlan plan_function(const Module& module, const Function& function,

@@ -51,14 +51,20 @@ void Emit::op_RecordCount() {
     finish(to);
 }
 
-// rdi = the record, or null if the set is empty. It is kept from read to read until control flow
-// joins or another record is read.
+// rdi = the record, or null if the set is empty and that is not ruled out. It is kept from read to
+// read until control flow joins or another record is read.
 void Emit::find_record() {
     if (record_ == root(now().b) && record_set_ == root(now().a)) return;
     record_ = root(now().b);
     record_set_ = root(now().a);
     x86::Mem set = find_set();
     lane_to(x86::eax, now().b);
+    if (plan_.in_range[at_]) {
+        a_.shl(x86::rax, 4);
+        a_.mov(x86::rdi, set.cloneAdjusted(offsetof(RecordSet, records)));
+        a_.add(x86::rdi, x86::rax);
+        return;
+    }
     // The index is held in 0..count-1.
     a_.xor_(x86::ecx, x86::ecx);
     a_.test(x86::eax, x86::eax);
@@ -79,9 +85,11 @@ void Emit::read_record(bool uniform) {
     find_record();
     x86::Vec to = is_mask(at_) ? scratch(0) : target();
     Label none = a_.newLabel();
-    a_.vxorps(xmm(to), xmm(to), xmm(to));
-    a_.test(x86::rdi, x86::rdi);
-    a_.jz(none);
+    if (!plan_.in_range[at_]) {
+        a_.vxorps(xmm(to), xmm(to), xmm(to));
+        a_.test(x86::rdi, x86::rdi);
+        a_.jz(none);
+    }
     if (uniform) {
         a_.mov(x86::rcx, x86::ptr(x86::rdi, offsetof(Record, uniforms)));
         a_.emit(Id::kIdVbroadcastss, to, x86::ptr(x86::rcx, 4 * now().imm));
