@@ -15,7 +15,7 @@ EFFECTS = {
                                          "bodycolor": (0.78, 0.74, 0.68),
                                          "cloudcolor": (0.50, 0.49, 0.49)}),
     "planks-rsl": ("SURFACE", "planks", {"Kr": 0.22}),
-    "plaster-rsl": ("SURFACE", "plaster", {"surface_color": (0.045, 0.135, 0.14),
+    "plaster-rsl": ("SURFACE", "plaster", {"surface_color": (0.05, 0.15, 0.155),
                                            "unevenness": 0.12}),
     "gloss-rsl": ("SURFACE", "gloss", {"surface_color": (0.75, 0.07, 0.035),
                                        "sole_height": -1000.0, "roughness": 0.05}),
@@ -40,9 +40,9 @@ MATERIALS = {
 }
 
 LIGHTS = {
-    "key": ("softspot-rsl", {"intensity": 28.0}),
+    "key": ("softspot-rsl", {"intensity": 30.0}),
     "rim": ("softspot-rsl", {"intensity": 11.0, "lightcolor": (0.55, 0.75, 1.0), "radius": 0.08}),
-    "sky": ("skylight-rsl", {}),
+    "sky": ("skylight-rsl", {"intensity": 1.2}),
 }
 
 # The knot slowly changes its color: (target, [(frame, value)]).

@@ -1,6 +1,11 @@
 # scripts/assets/dae_writer.py: writes a COLLADA 1.4.1 file with profile_RSL, from Python values.
 from contextlib import contextmanager
 import math
+import re
+
+
+class Point(tuple):
+    """Three numbers that are no color."""
 
 
 def numbers(values):
@@ -79,8 +84,8 @@ class Dae:
         self.depth = 0
 
     def material(self, name, stages, values):
-        """stages: (stage, shader, code); values: newparams, overridden by nothing here, so that
-        a channel may write material/param they are the material's setparams too."""
+        """stages: (stage, shader, code). The values are the effect's newparams and the material's
+        setparams: a channel may target either."""
         self.parts["materials"].append(
             f'<material id="{name}-material"><instance_effect url="#{name}-effect">'
             + "".join(f'<setparam ref="{k}">{self.value(v)}</setparam>' for k, v in values.items())
@@ -109,10 +114,13 @@ class Dae:
 
     @staticmethod
     def declares(code, parameter):
-        return f" {parameter} = " in code.split("{")[0] or f" {parameter} =" in code
+        return re.search(rf"\b{parameter}\s*=", code.split("{")[0]) is not None
 
     @staticmethod
     def value(v):
+        """A number, a color, or the three numbers of a Point."""
+        if isinstance(v, Point):
+            return f"<float3>{numbers(v)}</float3>"
         return f"<color>{numbers(v)}</color>" if isinstance(v, tuple) else f"<float>{v:g}</float>"
 
     def source(self, id, rows, params, kind="float"):

@@ -6,11 +6,11 @@ import math
 import os
 import sys
 
-from dae_writer import Dae, add_box, grid_of, lathe_of
+from dae_writer import Dae, Point, add_box, grid_of, lathe_of
 
 FRAMES, FPS = 48, 24.0
 
-# material: (shaders by stage, {parameter: value}); shaders of one file each, embedded in the effect.
+# material: (its shaders by stage, {parameter: value}). A shader's file has its name.
 MATERIALS = {
     "floor": ([("SURFACE", "planks")], {"width": 0.5, "boardlength": 5.0, "gap": 0.008,
                                         "Ks": 0.12}),
@@ -37,7 +37,7 @@ MATERIALS = {
 }
 
 LIGHTS = {
-    "sun": ("windowlight", {"intensity": 2.8, "to": (0.0, 0.0, 0.0)}),
+    "sun": ("windowlight", {"intensity": 2.8, "to": Point((0.0, 0.0, 0.0))}),
     "bulb": ("bulblight", {"glow": 1.0}),
     "room": ("skylight", {"intensity": 0.75}),
 }
@@ -109,7 +109,7 @@ def build_bulb(dae):
             wire = tube((side * 0.04, 0, 0.90), (side * 0.40, 0, 1.30), 0.010)
             dae.mesh(name, wire, "wire")
             dae.node(name, name, "wire")
-        with dae.group("filament", [("translate", "place", (0, 0, 1.30)),
+        with dae.group("hot", [("translate", "place", (0, 0, 1.30)),
                                     ("rotate", "lie", (0, 1, 0, 90))]):
             coil = lathe_of(lambda t: (0.075, -0.24 + 0.48 * t), 48, 24)
             dae.mesh("coil", coil, "filament")
