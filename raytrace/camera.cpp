@@ -117,6 +117,8 @@ CameraStatus make_camera(const CameraOptics& optics, const dmat4& world_from_nod
     const dvec3 eye_world{world_from_node[3]};
     camera.eye = eye_world - scene_origin;
     set_matrices(eye_world, camera);
+    camera.raster_dx = camera.right * (2 * camera.half_width / camera.width);
+    camera.raster_dy = camera.up * (-2 * camera.half_height / camera.height);  // y goes down
     camera.znear = optics.znear;
     camera.zfar = optics.zfar;
     bool repaired = repair_clip_range(scene_size, camera);
@@ -131,8 +133,8 @@ std::optional<double> picture_aspect(const CameraOptics& optics) {
 }
 
 CameraRay camera_ray(const Camera& camera, double x, double y) {
-    const dvec3 dx = camera.right * (2 * camera.half_width / camera.width);
-    const dvec3 dy = camera.up * (-2 * camera.half_height / camera.height);  // raster y goes down
+    const dvec3& dx = camera.raster_dx;
+    const dvec3& dy = camera.raster_dy;
     const dvec3 across = dx * (x - 0.5 * camera.width) + dy * (y - 0.5 * camera.height);
     CameraRay ray{};
     double per_depth = 1;  // length along the ray for one unit of depth

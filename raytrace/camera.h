@@ -43,6 +43,8 @@ struct Camera {
     dvec3 forward{0, 0, 1};
     double half_width = 1;  // of the picture: at distance 1 (perspective) or in world units
     double half_height = 1;
+    dvec3 raster_dx{0.0};  // from one pixel to the next in that picture, and to the one below
+    dvec3 raster_dy{0.0};
     double znear = 0;  // 0 < znear < zfar always; what the shaders see. Rays are not clipped
     double zfar = 0;   // unless `clip` is set.
     bool clip = false;

@@ -249,6 +249,7 @@ uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bo
     load_rays(rays, rayhit.ray);
     QueryContext query;
     rtcInitIntersectContext(&query.rtc);
+    if (rays.coherent) query.rtc.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query.map = &map;
     query.fixed_winner = fixed_winner;
     for (int i = 0; i < kPacket; ++i) {
@@ -288,6 +289,8 @@ uint32_t EmbreeScene::occluded16(const RayPacket16& rays) const {
     RTCRay16 ray;
     load_rays(rays, ray);
     RTCIntersectContext context;
+    // Never COHERENT here: rtcOccluded16 of Embree 3.13.5 then loops for ever on some packets
+    // (seen on a few hundred of mixed direction).
     rtcInitIntersectContext(&context);
     {
         DenormalGuard guard;

@@ -193,6 +193,7 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
     HitPacket16 hits;
     for (size_t first = 0; first < rays.count; first += kPacket) {
         load_packet(rays, first, mask, packet);
+        packet.coherent = depth == 0;
         append_hits(hits, accel.intersect16(packet, hits, counters), first, out);
     }
     accel.surface_points(out.count, out.instance, out.primitive, out.u, out.v,

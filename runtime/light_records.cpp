@@ -202,6 +202,13 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
     return {int32_t(record_count_), records.data()};
 }
 
+// A light without an output `lit` is lit everywhere.
+static const float* ones_column(Arena& arena, size_t count) {
+    std::span<float> column = arena.allocate_span<float>(padded(count));
+    std::fill(column.begin(), column.end(), jit::float_of(1));
+    return column.data();
+}
+
 jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statement& statement,
                                  const LightBinding& binding, std::span<float* const> out,
                                  const float* zeros) {
@@ -216,6 +223,7 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
         set(rsl::kLightCl + k, statement.Cl[k]);
         set(rsl::kLightOl + k, statement.Ol[k]);
     }
+    if (statement.lit < 0) columns[rsl::kLightLit] = ones_column(*grid.arena, at.count);
     set(rsl::kLightLit, statement.lit);
     for (size_t m = 0; m < binding.messages.size(); ++m)
         set(rsl::kLightMessages + m, binding.messages[m]);
@@ -224,8 +232,6 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
         for (size_t k = 0; k < 3; ++k) {
             L[k] = out[size_t(statement.L[k])];
             Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
-            // The record's L points from the surface to the light.
-            for (size_t i = 0; i < padded(at.count); ++i) L[k][i] = -L[k][i];
         }
         if (statement.casts_shadow && grid.shadows && Cl[0] && Cl[1] && Cl[2])
             shadow(grid, at, statement.kind == rsl::kLightSolar, L,

@@ -142,6 +142,47 @@ TEST(Accel, OccludedAgreesWithIntersect) {
     EXPECT_EQ(counters.filtered, 0u);
 }
 
+TEST(Accel, TheCoherenceHintChangesNoAnswer) {
+    MixedScene scene;
+    for (bool robust : {true, false}) {
+        AccelPolicy policy;
+        policy.robust = robust;
+        Accel accel(policy);
+        accel.update(scene.rows);
+        RandomRays rays(11);
+        TraceCounters counters;
+        int hits = 0;
+        for (int i = 0; i < 2000; ++i) {
+            RayPacket16 packet{};
+            HitPacket16 plain, hinted;
+            vec3 org, dir, scattered, way;
+            rays.next(6, dvec3(0.0), org, dir);
+            for (int lane = 0; lane < kPacket; ++lane) {
+                rays.next(6, dvec3(0.0), scattered, way);
+                // Neighbours from one eye in even packets, rays from anywhere in odd ones.
+                if (i % 2 == 0)
+                    set_lane(packet, lane, org, dir + 0.05f * way);
+                else
+                    set_lane(packet, lane, scattered, way);
+            }
+            packet.coherent = false;
+            const uint32_t met = accel.intersect16(packet, plain, counters);
+            packet.coherent = true;
+            ASSERT_EQ(accel.intersect16(packet, hinted, counters), met);
+            for (int lane = 0; lane < kPacket; ++lane) {
+                if (!(met >> lane & 1)) continue;
+                ++hits;
+                ASSERT_EQ(hinted.geometry[lane], plain.geometry[lane]);
+                ASSERT_EQ(hinted.primitive[lane], plain.primitive[lane]);
+                ASSERT_EQ(hinted.t[lane], plain.t[lane]);
+                ASSERT_EQ(hinted.u[lane], plain.u[lane]);
+                ASSERT_EQ(hinted.v[lane], plain.v[lane]);
+            }
+        }
+        EXPECT_GT(hits, 5000);
+    }
+}
+
 TEST(Accel, AnInstanceEqualsItsBakedMesh) {
     for (bool mirror : {false, true}) {
         TestMesh local = tube(20, 20);
