@@ -1,0 +1,115 @@
+// tests/base/diagnostic_test.cpp: findings, their places and how they print.
+#include "runtime/base/diagnostic.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace kinora {
+namespace {
+
+constexpr FindingInfo kOdd{"TEST_ODD", Severity::Warning, "'{}' is {} times odd", "why", "fix it"};
+
+TEST(SourceFiles, LinesAndColumnsCountFromOneInBytes) {
+    SourceFiles files;
+    FileId id = files.add("a.sl", "one\ntwo\r\n\nfour");
+    struct {
+        uint32_t offset;
+        int line, column;
+    } rows[] = {{0, 1, 1}, {2, 1, 3}, {3, 1, 4}, {4, 2, 1}, {9, 3, 1}, {10, 4, 1}, {14, 4, 5}};
+    for (const auto& row : rows) {
+        EXPECT_EQ(files.line_column(id, row.offset).line, row.line) << row.offset;
+        EXPECT_EQ(files.line_column(id, row.offset).column, row.column) << row.offset;
+    }
+    EXPECT_EQ(files.line_text(id, 2), "two");
+    EXPECT_EQ(files.line_text(id, 3), "");
+    EXPECT_EQ(files.line_text(id, 4), "four");
+    EXPECT_EQ(files.line_text(id, 5), "");
+    EXPECT_EQ(files.line_text(id, 0), "");
+}
+
+TEST(SourceMap, MapsThroughItsSegments) {
+    // "a&lt;b]]>...<![CDATA[c" decoded to "a<bc": the file's offsets jump twice.
+    SourceMap map{3, {{0, 100}, {2, 105}, {3, 120}}};
+    EXPECT_EQ(map.file_offset(0), 100u);
+    EXPECT_EQ(map.file_offset(1), 101u);
+    EXPECT_EQ(map.file_offset(2), 105u);
+    EXPECT_EQ(map.file_offset(7), 124u);
+    Location range = map.location(1, 3);
+    EXPECT_EQ(range.file, 3u);
+    EXPECT_EQ(range.begin, 101u);
+    EXPECT_EQ(range.end, 106u);  // not 120: the end maps through the last character
+    EXPECT_EQ(SourceMap{}.file_offset(9), 9u);
+}
+
+TEST(Diagnostics, PrintPlaceCodeCaretNotesAndHelp) {
+    Diagnostics diagnostics;
+    FileId id = diagnostics.files.add("dir/a.sl", "float x;\n\tfloat yy = 1;\n");
+    Finding& finding = diagnostics.report(kOdd, {id, 16, 18}, "yy", 3);
+    finding.id_path = "effect[@id='E']";
+    finding.notes.push_back({{id, 6, 7}, "first defined here"});
+    EXPECT_EQ(format_finding(finding, diagnostics.files),
+              "dir/a.sl:2:8: warning: 'yy' is 3 times odd [TEST_ODD]\n"
+              "    in effect[@id='E']\n"
+              "    \tfloat yy = 1;\n"
+              "    \t      ^~\n"
+              "dir/a.sl:1:7: note: first defined here\n"
+              "    float x;\n"
+              "          ^\n"
+              "    help: fix it\n");
+}
+
+TEST(Diagnostics, AFindingWithoutAFilePrintsTheProgramsName) {
+    Diagnostics diagnostics;
+    Finding& finding = diagnostics.report(kOdd, {}, "all", 1);
+    finding.help = "";
+    EXPECT_EQ(format_finding(finding, diagnostics.files),
+              "kinora: warning: 'all' is 1 times odd [TEST_ODD]\n");
+}
+
+TEST(Diagnostics, PlacesAtAndBeyondTheEndOfALinePrintSafely) {
+    Diagnostics diagnostics;
+    std::string wide(5000, 'x');
+    FileId id = diagnostics.files.add("w", "ab\n" + wide);
+    for (Location where : {Location{id, 2, 2}, Location{id, 2, 900}, Location{id, 4000, 4100},
+                           Location{id, 5003, 5003}, Location{id, 9999, 10000}}) {
+        std::string text =
+            format_finding(diagnostics.report(kOdd, where, "w", 1), diagnostics.files);
+        EXPECT_NE(text.find('^'), std::string::npos);
+        EXPECT_LT(text.size(), 800u);  // long lines are shown around the place only
+    }
+}
+
+TEST(Diagnostics, SeveritiesCanBeOverriddenByCode) {
+    Diagnostics diagnostics;
+    diagnostics.report(kOdd, {}, "a", 1);
+    EXPECT_FALSE(diagnostics.has_errors());
+    diagnostics.set_severity("TEST_ODD", Severity::Error);
+    diagnostics.report(kOdd, {}, "b", 2);
+    EXPECT_TRUE(diagnostics.has_errors());
+    EXPECT_EQ(diagnostics.count(Severity::Error), 1);
+    EXPECT_EQ(diagnostics.count(Severity::Warning), 1);
+}
+
+TEST(Diagnostics, TakeReportsFromManyThreads) {
+    Diagnostics diagnostics;
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&] {
+            for (int i = 0; i < 500; ++i) diagnostics.report(kOdd, {}, "x", i);
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(diagnostics.count(Severity::Warning), 2000);
+}
+
+TEST(NearestName, FindsWhatWasMeantOrNothing) {
+    std::vector<std::string_view> names{"diffuse", "specular", "Kd", "roughness"};
+    EXPECT_EQ(nearest_name("difuse", names), "diffuse");
+    EXPECT_EQ(nearest_name("rougness", names), "roughness");
+    EXPECT_EQ(nearest_name("Ks", names), "Kd");
+    EXPECT_EQ(nearest_name("elephant", names), "");
+    EXPECT_EQ(nearest_name("x", {}), "");
+}
+
+}  // namespace
+}  // namespace kinora

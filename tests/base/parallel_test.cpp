@@ -1,0 +1,67 @@
+// tests/base/parallel_test.cpp: ranges run on the machine's cores.
+#include "runtime/base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace kinora {
+namespace {
+
+class ParallelFor : public testing::TestWithParam<int> {
+  protected:
+    ParallelFor() : before_(thread_count()) { set_thread_count(GetParam()); }
+    ~ParallelFor() override { set_thread_count(before_); }
+
+  private:
+    int before_;
+};
+
+TEST_P(ParallelFor, VisitsEachIndexOnce) {
+    for (size_t last : {0, 1, 7, 1000, 100'003}) {
+        std::vector<std::atomic<int>> visits(last);
+        parallel_for(0, last, 16, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) ++visits[i];
+        });
+        for (size_t i = 0; i < last; ++i) ASSERT_EQ(visits[i], 1) << i;
+    }
+}
+
+TEST_P(ParallelFor, StartsWhereItIsTold) {
+    std::atomic<size_t> sum{0};
+    parallel_for(10, 20, 3, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) sum += i;
+    });
+    EXPECT_EQ(sum, 145u);
+    parallel_for(20, 10, 3, [&](size_t, size_t) { ADD_FAILURE(); });
+}
+
+TEST_P(ParallelFor, ThreadIndicesStayBelowTheCountAndAreNotShared) {
+    std::vector<std::atomic<int>> inside(static_cast<size_t>(thread_count()));
+    std::atomic<bool> shared{false};
+    parallel_for(0, 2000, 1, [&](size_t, size_t) {
+        int index = thread_index();
+        ASSERT_GE(index, 0);
+        ASSERT_LT(index, thread_count());
+        if (++inside[size_t(index)] != 1) shared = true;
+        std::this_thread::yield();
+        --inside[size_t(index)];
+    });
+    EXPECT_FALSE(shared);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 4));
+
+TEST(FunctionRef, CallsWhatItSees) {
+    int calls = 0;
+    auto add = [&](int by) { return calls += by; };
+    FunctionRef<int(int)> ref = add;
+    FunctionRef<int(int)> copy = ref;
+    EXPECT_EQ(ref(2), 2);
+    EXPECT_EQ(copy(3), 5);
+}
+
+}  // namespace
+}  // namespace kinora
