@@ -1,4 +1,4 @@
-# scripts/assets/walker_gait.py: the walk: for every frame, where each joint is and how it is turned.
+# scripts/assets/walker_gait.py: the walk: where each joint is and how it is turned, each frame.
 #
 # Phases run 0..1 over a cycle from one left heel strike to the next. Turns are about the world's
 # axes, relative to the rest pose. The walker goes along +x.
@@ -92,7 +92,7 @@ def trunk_turns(phase):
     lean = 3.0
     pelvis = turn("z", -6 * np.cos(w)) @ turn("x", 3.5 * np.sin(w)) @ turn("y", lean)
     spine = turn("z", 0.5 * np.cos(w)) @ turn("x", -0.5 * np.sin(w)) @ turn("y", lean - 1.5)
-    chest = turn("z", 7 * np.cos(w)) @ turn("x", -2.2 * np.sin(w)) @ turn("y", lean - 3 + 1.2 * beat)
+    chest = turn("z", 7 * np.cos(w)) @ turn("x", -2.2 * np.sin(w)) @ turn("y", 1.2 * beat)
     # He nods to his music and now and then looks towards us.
     look = -34 * ease(0.75, 1.15, phase) * (1 - ease(1.9, 2.35, phase))
     head = turn("z", look + 2 * np.cos(w)) @ turn("x", 3 * np.sin(w)) @ turn(
@@ -144,9 +144,10 @@ def pose(phase):
         pitch = foot_pitch((phase + offset) % 1.0)
         splay = turn("z", 5 * side)
         turns[foot] = splay @ turn("y", pitch)
-        on_ground = (phase + offset) % 1.0 < STANCE + 0.05
-        turns[toe] = splay @ turn("y", 0.15 * pitch if on_ground and pitch > 0 else 0.9 * pitch - 4 *
-                                  ease(STANCE, 0.8, (phase + offset) % 1.0))
+        p = (phase + offset) % 1.0
+        rolling = p < STANCE + 0.05 and pitch > 0  # the toes stay flat while the heel lifts
+        bend = 0.15 * pitch if rolling else 0.9 * pitch - 4 * ease(STANCE, 0.8, p)
+        turns[toe] = splay @ turn("y", bend)
         for name in (shin, foot, toe):
             place(name)
     return {name: (turns[name], heads[name]) for name in rest}
