@@ -46,7 +46,8 @@ def main(path):
     bpy.context.view_layer.update()
     bpy.ops.wm.collada_export(
         filepath=path, apply_modifiers=False, include_armatures=True, deform_bones_only=False,
-        include_animations=True, include_all_actions=False, export_animation_type_selection="sample",
+        include_animations=True, include_all_actions=False,
+        export_animation_type_selection="sample",
         sampling_rate=1,
         export_animation_transformation_type_selection="matrix", keep_flat_curves=True,
         export_object_transformation_type_selection="matrix",
