@@ -102,12 +102,21 @@ void deform(Scene& scene) {
     }
 }
 
+bool is_singular(const Shape& shape) {
+    return glm::determinant(dmat3(shape.world)) == 0;
+}
+
 void bake_static(Scene& scene) {
     for (Shape& shape : scene.shapes) {
         if (shape.kind != raytrace::GeometryKind::Static) continue;
         update_world(scene, shape);
         const Mesh& mesh = scene.meshes[shape.mesh];
         dmat3 linear(shape.world);
+        ++shape.positions_version;
+        if (is_singular(shape)) {  // triangles without area, which no ray hits
+            std::fill(shape.positions.begin(), shape.positions.end(), vec4(0.0f));
+            continue;
+        }
         dvec3 offset = linear * mesh.anchor + dvec3(shape.world[3]) - scene.origin;
         dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                        glm::cross(linear[0], linear[1]));
@@ -119,7 +128,6 @@ void bake_static(Scene& scene) {
             double length = glm::length(n);
             shape.normals[i] = vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f);
         }
-        ++shape.positions_version;
     }
 }
 

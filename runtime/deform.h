@@ -4,6 +4,7 @@
 namespace kinora {
 
 struct Scene;
+struct Shape;
 
 // Joint matrices of the skins whose joints moved.
 void pose(Scene& scene);
@@ -14,5 +15,8 @@ void deform(Scene& scene);
 
 // Static shapes into accel space; once, when the scene's origin is known.
 void bake_static(Scene& scene);
+
+// Whether the shape's matrix has no inverse, so that it is not traced (EXTREMES row 11).
+bool is_singular(const Shape& shape);
 
 }  // namespace kinora

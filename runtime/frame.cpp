@@ -77,16 +77,22 @@ bool update_camera(Scene& scene, const FrameSettings& settings, Diagnostics& dia
     return false;
 }
 
+void report_singular(const Scene& scene, const Shape& shape, Diagnostics& diagnostics) {
+    const NodeDefinition& node = scene.description->nodes[scene.nodes[shape.node].definition];
+    diagnostics.report(Code::NODE_SINGULAR, Location{}, node.id.empty() ? node.name : node.id);
+}
+
 void report_geometry(const Scene& scene, const raytrace::AccelUpdate& update,
                      Diagnostics& diagnostics) {
+    for (const Shape& shape : scene.shapes)  // those that move are the ray tracer's to tell
+        if (shape.kind == raytrace::GeometryKind::Static && is_singular(shape))
+            report_singular(scene, shape, diagnostics);
     for (const auto& issue : update.issues) {
         const Shape& shape = scene.shapes[scene.surfaces[issue.geometry].shape];
         const std::string& mesh = scene.description->meshes[shape.mesh].id;
-        const NodeDefinition& node = scene.description->nodes[scene.nodes[shape.node].definition];
         switch (issue.issue) {
             case raytrace::GeometryIssue::SingularMatrix:
-                diagnostics.report(Code::NODE_SINGULAR, Location{},
-                                   node.id.empty() ? node.name : node.id);
+                report_singular(scene, shape, diagnostics);
                 break;
             case raytrace::GeometryIssue::BadVertices:
                 diagnostics.report(Code::GEOMETRY_ISSUE, Location{}, mesh,
