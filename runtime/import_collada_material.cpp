@@ -126,8 +126,10 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
             from_param ? param_value(material, effect_index, bind.param) : bind.literal;
         if (value.type == collada::ParamType::String) {
             source.strings = value.strings;
-            if (value.image != collada::kNone && !data_.images[value.image].path.empty())
-                source.strings = {data_.images[value.image].path};
+            if (value.image != collada::kNone) {
+                const collada::Image& image = data_.images[value.image];
+                source.strings = {image.path.empty() ? image.uri : image.path};
+            }
         } else if (value.type == collada::ParamType::Float4x4) {
             // COLLADA writes matrices for column vectors, RSL for row vectors.
             std::vector<double> numbers = value.numbers;
