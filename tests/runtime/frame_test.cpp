@@ -1,0 +1,177 @@
+// tests/runtime/frame_test.cpp: the frame loop: what it allocates, and that a picture depends on
+// the time alone.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "allocations_of_ours.h"
+#include "jit/target.h"
+#include "runtime/base/parallel.h"
+#include "scene_text.h"
+
+namespace kinora {
+namespace {
+
+// Skinned strip, rigidly moving ball, transparent pane, lit floor; shadows, noise, mirrors.
+SceneText moving_scene() {
+    SceneText scene;
+    scene
+        .look("marble",
+              "surface marble() { Oi = 1; normal Nf = faceforward(normalize(N), I);"
+              " Ci = (0.2 + noise(5 * transform(\"shader\", P))) * diffuse(Nf); }")
+        .look("plain",
+              "surface plain() { Oi = 1; normal Nf = faceforward(normalize(N), I);"
+              " Ci = diffuse(Nf) + 0.2 * trace(P, reflect(normalize(I), Nf)); }")
+        .look("glass", "surface glass() { Oi = 0.3 + 0.2 * noise(4 * P); Ci = Oi * Cs; }")
+        .square("floor", 1.5)
+        .octahedron("ball")
+        .place("floor", "plain", "<translate>0 0 -0.5</translate>")
+        .place("floor", "glass",
+               "<translate>0.3 0.2 1.5</translate><rotate>1 1 0 50</rotate><scale>.3 .3 .3</scale>")
+        .place("ball", "plain",
+               "<translate sid=\"t\">0 0 0.4</translate><rotate>1 2 3 40</rotate>"
+               "<scale>0.3 0.3 0.3</scale>",
+               "ball-node")
+        .bending_strip("strip", "marble", 40)
+        .animate("ball-node/t.X", {0, 1}, {-0.7, 0.7})
+        .light("bulb", "<point><color>1 1 1</color></point>", "<translate>1 1 3</translate>")
+        .light("sun", "<directional><color>.5 .4 .3</color></directional>",
+               "<rotate>1 1 0 -30</rotate>");
+    return scene;
+}
+
+std::string walker() {
+    std::string path = std::string(KINORA_SOURCE_DIR) + "/assets/scenes/walker.dae";
+    return std::filesystem::exists(path) ? path : "";
+}
+
+// A rebuild makes new structures; a frame that refits makes none.
+SceneOptions refit_only() {
+    SceneOptions options;
+    options.accel.refit_limit = options.accel.low_limit = 1e9f;
+    return options;
+}
+
+void expect_no_allocation(Rendering& r) {
+    ASSERT_TRUE(r.scene) << r.findings();
+    // Buffers grow to the largest frame: the frames are met once, then played again.
+    for (int frame = 0; frame < 9; ++frame) r.frame(64, 36, frame / 24.0);
+    watch_allocations();
+    for (int frame = 0; frame < 9; ++frame)
+        render_frame(*r.scene, frame / 24.0, r.settings, r.film, r.stats, r.diagnostics);
+    size_t count = allocations_of_ours();
+    EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours() << r.findings();
+    EXPECT_GT(r.stats.shading_points, 100u);
+}
+
+TEST(Frame, NoAllocationOfOursAfterTheFirstFrames) {
+    Threads one(1);
+    Rendering r(moving_scene().text(), refit_only());
+    expect_no_allocation(r);
+}
+
+TEST(Frame, NoAllocationOfOursAfterTheFirstFramesOnTwoThreads) {
+    Threads two(2);
+    Rendering r(moving_scene().text(), refit_only());
+    // Which thread meets its largest tile when is a matter of luck; a while of it settles that.
+    for (int frame = 0; frame < 40; ++frame) r.frame(64, 36, frame % 10 / 24.0);
+    expect_no_allocation(r);
+}
+
+TEST(Frame, NoAllocationOfOursInTheWalker) {
+    if (walker().empty()) return;  // made by scripts/assets
+    Threads one(1);
+    expect_no_allocation(*Rendering::of_file(walker(), refit_only()));
+}
+
+TEST(Frame, PicturesMoveAtAll) {
+    Rendering r(moving_scene().text());
+    EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    r.frame(64, 36, 0);
+    raytrace::Film first = r.film;
+    r.frame(64, 36, 1);
+    EXPECT_GT(different_pixels(first, r.film, 0.01f), 200u);
+    EXPECT_GT(r.stats.refits + r.stats.rebuilds, 0);
+}
+
+TEST(Frame, RefittedFramesEqualRebuiltFrames) {
+    SceneOptions rebuild;
+    rebuild.accel.always_rebuild = true;
+    Rendering refitted(moving_scene().text()), rebuilt(moving_scene().text(), rebuild);
+    int refits = 0;
+    for (int i = 0; i <= 6; ++i) {
+        refitted.frame(64, 36, i / 6.0);
+        rebuilt.frame(64, 36, i / 6.0);
+        EXPECT_LE(difference(refitted.film, rebuilt.film), 1e-4f) << "frame " << i;
+        refits += refitted.stats.refits;
+    }
+    EXPECT_GE(refits, 3);
+}
+
+TEST(Frame, AnyOrderOfFramesGivesTheSamePictures) {
+    const double times[] = {0, 0.2, 0.4, 0.6, 0.8, 1.0};
+    Rendering forward(moving_scene().text());
+    std::vector<raytrace::Film> films;
+    for (double time : times) films.push_back(forward.frame(48, 27, time).film);
+    for (int i : {5, 0, 3, 3, 1, 4, 2})
+        EXPECT_TRUE(same_bytes(forward.frame(48, 27, times[i]).film, films[size_t(i)]))
+            << i << ": " << difference(forward.film, films[size_t(i)]);
+    Rendering fresh(moving_scene().text());
+    EXPECT_TRUE(same_bytes(fresh.frame(48, 27, times[4]).film, films[4]));
+}
+
+TEST(Frame, ThreadsDoNotShowInThePicture) {
+    raytrace::Film films[2];
+    for (int n = 1; n <= 2; ++n) {
+        Threads threads(n);
+        Rendering r(moving_scene().text());
+        r.settings.integrator.samples_per_pixel = 3;
+        r.settings.integrator.tile = 8;
+        r.frame(64, 36, 0.1);
+        films[n - 1] = r.frame(64, 36, 0.7).film;
+    }
+    EXPECT_TRUE(same_bytes(films[0], films[1])) << difference(films[0], films[1]);
+}
+
+TEST(Frame, TargetsDoNotShowInThePictureInPreciseMath) {
+    std::vector<raytrace::Film> films;
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        SceneOptions options;
+        options.target = &target;
+        Rendering r(moving_scene().text(), options);
+        films.push_back(r.frame(64, 36, 0.6).film);
+        EXPECT_TRUE(same_bytes(films.front(), films.back()))
+            << target.name << ": " << difference(films.front(), films.back());
+    }
+    EXPECT_GE(films.size(), 2u);
+}
+
+TEST(Frame, CountsRaysAndPoints) {
+    SceneText scene;
+    scene.square("floor", 1.5)
+        .look("look", "surface s() { Oi = 1; Ci = diffuse(N); }")
+        .place("floor", "look")
+        .light("sun", "<directional><color>1 1 1</color></directional>");
+    Rendering r(scene.text());
+    r.frame(24, 12);  // the window is fitted inside: the picture shows 4 x 2, the floor covers 18
+                      // columns of 24
+    EXPECT_EQ(r.stats.shading_points, 216u);
+    EXPECT_EQ(r.stats.rays, 288u + 216u);
+}
+
+TEST(Frame, ACameraWithoutAPictureIsAnError) {
+    SceneText scene;
+    scene.square("floor").look("l", "surface s() { Ci = 1; }").place("floor", "l");
+    scene.cameras =
+        "<camera id=\"eye\"><optics><technique_common><perspective><yfov>180</yfov><znear>1</znear>"
+        "<zfar>10</zfar></perspective></technique_common></optics></camera>";
+    Rendering r(scene.text());
+    ASSERT_TRUE(r.scene);
+    EXPECT_FALSE(render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics));
+    ASSERT_EQ(r.count("CAMERA_OPTICS"), 1) << r.findings();
+    EXPECT_GT(r.where(*r.find("CAMERA_OPTICS")).line, 1);
+}
+
+}  // namespace
+}  // namespace kinora

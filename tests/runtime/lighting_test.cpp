@@ -1,0 +1,288 @@
+// tests/runtime/lighting_test.cpp: lights, shadows and transparency against arithmetic by hand.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene_text.h"
+
+namespace kinora {
+namespace {
+
+const char* kMatte = "surface matte() { Oi = 1; Ci = diffuse(normalize(N)); }";
+const char* kSun = "<directional><color>1 1 1</color></directional>";
+
+SceneText floor_scene(const char* code = kMatte) {
+    SceneText scene;
+    scene.square("floor", 1.5).look("floor-look", code).place("floor", "floor-look");
+    return scene;
+}
+
+std::string turned(const char* axis, double degrees) {
+    return fmt::format("<rotate>{} {}</rotate>", axis, degrees);
+}
+
+// Every pixel of an all-covering picture against a function of its place.
+template <class F>
+void expect_colors(const Rendering& r, F&& expected, double tolerance = 2e-6) {
+    for (int y = 0; y < r.film.height; ++y)
+        for (int x = 0; x < r.film.width; ++x) {
+            dvec3 want = expected(r.place(x, y));
+            vec3 got = r.color(x, y);
+            for (int k = 0; k < 3; ++k)
+                ASSERT_NEAR(got[k], want[k], tolerance)
+                    << "pixel " << x << "," << y << " component " << k << "\n"
+                    << r.findings();
+        }
+}
+
+TEST(Lights, AMatteSquareUnderADirectionalLightIsTheCosineEverywhere) {
+    for (double angle : {0.0, 30.0, 60.0, 85.0, 100.0}) {
+        SceneText scene = floor_scene();
+        scene.light("sun", kSun, turned("1 0 0", angle));
+        double want = std::max(0.0, std::cos(radians(angle)));
+        expect_colors(Rendering(scene.text()).frame(), [&](dvec2) { return dvec3(want); });
+    }
+}
+
+TEST(Lights, ColoursOfSeveralLightsAddUp) {
+    SceneText scene = floor_scene();
+    scene.light("a", "<directional><color>0.5 0.25 2</color></directional>")
+        .light("b", "<directional><color>0.1 1 0</color></directional>", turned("0 1 0", 60));
+    expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(0.55, 0.75, 2); });
+}
+
+TEST(Lights, PointLightsFallOffByTheirThreeAttenuations) {
+    SceneText scene = floor_scene();
+    scene.light("bulb",
+                "<point><color>2 2 2</color><constant_attenuation>0.5</constant_attenuation>"
+                "<linear_attenuation>0.25</linear_attenuation>"
+                "<quadratic_attenuation>0.125</quadratic_attenuation></point>",
+                "<translate>0.5 -0.25 0.75</translate>");
+    expect_colors(Rendering(scene.text()).frame(), [](dvec2 p) {
+        double d = std::sqrt((p.x - 0.5) * (p.x - 0.5) + (p.y + 0.25) * (p.y + 0.25) + 0.75 * 0.75);
+        return dvec3(2 * (0.75 / d) / (0.5 + 0.25 * d + 0.125 * d * d));
+    });
+}
+
+TEST(Lights, ASpotLightsUpTheInsideOfItsConeOnly) {
+    SceneText scene = floor_scene();
+    scene.light("spot",
+                "<spot><color>1 1 1</color><falloff_angle>40</falloff_angle>"
+                "<falloff_exponent>3</falloff_exponent></spot>",
+                "<translate>0 0 2</translate>");
+    Rendering r(scene.text());
+    r.frame(32, 32);
+    int lit = 0;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            dvec2 p = r.place(x, y);
+            double radius = std::hypot(p.x, p.y), angle = std::atan2(radius, 2.0) * 180 / kPi;
+            if (std::abs(angle - 20) < 0.01) continue;
+            double cosine = std::cos(radians(angle));
+            double want = angle < 20 ? std::pow(cosine, 4) : 0;
+            ASSERT_NEAR(r.color(x, y).x, want, 3e-6) << x << "," << y;
+            lit += angle < 20;
+        }
+    EXPECT_GT(lit, 100);
+}
+
+TEST(Lights, AmbientLightReachesEveryPointEvenly) {
+    SceneText scene = floor_scene("surface s() { Oi = 1; Ci = ambient(); }");
+    scene.light("sky", "<ambient><color>0.1 0.2 0.3</color></ambient>").light("sun", kSun);
+    expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(0.1, 0.2, 0.3); });
+}
+
+TEST(Lights, IlluminanceTakesTheLightsInsideItsConeOnly) {
+    SceneText scene =
+        floor_scene("surface s() { Oi = 1; Ci = 0; illuminance(P, N, radians(45)) { Ci += Cl; } }");
+    scene.light("inside", "<directional><color>1 0 0</color></directional>", turned("1 0 0", 40))
+        .light("outside", "<directional><color>0 1 0</color></directional>", turned("1 0 0", 50));
+    expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(1, 0, 0); });
+}
+
+TEST(Lights, IlluminanceByCategoryTakesThatCategoryOnly) {
+    SceneText scene = floor_scene(
+        "surface s() { Oi = 1; Ci = 0;"
+        "  illuminance(\"key\", P, N, PI/2) { Ci += Cl; }"
+        "  illuminance(\"-key\", P, N, PI/2) { Ci += 10 * Cl; } }");
+    scene
+        .rsl_light("a",
+                   "light a(string __category = \"fill,key\") {"
+                   " solar(vector \"shader\" (0,0,-1), 0) Cl = color(1,0,0); }")
+        .rsl_light("b",
+                   "light b(string __category = \"fill\") {"
+                   " solar(vector \"shader\" (0,0,-1), 0) Cl = color(0,1,0); }");
+    Rendering r(scene.text());
+    expect_colors(r.frame(), [](dvec2) { return dvec3(1, 10, 0); });
+    EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+}
+
+TEST(Lights, SurfacesReadALightsParametersAndOutputs) {
+    SceneText scene = floor_scene(
+        "surface s() { Oi = 1; Ci = 0; float gain = -1, reach = -1, none = 5;"
+        "  illuminance(P, N, PI/2) {"
+        "    float has = lightsource(\"gain\", gain);"
+        "    has += lightsource(\"reach\", reach);"
+        "    has += lightsource(\"nothing_here\", none);"
+        "    Ci = color(gain, reach, has); } }");
+    scene.rsl_light("lamp",
+                    "light lamp(float gain = 0.25; output varying float reach = 0;) {"
+                    "  illuminate(P) { reach = length(L); Cl = 1; } }",
+                    "<translate>0 0 2</translate>");
+    Rendering r(scene.text());
+    expect_colors(r.frame(),
+                  [](dvec2 p) { return dvec3(0.25, std::sqrt(p.x * p.x + p.y * p.y + 4), 2); });
+}
+
+TEST(Lights, RslLightsStandWhereTheirNodeStands) {
+    SceneText scene = floor_scene();
+    scene.rsl_light("lamp",
+                    "light lamp(float intensity = 1; point from = point \"shader\" (0,0,0);) {"
+                    "  illuminate(from) Cl = intensity / (L . L); }",
+                    "<translate>0.5 0 1</translate>",
+                    "<bind symbol=\"intensity\"><float>3</float></bind>");
+    expect_colors(
+        Rendering(scene.text()).frame(),
+        [](dvec2 p) {
+            double d2 = (p.x - 0.5) * (p.x - 0.5) + p.y * p.y + 1;
+            return dvec3(3 / d2 / std::sqrt(d2));
+        },
+        5e-6);
+}
+
+// ---- shadows
+
+// A small square above the floor under light slanting by 30 degrees about y: its shadow is the
+// square moved by -tan(30).
+SceneText shadow_scene(const char* occluder_code, const char* light_extra = "") {
+    SceneText scene = floor_scene();
+    scene.square("small", 0.25)
+        .look("cover", occluder_code)
+        .place("small", "cover", "<translate>0 0 1</translate>")
+        .light("sun", kSun, turned("0 1 0", 30), light_extra);
+    return scene;
+}
+
+enum class Region { Occluder, Shadow, Lit, Edge };
+Region region_of(dvec2 p) {
+    double moved = p.x + std::tan(radians(30.0)), edge = 1e-4;
+    auto inside = [&](double x, double grow) {
+        return std::abs(x) < 0.25 + grow && std::abs(p.y) < 0.25 + grow;
+    };
+    if (inside(p.x, -edge)) return Region::Occluder;
+    if (inside(p.x, edge)) return Region::Edge;
+    if (inside(moved, -edge)) return Region::Shadow;
+    return inside(moved, edge) ? Region::Edge : Region::Lit;
+}
+
+void expect_shadow(const SceneText& scene, dvec3 share, const SceneOptions& options = {}) {
+    Rendering r(scene.text(), options);
+    r.frame(64, 64);
+    int shadowed = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            Region region = region_of(r.place(x, y));
+            if (region == Region::Occluder || region == Region::Edge) continue;
+            dvec3 want = std::cos(radians(30.0)) * (region == Region::Shadow ? share : dvec3(1));
+            for (int k = 0; k < 3; ++k)
+                ASSERT_NEAR(r.color(x, y)[k], want[k], 2e-6) << x << "," << y << r.findings();
+            shadowed += region == Region::Shadow;
+        }
+    EXPECT_GT(shadowed, 200);
+}
+
+TEST(Shadows, HaveExactlyTheExtentOfTheProjection) {
+    expect_shadow(shadow_scene("surface s() { Oi = 1; Ci = 1; }"), dvec3(0));
+}
+
+TEST(Shadows, ThroughTransparentSurfacesAreTintedByTheirOpacity) {
+    expect_shadow(shadow_scene("surface s() { Oi = 0.5; Ci = 0; }"), dvec3(0.5));
+    expect_shadow(shadow_scene("surface s() { Oi = color(1, 0, 0.25); Ci = 0; }"),
+                  dvec3(0, 1, 0.75));
+    // Computed, not constant.
+    expect_shadow(shadow_scene("surface s() { Oi = 0.5 + 0 * noise(P); Ci = 0; }"), dvec3(0.5));
+}
+
+TEST(Shadows, OpacitiesOfSeveralSurfacesMultiply) {
+    SceneText straight = floor_scene();
+    straight.square("big", 2).look("cover", "surface s() { Oi = 0.5; Ci = 0; }");
+    for (double z : {20.0, 30.0, 40.0})
+        straight.place("big", "cover", fmt::format("<translate>0 0 {}</translate>", z));
+    straight.light("sun", kSun);
+    expect_colors(Rendering(straight.text()).frame(), [](dvec2) { return dvec3(0.125); });
+}
+
+TEST(Shadows, OfAPointLightEndAtTheLight) {
+    SceneText scene = floor_scene();
+    scene.square("big", 2)
+        .look("cover", "surface s() { Oi = 1; Ci = 1; }")
+        .place("big", "cover", "<translate>0 0 20</translate>")  // behind light and camera
+        .light("bulb", "<point><color>1 1 1</color></point>", "<translate>0 0 3</translate>");
+    expect_colors(Rendering(scene.text()).frame(),
+                  [](dvec2 p) { return dvec3(3 / std::sqrt(p.x * p.x + p.y * p.y + 9)); });
+}
+
+TEST(Shadows, AreOffWhereTheLightOrTheOptionSaysSo) {
+    const char* code = "surface s() { Oi = 1; Ci = 1; }";
+    const char* off = "<extra><technique profile=\"RSL\"><shadows>0</shadows></technique></extra>";
+    const char* on = "<extra><technique profile=\"RSL\"><shadows>1</shadows></technique></extra>";
+    SceneOptions options;
+    expect_shadow(shadow_scene(code, off), dvec3(1));
+    options.shadows = ShadowMode::Off;
+    expect_shadow(shadow_scene(code), dvec3(1), options);
+    options.shadows = ShadowMode::Explicit;
+    expect_shadow(shadow_scene(code), dvec3(1), options);
+    expect_shadow(shadow_scene(code, on), dvec3(0), options);
+}
+
+TEST(Shadows, OfASurfaceDoNotFallOnItself) {
+    SceneText scene = floor_scene();
+    scene.light("sun", kSun, turned("1 0 0", 89.5));
+    double want = std::cos(radians(89.5));
+    expect_colors(Rendering(scene.text()).frame(64, 64), [&](dvec2) { return dvec3(want); });
+}
+
+// ---- transparency
+
+TEST(Transparency, LayersCompositeFrontToBack) {
+    SceneText scene = floor_scene("surface s() { Oi = 1; Ci = color(0, 1, 0); }");
+    scene.square("pane", 2)
+        .look("red", "surface s() { Oi = 0.5; Ci = color(0.5, 0, 0); }")
+        .look("blue", "surface s() { Oi = color(0.2, 0.4, 0.8); Ci = color(0, 0, 0.1); }")
+        .place("pane", "blue", "<translate>0 0 1</translate>")
+        .place("pane", "red", "<translate>0 0 2</translate>")
+        .light("sun", kSun);
+    // 0.5 red + 0.5 (0.1 blue + (1 - Oi) green)
+    expect_colors(Rendering(scene.text()).frame(),
+                  [](dvec2) { return dvec3(0.5, 0.5 * 0.6, 0.5 * 0.1); });
+}
+
+TEST(Transparency, AlphaIsTheMeanOpacity) {
+    SceneText scene;
+    scene.square("pane", 2)
+        .look("glass", "surface s() { Oi = color(0.2, 0.4, 0.9); Ci = 0; }")
+        .place("pane", "glass");
+    Rendering r(scene.text());
+    r.frame();
+    EXPECT_NEAR(r.film.at(8, 8).w, 0.5, 1e-6);
+}
+
+TEST(Transparency, ReflectionsAreTracedAndEndAtTheDepthLimit) {
+    // Two mirrors face each other: each adds 0.5 of what it reflects to its own 1: 1 + 1/2 + 1/4...
+    SceneText scene;
+    scene.square("mirror", 50)
+        .look(
+            "mirror",
+            "surface s() { Oi = 1; Ci = 1 + 0.5 * trace(P, reflect(normalize(I), normalize(N))); }")
+        .place("mirror", "mirror")
+        .place("mirror", "mirror", "<translate>0 0 12</translate>");
+    Rendering r(scene.text());
+    r.frame();
+    float got = r.color(8, 8).x;
+    EXPECT_GT(got, 1.99f) << r.findings();
+    EXPECT_LE(got, 2.0f);
+}
+
+}  // namespace
+}  // namespace kinora

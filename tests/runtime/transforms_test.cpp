@@ -1,0 +1,133 @@
+// tests/runtime/transforms_test.cpp: node operations and the hierarchy against matrices by hand.
+#include "runtime/transforms.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "scene_text.h"
+
+namespace kinora {
+namespace {
+
+dvec3 apply(const dmat4& m, dvec3 p) {
+    return dvec3(m * dvec4(p, 1.0));
+}
+dmat4 operation(TransformKind kind, std::vector<double> values) {
+    return transform_matrix(kind, values.data());
+}
+void expect_near(dvec3 got, dvec3 want, double tolerance = 1e-12) {
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], want[k], tolerance) << "component " << k;
+}
+
+TEST(Transforms, TranslateAdds) {
+    expect_near(apply(operation(TransformKind::Translate, {1, -2, 3}), {10, 20, 30}), {11, 18, 33});
+}
+
+TEST(Transforms, ScaleMultiplies) {
+    expect_near(apply(operation(TransformKind::Scale, {2, -3, 0}), {1, 1, 5}), {2, -3, 0});
+}
+
+TEST(Transforms, RotateTurnsAnticlockwiseAboutItsAxisInDegrees) {
+    const double c = std::sqrt(3.0) / 2;
+    expect_near(apply(operation(TransformKind::Rotate, {0, 0, 1, 30}), {1, 0, 5}), {c, 0.5, 5});
+    expect_near(apply(operation(TransformKind::Rotate, {1, 0, 0, 90}), {7, 1, 0}), {7, 0, 1});
+    expect_near(apply(operation(TransformKind::Rotate, {0, 5, 0, 90}), {0, 7, 1}), {1, 7, 0});
+    // About the diagonal by a third of a turn: x to y to z to x.
+    expect_near(apply(operation(TransformKind::Rotate, {1, 1, 1, 120}), {1, 2, 3}), {3, 1, 2});
+}
+
+TEST(Transforms, ARotationAboutNoAxisIsNone) {
+    EXPECT_EQ(operation(TransformKind::Rotate, {0, 0, 0, 77}), dmat4(1.0));
+}
+
+TEST(Transforms, AnglesReachFarBeyondOneTurn) {
+    expect_near(apply(operation(TransformKind::Rotate, {0, 0, 1, 720}), {1, 2, 3}), {1, 2, 3});
+    // 1e7 = 27777 * 360 + 280.
+    double a = radians(280.0);
+    expect_near(apply(operation(TransformKind::Rotate, {0, 0, 1, 1e7}), {1, 0, 0}),
+                {std::cos(a), std::sin(a), 0});
+    expect_near(apply(operation(TransformKind::Rotate, {0, 0, 1, -1e7}), {1, 0, 0}),
+                {std::cos(a), -std::sin(a), 0});
+}
+
+TEST(Transforms, MatricesAreWrittenRowByRow) {
+    dmat4 m = operation(TransformKind::Matrix, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1});
+    expect_near(apply(m, {1, 0, 0}), {5, 13, 21});
+    expect_near(apply(m, {0, 0, 1}), {7, 15, 23});
+}
+
+TEST(Transforms, TheLastRowOfAMatrixIsTakenForAffine) {
+    dmat4 m = operation(TransformKind::Matrix, {1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 7, 8, 9, 2});
+    EXPECT_EQ(glm::transpose(m)[3], dvec4(0, 0, 0, 1));
+}
+
+TEST(Transforms, LookatPlacesTheEyeAndLooksDownMinusZ) {
+    dmat4 m = operation(TransformKind::Lookat, {1, 2, 3, 1, 2, -7, 0, 1, 0});
+    expect_near(apply(m, {0, 0, 0}), {1, 2, 3});
+    expect_near(apply(m, {0, 0, -10}), {1, 2, -7});
+    m = operation(TransformKind::Lookat, {0, 0, 0, 5, 0, 0, 0, 0, 2});
+    expect_near(apply(m, {0, 0, -1}), {1, 0, 0});
+    expect_near(apply(m, {0, 1, 0}), {0, 0, 1});
+    expect_near(apply(m, {1, 0, 0}), {0, -1, 0});
+}
+
+TEST(Transforms, ALookatWhoseUpLiesAlongItsViewOnlyMoves) {
+    dmat4 m = operation(TransformKind::Lookat, {1, 2, 3, 1, 5, 3, 0, 1, 0});
+    EXPECT_TRUE(is_finite(m));
+    expect_near(apply(m, {0, 0, 0}), {1, 2, 3});
+}
+
+TEST(Transforms, SkewTurnsTheFirstAxisTowardsTheSecondByTheAngle) {
+    // Perpendicular axes: y leans towards x by 30 degrees; points shift along x only.
+    dmat4 m = operation(TransformKind::Skew, {30, 0, 1, 0, 1, 0, 0});
+    expect_near(apply(m, {0, 1, 0}), {std::tan(radians(30.0)), 1, 0});
+    expect_near(apply(m, {5, 0, 7}), {5, 0, 7});
+    // Any axes: the angle between the image of the first and the second shrinks by it.
+    std::vector<double> v{20, 1, 2, 0.5, 3, -0.2, 1};
+    dvec3 d1 = glm::normalize(dvec3(1, 2, 0.5)), d2 = glm::normalize(dvec3(3, -0.2, 1));
+    m = operation(TransformKind::Skew, v);
+    dvec3 image = apply(m, d1);
+    double before = std::acos(glm::dot(d1, d2));
+    double after = std::acos(glm::dot(glm::normalize(image), d2));
+    EXPECT_NEAR(before - after, radians(20.0), 1e-12);
+    EXPECT_NEAR(glm::length(glm::cross(image - d1, d2)), 0, 1e-12);
+}
+
+TEST(Transforms, OperationsApplyLastFirst) {
+    SceneText scene;
+    scene.square("s").look("l", "surface s() { Ci = 1; }");
+    scene.place("s", "l",
+                "<translate>1 0 0</translate><rotate>0 0 1 90</rotate><scale>2 2 2</scale>");
+    Rendering r(scene.text());
+    ASSERT_TRUE(r.scene) << r.findings();
+    const Node& node = r.scene->nodes[r.scene->shapes[0].node];
+    expect_near(apply(node.world, {1, 0, 0}), {1, 2, 0});
+}
+
+TEST(Transforms, ChildrenFollowTheirParentsAlsoWhenThoseMove) {
+    SceneText scene;
+    scene.square("s").look("l", "surface s() { Ci = 1; }");
+    scene.nodes =
+        "<node id=\"a\"><rotate sid=\"r\">0 0 1 0</rotate><node><translate>1 0 0</translate>"
+        "<node id=\"leaf\"><translate>0 1 0</translate></node></node></node>";
+    scene.place("s", "l").animate("a/r.ANGLE", {0, 1}, {0, 720});
+    Rendering r(scene.text());
+    auto leaf = [&] {
+        for (const Node& n : r.scene->nodes)
+            if (r.scene->description->nodes[n.definition].id == "leaf") return n.world;
+        return dmat4(0.0);
+    };
+    r.frame(0);
+    expect_near(apply(leaf(), {0, 0, 0}), {1, 1, 0});
+    r.frame(0.125);  // 90 of 720 degrees
+    expect_near(apply(leaf(), {0, 0, 0}), {-1, 1, 0}, 1e-9);
+    r.frame(0.375);  // 270: angles are numbers, two whole turns
+    expect_near(apply(leaf(), {0, 0, 0}), {1, -1, 0}, 1e-9);
+    r.frame(1);
+    expect_near(apply(leaf(), {0, 0, 0}), {1, 1, 0}, 1e-9);
+}
+
+}  // namespace
+}  // namespace kinora
