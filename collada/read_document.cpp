@@ -1,6 +1,7 @@
 // collada/read_document.cpp: from a file or memory through its encoding to a document.
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "collada/document_reader_p.h"
@@ -43,10 +44,12 @@ std::optional<Document> read_document_text(const std::string& path, std::string 
 }
 
 std::optional<Document> read_document(const std::string& path, Diagnostics& diag) {
+    std::error_code code;
+    bool folder = std::filesystem::is_directory(path, code);
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     std::string bytes;
     bool read = false;
-    if (in) {
+    if (in && !folder) {
         std::streamoff size = in.tellg();
         if (size >= 0 && size < std::streamoff(1) << 40) {
             bytes.resize(size_t(size));
@@ -55,7 +58,8 @@ std::optional<Document> read_document(const std::string& path, Diagnostics& diag
         }
     }
     if (!read) {
-        diag.report(Code::XML_OPEN, Location{}, path, std::string(std::strerror(errno)));
+        diag.report(Code::XML_OPEN, Location{}, path,
+                    folder ? std::string("it is a folder") : std::string(std::strerror(errno)));
         return std::nullopt;
     }
     return read_document_text(path, std::move(bytes), diag);

@@ -6,6 +6,7 @@
 
 #include "runtime/findings.h"
 #include "runtime/import_collada_p.h"
+#include "runtime/joined_code.h"
 #include "runtime/shader_library.h"
 #include "runtime/texture_name.h"
 
@@ -18,27 +19,6 @@ constexpr const char* kStageNames[] = {"SURFACE", "DISPLACEMENT",   "LIGHT",
 constexpr rsl::ShaderKind kStageKinds[] = {
     rsl::ShaderKind::Surface, rsl::ShaderKind::Displacement,   rsl::ShaderKind::Light,
     rsl::ShaderKind::Volume,  rsl::ShaderKind::Transformation, rsl::ShaderKind::Imager};
-
-// The codes of a technique as one text. Included files come by #include, so that each keeps its
-// own places.
-std::string joined_code(const collada::RslShading& shading, SourceMap& map) {
-    std::string text;
-    for (const collada::RslCode& code : shading.codes) {
-        bool embedded = map.file == kNoFile || code.map.file == map.file;
-        if (!embedded) {
-            text += fmt::format("#include \"{}\"\n", code.path);
-            continue;
-        }
-        map.file = code.map.file;
-        uint32_t base = uint32_t(text.size());
-        if (code.map.segments.empty()) map.segments.push_back({base, 0});
-        for (const SourceMap::Segment& s : code.map.segments)
-            map.segments.push_back({base + s.text_offset, s.file_offset});
-        text += code.text;
-        text += '\n';
-    }
-    return text;
-}
 
 const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::string_view name) {
     for (const rsl::ShaderParameter& parameter : shader.parameters)

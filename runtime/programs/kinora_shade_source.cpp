@@ -12,6 +12,7 @@
 
 #include "collada/document.h"
 #include "collada/scene.h"
+#include "runtime/joined_code.h"
 #include "runtime/programs/exit_codes.h"
 
 namespace kinora {
@@ -40,24 +41,6 @@ int read_file(const std::string& path, ShadeSource& source) {
     return kExitOk;
 }
 
-// The codes of a technique are one translation unit; an included file comes by #include, so that
-// it keeps its own places.
-void join_codes(const collada::RslShading& shading, ShadeSource& source) {
-    for (const collada::RslCode& code : shading.codes) {
-        bool embedded = source.map.file == kNoFile || code.map.file == source.map.file;
-        if (!embedded) {
-            source.text += fmt::format("#include \"{}\"\n", code.path);
-            continue;
-        }
-        source.map.file = code.map.file;
-        uint32_t base = uint32_t(source.text.size());
-        if (code.map.segments.empty()) source.map.segments.push_back({base, 0});
-        for (const SourceMap::Segment& s : code.map.segments)
-            source.map.segments.push_back({base + s.text_offset, s.file_offset});
-        source.text += code.text + "\n";
-    }
-}
-
 void take_binds(const collada::SceneData& data, const collada::Effect& effect,
                 ShadeSource& source) {
     for (const collada::RslShader& shader : effect.rsl->shaders)
@@ -83,7 +66,7 @@ int read_effect(const std::string& path, const std::string& id, ShadeSource& sou
         if (!effect.rsl) continue;
         known += (known.empty() ? "" : ", ") + effect.id;
         if (effect.id != id) continue;
-        join_codes(*effect.rsl, source);
+        source.text = joined_code(*effect.rsl, source.map);
         take_binds(*data, effect, source);
         return kExitOk;
     }
