@@ -86,6 +86,10 @@ void* operator new(size_t bytes, const std::nothrow_t&) noexcept {
     count(__builtin_return_address(0));
     return allocate(bytes, 1);
 }
+void* operator new[](size_t bytes, const std::nothrow_t&) noexcept {
+    count(__builtin_return_address(0));
+    return allocate(bytes, 1);
+}
 void* operator new(size_t bytes, std::align_val_t alignment) {
     count(__builtin_return_address(0));
     if (void* p = allocate(bytes, static_cast<size_t>(alignment))) return p;
