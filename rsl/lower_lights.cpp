@@ -200,16 +200,21 @@ void Lowering::illuminate(const Stmt& stmt, const Expr* position, const Expr* ax
     });
 }
 
+// What is the same for all lights' sake (no L, no Ol, lit everywhere) is no output: a renderer
+// fills records for every grid, and memory is most of what that costs.
 void Lowering::light_outputs() {
     auto triple = [&](const std::string& name, const Lowered& value) {
+        if (is_zero(value.c[0]) && is_zero(value.c[1]) && is_zero(value.c[2])) return;
         for (int c = 0; c < 3; ++c)
             b.output({name + component_suffix(value.type, c), jit::Type::F}, value.c[size_t(c)]);
     };
     auto record = [&](size_t k, const Lowered& L, const Lowered& Cl, const Lowered& Ol, Value lit) {
         std::string prefix = "light:" + std::to_string(k) + ":";
-        triple(prefix + "L", L);
+        triple(prefix + "L", lowered(BaseType::Vector, neg(L.v3())));
         triple(prefix + "Cl", Cl);
         triple(prefix + "Ol", Ol);
+        bool everywhere = false;
+        if (b.constant_m(lit, &everywhere) && everywhere) return;
         b.output({prefix + "lit", jit::Type::I}, b.select(lit, b.i(1), b.i(0)));
     };
     for (size_t k = 0; k < light_sources_.size(); ++k) {

@@ -23,8 +23,13 @@ Value Emitter::fma(Value x, Value y, Value z) {
 Value Emitter::div(Value x, Value y) {
     float divisor;
     if (is_zero(x)) return b.f(0);
-    if (b.constant_f(y, &divisor)) return std::fabs(divisor) < FLT_MIN ? b.f(0) : b.div(x, y);
-    return b.select(b.lt(b.abs(y), b.f(FLT_MIN)), b.f(0), b.div(x, y));
+    if (!b.constant_f(y, &divisor))
+        return b.select(b.lt(b.abs(y), b.f(FLT_MIN)), b.f(0), b.div(x, y));
+    float size = std::fabs(divisor);
+    if (size < FLT_MIN) return b.f(0);
+    // The fast tier multiplies by the reciprocal, 1.5 ULP, unless that is subnormal.
+    bool multiply = !precise() && size <= 0x1p126f;
+    return multiply ? b.mul(x, b.f(1 / divisor)) : b.div(x, y);
 }
 
 Value Emitter::sqrt(Value x) {
@@ -55,7 +60,7 @@ Value Emitter::pow_positive(Value x, Value y) {
 }
 
 Value Emitter::mod(Value x, Value y) {
-    Value r = b.fma(b.neg(y), b.floor(div(x, y)), x);
+    Value r = b.fma(b.neg(y), b.floor(b.div(x, y)), x);  // the last line has an eye on y = 0
     // A quotient beyond 2^24 has no fraction and leaves junk: keep the result in [0, y).
     Value below = b.select(b.lt(y, b.f(0)), b.lt(b.f(0), r), b.lt(r, b.f(0)));
     Value beyond = b.le(b.abs(y), b.abs(r));
@@ -66,6 +71,11 @@ Value Emitter::mod(Value x, Value y) {
 Value Emitter::smoothstep(Value low, Value high, Value x) {
     Value t = clamp(div(b.sub(x, low), b.sub(high, low)), b.f(0), b.f(1));
     Value ramp = b.mul(b.mul(t, t), b.fma(b.f(-2), t, b.f(3)));
+    // Known edges in order: clamping alone makes it 0 below (and for NaN) and 1 above.
+    float from, to;
+    if (b.constant_f(low, &from) && b.constant_f(high, &to) && to - from >= FLT_MIN &&
+        to - from <= FLT_MAX)
+        return ramp;
     Value above = b.select(b.ge(x, high), b.f(1), ramp);
     return b.select(b.lt(x, low), b.f(0), above);
 }

@@ -330,7 +330,9 @@ void Reference<Real>::light_outputs() {
         sources_.push_back({nullptr, no_L, global(Global::Cl), global(Global::Ol), true});
     for (size_t k = 0; k < sources_.size(); ++k) {
         std::string prefix = "light:" + std::to_string(k) + ":";
-        output(prefix + "L", sources_[k].L);
+        Item to_light = sources_[k].L;
+        for (size_t c = 0; c < 3; ++c) to_light.c[c] = -to_light.c[c];
+        output(prefix + "L", to_light);
         output(prefix + "Cl", sources_[k].Cl);
         output(prefix + "Ol", sources_[k].Ol);
         result.values[prefix + "lit"] = sources_[k].lit;

@@ -21,8 +21,9 @@
 //                gathered only where named); frame rate for all else. In a light, "shader" is the
 //                light's own node, frame rate. "current" = camera space.
 // Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. aov:NAME[.c]; of a light shader, for statement k:
-//   light:k:L.x..   from the light to Ps, as RSL sees it inside illuminate
+//   light:k:L.x..   from Ps to the light, as a record has it (RSL's L inside illuminate, reversed)
 //   light:k:Cl.r..  light:k:Ol.r..  light:k:lit (int, nonzero in the cone; else Cl and Ol are 0)
+//                   Triples that are 0 at all points have no outputs; nor has a lit that is 1.
 //   message:NAME[.c]  its parameters
 // An ambient light has statement 0 alone, with L = 0 and lit = 1. In a light P is the origin of its
 // "shader" space (no input of its own), N is Ns.

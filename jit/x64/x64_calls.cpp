@@ -68,12 +68,13 @@ void Emit::op_Result() {
 
 void Emit::op_Return() {
     std::span<const Value> values = f_.args_of(now());
+    // No loop is open: its counters are free.
+    if (is_kernel_) a_.mov(x86::rdi, x86::ptr(x86::rbx, offsetof(KernelArgs, out)));
     for (size_t k = 0; k < values.size(); ++k) {
         Value v = values[k];
         if (is_kernel_) {
-            a_.mov(x86::rdi, x86::ptr(x86::rbx, offsetof(KernelArgs, out)));
-            a_.mov(x86::rdi, x86::ptr(x86::rdi, 8 * static_cast<int32_t>(k)));
-            store_typed(x86::ptr(x86::rdi, x86::rbp), v);
+            a_.mov(x86::r8, x86::ptr(x86::rdi, 8 * static_cast<int32_t>(k)));
+            store_typed(x86::ptr(x86::r8, x86::rbp), v);
         } else if (is_mask(root(v))) {
             a_.kmovw(row(layout_.results + kRow * static_cast<int32_t>(k)), mask_reg(v, 7));
         } else {

@@ -41,7 +41,7 @@ ShadeOutputs illuminate(const ShadeOutputs& light, const rsl::LoweredShader& low
             const std::vector<float>& Cl = output(light, prefix + "Cl." + "rgb"[k], missing);
             std::vector<float>& Ci = result[std::string("Ci.") + "rgb"[k]];
             for (size_t i = 0; i < patch.count(); ++i) {
-                vec3 to_light = -vec3((*L[0])[i], (*L[1])[i], (*L[2])[i]);
+                vec3 to_light((*L[0])[i], (*L[1])[i], (*L[2])[i]);
                 float length = glm::length(to_light);
                 float cosine = glm::dot(to_light, patch[i].N) / length;
                 if (lowered.light_statements[s].kind == rsl::kLightAmbient) cosine = 1;

@@ -249,23 +249,20 @@ class JitLights {
     const jit::RecordSet* set(size_t g) const { return &sets_[g]; }
     void run(size_t g) {
         solar_run_.run(g);
-        // As runtime/light_records.cpp: the record's L points from the surface to the light.
-        for (float* L : L_)
-            for (size_t i = g * count_; i < (g + 1) * count_; ++i) L[i] = -L[i];
         ambient_run_.run(g);
     }
 
   private:
     jit::Record record(Run& run, size_t g, int kind) {
         auto columns = arena_.allocate_span<const float*>(rsl::kLightMessages);
-        auto put = [&](size_t column, const char* name) {
-            columns[column] = run.out.at(std::string("light:0:") + name) + g * count_;
-        };
+        // What is no output of the kernel is 0 everywhere, and lit is 1.
         const char* names[] = {"L.x",  "L.y",  "L.z",  "Cl.r", "Cl.g",
                                "Cl.b", "Ol.r", "Ol.g", "Ol.b", "lit"};
-        for (size_t k = 0; k < std::size(names); ++k) put(k, names[k]);
-        if (kind == rsl::kLightSolar)
-            for (size_t k = 0; k < 3; ++k) L_[k] = run.out.at(std::string("light:0:") + names[k]);
+        for (size_t k = 0; k < std::size(names); ++k) {
+            auto output = run.out.find(std::string("light:0:") + names[k]);
+            bool missing = output == run.out.end();
+            columns[k] = missing ? constant(k == rsl::kLightLit) : output->second + g * count_;
+        }
         auto uniforms = arena_.allocate_span<float>(rsl::kLightUniforms);
         uniforms[rsl::kLightKind] = jit::float_of(kind);
         uniforms[rsl::kLightCategories] = 0;
@@ -273,11 +270,20 @@ class JitLights {
         return {columns.data(), uniforms.data()};
     }
 
+    const float* constant(bool one) {
+        std::span<float>& column = constants_[one];
+        if (column.empty()) {
+            column = arena_.allocate_span<float>(count_);
+            std::fill(column.begin(), column.end(), jit::float_of(one));
+        }
+        return column.data();
+    }
+
     size_t count_;
     std::unique_ptr<Compiled> solar_, ambient_;
     Run solar_run_, ambient_run_;
     Arena arena_;
-    float* L_[3] = {};
+    std::span<float> constants_[2];
     std::vector<jit::RecordSet> sets_;
 };
 
