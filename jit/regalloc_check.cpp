@@ -117,7 +117,7 @@ class Checker {
         for_each_use(f_, s_, plan_, end, [&](Value v) { read(end, v); });
         Value m = end + 1;
         for (; f_.insts[m].op == Op::Merge; ++m)
-            if (plan_[m].cls != RegClass::None) read_whole(end, m, stays(m) ? plan_[m].alias : m);
+            if (plan_[m].cls != RegClass::None) read_whole(end, m, stays(m) ? lies_there(m) : m);
         now_.meet(skipped);
         for (m = end + 1; f_.insts[m].op == Op::Merge; ++m)
             if (stays(m)) put(end, m);
@@ -177,6 +177,12 @@ class Checker {
 
     // Its outer value is the variable whose place it shares: nothing is copied at the If.
     bool stays(Value m) const { return plan_[m].alias != kNone && plan_[m].alias == f_.insts[m].b; }
+
+    // What the place of such a Merge holds when its If ends: the arm if it was made there.
+    Value lies_there(Value m) const {
+        Value arm = f_.insts[m].a;
+        return plan_[arm].alias == plan_[m].alias ? arm : plan_[m].alias;
+    }
 
     // A Merge's place was filled at the If and must be untouched at the end.
     void read_whole(Value at, Value m, Value wanted) {

@@ -80,6 +80,11 @@ void Emit::op_Max() {
 void Emit::op_Neg() {
     with_constant(Id::kIdVxorps, kSign);
 }
+void Emit::negate_into(const x86::Vec& to, Value v, const x86::KReg* under) {
+    x86::Vec from = reg(v, 1);
+    if (under != nullptr) a_.k(*under);
+    a_.emit(Id::kIdVxorps, to, from, constant(kSign));
+}
 void Emit::op_Abs() {
     with_constant(Id::kIdVandps, kMagnitude);
 }

@@ -74,7 +74,13 @@ void Emit::op_Return() {
         Value v = values[k];
         if (is_kernel_) {
             a_.mov(x86::r8, x86::ptr(x86::rdi, 8 * static_cast<int32_t>(k)));
-            store_typed(x86::ptr(x86::r8, x86::rbp), v);
+            x86::Mem to = x86::ptr(x86::r8, x86::rbp);
+            bool loaded = k > 0 && root(v) == root(values[k - 1]) && !is_mask(v) &&
+                          !in_register(v);  // it is in scratch(0) still
+            if (loaded)
+                a_.emit(Id::kIdVmovaps, to, scratch(0));
+            else
+                store_typed(to, v);
         } else if (is_mask(root(v))) {
             a_.kmovw(row(layout_.results + kRow * static_cast<int32_t>(k)), mask_reg(v, 7));
         } else {

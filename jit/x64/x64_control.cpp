@@ -7,7 +7,7 @@ namespace kinora::jit::x64 {
 namespace {
 
 // Registers that count iterations, by depth of the loop; deeper ones count in memory.
-constexpr x86::Gp kCounters[] = {x86::r8d, x86::r9d, x86::r10d, x86::r11d};
+constexpr x86::Gp kCounters[] = {x86::r8d, x86::r9d};
 
 }  // namespace
 
@@ -16,8 +16,22 @@ void Emit::op_If() {
     for (Value m = end + 1; inst(m).op == Op::Merge; ++m) copy(m, inst(m).b);
     ifs_.push_back({a_.newLabel(), record_set_, record_});
     if (!plan_.branch[at_]) return;
+    if (plan_.values[now().a].fused) return test_kind(now().a);
     set_if_any(now().a);
     a_.jz(ifs_.back().end);
+}
+
+// A branch on a record's int that is compared nowhere else.
+void Emit::test_kind(Value condition) {
+    bool negated = inst(condition).op == Op::MNot;
+    if (negated) condition = inst(condition).a;
+    const Inst& equal = inst(condition);
+    const Inst& read = inst(equal.a);
+    find_record(read.a, read.b, true);
+    ifs_.back().record_set = record_set_;  // what it found is known on both ways
+    ifs_.back().record = record_;
+    a_.cmp(x86::dword_ptr(x86::r11, 4 * read.imm), inst(equal.b).imm);
+    negated ? a_.je(ifs_.back().end) : a_.jne(ifs_.back().end);
 }
 
 void Emit::op_EndIf() {
@@ -75,7 +89,7 @@ void Emit::op_Loop() {
 
 void Emit::op_LoopVar() {
     auto begin = static_cast<Value>(now().imm);
-    copy(at_, now().a);
+    if (plan_.counted[begin] != at_) copy(at_, now().a);
     if (structure_.header_of[begin] == at_) begin_body(begin);
 }
 
@@ -101,7 +115,10 @@ void Emit::op_EndLoop() {
     auto begin = static_cast<Value>(now().imm);
     const OpenLoop& loop = loops_.back();
     update_variables(begin);
-    a_.jz(loop.exit);
+    if (plan_.counted[begin] == kNone)
+        a_.jz(loop.exit);
+    else
+        leave_when_counted(loop);
     if (loop.counter.isValid())
         a_.dec(loop.counter);
     else
@@ -115,6 +132,23 @@ void Emit::op_EndLoop() {
     loops_.pop_back();
 }
 
+// The next index against the count of the set.
+void Emit::leave_when_counted(const OpenLoop& loop) {
+    const Inst& count = inst(inst(now().a).b);
+    int32_t set = inst(count.a).imm * static_cast<int32_t>(sizeof(RecordSet));
+    index_in(x86::eax, loop, 1);
+    a_.mov(x86::rdx, x86::ptr(x86::rbx, offsetof(KernelArgs, record_sets)));
+    a_.cmp(x86::eax, x86::ptr(x86::rdx, set + static_cast<int32_t>(offsetof(RecordSet, count))));
+    a_.jge(loop.exit);
+}
+
+// What counts the records of a loop, plus `ahead`.
+void Emit::index_in(const x86::Gp& to, const OpenLoop& loop, int32_t ahead) {
+    int32_t first = inst(inst(plan_.counted[loop.begin]).a).imm;
+    a_.mov(to, module_.loop_budget + first + ahead);
+    a_.sub(to, loop.counter);
+}
+
 // All variables change at once, and the mask with them: a variable is written when no other still
 // reads it, and a cycle is broken by keeping one old value in memory.
 void Emit::update_variables(Value loop) {
@@ -124,6 +158,7 @@ void Emit::update_variables(Value loop) {
     updates_.clear();
     for (size_t k = 0; k < next.size(); ++k) {
         Value variable = loop + 1 + static_cast<Value>(k);
+        if (variable == plan_.counted[loop]) continue;
         if (root(next[k]) == variable || plan_.values[next[k]].alias == variable) continue;
         updates_.push_back({variable, root(next[k])});
         // The next mask is read last, after the variable it may be.
@@ -139,7 +174,7 @@ void Emit::update_variables(Value loop) {
             copy(updates_[k].variable, updates_[k].next);
         updates_.erase(updates_.begin() + static_cast<std::ptrdiff_t>(k));
     }
-    update_mask(loop, next_mask);
+    if (plan_.counted[loop] == kNone) update_mask(loop, next_mask);
     saved_[0] = saved_[1] = kNone;
 }
 

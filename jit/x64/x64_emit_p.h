@@ -3,7 +3,8 @@
 // Registers while code runs:
 //   rbx KernelArgs   r12 in[]   r14 frame block   rbp byte offset of the lane group in a column
 //   r13 globals of the kernel in scratch   r15 this function's frame in scratch
-//   rax rcx rdx rsi scratch   rdi the record read last   r8..r11 loop counters (if no calls)
+//   rax rcx rdx rsi rdi scratch   r8 r9 loop counters (if no calls)
+//   r10 r11 columns and uniforms of the record read last
 //   the last two vector registers, k0 and k7: scratch within one IR instruction
 #pragma once
 
@@ -175,6 +176,7 @@ class Emit {
     void mask_binary(InstId wide_id, InstId id);
     void blend(const x86::Vec& to, const x86::Vec& otherwise, Value then, Value mask);
     void select_computed();
+    void negate_into(const x86::Vec& to, Value v, const x86::KReg* under);
     void arm_into(const x86::Vec& to, const Inst& arm, const x86::KReg* under);
     void blend_mask(const x86::KReg& to, Value otherwise, Value then, Value mask);
     void merge_into(Value variable, Value then, Value mask);
@@ -187,6 +189,9 @@ class Emit {
     };
     void fill_slot(Value v);
     void begin_body(Value loop);
+    void test_kind(Value condition);
+    void leave_when_counted(const OpenLoop& loop);
+    void index_in(const x86::Gp& to, const OpenLoop& loop, int32_t ahead);
     x86::Mem counter() const;
     void update_variables(Value loop);
     void update_mask(Value loop, Value next_mask);
@@ -211,8 +216,9 @@ class Emit {
 
     // x64_records.cpp
     void lane_to(const x86::Gp& to, Value index);
-    x86::Mem find_set();
-    void find_record();
+    const OpenLoop* counted_by(Value index) const;
+    x86::Mem find_set(Value set);
+    void find_record(Value set, Value index, bool in_range);
     void read_record(bool uniform);
 
     // x64_calls.cpp
@@ -232,14 +238,14 @@ class Emit {
     std::vector<OpenLoop> loops_;
     struct OpenIf {
         Label end;
-        Value record_set, record;  // what rdi pointed at when it was entered
+        Value record_set, record;  // what r10 and r11 belonged to when it was entered
     };
     std::vector<OpenIf> ifs_;
     std::vector<Update> updates_;
     Value saved_[2] = {kNone, kNone};  // variables whose old value lies in the swap rows
     Value at_ = 0;
     unsigned gp_turn_ = 0;
-    Value record_set_ = kNone, record_ = kNone;  // rdi points at this record
+    Value record_set_ = kNone, record_ = kNone;  // r10, r11 belong to this record
 };
 
 }  // namespace kinora::jit::x64

@@ -184,6 +184,7 @@ void Emit::op_Select() {
 
 void Emit::arm_into(const x86::Vec& to, const Inst& arm, const x86::KReg* under) {
     if (arm.op == Op::Fma) return fma_into(to, arm, under);
+    if (arm.op == Op::Neg) return negate_into(to, arm.a, under);
     InstId id = arm.op == Op::Add   ? Id::kIdVaddps
                 : arm.op == Op::Sub ? Id::kIdVsubps
                                     : Id::kIdVmulps;

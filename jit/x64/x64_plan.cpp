@@ -21,12 +21,14 @@ class Planner {
         plan_.values.resize(n);
         plan_.branch.assign(n, 0);
         plan_.in_range.assign(n, false);
+        plan_.counted.assign(n, kNone);
         plan_.agree = lanes_agree(m_, f_);
         count_uses();
         for (Value v = 0; v < n; ++v) plan_value(v);
         for (Value v = 0; v < n; ++v) fuse_operands(v);
-        alias_variables();
         for (Value v = 0; v < n; ++v) plan_.in_range[v] = reads_in_range(f_.insts[v]);
+        plan_record_loops();
+        alias_variables();
         return std::move(plan_);
     }
 
@@ -119,6 +121,67 @@ class Planner {
                f_.insts[less.b].a == set;
     }
 
+    // Loops over records count and branch in general registers.
+    void plan_record_loops() {
+        std::vector<uint32_t> reads(f_.insts.size(), 0);
+        bool any = false;
+        for (Value v = 0; v < f_.insts.size(); ++v) {
+            if (!plan_.in_range[v]) continue;
+            ++reads[f_.insts[v].b];
+            any = true;
+        }
+        if (!any) return;
+        for (Value v = 0; v < f_.insts.size(); ++v)
+            if (f_.insts[v].op == Op::Loop) count_in_budget(v, reads);
+        plan_kind_tests();
+    }
+
+    void count_in_budget(Value loop, const std::vector<uint32_t>& reads) {
+        constexpr int32_t kFar = 1 << 29;
+        const Inst& end = f_.insts[s_.end_of[loop]];
+        const Inst& less = f_.insts[end.a];
+        if (plan_.calls || s_.depth[loop] > 1 || less.op != Op::ILt || uses_[end.a] != 1) return;
+        const Inst& step = f_.insts[less.a];
+        if (step.op != Op::IAdd || uses_[less.a] != 2 || reads[step.a] == 0 ||
+            uses_[step.a] != reads[step.a] + 1)
+            return;
+        // Records are read by it in range: it steps by 1 from a constant to a set's count.
+        const Inst& variable = f_.insts[step.a];
+        bool ours = variable.op == Op::LoopVar && static_cast<Value>(variable.imm) == loop &&
+                    f_.args_of(end)[step.a - loop - 1] == less.a;
+        if (!ours || f_.insts[f_.insts[less.b].a].op != Op::ConstI ||
+            f_.insts[variable.a].imm > kFar || m_.loop_budget > kFar)
+            return;
+        plan_.counted[loop] = step.a;
+        value(step.a).cls = RegClass::None;
+        value(less.a).fused = value(end.a).fused = true;
+    }
+
+    // Ifs on what kind of record it is, which all lanes take together: nothing but the branch asks
+    // for the comparison. Backward, so that the users of a value are known.
+    void plan_kind_tests() {
+        std::vector<bool> wanted(f_.insts.size(), false), tested(f_.insts.size(), false);
+        for (auto at = static_cast<Value>(f_.insts.size()); at-- > 0;) {
+            const Inst& inst = f_.insts[at];
+            tested[at] = tests_kind(at) && !wanted[at];
+            if (inst.op == Op::If && !value(at).masked && tests_kind(inst.a)) continue;
+            if (inst.op == Op::RecordUniform && uses_[at] == 1) tested[at] = tested[user_[at]];
+            if (tested[at]) {
+                value(at).fused = true;
+                continue;
+            }
+            const Value operands[] = {inst.a, inst.b, inst.c};
+            for (int k = 0; k < op_info(inst.op).operand_count; ++k) wanted[operands[k]] = true;
+            for (Value arg : f_.args_of(inst)) wanted[arg] = true;
+        }
+    }
+    bool tests_kind(Value v) const {
+        const Inst& inst = f_.insts[v];
+        if (inst.op == Op::MNot) return f_.insts[inst.a].op == Op::IEq && tests_kind(inst.a);
+        return inst.op == Op::IEq && f_.insts[inst.a].op == Op::RecordUniform &&
+               plan_.in_range[inst.a] && f_.insts[inst.b].op == Op::ConstI && uses_[inst.a] == 1;
+    }
+
     // An input read once is an operand in memory where it is used.
     void plan_input(Value v) {
         ValuePlan& p = value(v);
@@ -175,6 +238,7 @@ class Planner {
         if (!isa_.wide || value(at).cls != RegClass::Vector || select.b == select.c) return;
         const Inst& arm = f_.insts[select.b];
         bool in_place = arm.op == Op::Add || arm.op == Op::Sub || arm.op == Op::Mul ||
+                        (arm.op == Op::Neg && arm.a == select.c) ||
                         (arm.op == Op::Fma && arm.c == select.c);
         if (in_place && fusible(select.b, at)) value(select.b).fused = true;
     }
@@ -210,8 +274,27 @@ class Planner {
             Value variable = loop + 1 + static_cast<Value>(k);
             bool read_at_end = end.a == variable;
             for (Value v : next) read_at_end |= v == variable;
-            if (!read_at_end && may_alias(loop, variable, next[k])) value(next[k]).alias = variable;
+            if (read_at_end || !may_alias(loop, variable, next[k])) continue;
+            value(next[k]).alias = variable;
+            alias_arm(variable, next[k]);
         }
+    }
+
+    // An If that all lanes take together writes its value over the variable it starts as, where
+    // nothing reads the variable any more.
+    void alias_arm(Value variable, Value merge) {
+        const Inst& inst = f_.insts[merge];
+        if (inst.op != Op::Merge || inst.b != variable) return;
+        auto begin = static_cast<Value>(inst.imm);
+        Value arm = inst.a;
+        const Inst& made = f_.insts[arm];
+        ValuePlan& p = value(arm);
+        bool inside = arm > begin && arm < s_.end_of[begin] && s_.loop_of[arm] == s_.loop_of[merge];
+        if (value(begin).masked || !inside || p.cls != value(merge).cls || p.home || p.fused ||
+            p.alias != kNone || made.op == Op::Merge || made.op == Op::LoopVar ||
+            made.op == Op::Loop || made.op == Op::LoopOut || last_read_[variable] > arm)
+            return;
+        p.alias = variable;
     }
 
     bool may_alias(Value loop, Value variable, Value next) const {

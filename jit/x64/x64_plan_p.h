@@ -24,6 +24,9 @@ struct FunctionPlan {
     std::vector<bool> branch;  // of If: jump over the body when no lane runs it
     // Of record reads: the loop around holds the index in range and the set is not empty.
     std::vector<bool> in_range;
+    // Of Loop: the variable that counts records and needs no vector register, or kNone. It is the
+    // loop's budget at the start minus what is left of it, plus its first value.
+    std::vector<Value> counted;
     bool calls = false;  // has a Call or Service: no register lives through
 };
 

@@ -181,6 +181,26 @@ TEST(Pow, FastGrowsWithTheExponent) {
     EXPECT_LE(worst_pow(Tier::Fast).ulp, 4.0);
 }
 
+// Small whole powers are multiplied; the bound is the same.
+TEST(Pow, FastSmallWholePowersAreWithinTheBoundToo) {
+    for (int n = 1; n <= 9; ++n) {
+        MathKernel kernel(1, [=](Builder& b, std::span<const Value> in) {
+            return std::vector<Value>{math::pow(b, in[0], b.f(float(n)), Tier::Fast)};
+        });
+        EXPECT_LT(kernel.instructions(), 12);
+        std::vector<float> x;
+        Samples s;
+        for (int i = 0; i < 200'000; ++i) x.push_back(s.uniform(0.25f, 4));
+        std::vector<float> z = kernel.run({x})[0];
+        double worst = 0;
+        for (size_t i = 0; i < x.size(); ++i) {
+            double slack = 2 * std::fabs(n * std::log2(double(x[i])));
+            worst = std::max(worst, ulp_error(z[i], std::pow(double(x[i]), n)) - slack);
+        }
+        EXPECT_LE(worst, 4.0) << n;
+    }
+}
+
 double ref_atan2(double y, double x) {
     return x == 0 && y == 0 ? 0 : std::atan2(y, x);
 }
