@@ -35,7 +35,7 @@ int tile_count(const Film& film, int size) {
     return ((film.width + size - 1) / size) * ((film.height + size - 1) / size);
 }
 
-void prepare(Film& film, const Camera& camera, const IntegratorSettings& settings,
+void prepare(Film& film, const Camera& camera, const IntegratorSettings& settings, bool misses,
              IntegratorScratch& scratch) {
     if (film.width != camera.width || film.height != camera.height)
         film.resize(camera.width, camera.height);
@@ -52,6 +52,7 @@ void prepare(Film& film, const Camera& camera, const IntegratorSettings& setting
     // A tile at the border is smaller and takes more samples a chunk, but never more rays.
     for (auto& thread : scratch.threads) {
         thread->reserve(std::max(settings.chunk_rays, pixels), pixels, film.aovs.size());
+        if (misses) thread->misses.reserve(std::max(settings.chunk_rays, pixels));
         thread->counters = {};
     }
 }
@@ -63,7 +64,7 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
                IntegratorCounters& counters, const Progress* progress) {
     CHECK_GE(settings.samples_per_pixel, 1);
     CHECK_GE(settings.tile, kBlock);
-    prepare(film, camera, settings, scratch);
+    prepare(film, camera, settings, shading.miss_distance() > 0, scratch);
     const int tiles = tile_count(film, settings.tile);
     std::atomic<bool> stop{false};
     std::mutex mutex;

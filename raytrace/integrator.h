@@ -23,6 +23,12 @@ class SurfaceShading {
   public:
     virtual ~SurfaceShading() = default;
     virtual void shade(const HitBatch& hits, int thread, ShadeResult& result) = 0;
+    // How far rays that meet nothing are to be shaded, from their last surface; 0: not at all.
+    virtual float miss_distance() const { return 0; }
+    // Colour and opacity of what lies along rays that meet nothing (see missed()).
+    virtual void shade_misses(const HitBatch& /*ends*/, int /*thread*/, ShadeResult& /*result*/) {}
+    // RayBatch::medium of a ray that goes on behind hit k.
+    virtual uint32_t medium_behind(const HitBatch& /*hits*/, size_t /*k*/) const { return 0; }
     // After the last shade() of a tile, on the same thread.
     virtual void end_tile(int /*thread*/) {}
 };

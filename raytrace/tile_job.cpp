@@ -89,6 +89,7 @@ void TileJob::add_ray(uint32_t x, uint32_t y, uint32_t sample) {
     r.pixel_y[k] = y;
     r.sample[k] = sample;
     r.layer[k] = 0;
+    r.medium[k] = 0;
     r.slot[k] = uint32_t(k);
     m_.slot_pixel[k] = uint32_t(tile_.pixel(x, y));
 }
@@ -100,6 +101,7 @@ void TileJob::follow_layers() {
         const HitBatch& hits =
             trace(accel_, m_.rays, kMaskAll | kMaskCamera, 0, m_.hits, m_.counters.trace);
         m_.counters.trace_ms += watch.restart();
+        if (shading_.miss_distance() > 0) shade_misses(hits);
         if (hits.count == 0) return;
         shade(hits);
         m_.counters.shade_ms += watch.ms();
@@ -109,14 +111,27 @@ void TileJob::follow_layers() {
     }
 }
 
-void TileJob::shade(const HitBatch& hits) {
+// What lies along the rays that leave the scene ends them.
+void TileJob::shade_misses(const HitBatch& hits) {
+    Stopwatch watch;
+    const HitBatch& ends = missed(m_.rays, hits, shading_.miss_distance(), m_.misses);
+    if (ends.count == 0) return;
+    shade(ends, Ends::Nothing);
+    for (size_t k = 0; k < ends.count; ++k) lay_behind(ends, k);
+    m_.counters.shade_ms += watch.ms();
+}
+
+void TileJob::shade(const HitBatch& hits, Ends ends) {
     const size_t padded = (hits.count + kPacket - 1) / kPacket * kPacket;
     for (auto& v : m_.shaded) std::fill_n(v.begin(), padded, 0.0f);
     for (auto& v : m_.shaded_aov) std::fill_n(v.begin(), padded, 0.0f);
     ShadeResult result{{m_.shaded[0].data(), m_.shaded[1].data(), m_.shaded[2].data()},
                        {m_.shaded[3].data(), m_.shaded[4].data(), m_.shaded[5].data()},
                        m_.aov_pointers};
-    shading_.shade(hits, thread_, result);
+    if (ends == Ends::Surfaces)
+        shading_.shade(hits, thread_, result);
+    else
+        shading_.shade_misses(hits, thread_, result);
     m_.counters.shading_points += hits.count;
     mend(hits);
 }
@@ -163,17 +178,21 @@ void TileJob::keep_aovs(const HitBatch& hits) {
     }
 }
 
+void TileJob::lay_behind(const HitBatch& hits, size_t k) {
+    const size_t slot = m_.rays.slot[hits.ray[k]];
+    for (int c = 0; c < 3; ++c) {
+        float& through = m_.through[c][slot];
+        m_.color[c][slot] += through * m_.shaded[c][k];
+        through *= 1.0f - std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f);
+    }
+}
+
 // Lays the hits behind what is there and keeps, in place, the rays that go on.
 void TileJob::composite(const HitBatch& hits) {
     size_t going_on = 0;
     for (size_t k = 0; k < hits.count; ++k) {
-        const size_t slot = m_.rays.slot[hits.ray[k]];
-        for (int c = 0; c < 3; ++c) {
-            float& through = m_.through[c][slot];
-            m_.color[c][slot] += through * m_.shaded[c][k];
-            through *= 1.0f - std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f);
-        }
-        if (passes(slot)) continue_ray(going_on++, hits, k);
+        lay_behind(hits, k);
+        if (passes(m_.rays.slot[hits.ray[k]])) continue_ray(going_on++, hits, k);
     }
     m_.rays.count = going_on;
 }
@@ -211,6 +230,7 @@ void TileJob::continue_ray(size_t to, const HitBatch& hits, size_t k) {
     r.pixel_y[to] = hits.pixel_y[k];
     r.sample[to] = hits.sample[k];
     r.layer[to] = hits.layer[k] + 1;
+    r.medium[to] = shading_.medium_behind(hits, k);
     r.slot[to] = r.slot[from];
 }
 

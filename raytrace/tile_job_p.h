@@ -22,7 +22,7 @@ inline constexpr int kBlock = 4;  // a packet is 4x4 pixels of one sample
 // What one thread needs for the tile it is at.
 struct IntegratorScratch::Thread {
     RayBatch rays;
-    HitStore hits;
+    HitStore hits, misses;
     IntegratorCounters counters;
     std::vector<float> color[3], through[3];  // by slot (sample of the chunk)
     std::vector<float> shaded[6];             // Ci, Oi by hit
@@ -56,11 +56,14 @@ class TileJob {
     void make_rays(int first_sample, int end_sample);
     void add_ray(uint32_t x, uint32_t y, uint32_t sample);
     void follow_layers();
-    void shade(const HitBatch& hits);
+    enum class Ends : uint8_t { Surfaces, Nothing };
+    void shade(const HitBatch& hits, Ends ends = Ends::Surfaces);
+    void shade_misses(const HitBatch& hits);
     void mend(const HitBatch& hits);
     bool mend_hit(size_t k);
     void keep_aovs(const HitBatch& hits);
     void composite(const HitBatch& hits);
+    void lay_behind(const HitBatch& hits, size_t k);
     bool passes(size_t slot) const;
     void continue_ray(size_t to, const HitBatch& hits, size_t k);
     void finish_samples(size_t slots);

@@ -54,7 +54,8 @@ void carve(RayBatch& b, Carver& carver) {
     carver(b.org), carver(b.dir), carver(b.tnear), carver(b.tfar), carver(b.time);
     carver(b.dOdx), carver(b.dOdy), carver(b.dDdx), carver(b.dDdy);
     carver(b.t_passed), carver(b.first_org);
-    carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.slot);
+    carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.medium);
+    carver(b.slot);
 }
 
 void carve(HitBatch& b, Carver& carver) {
@@ -189,6 +190,7 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
     HitBatch& out = store.batch_;
     out.count = 0;
     out.depth = depth;
+    out.rays = &rays;
     RayPacket16 packet;
     HitPacket16 hits;
     for (size_t first = 0; first < rays.count; first += kPacket) {
@@ -200,6 +202,39 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
                          {{own(out.P[0]), own(out.P[1]), own(out.P[2])},
                           {own(out.P_error[0]), own(out.P_error[1]), own(out.P_error[2])},
                           {own(out.Ng[0]), own(out.Ng[1]), own(out.Ng[2])}});
+    fill_from_rays(rays, out);
+    pad_all(out);
+    return out;
+}
+
+const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance,
+                       HitStore& store) {
+    store.reserve(rays.count);
+    HitBatch& out = store.batch_;
+    out.count = 0;
+    out.depth = hits.depth;
+    out.rays = &rays;
+    size_t next_hit = 0;  // hits come in the order of their rays
+    for (uint32_t ray = 0; ray < rays.count; ++ray) {
+        if (next_hit < hits.count && hits.ray[next_hit] == ray) {
+            ++next_hit;
+            continue;
+        }
+        const size_t k = out.count++;
+        own(out.ray)[k] = ray;
+        own(out.geometry)[k] = own(out.instance)[k] = own(out.primitive)[k] = kNone;
+        own(out.u)[k] = own(out.v)[k] = 0;
+        float square = 0;
+        for (int c = 0; c < 3; ++c) square += rays.dir[c][ray] * rays.dir[c][ray];
+        const float t = std::min(rays.tfar[ray], distance / std::sqrt(square));
+        own(out.t)[k] = t;
+        for (int c = 0; c < 3; ++c) {
+            const float P = rays.org[c][ray] + t * rays.dir[c][ray];
+            own(out.P[c])[k] = P;
+            own(out.P_error[c])[k] = std::abs(P) * 1e-6f;
+            own(out.Ng[c])[k] = 0;
+        }
+    }
     fill_from_rays(rays, out);
     pad_all(out);
     return out;

@@ -10,6 +10,8 @@
 
 namespace kinora::raytrace {
 
+struct RayBatch;
+
 // Hits to be shaded. Arrays are 64-byte aligned and readable up to `count` rounded up to 16.
 // Space: accel. Everything belongs to the ray tracer and lives until the call returns.
 struct HitBatch {
@@ -37,8 +39,9 @@ struct HitBatch {
     const uint32_t* pixel_x;
     const uint32_t* pixel_y;
     const uint32_t* sample;
-    const uint32_t* layer;  // surfaces already passed by this ray
-    const uint32_t* ray;    // index of the ray in the batch that was traced
+    const uint32_t* layer;           // surfaces already passed by this ray
+    const uint32_t* ray;             // index of the ray in the batch that was traced
+    const RayBatch* rays = nullptr;  // that batch; rays->medium[ray[k]] is what hit k came through
 };
 
 // To be filled for all hits of the batch; the arrays have room for `count` rounded up to 16.
@@ -73,7 +76,8 @@ struct RayBatch {
     uint32_t* pixel_y = nullptr;
     uint32_t* sample = nullptr;
     uint32_t* layer = nullptr;
-    uint32_t* slot = nullptr;  // the caller's index (the integrator's sample)
+    uint32_t* medium = nullptr;  // what the ray runs through; the shading's to define, 0 at the eye
+    uint32_t* slot = nullptr;    // the caller's index (the integrator's sample)
 
   private:
     size_t capacity_ = 0;
@@ -92,6 +96,7 @@ class HitStore {
   private:
     friend const HitBatch& trace(const Accel&, const RayBatch&, uint32_t, uint32_t, HitStore&,
                                  TraceCounters&);
+    friend const HitBatch& missed(const RayBatch&, const HitBatch&, float, HitStore&);
     HitBatch batch_{};
     size_t capacity_ = 0;
     std::vector<std::byte> memory_;
@@ -101,6 +106,11 @@ class HitStore {
 // the rays. `depth` goes into the batch. Allocates only if the store is smaller than the rays.
 const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, uint32_t depth,
                       HitStore& store, TraceCounters& counters);
+
+// The rays of the batch that `hits` (of trace()) has no hit of, as hits at their far end: at tfar,
+// or at `distance` from org where that is nearer. geometry, instance and primitive are kNone, Ng is
+// 0; the footprint is as wide as a surface across the ray would have it.
+const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance, HitStore& store);
 
 // For each ray: blocked[i] = 1 if opaque geometry lies in (tnear, tfar], else 0. The first step of
 // transmission; the caller goes on with trace(kMaskNotOpaque) for the rest. Uses org, dir, tnear,

@@ -34,6 +34,13 @@ class Stack {
         low_.layer_index = size_t(&layer - layers_.data());
         if (have_N_) low_.write_slot(int(Global::N), N_);
         if (have_P_ && displacement) low_.write_slot(int(Global::P), P_);
+        // Volumes and imagers go on with what the one before them left.
+        bool behind = low_.kind() == ShaderKind::Volume || low_.kind() == ShaderKind::Imager;
+        if (behind && have_surface_) {
+            low_.write_slot(int(Global::Ci), lowered(BaseType::Color, Ci_));
+            low_.write_slot(int(Global::Oi), lowered(BaseType::Color, Oi_));
+            have_surface_ = false;
+        }
         low_.run_layer(layer);
         if (low_.failed) return;
         left_N_ = low_.read_global(Global::N);

@@ -212,6 +212,21 @@ bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, 
     return true;
 }
 
+void SceneBuilder::apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers,
+                               std::string& key) {
+    if (!use) return;
+    for (const auto& [name, slot] : use->params) {
+        key += fmt::format("|{}={}+{}", name, slot.offset, slot.count);
+        for (ShaderUse& layer : layers) {
+            std::erase_if(layer.params, [&](const ParamSource& s) { return s.name == name; });
+            ParamSource source;
+            source.name = name;
+            source.value = slot;
+            layer.params.push_back(std::move(source));
+        }
+    }
+}
+
 uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
     Scene& scene = *scene_;
     const Shape& shape = scene.shapes[surface.shape];
@@ -234,17 +249,8 @@ uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
     look->layers = definition->displacements;
     look->layers.insert(look->layers.end(), surfaces.begin(), surfaces.end());
     std::string key = fmt::format("{}", static_cast<const void*>(definition));
-    if (use)
-        for (const auto& [name, slot] : use->params) {
-            key += fmt::format("|{}={}+{}", name, slot.offset, slot.count);
-            for (ShaderUse& layer : look->layers) {
-                std::erase_if(layer.params, [&](const ParamSource& s) { return s.name == name; });
-                ParamSource source;
-                source.name = name;
-                source.value = slot;
-                layer.params.push_back(std::move(source));
-            }
-        }
+    apply_binds(use, look->layers, key);
+    add_volumes(surface, *definition, use);
     for (const ShaderUse& layer : look->layers)
         if (has_placed_param(layer)) look->node = shape.node;
     if (look->node != kNone) key += fmt::format("|node {}", look->node);
@@ -272,6 +278,7 @@ bool SceneBuilder::make_looks() {
         if (!node.id.empty()) space_names_.push_back(node.id);
     for (size_t s = 0; s < scene.surfaces.size(); ++s)
         scene.surfaces[s].look = look_of(scene.surfaces[s], *uses_[s]);
+    add_atmosphere();
     bool ok = true;
     std::vector<std::string> messages;
     for (auto& look : scene.looks) {

@@ -44,6 +44,14 @@ class SceneBuilder {
     bool make_looks();
     uint32_t look_of(Surface& surface, const MeshUse& use);
     bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look);
+    // Parameters that instance_material binds, put over the material's; `key` tells them apart.
+    static void apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers,
+                            std::string& key);
+    // build_volumes.cpp
+    void add_volumes(Surface& surface, const MaterialDefinition& material, const MaterialUse* use);
+    uint32_t volume_look(const std::vector<ShaderUse>& layers, const std::string& name,
+                         uint32_t node, const MaterialUse* use, bool exterior);
+    void add_atmosphere();
     bool compile(Look& look, const std::vector<std::string>& messages);
     const MaterialDefinition& default_material();
 

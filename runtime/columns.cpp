@@ -21,6 +21,7 @@ constexpr Row kRows[] = {
     {"dv", kColDv, ""},        {"s", kColS, ""},          {"t", kColT, ""},
     {"dsdu", kColdsdu, ""},    {"dsdv", kColdsdv, ""},    {"dtdu", kColdtdu, ""},
     {"dtdv", kColdtdv, ""},    {"rng", kColRng, ""},      {"1", kColOne, ""},
+    {"Ci", kColCi, "rgb"},     {"Oi", kColOi, "rgb"},     {"alpha", kColAlpha, ""},
 };
 
 uint16_t matrix_column(std::string_view name, std::string_view prefix, uint16_t first) {

@@ -31,7 +31,10 @@ enum Column : uint16_t {
     kColdtdu,
     kColdtdv,
     kColRng,
-    kColOne,        // 1 everywhere: the derivative of u by u
+    kColOne,  // 1 everywhere: the derivative of u by u
+    kColCi,   // what the surface, or the picture so far, sends on: volumes and imagers
+    kColOi = kColCi + 3,
+    kColAlpha = kColOi + 3,
     kColToCurrent,  // space:object:to_current and space:shader:...
     kColFromCurrent = kColToCurrent + 12,
     kColVarying = kColFromCurrent + 12,  // then Look::varying, each value and its du and dv

@@ -150,9 +150,10 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     stats.shading_points = shading.points;
     stats.non_finite = counters.non_finite;
     if (counters.non_finite) {
-        const Surface& surface = scene.surfaces[counters.non_finite_geometry];
-        diagnostics.report(Code::SHADER_NON_FINITE, Location{}, counters.non_finite,
-                           scene.looks[surface.look]->name);
+        uint32_t row = counters.non_finite_geometry;  // kNone: where there is no surface
+        diagnostics.report(
+            Code::SHADER_NON_FINITE, Location{}, counters.non_finite,
+            row == kNone ? "the atmosphere" : scene.looks[scene.surfaces[row].look]->name);
     }
     return whole;
 }

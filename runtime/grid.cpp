@@ -9,6 +9,7 @@
 #include "raytrace/sampling.h"
 #include "runtime/scene.h"
 #include "runtime/shading_p.h"
+#include "runtime/spaces.h"
 
 namespace kinora {
 
@@ -139,9 +140,14 @@ class Gather {
             uint32_t row = hits_.instance[grid_.points[begin]];
             size_t end = begin + 1;
             while (end < grid_.count() && hits_.instance[grid_.points[end]] == row) ++end;
+            if (row == kNone) {
+                open_ends(begin, end);
+                begin = end;
+                continue;
+            }
             enter(row);
             if (P_) places(begin, end);
-            if (I_) directions(begin, end);
+            if (I_) volume_ ? segments(begin, end) : directions(begin, end);
             if (Ng_) geometric_normals(begin, end);
             if (N_) normals(begin, end);
             if (parameters_)
@@ -195,6 +201,26 @@ class Gather {
             uint32_t hit = grid_.points[i];
             I_.set(i, rotation_ * (triple(hits_.P, hit) - triple(hits_.org, hit)));
         }
+    }
+    // Volumes see the way through themselves: from the last surface (or the eye) to P.
+    void segments(size_t begin, size_t end) const {
+        for (size_t i = begin; i < end; ++i) {
+            uint32_t hit = grid_.points[i];
+            I_.set(i, rotation_ * segment(hits_, hit));
+        }
+    }
+    // Where a ray leaves the scene there is no surface: N and Ng look back, all else is 0.
+    void open_ends(size_t begin, size_t end) {
+        for (float* rows : grid_.columns)
+            if (rows) std::fill(rows + begin, rows + end, 0.0f);
+        if (P_) places(begin, end);
+        if (I_) segments(begin, end);
+        for (size_t i = begin; i < end; ++i) {
+            vec3 back = rotation_ * -glm::normalize(triple(hits_.dir, grid_.points[i]));
+            if (N_) N_.set(i, back);
+            if (Ng_) Ng_.set(i, back);
+        }
+        if (matrices_) matrices(begin, end);
     }
     void geometric_normals(size_t begin, size_t end) const {
         for (size_t i = begin; i < end; ++i)
@@ -285,7 +311,9 @@ class Gather {
     }
 
     void matrices(size_t begin, size_t end) const {
-        dmat4 to = scene_.view.camera_from_world * scene_.nodes[shape_->node].world;
+        // A volume belongs to a node of its own, not to the surface behind it.
+        dmat4 to = volume_ ? current_from_space(scene_, "object", grid_.look->node)
+                           : scene_.view.camera_from_world * scene_.nodes[shape_->node].world;
         mat4 to_current(to), from_current(glm::inverse(to));
         for (size_t r = 0; r < 3; ++r)
             for (size_t c = 0; c < 4; ++c) {
@@ -321,6 +349,7 @@ class Gather {
     Triple P_, I_, N_, Ng_, dPdu_, dPdv_, dIdu_, dIdv_, dNdu_, dNdv_;
     bool footprint_ = false, partials_ = false, uv_ = false, parameters_ = false;
     bool matrices_ = false;
+    bool volume_ = grid_.look->kind == LookKind::Volume;
     const Surface* surface_ = nullptr;
     const Shape* shape_ = nullptr;
     const Mesh* mesh_ = nullptr;

@@ -48,7 +48,9 @@ struct Grid {
     std::span<float*> columns;              // by Column
     std::span<jit::RecordSet> record_sets;  // [0]: lights at P
     uint32_t next_record_set = 1;
-    bool shadows = true;  // false inside opacity kernels
+    int32_t record_group = -1;  // first lane of the group that lights_at served last
+    Arena::Mark record_mark{};  // where its records begin
+    bool shadows = true;        // false inside opacity kernels
 
     size_t count() const { return points.size(); }
 };

@@ -36,6 +36,7 @@ void ColladaImport::run() {
     import_materials();
     import_lights();
     import_cameras();
+    out_.picture = picture_shaders(data_.rsl_materials);
     import_nodes();
     import_clips();
     import_animation();
@@ -183,6 +184,7 @@ void ColladaImport::import_cameras() {
         to.aspect = slot_of(CameraSlot::AspectRatio);
         to.znear = slot_of(CameraSlot::Znear);
         to.zfar = slot_of(CameraSlot::Zfar);
+        to.picture = picture_shaders(from.rsl_materials);
     }
 }
 

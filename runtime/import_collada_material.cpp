@@ -140,12 +140,21 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
 
 void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
                                  MaterialDefinition& result) {
+    const std::string& target = data_.materials[index].volume_target;
     for (const collada::RslShader& shader : effect.rsl->shaders) {
         std::vector<ShaderUse>* stack = nullptr;
         if (shader.stage == collada::RslStage::Surface) stack = &result.surfaces;
         if (shader.stage == collada::RslStage::Displacement) stack = &result.displacements;
+        if (shader.stage == collada::RslStage::Volume) {
+            stack = target == "exterior" ? &result.exterior : &result.interior;
+            if (!target.empty() && target != "exterior" && target != "interior")
+                diagnostics_.report(Code::RSL_VOLUME_TARGET, shader.where, target);
+        }
+        if (shader.stage == collada::RslStage::Imager) {
+            diagnostics_.report(Code::RSL_STAGE_PLACE, shader.where, "IMAGER", "a surface");
+            continue;
+        }
         if (!stack) {
-            // LIGHT on geometry would be an area light.
             diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
                                 kStageNames[size_t(shader.stage)]);
             continue;
@@ -266,16 +275,26 @@ void ColladaImport::import_materials() {
         unused.name = data_.materials[m].name;
         out_.materials.push_back(bound[m] ? material(m) : std::move(unused));
     }
-    auto warn_unrendered = [&](uint32_t m) {
-        uint32_t effect = data_.materials[m].effect;
-        if (effect == collada::kNone || !data_.effects[effect].rsl) return;
-        for (const collada::RslShader& shader : data_.effects[effect].rsl->shaders)
-            diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
-                                kStageNames[size_t(shader.stage)]);
-    };
-    for (uint32_t m : data_.rsl_materials) warn_unrendered(m);
-    for (const collada::Camera& camera : data_.cameras)
-        for (uint32_t m : camera.rsl_materials) warn_unrendered(m);
+}
+
+PictureShaders ColladaImport::picture_shaders(const std::vector<uint32_t>& materials) {
+    PictureShaders result;
+    for (uint32_t m : materials) {
+        uint32_t index = data_.materials[m].effect;
+        if (index == collada::kNone || !data_.effects[index].rsl) continue;
+        const collada::Effect& effect = data_.effects[index];
+        for (const collada::RslShader& shader : effect.rsl->shaders) {
+            std::vector<ShaderUse>* stack = nullptr;
+            if (shader.stage == collada::RslStage::Volume) stack = &result.atmosphere;
+            if (shader.stage == collada::RslStage::Imager) stack = &result.imagers;
+            if (!stack)
+                diagnostics_.report(Code::RSL_STAGE_PLACE, shader.where,
+                                    kStageNames[size_t(shader.stage)], "a scene or camera");
+            else if (auto use = shader_use(m, effect, shader))
+                stack->push_back(std::move(*use));
+        }
+    }
+    return result;
 }
 
 void ColladaImport::import_lights() {

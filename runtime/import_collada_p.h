@@ -39,6 +39,7 @@ class ColladaImport {
     // import_collada_material.cpp
     void import_materials();
     void import_lights();
+    PictureShaders picture_shaders(const std::vector<uint32_t>& materials);
     MaterialDefinition material(uint32_t index);
     void rsl_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
     void common_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);

@@ -142,7 +142,8 @@ void Shading::bind_lights() {
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         scene_.looks[l]->index = uint32_t(l);
         auto& row = bindings_.emplace_back();
-        if (scene_.looks[l]->kind != LookKind::Surface) continue;
+        LookKind kind = scene_.looks[l]->kind;
+        if (kind != LookKind::Surface && kind != LookKind::Volume) continue;
         for (const LightSource& light : scene_.lights)
             row.push_back(binding_of(*scene_.looks[l], *scene_.looks[light.look], scene_));
     }
@@ -317,8 +318,14 @@ void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const 
 }
 
 int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
-    // A part of the grid: one lane group at its own points.
+    // A part of the grid: one lane group at its own points. Records of a group that is done are
+    // let go, or a marching loop would keep them all.
     Arena& arena = *grid.arena;
+    if (grid.record_group != call.first) {
+        if (grid.record_group >= 0) arena.release(grid.record_mark);
+        grid.record_mark = arena.mark();
+        grid.record_group = call.first;
+    }
     LightPoints at;
     at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
     at.first = size_t(call.first);

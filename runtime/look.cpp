@@ -256,7 +256,10 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     look.lowered = std::move(*lowered);
     look.full.pair = jit::compile(std::move(look.lowered.module), compile);
     bind_kernel(look.full, look);
-    if (look.kind == LookKind::Surface && !look.opaque()) {
+    // Shadow rays ask what is not opaque, and what fills an object.
+    bool shades_shadows = look.kind == LookKind::Surface && !look.opaque();
+    bool fills = look.kind == LookKind::Volume && look.volume != 0 && !look.exterior;
+    if (shades_shadows || fills) {
         lower.want_Ci = false;
         compile.dumps = nullptr;
         std::optional<rsl::LoweredShader> opacity = rsl::lower(layers, lower, diagnostics);

@@ -69,7 +69,7 @@ class BoundKernel {
     std::vector<float*> out;
 };
 
-enum class LookKind : uint8_t { Surface, Light };
+enum class LookKind : uint8_t { Surface, Light, Volume, Imager };
 
 // A parameter bound to vertex inputs.
 struct VaryingParam {
@@ -96,6 +96,8 @@ struct Look {
     std::vector<std::string> spaces;     // names of frame-rate spaces the kernels read
     std::vector<dmat4> current_from_space;
     bool hide_backfaces = false;
+    uint32_t volume = 0;    // an interior's or exterior's number: runtime/medium.h
+    bool exterior = false;  // that volume surrounds its object
 
     bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }
     const rsl::Shader& shader() const { return *layers.back().shader; }

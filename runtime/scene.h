@@ -84,7 +84,9 @@ struct Surface {
     uint32_t shape = kNone;
     uint32_t group = kNone;
     uint32_t look = kNone;
-    uint32_t material = kNone;            // index into description.materials, kNone: the default
+    uint32_t material = kNone;  // index into description.materials, kNone: the default
+    uint32_t interior = kNone;  // looks of the volumes inside and around; kNone: none
+    uint32_t exterior = kNone;
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
     // Vertex inputs of the look's varying parameters, in the order of Look::varying.
     std::vector<const VertexAttribute*> varying;
@@ -138,6 +140,8 @@ struct Scene {
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<Look>> looks;
     uint32_t camera = 0;             // into cameras
+    uint32_t atmosphere = kNone;     // look of the volume outside all objects
+    std::vector<uint32_t> volumes;   // looks of interiors and exteriors: Look::volume is k + 1
     std::vector<std::string> added;  // "default camera", "default light": what --list shows
 
     dvec3 origin{0.0};

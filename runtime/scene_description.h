@@ -135,6 +135,7 @@ struct MaterialDefinition {
     std::string id, name;
     std::vector<ShaderUse> displacements;  // bottom first
     std::vector<ShaderUse> surfaces;       // bottom first
+    std::vector<ShaderUse> interior, exterior;  // volumes, each on what the one before it left
     bool hide_backfaces = false;
 };
 
@@ -146,10 +147,16 @@ struct LightDefinition {
     Location where;
 };
 
+// What a visual scene or a camera runs on rays and on the picture; the camera's wins.
+struct PictureShaders {
+    std::vector<ShaderUse> atmosphere, imagers;  // each on what the one before it left
+};
+
 struct CameraDefinition {
     std::string id, name;
     bool orthographic = false;
     ValueSlot x, y, aspect, znear, zfar;  // fov in degrees, or magnifications; absent = not given
+    PictureShaders picture;
     Location where;
 };
 
@@ -173,11 +180,27 @@ struct SceneDescription {
     std::vector<MaterialDefinition> materials;
     std::vector<LightDefinition> lights;
     std::vector<CameraDefinition> cameras;
+    PictureShaders picture;
     std::vector<ClipDefinition> clips;
     std::shared_ptr<const rsl::Shader> default_surface;  // of surfaces without material; null: ours
     anim::Animation animation;
     std::vector<bool> animated;  // per value: some channel writes it
     std::optional<double> start_time, end_time, frame_rate;
 };
+
+// Calls f(ShaderUse&) for every shader of the scene with its parameters.
+template <class Description, class F>
+void for_each_shader_use(Description& description, F&& f) {
+    auto all = [&](auto&... lists) {
+        auto one = [&](auto& list) {
+            for (auto& use : list) f(use);
+        };
+        (one(lists), ...);
+    };
+    for (auto& m : description.materials) all(m.displacements, m.surfaces, m.interior, m.exterior);
+    for (auto& light : description.lights) f(light.shader);
+    all(description.picture.atmosphere, description.picture.imagers);
+    for (auto& camera : description.cameras) all(camera.picture.atmosphere, camera.picture.imagers);
+}
 
 }  // namespace kinora

@@ -39,12 +39,17 @@ void Shading::begin_frame(double time, double shutter, uint32_t seed) {
     any_transparent_ = false;
     for (auto& look : scene_.looks) {
         look->update(context);
-        any_transparent_ |= look->opacity.has_value();
+        any_transparent_ |= look->kind == LookKind::Surface && look->opacity.has_value();
+        has_exteriors_ |= look->exterior;
     }
     const raytrace::Camera& view = scene_.view;
     dmat3 axes(view.right, view.up, view.forward);
     camera_from_accel_ = mat3(glm::transpose(axes));
     eye_ = vec3(view.eye);
+    const CameraDefinition& camera =
+        scene_.description->cameras[scene_.cameras[scene_.camera].definition];
+    miss_distance_ =
+        camera.zfar.present() ? float(view.zfar) : float(glm::length(view.eye) + scene_.size);
 }
 
 ShadingCounters Shading::end_frame(Diagnostics& diagnostics) {
@@ -90,6 +95,8 @@ void Shading::shade(const raytrace::HitBatch& hits, int thread_id, raytrace::Sha
         for (size_t at = begin[l]; at < begin[l + 1]; at += kGridPoints)
             shade_look(hits, order.subspan(at, std::min(kGridPoints, begin[l + 1] - at)),
                        *scene_.looks[l], thread_id, result);
+    if (scene_.atmosphere != kNone || !scene_.volumes.empty())
+        apply_volumes(hits, thread_id, result);
     own.arena.release(mark);
 }
 
@@ -97,10 +104,13 @@ namespace {
 
 constexpr size_t kRecordSets = 64;  // handles a grid may hold at once
 
-void prepare(Grid& grid, int thread, Shading& shading, Arena& arena) {
+}  // namespace
+
+void Shading::prepare_grid(Grid& grid, int thread_id) {
+    Arena& arena = thread(thread_id).arena;
     grid.depth = grid.hits.depth;
-    grid.thread = thread;
-    grid.shading = &shading;
+    grid.thread = thread_id;
+    grid.shading = this;
     grid.arena = &arena;
     grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
@@ -108,24 +118,27 @@ void prepare(Grid& grid, int thread, Shading& shading, Arena& arena) {
     std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
 }
 
-std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena) {
+static std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena) {
     std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
     for (float*& column : out) column = arena.allocate_span<float>(padded(count)).data();
     return out;
 }
 
-// The three outputs "name.r" ... of a kernel, null where it has none.
-void find_triple(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
-                 float* triple_out[3]) {
-    for (int k = 0; k < 3; ++k) triple_out[k] = nullptr;
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+                float* color[3]) {
+    for (int k = 0; k < 3; ++k) color[k] = nullptr;
     for (size_t o = 0; o < kernel.outputs.size(); ++o) {
         std::string_view full = kernel.outputs[o].name;
         if (full.size() != name.size() + 2 || !full.starts_with(name)) continue;
-        triple_out[full.back() == 'r' ? 0 : full.back() == 'g' ? 1 : 2] = out[o];
+        color[full.back() == 'r' ? 0 : full.back() == 'g' ? 1 : 2] = out[o];
     }
 }
 
-}  // namespace
+std::span<float*> Shading::run_for_colors(const BoundKernel& bound, Grid& grid) {
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), *grid.arena);
+    run_kernel(bound, grid, out);
+    return out;
+}
 
 void Shading::run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* const> out) {
     std::span<const float*> in = grid.arena->allocate_span<const float*>(bound.columns.size());
@@ -149,7 +162,7 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
     Grid grid(scene_, hits, points, &look);
-    prepare(grid, thread_id, *this, own.arena);
+    prepare_grid(grid, thread_id);
     want_columns(grid, look.full.columns);
     if (look.lowered.uses_lights) {
         want_triple(grid, kColP);
@@ -157,12 +170,11 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
     }
     gather(grid);
     if (look.lowered.uses_lights) run_lights(grid);
-    std::span<float*> out = take_outputs(look.full.kernel(), grid.count(), own.arena);
-    run_kernel(look.full, grid, out);
+    std::span<float*> out = run_for_colors(look.full, grid);
     own.counters.points += grid.count();
     float *Ci[3], *Oi[3];
-    find_triple(look.full.kernel(), out, "Ci", Ci);
-    find_triple(look.full.kernel(), out, "Oi", Oi);
+    find_color(look.full.kernel(), out, "Ci", Ci);
+    find_color(look.full.kernel(), out, "Oi", Oi);
     for (int k = 0; k < 3; ++k)
         for (size_t i = 0; i < points.size(); ++i) {
             result.Ci[k][points[i]] = Ci[k] ? Ci[k][i] : 0.0f;
@@ -189,7 +201,7 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
             Arena::Mark grid_mark = own.arena.mark();
             std::span<const uint32_t> part = points.subspan(at, std::min(kGridPoints, count - at));
             Grid grid(scene_, hits, part, &look);
-            prepare(grid, thread_id, *this, own.arena);
+            prepare_grid(grid, thread_id);
             grid.shadows = false;
             want_columns(grid, look.opacity->columns);
             if (look.lowered.uses_lights) {
@@ -198,11 +210,10 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
             }
             gather(grid);
             if (look.lowered.uses_lights) run_lights(grid);
-            std::span<float*> out = take_outputs(look.opacity->kernel(), grid.count(), own.arena);
-            run_kernel(*look.opacity, grid, out);
+            std::span<float*> out = run_for_colors(*look.opacity, grid);
             own.counters.opacity_points += grid.count();
             float* Oi[3];
-            find_triple(look.opacity->kernel(), out, "Oi", Oi);
+            find_color(look.opacity->kernel(), out, "Oi", Oi);
             for (size_t i = 0; i < part.size(); ++i)
                 for (int k = 0; k < 3; ++k) result[part[i]][k] = Oi[k] ? Oi[k][i] : 1.0f;
             own.arena.release(grid_mark);

@@ -35,6 +35,13 @@ class Shading : public raytrace::SurfaceShading {
     ShadingCounters end_frame(Diagnostics& diagnostics);
 
     void shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) override;
+    // volumes.cpp: rays that leave the scene end at the camera's far clip where its file has one,
+    // else at the far side of the scene: the eye's distance from the centre plus the diagonal.
+    float miss_distance() const override;
+    void shade_misses(const raytrace::HitBatch& ends, int thread,
+                      raytrace::ShadeResult& result) override;
+    uint32_t medium_behind(const raytrace::HitBatch& hits, size_t k) const override;
+    uint32_t nested_medium(const raytrace::HitBatch& hits, size_t k, vec3 dir) const;
 
     // For services. Colour and opacity of hits found at `grid.depth + 1`.
     static constexpr uint32_t kMaxDepth = 16;
@@ -67,7 +74,21 @@ class Shading : public raytrace::SurfaceShading {
   private:
     void shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
                     const Look& look, int thread, raytrace::ShadeResult& result);
+    void prepare_grid(Grid& grid, int thread);
     void run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* const> out);
+    // Takes output rows, runs the kernel and returns them.
+    std::span<float*> run_for_colors(const BoundKernel& bound, Grid& grid);
+    // volumes.cpp
+    struct VolumeOrder;
+    uint32_t volume_before(const raytrace::HitBatch& hits, size_t k) const;
+    VolumeOrder sort_by_volume(const raytrace::HitBatch& hits, Arena& arena, bool fills_only) const;
+    template <class F>
+    void for_each_volume_grid(const VolumeOrder& order, F&& f) const;
+    void shade_volume(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
+                      const Look& look, const BoundKernel& bound, int thread, bool shadows,
+                      raytrace::ShadeResult& result);
+    void apply_volumes(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result);
+    void pass_volumes(const raytrace::HitBatch& hits, int thread, vec3* Oi);
     // light_records.cpp
     struct LightPoints;  // where light is wanted
     void bind_lights();
@@ -80,6 +101,8 @@ class Shading : public raytrace::SurfaceShading {
                 const float* lit, float* const Cl[3]);
     // transmission.cpp
     void pass_transparent(int thread, raytrace::RayBatch& rays, vec3* through);
+    void pass_ends(int thread, const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                   vec3* through);
     void opacity(const raytrace::HitBatch& hits, int thread, vec3* Oi);
     void flush_prints();  // print.cpp
 
@@ -87,6 +110,8 @@ class Shading : public raytrace::SurfaceShading {
     std::vector<std::unique_ptr<Thread>> threads_;
     uint32_t seed_ = 0;
     bool any_transparent_ = false;
+    bool has_exteriors_ = false;
+    float miss_distance_ = 0;
     size_t record_count_ = 0;
     std::vector<std::vector<Statement>> statements_;   // [light]
     std::vector<std::vector<LightBinding>> bindings_;  // [look][light]

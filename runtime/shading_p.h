@@ -64,6 +64,13 @@ inline void set_triple(float* const columns[3], size_t i, vec3 value) {
     columns[2][i] = value.z;
 }
 
+// The way of a hit's ray since its last surface, or since it began; accel space.
+inline vec3 segment(const raytrace::HitBatch& hits, size_t h) {
+    float passed = hits.rays ? hits.rays->t_passed[hits.ray[h]] : 0.0f;
+    if (passed == 0) return triple(hits.P, h) - triple(hits.org, h);
+    return triple(hits.dir, h) * (hits.t[h] - passed);
+}
+
 // Sets one ray of a packet or batch; both have the same columns.
 template <class Rays>
 void set_ray(Rays& rays, size_t i, vec3 org, vec3 dir, float tfar) {
@@ -73,6 +80,10 @@ void set_ray(Rays& rays, size_t i, vec3 org, vec3 dir, float tfar) {
     rays.tfar[i] = tfar;
     rays.time[i] = 0;
 }
+
+// The three outputs "name.r" ... of a kernel, null where it has none.
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+                float* color[3]);
 
 // A nested ray without footprint of its own.
 void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,

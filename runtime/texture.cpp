@@ -157,11 +157,7 @@ void preload_textures(const SceneDescription& description) {
                 names.insert(names.end(), parameter.constant->strings.begin(),
                              parameter.constant->strings.end());
     };
-    for (const MaterialDefinition& material : description.materials) {
-        for (const ShaderUse& use : material.displacements) add_strings(use);
-        for (const ShaderUse& use : material.surfaces) add_strings(use);
-    }
-    for (const LightDefinition& light : description.lights) add_strings(light.shader);
+    for_each_shader_use(description, add_strings);
     TextureStore::process().preload(names);
 }
 

@@ -34,6 +34,7 @@ void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, floa
     rays.pixel_y[i] = from.pixel_y[hit];
     rays.sample[i] = from.sample[hit];
     rays.layer[i] = 0;
+    rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
 }
 
 // Closest hits on what is not opaque, each round shaded as grids; `through` is what passes.
@@ -46,9 +47,11 @@ void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* th
         nested->hits.reserve(kGridPoints);
         const raytrace::HitBatch& hits = raytrace::trace(
             scene_.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits, own.counters.trace);
+        if (!scene_.volumes.empty()) pass_ends(thread_id, rays, hits, through);
         if (hits.count == 0) break;
         std::span<vec3> Oi = own.arena.allocate_span<vec3>(hits.count);
         opacity(hits, thread_id, Oi.data());
+        if (!scene_.volumes.empty()) pass_volumes(hits, thread_id, Oi.data());
         size_t kept = 0;
         for (size_t h = 0; h < hits.count; ++h) {
             uint32_t r = hits.ray[h];
@@ -62,12 +65,29 @@ void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* th
                                                    triple(hits.Ng, h), dir);
             bool bounded = std::isfinite(rays.tfar[r]);
             uint32_t slot = rays.slot[r];
+            uint32_t medium = medium_behind(hits, h);
             set_nested_ray(rays, kept, org, bounded ? end - org : dir,
                            bounded ? 1.0f : rays.tfar[r], hits, uint32_t(h));
+            rays.medium[kept] = medium;
             rays.slot[kept++] = slot;
         }
         rays.count = kept;
     }
+    own.arena.release(mark);
+}
+
+// Rays that reach their light inside an object: the last part of their way.
+void Shading::pass_ends(int thread_id, const raytrace::RayBatch& rays,
+                        const raytrace::HitBatch& hits, vec3* through) {
+    Thread& own = thread(thread_id);
+    Arena::Mark mark = own.arena.mark();
+    NestedWavefront nested(own);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& ends = raytrace::missed(rays, hits, miss_distance_, nested->hits);
+    std::span<vec3> Oi = own.arena.allocate_span<vec3>(ends.count);
+    std::fill(Oi.begin(), Oi.end(), vec3(0.0f));
+    pass_volumes(ends, thread_id, Oi.data());
+    for (size_t k = 0; k < ends.count; ++k) through[rays.slot[ends.ray[k]]] *= vec3(1.0f) - Oi[k];
     own.arena.release(mark);
 }
 

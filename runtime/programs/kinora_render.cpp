@@ -203,18 +203,18 @@ XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription&
         hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);
     }
     // Textures by name, size and time of change.
-    for (const MaterialDefinition& material : description.materials)
-        for (const ShaderUse& use : material.surfaces)
-            for (const ParamSource& source : use.params)
-                for (const std::string& text : source.strings) {
-                    std::error_code code;
-                    std::filesystem::path path(text.substr(0, text.find('\x1f')));
-                    auto size = std::filesystem::file_size(path, code);
-                    std::string stamp = text + (code ? "" : fmt::format("{}", size));
-                    auto time = std::filesystem::last_write_time(path, code);
-                    if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
-                    hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
-                }
+    for_each_shader_use(description, [&](const ShaderUse& use) {
+        for (const ParamSource& source : use.params)
+            for (const std::string& text : source.strings) {
+                std::error_code code;
+                std::filesystem::path path(text.substr(0, text.find('\x1f')));
+                auto size = std::filesystem::file_size(path, code);
+                std::string stamp = text + (code ? "" : fmt::format("{}", size));
+                auto time = std::filesystem::last_write_time(path, code);
+                if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
+                hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
+            }
+    });
     return hash;
 }
 

@@ -209,16 +209,16 @@ TEST(Shaders, EscapedCodeKeepsItsPlacesToo) {
     EXPECT_TRUE(found) << r.findings();
 }
 
-TEST(Shaders, StagesThatAreNotRenderedSaySo) {
+TEST(Shaders, StagesThatHaveNoSenseOnASurfaceSaySo) {
     SceneText scene;
     scene.square("s")
-        .look("l", "surface s() { Oi = 1; Ci = 1; } volume fog() { Ci *= 0.5; }",
-              "<shader stage=\"SURFACE\"/><shader stage=\"VOLUME\"/>")
+        .look("l", "surface s() { Oi = 1; Ci = 1; } imager grey() { Ci *= 0.5; }",
+              "<shader stage=\"SURFACE\"/><shader stage=\"IMAGER\"/>")
         .place("s", "l");
     Rendering r(scene.text());
-    ASSERT_EQ(r.count("RSL_STAGE_NOT_RENDERED"), 1) << r.findings();
-    EXPECT_NE(r.find("RSL_STAGE_NOT_RENDERED")->message.find("VOLUME"), std::string::npos);
-    EXPECT_GT(r.where(*r.find("RSL_STAGE_NOT_RENDERED")).line, 1);
+    ASSERT_EQ(r.count("RSL_STAGE_PLACE"), 1) << r.findings();
+    EXPECT_NE(r.find("RSL_STAGE_PLACE")->message.find("IMAGER"), std::string::npos);
+    EXPECT_GT(r.where(*r.find("RSL_STAGE_PLACE")).line, 1);
     EXPECT_EQ(r.frame().color(8, 8).x, 1.0f);
 }
 

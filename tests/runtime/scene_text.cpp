@@ -64,14 +64,37 @@ std::string library(const char* kind, const std::string& content) {
 }  // namespace
 
 SceneText& SceneText::look(const std::string& id, const std::string& code,
-                           const std::string& passes, const std::string& newparams) {
+                           const std::string& passes, const std::string& newparams,
+                           const std::string& material_extra) {
     effects += fmt::format(
         "<effect id=\"{0}-fx\">{1}<profile_RSL><technique sid=\"default\">"
         "<code><![CDATA[\n{2}\n]]></code><pass>{3}</pass></technique></profile_RSL></effect>\n",
         id, newparams, code, passes);
     materials +=
-        fmt::format("<material id=\"{0}\"><instance_effect url=\"#{0}-fx\"/></material>\n", id);
+        fmt::format("<material id=\"{0}\"><instance_effect url=\"#{0}-fx\"/>{1}</material>\n", id,
+                    material_extra);
     return *this;
+}
+
+std::string rsl_extra(const std::string& inside) {
+    return "<extra><technique profile=\"RSL\">" + inside + "</technique></extra>";
+}
+
+SceneText& SceneText::scene_effect(const std::string& id, const std::string& code,
+                                   const std::string& passes) {
+    scene_extra += rsl_extra(fmt::format("<instance_effect url=\"#{}-fx\"/>", id));
+    return look(id, code, passes);
+}
+
+SceneText& SceneText::cube(const std::string& id, double s) {
+    std::vector<dvec3> corners;
+    for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? s : -s, k & 2 ? s : -s, k & 4 ? s : -s});
+    std::vector<int> triangles;
+    const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                             {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& q : quads)
+        for (int k : {0, 1, 2, 0, 2, 3}) triangles.push_back(q[k]);
+    return mesh(id, corners, triangles);
 }
 
 SceneText& SceneText::mesh(const std::string& id, const std::vector<dvec3>& positions,
@@ -199,13 +222,14 @@ std::string SceneText::text() const {
         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<COLLADA "
         "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n"
         "<asset><created>2026-11-21T00:00:00Z</created><modified>2026-11-21T00:00:00Z</modified>{}"
-        "</asset>\n{}{}{}{}{}{}{}{}{}<library_visual_scenes><visual_scene id=\"scene\">\n{}{}"
+        "</asset>\n{}{}{}{}{}{}{}{}{}<library_visual_scenes><visual_scene id=\"scene\">\n{}{}{}"
         "</visual_scene></library_visual_scenes>\n"
         "<scene><instance_visual_scene url=\"#scene\"/></scene>\n</COLLADA>\n",
         asset, library("images", images), library("effects", effects),
         library("materials", materials), library("geometries", geometries),
         library("controllers", controllers), library("lights", lights), library("cameras", cameras),
-        library("animations", animations), library("nodes", library_nodes), camera_node, nodes);
+        library("animations", animations), library("nodes", library_nodes), camera_node, nodes,
+        scene_extra);
 }
 
 // ---- pictures

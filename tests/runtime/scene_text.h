@@ -17,6 +17,7 @@ struct SceneText {
     std::string asset = R"(<unit name="meter" meter="1"/><up_axis>Y_UP</up_axis>)";
     std::string images, effects, materials, geometries, controllers, lights, animations;
     std::string library_nodes, nodes;
+    std::string scene_extra;  // inside <visual_scene>, after its nodes
     std::string cameras = R"(<camera id="eye"><optics><technique_common><orthographic>
         <xmag>1</xmag><ymag>1</ymag><znear>0.1</znear><zfar>100</zfar>
         </orthographic></technique_common></optics></camera>)";
@@ -26,7 +27,10 @@ struct SceneText {
     // An effect ID-fx of one shader a stage, and a material ID.
     SceneText& look(const std::string& id, const std::string& code,
                     const std::string& passes = "<shader stage=\"SURFACE\"/>",
-                    const std::string& newparams = "");
+                    const std::string& newparams = "", const std::string& material_extra = "");
+    // An effect that the visual scene runs: its atmosphere, its imager.
+    SceneText& scene_effect(const std::string& id, const std::string& code,
+                            const std::string& passes);
     // A triangle mesh; normals and uvs are one a vertex, or empty.
     SceneText& mesh(const std::string& id, const std::vector<dvec3>& positions,
                     const std::vector<int>& triangles, const std::vector<dvec3>& normals = {},
@@ -34,6 +38,8 @@ struct SceneText {
     // [-size, size] squared in the plane z = 0, normals +z, uv from 0 to 1.
     SceneText& square(const std::string& id, double size = 1);
     SceneText& octahedron(const std::string& id);  // unit, smooth normals
+    // [-size, size] cubed, closed, one normal a vertex (of no use for shading).
+    SceneText& cube(const std::string& id, double size = 1);
     // A node with the mesh in that look; `inside` goes into instance_material.
     SceneText& place(const std::string& mesh, const std::string& look,
                      const std::string& transforms = "", const std::string& node_id = "",
@@ -53,6 +59,8 @@ struct SceneText {
     std::string text() const;
 };
 
+// <extra> with an RSL technique around `inside`.
+std::string rsl_extra(const std::string& inside);
 std::string numbers(const std::vector<double>& values);
 std::string numbers(const std::vector<dvec3>& values, int components = 3);
 
