@@ -219,9 +219,12 @@ void Emit::merge_into(Value variable, Value then, Value mask) {
         x86::Vec to = vec(place(variable).reg);
         blend(to, to, then, mask);
     } else if (isa_.wide) {
+        // A store under a mask is not forwarded to the load that follows: store whole.
         x86::Vec from = reg(then, 0);
+        load_memory(scratch(1), slot(variable));
         a_.k(mask_reg(mask, 7));
-        a_.emit(Id::kIdVmovaps, slot(variable), from);
+        a_.emit(Id::kIdVmovaps, scratch(1), from);
+        store_slot(variable, scratch(1));
     } else {
         load_memory(scratch(0), slot(variable));
         blend(scratch(0), scratch(0), then, mask);

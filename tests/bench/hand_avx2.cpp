@@ -50,6 +50,10 @@ struct Avx2 {
     static M either(M a, M b) { return _mm256_or_ps(a, b); }
     static F select(M m, F a, F b) { return _mm256_blendv_ps(b, a, m); }
     static F where(M m, F a) { return _mm256_and_ps(m, a); }  // else 0
+    // table[i], 0 <= i < 8
+    static F lookup(const float (&table)[8], I i) {
+        return _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), i);
+    }
     static bool any(M m) { return _mm256_movemask_ps(m) != 0; }
     static int which(M m) { return _mm256_movemask_ps(m); }
 };

@@ -50,6 +50,10 @@ struct Avx512 {
     static M either(M a, M b) { return M(a | b); }
     static F select(M m, F a, F b) { return _mm512_mask_blend_ps(m, b, a); }
     static F where(M m, F a) { return _mm512_maskz_mov_ps(m, a); }  // else 0
+    // table[i], 0 <= i < 8
+    static F lookup(const float (&table)[8], I i) {
+        return _mm512_permutexvar_ps(i, _mm512_broadcast_f32x8(_mm256_loadu_ps(table)));
+    }
     static bool any(M m) { return m != 0; }
     static int which(M m) { return m; }
 };

@@ -1,4 +1,4 @@
-// tests/bench/hand_shaders.h: marble, plastic, wood and their lights as an engineer writes them
+// tests/bench/hand_shaders.h: marble, plastic, wood, a ramp and lights as an engineer writes them
 // with intrinsics, the measure of what the JIT makes of assets/shaders.
 //
 // The same mathematics: Kinora's noise (jit/math_noise_p.h), the fast tier's sine and power, RSL's
@@ -36,7 +36,7 @@ struct Shaders {
     void (*ambient)(const Light& light, const Record& record, size_t count);
     using Surface = void (*)(const Inputs& in, const Outputs& out, const Record* records,
                              size_t record_count, size_t count);
-    Surface plastic, marble, wood;
+    Surface plastic, marble, wood, fbm_ramp;
 };
 
 // Null if this build's -march has not got the instructions.

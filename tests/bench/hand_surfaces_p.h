@@ -314,7 +314,60 @@ struct Hand {
         }
     }
 
-    static constexpr Shaders kShaders = {solar, ambient, plastic, marble, wood};
+    // The cubic of each piece of a Catmull-Rom ramp, highest power first: one table a coefficient.
+    struct Ramp {
+        static constexpr int kKnots = 8, kPieces = kKnots - 3;
+        float table[3][4][8];
+        constexpr explicit Ramp(const float (&knots)[kKnots][3]) : table{} {
+            for (int c = 0; c < 3; ++c)
+                for (int p = 0; p < kPieces; ++p) {
+                    float a = knots[p][c], b = knots[p + 1][c];
+                    float d = knots[p + 2][c], e = knots[p + 3][c];
+                    table[c][0][p] = 0.5f * (-a + 3 * b - 3 * d + e);
+                    table[c][1][p] = 0.5f * (2 * a - 5 * b + 4 * d - e);
+                    table[c][2][p] = 0.5f * (d - a);
+                    table[c][3][p] = b;
+                }
+        }
+    };
+    static F ramp(const float (&t)[4][8], I piece, F x) {
+        F sum = V::lookup(t[0], piece);
+        for (int k = 1; k < 4; ++k) sum = V::fma(sum, x, V::lookup(t[k], piece));
+        return sum;
+    }
+
+    static void fbm_ramp(const Inputs& in, const Outputs& out, const Record*, size_t,
+                         size_t count) {
+        static constexpr Ramp kRamp({{0.01f, 0.02f, 0.06f},
+                                     {0.02f, 0.05f, 0.16f},
+                                     {0.08f, 0.20f, 0.38f},
+                                     {0.30f, 0.47f, 0.52f},
+                                     {0.72f, 0.66f, 0.48f},
+                                     {0.87f, 0.79f, 0.62f},
+                                     {0.95f, 0.93f, 0.88f},
+                                     {1, 1, 1}});
+        for (size_t i = 0; i < count; i += V::kLanes) {
+            F3 at = to_object(in, load(in.P, i), i);
+            const F start = V::set(1.5f), two = V::set(2);
+            at = {start * at.x, start * at.y, start * at.z};
+            F sum = V::set(0);
+            float weight = 0.5f;
+            for (int octave = 0; octave < 8; ++octave) {
+                sum = sum + V::set(weight) * (two * noise(at) - V::set(1));
+                weight *= 0.5f;
+                at = {two * at.x, two * at.y, two * at.z};
+            }
+            F scaled = clamp01(V::set(0.5f) + V::set(0.8f) * sum) * V::set(Ramp::kPieces);
+            F piece = V::min(V::floor(scaled), V::set(Ramp::kPieces - 1));
+            F x = scaled - piece;
+            I index = V::truncate(piece);
+            store(out, i,
+                  {ramp(kRamp.table[0], index, x), ramp(kRamp.table[1], index, x),
+                   ramp(kRamp.table[2], index, x)});
+        }
+    }
+
+    static constexpr Shaders kShaders = {solar, ambient, plastic, marble, wood, fbm_ramp};
 };
 
 }  // namespace kinora::hand

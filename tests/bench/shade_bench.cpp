@@ -1,5 +1,6 @@
-// tests/bench/shade_bench.cpp: marble, plastic and wood of assets/shaders through the JIT, against
-// the same mathematics hand-written with intrinsics (hand_shaders.h). Fast tier, one thread.
+// tests/bench/shade_bench.cpp: marble, plastic and wood of assets/shaders, and fbm_ramp.sl beside
+// this file, through the JIT, against the same mathematics hand-written with intrinsics
+// (hand_shaders.h). Fast tier, one thread.
 //
 // One row: TARGET/SHADER/KIND/points/grid. The points are shaded in grids of `grid`; code and data
 // are warm. KIND:
@@ -10,12 +11,17 @@
 // JIT and hand-written code take turns within one row, both in CPU time. `jit` and `hand` are
 // Mpoints/s in the best iteration of each (others share their caches with whatever else runs),
 // `ratio` is jit / hand. `differs` is the largest difference of Ci between the two.
-// compile/* rows: IR to code, and source text to code, caches cleared.
+// compile/* rows: IR to code, and source text to code, caches cleared. compile/TARGET/median:
+// source text to code of every shader in assets (median, largest), and the largest kernel's bytes.
+// divergent/*: a shader that takes one of four ways at random by point, against the sum of the four
+// shaders that take one way each.
 #include <benchmark/benchmark.h>
 #include <time.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -39,9 +45,11 @@ double cpu_seconds() {
 }
 
 std::string shader_text(const std::string& name) {
-    std::ifstream file(std::string(KINORA_SOURCE_DIR) + "/assets/shaders/" + name + ".sl");
     std::stringstream text;
-    text << file.rdbuf();
+    for (const char* folder : {"/assets/shaders/", "/tests/bench/"}) {
+        std::ifstream file(std::string(KINORA_SOURCE_DIR) + folder + name + ".sl");
+        if (file) text << file.rdbuf();
+    }
     CHECK(!text.str().empty());
     return text.str();
 }
@@ -342,7 +350,8 @@ struct ShaderRow {
 };
 constexpr ShaderRow kShaders[] = {{"marble", &hand::Shaders::marble},
                                   {"plastic", &hand::Shaders::plastic},
-                                  {"wood", &hand::Shaders::wood}};
+                                  {"wood", &hand::Shaders::wood},
+                                  {"fbm_ramp", &hand::Shaders::fbm_ramp}};
 struct WidthRow {
     const char* target;
     const hand::Shaders* (*shaders)();
@@ -431,10 +440,115 @@ void source_to_code(benchmark::State& state, const std::string& name, const jit:
     }
 }
 
+// ---- all of assets ------------------------------------------------------------------------------
+
+// What the front end, the passes and the emitter take for each shader of assets; the largest
+// kernel.
+void assets_to_code(benchmark::State& state, const jit::Target& target) {
+    std::vector<std::string> texts;
+    namespace fs = std::filesystem;
+    for (auto& entry : fs::recursive_directory_iterator(KINORA_SOURCE_DIR "/assets/shaders")) {
+        if (entry.path().extension() != ".sl") continue;
+        std::stringstream text;
+        text << std::ifstream(entry.path()).rdbuf();
+        texts.push_back(text.str());
+    }
+    std::vector<double> best(texts.size(), 1e30);
+    double largest_code = 0, largest_scratch = 0;
+    for (auto _ : state)
+        for (size_t k = 0; k < texts.size(); ++k) {
+            jit::clear_cache();
+            double start = cpu_seconds();
+            Diagnostics diagnostics;
+            rsl::ShaderSource source{texts[k], {}};
+            source.map.file = diagnostics.files.add("bench.sl", texts[k]);
+            source.map.segments = {{0, 0}};
+            for (auto& shader : rsl::compile(source, {}, diagnostics)) {
+                rsl::Layer layer{shader.get(), {}};
+                rsl::LowerOptions options;
+                options.math = jit::math::Tier::Fast;
+                auto lowered = rsl::lower(std::span(&layer, 1), options, diagnostics);
+                if (!lowered) continue;
+                auto kernels = jit::compile(lowered->module, {&target, nullptr});
+                largest_code = std::max(largest_code, double(kernels.point->code_bytes));
+                largest_scratch = std::max(largest_scratch, double(kernels.point->scratch_bytes));
+            }
+            best[k] = std::min(best[k], (cpu_seconds() - start) * 1e3);
+        }
+    std::sort(best.begin(), best.end());
+    state.counters["shaders"] = double(best.size());
+    state.counters["median_ms"] = best[best.size() / 2];
+    state.counters["largest_ms"] = best.back();
+    state.counters["largest_code_bytes"] = largest_code;
+    state.counters["largest_scratch_bytes"] = largest_scratch;
+}
+
+// ---- divergence ---------------------------------------------------------------------------------
+
+// Four ways of about equal work; WAY says which one a point takes. The uniform version reads it
+// from the frame block.
+const char* const kDivergent = R"(
+surface divergent(float w = DEFAULT) {
+    point at = transform("object", P);
+    float way = WAY, v = 0, k;
+    if (way < 1) { for (k = 0; k < 4; k += 1) v += noise(at * (k + 1)); }
+    else if (way < 2) { for (k = 0; k < 4; k += 1) v += abs(noise(at * (k + 5)) - 0.5); }
+    else if (way < 3) { for (k = 0; k < 4; k += 1) v += sqrt(noise(at * (k + 9))); }
+    else { for (k = 0; k < 4; k += 1) v += 1 - noise(at * (k + 13)); }
+    Ci = v; Oi = 1;
+})";
+
+std::unique_ptr<Compiled> compile_way(const std::string& way, const std::string& value,
+                                      const jit::Target& target) {
+    std::string text = kDivergent;
+    text.replace(text.find("WAY"), 3, way);
+    text.replace(text.find("DEFAULT"), 7, value);
+    auto result = std::make_unique<Compiled>();
+    result->shader = front_end(text, result->diagnostics);
+    result->layer.shader = result->shader.get();
+    result->layer.params = bound_parameters(*result->shader);
+    result->lowered = lower_fast(result->layer, result->diagnostics);
+    result->kernels = jit::compile(result->lowered.module, {&target, nullptr});
+    result->frame = frame_block(*result);
+    return result;
+}
+
+void divergent_row(benchmark::State& state, const jit::Target& target) {
+    constexpr size_t kCount = 4096, kGrid = 1024;
+    Points points(kCount);
+    const char* ways[] = {"4 * cellnoise(1000 * at)", "w", "w", "w", "w"};
+    const char* values[] = {"0.5", "0.5", "1.5", "2.5", "3.5"};
+    std::vector<std::unique_ptr<Compiled>> compiled;
+    std::vector<std::unique_ptr<Run>> runs;
+    for (size_t k = 0; k < std::size(ways); ++k) {
+        compiled.push_back(compile_way(ways[k], values[k], target));
+        runs.push_back(std::make_unique<Run>(*compiled.back(), points, kGrid));
+    }
+    _mm_setcsr(_mm_getcsr() | 0x8040);
+    std::vector<double> best(std::size(ways), 1e30);
+    for (auto _ : state)
+        for (size_t k = 0; k < runs.size(); ++k) {
+            double start = cpu_seconds();
+            for (int repeat = 0; repeat < 8; ++repeat)
+                for (size_t g = 0; g < runs[k]->grids(); ++g) runs[k]->run(g);
+            best[k] = std::min(best[k], cpu_seconds() - start);
+        }
+    double sum = best[1] + best[2] + best[3] + best[4];
+    state.counters["Mpoints_divergent"] = 8 * kCount * 1e-6 / best[0];
+    state.counters["Mpoints_one_way"] = 8 * kCount * 1e-6 / (sum / 4);
+    state.counters["divergent_over_sum"] = best[0] / sum;
+}
+
 void register_rows() {
     for (const WidthRow& width : kWidths) {
         const jit::Target& target = *jit::find_target(width.target);
         if (!target.supported() || !width.shaders()) continue;
+        auto per_target = [&](const char* name, auto run) {
+            benchmark::RegisterBenchmark((std::string(name) + width.target).c_str(), run, target)
+                ->Unit(benchmark::kMillisecond);
+        };
+        per_target("compile/assets/", assets_to_code);
+        per_target("divergent/", divergent_row);
         for (const ShaderRow& shader : kShaders) {
             std::string name = shader.name;
             std::string compile_name = std::string("compile/") + width.target + "/" + name;
