@@ -24,6 +24,7 @@ struct AovPlane {
     std::string name;
     AovFilter filter = AovFilter::Mean;
     std::vector<float> values;  // width * height, rows from the top
+    bool in_file = true;        // false: for imagers alone
 };
 
 // Linear, associated ("premultiplied") RGBA: alpha is coverage, the mean of Oi's components.

@@ -39,6 +39,8 @@ class Stack {
         if (behind && have_surface_) {
             low_.write_slot(int(Global::Ci), lowered(BaseType::Color, Ci_));
             low_.write_slot(int(Global::Oi), lowered(BaseType::Color, Oi_));
+            if (low_.kind() == ShaderKind::Imager)
+                low_.write_slot(int(Global::alpha), lowered(BaseType::Float, alpha_));
             have_surface_ = false;
         }
         low_.run_layer(layer);
@@ -63,6 +65,7 @@ class Stack {
                 Oi[c] = low_.fma(through, Oi_[c], Oi[c]);
             }
         }
+        if (low_.kind() == ShaderKind::Imager) alpha_ = low_.read_global(Global::alpha).c[0];
         Ci_ = Ci, Oi_ = Oi, have_surface_ = true;
     }
 
@@ -79,6 +82,7 @@ class Stack {
             if (low_.options.want_Ci) output("Ci", BaseType::Color, lowered(BaseType::Color, Ci_));
             if (low_.options.want_Oi) output("Oi", BaseType::Color, lowered(BaseType::Color, Oi_));
         }
+        if (alpha_ != jit::kNone) low_.b.output({"alpha", jit::Type::F}, alpha_);
         if (low_.options.want_N) output("N", BaseType::Normal, left_N_);
         if (low_.options.want_P)
             output("P", BaseType::Point, have_P_ ? P_ : low_.global_input(Global::P));
@@ -138,6 +142,7 @@ class Stack {
     bool have_N_ = false, have_P_ = false;
     Lowered left_N_, left_P_;
     V3 Ci_{}, Oi_{};
+    Value alpha_ = jit::kNone;  // imagers
     bool have_surface_ = false;
 };
 

@@ -120,6 +120,8 @@ Lowered Lowering::global_input(Global id) {
     bool behind = kind() == ShaderKind::Volume || kind() == ShaderKind::Imager;
     if (behind && (id == Global::Ci || id == Global::Oi))
         return input(std::string(info.name), type, jit::Rate::Point);
+    if (kind() == ShaderKind::Imager && id == Global::alpha)
+        return input("alpha", type, jit::Rate::Point);
     auto rows =
         light ? std::span<const GlobalInput>(kLightInputs) : std::span<const GlobalInput>(kInputs);
     for (const GlobalInput& row : rows)

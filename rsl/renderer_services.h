@@ -20,7 +20,9 @@
 //                "object" and "shader" in surfaces, displacements and volumes (twelve inputs each,
 //                gathered only where named); frame rate for all else. In a light, "shader" is the
 //                light's own node, frame rate. "current" = camera space.
-// Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. aov:NAME[.c]; of a light shader, for statement k:
+//                Ci Oi             volumes: of the surface behind; imagers: of the pixel, with alpha;
+//                                  P of an imager is the pixel's place in the raster
+// Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. alpha (imagers) aov:NAME[.c]; of a light shader, for statement k:
 //   light:k:L.x..   from Ps to the light, as a record has it (RSL's L inside illuminate, reversed)
 //   light:k:Cl.r..  light:k:Ol.r..  light:k:lit (int, nonzero in the cone; else Cl and Ol are 0)
 //                   Triples that are 0 at all points have no outputs; nor has a lit that is 1.

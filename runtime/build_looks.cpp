@@ -267,6 +267,7 @@ bool SceneBuilder::compile(Look& look, const std::vector<std::string>& messages)
     options.math = scene_->options.math;
     options.target = scene_->options.target;
     options.light_messages = messages;
+    if (look.kind == LookKind::Surface) options.aovs = output_names_;
     options.spaces = &space_names_;
     if (scene_->options.want_dumps) options.dumps = &scene_->options.dumps;
     return compile_look(look, description_, options, diagnostics_);
@@ -279,10 +280,13 @@ bool SceneBuilder::make_looks() {
     for (size_t s = 0; s < scene.surfaces.size(); ++s)
         scene.surfaces[s].look = look_of(scene.surfaces[s], *uses_[s]);
     add_atmosphere();
+    add_outputs();
+    add_imager();
     bool ok = true;
     std::vector<std::string> messages;
     for (auto& look : scene.looks) {
         ok &= compile(*look, {});
+        if (ok) bind_outputs(*look);
         for (const std::string& message : look->lowered.light_messages)
             if (std::find(messages.begin(), messages.end(), message) == messages.end())
                 messages.push_back(message);

@@ -52,6 +52,10 @@ class SceneBuilder {
     uint32_t volume_look(const std::vector<ShaderUse>& layers, const std::string& name,
                          uint32_t node, const MaterialUse* use, bool exterior);
     void add_atmosphere();
+    // build_imager.cpp
+    void add_outputs();
+    void add_imager();
+    void bind_outputs(Look& look) const;
     bool compile(Look& look, const std::vector<std::string>& messages);
     const MaterialDefinition& default_material();
 
@@ -64,6 +68,7 @@ class SceneBuilder {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> shape_numbers_;
     std::map<std::string, uint32_t> looks_by_key_;
     std::vector<std::string> space_names_;
+    std::vector<std::string> output_names_;  // parameters behind Scene::outputs
     MaterialDefinition default_material_;
 };
 

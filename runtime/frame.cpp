@@ -106,6 +106,19 @@ void report_geometry(const Scene& scene, const raytrace::AccelUpdate& update,
     }
 }
 
+// The film's planes are those of the scene's outputs.
+void prepare_planes(const Scene& scene, raytrace::Film& film) {
+    bool same = film.aovs.size() == scene.outputs.size();
+    for (size_t p = 0; same && p < film.aovs.size(); ++p)
+        same = film.aovs[p].name == scene.outputs[p].name;
+    if (same) return;
+    film.aovs.clear();
+    for (const OutputPlane& plane : scene.outputs) {
+        film.add_aov(plane.name);
+        film.aovs.back().in_file = plane.in_file;
+    }
+}
+
 }  // namespace
 
 std::optional<double> camera_aspect(const Scene& scene) {
@@ -137,10 +150,12 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     scene.first_frame = false;
     std::fill(scene.changed.begin(), scene.changed.end(), 0);
 
+    prepare_planes(scene, film);
     scene.shading->begin_frame(time, settings.shutter, settings.integrator.seed);
     raytrace::IntegratorCounters counters;
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
                                      settings.integrator, scene.scratch, counters, progress);
+    if (whole && scene.imager != kNone) scene.shading->run_imager(film);
     ShadingCounters shading = scene.shading->end_frame(diagnostics);
     report_textures(diagnostics);
     stats.trace = counters.trace_ms / thread_count();

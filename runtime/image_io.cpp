@@ -5,7 +5,10 @@
 #include <png.h>
 #include <unistd.h>
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
 #include <ImfIO.h>
+#include <ImfOutputFile.h>
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
 
@@ -121,6 +124,27 @@ class ExrStream : public Imf::OStream {
     std::FILE* file_;
 };
 
+// RGBA as half, and each plane of the film as a float channel of its name.
+void write_channels(Imf::OStream& stream, Imf::Header& header, const raytrace::Film& film,
+                    std::vector<Imf::Rgba>& pixels) {
+    Imf::FrameBuffer buffer;
+    auto add = [&](const std::string& name, Imf::PixelType type, void* first, size_t step) {
+        header.channels().insert(name, Imf::Channel(type));
+        buffer.insert(name,
+                      Imf::Slice(type, static_cast<char*>(first), step, step * size_t(film.width)));
+    };
+    add("R", Imf::HALF, &pixels[0].r, sizeof(Imf::Rgba));
+    add("G", Imf::HALF, &pixels[0].g, sizeof(Imf::Rgba));
+    add("B", Imf::HALF, &pixels[0].b, sizeof(Imf::Rgba));
+    add("A", Imf::HALF, &pixels[0].a, sizeof(Imf::Rgba));
+    for (const raytrace::AovPlane& plane : film.aovs)
+        if (plane.in_file)
+            add(plane.name, Imf::FLOAT, const_cast<float*>(plane.values.data()), sizeof(float));
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(buffer);
+    file.writePixels(film.height);
+}
+
 std::string write_exr_file(const std::string& path, const raytrace::Film& film,
                            const ImageTexts& texts, int& number) {
     errno = 0;
@@ -139,9 +163,13 @@ std::string write_exr_file(const std::string& path, const raytrace::Film& film,
             pixels[i] = Imf::Rgba(p.x, p.y, p.z, p.w);
         }
         ExrStream exr(path, stream.get());
-        Imf::RgbaOutputFile file(exr, header, Imf::WRITE_RGBA, 0);
-        file.setFrameBuffer(pixels.data(), 1, size_t(film.width));
-        file.writePixels(film.height);
+        if (film.aovs.empty()) {
+            Imf::RgbaOutputFile file(exr, header, Imf::WRITE_RGBA, 0);
+            file.setFrameBuffer(pixels.data(), 1, size_t(film.width));
+            file.writePixels(film.height);
+        } else {
+            write_channels(exr, header, film, pixels);
+        }
     } catch (const std::exception& error) {
         number = errno;
         return errno ? std::strerror(errno) : error.what();

@@ -142,8 +142,7 @@ void Shading::bind_lights() {
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         scene_.looks[l]->index = uint32_t(l);
         auto& row = bindings_.emplace_back();
-        LookKind kind = scene_.looks[l]->kind;
-        if (kind != LookKind::Surface && kind != LookKind::Volume) continue;
+        if (scene_.looks[l]->kind == LookKind::Light) continue;
         for (const LightSource& light : scene_.lights)
             row.push_back(binding_of(*scene_.looks[l], *scene_.looks[light.look], scene_));
     }

@@ -248,6 +248,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     lower.math = options.math;
     lower.spaces = options.spaces;
     lower.messages = options.light_messages;
+    lower.aovs = options.aovs;
     jit::CompileOptions compile;
     compile.target = options.target;
     compile.dumps = options.dumps;
@@ -261,6 +262,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     bool fills = look.kind == LookKind::Volume && look.volume != 0 && !look.exterior;
     if (shades_shadows || fills) {
         lower.want_Ci = false;
+        lower.aovs.clear();
         compile.dumps = nullptr;
         std::optional<rsl::LoweredShader> opacity = rsl::lower(layers, lower, diagnostics);
         if (!opacity) return false;

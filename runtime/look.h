@@ -98,6 +98,7 @@ struct Look {
     bool hide_backfaces = false;
     uint32_t volume = 0;    // an interior's or exterior's number: runtime/medium.h
     bool exterior = false;  // that volume surrounds its object
+    std::vector<int> aovs;  // of each plane of the film: the full kernel's output, -1 if none
 
     bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }
     const rsl::Shader& shader() const { return *layers.back().shader; }
@@ -108,6 +109,7 @@ struct LookOptions {
     jit::math::Tier math = jit::math::Tier::Precise;
     const jit::Target* target = nullptr;
     std::vector<std::string> light_messages;  // lights: names that some surface reads
+    std::vector<std::string> aovs;            // surfaces: output parameters that the film keeps
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
 };

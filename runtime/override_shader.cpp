@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "runtime/findings.h"
+#include "runtime/shader_library.h"
 
 namespace kinora {
 
@@ -48,6 +49,30 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
     }
     if (!matched) diagnostics.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
     return matched;
+}
+
+bool override_imager(SceneDescription& description, const std::string& name,
+                     const std::vector<std::string>& include_directories,
+                     Diagnostics& diagnostics) {
+    ShaderUse use;
+    if (name.find('.') == std::string::npos && name != "none") {
+        use.shader = library_shader(name, diagnostics);
+    } else if (name != "none") {
+        rsl::CompileOptions options;
+        options.include_directories = include_directories;
+        for (auto& shader : rsl::compile_file(name, options, diagnostics))
+            if (!use.shader && shader->kind == rsl::ShaderKind::Imager)
+                use.shader = std::move(shader);
+    }
+    bool known = name == "none" || (use.shader && use.shader->kind == rsl::ShaderKind::Imager);
+    if (!known) {
+        diagnostics.report(Code::IMAGER_UNKNOWN, Location{}, name);
+        return false;
+    }
+    for (CameraDefinition& camera : description.cameras) camera.picture.imagers.clear();
+    description.picture.imagers.clear();
+    if (use.shader) description.picture.imagers.push_back(std::move(use));
+    return true;
 }
 
 }  // namespace kinora

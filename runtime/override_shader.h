@@ -16,4 +16,9 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
                      const std::string& file, const std::vector<std::string>& include_directories,
                      Diagnostics& diagnostics);
 
+// --imager: the picture is run through that imager instead of the scene's: "none", the name of a
+// standard one (assets/shaders), or a file with an imager shader. False when there is no such.
+bool override_imager(SceneDescription& description, const std::string& name,
+                     const std::vector<std::string>& include_directories, Diagnostics& diagnostics);
+
 }  // namespace kinora

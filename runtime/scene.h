@@ -114,9 +114,18 @@ struct SceneOptions {
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
     raytrace::AccelPolicy accel;
+    std::vector<std::string> aovs;        // output parameters of surfaces that the picture keeps
     double start_time = 0, end_time = 0;  // range played, seconds: frames the default camera
     std::vector<std::pair<std::string, std::string>> dumps;  // filled when want_dumps
     bool want_dumps = false;
+};
+
+// A plane of the film: one component of an output parameter of surfaces.
+struct OutputPlane {
+    std::string name;       // as the film has it: "glow.R", "dirt"
+    std::string parameter;  // "glow"
+    uint32_t component = 0;
+    bool in_file = true;  // false: only an imager reads it
 };
 
 class Shading;  // runtime/shading.h
@@ -139,8 +148,10 @@ struct Scene {
     std::vector<LightSource> lights;
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<Look>> looks;
-    uint32_t camera = 0;             // into cameras
-    uint32_t atmosphere = kNone;     // look of the volume outside all objects
+    uint32_t camera = 0;          // into cameras
+    uint32_t atmosphere = kNone;  // look of the volume outside all objects
+    uint32_t imager = kNone;      // look that the finished picture is run through
+    std::vector<OutputPlane> outputs;
     std::vector<uint32_t> volumes;   // looks of interiors and exteriors: Look::volume is k + 1
     std::vector<std::string> added;  // "default camera", "default light": what --list shows
 

@@ -180,6 +180,9 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
             result.Ci[k][points[i]] = Ci[k] ? Ci[k][i] : 0.0f;
             result.Oi[k][points[i]] = Oi[k] ? Oi[k][i] : 1.0f;
         }
+    for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
+        for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
+            result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];
     own.arena.release(mark);
 }
 

@@ -43,6 +43,9 @@ class Shading : public raytrace::SurfaceShading {
     uint32_t medium_behind(const raytrace::HitBatch& hits, size_t k) const override;
     uint32_t nested_medium(const raytrace::HitBatch& hits, size_t k, vec3 dir) const;
 
+    // imager.cpp: runs the scene's imager over the finished picture, after integrate().
+    void run_imager(raytrace::Film& film);
+
     // For services. Colour and opacity of hits found at `grid.depth + 1`.
     static constexpr uint32_t kMaxDepth = 16;
     void trace(const Grid& grid, uint32_t mask, const vec3* P, const vec3* R, vec3* color,
@@ -89,6 +92,7 @@ class Shading : public raytrace::SurfaceShading {
                       raytrace::ShadeResult& result);
     void apply_volumes(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result);
     void pass_volumes(const raytrace::HitBatch& hits, int thread, vec3* Oi);
+    void image_pixels(raytrace::Film& film, size_t first, size_t count);
     // light_records.cpp
     struct LightPoints;  // where light is wanted
     void bind_lights();

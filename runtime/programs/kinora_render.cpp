@@ -88,7 +88,8 @@ int Render::exit_code_of_findings(int otherwise) const {
     for (const Finding& finding : diagnostics_.findings()) {
         if (finding.severity != Severity::Error) continue;
         if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
-        if (finding.info == &Code::CAMERA_UNKNOWN || finding.info == &Code::MATERIAL_UNKNOWN)
+        if (finding.info == &Code::CAMERA_UNKNOWN || finding.info == &Code::MATERIAL_UNKNOWN ||
+            finding.info == &Code::IMAGER_UNKNOWN)
             return kExitUsage;
     }
     return otherwise;
@@ -122,6 +123,7 @@ SceneOptions Render::scene_options() const {
     o.accel.robust = options_.quality.robust;
     o.accel.always_rebuild = options_.quality.always_rebuild;
     o.accel.background = false;  // a frame depends on its time alone
+    o.aovs = options_.aovs;
     o.want_dumps = !options_.dump.empty();
     return o;
 }
@@ -145,6 +147,8 @@ int Render::load() {
     }
     for (const auto& [pattern, file] : options_.shaders)
         override_shader(*description, pattern, file, options_.include_directories, diagnostics_);
+    if (!options_.imager.empty())
+        override_imager(*description, options_.imager, options_.include_directories, diagnostics_);
     load_ms_ = watch.restart();
     SceneOptions scene_options = this->scene_options();
     PlayRange range = play_range(*description);
@@ -192,6 +196,7 @@ std::string Render::fingerprint(double time) const {
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
+    text += fmt::format(" imager {} aovs {}", o.imager, fmt::join(o.aovs, ","));
     for (const auto& [material, file] : o.shaders) text += fmt::format(" {}={}", material, file);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }

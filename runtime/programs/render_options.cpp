@@ -139,6 +139,9 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
             {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}}));
     std::vector<std::string> shaders;
     app.add_option("--shader", shaders, "MATERIAL=FILE.sl: try a shader; MATERIAL may be a glob");
+    app.add_option("--imager", o.imager, "a standard imager's name, FILE.sl or none");
+    app.add_option("--aov", o.aovs, "output parameters of surfaces: channels of the EXR")
+        ->delimiter(',');
     app.add_option("-I", o.include_directories, "where shaders find #include files");
     app.add_option("--up", o.up_axis, "X, Y or Z instead of the file's up axis")
         ->transform(names<UpAxis>({{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}}));

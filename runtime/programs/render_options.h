@@ -37,6 +37,8 @@ struct RenderOptions {
     raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
     ColorEncoding color = ColorEncoding::Srgb;
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
+    std::string imager;             // a standard one's name, a file, "none"; "": the scene's own
+    std::vector<std::string> aovs;  // output parameters of surfaces
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;

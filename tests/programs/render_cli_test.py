@@ -165,6 +165,30 @@ class Options(ProgramTest):
         self.assertEqual(code, 0)
         self.assertEqual(list(self.pictures()), ["a.png"])
 
+    def test_output_parameters_become_channels_of_the_exr(self):
+        shader = self.write("out.sl", "surface out(output varying color glow = 0;"
+                                      " output varying float dirt = 0;)"
+                                      " { glow = 1; dirt = 2; Oi = 1; Ci = 1; }")
+        picture = self.folder / "a.exr"
+        words = (MATTE, "--shader", f"*={shader}", "--time", "0", *SMALL)
+        self.expect(render(*words, "--aov", "glow,dirt", "-o", picture), 0)
+        header = picture.read_bytes()[:4096]
+        for name in (b"glow.R\0", b"glow.G\0", b"glow.B\0", b"dirt\0", b"A\0", b"R\0"):
+            self.assertIn(name, header)
+        result = render(*words, "--aov", "nothing", "-o", picture)
+        self.expect(result, 0, "AOV_UNKNOWN")
+        self.assertNotIn(b"dirt\0", picture.read_bytes()[:4096])
+
+    def test_imagers_are_chosen_by_name_by_file_and_not_at_all(self):
+        def picture(imager):
+            file = self.folder / "a.png"
+            self.expect(render(MATTE, "--time", "0", "--imager", imager, "-o", file, *SMALL), 0)
+            return file.read_bytes()
+        grey = self.write("grey.sl", "imager grey() { Ci = 0.5; alpha = 1; }")
+        self.assertEqual(len({picture(i) for i in ("none", "background", grey)}), 3)
+        result = render(MATTE, "--imager", "nosuch", "-o", self.folder / "b.png", *SMALL)
+        self.expect(result, 2, "nosuch")
+
 
 if __name__ == "__main__":
     main()
