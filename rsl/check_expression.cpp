@@ -217,8 +217,8 @@ void Checker::check(Expr*&, AssignExpr& e, BaseType) {
     if (type.is_array() && e.op != Op::None) {
         report(Code::RSL_ARRAY_AS_VALUE, e.target->place);
     } else if (factor) {
-        check_number(e.value, "the factor");
-        convert(e.value, type.base);
+        value(e.value, BaseType::Float);
+        bring_to(e.value, type, "the factor");
     } else {
         convert_to(e.value, type, fmt::format("'{}'", symbol.name));
     }

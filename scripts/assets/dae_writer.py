@@ -82,6 +82,7 @@ class Dae:
                                             "geometries", "animations")}
         self.nodes = []
         self.depth = 0
+        self.scene_extra = ""  # of <visual_scene>: atmosphere, imager
 
     def material(self, name, stages, values):
         """stages: (stage, shader, code). The values are the effect's newparams and the material's
@@ -206,7 +207,8 @@ class Dae:
                 "<asset><created>2026-11-21T00:00:00Z</created><modified>2026-11-21T00:00:00Z"
                 '</modified><unit name="decimeter" meter="0.1"/><up_axis>Z_UP</up_axis></asset>\n'
                 + libraries + '<library_visual_scenes><visual_scene id="room">\n'
-                + "\n".join(self.nodes) + "\n</visual_scene></library_visual_scenes>\n"
+                + "\n".join(self.nodes) + f"\n{self.scene_extra}"
+                "</visual_scene></library_visual_scenes>\n"
                 '<scene><instance_visual_scene url="#room"/></scene>\n</COLLADA>\n')
 
 
