@@ -44,9 +44,30 @@ void Checker::check_function(Function& f) {
         report(Code::RSL_MISSING_RETURN, f.place, f.name);
 }
 
+// Points, vectors and normals that are written as defaults of a shader's parameters are in "shader"
+// space unless they name another, as values given from outside are.
+void Checker::default_in_shader_space(Symbol& symbol) {
+    if (symbol.kind != SymbolKind::Parameter || !is_spatial(symbol.type.base)) return;
+    Expr* value = symbol.initial;
+    if (!value || symbol.type.is_array()) return;
+    CastExpr* cast = value->kind == ExprKind::Cast ? &as<CastExpr>(*value) : nullptr;
+    if (cast && (cast->space || !is_spatial(cast->to))) return;
+    if ((cast ? cast->operand : value)->kind != ExprKind::Triple) return;
+    if (!cast) {
+        cast = ast_.make<CastExpr>(value->place);
+        cast->to = symbol.type.base;
+        cast->operand = value;
+        symbol.initial = cast;
+    }
+    auto* space = ast_.make<StringExpr>(value->place);
+    space->value = "shader";
+    cast->space = space;
+}
+
 // A default may use the parameters before it and the globals.
 void Checker::check_parameters(std::span<Symbol*> parameters) {
     for (Symbol* p : parameters) {
+        default_in_shader_space(*p);
         check_initial(*p);
         declare(*p);
     }

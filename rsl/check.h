@@ -56,6 +56,7 @@ class Checker {
     void check_shader(ShaderDefinition& shader);
     void check_function(Function& f);
     void check_parameters(std::span<Symbol*> parameters);
+    void default_in_shader_space(Symbol& symbol);
     void check_initial(Symbol& symbol);
     void declare(Symbol& symbol);
     void declare_function(Function& f);
@@ -154,6 +155,7 @@ class Checker {
     bool convert(Expr*& slot, BaseType to);
     bool can_be(const Expr& expr, BaseType type) const;
     bool is_flexible(const Expr& expr) const;
+    bool is_picture(const Expr& expr) const;
 
     Ast& ast_;
     Reporter& reporter_;

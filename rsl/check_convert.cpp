@@ -90,4 +90,24 @@ bool Checker::can_be(const Expr& expr, BaseType type) const {
     }
 }
 
+// Whether a flexible expression shows a picture: beside a color those are colors, where noise()
+// is a factor.
+bool Checker::is_picture(const Expr& expr) const {
+    switch (expr.kind) {
+        case ExprKind::Unary:
+            return is_picture(*as<UnaryExpr>(expr).operand);
+        case ExprKind::Binary:
+            return is_picture(*as<BinaryExpr>(expr).left) ||
+                   is_picture(*as<BinaryExpr>(expr).right);
+        case ExprKind::Select:
+            return is_picture(*as<SelectExpr>(expr).yes) || is_picture(*as<SelectExpr>(expr).no);
+        case ExprKind::Call: {
+            std::string_view name = as<CallExpr>(expr).name;
+            return name == "texture" || name == "environment" || name == "trace";
+        }
+        default:
+            return false;
+    }
+}
+
 }  // namespace kinora::rsl

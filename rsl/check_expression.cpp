@@ -213,7 +213,8 @@ void Checker::check(Expr*&, AssignExpr& e, BaseType) {
     }
     const Symbol& symbol = *lvalue_symbol(*e.target);
     bool factor = (e.op == Op::Multiply || e.op == Op::Divide) && is_triple(type) &&
-                  is_flexible(*e.value) && can_be(*e.value, BaseType::Float);
+                  is_flexible(*e.value) && can_be(*e.value, BaseType::Float) &&
+                  !(type.base == BaseType::Color && is_picture(*e.value));
     if (type.is_array() && e.op != Op::None) {
         report(Code::RSL_ARRAY_AS_VALUE, e.target->place);
     } else if (factor) {

@@ -78,11 +78,12 @@ BaseType Checker::common_type(BaseType a, BaseType b) const {
 }
 
 // A sum wants equal types. In a product with a triple, a noise() or texture() of no stated type is
-// a factor: float ("P += N * noise(P)").
+// a factor: float ("P += N * noise(P)"); but beside a color a picture is one ("Cs * texture(name)").
 void Checker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
     bool product = e.op == Op::Multiply || e.op == Op::Divide;
     both_sides(e.left, e.right, wanted, [&](BaseType other, const Expr& flexible) {
         if (!is_triple(other)) return wanted;
+        if (other == BaseType::Color && is_picture(flexible)) return other;
         return product && can_be(flexible, BaseType::Float) ? BaseType::Float : other;
     });
     if (invalid(e)) return;

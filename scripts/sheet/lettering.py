@@ -26,8 +26,10 @@ LETTERS = {
 ADVANCE, HEIGHT = 6, 7
 
 
-def draw(rows, text, x, y, colour, scale=2):
-    """Onto rows (bytearrays of RGB); what does not fit is cut off."""
+def draw(rows, text, x, y, colour, room, scale=2):
+    """Onto rows (bytearrays of RGB); what is longer than `room` pixels is drawn smaller."""
+    if len(text) * ADVANCE * scale > room:
+        scale = 1
     dot = bytes(colour) * scale
     for place, letter in enumerate(text):
         left = x + place * ADVANCE * scale

@@ -11,13 +11,29 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SHADERS = ROOT / "assets/shaders"
 sys.path.insert(0, str(ROOT / "scripts/assets"))
-from dae_writer import Dae, add_box, grid_of, lathe_of  # noqa: E402
+from dae_writer import Dae, Point, add_box, grid_of, lathe_of  # noqa: E402
 
 KINDS = ("surface", "displacement", "light", "volume", "imager", "transformation")
 KEY = ("lookat", "aim", (-3.4, -3.9, 5.4, 0, 0, 0.8, 0, 0, 1))
 # Looks of flat things are shown on the floor and on a block; thin ones on a sheet.
 ON_FLOOR = {"parquet", "tiles", "stonewall", "checks", "water", "planks", "cobbles", "grid",
             "brick", "roofing", "ocean", "ripples", "pebbles", "wornfloor", "asphalt"}
+WATERS = {"water"}
+INTERIORS = {"tintedinterior"}
+
+
+# Those whose defaults suit another size of scene, or stand for a thing to be filled in.
+VALUES = {
+    "spotlight": {"intensity": 18.0, "coneangle": 0.42}, "pointlight": {"intensity": 14.0},
+    "fog": {"distance": 16.0, "background": (0.70, 0.76, 0.82)},
+    "depthcue": {"mindistance": 0.08, "maxdistance": 0.8, "background": (0.08, 0.09, 0.12)},
+    "smoke": {"density": 0.10, "stepsize": 0.4, "frequency": 0.8, "smokecolor": (0.8, 0.8, 0.85)},
+    "constant": {}, "background": {"background": (0.15, 0.3, 0.55)},
+    "planks": {"width": 0.3}, "bulblight": {"intensity": 6.0}, "ambientlight": {"intensity": 0.7},
+    "windowlight": {"from": Point((-4.0, -1.2, 2.6)), "to": Point((0.0, 0.0, 0.4)),
+                    "intensity": 1.4},
+    "collada_point": {"quadratic_attenuation": 0.06}, "collada_spot": {"falloff_angle": 44.0},
+}
 
 
 def kind_of(code):
@@ -89,7 +105,7 @@ class Stage:
 
     def material(self, name, stage, shader, code=None, values=None):
         self.dae.material(name, [(stage, shader.split("/")[-1], code or self.shader(shader))],
-                          values or {})
+                          VALUES.get(shader, {}) if values is None else values)
 
     def put(self, name, mesh, material, transforms=(), flat=False):
         self.dae.mesh(name, mesh, material, flat=flat)
@@ -99,11 +115,15 @@ class Stage:
         self.dae.light(name, shader.split("/")[-1], code or self.shader(shader), values)
         self.dae.light_node(name, transforms)
 
-    def studio(self, floor=True, bright=1.0):
+    def studio(self, floor=True, bright=1.0, wall=4.0):
         """Backdrop, a large soft key light, a cool rim light, and white cards to mirror."""
         if floor:
             self.material("backdrop", "SURFACE", "scenes/backdrop")
             self.put("backdrop", backdrop(), "backdrop")
+        else:
+            self.material("backdrop", "SURFACE", "scenes/backdrop")
+            self.put("backdrop", grid_of(lambda s, t: (80 * s - 40, wall, 40 * t), 1, 1),
+                     "backdrop")
         self.material("card", "SURFACE", "scenes/softbox")
         card = grid_of(lambda s, t: (2 * s - 1, 2 * t - 1, 0), 1, 1)
         for name, eye, size in (("left", (-5.2, -4.6, 5.6), (1.7, 1.2, 1)),
@@ -112,7 +132,7 @@ class Stage:
             self.put("card_" + name, card, "card",
                      [("lookat", "aim", (*eye, 0, 0, 0.9, 0, 0.1, 1)), ("scale", "size", size)])
         self.lamp("key", "scenes/softspot",
-                  {"intensity": 48.0 * bright, "radius": 0.35, "coneangle": 0.42,
+                  {"intensity": 36.0 * bright, "radius": 0.35, "coneangle": 0.42,
                    "lightcolor": (1.0, 0.96, 0.9)}, [KEY])
         self.lamp("rim", "distantlight", {"intensity": 0.55 * bright,
                                           "lightcolor": (0.72, 0.84, 1.0)},
@@ -146,8 +166,12 @@ def surface(name, code):
     if on_floor:
         stage.put("floor", grid_of(lambda s, t: (6 * s - 3, 6 * t - 2, 0), 1, 1), "shown",
                   flat=True)
-        add_box(stage.dae, "block", "shown", (-0.6, -0.6, 0), (0.6, 0.6, 1.2),
-                [("rotate", "turn", (0, 0, 1, 35))])
+        if name in WATERS:
+            stage.material("buoy", "SURFACE", "plastic", values={"surface_color": (0.8, 0.2, 0.05)})
+            stage.put("buoy", ball(0.8), "buoy", [("translate", "place", (0, 0, 0.3))])
+        else:
+            add_box(stage.dae, "block", "shown", (-0.6, -0.6, 0), (0.6, 0.6, 1.2),
+                    [("rotate", "turn", (0, 0, 1, 35))])
         stage.camera(xfov=27.0)
     else:
         stage.put("shown", ball_on_ring(), "shown", [("translate", "place", (0, 0, 0.933))])
@@ -186,7 +210,7 @@ def light(name, code):
     stage.material("backdrop", "SURFACE", "scenes/backdrop")
     stage.put("backdrop", backdrop(), "backdrop")
     stage.props()
-    stage.lamp("shown", name, {},
+    stage.lamp("shown", name, VALUES.get(name, {}),
                [("lookat", "aim", (-1.9, -2.2, 3.2, 0.1, 0, 0.35, 0, 0, 1))], code)
     stage.lamp("fill", "ambientlight", {"intensity": 0.06}, [])
     stage.camera()
@@ -195,21 +219,33 @@ def light(name, code):
 
 def with_effect(stage, kind, name, code):
     """The shader becomes the scene's atmosphere or imager."""
-    stage.dae.effect("shown", [(kind, name, code)], {})
+    stage.dae.effect("shown", [(kind, name, code)], VALUES.get(name, {}))
     stage.dae.scene_extra = ('<extra><technique profile="RSL"><instance_effect '
                              'url="#shown-effect"/></technique></extra>')
     return stage
 
 
+def interior(name, code):
+    """A clear body filled with the volume."""
+    stage = Stage()
+    stage.dae.material("shown", [("SURFACE", "bulbglass", stage.shader("scenes/bulbglass")),
+                                 ("VOLUME", name, code)], {})
+    stage.studio()
+    stage.put("shown", ball_on_ring(), "shown", [("translate", "place", (0, 0, 0.933))])
+    stage.camera()
+    return stage
+
+
 def volume(name, code):
     """A colonnade that goes away from the camera."""
+    if name in INTERIORS:
+        return interior(name, code)
     stage = Stage()
-    stage.studio(floor=False)
+    stage.studio(floor=False, wall=34.0)
     stage.material("stone", "SURFACE", "scenes/backdrop")
     stage.material("red", "SURFACE", "plastic", values={"surface_color": (0.65, 0.1, 0.06),
                                                         "Kd": 0.9, "Ks": 0.3})
     stage.put("floor", grid_of(lambda s, t: (24 * s - 12, 40 * t - 6, 0), 1, 1), "stone")
-    stage.put("wall", grid_of(lambda s, t: (60 * s - 30, 34, 30 * t), 1, 1), "stone")
     for row in range(8):
         for side in (-1, 1):
             name_of = f"pillar{row}{side + 1}"

@@ -1,6 +1,6 @@
 /* dents.sl: a thing that was knocked about: round hollows of many sizes, as turbulence to a power.
    Parameters: Km (depth), scale (per unit), power (higher: rarer and sharper dents), octaves. */
-displacement dents(float Km = 0.28; float scale = 1.6; float power = 3; float octaves = 5;) {
+displacement dents(float Km = 0.5; float scale = 1.6; float power = 3; float octaves = 5;) {
     point Q = scale * transform("shader", P);
     float magnitude = 0;
     float size = 1;

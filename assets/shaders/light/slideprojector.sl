@@ -14,8 +14,8 @@ light slideprojector(float intensity = 22; float fov = 34; float blur = 0.02; st
         float r = sqrt(x * x + y * y);
         float angle = degrees(atan(y, x)) / 360;
         color wheel = ctransform("hsv", "rgb", color(mod(angle, 1), 0.75, 1));
-        float rings = smoothstep(0.5 - blurred, 0.5 + blurred, abs(mod(5 * r, 1) - 0.5) * 2);
-        float spokes = smoothstep(-blurred, blurred, sin(12 * 2 * PI * angle));
+        float rings = smoothstep(0.5 - blurred, 0.5 + blurred, abs(mod(3 * r, 1) - 0.5) * 2);
+        float spokes = smoothstep(-blurred, blurred, sin(8 * 2 * PI * angle));
         float disk = 1 - smoothstep(0.8 - blurred, 0.8 + blurred, r);
         float checker = abs(rings - spokes);
         return mix(color(1, 0.93, 0.8), mix(0.25 * wheel, wheel, checker), disk);

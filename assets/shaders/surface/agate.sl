@@ -2,7 +2,7 @@
    array of knots.
    Parameters: bands, scale, wobble, shift (turns the colours), Ka Kd Ks roughness. */
 surface agate(float Ka = 1; float Kd = 0.8; float Ks = 0.6; float roughness = 0.03;
-              float bands = 5.5; float scale = 1.0; float wobble = 0.5; float shift = 0;) {
+              float bands = 9; float scale = 1.0; float wobble = 0.5; float shift = 0;) {
     color ramp[8] = {color(0.16, 0.05, 0.03), color(0.50, 0.17, 0.06), color(0.82, 0.47, 0.22),
                      color(0.93, 0.83, 0.70), color(0.40, 0.42, 0.50), color(0.09, 0.11, 0.20),
                      color(0.86, 0.82, 0.78), color(0.30, 0.10, 0.05)};

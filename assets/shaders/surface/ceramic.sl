@@ -3,10 +3,27 @@
    Parameters: glazecolor, thincolor (where the glaze ran thin), crackle (cells per unit; 0: none),
    Kr of the mirror, Ka Kd Ks roughness. */
 surface ceramic(float Ka = 1; float Kd = 0.8; float Ks = 0.7; float roughness = 0.025;
-                float Kr = 0.8; float crackle = 3.5; float crackwidth = 0.02;
+                float Kr = 0.8; float crackle = 2.6; float crackwidth = 0.016;
                 color glazecolor = color(0.30, 0.50, 0.42);
                 color thincolor = color(0.62, 0.68, 0.55);
                 color crackcolor = color(0.10, 0.08, 0.05);) {
+    /* The way to the border between the nearest two of points strewn in space. */
+    float border(point q) {
+        point corner = point(floor(xcomp(q)), floor(ycomp(q)), floor(zcomp(q)));
+        float near = 9;
+        float second = 9;
+        uniform float i, j, k;
+        for (i = -1; i <= 1; i += 1)
+            for (j = -1; j <= 1; j += 1)
+                for (k = -1; k <= 1; k += 1) {
+                    point cell = corner + vector(i + 0.5, j + 0.5, k + 0.5);
+                    float d = distance(q, cell + 0.95 * (vector cellnoise(cell) -
+                                                         vector(0.5, 0.5, 0.5)));
+                    second = min(second, max(near, d));
+                    near = min(near, d);
+                }
+        return second - near;
+    }
     normal Nf = faceforward(normalize(N), I);
     vector In = normalize(I);
     point Q = transform("object", P);
@@ -17,14 +34,15 @@ surface ceramic(float Ka = 1; float Kd = 0.8; float Ks = 0.7; float roughness = 
 
     float crack = 0;
     if (crackle > 0) {
-        /* Cracks are where two fields of cells meet: zero lines of a stretched noise. */
-        point q = crackle * Q + 0.5 * (vector noise(2 * Q) - vector(0.5, 0.5, 0.5));
+        /* Two nets of cracks, an old one and a finer one inside its cells. */
         uniform float level;
         for (level = 1; level <= 2; level += 1) {
-            float field = float noise(level * q + vector(3, 1, 4) * level) - 0.5;
-            float w = max(abs(Du(field) * du) + abs(Dv(field) * dv), 0.0001);
-            float line = clamp((crackwidth + 0.5 * w - abs(field)) / w, 0, 1);
-            crack = max(crack, line * min(1, 2 * crackwidth / w) / level);
+            point q = crackle * level * Q + 0.35 * (vector noise(3 * Q) - vector(0.5, 0.5, 0.5));
+            float d = border(q + vector(9, 4, 2) * level);
+            float w = max(crackle * level * sqrt(area(P)), 0.001);
+            float width = crackwidth / level * 2;
+            float line = clamp((width - d) / w + 0.5, 0, 1) * min(1, 2 * width / w);
+            crack = max(crack, line / level);
         }
     }
     Ct = mix(Ct, crackcolor, 0.7 * crack);

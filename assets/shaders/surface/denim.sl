@@ -1,6 +1,6 @@
 /* denim.sl: blue jeans: a twill of indigo warp over white weft, faded where it rubs.
    Parameters: threads (per unit of t; twice as many in s), warpcolor, weftcolor, fading, Ka Kd. */
-surface denim(float Ka = 1; float Kd = 0.85; float threads = 90; float fading = 0.6;
+surface denim(float Ka = 1; float Kd = 0.85; float threads = 64; float fading = 0.6;
               color warpcolor = color(0.055, 0.11, 0.27);
               color weftcolor = color(0.66, 0.68, 0.70);) {
     normal Nf = faceforward(normalize(N), I);

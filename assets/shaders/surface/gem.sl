@@ -1,7 +1,7 @@
 /* gem.sl: a cut stone: facets are flat pieces of the normal; inside, light is bent twice and comes
    back in splinters of colour.
    Parameters: facets (around and along), ior, dispersion, gemcolor, Kr Ks roughness. */
-surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 14; float ior = 1.9;
+surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 18; float ior = 1.9;
             float dispersion = 0.06; color gemcolor = color(0.75, 0.05, 0.16);) {
     vector In = normalize(I);
     point Q = transform("object", P);
@@ -31,7 +31,7 @@ surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 1
     fire = color(splinter(Tr, 0), splinter(normalize(T), 0), splinter(Tb, 0));
     fire += 0.5 * color(splinter(reflect(Tr, Nf), 1), splinter(reflect(normalize(T), Nf), 1),
                         splinter(reflect(Tb, Nf), 1));
-    color body = mix(gemcolor, color(1, 1, 1), 0.18) * fire * (ambient() * 1.5 + 0.6 * diffuse(Nf) + 0.25);
+    color body = mix(gemcolor, color(1, 1, 1), 0.06) * fire * (ambient() * 1.5 + 0.6 * diffuse(Nf) + 0.25);
     Oi = Os;
     Ci = Os * ((1 - kr) * (body + 0.12 * gemcolor) + Kr * kr * mirrored +
                Ks * specular(Nf, -In, roughness));

@@ -8,7 +8,8 @@ surface gooch(color objectcolor = color(0.75, 0.28, 0.16); color coolcolor = col
     vector V = -normalize(I);
     color total = 0;
     float lamps = 0;
-    illuminance(P) {
+    /* Shadows would break the slow turn from warm to cool: lamps are asked above the surface. */
+    illuminance(P + 0.5 * Nf) {
         vector Ln = normalize(L);
         float warm = 0.5 + 0.5 * (Ln . Nf);
         float strength = max(max(Cl[0], Cl[1]), Cl[2]);

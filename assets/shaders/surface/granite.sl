@@ -26,9 +26,9 @@ void nearest_grain(point p; output float f1; output float f2; output float id;) 
 }
 
 surface granite(float Ka = 1; float Kd = 0.8; float Ks = 0.45; float roughness = 0.05;
-                float scale = 9; float mica = 0.22;
-                color quartzcolor = color(0.62, 0.60, 0.58);
-                color feldsparcolor = color(0.72, 0.50, 0.42);
+                float scale = 15; float mica = 0.17;
+                color quartzcolor = color(0.52, 0.50, 0.48);
+                color feldsparcolor = color(0.60, 0.38, 0.31);
                 color micacolor = color(0.05, 0.05, 0.055);) {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);

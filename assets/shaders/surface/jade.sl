@@ -12,7 +12,7 @@ surface jade(float Ka = 1; float Kd = 0.55; float Ks = 0.6; float roughness = 0.
 
     /* Light that entered elsewhere: wrapped around, and through from behind. */
     color inside = 0;
-    illuminance(P, Nf, PI) {
+    illuminance(P + 0.2 * Nf, Nf, PI) {
         vector Ln = normalize(L);
         float wrapped = clamp(0.5 + 0.5 * (Ln . Nf), 0, 1);
         float behind = pow(clamp(-(Ln . -In), 0, 1), 3);

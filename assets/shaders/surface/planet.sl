@@ -3,7 +3,7 @@
    Parameters: scale, sealevel 0..1, octaves, ice (how far the caps reach), Ka Kd Ks, air. */
 surface planet(float Ka = 0.6; float Kd = 1.1; float Ks = 0.5; float roughness = 0.12;
                float scale = 1.25; float sealevel = 0.52; float octaves = 8; float ice = 0.30;
-               float clouds = 0.85; float air = 0.8;
+               float clouds = 0.8; float air = 0.8;
                color aircolor = color(0.30, 0.55, 1);) {
     float fractal(point p; uniform float n; float width;) {
         float sum = 0;
@@ -41,7 +41,7 @@ surface planet(float Ka = 0.6; float Kd = 1.1; float Ks = 0.5; float roughness =
 
     vector swirl = vector noise(1.8 * Q) - vector(0.5, 0.5, 0.5);
     float cover = fractal(2.2 * Q + 0.9 * swirl + vector(7, 0, 0.05 * time), 7, 2 * width);
-    cover = clouds * smoothstep(0.50, 0.68, cover);
+    cover = clouds * smoothstep(0.55, 0.70, cover);
 
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);

@@ -8,7 +8,7 @@ surface rustymetal(float Ka = 1; float Kd = 0.8; float Ks = 0.5; float rust = 0.
                    color paintcolor = color(0.10, 0.30, 0.33);
                    color rustcolor = color(0.40, 0.14, 0.035);
                    color darkrust = color(0.12, 0.045, 0.025);
-                   color metalcolor = color(0.55, 0.55, 0.57);) {
+                   color metalcolor = color(0.36, 0.36, 0.38);) {
     point Q = scale * transform("object", P);
     /* Rain runs down: the field is stretched along the object's z. */
     point Qrun = point(xcomp(Q), ycomp(Q), 0.45 * zcomp(Q));
@@ -24,12 +24,12 @@ surface rustymetal(float Ka = 1; float Kd = 0.8; float Ks = 0.5; float rust = 0.
         frequency *= 2.1;
     }
     float eaten = value + 0.9 * (rust - 0.5);
-    float bare = smoothstep(0, 0.025, eaten);
-    float deep = smoothstep(0.02, 0.10, eaten);
+    float bare = smoothstep(0.004, 0.012, eaten);
+    float deep = smoothstep(0.008, 0.06, eaten);
     float pits = float noise(38 * Q) * deep;
 
     /* Paint is a film with an edge; rust is a crust. */
-    normal Nn = calculatenormal(P + normalize(N) * (0.014 * (1 - bare) + 0.010 * deep * pits));
+    normal Nn = calculatenormal(P + normalize(N) * (0.014 * (1 - bare) + 0.012 * deep * pits));
     normal Nf = faceforward(normalize(Nn), I);
     vector V = -normalize(I);
 

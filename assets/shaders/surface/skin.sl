@@ -16,13 +16,14 @@ surface skin(float Ka = 1; float Kd = 0.95; float oil = 0.22; float roughness = 
 
     color glow = 0;
     color shine = 0;
-    illuminance(P, Nsmooth, PI) {
+    /* Light creeps around the form: lamps are asked a little above the skin. */
+    illuminance(P + 0.2 * wrap * Nsmooth, Nsmooth, PI) {
         vector Ln = normalize(L);
         float facing = Ln . Nf;
         float lit = clamp((facing + wrap) / (1 + wrap), 0, 1);
         lit *= lit;
         /* Red reaches further than green and blue. */
-        float edge = smoothstep(-wrap, 0.25, facing) * (1 - smoothstep(0.1, 0.65, facing));
+        float edge = smoothstep(-wrap, 0.15, facing) * (1 - smoothstep(0.1, 0.6, facing));
         glow += Cl * (lit * color(1, 1, 1) + 0.28 * edge * bloodcolor);
         shine += Cl * max(0, sign(facing)) * specularbrdf(Ln, Nf, V, roughness);
     }

@@ -9,7 +9,7 @@ surface snow(float Ka = 1.1; float Kd = 0.75; float sparkle = 0.9; float crystal
     normal Nf = faceforward(normalize(Nn), I);
     vector V = -normalize(I);
     color soft = 0;
-    illuminance(P, Nf, PI) {
+    illuminance(P + 0.15 * normalize(N), Nf, PI) {
         float c = 0.5 + 0.5 * (normalize(L) . Nf);
         soft += Cl * c * c;
     }

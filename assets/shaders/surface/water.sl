@@ -1,7 +1,7 @@
 /* water.sl: the calm surface of a pool, with wind ripples in the normal alone; it mirrors by
    Fresnel and darkens to the colour of deep water where one looks down.
    Parameters: ripple (height), scale (ripples per unit), deepcolor, Ks and roughness of glints. */
-surface water(float Ks = 1; float roughness = 0.015; float ripple = 0.05; float scale = 3.2;
+surface water(float Ks = 1; float roughness = 0.015; float ripple = 0.035; float scale = 2.1;
               color deepcolor = color(0.008, 0.055, 0.075);
               color shallowcolor = color(0.05, 0.24, 0.25);) {
     /* Ripples fade where they are smaller than a pixel. */

@@ -1,6 +1,6 @@
 /* nebula.sl: glowing gas: wisps of coloured light along the way, that hide nothing.
    Parameters: glow, scale, steps of the march, the three colours from thin to dense. */
-volume nebula(float glow = 0.5; float scale = 0.7; float steps = 14;
+volume nebula(float glow = 0.16; float scale = 0.7; float steps = 24;
               color thin = color(0.10, 0.05, 0.35); color middle = color(0.55, 0.08, 0.35);
               color dense = color(1, 0.70, 0.35);) {
     color light = 0;

@@ -1,8 +1,8 @@
 /* underwater.sl: deep green water: red is lost first, everything ends in blue-green, bright threads
    of sunlight hang from above.
    Parameters: clarity (how far one sees, units), watercolor, rays (their strength), scale of them. */
-volume underwater(float clarity = 9; float rays = 0.5; float scale = 1.1;
-                  color watercolor = color(0.01, 0.16, 0.20);) {
+volume underwater(float clarity = 9; float rays = 0.5; float scale = 0.8;
+                  color watercolor = color(0.008, 0.085, 0.11);) {
     float way = length(I);
     color through = color(exp(-2.4 * way / clarity), exp(-1.0 * way / clarity),
                           exp(-0.8 * way / clarity));

@@ -1,9 +1,9 @@
-/* smoke.sl: drifting smoke, marched through: density is turbulence in world space, and every step
+/* incense.sl: drifting smoke, marched through: density is turbulence in world space, and every step
    is lit by the lamps, so that beams show.
    Parameters: density, stepsize and maxsteps of the march, scale, wind (units a second), the smoke's
    colour, ground (height where it thins out). */
-volume smoke(float density = 0.16; float stepsize = 0.5; float maxsteps = 40; float scale = 0.55;
-             float ground = 1.7; vector wind = vector "world" (0.3, 0.1, 0.05);
+volume incense(float density = 0.7; float stepsize = 0.5; float maxsteps = 40; float scale = 0.55;
+             float ground = 3; vector wind = vector "world" (0.3, 0.1, 0.05);
              color smokecolor = color(0.75, 0.76, 0.80);) {
     float thick(point p) {
         point q = scale * transform("world", p) - scale * time * vector(0.3, 0.1, 0.05);
@@ -16,7 +16,7 @@ volume smoke(float density = 0.16; float stepsize = 0.5; float maxsteps = 40; fl
             weight *= 0.5;
         }
         float height = zcomp(transform("world", p));
-        return smoothstep(0.42, 0.72, value) * (1 - smoothstep(0.3 * ground, ground, height));
+        return smoothstep(0.46, 0.66, value) * (1 - smoothstep(0.3 * ground, ground, height));
     }
     float way = length(I);
     float steps = clamp(ceil(way / stepsize), 1, maxsteps);
