@@ -1,6 +1,7 @@
 // jit/analysis.h: what passes and targets ask about a function.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "jit/ir.h"
@@ -18,5 +19,12 @@ std::vector<Value> match_regions(const Function& function);
 // Per function of the module: does a call of it do anything but give results? Loop budgets do not
 // count; arrays of its own do not.
 std::vector<bool> has_effects(const Module& module);
+
+// Per function: does it call itself, directly or through others?
+std::vector<bool> cyclic_functions(const Module& module);
+
+// What a run of the kernel stacks up at most, where an activation of function k takes frames[k]:
+// its deepest chain of calls, Module::call_depth activations of each circle among them.
+size_t deepest_stack(const Module& module, std::span<const size_t> frames);
 
 }  // namespace kinora::jit

@@ -17,7 +17,7 @@ size_t add_function(Module& module, std::string name, std::vector<Type> results)
     return module.functions.size() - 1;
 }
 
-Builder::Builder(Module& module, size_t function_index) : module_(module), index_(function_index) {
+Builder::Builder(Module& module, size_t function_index) : module_(&module), index_(function_index) {
     CHECK_LT(function_index, module.functions.size());
 }
 
@@ -26,10 +26,10 @@ void Builder::set_location(Location where) {
         where_ = 0;
         return;
     }
-    const Location& last = module_.locations.back();
+    const Location& last = module_->locations.back();
     bool equal = last.file == where.file && last.begin == where.begin && last.end == where.end;
-    if (!equal) module_.locations.push_back(where);
-    where_ = static_cast<uint32_t>(module_.locations.size() - 1);
+    if (!equal) module_->locations.push_back(where);
+    where_ = static_cast<uint32_t>(module_->locations.size() - 1);
 }
 
 Value Builder::append(Inst inst) {
@@ -85,13 +85,13 @@ bool Builder::constant_m(Value v, bool* out) {
 }
 
 int Builder::declare_input(const InputInfo& info) {
-    for (size_t k = 0; k < module_.inputs.size(); ++k) {
-        if (module_.inputs[k].name != info.name) continue;
-        CHECK(module_.inputs[k].type == info.type);
+    for (size_t k = 0; k < module_->inputs.size(); ++k) {
+        if (module_->inputs[k].name != info.name) continue;
+        CHECK(module_->inputs[k].type == info.type);
         return static_cast<int>(k);
     }
-    module_.inputs.push_back(info);
-    return static_cast<int>(module_.inputs.size() - 1);
+    module_->inputs.push_back(info);
+    return static_cast<int>(module_->inputs.size() - 1);
 }
 
 Value Builder::input(const InputInfo& info) {
@@ -108,10 +108,10 @@ Value Builder::input(const InputInfo& info) {
 Value Builder::input_gather(int first, int count, Value index) {
     CHECK_GE(first, 0);
     CHECK_GT(count, 0);
-    CHECK_LE(static_cast<size_t>(first + count), module_.inputs.size());
+    CHECK_LE(static_cast<size_t>(first + count), module_->inputs.size());
     CHECK(type(index) == Type::I);
     return append({.op = Op::InputGather,
-                   .type = module_.inputs[static_cast<size_t>(first)].type,
+                   .type = module_->inputs[static_cast<size_t>(first)].type,
                    .a = index,
                    .imm = first,
                    .imm2 = count});
@@ -123,7 +123,7 @@ Type Builder::any_type(const Inst& inst) {
         case Op::ArrayLoad:
             return function().arrays[static_cast<size_t>(inst.imm)].type;
         case Op::Input:
-            return module_.inputs[static_cast<size_t>(inst.imm)].type;
+            return module_->inputs[static_cast<size_t>(inst.imm)].type;
         case Op::RecordField:
         case Op::RecordUniform:
             return inst.imm2 == 0 ? Type::F : static_cast<Type>(inst.imm2);
@@ -183,7 +183,7 @@ Value Builder::merge(Value inner, Value outer) {
 
 Value Builder::begin_loop(Value mask, int site) {
     CHECK(type(mask) == Type::M);
-    CHECK(site >= 0 && static_cast<size_t>(site) < module_.fault_sites.size());
+    CHECK(site >= 0 && static_cast<size_t>(site) < module_->fault_sites.size());
     open_.push_back({append_control(Op::Loop, Type::M, mask, site), true});
     return open_.back().begin;
 }
@@ -230,8 +230,8 @@ std::vector<Value> Builder::append_results(Value call, const std::vector<Type>& 
 }
 
 std::vector<Value> Builder::call(size_t function_index, Value mask, std::span<const Value> args) {
-    CHECK_LT(function_index, module_.functions.size());
-    const Function& callee = module_.functions[function_index];
+    CHECK_LT(function_index, module_->functions.size());
+    const Function& callee = module_->functions[function_index];
     CHECK_EQ(args.size(), callee.params.size());
     for (size_t k = 0; k < args.size(); ++k) CHECK(type(args[k]) == callee.params[k]);
     CHECK(type(mask) == Type::M);
@@ -241,7 +241,7 @@ std::vector<Value> Builder::call(size_t function_index, Value mask, std::span<co
 }
 
 std::vector<Value> Builder::service(int slot, Value mask, std::span<const Value> args) {
-    const ServiceInfo& info = module_.services.at(static_cast<size_t>(slot));
+    const ServiceInfo& info = module_->services.at(static_cast<size_t>(slot));
     CHECK_EQ(args.size(), info.params.size());
     for (size_t k = 0; k < args.size(); ++k) CHECK(type(args[k]) == info.params[k]);
     CHECK(type(mask) == Type::M);
@@ -250,14 +250,14 @@ std::vector<Value> Builder::service(int slot, Value mask, std::span<const Value>
 }
 
 int Builder::declare_service(const ServiceInfo& info) {
-    for (size_t k = 0; k < module_.services.size(); ++k) {
-        if (module_.services[k].name != info.name) continue;
-        CHECK(module_.services[k].params == info.params);
-        CHECK(module_.services[k].results == info.results);
+    for (size_t k = 0; k < module_->services.size(); ++k) {
+        if (module_->services[k].name != info.name) continue;
+        CHECK(module_->services[k].params == info.params);
+        CHECK(module_->services[k].results == info.results);
         return static_cast<int>(k);
     }
-    module_.services.push_back(info);
-    return static_cast<int>(module_.services.size() - 1);
+    module_->services.push_back(info);
+    return static_cast<int>(module_->services.size() - 1);
 }
 
 int Builder::declare_array(std::string name, Type type, int length) {
@@ -267,26 +267,26 @@ int Builder::declare_array(std::string name, Type type, int length) {
 }
 
 int Builder::fault_site(Location where, std::string message) {
-    module_.fault_sites.push_back({where, std::move(message)});
-    return static_cast<int>(module_.fault_sites.size() - 1);
+    module_->fault_sites.push_back({where, std::move(message)});
+    return static_cast<int>(module_->fault_sites.size() - 1);
 }
 
 void Builder::fault(int site, Value mask) {
-    CHECK(site >= 0 && static_cast<size_t>(site) < module_.fault_sites.size());
+    CHECK(site >= 0 && static_cast<size_t>(site) < module_->fault_sites.size());
     op(Op::Fault, mask, kNone, kNone, site);
 }
 
 void Builder::output(OutputInfo info, Value value) {
     CHECK_EQ(index_, size_t{0});
     CHECK(type(value) == info.type);
-    module_.outputs.push_back(std::move(info));
+    module_->outputs.push_back(std::move(info));
     output_values_.push_back(value);
 }
 
 void Builder::finish() {
     CHECK(open_.empty());
     function().results.clear();
-    for (const OutputInfo& info : module_.outputs) function().results.push_back(info.type);
+    for (const OutputInfo& info : module_->outputs) function().results.push_back(info.type);
     ret(output_values_);
 }
 

@@ -13,13 +13,14 @@ namespace kinora::jit {
 // Appends to module.functions[index]. References to the module stay the caller's; several builders
 // may be open on different functions of one module. Operand types are checked (CHECK). The builder
 // folds what is exact and certain on the way (constants, x*1, select on a constant, same operands
-// of and/or), and reuses equal constants and inputs, so callers write the plain formula.
+// of and/or), and reuses equal constants and inputs, so callers write the plain formula. A builder
+// may be moved aside while another writes through the same variable.
 class Builder {
   public:
     Builder(Module& module, size_t function_index);
 
-    Module& module() { return module_; }
-    Function& function() { return module_.functions[index_]; }
+    Module& module() { return *module_; }
+    Function& function() { return module_->functions[index_]; }
     const Inst& inst(Value v) { return function().insts[v]; }
     Type type(Value v) { return inst(v).type; }
 
@@ -116,7 +117,7 @@ class Builder {
     std::vector<Value> append_results(Value call, const std::vector<Type>& types);
     Value append_control(Op op, Type type, Value a, int32_t imm, std::span<const Value> args = {});
 
-    Module& module_;
+    Module* module_;
     size_t index_;
     uint32_t where_ = 0;
     struct Open {

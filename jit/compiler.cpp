@@ -79,6 +79,7 @@ class Key {
         add(module.name);
         add(module.frame_slots);
         add(module.loop_budget);
+        add(module.call_depth);
         for (const InputInfo& input : module.inputs) add(input.name), add(input.type);
         add('|');
         for (const OutputInfo& output : module.outputs) add(output.name), add(output.type);

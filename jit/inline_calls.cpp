@@ -16,7 +16,10 @@ constexpr int32_t kMaxClearedElements = 64;  // of arrays that an inlined body m
 class Inliner {
   public:
     explicit Inliner(Module& module)
-        : m_(module), sites_(module.functions.size(), 0), done_(module.functions.size(), false) {
+        : m_(module),
+          sites_(module.functions.size(), 0),
+          done_(module.functions.size(), false),
+          cyclic_(cyclic_functions(module)) {
         for (const Function& function : m_.functions)
             for (const Inst& inst : function.insts)
                 if (inst.op == Op::Call) ++sites_[static_cast<size_t>(inst.imm)];
@@ -45,7 +48,7 @@ class Inliner {
         const Function& function = m_.functions[callee];
         int64_t elements = 0;
         for (const ArrayInfo& array : function.arrays) elements += array.length;
-        if (elements > kMaxClearedElements) return false;
+        if (elements > kMaxClearedElements || cyclic_[callee]) return false;
         return sites_[callee] == 1 || function.insts.size() < kSmall;
     }
 
@@ -121,6 +124,7 @@ class Inliner {
     Module& m_;
     std::vector<int> sites_;
     std::vector<bool> done_;
+    std::vector<bool> cyclic_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "jit/analysis.h"
 #include "jit/interp_p.h"
 #include "runtime/base/check.h"
 
@@ -40,18 +41,13 @@ Code prepare(const Function& function) {
     return code;
 }
 
-// Rows that a call of function `index` takes: its own, and beyond them its deepest callee's with
-// the arguments. `known` keeps what was computed; the call graph has no cycle (verify).
-size_t stack_rows(const Program& program, size_t index, std::vector<size_t>& known) {
-    if (known[index] != 0) return known[index];
-    size_t deepest = 0;
-    for (const Inst& inst : program.module.functions[index].insts) {
-        size_t rows = inst.arg_count;
-        if (inst.op == Op::Call) rows += stack_rows(program, static_cast<size_t>(inst.imm), known);
-        if (inst.op == Op::Call || inst.op == Op::Service) deepest = std::max(deepest, rows);
-    }
-    known[index] = program.codes[index].rows + deepest;
-    return known[index];
+// Rows that one activation of a function takes: its own, and the arguments of a callee.
+size_t activation_rows(const Program& program, size_t index) {
+    size_t arguments = 0;
+    for (const Inst& inst : program.module.functions[index].insts)
+        if (inst.op == Op::Call || inst.op == Op::Service)
+            arguments = std::max<size_t>(arguments, inst.arg_count);
+    return program.codes[index].rows + arguments;
 }
 
 class InterpKernel final : public Kernel {
@@ -60,8 +56,10 @@ class InterpKernel final : public Kernel {
         program_.module = module;
         for (const Function& function : program_.module.functions)
             program_.codes.push_back(prepare(function));
-        std::vector<size_t> known(program_.codes.size(), 0);
-        result_row_ = stack_rows(program_, 0, known);
+        std::vector<size_t> rows;
+        for (size_t k = 0; k < program_.codes.size(); ++k)
+            rows.push_back(activation_rows(program_, k));
+        result_row_ = deepest_stack(program_.module, rows);
         program_.scratch_rows = result_row_ + module.outputs.size();
 
         name = module.name;

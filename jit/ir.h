@@ -127,6 +127,9 @@ struct Module {
     std::vector<Location> locations = {Location{}};
     int32_t frame_slots = 0;          // size of the frame block that FrameLoad reads
     int32_t loop_budget = 1'000'000;  // iterations per entry of a loop before it ends with a fault
+    // Scratch memory holds this many activations at once of functions that call each other in a
+    // circle; the code itself must count them. 0: no call is cyclic.
+    int32_t call_depth = 0;
 
     Function& kernel() { return functions[0]; }
     const Function& kernel() const { return functions[0]; }

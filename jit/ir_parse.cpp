@@ -166,6 +166,7 @@ class Parser {
         m_.name = string();
         if (expect("budget")) m_.loop_budget = number<int32_t>();
         if (expect("slots")) m_.frame_slots = number<int32_t>();
+        if (accept("depth")) m_.call_depth = number<int32_t>();
     }
 
     void parse_input() {

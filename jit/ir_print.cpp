@@ -119,8 +119,10 @@ std::string print(const Module&, const Function& function) {
 std::string print(const Module& module) {
     std::string text;
     Out out = std::back_inserter(text);
-    fmt::format_to(out, "module {} budget {} slots {}\n", quoted(module.name), module.loop_budget,
+    fmt::format_to(out, "module {} budget {} slots {}", quoted(module.name), module.loop_budget,
                    module.frame_slots);
+    if (module.call_depth != 0) fmt::format_to(out, " depth {}", module.call_depth);
+    fmt::format_to(out, "\n");
     for (const InputInfo& input : module.inputs) {
         fmt::format_to(out, "input {} {} {}", quoted(input.name), type_name(input.type),
                        kRateNames[static_cast<int>(input.rate)]);

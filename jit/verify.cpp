@@ -1,6 +1,7 @@
 // jit/verify.cpp: what a well-formed module promises, checked.
 #include <fmt/format.h>
 
+#include "jit/analysis.h"
 #include "jit/ir.h"
 
 namespace kinora::jit {
@@ -304,17 +305,6 @@ class Verifier {
     size_t result_next_ = 0;
 };
 
-// Depth first over calls: a function still being visited is reached again only by recursion.
-bool recurses(const Module& module, size_t index, std::vector<uint8_t>& state) {
-    if (state[index] != 0) return state[index] == 1;
-    state[index] = 1;
-    for (const Inst& inst : module.functions[index].insts)
-        if (inst.op == Op::Call && recurses(module, static_cast<size_t>(inst.imm), state))
-            return true;
-    state[index] = 2;
-    return false;
-}
-
 bool crosses(Type type) {
     return type == Type::F || type == Type::I;
 }
@@ -351,9 +341,9 @@ std::string verify(const Module& module) {
         if (!error.empty()) return error;
     }
     // Scratch memory is sized by the deepest chain of calls, so there must be one.
-    std::vector<uint8_t> state(module.functions.size(), 0);
-    for (size_t k = 0; k < module.functions.size(); ++k)
-        if (recurses(module, k, state))
+    std::vector<bool> cyclic = cyclic_functions(module);
+    for (size_t k = 0; k < cyclic.size(); ++k)
+        if (cyclic[k] && (module.call_depth < 1 || k == 0))
             return fmt::format("{}: calls itself", module.functions[k].name);
     return "";
 }

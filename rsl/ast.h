@@ -330,7 +330,7 @@ struct GatherStmt : Stmt {
 // ---- definitions --------------------------------------------------------------------------------
 
 // A user function, at file level or nested. Arguments are bound by reference if `output`, else by
-// value (a write to one stays inside, with a warning). No function calls itself, directly or not.
+// value (a write to one stays inside, with a warning).
 struct Function {
     std::string_view name;
     Type result;  // Void: none
@@ -340,6 +340,7 @@ struct Function {
     uint32_t id = 0;             // dense in the Ast
     Function* parent = nullptr;  // the function it is nested in; null also when in a shader's body
     bool called = false;         // checker: reached from a shader
+    bool recursive = false;      // checker: on a circle of calls; each circle has at least one
 };
 
 struct ShaderDefinition {

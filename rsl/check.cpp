@@ -22,7 +22,7 @@ void Checker::run() {
                 report(Code::RSL_SHADER_REDEFINED, ast_.shaders[i]->place, ast_.shaders[i]->name);
         check_shader(*ast_.shaders[i]);
     }
-    find_recursion();
+    mark_recursion();
 }
 
 void Checker::check_shader(ShaderDefinition& shader) {
@@ -146,31 +146,34 @@ std::vector<std::string_view> Checker::variable_names() const {
 
 // ---- recursion ----------------------------------------------------------------------------------
 
-// Depth-first along the calls; an edge back to a function on the path is a recursion.
-void Checker::find_recursion() {
-    std::vector<std::vector<const CallEdge*>> calls(ast_.function_count);
+// Depth-first along the calls; an edge back to a function on the path closes a circle. Each circle
+// has such an edge, so each has a marked function.
+void Checker::mark_recursion() {
+    std::vector<std::vector<Function*>> callees(ast_.function_count);
     for (const CallEdge& edge : edges_)
-        if (edge.caller) calls[edge.caller->id].push_back(&edge);
+        if (edge.caller) callees[edge.caller->id].push_back(edge.callee);
     enum State : uint8_t { kNew, kOpen, kDone };
     std::vector<State> state(ast_.function_count, kNew);
-    std::vector<std::pair<uint32_t, size_t>> path;  // function id, next call to look at
+    std::vector<std::pair<Function*, size_t>> path;  // function, next call to look at
     for (const CallEdge& start : edges_) {
         if (state[start.callee->id] != kNew) continue;
-        path.push_back({start.callee->id, 0});
+        path.push_back({start.callee, 0});
         state[start.callee->id] = kOpen;
         while (!path.empty()) {
-            auto& [id, next] = path.back();
-            if (next == calls[id].size()) {
-                state[id] = kDone;
+            auto& [function, next] = path.back();
+            if (next == callees[function->id].size()) {
+                state[function->id] = kDone;
                 path.pop_back();
                 continue;
             }
-            const CallEdge& edge = *calls[id][next++];
-            uint32_t callee = edge.callee->id;
-            if (state[callee] == kOpen)
-                report(Code::RSL_RECURSION, edge.call->place, edge.call->name);
-            if (state[callee] != kNew) continue;
-            state[callee] = kOpen;
+            Function* callee = callees[function->id][next++];
+            if (state[callee->id] == kOpen)
+                for (size_t k = path.size(); k-- > 0;) {
+                    path[k].first->recursive = true;
+                    if (path[k].first == callee) break;
+                }
+            if (state[callee->id] != kNew) continue;
+            state[callee->id] = kOpen;
             path.push_back({callee, 0});
         }
     }

@@ -63,7 +63,7 @@ class Checker {
     Symbol* find_variable(std::string_view name, bool outside_function);
     Symbol* global_symbol(const GlobalInfo& info);
     std::vector<std::string_view> variable_names() const;
-    void find_recursion();
+    void mark_recursion();
 
     template <class... Args>
     Finding& report(const FindingInfo& info, const Place& place, const Args&... args) {

@@ -155,6 +155,7 @@ void Lowering::run_layer(const Layer& next) {
     array_of_.assign(ast().symbol_count, -1);
     in_memory_ = memory_arrays(ast());
     inline_path = inline_path * 31 + 7;
+    recursive_.clear();
 
     ChangeFinder finder(ast());
     finder.add(shader.definition->body);

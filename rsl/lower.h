@@ -14,6 +14,11 @@
 
 namespace kinora::rsl {
 
+// A function that calls itself (EXTREMES.md row 74): so many activations at once, and so many calls
+// below the first one, that it cannot hang. Beyond that: a fault, and 0.
+inline constexpr int kMaxCallDepth = 64;
+inline constexpr int kMaxRecursiveCalls = 1'000'000;
+
 // How a shader parameter reaches the kernel (DESIGN.md decision 4): specialised on shape only.
 struct ParamBinding {
     enum class Kind {

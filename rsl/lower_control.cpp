@@ -115,6 +115,7 @@ std::vector<int> Lowering::carried_slots(const Changes& changes) {
         if (among(changes.breaks, loop.stmt)) add(loop.broken);
         if (among(changes.continues, loop.stmt)) add(loop.continued);
     }
+    if (changes.calls) add(calls_left_);
     if (changes.returns && !frames_.empty()) {
         add(frames_.back().returned);
         add(frames_.back().result);

@@ -284,13 +284,14 @@ Value LowerCall::pair(std::string_view name, float otherwise) const {
 // The body in place of the call. Output arguments are copied in and out, arrays are shared.
 Lowered Lowering::call_function(const CallExpr& e) {
     const Function& f = *e.function;
-    std::vector<Lowered> values(e.args.size());
-    std::vector<Target> targets(e.args.size());
-    std::vector<int> arrays(e.args.size(), -1);
+    CallArguments arguments{std::vector<Lowered>(e.args.size()), std::vector<Target>(e.args.size()),
+                            std::vector<int>(e.args.size(), -1)};
+    auto& [values, targets, arrays] = arguments;
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
         if (parameter.type.is_array()) {
-            arrays[k] = array_argument(*e.args[k], parameter);
+            arrays[k] = f.recursive ? array_of(*as<VariableExpr>(*e.args[k]).symbol)
+                                    : array_argument(*e.args[k], parameter);
         } else if (parameter.output) {
             targets[k] = target(*e.args[k]);
             values[k] = load(targets[k]);
@@ -298,6 +299,7 @@ Lowered Lowering::call_function(const CallExpr& e) {
             values[k] = expr(*e.args[k]);
         }
     }
+    if (f.recursive) return call_recursive(e, arguments);
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
         if (arrays[k] >= 0) {
@@ -307,7 +309,11 @@ Lowered Lowering::call_function(const CallExpr& e) {
             write_slot(slot_of(parameter), values[k]);
         }
     }
-    Lowered result = run_function(f, e);
+    uint32_t path = inline_path, factor = path_factor;
+    enter_path(e.site);
+    Lowered result = run_function(f);
+    inline_path = path;
+    path_factor = factor;
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
         Slot& slot = slots_[size_t(slot_of(parameter))];
@@ -328,10 +334,8 @@ int Lowering::array_argument(const Expr& argument, const Symbol& parameter) {
     return copy;
 }
 
-Lowered Lowering::run_function(const Function& f, const CallExpr& e) {
+Lowered Lowering::run_function(const Function& f) {
     Value entered = running;
-    uint32_t path = inline_path;
-    inline_path = inline_path * 31 + e.site + 1;
     FunctionFrame frame{&f, new_slot(lowered(BaseType::Bool, b.m(false))), -1};
     if (f.result.base != BaseType::Void) frame.result = new_slot(zero(f.result.base));
     frames_.push_back(frame);
@@ -340,7 +344,6 @@ Lowered Lowering::run_function(const Function& f, const CallExpr& e) {
     block(f.body->body);
     outer_loops.swap(loops_);
     frames_.pop_back();
-    inline_path = path;
     running = entered;
     free_slot(frame.returned);
     if (frame.result < 0) return zero(BaseType::Float);

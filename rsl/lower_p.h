@@ -26,6 +26,12 @@ class Lowering;
 // ".x" of a point, ".r" of a color, ".7" of a matrix, "" of a float.
 std::string component_suffix(BaseType type, int component);
 
+inline jit::Type ir_type(BaseType type) {
+    return type == BaseType::String ? jit::Type::I
+           : type == BaseType::Bool ? jit::Type::M
+                                    : jit::Type::F;
+}
+
 // Where an l-value is: a slot, or an element of an array; perhaps one component of it.
 struct Target {
     BaseType type = BaseType::Void;  // of the slot or element
@@ -120,6 +126,14 @@ class Lowering : public Emitter {
     Lowered binary(Op op, const Lowered& x, const Lowered& y);
     Lowered call_builtin(const CallExpr& e);
     Lowered call_function(const CallExpr& e);
+
+    // lower_recursion.cpp: functions that call themselves are functions of the IR.
+    struct CallArguments {
+        std::vector<Lowered> values;
+        std::vector<Target> targets;  // of output parameters
+        std::vector<int> arrays;      // of array parameters, else -1
+    };
+    Lowered call_recursive(const CallExpr& e, const CallArguments& arguments);
     const std::string* constant_text(Value string_id);
 
     // lower_control.cpp
@@ -202,7 +216,13 @@ class Lowering : public Emitter {
     // Number of this call of random(): its place, the functions it stands in and the loop counters.
     Value random01(const CallExpr& call, int component);
     std::vector<Value> loop_counters;
+    // The functions inlined around here: inline_path, or path_handed_in * path_factor + inline_path
+    // inside a function of the IR.
     uint32_t inline_path = 0;
+    Value path_handed_in = jit::kNone;
+    uint32_t path_factor = 1;
+    Value path_value();
+    void enter_path(uint32_t site);
 
     std::vector<Value> service(std::string_view name, std::span<const Value> args);
 
@@ -231,7 +251,7 @@ class Lowering : public Emitter {
         Slot old;
     };
     struct FunctionFrame {
-        const rsl::Function* function;
+        const rsl::Function* function = nullptr;
         int returned;  // slot of a mask
         int result;    // slot, -1 for void
     };
@@ -255,7 +275,29 @@ class Lowering : public Emitter {
     void loop(const Stmt& stmt);
     void run_statements(std::span<Stmt* const> body);
     void jump(const Stmt* loop_stmt, bool leaves);
-    Lowered run_function(const rsl::Function& f, const CallExpr& e);
+    Lowered run_function(const rsl::Function& f);
+    struct Outside {
+        const Symbol* symbol;  // null: a global that no name in the function means
+        Global id;             // then
+        int array_length;      // -1: no array
+        bool written;
+    };
+    struct Recursive {
+        const rsl::Function* function;
+        std::vector<int> lengths;  // of array parameters, else -1
+        bool lit;                  // called from inside illuminance
+        size_t index;              // in the module
+        std::vector<Outside> outside;
+        bool random, record;
+    };
+    struct Activation;
+    size_t recursive_function(const CallExpr& e, const CallArguments& arguments);
+    void write_recursive(const Recursive& r);
+    void find_outside(Recursive& r, const CallExpr& e);
+    Lowered read_outside(const Outside& outside);
+    int outside_slot(const Outside& outside) const;
+    void store_outside(const Outside& outside, const std::vector<Lowered>& values);
+    std::vector<Lowered> outside_values(const Outside& outside);
     int array_argument(const Expr& argument, const Symbol& parameter);
     void return_from(const ReturnStmt& stmt);
     Space variable_space(Value name);
@@ -283,6 +325,9 @@ class Lowering : public Emitter {
         int L, Cl, Ol, lit;  // slots
     };
     std::vector<LightSource> light_sources_;
+    std::vector<Recursive> recursive_;
+    Value call_depth_ = jit::kNone;  // calls of recursive functions around; none outside them
+    int calls_left_ = -1;            // slot: how many more such calls this one may make
     bool in_loop_ = false;
     // The lanes of the innermost If or Loop. Where a statement begins, running is the same.
     Value region_ = running;

@@ -52,9 +52,10 @@ V3 Lowering::dv(const V3& v) {
 // DESIGN.md decision 10: a hash of the sample, the place of the call and the loop iterations.
 Value Lowering::random01(const CallExpr& call, int component) {
     out.uses_rng = true;
-    uint32_t place = (inline_path * 2654435761u) ^ (call.site * 40503u + uint32_t(component));
+    uint32_t site = call.site * 40503u + uint32_t(component);
+    Value path = b.imul(path_value(), b.i(int32_t(2654435761u)));
     std::vector<Value> keys = {scalar_input("rng", jit::Type::I, jit::Rate::Point),
-                               b.i(int32_t(place))};
+                               b.ixor(path, b.i(int32_t(site)))};
     keys.insert(keys.end(), loop_counters.begin(), loop_counters.end());
     return jit::math::hash01(b, keys);
 }

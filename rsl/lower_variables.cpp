@@ -5,16 +5,6 @@
 
 namespace kinora::rsl {
 
-namespace {
-
-jit::Type ir_type(BaseType type) {
-    return type == BaseType::String ? jit::Type::I
-           : type == BaseType::Bool ? jit::Type::M
-                                    : jit::Type::F;
-}
-
-}  // namespace
-
 int Lowering::slot_of(const Symbol& symbol) const {
     return symbol.global ? int(symbol.global->id) : symbol_base_ + int(symbol.id);
 }

@@ -36,6 +36,13 @@ struct CallSummary {
     std::vector<Flow> outputs;  // by parameter
 };
 
+// A function whose body is being walked.
+struct Active {
+    const Function* function;
+    Flow result;   // as far as it is known
+    bool control;  // some call of it stands under varying control
+};
+
 using Rated = std::unordered_set<const Expr*>;
 
 // Hostile source may ask for more walking than it is worth: then what is known is taken.
@@ -102,8 +109,7 @@ class RateWalk {
             after.illegal |= after.varying;
         if (after.varying != flow.varying || after.illegal != flow.illegal ||
             after.constant != flow.constant) {
-            changed_ = true;
-            if (s.function != walking_) outside_.push_back(s.function);
+            note_change(s.function);
         }
         flow = after;
         s.varying = s.varying || after.varying;
@@ -215,11 +221,45 @@ class RateWalk {
     static char letter(Flow f) { return char('a' + f.constant + 2 * f.varying + 4 * f.illegal); }
 
     CallSummary summarise(Function& f, const std::vector<Flow>& arguments) {
+        for (Active& active : active_)
+            if (active.function == &f) return call_again(active, arguments);
+        // What a recursive function gives rests on the callers being walked: it is not kept.
+        if (f.recursive) return walk_function(f, arguments);
         std::string key = std::to_string(f.id) + (control_ ? '!' : ':');
         for (Flow a : arguments) key += letter(a);
         auto found = calls_.find(key);
         if (found != calls_.end()) return found->second;
-        return calls_[key] = walk_function(f, arguments);
+        CallSummary summary = walk_function(f, arguments);
+        bool inside_circle = false;
+        for (const Active& active : active_)
+            inside_circle = inside_circle || active.function->recursive;
+        return inside_circle ? summary : calls_[key] = summary;
+    }
+
+    // A function that is being walked is called: its arguments join those it is walked with, and
+    // what is known of its result so far is the answer; both rise to a fixed point.
+    CallSummary call_again(Active& active, const std::vector<Flow>& arguments) {
+        const Function& f = *active.function;
+        for (size_t i = 0; i < arguments.size(); ++i) {
+            Symbol& p = *f.parameters[i];
+            Flow joined = join(flows_[p.id], arguments[i]);
+            if (declared_uniform(p)) joined.illegal = false;
+            if (same(joined, flows_[p.id])) continue;
+            flows_[p.id] = joined;
+            p.varying = p.varying || joined.varying;
+            note_change(&f);
+        }
+        if (control_ && !std::exchange(active.control, true)) note_change(&f);
+        CallSummary summary{active.result, {}};
+        for (const Symbol* p : f.parameters) summary.outputs.push_back(flows_[p->id]);
+        return summary;
+    }
+    static bool same(Flow a, Flow b) {
+        return a.constant == b.constant && a.varying == b.varying && a.illegal == b.illegal;
+    }
+    void note_change(const Function* owner) {
+        changed_ = true;
+        if (owner != walking_) outside_.push_back(owner);
     }
 
     // The body's own fixed point: its variables start afresh with each pattern of arguments, those
@@ -236,10 +276,18 @@ class RateWalk {
         bool changed_before = changed_;
         auto loops_before = std::exchange(loops_, {});
         const Function* caller = std::exchange(walking_, &f);
+        size_t level = active_.size();
+        active_.push_back({&f, kConstant, control_});
+        bool control_before = control_;
         do {
             changed_ = false;
+            control_ = active_[level].control;
             walk(*f.body);
+            if (f.recursive && !same(active_[level].result, result_)) changed_ = true;
+            active_[level].result = result_;
         } while (changed_ && steps_ < kMostSteps);
+        active_.pop_back();
+        control_ = control_before;
         CallSummary summary{result_, {}};
         for (const Symbol* p : f.parameters) summary.outputs.push_back(flows_[p->id]);
         walking_ = caller;
@@ -341,6 +389,7 @@ class RateWalk {
     std::vector<bool> known_;                   // by Symbol::id: locals that were met
     std::vector<std::vector<Symbol*>> locals_;  // by Function::id
     std::unordered_map<std::string, CallSummary> calls_;
+    std::vector<Active> active_;  // functions being walked, outermost first
     const Function* walking_ = nullptr;     // the function whose body is being walked
     std::vector<const Function*> outside_;  // owners of variables that a callee has changed
     int steps_ = 0;

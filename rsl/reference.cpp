@@ -209,6 +209,39 @@ auto Reference<Real>::assign(const AssignExpr& e) -> Item {
 
 // ---- calls --------------------------------------------------------------------------------------
 
+namespace {
+
+// The function itself, or one that it is nested in?
+bool encloses(const Function* outer, const Function* inner) {
+    for (; inner; inner = inner->parent)
+        if (inner == outer) return true;
+    return false;
+}
+
+}  // namespace
+
+// EXTREMES.md row 74.
+template <class Real>
+bool Reference<Real>::may_call(const Function& f) {
+    if (!f.recursive || call_depth_ == 0) return true;
+    if (decide(call_depth_ < kMaxCallDepth && calls_left_ > 0)) return true;
+    ++result.faults;
+    return false;
+}
+
+// The body of a function that calls itself: its random numbers follow the path of calls and the
+// turns of the loops on the way.
+template <class Real>
+void Reference<Real>::run_again(const Function& f) {
+    calls_left_ = call_depth_ == 0 ? kMaxRecursiveCalls - 1 : calls_left_ - 1;
+    for (int32_t turn : loop_counters) inline_path = inline_path * 31 + uint32_t(turn);
+    std::vector<int32_t> counters = std::exchange(loop_counters, {});
+    ++call_depth_;
+    block(f.body->body);
+    --call_depth_;
+    loop_counters = std::move(counters);
+}
+
 // Arguments are copied in before the body runs and, if output, copied out after it.
 template <class Real>
 auto Reference<Real>::call_function(const CallExpr& e) -> Item {
@@ -217,16 +250,24 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
     for (const Expr* argument : e.args)
         values.push_back(argument->type.is_array() ? storage(*as<VariableExpr>(*argument).symbol)
                                                    : Storage{expr(*argument)});
+    if (!may_call(f)) return Item(f.result.base);
+    std::unordered_map<const Symbol*, Storage> kept;
+    if (f.recursive)
+        for (auto& [symbol, items] : variables_)
+            if (symbol->function && !encloses(symbol->function, f.parent)) kept[symbol] = items;
     for (size_t k = 0; k < e.args.size(); ++k) variables_[f.parameters[k]] = values[k];
     uint32_t path = inline_path;
     inline_path = inline_path * 31 + e.site + 1;
-    returned_ = Item(f.result.base);
-    block(f.body->body);
+    Item outer = std::exchange(returned_, Item(f.result.base));
+    f.recursive ? run_again(f) : void(block(f.body->body));
     inline_path = path;
-    Item value = returned_;
+    Item value = std::exchange(returned_, outer);
+    std::vector<Storage> outputs;
+    for (const Symbol* parameter : f.parameters) outputs.push_back(variables_[parameter]);
+    for (auto& [symbol, items] : kept) variables_[symbol] = items;
     for (size_t k = 0; k < e.args.size(); ++k) {
         if (!f.parameters[k]->output) continue;
-        Storage after = variables_[f.parameters[k]];
+        Storage& after = outputs[k];
         if (e.args[k]->type.is_array())
             storage(*as<VariableExpr>(*e.args[k]).symbol) = after;
         else

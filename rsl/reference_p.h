@@ -171,6 +171,8 @@ class Reference {
     Item cast(const CastExpr& e);
     Item assign(const AssignExpr& e);
     Item call_function(const CallExpr& e);
+    bool may_call(const Function& f);
+    void run_again(const Function& f);
     Item call_builtin(const CallExpr& e);
     void declare(const Symbol& symbol);
     void store(const Expr& target, const Item& value);
@@ -193,6 +195,8 @@ class Reference {
     std::unordered_map<const Symbol*, Storage> variables_;
     std::map<Global, Item> globals_;
     Item returned_;
+    int call_depth_ = 0;  // calls of recursive functions
+    int calls_left_ = 0;
     struct Source {
         const Stmt* stmt;
         Item L, Cl, Ol;

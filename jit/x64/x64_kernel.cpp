@@ -3,6 +3,7 @@
 #include <chrono>
 #include <deque>
 
+#include "jit/analysis.h"
 #include "jit/code_memory.h"
 #include "jit/x64/x64.h"
 #include "jit/x64/x64_check.h"
@@ -37,18 +38,6 @@ std::vector<size_t> reached(const Module& module) {
             order.push_back(static_cast<size_t>(inst.imm));
         }
     return order;
-}
-
-// Bytes that a call of function `index` takes, its callees' frames included (no call is cyclic).
-size_t stack_bytes(const Module& module, size_t index, const std::vector<size_t>& frames,
-                   std::vector<size_t>& known) {
-    if (known[index] != 0) return known[index];
-    size_t deepest = 0;
-    for (const Inst& inst : module.functions[index].insts)
-        if (inst.op == Op::Call)
-            deepest = std::max(deepest,
-                               stack_bytes(module, static_cast<size_t>(inst.imm), frames, known));
-    return known[index] = frames[index] + deepest;
 }
 
 void number_frame_rows(ModuleState& state, std::span<const size_t> functions) {
@@ -94,7 +83,7 @@ void emit_module(const Module& module, const Isa& isa, bool listing, bool check,
     number_frame_rows(state, functions);
 
     std::deque<Emit> emits;
-    std::vector<size_t> frames(module.functions.size(), 0), known(frames.size(), 0);
+    std::vector<size_t> frames(module.functions.size(), 0);
     for (size_t index : functions) {
         const Emit& emit = emits.emplace_back(state, index);
         frames[index] = static_cast<size_t>(emit.frame_bytes());
@@ -102,7 +91,7 @@ void emit_module(const Module& module, const Isa& isa, bool listing, bool check,
         if (check && out.fault.empty()) out.fault = emit.check();
     }
     out.scratch_bytes =
-        static_cast<size_t>(state.globals_bytes) + stack_bytes(module, 0, frames, known);
+        static_cast<size_t>(state.globals_bytes) + deepest_stack(module, frames);
     for (Emit& emit : emits) emit.emit_function(listing);
     pool.place(a);
 }
