@@ -59,8 +59,7 @@ std::vector<Lowered> Lowering::outside_values(const Outside& outside) {
 void Lowering::store_outside(const Outside& outside, const std::vector<Lowered>& values) {
     if (outside.array_length < 0) return write_slot(outside_slot(outside), values[0]);
     int array = array_of(*outside.symbol);
-    for (int k = 0; k < outside.array_length; ++k)
-        store_element(array, b.i(k), values[size_t(k)]);
+    for (int k = 0; k < outside.array_length; ++k) store_element(array, b.i(k), values[size_t(k)]);
 }
 
 // What the function names from outside, and the globals that hold something else than the kernel's
@@ -79,8 +78,8 @@ void Lowering::find_outside(Recursive& r, const CallExpr& e) {
     };
     bool seen[size_t(Global::Count)] = {};
     for (const Symbol* symbol : finder.used) {
-        bool inside = symbol->function && !(symbol->function != r.function &&
-                                            encloses(symbol->function, r.function));
+        bool inside = symbol->function &&
+                      !(symbol->function != r.function && encloses(symbol->function, r.function));
         if (inside) continue;
         const ParamBinding* bound = binding(symbol->name);
         bool known = bound && bound->kind == ParamBinding::Kind::Constant;
@@ -113,9 +112,10 @@ Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& argumen
     if (!outermost) {
         Value shallow = b.op(jit::Op::ILt, depth, b.i(kMaxCallDepth));
         allowed = b.logical_and(shallow, b.op(jit::Op::ILt, b.i(0), left));
-        std::string text = fmt::format("function '{}' calls itself more than {} levels deep, or {} "
-                                       "times",
-                                       f.name, kMaxCallDepth, kMaxRecursiveCalls);
+        std::string text = fmt::format(
+            "function '{}' calls itself more than {} levels deep, or {} "
+            "times",
+            f.name, kMaxCallDepth, kMaxRecursiveCalls);
         b.fault(b.fault_site(e.place.where, text), b.and_not(running, allowed));
     }
     Value mask = b.logical_and(running, allowed);
@@ -131,8 +131,7 @@ Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& argumen
         std::vector<Lowered> values = {arguments.values[k]};
         if (int array = arguments.arrays[k]; array >= 0) {
             values.clear();
-            for (int i = 0; i < r.lengths[k]; ++i)
-                values.push_back(load_element(array, b.i(i)));
+            for (int i = 0; i < r.lengths[k]; ++i) values.push_back(load_element(array, b.i(i)));
         }
         for (const Lowered& value : values) append(args, value);
         if (f.parameters[k]->output) before.push_back(std::move(values));
@@ -281,8 +280,7 @@ void Lowering::write_recursive(const Recursive& r) {
     auto parameters = [&](BaseType type, int length) {
         std::vector<Lowered> values(size_t(length < 0 ? 1 : length), Lowered{type, {}});
         for (Lowered& value : values)
-            for (size_t c = 0; c < size_t(value.size()); ++c)
-                value.c[c] = b.param(ir_type(type));
+            for (size_t c = 0; c < size_t(value.size()); ++c) value.c[c] = b.param(ir_type(type));
         return values;
     };
     // All parameters stand before anything else.
@@ -301,8 +299,7 @@ void Lowering::write_recursive(const Recursive& r) {
             continue;
         }
         int array = make_array(parameter, {parameter.type.base, r.lengths[k]});
-        for (int i = 0; i < r.lengths[k]; ++i)
-            store_element(array, b.i(i), own[k][size_t(i)]);
+        for (int i = 0; i < r.lengths[k]; ++i) store_element(array, b.i(i), own[k][size_t(i)]);
     }
     for (size_t k = 0; k < r.outside.size(); ++k) {
         const Outside& outside = r.outside[k];

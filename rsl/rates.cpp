@@ -389,7 +389,7 @@ class RateWalk {
     std::vector<bool> known_;                   // by Symbol::id: locals that were met
     std::vector<std::vector<Symbol*>> locals_;  // by Function::id
     std::unordered_map<std::string, CallSummary> calls_;
-    std::vector<Active> active_;  // functions being walked, outermost first
+    std::vector<Active> active_;            // functions being walked, outermost first
     const Function* walking_ = nullptr;     // the function whose body is being walked
     std::vector<const Function*> outside_;  // owners of variables that a callee has changed
     int steps_ = 0;

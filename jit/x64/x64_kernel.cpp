@@ -90,8 +90,7 @@ void emit_module(const Module& module, const Isa& isa, bool listing, bool check,
         state.uses_valid = state.uses_valid || emit.uses_valid_lanes();
         if (check && out.fault.empty()) out.fault = emit.check();
     }
-    out.scratch_bytes =
-        static_cast<size_t>(state.globals_bytes) + deepest_stack(module, frames);
+    out.scratch_bytes = static_cast<size_t>(state.globals_bytes) + deepest_stack(module, frames);
     for (Emit& emit : emits) emit.emit_function(listing);
     pool.place(a);
 }

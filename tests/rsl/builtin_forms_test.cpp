@@ -32,8 +32,7 @@ std::vector<Form> forms() {
     for (int number = 1; std::getline(file, line); ++number) {
         if (line.empty() || line[0] == '#') continue;
         size_t bar = line.find(" | ");
-        std::istringstream kinds(bar == std::string::npos || bar > 12 ? "su"
-                                                                      : line.substr(0, bar));
+        std::istringstream kinds(bar == std::string::npos || bar > 12 ? "su" : line.substr(0, bar));
         std::string text = bar == std::string::npos || bar > 12 ? line : line.substr(bar + 3);
         for (std::string kind; kinds >> kind;) result.push_back({number, keyword(kind), text});
     }
@@ -87,7 +86,8 @@ template <size_t results>
 void answer(const jit::ServiceCall& call) {
     for (size_t k = 0; k < results; ++k)
         for (size_t i = 0; i < jit::kMaxLanes; ++i)
-            call.results[k * jit::kMaxLanes + i] = 0.25f * float(k % 4) + 0.01f * float(i);
+            call.results[k * jit::kMaxLanes + i] =
+                0.25f * float(k % 4) + 0.01f * float(call.first + int(i));
 }
 template <size_t... k>
 jit::ServiceFn answer_of(size_t results, std::index_sequence<k...>) {
@@ -107,8 +107,8 @@ std::map<std::string, std::vector<float>> run_on(const char* target, const Form&
     if (!run.ok()) return {};
     for (const jit::Kernel* kernel : {run.kernels.point.get(), run.kernels.frame.get()})
         for (size_t k = 0; kernel && k < kernel->services.size(); ++k)
-            run.services[kernel->services[k].name] = answer_of(
-                kernel->services[k].results.size(), std::make_index_sequence<64>());
+            run.services[kernel->services[k].name] =
+                answer_of(kernel->services[k].results.size(), std::make_index_sequence<64>());
     for (int i = 0; i < kPoints; ++i) {
         float x = float(i) / kPoints;
         run.inputs["s"].push_back(x);

@@ -75,15 +75,17 @@ TEST(Recursion, GivesZeroAndAFaultBeyondItsLimit) {
         "float down(float n) { return 1 + down(n - 1); } surface t() { Ci = down(s); }", &faults);
     EXPECT_TRUE(faults);
     EXPECT_EQ(got[3], 64);  // the 65th call gives 0
-    values_of("float sum(float n) { if (n <= 0) return 0; return n + sum(n - 1); }"
-              "surface t() { Ci = sum(s * 3); }",
-              &faults);
+    values_of(
+        "float sum(float n) { if (n <= 0) return 0; return n + sum(n - 1); }"
+        "surface t() { Ci = sum(s * 3); }",
+        &faults);
     EXPECT_FALSE(faults);  // 61 deep at most
 }
 
 TEST(Recursion, OfATreeWithoutEndStopsByItsCountOfCalls) {
-    RunShader run("float tree(float n) { return tree(n - 1) + tree(n + 1); }"
-                  "surface t() { Ci = tree(s); }");
+    RunShader run(
+        "float tree(float n) { return tree(n - 1) + tree(n + 1); }"
+        "surface t() { Ci = tree(s); }");
     ASSERT_TRUE(run.ok()) << run.findings();
     EXPECT_EQ(run.value("Ci.r"), 0);
     EXPECT_GT(run.faults, 0);
@@ -137,7 +139,8 @@ TEST(Recursion, HasDerivatives) {
 TEST(Recursion, DrawsRandomNumbersByThePathOfCalls) {
     auto got = values_of(
         "float walk(float n) { return n < 1 ? 0 : random() + walk(n - 1); }"
-        "surface t() { float k, a = 0; for (k = 0; k < 2; k += 1) a += walk(3) * (1 + k); Ci = a; }");
+        "surface t() { float k, a = 0; for (k = 0; k < 2; k += 1) a += walk(3) * (1 + k); Ci = a; "
+        "}");
     EXPECT_NE(got[0], got[1]);
 }
 
