@@ -26,32 +26,54 @@ const Basis kBases[] = {
       {0.5f, -1, 0.5f, 0},
       {-0.5f, 0, 0.5f, 0},
       {kSixth, 4 * kSixth, kSixth, 0}}},
-    {"b-spline",
-     1,
-     {{-kSixth, 0.5f, -0.5f, kSixth},
-      {0.5f, -1, 0.5f, 0},
-      {-0.5f, 0, 0.5f, 0},
-      {kSixth, 4 * kSixth, kSixth, 0}}},
     {"hermite", 2, {{2, 1, -2, 1}, {-3, -2, 3, -1}, {0, 1, 0, 0}, {1, 0, 0, 0}}},
     {"linear", 1, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, -1, 1, 0}, {0, 1, 0, 0}}},
+    {"constant", 1, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 0}}},
 };
 
-const Basis* find_basis(LowerCall& c, bool named) {
-    if (!named) return &kBases[0];
-    const std::string* name = c.text(0);
-    if (!name) return nullptr;
+// Other spellings.
+struct Alias {
+    std::string_view name, basis;
+};
+constexpr Alias kAliases[] = {{"b-spline", "bspline"},
+                              {"catmullrom", "catmull-rom"},
+                              {"catrom", "catmull-rom"},
+                              {"cubic", "catmull-rom"},
+                              {"", "catmull-rom"}};  // "solve" alone
+constexpr std::string_view kSolve = "solve";
+
+const Basis* basis_named(std::string_view name) {
+    for (const Alias& alias : kAliases)
+        if (alias.name == name) name = alias.basis;
     for (const Basis& basis : kBases)
-        if (basis.name == *name) return &basis;
-    c.low.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->place.where, *name);
+        if (basis.name == name) return &basis;
     return nullptr;
 }
 
+// The basis of a call, and whether it asks for x instead of the value.
+const Basis* find_basis(LowerCall& c, bool named, bool* solve) {
+    if (!named) return &kBases[0];
+    const std::string* text = c.text(0);
+    if (!text) return nullptr;
+    std::string_view name = *text;
+    *solve = name.substr(0, kSolve.size()) == kSolve;
+    if (*solve) name.remove_prefix(kSolve.size());
+    const Basis* basis = *solve || !name.empty() ? basis_named(name) : nullptr;
+    if (!basis) c.low.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->place.where, *text);
+    return basis;
+}
+
+struct Curve {
+    const Basis& basis;
+    std::vector<Lowered> knots;
+    int pieces;
+};
+
 // The knot that piece `piece` begins `offset` knots from, chosen by comparisons.
-Lowered knot_of(LowerCall& c, const std::vector<Lowered>& knots, const Basis& basis, Value piece,
-                int pieces, int offset) {
-    Lowered r = knots[size_t(offset)];
-    for (int k = 1; k < pieces; ++k) {
-        const Lowered& other = knots[size_t(k * basis.step + offset)];
+Lowered knot_of(LowerCall& c, const Curve& curve, Value piece, int offset) {
+    Lowered r = curve.knots[size_t(offset)];
+    for (int k = 1; k < curve.pieces; ++k) {
+        const Lowered& other = curve.knots[size_t(k * curve.basis.step + offset)];
         Value later = c.b.le(c.b.f(float(k)), piece);
         for (size_t j = 0; j < size_t(r.size()); ++j)
             r.c[j] = c.b.select(later, other.c[j], r.c[j]);
@@ -59,41 +81,73 @@ Lowered knot_of(LowerCall& c, const std::vector<Lowered>& knots, const Basis& ba
     return r;
 }
 
+// The curve at x, clamped to 0..1; NaN counts as 0.
+Lowered point_at(LowerCall& c, const Curve& curve, Value x) {
+    auto& b = c.b;
+    Value scaled = b.mul(c.low.clamp(x, b.f(0), b.f(1)), b.f(float(curve.pieces)));
+    Value piece = b.min(b.floor(scaled), b.f(float(curve.pieces - 1)));
+    Value t = b.sub(scaled, piece);
+    std::array<Lowered, 4> knot;
+    for (int k = 0; k < 4; ++k) knot[size_t(k)] = knot_of(c, curve, piece, k);
+    // Weights first: at t = 0 and 1 they are exact, so the curve meets its knots exactly.
+    std::array<Value, 4> weight;
+    for (size_t k = 0; k < 4; ++k) {
+        weight[k] = b.f(curve.basis.m[0][k]);
+        for (size_t r = 1; r < 4; ++r)
+            weight[k] = c.low.fma(weight[k], t, b.f(curve.basis.m[r][k]));
+    }
+    Lowered result{curve.knots[0].type, {}};
+    for (size_t j = 0; j < size_t(result.size()); ++j) {
+        Value sum = b.f(0);
+        for (size_t k = 4; k-- > 0;) sum = c.low.fma(weight[k], knot[k].c[j], sum);
+        result.c[j] = sum;
+    }
+    return result;
+}
+
+// The x at which a curve that only rises, or only falls, has the value: by bisection. Values beyond
+// its ends give 0 or 1.
+constexpr int kHalvings = 24;  // the digits of a float in 0..1
+Value solve(LowerCall& c, const Curve& curve, Value wanted) {
+    auto& b = c.b;
+    Value first = point_at(c, curve, b.f(0)).c[0], last = point_at(c, curve, b.f(1)).c[0];
+    Value falls = b.lt(last, first);
+    b.begin_loop(b.m(true), b.fault_site(c.where(), "a spline took too long to solve"));
+    Value turn = b.loop_var(b.i(0)), low = b.loop_var(b.f(0)), high = b.loop_var(b.f(1));
+    Value middle = b.mul(b.add(low, high), b.f(0.5f));
+    Value here = point_at(c, curve, middle).c[0];
+    Value below = b.select(falls, b.lt(wanted, here), b.lt(here, wanted));
+    Value next[] = {b.iadd(turn, b.i(1)), b.select(below, middle, low),
+                    b.select(below, high, middle)};
+    b.end_loop(b.op(jit::Op::ILt, next[0], b.i(kHalvings)), next);
+    Value x = b.loop_out(high);
+    // Where the start is enough, x is 0 and no small number.
+    Value at_start = b.select(falls, b.le(first, wanted), b.le(wanted, first));
+    return b.select(at_start, b.f(0), x);
+}
+
 }  // namespace
 
 namespace lower_math {
 
-// spline([basis,] x, knots...) or with an array of knots; x is clamped to 0..1, NaN counts as 0.
+// spline([basis,] x, knots...) or with an array of knots.
 void spline(LowerCall& c) {
     bool named = c.args[0].type == BaseType::String;
-    const Basis* basis = find_basis(c, named);
+    bool solving = false;
+    const Basis* basis = find_basis(c, named, &solving);
     if (!basis) return;
     size_t first = named ? 2 : 1;
-    std::vector<Lowered> knots(c.args.begin() + long(first), c.args.end());
-    if (c.call.args[first]->type.is_array()) knots = c.low.array_values(*c.call.args[first]);
-    int count = int(knots.size());
-    if (count < 4 || (count - 4) % basis->step != 0)
+    Curve curve{*basis, {c.args.begin() + long(first), c.args.end()}, 0};
+    if (c.call.args[first]->type.is_array()) curve.knots = c.low.array_values(*c.call.args[first]);
+    int count = int(curve.knots.size());
+    if (count < 4 || (count - 4) % basis->step != 0 ||
+        (solving && c.result_type() != BaseType::Float))
         return c.low.error(Code::RSL_SPLINE_KNOTS, c.where(), basis->name, count);
-
-    auto& b = c.b;
-    int pieces = (count - 4) / basis->step + 1;
-    Value x = c.low.clamp(c.args[first - 1].c[0], b.f(0), b.f(1));
-    Value scaled = b.mul(x, b.f(float(pieces)));
-    Value piece = b.min(b.floor(scaled), b.f(float(pieces - 1)));
-    Value t = b.sub(scaled, piece);
-    std::array<Lowered, 4> knot;
-    for (int k = 0; k < 4; ++k) knot[size_t(k)] = knot_of(c, knots, *basis, piece, pieces, k);
-    // Weights first: at t = 0 and 1 they are exact, so the curve meets its knots exactly.
-    std::array<Value, 4> weight;
-    for (size_t k = 0; k < 4; ++k) {
-        weight[k] = b.f(basis->m[0][k]);
-        for (size_t r = 1; r < 4; ++r) weight[k] = c.low.fma(weight[k], t, b.f(basis->m[r][k]));
-    }
-    for (size_t j = 0; j < size_t(c.result.size()); ++j) {
-        Value sum = b.f(0);
-        for (size_t k = 4; k-- > 0;) sum = c.low.fma(weight[k], knot[k].c[j], sum);
-        c.result.c[j] = sum;
-    }
+    curve.pieces = (count - 4) / basis->step + 1;
+    Value x = c.args[first - 1].c[0];
+    if (solving) return c.set(solve(c, curve, x));
+    Lowered value = point_at(c, curve, x);
+    for (size_t j = 0; j < size_t(c.result.size()); ++j) c.result.c[j] = value.c[j];
 }
 
 }  // namespace lower_math

@@ -1,34 +1,12 @@
 // rsl/builtins_string.cpp: rows of the built-in table: strings and printing.
-#include <algorithm>
-#include <cstdio>
-
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
+#include "rsl/string_functions.h"
 
 namespace kinora::rsl {
 
 namespace lower_string {
-
-// One %-conversion of a format and how many numbers it takes.
-struct Conversion {
-    size_t begin, end;  // in the format
-    char letter;
-};
-
-std::vector<Conversion> conversions(const std::string& format) {
-    std::vector<Conversion> result;
-    for (size_t k = 0; k + 1 < format.size(); ++k) {
-        if (format[k] != '%') continue;
-        size_t end = k + 1;
-        while (end < format.size() &&
-               std::string_view("0123456789.-+ #").find(format[end]) != std::string_view::npos)
-            ++end;
-        if (end < format.size() && format[end] != '%') result.push_back({k, end + 1, format[end]});
-        k = end;
-    }
-    return result;
-}
 
 bool count_matches(LowerCall& c, size_t wanted) {
     if (wanted == c.args.size() - 1) return true;
@@ -36,108 +14,161 @@ bool count_matches(LowerCall& c, size_t wanted) {
     return false;
 }
 
-void set_text(LowerCall& c, std::string_view text) {
-    c.set(c.b.i(intern(text)));
+Value join(LowerCall& c, Value a, Value b) {
+    const std::string* first = c.low.constant_text(a);
+    const std::string* second = c.low.constant_text(b);
+    if (first && second) return c.b.i(intern(*first + *second));
+    if (first && first->empty()) return b;
+    if (second && second->empty()) return a;
+    return c.low.service("concat", std::array{a, b})[0];
 }
 
 void concat(LowerCall& c) {
-    std::string all;
-    for (size_t k = 0; k < c.args.size(); ++k) {
-        const std::string* part = c.text(int(k));
-        if (!part) return;
-        all += *part;
-    }
-    set_text(c, all);
-}
-
-// The text of a constant value, by the conversion.
-bool constant_text(LowerCall& c, const Lowered& value, const std::string& conversion,
-                   std::string& out) {
-    if (value.type == BaseType::String) {
-        const std::string* text = c.low.constant_text(value.c[0]);
-        if (text) out += *text;
-        return text != nullptr;
-    }
-    std::string number = conversion;
-    char letter = number.back();
-    number.back() = 'f';
-    for (int k = 0; k < value.size(); ++k) {
-        float x;
-        if (!c.b.constant_f(value.c[size_t(k)], &x)) return false;
-        char buffer[128];
-        if (letter == 'd')
-            std::snprintf(buffer, sizeof buffer, "%d", int(std::clamp(x, -2e9f, 2e9f)));
-        else
-            std::snprintf(buffer, sizeof buffer, number.c_str(), double(x));
-        out += (k > 0 ? " " : "") + std::string(buffer);
-    }
-    return true;
-}
-
-void format(LowerCall& c) {
-    const std::string* text = c.text(0);
-    if (!text) return;
-    auto parts = conversions(*text);
-    if (!count_matches(c, parts.size())) return;
-    std::string out;
-    size_t at = 0;
-    for (size_t k = 0; k < parts.size(); ++k) {
-        out += text->substr(at, parts[k].begin - at);
-        std::string conversion = text->substr(parts[k].begin, parts[k].end - parts[k].begin);
-        at = parts[k].end;
-        if (constant_text(c, c.args[k + 1], conversion, out)) continue;
-        return c.low.error(Code::RSL_STRING_NOT_CONSTANT, c.where(), "format");
-    }
-    set_text(c, out + text->substr(at));
-}
-
-// A small regular expression: ^ $ . * and literals, found anywhere; as grep's basics.
-bool matches_here(const char* pattern, const char* text) {
-    if (*pattern == 0) return true;
-    if (pattern[0] == '$' && pattern[1] == 0) return *text == 0;
-    auto fits = [&](const char* at) { return *at && (*pattern == '.' || *pattern == *at); };
-    if (pattern[1] == '*') {
-        for (;; ++text) {
-            if (matches_here(pattern + 2, text)) return true;
-            if (!fits(text)) return false;
-        }
-    }
-    return fits(text) && matches_here(pattern + 1, text + 1);
-}
-bool matches(const std::string& pattern, const std::string& text) {
-    if (!pattern.empty() && pattern[0] == '^')
-        return matches_here(pattern.c_str() + 1, text.c_str());
-    for (const char* at = text.c_str();; ++at) {
-        if (matches_here(pattern.c_str(), at)) return true;
-        if (!*at) return false;
-    }
+    Value all = c.args[0].c[0];
+    for (size_t k = 1; k < c.args.size(); ++k) all = join(c, all, c.args[k].c[0]);
+    c.set(all);
 }
 
 void match(LowerCall& c) {
-    const std::string* pattern = c.text(0);
-    const std::string* text = c.text(1);
-    if (!pattern || !text) return;
-    c.set(c.b.f(matches(*pattern, *text) ? 1.0f : 0.0f));
+    Value pattern = c.args[0].c[0], text = c.args[1].c[0];
+    const std::string* known_pattern = c.low.constant_text(pattern);
+    const std::string* known_text = c.low.constant_text(text);
+    if (known_pattern && known_text)
+        c.set(c.b.f(matches(*known_pattern, *known_text) ? 1.0f : 0.0f));
+    else
+        c.set(c.low.service("match", std::array{pattern, text})[0]);
+}
+
+// The numbers of a value as services take them: strings as ids bit for bit.
+std::vector<Value> numbers(LowerCall& c, const Lowered& value) {
+    if (value.type == BaseType::String) return {c.b.from_bits(value.c[0])};
+    if (value.type == BaseType::Bool) return {c.low.flag(value.c[0])};
+    return {value.c.begin(), value.c.begin() + value.size()};
+}
+
+// What a conversion asks for, of a value that may be of another kind: a float for %c is spread, a
+// triple for %f gives three.
+std::string fitting(const std::string& conversion, char letter, const Lowered& value) {
+    std::string text = conversion;
+    size_t wanted =
+        letter == 'm'                                                                       ? 16
+        : letter == 'c' || letter == 'p' || letter == 'v' || letter == 'n' || letter == 'h' ? 3
+                                                                                            : 1;
+    size_t given = value.type == BaseType::String ? 1 : size_t(component_count(value.type));
+    if (value.type == BaseType::String) text.back() = 's';
+    if (value.type != BaseType::String && letter == 's') wanted = 0;
+    if (value.type != BaseType::String && wanted != given)
+        text.back() = given == 16 ? 'm' : given == 3 ? 'p' : 'f';
+    return text;
+}
+
+// A part of a format with the values it takes, no more than a service does.
+struct Piece {
+    std::string format;
+    std::vector<Value> values;
+};
+
+// The format in pieces; values known when the shader is compiled become text.
+std::vector<Piece> pieces_of(LowerCall& c, const std::string& format) {
+    std::vector<Piece> pieces(1);
+    size_t at = 0;
+    std::vector<Conversion> parts = conversions(format);
+    for (size_t k = 0; k < parts.size(); ++k) {
+        pieces.back().format += format.substr(at, parts[k].begin - at);
+        std::string conversion = format.substr(parts[k].begin, parts[k].end - parts[k].begin);
+        at = parts[k].end;
+        const Lowered& value = c.args[k + 1];
+        conversion = fitting(conversion, parts[k].letter, value);
+        std::vector<Value> values = numbers(c, value);
+        std::vector<float> known(values.size());
+        bool all_known = true;
+        for (size_t i = 0; i < values.size(); ++i) {
+            int32_t id;
+            bool string = value.type == BaseType::String && c.b.constant_i(value.c[0], &id);
+            if (string) known[i] = jit::float_of(id);
+            all_known = all_known && (string || c.b.constant_f(values[i], &known[i]));
+        }
+        if (all_known) {
+            pieces.back().format += escape_format(format_text(conversion, known));
+            continue;
+        }
+        if (pieces.back().values.size() + values.size() > size_t(kMostFormatValues))
+            pieces.push_back({});
+        pieces.back().format += conversion;
+        pieces.back().values.insert(pieces.back().values.end(), values.begin(), values.end());
+    }
+    pieces.back().format += format.substr(at);
+    return pieces;
+}
+
+// One piece, whose format is not known: it takes what it is given.
+bool unknown_format(LowerCall& c, Piece& piece) {
+    for (size_t k = 1; k < c.args.size(); ++k) {
+        std::vector<Value> values = numbers(c, c.args[k]);
+        piece.values.insert(piece.values.end(), values.begin(), values.end());
+    }
+    if (piece.values.size() <= size_t(kMostFormatValues)) return true;
+    c.low.error(Code::RSL_PRINT_TOO_LONG, c.where(), piece.values.size());
+    return false;
+}
+
+std::vector<Value> service_arguments(LowerCall& c, Value format, std::vector<Value> values) {
+    values.insert(values.begin(), format);
+    values.resize(1 + size_t(kMostFormatValues), c.b.f(0));
+    return values;
+}
+
+void format(LowerCall& c) {
+    const std::string* text = c.low.constant_text(c.args[0].c[0]);
+    if (!text) {
+        Piece all;
+        if (unknown_format(c, all))
+            c.set(c.low.service("format", service_arguments(c, c.f(0), all.values))[0]);
+        return;
+    }
+    if (!count_matches(c, conversions(*text).size())) return;
+    Value result = c.b.i(0);
+    for (const Piece& piece : pieces_of(c, *text)) {
+        Value format = c.b.i(intern(piece.format));
+        Value part = piece.values.empty()
+                         ? c.b.i(intern(format_text(piece.format, {})))
+                         : c.low.service("format", service_arguments(c, format, piece.values))[0];
+        result = join(c, result, part);
+    }
+    c.set(result);
+}
+
+// Kernels that only ask for opacity run beside the one that prints.
+bool prints(LowerCall& c) {
+    return c.low.kind() != ShaderKind::Surface || c.low.options.want_Ci;
 }
 
 void print(LowerCall& c) {
-    constexpr size_t kMost = 16;  // as rsl/renderer_services.h says
-    const std::string* text = c.text(0);
-    if (!text || !count_matches(c, conversions(*text).size())) return;
-    std::vector<Value> values = {c.b.i(intern(*text))};
-    for (size_t k = 1; k < c.args.size(); ++k) {
-        const Lowered& arg = c.args[k];
-        if (arg.type == BaseType::String)
-            values.push_back(c.b.from_bits(arg.c[0]));
-        else if (arg.type == BaseType::Bool)
-            values.push_back(c.low.flag(arg.c[0]));
-        else
-            values.insert(values.end(), arg.c.begin(), arg.c.begin() + arg.size());
+    if (!prints(c)) return;
+    const std::string* text = c.low.constant_text(c.args[0].c[0]);
+    if (!text) {
+        Piece all;
+        if (unknown_format(c, all))
+            c.low.service("print", service_arguments(c, c.f(0), all.values));
+        return;
     }
-    if (values.size() - 1 > kMost)
-        return c.low.error(Code::RSL_PRINT_TOO_LONG, c.where(), values.size() - 1);
-    values.resize(1 + kMost, c.b.f(0));
-    c.low.service("print", values);
+    if (!count_matches(c, conversions(*text).size())) return;
+    for (const Piece& piece : pieces_of(c, *text)) {
+        Value format = c.b.i(intern(piece.format));
+        c.low.service("print", service_arguments(c, format, piece.values));
+    }
+}
+
+// debug(x): the source of the argument is not at hand, so its line is named.
+void debug(LowerCall& c) {
+    if (!prints(c)) return;
+    BaseType type = c.args[0].type;
+    const char* conversion = type == BaseType::String   ? "%s"
+                             : type == BaseType::Matrix ? "%m"
+                             : is_triple(type)          ? "%p"
+                                                        : "%f";
+    std::string text = "debug " + std::string(type_name(type)) + ": " + conversion + "\n";
+    c.low.service("print", service_arguments(c, c.b.i(intern(text)), numbers(c, c.args[0])));
 }
 
 }  // namespace lower_string
@@ -149,17 +180,15 @@ namespace lower = lower_string;
 const Builtin kRows[] = {
     {"concat", "s=sss*", lower::concat, KINORA_RSL_REF(ref::concat), kPure, 0,
      "Its arguments, one after the other."},
-    {"format",
-     "s=s?*",
-     lower::format,
-     {},
-     kPure,
-     0,
-     "Text with %f %c %p %m %s replaced by the arguments."},
+    {"format", "s=s?*", lower::format, KINORA_RSL_REF(ref::format), kPure, 0,
+     "Text with %f %d (floats) %c %p %v %n (triples) %m (matrices) %s (strings) replaced by the "
+     "arguments; C's width and precision may stand after the %."},
     {"match", "f=ss", lower::match, KINORA_RSL_REF(ref::match), kPure, 0,
-     "1 if the pattern (a regular expression) occurs in the string: match(pattern, string)."},
+     "1 if the pattern, a regular expression, occurs in the string: match(pattern, string)."},
     {"printf", "x=s?*", lower::print, KINORA_RSL_REF(ref::printf), kPrints, 0,
-     "Prints text with %f %c %p %m %s replaced by the arguments."},
+     "Prints text as format() makes it: uniform values once a frame, varying ones for each point."},
+    {"debug", "x=f x=c x=p x=v x=n x=m x=s", lower::debug, KINORA_RSL_REF(ref::printf), kPrints, 0,
+     "Prints its argument on a line of its own."},
 };
 
 }  // namespace

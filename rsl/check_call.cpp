@@ -133,6 +133,10 @@ int Checker::builtin_cost(const CallExpr& e, const Signature& s, BaseType wanted
         const Signature::Argument& a = i < fixed ? s.arguments[i] : s.repeated;
         int cost = argument_cost(*e.args[i], a.type, a.output);
         if (cost < 0) return -1;
+        // abs(noise(P)) is a float, as in the specification, which has no other abs: a
+        // componentwise form is for arguments that are triples.
+        bool open = is_flexible(*e.args[i]) && e.args[i]->type.base == BaseType::Invalid;
+        if (open && a.type.base != BaseType::Float && can_be(*e.args[i], BaseType::Float)) ++cost;
         total += cost * kArgumentWeight;
     }
     return total;

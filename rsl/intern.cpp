@@ -33,6 +33,12 @@ int32_t intern(std::string_view text) {
     return id;
 }
 
+int32_t interned_count() {
+    Table& t = table();
+    std::lock_guard lock(t.mutex);
+    return int32_t(t.texts.size());
+}
+
 const std::string& interned(int32_t id) {
     Table& t = table();
     std::lock_guard lock(t.mutex);

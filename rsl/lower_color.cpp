@@ -1,5 +1,7 @@
 // rsl/lower_color.cpp: colors between rgb, hsv, hsl, xyz, xyY and YIQ. A grey has hue 0
 // (EXTREMES.md row 79).
+#include <algorithm>
+
 #include "rsl/color_matrices.h"
 #include "rsl/lower_p.h"
 
@@ -99,20 +101,25 @@ V3 same(Emitter&, const V3& c) {
     return c;
 }
 
+// Names are in any letter case.
+bool same_name(std::string_view lower_case, std::string_view name) {
+    auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+    return std::equal(lower_case.begin(), lower_case.end(), name.begin(), name.end(),
+                      [&](char a, char b) { return a == lower(b); });
+}
+
 struct ColorSpace {
-    std::string_view name;
+    std::string_view name;  // in lower case
     V3 (*from_rgb)(Emitter&, const V3&);
     V3 (*to_rgb)(Emitter&, const V3&);
 };
 const ColorSpace kSpaces[] = {
     {"rgb", same, same},
-    {"RGB", same, same},
     {"hsv", hsv_from_rgb, rgb_from_hsv},
     {"hsl", hsl_from_rgb, rgb_from_hsl},
     {"xyz", xyz_from_rgb, rgb_from_xyz},
-    {"XYZ", xyz_from_rgb, rgb_from_xyz},
-    {"xyY", xyY_from_rgb, rgb_from_xyY},
-    {"YIQ", yiq_from_rgb, rgb_from_yiq},
+    {"xyy", xyY_from_rgb, rgb_from_xyY},
+    {"yiq", yiq_from_rgb, rgb_from_yiq},
 };
 
 }  // namespace
@@ -121,13 +128,13 @@ Lowered Lowering::color_space(const Lowered& color, std::string_view from, std::
                               Location where) {
     auto find = [&](std::string_view name) -> const ColorSpace* {
         for (const ColorSpace& space : kSpaces)
-            if (space.name == name) return &space;
+            if (same_name(space.name, name)) return &space;
         error(Code::RSL_COLOR_SPACE_UNKNOWN, where, name);
         return nullptr;
     };
     const ColorSpace* source = find(from);
     const ColorSpace* target_space = find(to);
-    if (!source || !target_space || from == to) return color;
+    if (!source || !target_space || source == target_space) return color;
     V3 rgb = source->to_rgb(*this, color.v3());
     return lowered(BaseType::Color, target_space->from_rgb(*this, rgb));
 }

@@ -21,6 +21,9 @@ const ServiceRow kServices[] = {
     {"transmission", "ffffff", "fff", true},
     {"transform", "i", "ffffffffffffffffffffffff", true},
     {"print", "iffffffffffffffff", "", false},
+    {"concat", "ii", "i", true},
+    {"format", "iffffffffffffffff", "i", true},
+    {"match", "ii", "f", true},
 };
 
 std::vector<jit::Type> types(std::string_view letters) {

@@ -17,7 +17,7 @@
     F(random) F(noise) F(pnoise) F(cellnoise)                                                 \
     F(ambient) F(diffuse) F(specular) F(phong) F(specularbrdf)                                \
     F(trace) F(transmission) F(visibility) F(texture) F(environment) F(shadow)                \
-    F(concat) F(match) F(printf) F(lightsource) F(shadername)
+    F(concat) F(format) F(match) F(printf) F(lightsource) F(shadername)
 // clang-format on
 
 namespace kinora::rsl::ref {

@@ -1,6 +1,7 @@
 // rsl/reference_color.cpp: components, and colors between rgb, hsv, hsl, xyz, xyY and YIQ, at one
 // point. A grey has hue 0 (EXTREMES.md row 79).
 #include <algorithm>
+#include <cctype>
 
 #include "rsl/color_matrices.h"
 #include "rsl/reference_p.h"
@@ -90,8 +91,12 @@ Vec<Real> to_rgb(Reference<Real>& eval, const Vec<Real>& c, std::string_view fro
 template <class Real>
 Vec<Real> Reference<Real>::color_space(const Vec<Real>& color, const std::string& from,
                                        const std::string& to) {
-    if (from == to) return color;
-    return from_rgb(*this, to_rgb(*this, color, from), to);
+    auto name = [](std::string text) {
+        for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+        return text == "xyy" ? "xyY" : text == "yiq" ? "YIQ" : text;
+    };
+    if (name(from) == name(to)) return color;
+    return from_rgb(*this, to_rgb(*this, color, name(from)), name(to));
 }
 template Vec<float> Reference<float>::color_space(const Vec<float>&, const std::string&,
                                                   const std::string&);

@@ -1,7 +1,9 @@
 // rsl/reference_light.cpp: built-ins over lights, messages, services and text, at one point.
+#include <bit>
 #include <regex>
 
 #include "rsl/reference_p.h"
+#include "rsl/string_functions.h"
 
 namespace kinora::rsl {
 
@@ -168,6 +170,18 @@ void match(RefCall<Real>& c) {
     c.set(Dual<Real>(Real(found)));
 }
 template <class Real>
+void format(RefCall<Real>& c) {
+    std::vector<float> values;
+    for (size_t i = 1; i < c.args.size(); ++i) {
+        const RefValue<Real>& value = c.args[i];
+        for (size_t k = 0; k < value.size(); ++k)
+            values.push_back(value.type == BaseType::String
+                                 ? std::bit_cast<float>(int32_t(value.c[k].x))
+                                 : float(value.c[k].x));
+    }
+    c.set(Dual<Real>(Real(intern(format_text(c.text(0), values)))));
+}
+template <class Real>
 void printf(RefCall<Real>&) {}  // what is printed is no value of the point
 
 KINORA_RSL_DEFINE_REF(ambient)
@@ -185,6 +199,7 @@ KINORA_RSL_DEFINE_REF(lightsource)
 KINORA_RSL_DEFINE_REF(shadername)
 KINORA_RSL_DEFINE_REF(concat)
 KINORA_RSL_DEFINE_REF(match)
+KINORA_RSL_DEFINE_REF(format)
 KINORA_RSL_DEFINE_REF(printf)
 
 }  // namespace ref

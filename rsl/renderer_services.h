@@ -39,8 +39,8 @@
 namespace kinora::rsl {
 
 // Columns of a light record, as RecordField reads them. L points from the surface to the light,
-// not normalised (solar: unit length). lit is an int. Messages the surface asks for follow; they are
-// 0 where the light has no such parameter.
+// not normalised (solar: unit length). lit is an int. Messages the surface asks for follow; they
+// are 0 where the light has no such parameter.
 enum LightColumn { kLightL = 0, kLightCl = 3, kLightOl = 6, kLightLit = 9, kLightMessages = 10 };
 
 // Uniforms of a light record, as RecordUniform reads them.
@@ -66,13 +66,18 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //   trace         (P xyz, R xyz) -> r g b distance (1e30 for a miss)
 //   transmission  (from xyz, to xyz) -> r g b
 //   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
-//   print         (int format, 16 values: those the format's %f %d %c %p %v %n %m %s take, in order,
+//   concat        (int, int) -> int; match (int pattern, int text) -> 1 or 0; format (as print) ->
+//                 int: the same for every renderer, rsl/string_functions.h
+//   print         (int format, 16 values: those the format's %f %d %c %p %v %n %m %s take, in
+//   order,
 //                  strings as ids bit for bit, the rest 0) -> nothing
 inline constexpr std::string_view kServiceNames[] = {
-    "lights", "texture", "environment", "shadow", "trace", "transmission", "transform", "print"};
+    "lights",    "texture", "environment", "shadow", "trace", "transmission",
+    "transform", "print",   "concat",      "format", "match"};
 
 // The process-wide, thread-safe table of strings that shaders handle: id <-> text. Id 0 is "".
 int32_t intern(std::string_view text);
 const std::string& interned(int32_t id);
+int32_t interned_count();
 
 }  // namespace kinora::rsl

@@ -1,59 +1,21 @@
 // runtime/print.cpp: printf of shaders: formatted at once, shown in picture order after the frame.
 #include "runtime/print.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <tuple>
 
 #include "rsl/renderer_services.h"
+#include "rsl/string_functions.h"
 #include "runtime/shading_p.h"
 
 namespace kinora {
 
 std::string print_text(const jit::ServiceCall& call, int lane) {
-    const std::string& format = rsl::interned(jit::bits_of(call.args[lane]));
-    int next = 1;
-    auto value = [&] {
-        return next <= 16 ? call.args[size_t(next++ * jit::kMaxLanes + lane)] : 0.0f;
-    };
-    auto several = [&](int count) {
-        std::string text;
-        for (int k = 0; k < count; ++k) text += fmt::format("{}{}", k ? " " : "", value());
-        return text;
-    };
-    std::string text;
-    for (size_t i = 0; i < format.size(); ++i) {
-        if (format[i] != '%' || i + 1 == format.size()) {
-            text += format[i];
-            continue;
-        }
-        switch (format[++i]) {
-            case 'f':
-                text += several(1);
-                break;
-            case 'd':
-                text += fmt::format("{}", int64_t(value()));
-                break;
-            case 'c':
-            case 'p':
-            case 'v':
-            case 'n':
-                text += several(3);
-                break;
-            case 'm':
-                text += several(16);
-                break;
-            case 's':
-                text += rsl::interned(jit::bits_of(value()));
-                break;
-            default:
-                text += format[i];
-                break;  // %% and whatever is unknown
-        }
-    }
-    return text;
+    float values[rsl::kMostFormatValues];
+    for (int k = 0; k < rsl::kMostFormatValues; ++k)
+        values[k] = call.args[(1 + k) * jit::kMaxLanes + lane];
+    return rsl::format_text(rsl::interned(jit::bits_of(call.args[lane])), values);
 }
 
 void Shading::print(const Grid& grid, const jit::ServiceCall& call) {

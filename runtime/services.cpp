@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "rsl/renderer_services.h"
+#include "rsl/string_functions.h"
 #include "runtime/base/check.h"
 #include "runtime/print.h"
 #include "runtime/shading_p.h"
@@ -118,13 +119,15 @@ constexpr Row kRows[] = {
     {"shadow", shadow},       {"trace", trace},     {"transmission", transmission},
     {"transform", transform}, {"print", print},
 };
-static_assert(std::size(kRows) == std::size(rsl::kServiceNames));
+constexpr size_t kStringServices = 3;  // rsl::string_service
+static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));
 
 }  // namespace
 
 jit::ServiceFn find_service(std::string_view name) {
     for (const Row& row : kRows)
         if (row.name == name) return row.function;
+    if (jit::ServiceFn function = rsl::string_service(name)) return function;
     check_failed("runtime/services.cpp", 0, "unknown service " + std::string(name));
 }
 

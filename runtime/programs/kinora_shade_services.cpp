@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "rsl/renderer_services.h"
+#include "rsl/string_functions.h"
 #include "runtime/base/check.h"
 #include "runtime/print.h"
 #include "runtime/programs/kinora_shade_kernel.h"
@@ -66,13 +67,15 @@ constexpr Row kRows[] = {
     {"trace", trace},         {"transmission", transmission},
     {"transform", transform}, {"print", print},
 };
-static_assert(std::size(kRows) == std::size(rsl::kServiceNames));
+constexpr size_t kStringServices = 3;  // rsl::string_service
+static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));
 
 }  // namespace
 
 jit::ServiceFn shade_service(std::string_view name) {
     for (const Row& row : kRows)
         if (row.name == name) return row.function;
+    if (jit::ServiceFn function = rsl::string_service(name)) return function;
     check_failed("kinora_shade_services.cpp", 0, "unknown service " + std::string(name));
 }
 

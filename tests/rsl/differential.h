@@ -18,6 +18,15 @@ struct Random {
         return uint32_t(state >> 32);
     }
     float uniform(float lo, float hi) { return lo + (hi - lo) * float(next() * 0x1p-32); }
+    // Anything that a float can be.
+    float wild() {
+        static const float kEdges[] = {
+            0,     -0.0f,       1e-40f,       -1e-45f,       1.17549435e-38f, 3.4e38f, -3.4e38f,
+            1e30f, -1e30f,      1e-30f,       HUGE_VALF,     -HUGE_VALF,      NAN,     0.5f,
+            1,     16777216.0f, 2147483648.f, -2147483648.f, 8388607.5f,      -7};
+        if (next() % 2) return kEdges[next() % std::size(kEdges)];
+        return next() % 2 ? uniform(-4, 4) : std::bit_cast<float>(next());
+    }
     float argument(bool moderate) {
         if (moderate) return uniform(-2, 2);
         static const float kEdges[] = {0,    -0.0f, 1,     -1,          0.5f,      -0.5f,

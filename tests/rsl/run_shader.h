@@ -11,6 +11,7 @@
 
 #include "jit/compiler.h"
 #include "rsl/lower.h"
+#include "rsl/string_functions.h"
 #include "runtime/base/arena.h"
 
 namespace kinora::rsl {
@@ -161,7 +162,9 @@ class RunShader {
         for (size_t k = 0; k < kernel.outputs.size(); ++k) outs[k] = column(0, count);
         auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size() + 1);
         for (size_t k = 0; k < kernel.services.size(); ++k)
-            functions[k] = services.at(kernel.services[k].name);
+            functions[k] = services.count(kernel.services[k].name)
+                               ? services.at(kernel.services[k].name)
+                               : string_service(kernel.services[k].name);
         auto reported = arena.allocate_span<uint8_t>(kernel.fault_sites.size() + 1);
         std::fill(reported.begin(), reported.end(), uint8_t(0));
         jit::KernelArgs args;

@@ -1,0 +1,196 @@
+// rsl/string_functions.cpp: formats, and the services that handle strings at run time.
+#include "rsl/string_functions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "rsl/renderer_services.h"
+
+namespace kinora::rsl {
+
+// ---- formats ------------------------------------------------------------------------------------
+
+int Conversion::values() const {
+    switch (letter) {
+        case 'f':
+        case 'g':
+        case 'e':
+        case 'd':
+        case 'i':
+        case 's':
+            return 1;
+        case 'c':
+        case 'p':
+        case 'v':
+        case 'n':
+        case 'h':
+            return 3;
+        case 'm':
+            return 16;
+    }
+    return 0;
+}
+
+std::vector<Conversion> conversions(std::string_view format) {
+    std::vector<Conversion> result;
+    for (size_t k = 0; k + 1 < format.size(); ++k) {
+        if (format[k] != '%') continue;
+        size_t end = format.find_first_not_of("0123456789.-+ #", k + 1);
+        if (end == std::string_view::npos) break;
+        Conversion conversion{k, end + 1, format[end]};
+        if (conversion.values() > 0) result.push_back(conversion);
+        k = end;
+    }
+    return result;
+}
+
+std::string escape_format(std::string_view text) {
+    std::string escaped;
+    for (char c : text) escaped += c == '%' ? "%%" : std::string(1, c);
+    return escaped;
+}
+
+namespace {
+
+// Room for a number in any format that a shader may ask for.
+constexpr int kMostDigits = 64;
+
+// A width or precision beyond any use would only fill memory.
+std::string limited(std::string_view flags) {
+    std::string result;
+    int digits = 0;
+    for (char c : flags) {
+        digits = c >= '0' && c <= '9' ? digits + 1 : 0;
+        if (digits <= 2) result += c;
+    }
+    return result;
+}
+
+std::string number_text(std::string_view flags, char letter, float x) {
+    if (letter == 'd' || letter == 'i') {
+        if (std::isnan(x)) return "nan";
+        long long whole = static_cast<long long>(std::clamp(double(x), -9e18, 9e18));
+        if (flags.empty()) return std::to_string(whole);
+        char buffer[128];
+        std::snprintf(buffer, sizeof buffer, ("%" + limited(flags) + "lld").c_str(), whole);
+        return buffer;
+    }
+    bool fixed = letter == 'g' || letter == 'e';
+    if (flags.empty() && !fixed) return fmt::format("{}", x);
+    char buffer[kMostDigits + 128];
+    std::string format = "%" + limited(flags) + (fixed ? letter : 'f');
+    std::snprintf(buffer, sizeof buffer, format.c_str(), double(x));
+    return buffer;
+}
+
+std::string string_text(std::string_view flags, int32_t id) {
+    const std::string& text = interned(id);
+    if (flags.empty()) return text;
+    bool left = flags[0] == '-';
+    size_t width = size_t(std::min(std::abs(std::atoi(std::string(flags).c_str())), 255));
+    std::string padding(width > text.size() ? width - text.size() : 0, ' ');
+    return left ? text + padding : padding + text;
+}
+
+// The text between conversions: "%%" is one sign.
+void append_plain(std::string& out, std::string_view text) {
+    for (size_t k = 0; k < text.size(); ++k) {
+        out += text[k];
+        if (text[k] == '%' && k + 1 < text.size() && text[k + 1] == '%') ++k;
+    }
+}
+
+}  // namespace
+
+std::string format_text(std::string_view format, std::span<const float> values) {
+    std::string out;
+    size_t at = 0, next = 0;
+    auto value = [&] { return next < values.size() ? values[next++] : 0.0f; };
+    for (const Conversion& c : conversions(format)) {
+        append_plain(out, format.substr(at, c.begin - at));
+        std::string_view flags = format.substr(c.begin + 1, c.end - c.begin - 2);
+        at = c.end;
+        if (c.letter == 's') {
+            out += string_text(flags, std::bit_cast<int32_t>(value()));
+            continue;
+        }
+        for (int k = 0; k < c.values(); ++k)
+            out += (k > 0 ? " " : "") + number_text(flags, c.letter, value());
+    }
+    append_plain(out, format.substr(at));
+    return out;
+}
+
+// ---- services -----------------------------------------------------------------------------------
+
+namespace {
+
+constexpr int kLanes = jit::kMaxLanes;
+constexpr int32_t kMostStrings = 1 << 20;
+
+int32_t intern_result(const std::string& text) {
+    return interned_count() < kMostStrings ? intern(text) : 0;
+}
+
+int32_t id_of(const jit::ServiceCall& call, int argument, int lane) {
+    return jit::bits_of(call.args[argument * kLanes + lane]);
+}
+
+bool same_arguments(const jit::ServiceCall& call, int arguments, int a, int b) {
+    for (int k = 0; k < arguments; ++k)
+        if (id_of(call, k, a) != id_of(call, k, b)) return false;
+    return true;
+}
+
+// result(lane) for the first lane of each distinct set of `arguments`.
+template <class Result>
+void for_distinct(const jit::ServiceCall& call, int arguments, Result&& result) {
+    for (int i = 0; i < kLanes; ++i) {
+        if (!(call.mask >> i & 1)) continue;
+        int first = 0;
+        while (!(call.mask >> first & 1) || !same_arguments(call, arguments, first, i)) ++first;
+        call.results[i] = first == i ? result(i) : call.results[first];
+    }
+}
+
+void concat(const jit::ServiceCall& call) {
+    for_distinct(call, 2, [&](int i) {
+        std::string all = interned(id_of(call, 0, i)) + interned(id_of(call, 1, i));
+        return jit::float_of(intern_result(all));
+    });
+}
+
+void format(const jit::ServiceCall& call) {
+    for_distinct(call, 1 + kMostFormatValues, [&](int i) {
+        float values[kMostFormatValues];
+        for (int k = 0; k < kMostFormatValues; ++k) values[k] = call.args[(1 + k) * kLanes + i];
+        return jit::float_of(intern_result(format_text(interned(id_of(call, 0, i)), values)));
+    });
+}
+
+void match(const jit::ServiceCall& call) {
+    for_distinct(call, 2, [&](int i) {
+        return matches(interned(id_of(call, 0, i)), interned(id_of(call, 1, i))) ? 1.0f : 0.0f;
+    });
+}
+
+struct ServiceRow {
+    std::string_view name;
+    jit::ServiceFn function;
+};
+constexpr ServiceRow kServices[] = {{"concat", concat}, {"format", format}, {"match", match}};
+
+}  // namespace
+
+jit::ServiceFn string_service(std::string_view name) {
+    for (const ServiceRow& row : kServices)
+        if (row.name == name) return row.function;
+    return nullptr;
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,43 @@
+// rsl/string_functions.h: what concat, format, match and printf mean, for values that are known
+// when a shader is compiled and for those that are not.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jit/target.h"
+
+namespace kinora::rsl {
+
+// One %-conversion of a format: %f %d a float, %c %p %v %n a triple, %m a matrix, %s a string; with
+// C's flags, width and precision between. "%%" is a percent sign and no conversion.
+struct Conversion {
+    size_t begin, end;  // in the format
+    char letter;
+    int values() const;  // numbers that it takes; 0 for an unknown letter, which is text
+};
+std::vector<Conversion> conversions(std::string_view format);
+
+// The most numbers that the services "format" and "print" take.
+inline constexpr int kMostFormatValues = 16;
+
+// The format with its conversions replaced, a float at a time; strings are interned ids bit for
+// bit, missing values 0. A float without precision is the shortest decimal that reads back; %d
+// truncates.
+std::string format_text(std::string_view format, std::span<const float> values);
+
+// The text as part of a format.
+std::string escape_format(std::string_view text);
+
+// Does the regular expression match some part of the text? POSIX's extended syntax: . [] * + ? | ()
+// ^ $ and \ before a character to be taken as it is. Time grows with both lengths only.
+bool matches(std::string_view pattern, std::string_view text);
+
+// The services "concat", "format" and "match" (rsl/renderer_services.h), the same for every
+// renderer; null for other names. Each does its work once for each distinct set of arguments of a
+// call. Once a million strings exist no new ones are made: the result is "".
+jit::ServiceFn string_service(std::string_view name);
+
+}  // namespace kinora::rsl
