@@ -26,7 +26,8 @@ std::vector<std::string> texts(const std::string& expression) {
         if (!run.ok()) return {"", ""};
         run.set("s", std::vector<float>{0, 1});
         std::vector<std::string> got;
-        for (float id : run.run(2)["aov:r"]) got.push_back(interned(std::bit_cast<int32_t>(id)));
+        auto outputs = run.run(2);
+        for (float id : outputs["aov:r"]) got.push_back(interned(std::bit_cast<int32_t>(id)));
         if (first.empty()) first = got;
         EXPECT_EQ(got, first) << target.name;
     }
@@ -72,7 +73,7 @@ TEST(Strings, MatchAsPosixDoes) {
     const char* words[] = {"",     "a",        "ab",      "abc",
                            "abbc", "ac",       "bc",      "xyz",
                            "xzzy", "ababc",    "a.c",     "12",
-                           "q",    "tex7.tif", "tex.tif", "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaac"};
+                           "q",    "tex7.tif", "tex.tif", "aaaaac"};
     for (const char* pattern : patterns)
         for (const char* word : words) {
             if (std::string_view(pattern).empty()) {
