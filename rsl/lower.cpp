@@ -15,7 +15,7 @@ class Stack {
     Stack(Lowering& lowering, std::span<const Layer> layers) : low_(lowering), layers_(layers) {}
 
     void run() {
-        for (const Layer& layer : layers_) run_layer(layer);
+        for (const Layer& layer : layers_) layer.done ? declare_layer(layer) : run_layer(layer);
         if (low_.failed) return;
         if (layers_.back().shader->kind == ShaderKind::Light)
             low_.light_outputs();
@@ -25,10 +25,16 @@ class Stack {
     }
 
   private:
+    void declare_layer(const Layer& layer) {
+        low_.layer_index = size_t(&layer - layers_.data());
+        low_.declare_layer(layer);
+    }
+
     // Displacements pass P and N on among themselves; surfaces see N as it was left, and the
     // original P: bent normals, not moved points (DESIGN.md decision 7).
     void run_layer(const Layer& layer) {
-        bool displacement = layer.shader->kind == ShaderKind::Displacement;
+        bool displacement = layer.shader->kind == ShaderKind::Displacement ||
+                            layer.shader->kind == ShaderKind::Transformation;
         for (size_t g = 0; g < size_t(Global::Count); ++g) low_.kill(Global(g));
         low_.layer = &layer;
         low_.layer_index = size_t(&layer - layers_.data());
@@ -83,6 +89,8 @@ class Stack {
             if (low_.options.want_Oi) output("Oi", BaseType::Color, lowered(BaseType::Color, Oi_));
         }
         if (alpha_ != jit::kNone) low_.b.output({"alpha", jit::Type::F}, alpha_);
+        low_.out.moves_P = have_P_ && !low_.is_input(P_.v3(), "P");
+        low_.out.bends_N = have_N_ && !low_.is_input(N_.v3(), "N");
         if (low_.options.want_N) output("N", BaseType::Normal, left_N_);
         if (low_.options.want_P)
             output("P", BaseType::Point, have_P_ ? P_ : low_.global_input(Global::P));
@@ -148,14 +156,27 @@ class Stack {
 
 }  // namespace
 
-void Lowering::run_layer(const Layer& next) {
-    const Shader& shader = *next.shader;
+void Lowering::enter_layer() {
     symbol_base_ = int(slots_.size());
     slots_.resize(slots_.size() + ast().symbol_count);
     array_of_.assign(ast().symbol_count, -1);
     in_memory_ = memory_arrays(ast());
     inline_path = inline_path * 31 + 7;
     recursive_.clear();
+}
+
+void Lowering::declare_layer(const Layer& next) {
+    for (size_t g = 0; g < size_t(Global::Count); ++g) kill(Global(g));
+    layer = &next;
+    enter_layer();
+    for (const ShaderParameter& p : next.shader->parameters)
+        if (!p.type.is_array())
+            messages.push_back({next.shader->kind, std::string(p.name), parameter(*p.symbol)});
+}
+
+void Lowering::run_layer(const Layer& next) {
+    const Shader& shader = *next.shader;
+    enter_layer();
 
     ChangeFinder finder(ast());
     finder.add(shader.definition->body);

@@ -38,6 +38,9 @@ struct ParamBinding {
 struct Layer {
     const Shader* shader = nullptr;
     std::vector<ParamBinding> params;
+    // The shader has run already, on the mesh's vertices: only its parameters are known here, for
+    // displacement(); those it wrote come as Varying bindings.
+    bool done = false;
 };
 
 struct LowerOptions {
@@ -67,6 +70,8 @@ struct LoweredShader {
     std::vector<int> light_message_components;
     bool uses_lights = false;  // reads record set 0
     bool uses_rng = false;
+    // Displacements and transformations: whether P, N as they leave them can differ from the input.
+    bool moves_P = false, bends_N = false;
     // Oi's class (decision 6), judged from the IR: 1 always, constant, or computed per point.
     enum class Opacity { Opaque, Constant, Computed } opacity = Opacity::Opaque;
 };

@@ -93,6 +93,7 @@ class Lowering : public Emitter {
 
     // lower.cpp: one shader of the stack.
     void run_layer(const Layer& next);
+    void declare_layer(const Layer& next);    // a layer that is done: its parameters only
     Lowered parameter(const Symbol& symbol);  // its first value
 
     // lower_variables.cpp, lower_inputs.cpp: slots, arrays, targets.
@@ -256,6 +257,7 @@ class Lowering : public Emitter {
         int result;    // slot, -1 for void
     };
 
+    void enter_layer();  // slots for the symbols of `layer`
     void merge_changes(size_t mark, Value mask, Value outer_running);
     int array_of(const Symbol& symbol);
     int make_array(const Symbol& symbol, Type type);

@@ -1,4 +1,6 @@
 // rsl/parse_definition.cpp: shaders, functions, parameters and declarations.
+#include <algorithm>
+
 #include "rsl/parser.h"
 
 namespace kinora::rsl {
@@ -12,7 +14,7 @@ bool is_detail_word(Word word) {
     return word == Word::Uniform || word == Word::Varying || word == Word::Output;
 }
 bool is_shader_word(Word word) {
-    return word >= Word::Surface && word <= Word::Transformation;
+    return word >= Word::Surface && word <= Word::Deformation;
 }
 
 }  // namespace
@@ -36,7 +38,9 @@ bool Parser::foreign_definition() {
 bool Parser::shader_definition() {
     if (!is_shader_word(token().word)) return false;
     uint32_t at = next_;
-    auto kind = ShaderKind(int(token().word) - int(Word::Surface));
+    // "deformation" is another name of transformation.
+    auto kind =
+        ShaderKind(std::min(int(token().word), int(Word::Transformation)) - int(Word::Surface));
     advance();
     auto* shader = ast_.arena.make<ShaderDefinition>();
     shader->kind = kind;

@@ -152,7 +152,8 @@ bool has_placed_param(const ShaderUse& use) {
 
 // Texture coordinates and varying parameters of one surface; the look's list of varying parameters
 // must be the same for all surfaces that share it, so it is part of the look's key.
-bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look) {
+bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look,
+                                      std::vector<const VertexAttribute*>& inputs) {
     Scene& scene = *scene_;
     const Mesh& mesh = scene.meshes[scene.shapes[surface.shape].mesh];
     const PrimitiveGroup& group = *mesh.groups[surface.group].definition;
@@ -175,7 +176,7 @@ bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, 
         varying.components = components;
         varying.component = component;
         look.varying.push_back(std::move(varying));
-        surface.varying.push_back(attribute);
+        inputs.push_back(attribute);
     };
     for (uint32_t l = 0; l < look.layers.size(); ++l) {
         const ShaderUse& layer = look.layers[l];
@@ -242,24 +243,89 @@ uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
     // A material that only displaces shows the default surface.
     const std::vector<ShaderUse>& surfaces =
         definition->surfaces.empty() ? default_material().surfaces : definition->surfaces;
-    auto look = std::make_unique<Look>();
-    look->kind = LookKind::Surface;
-    look->name = definition->id.empty() ? definition->name : definition->id;
-    look->hide_backfaces = definition->hide_backfaces;
-    look->layers = definition->displacements;
-    look->layers.insert(look->layers.end(), surfaces.begin(), surfaces.end());
-    std::string key = fmt::format("{}", static_cast<const void*>(definition));
-    apply_binds(use, look->layers, key);
+    vertex_look(LookKind::Transformation, surface, use, *definition, surface.transformation);
+    bool bump = scene.options.displacement == DisplacementMode::Bump;
+    if (!bump) vertex_look(LookKind::Displacement, surface, use, *definition, surface.displacement);
+    std::vector<ShaderUse> layers = definition->displacements;
+    layers.insert(layers.end(), surfaces.begin(), surfaces.end());
+    std::string key;
+    auto look = begin_look(LookKind::Surface, *definition, std::move(layers), use, shape, key);
     add_volumes(surface, *definition, use);
-    for (const ShaderUse& layer : look->layers)
-        if (has_placed_param(layer)) look->node = shape.node;
-    if (look->node != kNone) key += fmt::format("|node {}", look->node);
-    bind_vertex_inputs(surface, use, *look);
+    if (surface.displacement.look != kNone)
+        look->done_layers = uint32_t(definition->displacements.size());
+    bind_vertex_inputs(surface, use, *look, surface.varying);
+    if (look->done_layers) bind_displaced(surface, *look);
     for (const VaryingParam& v : look->varying)
         key += fmt::format("|{}:{}={}", v.layer, v.name, v.semantic == "Pref");
     auto [place, is_new] = looks_by_key_.try_emplace(key, uint32_t(scene.looks.size()));
     if (is_new) scene.looks.push_back(std::move(look));
     return place->second;
+}
+
+// A look of the material's shaders with the instance's <bind>s over them; `key` is the same for
+// looks that are.
+std::unique_ptr<Look> SceneBuilder::begin_look(LookKind kind, const MaterialDefinition& definition,
+                                               std::vector<ShaderUse> layers,
+                                               const MaterialUse* use, const Shape& shape,
+                                               std::string& key) {
+    auto look = std::make_unique<Look>();
+    look->kind = kind;
+    look->name = definition.id.empty() ? definition.name : definition.id;
+    look->hide_backfaces = definition.hide_backfaces;
+    look->layers = std::move(layers);
+    key = fmt::format("{} {}", int(kind), static_cast<const void*>(&definition));
+    apply_binds(use, look->layers, key);
+    for (const ShaderUse& layer : look->layers)
+        if (has_placed_param(layer)) look->node = shape.node;
+    if (look->node != kNone) key += fmt::format("|node {}", look->node);
+    return look;
+}
+
+// The look of a material's transformations, or of its displacements: nothing where it has none, or
+// where they leave P alone (then N is bent while shading).
+uint32_t SceneBuilder::vertex_look(LookKind kind, Surface& surface, const MaterialUse* use,
+                                   const MaterialDefinition& definition, VertexUse& result) {
+    Scene& scene = *scene_;
+    bool displacement = kind == LookKind::Displacement;
+    const auto& layers = displacement ? definition.displacements : definition.transformations;
+    if (layers.empty()) return kNone;
+    std::string key;
+    auto look = begin_look(kind, definition, layers, use, scene.shapes[surface.shape], key);
+    bind_vertex_inputs(surface, use, *look, result.varying);
+    for (const VaryingParam& v : look->varying)
+        key += fmt::format("|{}:{}={}", v.layer, v.name, v.semantic == "Pref");
+    auto [place, is_new] = looks_by_key_.try_emplace(key, uint32_t(scene.vertex_looks.size()));
+    if (is_new) {
+        look->index = place->second;
+        bool compiled = compile(*look, {});
+        vertex_looks_ok_ &= compiled;
+        // A displacement that failed stays here too: its errors have been told.
+        if (compiled && displacement && !look->lowered.moves_P)
+            place->second = kNone;
+        else
+            scene.vertex_looks.push_back(std::move(look));
+    }
+    return result.look = place->second;
+}
+
+// What displacements that are done left in their output parameters, for displacement("name").
+void SceneBuilder::bind_displaced(Surface& surface, Look& look) {
+    for (uint32_t l = 0; l < look.done_layers; ++l)
+        for (const rsl::ShaderParameter& p : look.layers[l].shader->parameters) {
+            if (!p.output || p.type.is_array() || p.type.base == rsl::BaseType::String) continue;
+            for (size_t k = look.varying.size(); k-- > 0;)
+                if (look.varying[k].layer == l && look.varying[k].name == p.name) {
+                    look.varying.erase(look.varying.begin() + ptrdiff_t(k));
+                    surface.varying.erase(surface.varying.begin() + ptrdiff_t(k));
+                }
+            VaryingParam varying;
+            varying.name = std::string(p.name);
+            varying.semantic = "vertex:" + varying.name;
+            varying.layer = l;
+            varying.components = uint32_t(rsl::component_count(p.type.base));
+            look.varying.push_back(std::move(varying));
+            surface.varying.push_back(nullptr);  // until the mesh is diced
+        }
 }
 
 bool SceneBuilder::compile(Look& look, const std::vector<std::string>& messages) {
@@ -282,7 +348,7 @@ bool SceneBuilder::make_looks() {
     add_atmosphere();
     add_outputs();
     add_imager();
-    bool ok = true;
+    bool ok = vertex_looks_ok_;
     std::vector<std::string> messages;
     for (auto& look : scene.looks) {
         ok &= compile(*look, {});

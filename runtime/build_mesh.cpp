@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/pair_numbers.h"
+
 namespace kinora {
 
 namespace {
@@ -15,32 +17,6 @@ const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_v
         if (a.semantic == semantic && (!best || a.set < best->set)) best = &a;
     return best;
 }
-
-// Gives each pair (position, value) one number, in order of first sight.
-class PairNumbers {
-  public:
-    explicit PairNumbers(size_t expected) {
-        size_t size = 16;
-        while (size < 2 * expected) size *= 2;
-        slots_.assign(size, {~0ull, 0});
-    }
-    // The number of the pair; `next` if it is new (then it is taken).
-    uint32_t number(uint32_t a, uint32_t b, uint32_t next) {
-        uint64_t key = uint64_t(a) << 32 | b;
-        size_t at = size_t((key * 0x9e3779b97f4a7c15ull) >> 20) & (slots_.size() - 1);
-        while (slots_[at].key != ~0ull && slots_[at].key != key)
-            at = (at + 1) & (slots_.size() - 1);
-        if (slots_[at].key != key) slots_[at] = {key, next};
-        return slots_[at].number;
-    }
-
-  private:
-    struct Slot {
-        uint64_t key;
-        uint32_t number;
-    };
-    std::vector<Slot> slots_;
-};
 
 vec4 entry(const VertexAttribute& a, uint32_t index) {
     const float* v = &a.values[size_t(index) * a.stride];

@@ -15,8 +15,14 @@
 #include "runtime/shading.h"
 #include "runtime/texture.h"
 #include "runtime/transforms.h"
+#include "runtime/vertex_work.h"
 
 namespace kinora {
+
+Shape::Shape() = default;
+Shape::~Shape() = default;
+Shape::Shape(Shape&&) noexcept = default;
+Shape& Shape::operator=(Shape&&) noexcept = default;
 
 Scene::Scene() = default;
 Scene::~Scene() = default;
@@ -55,6 +61,7 @@ std::unique_ptr<Scene> SceneBuilder::run() {
     place_lights();
     if (!make_looks()) return nullptr;
     preload_textures(description_);
+    displace();
     finish_rows();
     scene_->shading = std::make_unique<Shading>(*scene_);
     return std::move(scene_);
@@ -99,6 +106,7 @@ void SceneBuilder::evaluate(double time) {
     size_t owners = description_.nodes.size() + description_.morphs.size() + 1;
     scene.changed.assign(anim::changed_words(owners), 0);
     anim::evaluate(description_.animation, time, scene.values, scene.changed);
+    scene.time = time;
     scene.first_frame = true;
     update_transforms(scene);
 }

@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "runtime/defaults.h"
+#include "runtime/diced_mesh.h"
 #include "runtime/scene.h"
 
 namespace kinora {
+
+// Repeated static meshes are instanced when baking them would take more triangles than this: an
+// instance level costs 20-29 % of the trace rate (DESIGN.md decision 19).
+inline constexpr size_t kBakedTriangles = 200'000;
 
 class SceneBuilder {
   public:
@@ -29,6 +34,8 @@ class SceneBuilder {
     std::vector<vec3> target_normals(const MeshDefinition& target, const Mesh& base,
                                      const MeshDefinition& base_definition, bool relative);
     void add_skin(const MeshUse& use, uint32_t node, Shape& shape);
+    void build_skin_mesh(const MeshUse& use, Shape& shape, const std::vector<Stencil>* stencils,
+                         skin::SkinRepairs& repairs);
     Bounds bounds_now() const;
     Bounds played_bounds();
     void deform_now();
@@ -43,7 +50,14 @@ class SceneBuilder {
     void add_light(LightDefinition definition, uint32_t node);
     bool make_looks();
     uint32_t look_of(Surface& surface, const MeshUse& use);
-    bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look);
+    bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look,
+                            std::vector<const VertexAttribute*>& varying);
+    std::unique_ptr<Look> begin_look(LookKind kind, const MaterialDefinition& definition,
+                                     std::vector<ShaderUse> layers, const MaterialUse* use,
+                                     const Shape& shape, std::string& key);
+    uint32_t vertex_look(LookKind kind, Surface& surface, const MaterialUse* use,
+                         const MaterialDefinition& definition, VertexUse& result);
+    void bind_displaced(Surface& surface, Look& look);
     // Parameters that instance_material binds, put over the material's; `key` tells them apart.
     static void apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers,
                             std::string& key);
@@ -59,12 +73,23 @@ class SceneBuilder {
     bool compile(Look& look, const std::vector<std::string>& messages);
     const MaterialDefinition& default_material();
 
+    // build_displacement.cpp: meshes diced, vertices moved
+    struct Displaced;
+    void displace();
+    std::vector<Displaced> find_displaced();
+    void find_views(std::vector<Displaced>& all);
+    void dice(std::vector<Displaced>& all);
+    bool dice_to(std::vector<Displaced>& all, double pixels, size_t limit);
+    void wear(Displaced& from);
+    void make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced);
+
     SceneDescription& description_;
     Diagnostics& diagnostics_;
     std::unique_ptr<Scene> scene_;
     std::vector<bool> definition_moves_;
     std::map<uint32_t, uint32_t> first_occurrence_;
     std::vector<const MeshUse*> uses_;  // of each surface
+    bool vertex_looks_ok_ = true;
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> shape_numbers_;
     std::map<std::string, uint32_t> looks_by_key_;
     std::vector<std::string> space_names_;

@@ -19,10 +19,6 @@ bool is_identity(const dmat4& m) {
     return true;
 }
 
-// Repeated static meshes are instanced when baking them would take more triangles than this: an
-// instance level costs 20-29 % of the trace rate (DESIGN.md decision 19).
-constexpr size_t kBakedTriangles = 200'000;
-
 }  // namespace
 
 void SceneBuilder::place_meshes() {
@@ -34,8 +30,10 @@ void SceneBuilder::place_meshes() {
             deforms[use.mesh] = deforms[use.mesh] || use.skin != kNone || use.morph != kNone;
             ++uses[use.mesh];
         }
-    for (size_t m = 0; m < description_.meshes.size(); ++m)
+    for (size_t m = 0; m < description_.meshes.size(); ++m) {
         scene.meshes.push_back(uses[m] ? build_mesh(description_.meshes[m], deforms[m]) : Mesh());
+        scene.meshes.back().definition = uint32_t(m);
+    }
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshUse& use : description_.nodes[scene.nodes[n].definition].meshes) {
             if (scene.meshes[use.mesh].groups.empty()) continue;
@@ -82,6 +80,7 @@ void SceneBuilder::add_morph(const MeshUse& use, Shape& shape) {
     Scene& scene = *scene_;
     const Mesh& mesh = scene.meshes[use.mesh];
     scene.morphs.resize(description_.morphs.size());
+    shape.morph_data = use.morph;
     shape.morphed_positions.resize(mesh.positions.size());
     shape.morphed_normals.resize(mesh.normals.size());
     if (!scene.morphs[use.morph].base_positions.empty()) return;
@@ -145,13 +144,46 @@ std::vector<vec3> SceneBuilder::target_normals(const MeshDefinition& target, con
 
 void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
     Scene& scene = *scene_;
-    const Mesh& mesh = scene.meshes[use.mesh];
+    std::string id = description_.meshes[use.mesh].id;
+    Location where;
+    uint32_t joints = 1;
+    if (use.skin != kNone) {
+        const SkinDefinition& definition = description_.skins[use.skin];
+        id = definition.id;
+        where = definition.where;
+        joints = uint32_t(definition.inverse_bind.size());
+        shape.skeleton.inverse_bind = definition.inverse_bind;
+        shape.skeleton.bind_shape = definition.bind_shape;
+        for (uint32_t j = 0; j < joints; ++j) {
+            shape.skeleton.nodes.push_back(j);
+            uint32_t joint = j < use.joint_nodes.size() ? use.joint_nodes[j] : kNone;
+            shape.joint_nodes.push_back(nearest_occurrence(joint, node));
+        }
+        shape.joint_world.resize(joints, dmat4(1.0));
+        dmat4 world = scene.nodes[node].world * shape.conversion;
+        shape.in_world = !is_identity(definition.bind_shape) || is_identity(world);
+        if (!shape.in_world) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
+    }
+    skin::SkinRepairs repairs;
+    build_skin_mesh(use, shape, nullptr, repairs);
+    shape.palette.resize(joints + 1);
+    if (repairs.weight_sum)
+        diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
+                            repairs.worst_sum);
+    if (repairs.unweighted)
+        diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
+}
+
+// The influences of the shape's mesh: as the file has them, or between its vertices where the mesh
+// was diced.
+void SceneBuilder::build_skin_mesh(const MeshUse& use, Shape& shape,
+                                   const std::vector<Stencil>* stencils,
+                                   skin::SkinRepairs& repairs) {
+    const Mesh& mesh = scene_->meshes[shape.mesh];
     skin::InfluenceSource source;
     std::vector<uint32_t> first(mesh.positions.size() + 1, 0);
     std::vector<int32_t> joints;
     std::vector<double> weights;
-    std::string id = description_.meshes[use.mesh].id;
-    Location where;
     if (use.skin == kNone) {  // a morph alone: one matrix moves everything
         joints.assign(mesh.positions.size(), 0);
         weights.assign(mesh.positions.size(), 1.0);
@@ -159,35 +191,16 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         source.joint_count = 1;
     } else {
         const SkinDefinition& definition = description_.skins[use.skin];
-        id = definition.id;
-        where = definition.where;
         first.assign(definition.offsets.begin(), definition.offsets.end());
         joints = definition.joints;
         weights.assign(definition.weights.begin(), definition.weights.end());
         source.joint_count = uint32_t(definition.inverse_bind.size());
-        shape.skeleton.inverse_bind = definition.inverse_bind;
-        shape.skeleton.bind_shape = definition.bind_shape;
-        for (uint32_t j = 0; j < source.joint_count; ++j) {
-            shape.skeleton.nodes.push_back(j);
-            uint32_t joint = j < use.joint_nodes.size() ? use.joint_nodes[j] : kNone;
-            shape.joint_nodes.push_back(nearest_occurrence(joint, node));
-        }
-        shape.joint_world.resize(source.joint_count, dmat4(1.0));
-        dmat4 world = scene.nodes[node].world * shape.conversion;
-        shape.in_world = !is_identity(definition.bind_shape) || is_identity(world);
-        if (!shape.in_world) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
+        if (stencils) dice_influences(*stencils, first, joints, weights);
     }
     source.first = first;
     source.joints = joints;
     source.weights = weights;
-    skin::SkinRepairs repairs;
     shape.skin_mesh = skin::build_skin(source, mesh.normal_positions, &repairs);
-    shape.palette.resize(source.joint_count + 1);
-    if (repairs.weight_sum)
-        diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
-                            repairs.worst_sum);
-    if (repairs.unweighted)
-        diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
 }
 
 }  // namespace kinora

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 
+#include "runtime/base/stats.h"
 #include "runtime/scene.h"
 #include "runtime/transforms.h"
+#include "runtime/vertex_work.h"
 
 namespace kinora {
 
@@ -37,22 +39,51 @@ void morph(Scene& scene, Shape& shape) {
     const MorphDefinition& definition = scene.description->morphs[shape.morph];
     std::span<const double> weights(scene.values.data() + definition.weights.offset,
                                     definition.weights.count);
-    skin::deform(scene.morphs[shape.morph], weights, shape.morphed_positions,
+    skin::deform(scene.morphs[shape.morph_data], weights, shape.morphed_positions,
                  shape.morphed_normals);
 }
 
-void deform_shape(Scene& scene, Shape& shape) {
+// The shaders on a mesh that no skin moves: in its own space, the node's matrix comes later.
+void displace_mesh(Scene& scene, Shape& shape, double& ms) {
+    StageTimer timer(ms);
+    const Mesh& mesh = scene.meshes[shape.mesh];
+    bool morphed = shape.morph != kNone;
+    std::ranges::copy(morphed ? shape.morphed_positions : mesh.positions,
+                      shape.displaced_positions.begin());
+    std::ranges::copy(morphed ? shape.morphed_normals : mesh.normals,
+                      shape.displaced_normals.begin());
+    shape.vertex_work->run(scene, shape.node, shape.conversion, mesh.anchor,
+                           shape.displaced_positions, shape.displaced_normals);
+}
+
+// On what a skin gives: from accel space to the node's and back.
+void displace_skin(Scene& scene, Shape& shape, double& ms) {
+    StageTimer timer(ms);
+    shape.vertex_work->run(scene, shape.node, glm::inverse(scene.nodes[shape.node].world),
+                           scene.origin, shape.positions, shape.normals);
+}
+
+void deform_shape(Scene& scene, Shape& shape, double& displace_ms) {
     const Mesh& mesh = scene.meshes[shape.mesh];
     bool morphed = morph_changed(scene, shape);
     if (morphed) morph(scene, shape);
-    if (!morphed && !scene.first_frame && !joints_moved(scene, shape)) return;
+    bool each_frame = shape.vertex_work && shape.vertex_work->each_frame;
+    if (!morphed && !each_frame && !scene.first_frame && !joints_moved(scene, shape)) return;
+    bool skinned = shape.skin != kNone;
+    if (shape.vertex_work && !skinned && (morphed || each_frame || scene.first_frame))
+        displace_mesh(scene, shape, displace_ms);
     std::span<const vec4> positions = mesh.positions, normals = mesh.normals;
     if (shape.morph != kNone) {
         positions = shape.morphed_positions;
         normals = shape.morphed_normals;
     }
+    if (shape.vertex_work && !skinned) {
+        positions = shape.displaced_positions;
+        normals = shape.displaced_normals;
+    }
     skin::deform(shape.skin_mesh, shape.palette, positions, normals, shape.positions,
                  shape.normals);
+    if (shape.vertex_work && skinned) displace_skin(scene, shape, displace_ms);
     ++shape.positions_version;
 }
 
@@ -82,9 +113,11 @@ void pose(Scene& scene) {
     }
 }
 
-void deform(Scene& scene) {
+double deform(Scene& scene) {
+    double displace_ms = 0;
     for (Shape& shape : scene.shapes) {
-        if (shape.kind == raytrace::GeometryKind::Deforming) deform_shape(scene, shape);
+        if (shape.kind == raytrace::GeometryKind::Deforming)
+            deform_shape(scene, shape, displace_ms);
         if (shape.kind == raytrace::GeometryKind::Instanced && scene.nodes[shape.node].moved)
             update_world(scene, shape);
     }
@@ -100,6 +133,7 @@ void deform(Scene& scene) {
         row.accel_from_local = to_accel * shape.world * from_anchor;
         row.mirrored = false;
     }
+    return displace_ms;
 }
 
 bool is_singular(const Shape& shape) {

@@ -9,9 +9,10 @@ struct Shape;
 // Joint matrices of the skins whose joints moved.
 void pose(Scene& scene);
 
-// Morphs, then skins: only shapes whose joints, weights or node changed. Also brings the ray
-// tracer's rows up to date (versions, instance matrices).
-void deform(Scene& scene);
+// Morphs, skins, transformations, displacements: only shapes whose joints, weights or node changed
+// or whose shaders run at each frame. Also brings the ray tracer's rows up to date (versions,
+// instance matrices). Returns the ms that shaders took.
+double deform(Scene& scene);
 
 // Static shapes into accel space; once, when the scene's origin is known.
 void bake_static(Scene& scene);

@@ -11,6 +11,7 @@
 #include "runtime/findings.h"
 #include "runtime/texture.h"
 #include "runtime/transforms.h"
+#include "runtime/vertex_work.h"
 
 namespace kinora {
 
@@ -58,11 +59,19 @@ const char* status_text(raytrace::CameraStatus status) {
     return "";
 }
 
+}  // namespace
+
+raytrace::CameraStatus place_camera(Scene& scene, int width, int height) {
+    return raytrace::make_camera(optics_of(scene),
+                                 scene.nodes[scene.cameras[scene.camera].node].world, width, height,
+                                 scene.origin, scene.size, scene.view);
+}
+
+namespace {
+
 bool update_camera(Scene& scene, const FrameSettings& settings, Diagnostics& diagnostics) {
     const CameraSource& source = scene.cameras[scene.camera];
-    raytrace::CameraStatus status =
-        raytrace::make_camera(optics_of(scene), scene.nodes[source.node].world, settings.width,
-                              settings.height, scene.origin, scene.size, scene.view);
+    raytrace::CameraStatus status = place_camera(scene, settings.width, settings.height);
     const CameraDefinition& camera = scene.description->cameras[source.definition];
     if (!raytrace::is_error(status)) {
         if (scene.first_frame && status == raytrace::CameraStatus::ClipRangeRepaired &&
@@ -77,6 +86,10 @@ bool update_camera(Scene& scene, const FrameSettings& settings, Diagnostics& dia
     return false;
 }
 
+const std::string& mesh_id(const Scene& scene, const Shape& shape) {
+    return scene.description->meshes[scene.meshes[shape.mesh].definition].id;
+}
+
 void report_singular(const Scene& scene, const Shape& shape, Diagnostics& diagnostics) {
     const NodeDefinition& node = scene.description->nodes[scene.nodes[shape.node].definition];
     diagnostics.report(Code::NODE_SINGULAR, Location{}, node.id.empty() ? node.name : node.id);
@@ -89,7 +102,7 @@ void report_geometry(const Scene& scene, const raytrace::AccelUpdate& update,
             report_singular(scene, shape, diagnostics);
     for (const auto& issue : update.issues) {
         const Shape& shape = scene.shapes[scene.surfaces[issue.geometry].shape];
-        const std::string& mesh = scene.description->meshes[shape.mesh].id;
+        const std::string& mesh = mesh_id(scene, shape);
         switch (issue.issue) {
             case raytrace::GeometryIssue::SingularMatrix:
                 report_singular(scene, shape, diagnostics);
@@ -132,13 +145,17 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     {
         StageTimer timer(stats.animate);
         anim::evaluate(scene.description->animation, time, scene.values, scene.changed);
+        scene.time = time;
+        scene.shutter = settings.shutter;
         update_transforms(scene);
     }
     if (!update_camera(scene, settings, diagnostics)) return false;
     {
         StageTimer timer(stats.skin);
         pose(scene);
-        deform(scene);
+        stats.displace = deform(scene);
+        for (Shape& shape : scene.shapes)
+            if (shape.vertex_work) shape.vertex_work->report(mesh_id(scene, shape), diagnostics);
     }
     {
         StageTimer timer(stats.refit);

@@ -10,7 +10,8 @@ namespace kinora {
 // What one frame cost; times in ms of wall clock.
 struct FrameStats {
     double animate = 0;
-    double skin = 0;
+    double skin = 0;      // transformations and displacements included
+    double displace = 0;  // of that, theirs
     double refit = 0;
     double trace = 0;  // tracing and shading overlap on all threads: their sums, divided by threads
     double shade = 0;
@@ -33,6 +34,9 @@ struct FrameSettings {
 bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
                   FrameStats& stats, Diagnostics& diagnostics,
                   const raytrace::Progress* progress = nullptr);
+
+// Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
+raytrace::CameraStatus place_camera(Scene& scene, int width, int height);
 
 // Width / height of the scene's camera where its optics say so, at its base values.
 std::optional<double> camera_aspect(const Scene& scene);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "raytrace/sampling.h"
+#include "runtime/affine_map.h"
 #include "runtime/scene.h"
 #include "runtime/shading_p.h"
 #include "runtime/spaces.h"
@@ -44,20 +45,6 @@ struct Corner {
     }
 };
 
-// Partial derivatives along u, v of what varies linearly over a triangle by d1, d2 along its edges:
-// d1 = du1 x_u + dv1 x_v, d2 = du2 x_u + dv2 x_v, solved (DESIGN.md decision 9).
-struct AffineMap {
-    float inv[2][2] = {{1, 0}, {0, 1}};
-    template <class T>
-    T along_u(T d1, T d2) const {
-        return inv[0][0] * d1 + inv[0][1] * d2;
-    }
-    template <class T>
-    T along_v(T d1, T d2) const {
-        return inv[1][0] * d1 + inv[1][1] * d2;
-    }
-};
-
 struct Parameters {
     float s, t, u, v;
     AffineMap map;
@@ -73,15 +60,9 @@ Parameters parameters(const Corner& c) {
     float du1 = b[0] - a[0], dv1 = b[1] - a[1], du2 = d[0] - a[0], dv2 = d[1] - a[1];
     p.s = a[0] + c.u * du1 + c.v * du2;
     p.t = a[1] + c.u * dv1 + c.v * dv2;
-    float det = du1 * dv2 - du2 * dv1;
-    float scale = std::max(std::abs(du1 * dv2), std::abs(du2 * dv1));
-    if (!(std::abs(det) > 1e-6f * scale) || !(std::abs(det) > 1e-30f)) return p;
+    if (!solve(p.map, du1, dv1, du2, dv2)) return p;
     p.u = p.s;
     p.v = p.t;
-    p.map.inv[0][0] = dv2 / det;
-    p.map.inv[0][1] = -dv1 / det;
-    p.map.inv[1][0] = -du2 / det;
-    p.map.inv[1][1] = du1 / det;
     return p;
 }
 

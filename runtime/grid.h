@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "jit/target.h"
@@ -16,11 +17,18 @@ class Shading;
 
 struct Grid;
 
+// What services see of a kernel that moves vertices.
+struct VertexHost {
+    uint32_t node;        // of "object" space, which is "current"
+    std::string* prints;  // of this part of the vertices
+};
+
 // What KernelArgs::grid points to: a frame kernel has no grid.
 struct KernelHost {
     const Scene* scene;
     const Look* look;
     Grid* grid;
+    const VertexHost* vertices = nullptr;  // of a kernel that moves vertices
 };
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache

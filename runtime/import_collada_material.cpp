@@ -145,6 +145,7 @@ void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
         std::vector<ShaderUse>* stack = nullptr;
         if (shader.stage == collada::RslStage::Surface) stack = &result.surfaces;
         if (shader.stage == collada::RslStage::Displacement) stack = &result.displacements;
+        if (shader.stage == collada::RslStage::Transformation) stack = &result.transformations;
         if (shader.stage == collada::RslStage::Volume) {
             stack = target == "exterior" ? &result.exterior : &result.interior;
             if (!target.empty() && target != "exterior" && target != "interior")

@@ -163,14 +163,15 @@ FrameInput resolve_input(Look& look, std::string_view name) {
         {"time", Source::Time, 0},        {"dtime", Source::Shutter, 0},
         {"ncomps", Source::Fixed, 3},     {"alpha", Source::Fixed, 1},
         {"camera:near", Source::Near, 0}, {"camera:far", Source::Far, 0},
-        {"E.x", Source::Fixed, 0},        {"E.y", Source::Fixed, 0},
-        {"E.z", Source::Fixed, 0},  // current space is the camera's
+        {"E.x", Source::Eye, 0},          {"E.y", Source::Eye, 1},
+        {"E.z", Source::Eye, 2},
     };
     FrameInput input;
     for (const Row& row : kRows)
         if (row.name == name) {
             input.source = row.source;
             input.fixed = row.fixed;
+            if (row.source == Source::Eye) input.component = uint8_t(row.fixed);
             return input;
         }
     ParamName param;
@@ -236,6 +237,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
         const ShaderUse& use = look.layers[l];
         rsl::Layer& layer = layers.emplace_back();
         layer.shader = use.shader.get();
+        layer.done = l < look.done_layers;
         std::vector<bool> shape = rsl::shape_parameters(*use.shader);
         for (size_t p = 0; p < use.shader->parameters.size(); ++p)
             layer.params.push_back(
@@ -249,6 +251,15 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     lower.spaces = options.spaces;
     lower.messages = options.light_messages;
     lower.aovs = options.aovs;
+    bool of_vertices = look.kind == LookKind::Displacement || look.kind == LookKind::Transformation;
+    if (of_vertices) {
+        lower.want_Ci = lower.want_Oi = false;
+        lower.want_P = lower.want_N = true;
+        lower.aovs.clear();
+        for (const ShaderUse& use : look.layers)
+            for (const rsl::ShaderParameter& p : use.shader->parameters)
+                if (p.output && !p.type.is_array()) lower.aovs.emplace_back(p.name);
+    }
     jit::CompileOptions compile;
     compile.target = options.target;
     compile.dumps = options.dumps;
@@ -272,6 +283,12 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     }
     look.current_from_space.resize(look.spaces.size(), dmat4(1.0));
     return true;
+}
+
+void Look::update_for_vertices(const FrameContext& context, uint32_t object) {
+    for (size_t s = 0; s < spaces.size(); ++s)
+        current_from_space[s] = object_from_space(context.scene, spaces[s], object);
+    full.update(context, *this);
 }
 
 void Look::update(const FrameContext& context) {
@@ -322,6 +339,8 @@ void BoundKernel::update(const FrameContext& context, const Look& look) {
                 return float(scene.view.znear);
             case Source::Far:
                 return float(scene.view.zfar);
+            case Source::Eye:
+                return float(context.eye[input.component]);
         }
         return 0;
     };

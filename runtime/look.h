@@ -23,6 +23,7 @@ struct FrameContext {
     const Scene& scene;
     double time = 0;
     double shutter = 0;  // its length, seconds
+    dvec3 eye{0.0};      // in "current"
 };
 
 // Where a frame-rate input's number comes from, resolved by name once.
@@ -37,6 +38,7 @@ struct FrameInput {
         Shutter,
         Near,
         Far,
+        Eye,  // component `component`
     };
     Source source = Source::Fixed;
     float fixed = 0;
@@ -69,7 +71,7 @@ class BoundKernel {
     std::vector<float*> out;
 };
 
-enum class LookKind : uint8_t { Surface, Light, Volume, Imager };
+enum class LookKind : uint8_t { Surface, Light, Volume, Imager, Displacement, Transformation };
 
 // A parameter bound to vertex inputs.
 struct VaryingParam {
@@ -87,6 +89,7 @@ struct Look {
     uint32_t index = 0;             // among Scene::looks
     std::string name;               // the material's or light's
     std::vector<ShaderUse> layers;  // displacements, then surfaces; or one light
+    uint32_t done_layers = 0;       // so many first ones have run on the mesh's vertices
     uint32_t node = kNone;          // scene node of "shader" space (lights; placed parameters)
     std::vector<VaryingParam> varying;
     uint16_t column_count = kColVarying;
@@ -103,6 +106,8 @@ struct Look {
     bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }
     const rsl::Shader& shader() const { return *layers.back().shader; }
     void update(const FrameContext& context);
+    // The same for a kernel of vertices: "current" is the space of `object`, a scene node.
+    void update_for_vertices(const FrameContext& context, uint32_t object);
 };
 
 struct LookOptions {

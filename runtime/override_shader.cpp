@@ -19,7 +19,8 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
     std::shared_ptr<const rsl::Shader> chosen;
     for (auto& shader : shaders)
         if (!chosen && (shader->kind == rsl::ShaderKind::Surface ||
-                        shader->kind == rsl::ShaderKind::Displacement))
+                        shader->kind == rsl::ShaderKind::Displacement ||
+                        shader->kind == rsl::ShaderKind::Transformation))
             chosen = std::move(shader);
     if (!chosen) {
         if (!shaders.empty())
@@ -33,7 +34,10 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
         if (!match) continue;
         matched = true;
         bool surface = chosen->kind == rsl::ShaderKind::Surface;
-        std::vector<ShaderUse>& stack = surface ? material.surfaces : material.displacements;
+        bool transformation = chosen->kind == rsl::ShaderKind::Transformation;
+        std::vector<ShaderUse>& stack = surface          ? material.surfaces
+                                        : transformation ? material.transformations
+                                                         : material.displacements;
         ShaderUse use;
         use.shader = chosen;
         for (const ShaderUse& old : stack)

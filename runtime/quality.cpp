@@ -6,11 +6,11 @@ namespace kinora {
 namespace {
 using jit::math::Tier;
 constexpr Quality kQualities[] = {
-    // name       spp   math            robust  rebuild
-    {"draft", 1, Tier::Fast, false, false},
-    {"preview", 4, Tier::Fast, true, false},
-    {"final", 64, Tier::Precise, true, false},
-    {"reference", 1024, Tier::Precise, true, true},
+    // name       spp   math            robust  displacement   dice  rebuild
+    {"draft", 1, Tier::Fast, false, DisplacementMode::Bump, 8, false},
+    {"preview", 4, Tier::Fast, true, DisplacementMode::True, 4, false},
+    {"final", 64, Tier::Precise, true, DisplacementMode::True, 2, false},
+    {"reference", 1024, Tier::Precise, true, DisplacementMode::True, 1, true},
 };
 }  // namespace
 

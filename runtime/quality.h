@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "jit/math.h"
+#include "runtime/scene.h"
 
 namespace kinora {
 
@@ -12,9 +13,11 @@ namespace kinora {
 struct Quality {
     const char* name;
     int samples_per_pixel;
-    jit::math::Tier math;  // transcendental functions: 4 or 1 ULP
-    bool robust;           // Embree's watertight traversal
-    bool always_rebuild;   // a fresh BVH each frame instead of a refitted one
+    jit::math::Tier math;           // transcendental functions: 4 or 1 ULP
+    bool robust;                    // Embree's watertight traversal
+    DisplacementMode displacement;  // move vertices, or only bend N
+    double dice;                    // edges of displaced surfaces, pixels
+    bool always_rebuild;            // a fresh BVH each frame instead of a refitted one
 };
 
 std::span<const Quality> qualities();

@@ -25,6 +25,8 @@
 
 namespace kinora {
 
+class VertexWork;  // runtime/vertex_work.h
+
 // One occurrence of a node definition; parents come first.
 struct Node {
     uint32_t definition = kNone;
@@ -49,16 +51,25 @@ struct Mesh {
     std::vector<uint32_t> normal_positions;  // position of each normal
     std::vector<MeshGroup> groups;
     bool double_sided = true;
-    dvec3 low{0.0}, high{0.0};  // bounds of the positions as in the document
+    dvec3 low{0.0}, high{0.0};    // bounds of the positions as in the document
+    uint32_t definition = kNone;  // index into SceneDescription::meshes
+    // Groups of a diced mesh, which no document holds.
+    std::vector<std::unique_ptr<PrimitiveGroup>> own_groups;
 };
 
 // A mesh on a node, with what deforms it.
 struct Shape {
+    Shape();
+    ~Shape();
+    Shape(Shape&&) noexcept;
+    Shape& operator=(Shape&&) noexcept;
+
     raytrace::GeometryKind kind = raytrace::GeometryKind::Static;
     uint32_t mesh = kNone;
     uint32_t node = kNone;
-    uint32_t skin = kNone;   // index into SceneDescription::skins
-    uint32_t morph = kNone;  // index into Scene::morphs
+    uint32_t skin = kNone;        // index into SceneDescription::skins
+    uint32_t morph = kNone;       // index into SceneDescription::morphs
+    uint32_t morph_data = kNone;  // index into Scene::morphs
     dmat4 conversion{1.0};
     bool in_world = false;  // a skin's result is in world space; its node's matrix does not apply
     std::vector<uint32_t> joint_nodes;  // scene nodes
@@ -76,7 +87,18 @@ struct Shape {
     std::vector<skin::JointMatrix> palette;
     std::vector<vec4> morphed_positions, morphed_normals;
 
+    // Displacement and transformation that run at frames; null where none does. Without a skin they
+    // move the (morphed) mesh and the node's matrix comes after; with one they move what it gives.
+    std::unique_ptr<VertexWork> vertex_work;
+    std::vector<vec4> displaced_positions, displaced_normals;  // without a skin
+
     std::span<const vec4> rest_positions, rest_normals;  // what the ray tracer and shading read
+};
+
+// A shader that moves a surface's vertices.
+struct VertexUse {
+    uint32_t look = kNone;  // into Scene::vertex_looks
+    std::vector<const VertexAttribute*> varying;
 };
 
 // Triangles of one shape that wear one look: a row of the ray tracer.
@@ -90,6 +112,7 @@ struct Surface {
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
     // Vertex inputs of the look's varying parameters, in the order of Look::varying.
     std::vector<const VertexAttribute*> varying;
+    VertexUse transformation, displacement;
 };
 
 // An occurrence of a light.
@@ -106,6 +129,7 @@ struct CameraSource {
 };
 
 enum class ShadowMode : uint8_t { Auto, Explicit, Off };
+enum class DisplacementMode : uint8_t { True, Bump };
 
 // What a scene is built for; part of what the kernels are.
 struct SceneOptions {
@@ -114,8 +138,13 @@ struct SceneOptions {
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
     raytrace::AccelPolicy accel;
-    std::vector<std::string> aovs;        // output parameters of surfaces that the picture keeps
-    double start_time = 0, end_time = 0;  // range played, seconds: frames the default camera
+    std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
+    // Range played, seconds: frames the default camera, and its views tell how fine to dice.
+    double start_time = 0, end_time = 0;
+    DisplacementMode displacement = DisplacementMode::True;  // Bump: only N is bent
+    double dice = 2;                // length of a displaced surface's edges, pixels
+    size_t dice_limit = 4'000'000;  // triangles of all displaced surfaces together
+    int width = 640, height = 0;    // of the picture that dicing is for; 0: from the camera
     std::vector<std::pair<std::string, std::string>> dumps;  // filled when want_dumps
     bool want_dumps = false;
 };
@@ -148,12 +177,22 @@ struct Scene {
     std::vector<LightSource> lights;
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<Look>> looks;
-    uint32_t camera = 0;          // into cameras
-    uint32_t atmosphere = kNone;  // look of the volume outside all objects
-    uint32_t imager = kNone;      // look that the finished picture is run through
+    std::vector<std::unique_ptr<Look>> vertex_looks;  // displacements and transformations
+    uint32_t camera = 0;                              // into cameras
+    uint32_t atmosphere = kNone;                      // look of the volume outside all objects
+    uint32_t imager = kNone;  // look that the finished picture is run through
     std::vector<OutputPlane> outputs;
     std::vector<uint32_t> volumes;   // looks of interiors and exteriors: Look::volume is k + 1
     std::vector<std::string> added;  // "default camera", "default light": what --list shows
+
+    double time = 0, shutter = 0;  // of the last evaluate, seconds
+
+    // What dicing made at load.
+    struct {
+        double ms = 0;
+        size_t triangles = 0, vertices = 0;
+        double pixels = 0;  // edge length used; more than asked for where the limit bound
+    } dice;
 
     dvec3 origin{0.0};
     double size = 1;  // diagonal of the first frame's bounds

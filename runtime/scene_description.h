@@ -133,8 +133,9 @@ struct ShaderUse {
 
 struct MaterialDefinition {
     std::string id, name;
-    std::vector<ShaderUse> displacements;  // bottom first
-    std::vector<ShaderUse> surfaces;       // bottom first
+    std::vector<ShaderUse> transformations;     // bottom first
+    std::vector<ShaderUse> displacements;       // bottom first
+    std::vector<ShaderUse> surfaces;            // bottom first
     std::vector<ShaderUse> interior, exterior;  // volumes, each on what the one before it left
     bool hide_backfaces = false;
 };
@@ -197,7 +198,8 @@ void for_each_shader_use(Description& description, F&& f) {
         };
         (one(lists), ...);
     };
-    for (auto& m : description.materials) all(m.displacements, m.surfaces, m.interior, m.exterior);
+    for (auto& m : description.materials)
+        all(m.transformations, m.displacements, m.surfaces, m.interior, m.exterior);
     for (auto& light : description.lights) f(light.shader);
     all(description.picture.atmosphere, description.picture.imagers);
     for (auto& camera : description.cameras) all(camera.picture.atmosphere, camera.picture.imagers);

@@ -1,6 +1,7 @@
 // runtime/services.cpp: the table of functions that generated code calls.
 #include "runtime/services.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <glm/matrix.hpp>
 
@@ -40,7 +41,15 @@ void set_results(const jit::ServiceCall& call, int first, const vec3* values) {
         for (int i = 0; i < kLanes; ++i) result(call, first + k)[i] = values[i][k];
 }
 
+// Kernels that move vertices see no lights and no other surfaces.
+bool zeros_without_grid(const jit::ServiceCall& call, int results) {
+    if (host_of(call).grid) return false;
+    std::fill_n(call.results, results * kLanes, 0.0f);
+    return true;
+}
+
 void lights(const jit::ServiceCall& call) {
+    if (zeros_without_grid(call, 1)) return;
     Grid& grid = grid_of(call);
     int32_t handle = grid.shading->lights_at(grid, call);
     for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
@@ -60,6 +69,7 @@ void shadow(const jit::ServiceCall& call) {
 }
 
 void trace(const jit::ServiceCall& call) {
+    if (zeros_without_grid(call, 4)) return;
     vec3 P[kLanes], R[kLanes], color[kLanes];
     triples(call, 0, P);
     triples(call, 3, R);
@@ -69,6 +79,7 @@ void trace(const jit::ServiceCall& call) {
 }
 
 void transmission(const jit::ServiceCall& call) {
+    if (zeros_without_grid(call, 3)) return;
     vec3 P[kLanes], Q[kLanes], through[kLanes];
     triples(call, 0, P);
     triples(call, 3, Q);
@@ -92,7 +103,9 @@ void transform(const jit::ServiceCall& call) {
             const Surface& surface = grid.scene.surfaces[grid.hits.instance[grid.points[point]]];
             node = grid.scene.shapes[surface.shape].node;
         }
-        dmat4 to = current_from_space(*host.scene, rsl::interned(space), node);
+        const std::string& name = rsl::interned(space);
+        dmat4 to = host.vertices ? object_from_space(*host.scene, name, host.vertices->node)
+                                 : current_from_space(*host.scene, name, node);
         dmat4 from = glm::inverse(to);
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column) {
@@ -104,9 +117,13 @@ void transform(const jit::ServiceCall& call) {
 
 // At frame rate it prints at once: once per instance and frame.
 void print(const jit::ServiceCall& call) {
-    if (Grid* grid = host_of(call).grid)
-        grid->shading->print(*grid, call);
-    else
+    const KernelHost& host = host_of(call);
+    if (host.grid) {
+        host.grid->shading->print(*host.grid, call);
+    } else if (host.vertices) {
+        for (int lane = 0; lane < call.lanes; ++lane)
+            if (call.mask >> lane & 1) *host.vertices->prints += print_text(call, lane);
+    } else
         std::fputs(print_text(call, 0).c_str(), stdout);
 }
 

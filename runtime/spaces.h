@@ -16,4 +16,7 @@ struct Scene;
 // name do not compile).
 dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node);
 
+// The same with the space of scene node `object` as "current": what vertices are displaced in.
+dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t object);
+
 }  // namespace kinora

@@ -125,6 +125,11 @@ SceneOptions Render::scene_options() const {
     o.accel.background = false;  // a frame depends on its time alone
     o.aovs = options_.aovs;
     o.want_dumps = !options_.dump.empty();
+    o.displacement = options_.quality.displacement;
+    o.dice = options_.quality.dice;
+    if (options_.dice_limit) o.dice_limit = options_.dice_limit;
+    o.width = options_.width ? options_.width : 640;
+    o.height = options_.height;
     return o;
 }
 
@@ -188,11 +193,12 @@ std::string Render::fingerprint(double time) const {
     const RenderOptions& o = options_;
     std::string text = fmt::format(
         "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} filter {} {} seed {} "
-        "shadows {} nan {} color {} camera {} up {} unit {} time {:a}",
+        "shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time {:a}",
         KINORA_VERSION, scene_hash_, settings_.width, settings_.height, o.quality.name,
         o.quality.samples_per_pixel, int(o.quality.math), o.quality.robust,
         o.quality.always_rebuild, o.filter, o.filter_width, o.seed, int(o.shadows), int(o.nan),
-        int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), time);
+        int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0),
+        int(o.quality.displacement), o.quality.dice, o.dice_limit, time);
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
@@ -360,6 +366,10 @@ void Render::print_stats() const {
             "ms; %zu kernels in %.2f ms, %zu bytes of code; peak memory %.1f MB\n",
             target.name, target.lanes, thread_count(), load_ms_, build_ms_, first_ray_ms_,
             cache.kernels, cache.total_ms, cache.code_bytes, double(peak_memory_bytes()) * 1e-6);
+        if (scene_->dice.triangles)
+            std::printf("diced to %zu triangles, %zu vertices of %.3g pixels in %.1f ms\n",
+                        scene_->dice.triangles, scene_->dice.vertices, scene_->dice.pixels,
+                        scene_->dice.ms);
         return;
     }
     nlohmann::ordered_json json;
@@ -373,6 +383,9 @@ void Render::print_stats() const {
     json["compile_ms"] = cache.total_ms;
     json["code_bytes"] = cache.code_bytes;
     json["peak_memory_bytes"] = peak_memory_bytes();
+    json["dice_ms"] = scene_->dice.ms;
+    json["dice_triangles"] = scene_->dice.triangles;
+    json["dice_pixels"] = scene_->dice.pixels;
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& r : records_) {
         const FrameStats& s = r.stats;
@@ -383,6 +396,7 @@ void Render::print_stats() const {
             frame.update({{"total_ms", s.total},
                           {"animate_ms", s.animate},
                           {"skin_ms", s.skin},
+                          {"displace_ms", s.displace},
                           {"refit_ms", s.refit},
                           {"trace_ms", s.trace},
                           {"shade_ms", s.shade},

@@ -117,6 +117,15 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     app.add_option("--robust", robust, "watertight traversal: on or off");
     app.add_option("--bvh", rebuild, "refit or rebuild each frame")
         ->transform(names<bool>({{"refit", false}, {"rebuild", true}}));
+    std::optional<DisplacementMode> displacement;
+    std::optional<double> dice;
+    std::optional<size_t> dice_limit;
+    app.add_option("--displacement", displacement, "true (vertices move) or bump (N bends)")
+        ->transform(names<DisplacementMode>(
+            {{"true", DisplacementMode::True}, {"bump", DisplacementMode::Bump}}));
+    app.add_option("--dice", dice, "edge length of displaced surfaces, pixels");
+    app.add_option("--dice-limit", dice_limit, "most triangles of displaced surfaces (4000000)")
+        ->check(CLI::Range(size_t(1), size_t(1) << 31));
     app.add_option("--filter", o.filter, "pixel filter: box, triangle or gaussian")
         ->check(CLI::Validator(
             [](std::string& name) {
@@ -196,6 +205,12 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
         if (math) o.quality.math = *math;
         if (robust) o.quality.robust = *robust;
         if (rebuild) o.quality.always_rebuild = *rebuild;
+        if (displacement) o.quality.displacement = *displacement;
+        if (dice) {
+            check_range("--dice", *dice, 0.01, 1e6, "takes 0.01 to 1e6 pixels");
+            o.quality.dice = *dice;
+        }
+        o.dice_limit = dice_limit.value_or(0);
         for (const std::string& shader : shaders) {
             size_t equals = shader.find('=');
             if (equals == std::string::npos || equals == 0 || equals + 1 == shader.size())

@@ -191,6 +191,12 @@ TEST(SurfaceParameters, VertexInputsReachVaryingParameters) {
 
 // ---- displacement as bent normals
 
+SceneOptions bump_only() {
+    SceneOptions options;
+    options.displacement = DisplacementMode::Bump;
+    return options;
+}
+
 TEST(Displacement, BendsNormalsAsTheMovedSurfaceWouldHaveThem) {
     SceneText scene = floor_scene(
         "displacement waves(float A = 0.1; float k = 9;) {"
@@ -198,7 +204,7 @@ TEST(Displacement, BendsNormalsAsTheMovedSurfaceWouldHaveThem) {
             show(components("ntransform(\"world\", normalize(N))")),
         "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\"/>");
     expect_colors(
-        Rendering(scene.text()).frame(),
+        Rendering(scene.text(), bump_only()).frame(),
         [](dvec2 p) {
             double slope = 0.1 * 9 / 3 * std::cos(9 * (p.x + 1.5) / 3);  // dh/dx
             double length = std::sqrt(1 + slope * slope);
@@ -215,7 +221,8 @@ TEST(Displacement, LayersApplyBottomFirst) {
         "<shader stage=\"DISPLACEMENT\"><name>a</name></shader>"
         "<shader stage=\"DISPLACEMENT\"><name>b</name></shader>"
         "<shader stage=\"SURFACE\"/>");
-    expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(2, 0, 1); });
+    expect_colors(Rendering(scene.text(), bump_only()).frame(),
+                  [](dvec2) { return dvec3(2, 0, 1); });
 }
 
 TEST(Displacement, LeavesTheSurfaceWhereItIs) {
@@ -223,7 +230,7 @@ TEST(Displacement, LeavesTheSurfaceWhereItIs) {
         floor_scene("displacement up() { P += 0.5 * normalize(N); N = calculatenormal(P); }\n" +
                         show(components("transform(\"world\", P)")),
                     "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\"/>");
-    Rendering r(scene.text());
+    Rendering r(scene.text(), bump_only());
     r.frame();
     EXPECT_EQ(r.film.at(8, 8).w, 1.0f);
 }

@@ -1,0 +1,247 @@
+// runtime/vertex_columns.cpp: kernel inputs at the wedges of a mesh.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "raytrace/sampling.h"
+#include "runtime/affine_map.h"
+#include "runtime/vertex_columns_p.h"
+#include "runtime/vertex_work.h"
+
+namespace kinora {
+
+namespace {
+
+// The cofactor takes normals along whatever the scale (EXTREMES.md 1c), a mirror's sign taken out.
+mat3 normal_matrix(const dmat3& l) {
+    dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
+    return mat3(glm::determinant(l) < 0 ? -cofactor : cofactor);
+}
+
+}  // namespace
+
+VertexSpace::VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_from_mesh,
+                         dvec3 anchor) {
+    dmat4 from_anchor(1.0);
+    from_anchor[3] = dvec4(anchor, 1.0);
+    object = object_from_mesh * from_anchor;
+    dmat3 l(object), back = glm::inverse(l);
+    linear = mat3(l);
+    normals = normal_matrix(l);
+    mesh_linear = mat3(back);
+    mesh_normals = normal_matrix(back);
+    const raytrace::Camera& view = scene.view;
+    dmat4 object_from_world = glm::inverse(scene.nodes[node].world);
+    eye_object = dvec3(object_from_world * dvec4(view.eye + scene.origin, 1.0));
+    orthographic = view.orthographic;
+    double scale =
+        orthographic ? std::cbrt(std::abs(glm::determinant(dmat3(object_from_world)))) : 1;
+    pixel = view.width ? float(scale * 2 * view.half_width / view.width) : 0.0f;
+}
+
+namespace {
+
+class Columns {
+  public:
+    Columns(const Look& look, const VertexSource& source, const VertexSpace& space, size_t begin,
+            size_t end, Arena& arena)
+        : look_(look),
+          source_(source),
+          space_(space),
+          begin_(begin),
+          count_(end - begin),
+          arena_(arena),
+          columns_(arena.allocate_span<float*>(look.column_count)) {
+        std::fill(columns_.begin(), columns_.end(), nullptr);
+        for (uint16_t c : look.full.columns) take(c);
+        for (uint16_t first : kTriples)
+            if (columns_[first] || columns_[first + 1u] || columns_[first + 2u])
+                for (uint16_t k = 0; k < 3; ++k) take(uint16_t(first + k));
+        for (uint16_t k = 0; k < 3; ++k) take(uint16_t(kColP + k));
+    }
+
+    std::span<float*> run() {
+        bool tangents = columns_[kColdPdu] || columns_[kColdPdv] || columns_[kColdIdu] ||
+                        columns_[kColdIdv] || columns_[kColDu] || columns_[kColDv];
+        bool partials =
+            tangents || columns_[kColdNdu] || columns_[kColdNdv] ||
+            std::any_of(columns_.begin() + kColVarying, columns_.end(), [](float* c) { return c; });
+        for (size_t i = 0; i < count_; ++i) {
+            size_t w = begin_ + i;
+            vec3 P = place(w), N = normal(w);
+            set(kColP, i, P);
+            set(kColN, i, N);
+            set(kColI, i, P - vec3(space_.eye_object));
+            if (columns_[kColNg]) set(kColNg, i, geometric_normal(w, N));
+            coordinates(i, w);
+            if (partials) derivatives(i, w, P, N, tangents);
+            if (float* rng = columns_[kColRng])
+                rng[i] = jit::float_of(
+                    int32_t(raytrace::hash(source_.places[source_.group.position[w]], 0x76657274)));
+        }
+        constants();
+        for (float* column : columns_)  // padding lanes are copies of the last point
+            if (column) std::fill(column + count_, column + padded(count_), column[count_ - 1]);
+        return columns_;
+    }
+
+  private:
+    static constexpr uint16_t kTriples[] = {kColP, kColdPdu, kColdPdv, kColN,    kColNg,
+                                            kColI, kColdNdu, kColdNdv, kColdIdu, kColdIdv};
+
+    void take(uint16_t c) {
+        if (!columns_[c]) columns_[c] = arena_.allocate_span<float>(padded(count_)).data();
+    }
+    void set(size_t first, size_t i, vec3 v) {
+        if (!columns_[first]) return;
+        for (size_t k = 0; k < 3; ++k) columns_[first + k][i] = v[int(k)];
+    }
+    void put(size_t column, size_t i, float value) {
+        if (columns_[column]) columns_[column][i] = value;
+    }
+
+    vec3 place(size_t w) const {
+        const vec4& p = source_.positions[source_.group.position[w]];
+        return vec3(space_.object * dvec4(p.x, p.y, p.z, 1.0));
+    }
+    vec3 normal(size_t w) const {
+        vec3 n = space_.normals * vec3(source_.normals[source_.group.normal[w]]);
+        float square = glm::dot(n, n);
+        return square > 0 ? n / std::sqrt(square) : geometric_normal(w, vec3(0));
+    }
+    vec3 geometric_normal(size_t w, vec3 otherwise) const {
+        vec3 sum(0.0f);
+        for (uint32_t corner : source_.corners.of(w)) sum += vec3(source_.faces[corner / 3]);
+        sum = space_.normals * sum;
+        float square = glm::dot(sum, sum);
+        return square > 0 ? sum / std::sqrt(square) : otherwise;
+    }
+
+    const float* value(const VertexAttribute& a, size_t w) const {
+        return &a.values[w * a.stride];  // a diced mesh has one entry a wedge
+    }
+    void coordinates(size_t i, size_t w) {
+        const float* st = value(*source_.st, w);
+        put(kColU, i, st[0]);
+        put(kColV, i, st[1]);
+        put(kColS, i, st[0]);
+        put(kColT, i, st[1]);
+    }
+
+    // Calls f(map, w0, w1, w2) for the triangles around a wedge; those without area in u, v only
+    // where there is no other.
+    template <class F>
+    int for_each_triangle(size_t w, F&& f) const {
+        int count = 0;
+        for (bool degenerate : {false, true}) {
+            for (uint32_t corner : source_.corners.of(w)) {
+                const uint32_t* c = &source_.group.corners[corner - corner % 3];
+                const float *a = value(*source_.st, c[0]), *b = value(*source_.st, c[1]);
+                const float* d = value(*source_.st, c[2]);
+                AffineMap map;
+                bool sound = solve(map, b[0] - a[0], b[1] - a[1], d[0] - a[0], d[1] - a[1]);
+                if (sound == degenerate) continue;
+                f(map, c[0], c[1], c[2]);
+                ++count;
+            }
+            if (count) break;
+        }
+        return std::max(count, 1);
+    }
+
+    void derivatives(size_t i, size_t w, vec3 P, vec3 N, bool tangents) {
+        vec3 dPdu(0.0f), dPdv(0.0f), dNdu(0.0f), dNdv(0.0f);
+        bool normals = columns_[kColdNdu] || columns_[kColdNdv];
+        int count =
+            for_each_triangle(w, [&](const AffineMap& map, uint32_t a, uint32_t b, uint32_t c) {
+                if (tangents) {
+                    vec3 e1 = edge(a, b), e2 = edge(a, c);
+                    dPdu += map.along_u(e1, e2);
+                    dPdv += map.along_v(e1, e2);
+                }
+                if (normals) {
+                    vec3 n0 = normal(a), d1 = normal(b) - n0, d2 = normal(c) - n0;
+                    dNdu += map.along_u(d1, d2);
+                    dNdv += map.along_v(d1, d2);
+                }
+            });
+        auto in_plane = [&](vec3 v) { return v - N * glm::dot(N, v); };
+        dPdu = in_plane(dPdu / float(count));
+        dPdv = in_plane(dPdv / float(count));
+        set(kColdPdu, i, dPdu);
+        set(kColdPdv, i, dPdv);
+        set(kColdIdu, i, dPdu);
+        set(kColdIdv, i, dPdv);
+        set(kColdNdu, i, in_plane(dNdu / float(count)));
+        set(kColdNdv, i, in_plane(dNdv / float(count)));
+        float width = space_.pixel;
+        if (!space_.orthographic) width *= glm::length(P - vec3(space_.eye_object));
+        put(kColDu, i, footprint(width, dPdu));
+        put(kColDv, i, footprint(width, dPdv));
+        varying(i, w);
+    }
+    static float footprint(float width, vec3 partial) {
+        float length = glm::length(partial);
+        return length > 0 ? width / length : 0.0f;
+    }
+    vec3 edge(uint32_t a, uint32_t b) const {
+        const std::vector<uint32_t>& p = source_.group.position;
+        return space_.linear * (vec3(source_.positions[p[b]]) - vec3(source_.positions[p[a]]));
+    }
+
+    void varying(size_t i, size_t w) {
+        for (size_t k = 0; k < look_.varying.size(); ++k) {
+            const VaryingParam& param = look_.varying[k];
+            const VertexAttribute* attribute = source_.varying[k];
+            for (uint32_t j = 0; j < param.components; ++j) {
+                auto at = [&](size_t wedge) -> float {
+                    if (!attribute) return 0.0f;
+                    return value(*attribute,
+                                 wedge)[std::min(param.component + j, attribute->stride - 1)];
+                };
+                float du = 0, dv = 0;
+                int count = for_each_triangle(
+                    w, [&](const AffineMap& map, uint32_t a, uint32_t b, uint32_t c) {
+                        float d1 = at(b) - at(a), d2 = at(c) - at(a);
+                        du += map.along_u(d1, d2);
+                        dv += map.along_v(d1, d2);
+                    });
+                put(param.column + j, i, at(w));
+                put(param.column + param.components + j, i, du / float(count));
+                put(param.column + 2 * param.components + j, i, dv / float(count));
+            }
+        }
+    }
+
+    void constants() {
+        static constexpr std::pair<uint16_t, float> kConstants[] = {{kColOne, 1.0f},
+                                                                    {kColdsdu, 1.0f},
+                                                                    {kColdsdv, 0.0f},
+                                                                    {kColdtdu, 0.0f},
+                                                                    {kColdtdv, 1.0f}};
+        for (auto [which, value] : kConstants)
+            if (float* row = columns_[which]) std::fill_n(row, count_, value);
+        for (size_t first : {size_t(kColToCurrent), size_t(kColFromCurrent)})  // the identity
+            for (size_t k = 0; k < 12; ++k)
+                if (float* row = columns_[first + k])
+                    std::fill_n(row, count_, k % 5 == 0 ? 1.0f : 0.0f);
+    }
+
+    const Look& look_;
+    const VertexSource& source_;
+    const VertexSpace& space_;
+    size_t begin_, count_;
+    Arena& arena_;
+    std::span<float*> columns_;
+};
+
+}  // namespace
+
+std::span<float*> fill_vertex_columns(const Look& look, const VertexSource& source,
+                                      const VertexSpace& space, size_t begin, size_t end,
+                                      Arena& arena) {
+    return Columns(look, source, space, begin, end, arena).run();
+}
+
+}  // namespace kinora

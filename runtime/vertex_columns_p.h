@@ -1,0 +1,44 @@
+// runtime/vertex_columns_p.h: kernel inputs at the wedges of a mesh; for vertex_*.cpp only.
+#pragma once
+
+#include <span>
+
+#include "runtime/base/arena.h"
+#include "runtime/diced_mesh.h"
+#include "runtime/grid.h"
+#include "runtime/look.h"
+
+namespace kinora {
+
+// Between a mesh (minus its anchor) and the space of the node it is displaced in.
+struct VertexSpace {
+    VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor);
+
+    dmat4 object{1.0};   // object_from_mesh for positions minus the anchor
+    mat3 linear{1.0f};   // its linear part
+    mat3 normals{1.0f};  // takes normals to object space, up to their length
+    mat3 mesh_linear{1.0f}, mesh_normals{1.0f};  // and back
+    dvec3 eye_object{0.0};
+    // Width of a pixel at distance 1 of the eye, or everywhere (orthographic), object space.
+    float pixel = 0;
+    bool orthographic = false;
+};
+
+// What the columns of one group are made of.
+struct VertexSource {
+    const DicedGroup& group;
+    const struct Lists& corners;  // of each wedge
+    std::span<const vec4> positions, normals, faces;
+    const VertexAttribute* st;
+    std::span<const VertexAttribute* const> varying;
+    std::span<const uint32_t> places;  // of each position: seeds random()
+};
+
+// The look's columns for wedges [begin, end), by Column; kColP is always there. Partial derivatives
+// are means over the triangles around a wedge; dPdu and dPdv are then laid into the plane of N, so
+// that calculatenormal(P) of what is not displaced is N and facets do not show.
+std::span<float*> fill_vertex_columns(const Look& look, const VertexSource& source,
+                                      const VertexSpace& space, size_t begin, size_t end,
+                                      Arena& arena);
+
+}  // namespace kinora

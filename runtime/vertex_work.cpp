@@ -1,0 +1,396 @@
+// runtime/vertex_work.cpp: welding, running and averaging of vertex kernels.
+#include "runtime/vertex_work.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+
+#include "runtime/base/parallel.h"
+#include "runtime/findings.h"
+#include "runtime/vertex_columns_p.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kPart = 1024;  // wedges a kernel runs on at once
+constexpr size_t kGrain = 4096;
+
+// Lists from the key of each item.
+Lists make_lists(std::span<const uint32_t> key_of_item, size_t keys) {
+    Lists lists;
+    lists.first.assign(keys + 1, 0);
+    for (uint32_t key : key_of_item) ++lists.first[key + 1];
+    for (size_t k = 0; k < keys; ++k) lists.first[k + 1] += lists.first[k];
+    lists.items.resize(key_of_item.size());
+    std::vector<uint32_t> next(lists.first.begin(), lists.first.end() - 1);
+    for (uint32_t i = 0; i < key_of_item.size(); ++i) lists.items[next[key_of_item[i]]++] = i;
+    return lists;
+}
+
+// The rotation that takes direction a to direction b, applied to n.
+vec3 turned(vec3 n, vec3 a, vec3 b) {
+    float scale = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
+    if (!(scale > 0)) return n;
+    float cosine = glm::dot(a, b) / scale;
+    if (cosine < -0.9999f) return -n;
+    vec3 axis = glm::cross(a, b) / scale;
+    return n * cosine + glm::cross(axis, n) + axis * (glm::dot(axis, n) / (1 + cosine));
+}
+
+vec3 unit_or(vec3 v, vec3 otherwise) {
+    float square = glm::dot(v, v);
+    return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
+}
+
+// Output columns of a kernel, -1 where it has none.
+struct OutputTriple {
+    int c[3] = {-1, -1, -1};
+    OutputTriple(const jit::Kernel& kernel, char letter) {
+        for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+            const std::string& name = kernel.outputs[o].name;
+            if (name.size() == 3 && name[0] == letter && name[1] == '.') c[name[2] - 'x'] = int(o);
+        }
+    }
+    vec3 at(std::span<float* const> out, size_t i) const {
+        vec3 v;
+        for (int k = 0; k < 3; ++k) v[k] = c[k] < 0 ? 0.0f : out[size_t(c[k])][i];
+        return v;
+    }
+};
+
+bool is_finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Puts outputs "aov:NAME[.c]" of a kernel into the attribute "vertex:NAME".
+void store_outputs(const jit::Kernel& kernel, std::span<float* const> out, size_t first,
+                   size_t count, PrimitiveGroup& group) {
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+        std::string_view name = kernel.outputs[o].name;
+        if (!name.starts_with("aov:")) continue;
+        name.remove_prefix(4);
+        for (VertexAttribute& a : group.attributes) {
+            std::string_view semantic = a.semantic;
+            if (!semantic.starts_with("vertex:")) continue;
+            semantic.remove_prefix(7);
+            bool whole = name == semantic;
+            bool component = name.size() == semantic.size() + 2 && name.starts_with(semantic) &&
+                             name[semantic.size()] == '.';
+            if (!whole && !component) continue;
+            size_t c = whole ? 0 : std::string_view("xyzrgb").find(name.back()) % 3;
+            for (size_t i = 0; i < count; ++i) a.values[(first + i) * a.stride + c] = out[o][i];
+        }
+    }
+}
+
+}  // namespace
+
+// What one call of run() works on.
+struct VertexWork::Pass {
+    const Scene& scene;
+    uint32_t node;
+    VertexSpace space;
+    std::span<vec4> positions, normals;
+    size_t stage = 0;
+};
+
+VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::vector<Use> uses) {
+    size_t triangles = 0;
+    for (size_t g = 0; g < groups.size(); ++g) {
+        Group& group = groups_.emplace_back();
+        group.made = std::move(groups[g]);
+        group.use = uses[g];
+        group.first_wedge = uint32_t(wedge_count_);
+        group.first_triangle = triangles;
+        group.corners = make_lists(group.made.corners, group.made.position.size());
+        for (size_t s = 0; s < kStages; ++s)
+            if (const Look* look = group.use.looks[s])
+                group.faults[s].resize(look->full.kernel().fault_sites.size() + 1);
+        wedge_count_ += group.made.position.size();
+        triangles += group.made.corners.size() / 3;
+        group_of_wedge_.resize(wedge_count_, uint32_t(g));
+    }
+    weld_positions(mesh);
+    weld_normals(mesh);
+    moved_.resize(wedge_count_);
+    bent_.resize(wedge_count_);
+    faces_.resize(triangles);
+    before_.resize(same_normal_.first.size() - 1);
+    size_t parts = 0;
+    for (const Group& group : groups_)
+        parts = std::max(parts, group.made.position.size() / kPart + 1);
+    prints_.resize(parts);
+    not_finite_.resize(parts);
+}
+
+void VertexWork::weld_positions(const Mesh& mesh) {
+    place_of_position_ = weld(mesh.positions);
+    std::vector<uint32_t> place_of_wedge;
+    for (const Group& group : groups_)
+        for (uint32_t p : group.made.position) place_of_wedge.push_back(place_of_position_[p]);
+    places_ = make_lists(place_of_wedge, mesh.positions.size());
+}
+
+// Wedges at one place whose groups have the same shaders and whose normals are equal but for
+// rounding. The key is the lowest normal entry among them.
+void VertexWork::weld_normals(const Mesh& mesh) {
+    key_of_normal_.resize(mesh.normals.size());
+    for (uint32_t n = 0; n < key_of_normal_.size(); ++n) key_of_normal_[n] = n;
+    auto normal_of = [&](uint32_t wedge) {
+        const Group& group = groups_[group_of_wedge_[wedge]];
+        return group.made.normal[wedge - group.first_wedge];
+    };
+    auto looks_of = [&](uint32_t wedge) { return groups_[group_of_wedge_[wedge]].use.looks; };
+    for (size_t place = 0; place + 1 < places_.first.size(); ++place) {
+        std::span<const uint32_t> wedges = places_.of(place);
+        for (size_t i = 1; i < wedges.size(); ++i) {
+            uint32_t n = normal_of(wedges[i]);
+            for (size_t k = 0; k < i && key_of_normal_[n] == n; ++k) {
+                uint32_t other = normal_of(wedges[k]);
+                vec3 difference = vec3(mesh.normals[n]) - vec3(mesh.normals[other]);
+                if (glm::dot(difference, difference) < 1e-8f &&
+                    looks_of(wedges[i]) == looks_of(wedges[k]))
+                    key_of_normal_[n] = key_of_normal_[other];
+            }
+        }
+    }
+    std::vector<uint32_t> key_of_wedge;
+    for (const Group& group : groups_)
+        for (uint32_t n : group.made.normal) key_of_wedge.push_back(key_of_normal_[n]);
+    same_normal_ = make_lists(key_of_wedge, mesh.normals.size());
+}
+
+void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor,
+                     std::span<vec4> positions, std::span<vec4> normals) {
+    while (arenas_.size() < size_t(thread_count())) arenas_.emplace_back();
+    Pass pass{scene, node, VertexSpace(scene, node, object_from_mesh, anchor), positions, normals};
+    for (pass.stage = 0; pass.stage < kStages; ++pass.stage)
+        if (std::any_of(groups_.begin(), groups_.end(),
+                        [&](const Group& group) { return group.use.looks[pass.stage]; }))
+            run_stage(pass);
+}
+
+void VertexWork::run_stage(Pass& pass) {
+    find_faces(pass.positions);
+    parallel_for(0, before_.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k) before_[k] = face_sum(same_normal_.of(k));
+    });
+    for (Group& group : groups_) run_group(pass, group);
+    move_positions(pass);
+    find_faces(pass.positions);
+    turn_normals(pass);
+}
+
+void VertexWork::find_faces(std::span<const vec4> positions) {
+    for (const Group& group : groups_) {
+        const std::vector<uint32_t>&c = group.made.corners, &p = group.made.position;
+        parallel_for(0, c.size() / 3, kGrain, [&](size_t begin, size_t end) {
+            for (size_t t = begin; t < end; ++t) {
+                vec3 p0(positions[p[c[3 * t]]]);
+                vec3 e1 = vec3(positions[p[c[3 * t + 1]]]) - p0;
+                vec3 e2 = vec3(positions[p[c[3 * t + 2]]]) - p0;
+                faces_[group.first_triangle + t] = vec4(glm::cross(e1, e2), 0.0f);
+            }
+        });
+    }
+}
+
+vec3 VertexWork::face_sum(std::span<const uint32_t> wedges) const {
+    vec3 sum(0.0f);
+    for (uint32_t w : wedges) {
+        const Group& group = groups_[group_of_wedge_[w]];
+        for (uint32_t corner : group.corners.of(w - group.first_wedge))
+            sum += vec3(faces_[group.first_triangle + corner / 3]);
+    }
+    return sum;
+}
+
+void VertexWork::run_group(Pass& pass, Group& group) {
+    size_t count = group.made.position.size();
+    Look* look = group.use.looks[pass.stage];
+    if (!look) {
+        std::fill_n(moved_.begin() + group.first_wedge, count, vec4(0.0f));
+        return;
+    }
+    look->update_for_vertices(
+        {pass.scene, pass.scene.time, pass.scene.shutter, pass.space.eye_object}, pass.node);
+    // Precise kernels run in the IEEE default, fast ones flush denormals (DESIGN.md decision 13).
+    bool fast = pass.scene.options.math == jit::math::Tier::Fast;
+    std::vector<uint8_t>& faults = group.faults[pass.stage];
+    parallel_for(0, (count + kPart - 1) / kPart, 1, [&](size_t begin, size_t end) {
+        std::optional<raytrace::DenormalGuard> flush;
+        if (fast) flush.emplace();
+        Arena& arena = arenas_[size_t(thread_index())];
+        for (size_t part = begin; part < end; ++part) {
+            Arena::Mark mark = arena.mark();
+            std::span<uint8_t> own = arena.allocate_span<uint8_t>(faults.size());
+            std::fill(own.begin(), own.end(), uint8_t(0));
+            run_wedges(pass, group, part * kPart, std::min(count, (part + 1) * kPart), own.data(),
+                       prints_[part]);
+            for (size_t s = 0; s < own.size(); ++s)
+                if (own[s]) std::atomic_ref(faults[s]).store(1, std::memory_order_relaxed);
+            arena.release(mark);
+        }
+    });
+    for (std::string& prints : prints_) {
+        if (prints.empty()) continue;
+        std::fputs(prints.c_str(), stdout);
+        prints.clear();
+    }
+    for (uint32_t& n : not_finite_) not_finite_total_ += std::exchange(n, 0);
+}
+
+void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
+                            uint8_t* faults, std::string& prints) {
+    const Look& look = *group.use.looks[pass.stage];
+    const jit::Kernel& kernel = look.full.kernel();
+    Arena& arena = arenas_[size_t(thread_index())];
+    size_t count = end - begin;
+    VertexSource source{group.made,
+                        group.corners,
+                        pass.positions,
+                        pass.normals,
+                        std::span(faces_).subspan(group.first_triangle),
+                        group.use.st,
+                        group.use.varying[pass.stage],
+                        place_of_position_};
+    std::span<float*> columns = fill_vertex_columns(look, source, pass.space, begin, end, arena);
+    std::span<const float*> in = arena.allocate_span<const float*>(look.full.columns.size());
+    for (size_t i = 0; i < in.size(); ++i) in[i] = columns[look.full.columns[i]];
+    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
+    for (float*& row : out) row = arena.allocate_span<float>(padded(count)).data();
+    VertexHost vertices{pass.node, &prints};
+    KernelHost host{&pass.scene, &look, nullptr, &vertices};
+    jit::KernelArgs args;
+    args.in = in.data();
+    args.out = out.data();
+    args.frame = look.full.frame_block();
+    args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes));
+    args.fault = faults;
+    args.services = look.full.services.data();
+    args.grid = &host;
+    args.count = int32_t(count);
+    kernel.run(args);
+    OutputTriple P(kernel, 'P'), N(kernel, 'N');
+    uint32_t bad = 0;
+    for (size_t i = 0; i < count; ++i) {
+        vec3 before(columns[kColP][i], columns[kColP + 1][i], columns[kColP + 2][i]);
+        vec3 moved = P.at(out, i) - before, bent = N.at(out, i);
+        bad += !is_finite(moved) || !is_finite(bent);
+        size_t w = group.first_wedge + begin + i;
+        moved_[w] = vec4(is_finite(moved) ? pass.space.mesh_linear * moved : vec3(0), 0.0f);
+        bent_[w] = vec4(
+            is_finite(bent) ? unit_or(pass.space.mesh_normals * bent, vec3(0)) : vec3(0), 0.0f);
+    }
+    not_finite_[begin / kPart] = bad;
+    if (group.use.attributes) store_outputs(kernel, out, begin, count, *group.use.attributes);
+}
+
+void VertexWork::move_positions(const Pass& pass) {
+    parallel_for(0, pass.positions.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t p = begin; p < end; ++p) {
+            std::span<const uint32_t> wedges = places_.of(place_of_position_[p]);
+            if (wedges.empty()) continue;
+            vec3 sum(0.0f);
+            for (uint32_t w : wedges) sum += vec3(moved_[w]);
+            pass.positions[p] += vec4(sum / float(wedges.size()), 0.0f);
+        }
+    });
+}
+
+void VertexWork::turn_normals(const Pass& pass) {
+    parallel_for(0, pass.normals.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t n = begin; n < end; ++n) {
+            uint32_t key = key_of_normal_[n];
+            std::span<const uint32_t> wedges = same_normal_.of(key);
+            if (wedges.empty()) continue;
+            vec3 normal(pass.normals[n]);
+            const Look* look = groups_[group_of_wedge_[wedges[0]]].use.looks[pass.stage];
+            if (look && look->lowered.bends_N) {
+                vec3 sum(0.0f);
+                for (uint32_t w : wedges) sum += vec3(bent_[w]);
+                normal = unit_or(sum, normal);
+            } else {
+                vec3 after = face_sum(wedges);
+                bool displaced = pass.stage == kStages - 1 && after != before_[key];
+                normal = unit_or(displaced ? after : turned(normal, before_[key], after), normal);
+            }
+            pass.normals[n] = vec4(normal, 0.0f);
+        }
+    });
+}
+
+void VertexWork::report(std::string_view name, Diagnostics& diagnostics) {
+    for (Group& group : groups_)
+        for (size_t s = 0; s < kStages; ++s) {
+            if (!group.use.looks[s]) continue;
+            const auto& sites = group.use.looks[s]->full.kernel().fault_sites;
+            for (size_t f = 0; f < sites.size(); ++f)
+                if (std::exchange(group.faults[s][f], uint8_t(0)))
+                    diagnostics.report(Code::SHADER_FAULT, sites[f].where, sites[f].message);
+        }
+    if (uint32_t count = std::exchange(not_finite_total_, 0))
+        diagnostics.report(Code::VERTEX_NON_FINITE, Location{}, count, name);
+}
+
+// ---- when kernels run ---------------------------------------------------------------------------
+
+bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
+    using Source = FrameInput::Source;
+    auto between = [](uint16_t c, uint16_t first) { return c >= first && c < first + 3; };
+    for (uint16_t c : look.full.columns)
+        if (between(c, kColI) || c == kColDu || c == kColDv) return true;
+    const SceneDescription& description = *scene.description;
+    auto animated = [&](uint32_t value) {
+        return value < description.animated.size() && description.animated[value];
+    };
+    auto space_moves = [&](std::string_view space) {
+        if (space == "current" || space == "object" || space == "shader") return false;
+        if (space == "world") return scene.nodes[node].can_move;
+        for (const Node& n : scene.nodes)
+            if (description.nodes[n.definition].id == space)
+                return n.can_move || scene.nodes[node].can_move;
+        return true;  // of the camera
+    };
+    for (const FrameInput& input : look.full.inputs) {
+        switch (input.source) {
+            case Source::Fixed:
+                break;
+            case Source::Value:
+                if (animated(input.index)) return true;
+                break;
+            case Source::Placed:
+                for (uint32_t k = 0; k < 3; ++k)
+                    if (animated(input.index + k)) return true;
+                break;
+            case Source::Space:
+                if (space_moves(look.spaces[input.index])) return true;
+                break;
+            case Source::Time:
+            case Source::Shutter:
+            case Source::Near:
+            case Source::Far:
+            case Source::Eye:
+                return true;
+        }
+    }
+    // A space whose name is computed may be any.
+    auto transforms = [](const std::shared_ptr<const jit::Kernel>& kernel) {
+        return kernel && std::any_of(kernel->services.begin(), kernel->services.end(),
+                                     [](const auto& s) { return s.name == "transform"; });
+    };
+    return transforms(look.full.pair.point) || transforms(look.full.pair.frame);
+}
+
+bool depends_on_node(const Look& look) {
+    for (const FrameInput& input : look.full.inputs)
+        if (input.source == FrameInput::Source::Space) return true;
+    return false;
+}
+
+}  // namespace kinora
