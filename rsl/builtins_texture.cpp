@@ -1,4 +1,6 @@
 // rsl/builtins_texture.cpp: rows of the built-in table: textures and maps.
+#include <algorithm>
+
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
@@ -57,6 +59,32 @@ void set_texels(LowerCall& c, const std::vector<Value>& rgba) {
         c.set(V3{rgba[0], rgba[1], rgba[2]});
 }
 
+// Whether the shader makes normals of what it reads: then a texture has a derivative, which costs
+// two more lookups.
+bool bends_normals(LowerCall& c) {
+    if (c.low.kind() == ShaderKind::Displacement) return true;
+    const std::vector<Token>& tokens = c.low.ast().tokens.tokens;
+    return std::any_of(tokens.begin(), tokens.end(),
+                       [](const Token& token) { return token.text == "calculatenormal"; });
+}
+
+// The value here, with the differences to the lookups beside it as its derivatives: what a grid of
+// small faces sees. The bits of u have no derivative, so u - u of its bits is 0 but has that of u;
+// the bits of du, in and out again, keep that from being folded.
+Value with_differences(LowerCall& c, Value here, Value along_u, Value along_v) {
+    auto& b = c.b;
+    auto term = [&](Value beside, Global parameter, Global width) {
+        Value x = c.low.global_input(parameter).c[0], w = c.low.global_input(width).c[0];
+        Value slope = b.op(jit::Op::Div, b.sub(beside, here), b.op(jit::Op::Max, w, b.f(1e-12f)));
+        Value mask = b.op(jit::Op::BitsFI, w);
+        Value mixed = b.op(jit::Op::IXor, b.op(jit::Op::BitsFI, x), mask);
+        Value still = b.op(jit::Op::BitsIF, b.op(jit::Op::IXor, mixed, mask));
+        return b.mul(slope, b.sub(x, still));
+    };
+    return b.add(here, b.add(term(along_u, Global::u, Global::du),
+                             term(along_v, Global::v, Global::dv)));
+}
+
 void texture(LowerCall& c) {
     Lookup at;
     if (c.args.size() == 9)
@@ -72,10 +100,21 @@ void texture(LowerCall& c) {
             if (key == name) return value.c[0];
         return width;
     };
-    set_texels(c, c.low.service("texture",
-                                std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx,
-                                           at.dsdy, at.dtdy, c.pair("blur", 0), width_of("swidth"),
-                                           width_of("twidth"), filter_name(c), c.pair("fill", 0)}));
+    auto lookup = [&](Value s, Value t) {
+        return c.low.service("texture",
+                             std::array{c.f(0), channel(c), s, t, at.dsdx, at.dtdx, at.dsdy,
+                                        at.dtdy, c.pair("blur", 0), width_of("swidth"),
+                                        width_of("twidth"), filter_name(c), c.pair("fill", 0)});
+    };
+    std::vector<Value> texels = lookup(at.s, at.t);
+    if (bends_normals(c)) {
+        auto& b = c.b;
+        std::vector<Value> u = lookup(b.add(at.s, at.dsdx), b.add(at.t, at.dtdx));
+        std::vector<Value> v = lookup(b.add(at.s, at.dsdy), b.add(at.t, at.dtdy));
+        for (size_t k = 0; k < texels.size(); ++k)
+            texels[k] = with_differences(c, texels[k], u[k], v[k]);
+    }
+    set_texels(c, texels);
 }
 
 void environment(LowerCall& c) {

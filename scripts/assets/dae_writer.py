@@ -119,7 +119,9 @@ class Dae:
 
     @staticmethod
     def value(v):
-        """A number, a color, or the three numbers of a Point."""
+        """A number, a text, a color, or the three numbers of a Point."""
+        if isinstance(v, str):
+            return f"<string>{v}</string>"
         if isinstance(v, Point):
             return f"<float3>{numbers(v)}</float3>"
         return f"<color>{numbers(v)}</color>" if isinstance(v, tuple) else f"<float>{v:g}</float>"

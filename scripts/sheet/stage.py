@@ -11,6 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SHADERS = ROOT / "assets/shaders"
 sys.path.insert(0, str(ROOT / "scripts/assets"))
+from sheet import png  # noqa: E402
 from dae_writer import Dae, Point, add_box, grid_of, lathe_of  # noqa: E402
 
 KINDS = ("surface", "displacement", "light", "volume", "imager", "transformation")
@@ -22,15 +23,17 @@ WATERS = {"water"}
 INTERIORS = {"tintedinterior"}
 
 
+SEA = {"surface_color": (0.03, 0.15, 0.18), "Ks": 0.9, "roughness": 0.03, "sheen": 3.0}
 # Those whose defaults suit another size of scene, or stand for a thing to be filled in.
 VALUES = {
     "spotlight": {"intensity": 18.0, "coneangle": 0.42}, "pointlight": {"intensity": 14.0},
     "fog": {"distance": 16.0, "background": (0.70, 0.76, 0.82)},
     "depthcue": {"mindistance": 0.08, "maxdistance": 0.8, "background": (0.08, 0.09, 0.12)},
     "smoke": {"density": 0.10, "stepsize": 0.4, "frequency": 0.8, "smokecolor": (0.8, 0.8, 0.85)},
-    "constant": {}, "background": {"background": (0.15, 0.3, 0.55)},
+    "paintedplastic": {"texturename": "pattern.png"}, "bumpy": {"texturename": "pattern.png"},
+    "shinymetal": {"texturename": "sky.png"}, "background": {"background": (0.15, 0.3, 0.55)},
     "planks": {"width": 0.3}, "bulblight": {"intensity": 6.0}, "ambientlight": {"intensity": 0.7},
-    "windowlight": {"from": Point((-4.0, -1.2, 2.6)), "to": Point((0.0, 0.0, 0.4)),
+    "ocean": SEA, "ripples": SEA, "windowlight": {"from": Point((-4.0, -1.2, 2.6)), "to": Point((0.0, 0.0, 0.4)),
                     "intensity": 1.4},
     "collada_point": {"quadratic_attenuation": 0.06}, "collada_spot": {"falloff_angle": 44.0},
 }
@@ -120,7 +123,7 @@ class Stage:
         if floor:
             self.material("backdrop", "SURFACE", "scenes/backdrop")
             self.put("backdrop", backdrop(), "backdrop")
-        else:
+        elif wall is not None:
             self.material("backdrop", "SURFACE", "scenes/backdrop")
             self.put("backdrop", grid_of(lambda s, t: (80 * s - 40, wall, 40 * t), 1, 1),
                      "backdrop")
@@ -183,7 +186,7 @@ def displacement(name, code):
     stage = Stage()
     plain = stage.shader("scenes/porcelain")
     stage.dae.material("shown", [("DISPLACEMENT", name, code), ("SURFACE", "porcelain", plain)],
-                       {})
+                       VALUES.get(name, {}))
     on_floor = name in ON_FLOOR
     stage.studio(floor=not on_floor)
     if on_floor:
@@ -258,10 +261,32 @@ def volume(name, code):
 
 def imager(name, code):
     stage = Stage()
-    stage.studio()
+    stage.studio(floor=name != "background", wall=None)
     stage.props()
     stage.camera()
     return with_effect(stage, "IMAGER", name, code)
+
+
+def pictures(folder):
+    """The images that VALUES names: a pattern of leaves, and a sky with a sun."""
+    def pattern(x, y):
+        a, r = math.atan2(y, x), math.hypot(x, y)
+        leaf = 0.55 + 0.35 * math.cos(6 * a)
+        k = max(0.0, min(1.0, (leaf - r) * 12 + 0.5)) * (0.6 + 0.4 * math.cos(18 * r))
+        return 40 + 200 * k, 70 + 120 * k, 130 - 90 * k
+
+    def sky(x, y):
+        up = -y
+        sun = math.exp(-40 * ((x + 0.3) ** 2 + (up - 0.45) ** 2))
+        if up > 0:
+            return [min(255, c + 600 * sun) for c in (120 - 60 * up, 160 - 40 * up, 225 - 20 * up)]
+        return 84 + 40 * up, 66 + 30 * up, 48 + 20 * up
+
+    for name, colour, width in (("pattern", pattern, 128), ("sky", sky, 256)):
+        rows = [bytes(int(max(0, c)) for i in range(width)
+                      for c in colour(2 * (i + 0.5) / width - 1, 2 * (j + 0.5) / 128 - 1))
+                for j in range(128)]
+        png.write(folder / f"{name}.png", width, 128, rows)
 
 
 def scene_for(path):

@@ -1,7 +1,7 @@
 /* mosaicglass.sl: the picture under a leaded window: dark lines between cells, each lit a little
    differently.
    Parameters: cell in pixels, lead (width of the lines), variation. */
-imager mosaicglass(float cell = 26; float lead = 1.6; float variation = 0.45;) {
+imager mosaicglass(float cell = 26; float lead = 1.1; float variation = 0.45;) {
     float x = xcomp(P) / cell;
     float y = ycomp(P) / cell;
     float f1 = 9, f2 = 9, id = 0;

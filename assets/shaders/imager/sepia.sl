@@ -3,7 +3,7 @@
 imager sepia(float strength = 1; float spots = 0.5; color papercolor = color(0.93, 0.80, 0.58);
              color inkcolor = color(0.10, 0.045, 0.018);) {
     color yiq = ctransform("YIQ", Ci);
-    float tone = pow(clamp(comp(yiq, 0), 0, 1), 0.85);
+    float tone = pow(clamp(comp(yiq, 0), 0, 1), 0.6);
     color print = spline(tone, inkcolor, inkcolor, mix(inkcolor, papercolor, 0.28), papercolor,
                          papercolor * 1.08);
     float stain = smoothstep(0.62, 0.85, float noise(0.021 * P) * 0.8 + 0.3 * float noise(0.09 * P));

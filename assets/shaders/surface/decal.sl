@@ -39,6 +39,7 @@ surface decal(float Ka = 1; float Kd = 0.75; float Ks = 0.6; float roughness = 0
 
     if (reportonce != 0) {
         string title = concat("emblem of ", shadername());
+        debug(r);
         printf("%s\n", format("%s: size %f, turned %f, in %m", title, size, turn, emblem));
     }
     normal Nf = faceforward(normalize(N), I);
