@@ -17,10 +17,10 @@ bool always() {
 
 constexpr Target kTargets[] = {
 #if defined(__x86_64__)
-    {"avx512", 16, avx512_supported, emit_avx512},
-    {"avx2", 8, avx2_supported, emit_avx2},
+    {"avx512", 16, avx512_supported, emit_avx512, check_avx512},
+    {"avx2", 8, avx2_supported, emit_avx2, check_avx2},
 #endif
-    {"interp", kMaxLanes, always, emit_interp},
+    {"interp", kMaxLanes, always, emit_interp, nullptr},
 };
 
 }  // namespace

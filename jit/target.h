@@ -72,12 +72,15 @@ struct Kernel {
 
 // A CPU family at a feature level, or the interpreter: one row of the table in target.cpp.
 struct Target {
-    const char* name;  // "interp", "avx2", "avx512"
+    const char* name;  // "interp", "avx2", "avx512", "neon"
     int lanes;
     bool (*supported)();  // by the running CPU
     // Turns a verified, optimised module into a kernel; null if executable memory cannot be had
     // (callers fall back to the interpreter). `assembly`, if given, receives a listing.
     std::shared_ptr<Kernel> (*emit)(const Module& module, std::string* assembly);
+    // For tests, on any CPU: encodes a verified module and proves its register allocations; "" or
+    // the first fault. Null: there is nothing to prove.
+    std::string (*check)(const Module& module);
 };
 
 std::span<const Target> targets();                 // fastest first, all that this build knows

@@ -19,4 +19,8 @@ bool avx512_supported();
 std::shared_ptr<Kernel> emit_avx2(const Module& module, std::string* assembly);
 std::shared_ptr<Kernel> emit_avx512(const Module& module, std::string* assembly);
 
+// Target::check: runs check_allocation over the functions of a verified module.
+std::string check_avx2(const Module& module);
+std::string check_avx512(const Module& module);
+
 }  // namespace kinora::jit

@@ -6,7 +6,6 @@
 #include "jit/analysis.h"
 #include "jit/code_memory.h"
 #include "jit/x64/x64.h"
-#include "jit/x64/x64_check.h"
 #include "jit/x64/x64_emit_p.h"
 #include "runtime/base/check.h"
 
@@ -113,14 +112,22 @@ std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* 
     return kernel;
 }
 
+std::string check(const Module& module, const Isa& isa) {
+    Emitted emitted;
+    emit_module(module, isa, false, true, emitted);
+    return emitted.fault;
+}
+
 }  // namespace
 
 }  // namespace x64
 
-std::string check_x64_allocation(const Module& module, bool avx512) {
-    x64::Emitted emitted;
-    x64::emit_module(module, avx512 ? x64::kAvx512 : x64::kAvx2, false, true, emitted);
-    return emitted.fault;
+std::string check_avx2(const Module& module) {
+    return x64::check(module, x64::kAvx2);
+}
+
+std::string check_avx512(const Module& module) {
+    return x64::check(module, x64::kAvx512);
 }
 
 bool avx2_supported() {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/jit/x64_random.h"
+#include "tests/jit/target_random.h"
 
 namespace kinora::jit {
 namespace {
@@ -18,7 +18,7 @@ struct Case {
 
 // A plain target: everything but constants wants a vector register.
 Case make_case(uint32_t seed) {
-    Case c{test::random_x64_module(seed, 80, seed % 2 == 0), {}};
+    Case c{test::random_target_module(seed, 80, seed % 2 == 0), {}};
     const Function& f = c.function();
     c.plan.resize(f.insts.size());
     for (Value v = 0; v < f.insts.size(); ++v) {

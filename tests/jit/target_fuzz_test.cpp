@@ -1,14 +1,12 @@
-// tests/jit/x64_fuzz_test.cpp: random modules give the same bits on avx2, avx512 and interp, and
+// tests/jit/target_fuzz_test.cpp: random modules give the same bits on every target and interp, and
 // their register allocations are proven. KINORA_FUZZ=N runs N programs of each kind instead.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "jit/interp.h"
-#include "jit/x64/x64.h"
-#include "jit/x64/x64_check.h"
 #include "tests/jit/run_kernel.h"
-#include "tests/jit/x64_random.h"
+#include "tests/jit/target_random.h"
 
 namespace kinora::jit {
 namespace {
@@ -68,18 +66,10 @@ struct Data {
     RecordSet sets[2];
 };
 
-struct Machine {
-    bool (*supported)();
-    std::shared_ptr<Kernel> (*emit)(const Module&, std::string*);
-    bool avx512;
-};
-constexpr Machine kMachines[] = {{avx2_supported, emit_avx2, false},
-                                 {avx512_supported, emit_avx512, true}};
-
 // "" or what went wrong.
-std::string compare(const Module& module, uint32_t seed, const Machine& machine) {
+std::string compare(const Module& module, uint32_t seed, const Target& target) {
     auto reference = emit_interp(module, nullptr);
-    auto kernel = machine.emit(module, nullptr);
+    auto kernel = target.emit(module, nullptr);
     Data data(seed);
     auto count = static_cast<int32_t>(1 + seed % 40);
     RunInput input = data.input(count);
@@ -94,30 +84,31 @@ void fuzz(int programs, int ops, bool calls, uint32_t first_seed) {
         first_seed = static_cast<uint32_t>(std::atoi(first));
     for (int k = 0; k < programs; ++k) {
         uint32_t seed = first_seed + static_cast<uint32_t>(k);
-        Module module = test::random_x64_module(seed, ops, calls);
+        Module module = test::random_target_module(seed, ops, calls);
         ASSERT_EQ(verify(module), "") << "seed " << seed;
-        for (const Machine& machine : kMachines) {
-            ASSERT_EQ(check_x64_allocation(module, machine.avx512), "") << "seed " << seed << "\n"
-                                                                        << print(module);
-            if (!machine.supported()) continue;
-            ASSERT_EQ(compare(module, seed, machine), "")
-                << "seed " << seed << " ops " << ops << " calls " << calls << " avx512 "
-                << machine.avx512 << "\n"
+        for (const Target& target : targets()) {
+            if (target.check == nullptr) continue;
+            ASSERT_EQ(target.check(module), "") << target.name << ", seed " << seed << "\n"
+                                                << print(module);
+            if (!target.supported()) continue;
+            ASSERT_EQ(compare(module, seed, target), "")
+                << "seed " << seed << " ops " << ops << " calls " << calls << " " << target.name
+                << "\n"
                 << print(module);
         }
     }
 }
 
-TEST(X64Fuzz, SmallProgramsEqualTheInterpreter) {
+TEST(TargetModules, SmallProgramsEqualTheInterpreter) {
     fuzz(2000, 12, false, 1);
 }
-TEST(X64Fuzz, ProgramsEqualTheInterpreter) {
+TEST(TargetModules, ProgramsEqualTheInterpreter) {
     fuzz(2000, 60, false, 100'000);
 }
-TEST(X64Fuzz, ProgramsWithCallsEqualTheInterpreter) {
+TEST(TargetModules, ProgramsWithCallsEqualTheInterpreter) {
     fuzz(2000, 60, true, 200'000'000);
 }
-TEST(X64Fuzz, LongProgramsEqualTheInterpreter) {
+TEST(TargetModules, LongProgramsEqualTheInterpreter) {
     fuzz(100, 600, true, 400'000'000);
 }
 

@@ -1,4 +1,4 @@
-// tests/jit/x64_random.h: random modules that use every op, for comparing targets with interp.
+// tests/jit/target_random.h: random modules that use every op, for comparing targets with interp.
 #pragma once
 
 #include <random>
@@ -334,7 +334,7 @@ class RandomCode {
 };
 
 // A kernel of about `ops` instructions, with functions of its own if `calls`.
-inline Module random_x64_module(uint32_t seed, int ops, bool calls) {
+inline Module random_target_module(uint32_t seed, int ops, bool calls) {
     std::mt19937 random(seed);
     Module module;
     module.name = "random" + std::to_string(seed);
