@@ -1,6 +1,7 @@
 // jit/target.cpp: the targets this build knows, one row each, fastest first.
 #include "jit/target.h"
 
+#include "jit/a64/a64.h"
 #include "jit/interp.h"
 #if defined(__x86_64__)
 #include "jit/x64/x64.h"
@@ -20,6 +21,7 @@ constexpr Target kTargets[] = {
     {"avx512", 16, avx512_supported, emit_avx512, check_avx512},
     {"avx2", 8, avx2_supported, emit_avx2, check_avx2},
 #endif
+    {"neon", 4, neon_supported, emit_neon, check_neon},
     {"interp", kMaxLanes, always, emit_interp, nullptr},
 };
 

@@ -24,9 +24,9 @@ Emit::Emit(ModuleState& state, size_t function_index)
       index_(function_index),
       a_(state.a),
       structure_(f_),
-      plan_(plan_function(module_, f_, structure_, isa_)),
+      plan_(plan_function(module_, f_, structure_, isa_.rules())),
       allocation_(
-          allocate_registers(f_, structure_, plan_.values, limits(isa_, plan_, is_kernel_))) {
+          allocate_registers(f_, structure_, plan_.values, isa_.limits(plan_, is_kernel_))) {
     lay_out();
 }
 

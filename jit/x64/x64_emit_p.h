@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "jit/target.h"
-#include "jit/x64/x64_plan_p.h"
+#include "jit/x64/x64_isa_p.h"
 #include "jit/x64/x64_pool_p.h"
 
 namespace kinora::jit::x64 {

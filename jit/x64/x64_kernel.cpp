@@ -1,10 +1,10 @@
 // jit/x64/x64_kernel.cpp: from a module to a kernel: emits the functions it reaches, and the pool.
-#include <algorithm>
 #include <chrono>
 #include <deque>
 
 #include "jit/analysis.h"
 #include "jit/code_memory.h"
+#include "jit/module_code_p.h"
 #include "jit/x64/x64.h"
 #include "jit/x64/x64_emit_p.h"
 #include "runtime/base/check.h"
@@ -26,19 +26,6 @@ struct X64Kernel final : Kernel {
     KernelFn entry = nullptr;
 };
 
-// Functions that the kernel calls, directly or not, callers first; the kernel is the first.
-std::vector<size_t> reached(const Module& module) {
-    std::vector<size_t> order = {0};
-    std::vector<bool> seen(module.functions.size());
-    for (size_t k = 0; k < order.size(); ++k)
-        for (const Inst& inst : module.functions[order[k]].insts) {
-            if (inst.op != Op::Call || seen[static_cast<size_t>(inst.imm)]) continue;
-            seen[static_cast<size_t>(inst.imm)] = true;
-            order.push_back(static_cast<size_t>(inst.imm));
-        }
-    return order;
-}
-
 void number_frame_rows(ModuleState& state, std::span<const size_t> functions) {
     if (state.isa.wide) return;
     state.frame_row.assign(static_cast<size_t>(state.module.frame_slots), -1);
@@ -50,17 +37,6 @@ void number_frame_rows(ModuleState& state, std::span<const size_t> functions) {
             if (row < 0) row = rows++;
         }
     state.globals_bytes = (kFrameRows + 32 * rows + kRow - 1) / kRow * kRow;
-}
-
-// Describes the module to its callers; everything but the code.
-void describe(const Module& module, const Isa& isa, Kernel& kernel) {
-    kernel.name = module.name;
-    kernel.inputs = module.inputs;
-    kernel.outputs = module.outputs;
-    kernel.services = module.services;
-    kernel.fault_sites = module.fault_sites;
-    kernel.frame_slots = module.frame_slots;
-    kernel.target = isa.name;
 }
 
 struct Emitted {
@@ -76,7 +52,7 @@ void emit_module(const Module& module, const Isa& isa, bool listing, bool check,
     x86::Assembler a(&out.code);
     Pool pool(a, isa.wide ? 1 : 8);
     ModuleState state{module, isa, a, pool, {}, {}};
-    std::vector<size_t> functions = reached(module);
+    std::vector<size_t> functions = reached_functions(module);
     state.entries.resize(module.functions.size());
     for (size_t index : functions) state.entries[index] = a.newLabel();
     number_frame_rows(state, functions);
@@ -103,7 +79,7 @@ std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* 
     auto kernel = std::make_shared<X64Kernel>();
     kernel->code = make_executable({bytes.data(), bytes.size()});
     if (kernel->code == nullptr) return nullptr;
-    describe(module, isa, *kernel);
+    describe(module, isa.name, *kernel);
     kernel->scratch_bytes = emitted.scratch_bytes;
     kernel->code_bytes = bytes.size();
     kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->code->data()));

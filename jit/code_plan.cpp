@@ -1,9 +1,9 @@
-// jit/x64/x64_plan.cpp: what needs a register, what is a memory operand, what is computed in place.
-#include "jit/x64/x64_plan_p.h"
+// jit/code_plan.cpp: what needs a register, what lies in memory, what is computed in place.
+#include "jit/code_plan_p.h"
 
 #include "jit/analysis.h"
 
-namespace kinora::jit::x64 {
+namespace kinora::jit {
 
 namespace {
 
@@ -13,8 +13,8 @@ bool is_compare(Op op) {
 
 class Planner {
   public:
-    Planner(const Module& m, const Function& f, const Structure& s, const Isa& isa)
-        : m_(m), f_(f), s_(s), isa_(isa) {}
+    Planner(const Module& m, const Function& f, const Structure& s, const PlanRules& rules)
+        : m_(m), f_(f), s_(s), rules_(rules) {}
 
     FunctionPlan run() {
         size_t n = f_.insts.size();
@@ -27,7 +27,7 @@ class Planner {
         for (Value v = 0; v < n; ++v) plan_value(v);
         for (Value v = 0; v < n; ++v) fuse_operands(v);
         for (Value v = 0; v < n; ++v) plan_.in_range[v] = reads_in_range(f_.insts[v]);
-        plan_record_loops();
+        if (rules_.counted_loops) plan_record_loops();
         alias_variables();
         return std::move(plan_);
     }
@@ -52,7 +52,7 @@ class Planner {
 
     RegClass class_of(const Inst& inst) const {
         if (inst.type == Type::None) return RegClass::None;
-        return inst.type == Type::M && isa_.wide ? RegClass::Mask : RegClass::Vector;
+        return inst.type == Type::M && rules_.mask_registers ? RegClass::Mask : RegClass::Vector;
     }
 
     void plan_value(Value v) {
@@ -218,13 +218,13 @@ class Planner {
                     if (f_.insts[v].op == Op::Neg && fusible(v, at)) value(v).fused = true;
                 return;
             case Op::MNot:
-                fuse_compare(inst.a, at);
+                if (rules_.inverted_compares) fuse_compare(inst.a, at);
                 return;
             case Op::MAnd:
-                if (isa_.wide && !fuse_compare(inst.b, at)) fuse_compare(inst.a, at);
+                if (rules_.mask_registers && !fuse_compare(inst.b, at)) fuse_compare(inst.a, at);
                 return;
             case Op::MAndNot:
-                if (isa_.wide) fuse_compare(inst.b, at);
+                if (rules_.mask_registers) fuse_compare(inst.b, at);
                 return;
             case Op::Select:
                 return fuse_arm(inst, at);
@@ -235,7 +235,7 @@ class Planner {
 
     // AVX-512: an arm computed under the mask, over the other arm.
     void fuse_arm(const Inst& select, Value at) {
-        if (!isa_.wide || value(at).cls != RegClass::Vector || select.b == select.c) return;
+        if (!rules_.mask_registers || value(at).cls != RegClass::Vector || select.b == select.c) return;
         const Inst& arm = f_.insts[select.b];
         bool in_place = arm.op == Op::Add || arm.op == Op::Sub || arm.op == Op::Mul ||
                         (arm.op == Op::Neg && arm.a == select.c) ||
@@ -311,18 +311,18 @@ class Planner {
                                   : last_read_[variable] < begin;
     }
 
-    // AVX2 has inverted compares for floats only.
+    // Without mask registers there are inverted compares for floats only.
     bool fuse_compare(Value v, Value at) {
         Op op = f_.insts[v].op;
         if (!is_compare(op) || !fusible(v, at)) return false;
-        if (!isa_.wide && (op == Op::ILt || op == Op::IEq)) return false;
+        if (!rules_.mask_registers && (op == Op::ILt || op == Op::IEq)) return false;
         return value(v).fused = true;
     }
 
     const Module& m_;
     const Function& f_;
     const Structure& s_;
-    const Isa& isa_;
+    const PlanRules& rules_;
     FunctionPlan plan_;
     std::vector<uint32_t> uses_;
     std::vector<Value> user_;       // the last one
@@ -332,17 +332,8 @@ class Planner {
 }  // namespace
 
 FunctionPlan plan_function(const Module& module, const Function& function,
-                           const Structure& structure, const Isa& isa) {
-    return Planner(module, function, structure, isa).run();
+                           const Structure& structure, const PlanRules& rules) {
+    return Planner(module, function, structure, rules).run();
 }
 
-AllocationLimits limits(const Isa& isa, const FunctionPlan& plan, bool is_kernel) {
-    AllocationLimits limits;
-    limits.registers[0] = isa.vector_registers;
-    limits.registers[1] = isa.mask_registers;
-    limits.first[1] = isa.wide ? 1 : 0;
-    limits.hoist_function = is_kernel && !plan.calls;
-    return limits;
-}
-
-}  // namespace kinora::jit::x64
+}  // namespace kinora::jit

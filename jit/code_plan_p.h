@@ -1,4 +1,4 @@
-// jit/x64/x64_plan_p.h: what the emitter decides about a function before it writes code.
+// jit/code_plan_p.h: what an emitter decides about a function before it writes code, for any target.
 #pragma once
 
 #include <cstdint>
@@ -6,16 +6,14 @@
 
 #include "jit/regalloc.h"
 
-namespace kinora::jit::x64 {
+namespace kinora::jit {
 
-// An instruction set. Everything that differs between the two hangs on `wide`: AVX-512 has mask
-// registers, embedded broadcasts and 32 registers.
-struct Isa {
-    const char* name;
-    int lanes;
-    bool wide;
-    int vector_registers;  // the two after these are scratch
-    int mask_registers;    // k1..k(n-1); k0 and k7 are scratch
+// What of an instruction set matters here.
+struct PlanRules {
+    // Masks have registers of their own; compares and arms of Select can be computed under one.
+    bool mask_registers;
+    bool inverted_compares;  // of floats, true on NaN: they take a Not in
+    bool counted_loops;      // the emitter knows FunctionPlan::counted and fused tests of records
 };
 
 struct FunctionPlan {
@@ -31,8 +29,6 @@ struct FunctionPlan {
 };
 
 FunctionPlan plan_function(const Module& module, const Function& function,
-                           const Structure& structure, const Isa& isa);
+                           const Structure& structure, const PlanRules& rules);
 
-AllocationLimits limits(const Isa& isa, const FunctionPlan& plan, bool is_kernel);
-
-}  // namespace kinora::jit::x64
+}  // namespace kinora::jit

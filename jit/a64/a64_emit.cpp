@@ -1,0 +1,199 @@
+// jit/a64/a64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "jit/a64/a64_emit_p.h"
+
+namespace kinora::jit::a64 {
+
+namespace {
+
+// AVX-512's freedoms are missing: masks are vectors, and no compare is true on NaN.
+constexpr PlanRules kRules = {false, false, false};
+
+// An instruction of the IR becomes at most this many bytes, an argument of its list included; tests
+// over every op hold it (a conditional branch must reach over a whole function or be made far).
+constexpr size_t kMostBytes = 400;
+constexpr size_t kBranchReach = 1u << 20;
+
+// Bytes that emit_kernel keeps on the machine stack: x29, x30, x19..x25, then d8..d15.
+constexpr int kSavedGp = 80, kSavedVectors = 64;
+
+AllocationLimits limits(const FunctionPlan& plan, bool is_kernel) {
+    AllocationLimits limits;
+    limits.registers[0] = kVectorRegisters;
+    limits.hoist_function = is_kernel && !plan.calls;
+    return limits;
+}
+
+}  // namespace
+
+const Emit::Member Emit::kMembers[] = {
+#define OP(name, operands, result, flags, meaning) &Emit::op_##name,
+#include "jit/ops.def"
+#undef OP
+};
+
+Emit::Emit(ModuleState& state, size_t function_index)
+    : state_(state),
+      module_(state.module),
+      f_(state.module.functions[function_index]),
+      is_kernel_(function_index == 0),
+      index_(function_index),
+      a_(state.a),
+      structure_(f_),
+      plan_(plan_function(module_, f_, structure_, kRules)),
+      allocation_(allocate_registers(f_, structure_, plan_.values, limits(plan_, is_kernel_))),
+      far_branches_((f_.insts.size() + f_.args.size()) * kMostBytes > kBranchReach) {
+    lay_out();
+}
+
+bool Emit::uses_valid_lanes() const {
+    for (Value v = 0; v < f_.insts.size(); ++v) {
+        Op op = inst(v).op;
+        if (op == Op::Service || op == Op::Fault) return true;
+        if (op == Op::Loop && plan_.values[v].masked) return true;
+    }
+    return false;
+}
+
+bool Emit::uses_saved_registers() const {
+    for (const Place& p : allocation_.places)
+        if (p.reg >= kFirstSavedRegister) return true;
+    return false;
+}
+
+void Emit::lay_out() {
+    auto take = [&](size_t bytes) {
+        int32_t at = layout_.bytes;
+        layout_.bytes += static_cast<int32_t>((bytes + kRow - 1) / kRow * kRow);
+        return at;
+    };
+    // The caller fills in parameters at the frame's start and finds the results behind them.
+    layout_.params = take(is_kernel_ ? 0 : f_.params.size() * kRow);
+    layout_.results = take(is_kernel_ ? 0 : f_.results.size() * kRow);
+    layout_.vectors = take(static_cast<size_t>(allocation_.slots[0] * kVector));
+    layout_.swap = take(2 * kRow);
+    layout_.lanes = take(kRow);
+    size_t args = 0, results = 0, depth = 0, deepest = 0;
+    for (const Inst& i : f_.insts) {
+        if (i.op == Op::Loop) deepest = std::max(deepest, ++depth);
+        if (i.op == Op::EndLoop) --depth;
+        if (i.op != Op::Service) continue;
+        args = std::max<size_t>(args, i.arg_count);
+        results = std::max(results, module_.services[static_cast<size_t>(i.imm)].results.size());
+    }
+    layout_.counters = take(4 * deepest);
+    layout_.service_args = take(args * kRow);
+    layout_.service_results = take(results * kRow);
+    for (const ArrayInfo& array : f_.arrays) {
+        layout_.arrays.push_back(layout_.bytes);
+        layout_.bytes += array.length * kVector;
+    }
+    layout_.bytes = (layout_.bytes + kRow - 1) / kRow * kRow;
+}
+
+void Emit::emit_function(bool listing) {
+    if (is_kernel_)
+        emit_kernel(listing);
+    else
+        emit_local(listing);
+}
+
+// Called from the entry behind the code, which has put the pool's address into x9.
+void Emit::emit_kernel(bool listing) {
+    const Gp sp = arm::sp;
+    int32_t saved = kSavedGp + (state_.saves_registers ? kSavedVectors : 0);
+    a_.bind(state_.entries[index_]);
+    a_.stp(arm::x29, arm::x30, arm::ptr_pre(sp, -saved));
+    a_.mov(arm::x29, sp);
+    a_.stp(arm::x19, arm::x20, arm::ptr(sp, 16));
+    a_.stp(arm::x21, arm::x22, arm::ptr(sp, 32));
+    a_.stp(arm::x23, arm::x24, arm::ptr(sp, 48));
+    a_.str(arm::x25, arm::ptr(sp, 64));
+    // The low halves of v8..v15 are the caller's.
+    for (uint32_t k = 0; state_.saves_registers && k < 8; k += 2)
+        a_.stp(arm::d(8 + k), arm::d(9 + k), arm::ptr(sp, kSavedGp + static_cast<int32_t>(8 * k)));
+
+    a_.mov(kArgs, arm::x0);
+    a_.mov(kPool, arm::x9);
+    a_.ldr(kIn, arm::ptr(kArgs, offsetof(KernelArgs, in)));
+    a_.ldr(kFrameBlock, arm::ptr(kArgs, offsetof(KernelArgs, frame)));
+    a_.ldr(kGlobals, arm::ptr(kArgs, offsetof(KernelArgs, scratch)));
+    a_.add(kStack, kGlobals, kGlobalsBytes);
+    for (Value v : allocation_.function_hoists) load_home(vec(place(v).reg), v);
+    Label group = a_.newLabel(), done = a_.newLabel();
+    a_.mov(kGroup, 0);
+    a_.bind(group);
+    if (state_.uses_valid) find_valid_lanes();
+    emit_body(listing);
+    a_.add(kGroup, kGroup, kVector);
+    a_.ldr(arm::w0, arm::ptr(kArgs, offsetof(KernelArgs, count)));
+    a_.lsl(arm::x0, arm::x0, 2);
+    a_.cmp(kGroup, arm::x0);
+    a_.b_hs(done);
+    a_.b(group);
+    a_.bind(done);
+
+    for (uint32_t k = 0; state_.saves_registers && k < 8; k += 2)
+        a_.ldp(arm::d(8 + k), arm::d(9 + k), arm::ptr(sp, kSavedGp + static_cast<int32_t>(8 * k)));
+    a_.ldr(arm::x25, arm::ptr(sp, 64));
+    a_.ldp(arm::x23, arm::x24, arm::ptr(sp, 48));
+    a_.ldp(arm::x21, arm::x22, arm::ptr(sp, 32));
+    a_.ldp(arm::x19, arm::x20, arm::ptr(sp, 16));
+    a_.ldp(arm::x29, arm::x30, arm::ptr_post(sp, saved));
+    a_.ret(arm::x30);
+}
+
+// A function of the module: same registers, its own frame behind the caller's in scratch. On the
+// machine stack a call takes 16 bytes, so nothing needs probing.
+void Emit::emit_local(bool listing) {
+    a_.bind(state_.entries[index_]);
+    if (plan_.calls) a_.stp(arm::x29, arm::x30, arm::ptr_pre(arm::sp, -16));
+    emit_body(listing);
+    if (plan_.calls) a_.ldp(arm::x29, arm::x30, arm::ptr_post(arm::sp, 16));
+    a_.ret(arm::x30);
+}
+
+// Which lanes of this group hold points: those before `count`.
+void Emit::find_valid_lanes() {
+    a_.ldr(arm::w0, arm::ptr(kArgs, offsetof(KernelArgs, count)));
+    a_.lsr(arm::x1, kGroup, 2);
+    a_.sub(arm::w0, arm::w0, arm::w1);
+    a_.ldr(scratch(1), arm::ptr(kPool, Pool::kIota));
+    a_.dup(scratch(0).s4(), arm::w0);
+    a_.cmgt(scratch(0).s4(), scratch(0).s4(), scratch(1).s4());
+    a_.str(scratch(0), arm::ptr(kGlobals, kValidVector));
+    a_.mov(arm::w1, kLanes);
+    a_.cmp(arm::w0, arm::w1);
+    a_.csel(arm::w0, arm::w1, arm::w0, asmjit::arm::CondCode::kGT);
+    a_.mov(arm::w1, 1);
+    a_.lsl(arm::w1, arm::w1, arm::w0);
+    a_.sub(arm::w1, arm::w1, 1);
+    a_.str(arm::w1, arm::ptr(kGlobals, kValidBits));
+}
+
+void Emit::emit_body(bool listing) {
+    zero_arrays();
+    record_ = kNone;
+    for (at_ = 0; at_ < f_.insts.size(); ++at_) {
+        if (listing) comment();
+        for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
+            if (place(v).reg >= 0 && place(v).in_reg(at_)) load_home(vec(place(v).reg), v);
+        if (plan_.values[at_].fused) continue;
+        (this->*kMembers[static_cast<size_t>(inst(at_).op)])();
+    }
+}
+
+void Emit::comment() {
+    const Inst& i = now();
+    std::string text = fmt::format("%{} = {}", at_, op_info(i.op).name);
+    for (Value v : {i.a, i.b, i.c})
+        if (v != kNone) text += fmt::format(" %{}", v);
+    if (plan_.values[at_].fused) text += " (fused)";
+    a_.commentf("; %s", text.c_str());
+}
+
+}  // namespace kinora::jit::a64

@@ -1,0 +1,122 @@
+// jit/a64/a64_kernel.cpp: from a module to a kernel: emits the functions it reaches, an entry and the
+// pool.
+#include <chrono>
+#include <deque>
+
+#include "jit/a64/a64.h"
+#include "jit/a64/a64_emit_p.h"
+#include "jit/code_memory.h"
+#include "jit/module_code_p.h"
+#include "runtime/base/check.h"
+
+namespace kinora::jit {
+
+namespace a64 {
+
+namespace {
+
+struct A64Kernel final : Kernel {
+    void run(const KernelArgs& args) const override {
+        CHECK(neon_supported());
+        entry(&args);
+    }
+
+    std::shared_ptr<const CodeMemory> code;
+    KernelFn entry = nullptr;
+};
+
+// The first instruction that AsmJit cannot encode.
+struct FirstError final : asmjit::ErrorHandler {
+    void handleError(asmjit::Error, const char* message, asmjit::BaseEmitter*) override {
+        if (text.empty()) text = message;
+    }
+    std::string text;
+};
+
+struct Emitted {
+    FirstError error;  // outlives `code`, which points at it
+    asmjit::CodeHolder code;
+    asmjit::StringLogger log;
+    size_t scratch_bytes = 0;
+    size_t entry = 0;   // offset in the code
+    std::string fault;  // of the register allocation, if asked for
+};
+
+void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
+    out.code.init(asmjit::Environment(asmjit::Arch::kAArch64));
+    out.code.setErrorHandler(&out.error);
+    if (listing) out.code.setLogger(&out.log);
+    arm::Assembler a(&out.code);
+    if (check) a.addDiagnosticOptions(asmjit::DiagnosticOptions::kValidateAssembler);
+    ModuleState state{module, a, {}, {}};
+    std::vector<size_t> functions = reached_functions(module);
+    state.entries.resize(module.functions.size());
+    for (size_t index : functions) state.entries[index] = a.newLabel();
+
+    std::deque<Emit> emits;
+    std::vector<size_t> frames(module.functions.size(), 0), known(frames.size(), 0);
+    for (size_t index : functions) {
+        const Emit& emit = emits.emplace_back(state, index);
+        frames[index] = static_cast<size_t>(emit.frame_bytes());
+        state.uses_valid = state.uses_valid || emit.uses_valid_lanes();
+        state.saves_registers = state.saves_registers || emit.uses_saved_registers();
+        if (check && out.fault.empty()) out.fault = emit.check();
+    }
+    out.scratch_bytes = kGlobalsBytes + stack_bytes(module, 0, frames, known);
+    for (Emit& emit : emits) emit.emit_function(listing);
+
+    // The entry stands beside the pool, which adr reaches however long the code is.
+    Label pool = a.newLabel();
+    out.entry = a.offset();
+    a.adr(arm::x9, pool);
+    a.b(state.entries[0]);
+    a.align(asmjit::AlignMode::kData, 64);
+    a.bind(pool);
+    state.pool.place(a);
+}
+
+std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
+    auto start = std::chrono::steady_clock::now();
+    Emitted emitted;
+    emit_module(module, assembly != nullptr, false, emitted);
+    if (assembly != nullptr) *assembly = emitted.log.data();
+    // The interpreter serves rather than code with a hole.
+    if (!emitted.error.text.empty()) return nullptr;
+    const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
+    auto kernel = std::make_shared<A64Kernel>();
+    kernel->code = make_executable({bytes.data(), bytes.size()});
+    if (kernel->code == nullptr) return nullptr;
+    describe(module, "neon", *kernel);
+    kernel->scratch_bytes = emitted.scratch_bytes;
+    kernel->code_bytes = bytes.size();
+    const std::byte* entry = kernel->code->data() + emitted.entry;
+    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(entry));
+    std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    kernel->compile_ms = took.count();
+    return kernel;
+}
+
+}  // namespace
+
+}  // namespace a64
+
+bool neon_supported() {
+#if defined(__aarch64__)
+    return true;
+#else
+    return false;
+#endif
+}
+
+std::shared_ptr<Kernel> emit_neon(const Module& module, std::string* assembly) {
+    return a64::emit(module, assembly);
+}
+
+std::string check_neon(const Module& module) {
+    a64::Emitted emitted;
+    a64::emit_module(module, false, true, emitted);
+    if (!emitted.error.text.empty()) return "AsmJit: " + emitted.error.text;
+    return emitted.fault;
+}
+
+}  // namespace kinora::jit
