@@ -235,7 +235,8 @@ class Planner {
 
     // AVX-512: an arm computed under the mask, over the other arm.
     void fuse_arm(const Inst& select, Value at) {
-        if (!rules_.mask_registers || value(at).cls != RegClass::Vector || select.b == select.c) return;
+        if (!rules_.mask_registers || value(at).cls != RegClass::Vector || select.b == select.c)
+            return;
         const Inst& arm = f_.insts[select.b];
         bool in_place = arm.op == Op::Add || arm.op == Op::Sub || arm.op == Op::Mul ||
                         (arm.op == Op::Neg && arm.a == select.c) ||

@@ -1,4 +1,5 @@
-// jit/code_plan_p.h: what an emitter decides about a function before it writes code, for any target.
+// jit/code_plan_p.h: what an emitter decides about a function before it writes code, for any
+// target.
 #pragma once
 
 #include <cstdint>

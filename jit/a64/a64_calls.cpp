@@ -1,5 +1,5 @@
-// jit/a64/a64_calls.cpp: calls of services (C++) and of the module's own functions. No vector register
-// lives through a call (values in need lie in memory); x19..x25 are kept.
+// jit/a64/a64_calls.cpp: calls of services (C++) and of the module's own functions. No vector
+// register lives through a call (values in need lie in memory); x19..x25 are kept.
 #include <cstddef>
 
 #include "jit/a64/a64_emit_p.h"

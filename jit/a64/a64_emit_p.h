@@ -24,9 +24,9 @@ using Gp = arm::Gp;
 using Vec = arm::Vec;
 
 inline constexpr int kLanes = 4;
-inline constexpr int kRow = 4 * kMaxLanes;     // bytes of a row of lanes in memory shared with C++
-inline constexpr int kVector = 4 * kLanes;     // bytes of the lanes of a group
-inline constexpr int kVectorRegisters = 29;    // three more are scratch
+inline constexpr int kRow = 4 * kMaxLanes;      // bytes of a row of lanes in memory shared with C++
+inline constexpr int kVector = 4 * kLanes;      // bytes of the lanes of a group
+inline constexpr int kVectorRegisters = 29;     // three more are scratch
 inline constexpr int kFirstSavedRegister = 21;  // of those: v8..v15 are given out last
 
 inline constexpr Gp kArgs = arm::x19, kIn = arm::x20, kFrameBlock = arm::x21, kGlobals = arm::x22,
@@ -44,8 +44,8 @@ struct ModuleState {
     const Module& module;
     arm::Assembler& a;
     Pool pool;
-    std::vector<Label> entries;     // of functions
-    bool uses_valid = false;        // something asks which lanes hold points
+    std::vector<Label> entries;    // of functions
+    bool uses_valid = false;       // something asks which lanes hold points
     bool saves_registers = false;  // something uses v8..v15
 };
 

@@ -1,4 +1,4 @@
-// jit/a64/a64_kernel.cpp: from a module to a kernel: emits the functions it reaches, an entry and the
+// jit/a64/a64_kernel.cpp: from a module to a kernel: an entry, the functions it reaches, the
 // pool.
 #include <chrono>
 #include <deque>
@@ -38,7 +38,6 @@ struct Emitted {
     asmjit::CodeHolder code;
     asmjit::StringLogger log;
     size_t scratch_bytes = 0;
-    size_t entry = 0;   // offset in the code
     std::string fault;  // of the register allocation, if asked for
 };
 
@@ -63,11 +62,12 @@ void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
         if (check && out.fault.empty()) out.fault = emit.check();
     }
     out.scratch_bytes = kGlobalsBytes + stack_bytes(module, 0, frames, known);
+    // The code is entered at its start, by way of its end: there adr reaches the pool, however long
+    // the code is.
+    Label end = a.newLabel(), pool = a.newLabel();
+    a.b(end);
     for (Emit& emit : emits) emit.emit_function(listing);
-
-    // The entry stands beside the pool, which adr reaches however long the code is.
-    Label pool = a.newLabel();
-    out.entry = a.offset();
+    a.bind(end);
     a.adr(arm::x9, pool);
     a.b(state.entries[0]);
     a.align(asmjit::AlignMode::kData, 64);
@@ -89,8 +89,7 @@ std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
     describe(module, "neon", *kernel);
     kernel->scratch_bytes = emitted.scratch_bytes;
     kernel->code_bytes = bytes.size();
-    const std::byte* entry = kernel->code->data() + emitted.entry;
-    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(entry));
+    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->code->data()));
     std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     kernel->compile_ms = took.count();
     return kernel;

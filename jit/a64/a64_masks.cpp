@@ -1,5 +1,5 @@
-// jit/a64/a64_masks.cpp: comparisons, mask logic, and blends under a mask. A mask's lanes are all ones
-// or zero.
+// jit/a64/a64_masks.cpp: comparisons, mask logic, and blends under a mask. A mask's lanes are all
+// ones or zero.
 #include "jit/a64/a64_emit_p.h"
 
 namespace kinora::jit::a64 {

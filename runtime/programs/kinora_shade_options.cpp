@@ -71,7 +71,7 @@ void add_grid(CLI::App* command, ShadeOptions& o, Texts& texts) {
     command->add_flag("--flip", o.flip, "a light shines along +z of its space instead of -z");
     command->add_option("--output", o.output,
                         "Ci, Oi, N, P or an output parameter of the shader (Ci)");
-    command->add_option("--target", texts.target, "avx512, avx2 or interp");
+    command->add_option("--target", texts.target, "avx512, avx2, neon or interp");
     command->add_option("--math", o.math, "precise (1 ULP) or fast (4 ULP)")
         ->transform(CLI::CheckedTransformer(
                         std::map<std::string, jit::math::Tier>{

@@ -105,7 +105,7 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     app.add_option("--size", size, "WIDTHxHEIGHT in pixels (640 x 640/aspect)");
     app.add_option("--camera", o.camera, "node path or id, else camera id");
     app.add_option("--threads", threads, "N, -N (all but N) or all");
-    app.add_option("--target", target, "avx512, avx2 or interp (the best this CPU has)");
+    app.add_option("--target", target, "avx512, avx2, neon or interp (the best this CPU has)");
     app.add_option("--quality", quality, "draft, preview, final or reference");
     std::optional<int> spp;
     std::optional<jit::math::Tier> math;

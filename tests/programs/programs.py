@@ -44,7 +44,7 @@ def shade(*words, **options):
 def supported_targets():
     """Those that this CPU runs: the others are reported as not usable."""
     text = shade("bench", SHADERS / "constant.sl", "--size", "16x1", "--iterations", "1").out
-    return [name for name in ("interp", "avx2", "avx512") if re.search(rf"^{name}:", text, re.M)]
+    return [name for name in ("interp", "neon", "avx2", "avx512") if re.search(rf"^{name}:", text, re.M)]
 
 
 class ProgramTest(unittest.TestCase):
