@@ -5,6 +5,7 @@
 
 #include "jit/a64/a64.h"
 #include "jit/a64/a64_emit_p.h"
+#include "jit/analysis.h"
 #include "jit/code_memory.h"
 #include "jit/module_code_p.h"
 #include "runtime/base/check.h"
@@ -53,7 +54,7 @@ void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
     for (size_t index : functions) state.entries[index] = a.newLabel();
 
     std::deque<Emit> emits;
-    std::vector<size_t> frames(module.functions.size(), 0), known(frames.size(), 0);
+    std::vector<size_t> frames(module.functions.size(), 0);
     for (size_t index : functions) {
         const Emit& emit = emits.emplace_back(state, index);
         frames[index] = static_cast<size_t>(emit.frame_bytes());
@@ -61,7 +62,7 @@ void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
         state.saves_registers = state.saves_registers || emit.uses_saved_registers();
         if (check && out.fault.empty()) out.fault = emit.check();
     }
-    out.scratch_bytes = kGlobalsBytes + stack_bytes(module, 0, frames, known);
+    out.scratch_bytes = kGlobalsBytes + deepest_stack(module, frames);
     // The code is entered at its start, by way of its end: there adr reaches the pool, however long
     // the code is.
     Label end = a.newLabel(), pool = a.newLabel();
