@@ -341,6 +341,8 @@ struct Function {
     Function* parent = nullptr;  // the function it is nested in; null also when in a shader's body
     bool called = false;         // checker: reached from a shader
     bool recursive = false;      // checker: on a circle of calls; each circle has at least one
+    bool typed = true;           // its result type is written
+    bool returns = false;        // a return with a value stands in it
 };
 
 struct ShaderDefinition {

@@ -27,6 +27,7 @@ void Checker::run() {
 
 void Checker::check_shader(ShaderDefinition& shader) {
     unknown_.clear();
+    unknown_functions_.clear();
     ScopeGuard scope(*this);
     check_parameters(shader.parameters);
     statement(*shader.body);
@@ -74,9 +75,13 @@ void Checker::check_parameters(std::span<Symbol*> parameters) {
 }
 
 void Checker::check_initial(Symbol& symbol) {
-    bool open = symbol.kind == SymbolKind::FunctionParameter;
-    if (symbol.type.array_length == 0 && !open)
+    bool open = symbol.type.array_length == 0;
+    if (open && symbol.kind == SymbolKind::Local)
         report(Code::RSL_UNSIZED_ARRAY, symbol.place, symbol.name);
+    if (open && symbol.kind == SymbolKind::Parameter) {
+        report(Code::RSL_OPEN_ARRAY, symbol.place, symbol.name);
+        symbol.type.array_length = 1;
+    }
     if (symbol.initial) convert_to(symbol.initial, symbol.type, fmt::format("'{}'", symbol.name));
 }
 
@@ -86,7 +91,8 @@ void Checker::declare(Symbol& symbol) {
     std::vector<Symbol*>& variables = scopes_.back().variables;
     for (const Symbol* other : variables) {
         if (other->name != symbol.name) continue;
-        report(Code::RSL_REDEFINED, symbol.place, symbol.name)
+        bool parameter = symbol.kind != SymbolKind::Local;
+        report(parameter ? Code::RSL_REDEFINED : Code::RSL_REDECLARED, symbol.place, symbol.name)
             .notes.push_back({other->place.where, "first declared here"});
         break;
     }
@@ -96,13 +102,14 @@ void Checker::declare(Symbol& symbol) {
 void Checker::declare_function(Function& f) {
     std::vector<Function*>& functions = scopes_.back().functions;
     auto same_types = [](const Symbol* a, const Symbol* b) { return a->type == b->type; };
-    for (const Function* other : functions) {
+    for (Function*& other : functions) {
         bool same = other->name == f.name &&
                     std::equal(other->parameters.begin(), other->parameters.end(),
                                f.parameters.begin(), f.parameters.end(), same_types);
         if (!same) continue;
         report(Code::RSL_FUNCTION_REDEFINED, f.place, f.name)
             .notes.push_back({other->place.where, "first defined here"});
+        other = &f;
         return;
     }
     functions.push_back(&f);
@@ -119,6 +126,17 @@ Symbol* Checker::find_variable(std::string_view name, bool outside_function) {
     }
     const GlobalInfo* info = find_global(name);
     return info ? global_symbol(*info) : nullptr;
+}
+
+// The same for a look ahead: a global that nobody has named yet is a stand-in.
+const Symbol* Checker::find_symbol(std::string_view name) const {
+    for (size_t i = scopes_.size(); i-- > 0;) {
+        const std::vector<Symbol*>& variables = scopes_[i].variables;
+        for (size_t k = variables.size(); k-- > 0;)
+            if (variables[k]->name == name) return variables[k];
+    }
+    const GlobalInfo* info = find_global(name);
+    return info ? const_cast<Checker*>(this)->global_symbol(*info) : nullptr;
 }
 
 Symbol* Checker::global_symbol(const GlobalInfo& info) {

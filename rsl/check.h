@@ -61,6 +61,7 @@ class Checker {
     void declare(Symbol& symbol);
     void declare_function(Function& f);
     Symbol* find_variable(std::string_view name, bool outside_function);
+    const Symbol* find_symbol(std::string_view name) const;
     Symbol* global_symbol(const GlobalInfo& info);
     std::vector<std::string_view> variable_names() const;
     void mark_recursion();
@@ -92,6 +93,7 @@ class Checker {
     Stmt* jump_target(const Stmt& jump, const char* word, int levels);
     bool sort_illuminance(IlluminanceStmt& s, size_t next);
     void cone(Expr*& axis, Expr*& angle, const char* statement_name);
+    Expr* assumed_angle(const Stmt& s, const char* statement_name, double angle, const char* text);
 
     // check_expression.cpp. `wanted` is the type the context would like, Invalid for any.
     void expression(Expr*& slot, BaseType wanted);
@@ -99,6 +101,7 @@ class Checker {
     void convert_to(Expr*& slot, Type type, const std::string& what);
     void bring_to(Expr*& slot, Type type, const std::string& what);
     void condition(Expr*& slot);
+    void string_condition(Expr*& slot);
     void check_number(Expr*& slot, const char* what);
     void check(Expr*&, NumberExpr& e, BaseType wanted);
     void check(Expr*&, StringExpr& e, BaseType wanted);
@@ -140,6 +143,7 @@ class Checker {
     std::vector<Function*> visible_functions(std::string_view name) const;
     void call_function(CallExpr& e, std::span<Function* const> functions, BaseType wanted);
     void call_builtin(CallExpr& e, BaseType wanted);
+    bool fits_builtin(const CallExpr& e, BaseType wanted) const;
     void bind_function(CallExpr& e, Function& f);
     void bind_builtin(CallExpr& e, const Overload& overload);
     void bind_argument(CallExpr& e, size_t index, Type type, bool output);
@@ -156,6 +160,11 @@ class Checker {
     bool can_be(const Expr& expr, BaseType type) const;
     bool is_flexible(const Expr& expr) const;
     bool is_picture(const Expr& expr) const;
+    bool is_flexible_call(const CallExpr& e) const;
+    BaseType natural_type(const Expr& expr) const;
+    BaseType natural_call_type(const CallExpr& e) const;
+    static bool is_result(std::span<const Overload> overloads, BaseType type);
+    bool fixed_fits(const Expr& part, BaseType type) const;
 
     Ast& ast_;
     Reporter& reporter_;
@@ -169,10 +178,14 @@ class Checker {
     bool returned_ = false;                         // a return was met in it
     const char* light_statement_ = nullptr;         // the illuminance, illuminate or solar around
     std::unordered_set<std::string_view> unknown_;  // variables already reported
-    std::unordered_set<const Symbol*> warned_;      // parameters already warned of
+    std::unordered_set<std::string_view> unknown_functions_;
+    std::unordered_set<const Symbol*> warned_;  // parameters already warned of
 };
 
 // How well a value of type `from` serves where `to` is wanted: 0 the same, more is worse, -1 not.
 int conversion_cost(BaseType from, BaseType to);
+
+// What to write where a value of type `from` stands and `to` is wanted; "" when there is no advice.
+const char* conversion_help(BaseType from, BaseType to);
 
 }  // namespace kinora::rsl

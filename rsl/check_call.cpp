@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rsl/check.h"
+#include "rsl/standard_headers.h"
 
 namespace kinora::rsl {
 
@@ -94,8 +95,10 @@ int Checker::argument_cost(const Expr& argument, Type type, bool output) const {
     if (is_flexible(argument) && argument.type.base == BaseType::Invalid) {
         if (output || type.is_array()) return -1;
         if (type.base == BaseType::Invalid || can_be(argument, type.base)) return 0;
-        BaseType natural = can_be(argument, BaseType::Float) ? BaseType::Float : BaseType::Point;
-        return conversion_cost(natural, type.base);
+        if (can_be(argument, BaseType::Float)) return conversion_cost(BaseType::Float, type.base);
+        // A triple in any case: (x, y, z), or noise(P) beside a color.
+        bool triple = can_be(argument, BaseType::Point) || can_be(argument, BaseType::Color);
+        return conversion_cost(triple ? BaseType::Point : BaseType::Float, type.base);
     }
     if (argument.type.base == BaseType::Invalid) return 0;  // already reported
     if (type.is_array() || argument.type.is_array()) {
@@ -159,12 +162,21 @@ void Checker::call_function(CallExpr& e, std::span<Function* const> functions, B
         if (cost >= 0 && (best.cost < 0 || cost < best.cost)) best = {f, nullptr, cost};
     }
     if (best.function) return bind_function(e, *best.function);
+    if (fits_builtin(e, wanted)) return call_builtin(e, wanted);
     if (functions.size() > 1) return no_overload(e);
     Function& only = *functions[0];
     if (only.parameters.size() == e.args.size()) return bind_function(e, only);
     report(Code::RSL_ARGUMENT_COUNT, e.place, e.name, only.parameters.size(), e.args.size())
         .notes.push_back({only.place.where, "defined here"});
     e.type = only.result;
+}
+
+// A user's function of the name does not fit, the built-in one does.
+bool Checker::fits_builtin(const CallExpr& e, BaseType wanted) const {
+    std::span<const Overload> overloads = find_builtin(e.name);
+    return std::any_of(overloads.begin(), overloads.end(), [&](const Overload& o) {
+        return builtin_cost(e, o.signature, wanted) >= 0;
+    });
 }
 
 void Checker::bind_function(CallExpr& e, Function& f) {
@@ -233,7 +245,10 @@ void Checker::bind_argument(CallExpr& e, size_t index, Type type, bool output) {
     if (!fits)
         report(Code::RSL_TYPE_MISMATCH, argument->place,
                fmt::format("argument {} of '{}'", index + 1, e.name), type_name(type),
-               type_name(argument->type));
+               type_name(argument->type))
+            .help = type.is_array() || argument->type.is_array()
+                        ? ""
+                        : conversion_help(argument->type.base, type.base);
 }
 
 // ---- calls that mean nothing --------------------------------------------------------------------
@@ -264,6 +279,14 @@ std::string form_text(std::string_view name, const Signature& s) {
     return fmt::format("{} {}({})", type_name(s.result), name, text);
 }
 
+std::string form_text(const Function& f) {
+    std::string text;
+    for (const Symbol* p : f.parameters)
+        text += (text.empty() ? "" : ", ") + std::string(p->output ? "output " : "") +
+                type_name(p->type);
+    return fmt::format("{} {}({})", type_name(f.result), f.name, text);
+}
+
 constexpr size_t kMostForms = 4;  // shown in a finding
 
 }  // namespace
@@ -272,15 +295,24 @@ void Checker::no_overload(CallExpr& e) {
     for (const Expr* argument : e.args)
         if (argument->type.base == BaseType::Invalid && !is_flexible(*argument)) return;
     Finding& finding = report(Code::RSL_NO_OVERLOAD, e.place, e.name, argument_types(e));
-    std::span<const Overload> overloads = find_builtin(e.name);
-    for (size_t i = 0; i < std::min(overloads.size(), kMostForms); ++i)
-        finding.help += (i ? ", " : "forms: ") + form_text(e.name, overloads[i].signature);
-    if (overloads.size() > kMostForms) finding.help += ", ...";
+    std::vector<std::string> forms;
+    for (const Function* f : visible_functions(e.name)) forms.push_back(form_text(*f));
+    if (forms.empty())
+        for (const Overload& o : find_builtin(e.name))
+            forms.push_back(form_text(e.name, o.signature));
+    for (size_t i = 0; i < std::min(forms.size(), kMostForms); ++i)
+        finding.help += (i ? ", " : "forms: ") + forms[i];
+    if (forms.size() > kMostForms) finding.help += ", ...";
 }
 
 void Checker::unknown_function(CallExpr& e) {
-    if (broken_) return;
+    if (broken_ || !unknown_functions_.insert(e.name).second) return;
     std::string_view place = foreign_builtin(e.name);
+    if (place == "RSL 2.0") {
+        report(Code::RSL_2, e.place, fmt::format("'{}()'", e.name));
+        reporter_.stop();
+        return;
+    }
     if (!place.empty()) {
         report(Code::RSL_FOREIGN_FUNCTION, e.place, e.name, place);
         return;
@@ -289,6 +321,10 @@ void Checker::unknown_function(CallExpr& e) {
     for (const HintRow& row : kHints)
         if (row.name == e.name) finding.help = row.help;
     if (!finding.help.empty()) return;
+    if (std::string_view header = header_that_defines(e.name); !header.empty()) {
+        finding.help = fmt::format("write '#include \"{}\"' at the beginning", header);
+        return;
+    }
     std::vector<std::string_view> names = builtin_names();
     for (const Scope& scope : scopes_)
         for (const Function* f : scope.functions) names.push_back(f->name);

@@ -18,6 +18,16 @@ int conversion_cost(BaseType from, BaseType to) {
     return is_spatial(from) && is_spatial(to) ? 1 : 2;
 }
 
+const char* conversion_help(BaseType from, BaseType to) {
+    bool to_float = to == BaseType::Float, to_string = to == BaseType::String;
+    if (to_float && from == BaseType::Color) return "take a component: comp(c, 0), or c[0]";
+    if (to_float && is_triple(from)) return "take a component, as xcomp(p), or length(v)";
+    if (to_float && from == BaseType::Matrix) return "take an element: comp(m, row, column)";
+    if (to_string && from != BaseType::Void) return "use format(\"%f\", x)";
+    if (to == BaseType::Matrix && is_triple(from)) return "use translate(1, v) or scale(1, v)";
+    return "";
+}
+
 // Puts casts around the expression; false when there is no conversion.
 bool Checker::convert(Expr*& slot, BaseType to) {
     if (slot->type.base == to && !slot->type.is_array()) return true;
@@ -32,14 +42,36 @@ bool Checker::convert(Expr*& slot, BaseType to) {
     return true;
 }
 
+// ---- expressions before they are checked -------------------------------------------------------
+
+namespace {
+
+// Two overloads with the same arguments: only the context tells them apart (noise, texture).
+bool chosen_by_context(std::span<const Overload> overloads) {
+    auto same = [](const Signature& a, const Signature& b) {
+        return std::equal(
+            a.arguments.begin(), a.arguments.end(), b.arguments.begin(), b.arguments.end(),
+            [](const auto& x, const auto& y) { return x.type == y.type && x.output == y.output; });
+    };
+    for (size_t i = 0; i < overloads.size(); ++i)
+        for (size_t k = 0; k < i; ++k)
+            if (overloads[i].signature.result != overloads[k].signature.result &&
+                same(overloads[i].signature, overloads[k].signature))
+                return true;
+    return false;
+}
+
+}  // namespace
+
 // Whether the context may choose the type of the unchecked expression: a (x, y, z), a call of a
-// built-in with several result types, or an operator on such.
+// built-in like noise(), or an operator or another built-in on such.
 bool Checker::is_flexible(const Expr& expr) const {
     switch (expr.kind) {
         case ExprKind::Triple:
             return true;
         case ExprKind::Unary:
-            return is_flexible(*as<UnaryExpr>(expr).operand);
+            return as<UnaryExpr>(expr).op == Op::Negate &&
+                   is_flexible(*as<UnaryExpr>(expr).operand);
         case ExprKind::Binary: {
             const auto& e = as<BinaryExpr>(expr);
             bool arithmetic = e.op >= Op::Add && e.op <= Op::Divide;
@@ -49,22 +81,97 @@ bool Checker::is_flexible(const Expr& expr) const {
             const auto& e = as<SelectExpr>(expr);
             return is_flexible(*e.yes) || is_flexible(*e.no);
         }
-        case ExprKind::Call: {
-            const auto& e = as<CallExpr>(expr);
-            if (!visible_functions(e.name).empty()) return false;
-            std::span<const Overload> overloads = find_builtin(e.name);
-            return std::any_of(overloads.begin(), overloads.end(), [&](const Overload& o) {
-                return o.signature.result != overloads[0].signature.result;
-            });
-        }
+        case ExprKind::Call:
+            return is_flexible_call(as<CallExpr>(expr));
         default:
             return false;
     }
 }
 
+bool Checker::is_flexible_call(const CallExpr& e) const {
+    if (!visible_functions(e.name).empty()) return false;
+    std::span<const Overload> overloads = find_builtin(e.name);
+    bool several = std::any_of(overloads.begin(), overloads.end(), [&](const Overload& o) {
+        return o.signature.result != overloads[0].signature.result;
+    });
+    if (!several) return false;
+    return std::any_of(e.args.begin(), e.args.end(),
+                       [&](const Expr* a) { return is_flexible(*a); }) ||
+           chosen_by_context(overloads);
+}
+
+// The type that an expression of no flexible parts will get; Invalid when that takes a check.
+BaseType Checker::natural_type(const Expr& expr) const {
+    if (expr.type.base != BaseType::Invalid)
+        return expr.type.is_array() ? BaseType::Invalid : expr.type.base;
+    switch (expr.kind) {
+        case ExprKind::Number:
+            return BaseType::Float;
+        case ExprKind::String:
+            return BaseType::String;
+        case ExprKind::Variable: {
+            const Symbol* symbol = find_symbol(as<VariableExpr>(expr).name);
+            return symbol && !symbol->type.is_array() ? symbol->type.base : BaseType::Invalid;
+        }
+        case ExprKind::Index: {
+            const auto* array = as_if<VariableExpr>(as<IndexExpr>(expr).array);
+            const Symbol* symbol = array ? find_symbol(array->name) : nullptr;
+            if (!symbol) return BaseType::Invalid;
+            return symbol->type.is_array() ? symbol->type.base : BaseType::Float;
+        }
+        case ExprKind::Unary:
+            return as<UnaryExpr>(expr).op == Op::Not ? BaseType::Float
+                                                     : natural_type(*as<UnaryExpr>(expr).operand);
+        case ExprKind::Binary: {
+            const auto& e = as<BinaryExpr>(expr);
+            if (e.op == Op::Cross) return BaseType::Vector;
+            if (e.op >= Op::Dot) return BaseType::Float;
+            return common_type(natural_type(*e.left), natural_type(*e.right));
+        }
+        case ExprKind::Select:
+            return common_type(natural_type(*as<SelectExpr>(expr).yes),
+                               natural_type(*as<SelectExpr>(expr).no));
+        case ExprKind::Cast:
+            return as<CastExpr>(expr).to;
+        case ExprKind::Sixteen:
+            return BaseType::Matrix;
+        case ExprKind::Call:
+            return natural_call_type(as<CallExpr>(expr));
+        default:
+            return BaseType::Invalid;
+    }
+}
+
+BaseType Checker::natural_call_type(const CallExpr& e) const {
+    std::vector<Function*> functions = visible_functions(e.name);
+    if (!functions.empty()) return functions[0]->result.base;
+    std::span<const Overload> overloads = find_builtin(e.name);
+    if (overloads.empty()) return BaseType::Invalid;
+    BaseType result = overloads[0].signature.result.base;
+    for (const Expr* argument : e.args) {
+        BaseType type = natural_type(*argument);
+        if (is_triple(type) && is_result(overloads, type)) return type;
+    }
+    return result;
+}
+
+bool Checker::is_result(std::span<const Overload> overloads, BaseType type) {
+    return std::any_of(overloads.begin(), overloads.end(),
+                       [&](const Overload& o) { return o.signature.result.base == type; });
+}
+
+// Whether a part of fixed type lets the whole be of the type: what it is must convert to it.
+bool Checker::fixed_fits(const Expr& part, BaseType type) const {
+    BaseType natural = natural_type(part);
+    return natural == BaseType::Invalid || conversion_cost(natural, type) >= 0;
+}
+
 // Whether a flexible expression can have exactly this type.
 bool Checker::can_be(const Expr& expr, BaseType type) const {
     if (!is_flexible(expr)) return conversion_cost(expr.type.base, type) == 0;
+    auto part = [&](const Expr& e) {
+        return is_flexible(e) ? can_be(e, type) : fixed_fits(e, type);
+    };
     switch (expr.kind) {
         case ExprKind::Triple:
             return is_triple(type);
@@ -72,18 +179,19 @@ bool Checker::can_be(const Expr& expr, BaseType type) const {
             return can_be(*as<UnaryExpr>(expr).operand, type);
         case ExprKind::Binary: {
             const auto& e = as<BinaryExpr>(expr);
-            bool left = is_flexible(*e.left), right = is_flexible(*e.right);
-            return (!left || can_be(*e.left, type)) && (!right || can_be(*e.right, type));
+            return part(*e.left) && part(*e.right);
         }
         case ExprKind::Select: {
             const auto& e = as<SelectExpr>(expr);
-            bool yes = is_flexible(*e.yes), no = is_flexible(*e.no);
-            return (!yes || can_be(*e.yes, type)) && (!no || can_be(*e.no, type));
+            return part(*e.yes) && part(*e.no);
         }
         case ExprKind::Call: {
-            std::span<const Overload> overloads = find_builtin(as<CallExpr>(expr).name);
-            return std::any_of(overloads.begin(), overloads.end(),
-                               [&](const Overload& o) { return o.signature.result.base == type; });
+            const auto& e = as<CallExpr>(expr);
+            std::span<const Overload> overloads = find_builtin(e.name);
+            if (!is_result(overloads, type)) return false;
+            // max(noise(P), Cs) is no float.
+            return type != BaseType::Float || chosen_by_context(overloads) ||
+                   !is_triple(natural_call_type(e));
         }
         default:
             return false;

@@ -33,7 +33,8 @@ void Checker::bring_to(Expr*& slot, Type type, const std::string& what) {
     BaseType from = slot->type.base;
     if (from == BaseType::Invalid || type.base == BaseType::Invalid) return;
     if (convert(slot, type.base)) return;
-    report(Code::RSL_TYPE_MISMATCH, slot->place, what, type_name(type), type_name(from));
+    report(Code::RSL_TYPE_MISMATCH, slot->place, what, type_name(type), type_name(from)).help =
+        conversion_help(from, type.base);
     slot->type = {BaseType::Invalid, -1};
 }
 
@@ -57,6 +58,7 @@ void Checker::array_value(Expr*& slot, Type type, const std::string& what) {
 void Checker::condition(Expr*& slot) {
     BaseType type = value(slot, BaseType::Float);
     if (type == BaseType::Bool || type == BaseType::Invalid) return;
+    if (type == BaseType::String) return string_condition(slot);
     if (type != BaseType::Float) {
         report(Code::RSL_CONDITION, slot->place, type_name(type));
         return;
@@ -67,6 +69,19 @@ void Checker::condition(Expr*& slot) {
     cast->operand = slot;
     cast->type = {BaseType::Bool, -1};
     slot = cast;
+}
+
+// A string alone: is it not empty?
+void Checker::string_condition(Expr*& slot) {
+    report(Code::RSL_STRING_CONDITION, slot->place);
+    auto* empty = ast_.make<StringExpr>(slot->place);
+    empty->type = {BaseType::String, -1};
+    auto* node = ast_.make<BinaryExpr>(slot->place);
+    node->op = Op::NotEqual;
+    node->left = slot;
+    node->right = empty;
+    node->type = {BaseType::Bool, -1};
+    slot = node;
 }
 
 void Checker::check_number(Expr*& slot, const char* what) {
@@ -95,8 +110,9 @@ void Checker::check(Expr*&, SixteenExpr& e, BaseType) {
 }
 
 // Only initialisers may be { }: those go to array_value().
-void Checker::check(Expr*&, ArrayLiteralExpr& e, BaseType) {
-    report(Code::RSL_ARRAY_AS_VALUE, e.place);
+void Checker::check(Expr*&, ArrayLiteralExpr& e, BaseType wanted) {
+    Finding& finding = report(Code::RSL_ARRAY_AS_VALUE, e.place);
+    if (is_triple(wanted)) finding.help = "write (a, b, c)";
 }
 
 void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
@@ -128,7 +144,8 @@ void Checker::check(Expr*&, CastExpr& e, BaseType) {
         report(Code::RSL_BAD_SPACE, e.place, type_name(e.to));
     } else if (conversion_cost(from, e.to) < 0) {
         report(Code::RSL_TYPE_MISMATCH, e.place, fmt::format("'{}'", type_name(e.to)),
-               "a value that converts to it", type_name(from));
+               "a value that converts to it", type_name(from))
+            .help = conversion_help(from, e.to);
     } else if (e.space || from == BaseType::Bool) {
         convert(e.operand, from == BaseType::Bool ? BaseType::Float : e.to);
         if (e.space) convert(e.operand, e.to);
@@ -136,6 +153,20 @@ void Checker::check(Expr*&, CastExpr& e, BaseType) {
 }
 
 // ---- variables ----------------------------------------------------------------------------------
+
+namespace {
+
+// Names of other languages and what RSL has instead.
+constexpr struct {
+    std::string_view name;
+    const char* help;
+} kVariableHints[] = {
+    {"true", "write '1'"},    {"TRUE", "write '1'"},          {"false", "write '0'"},
+    {"FALSE", "write '0'"},   {"M_PI", "write 'PI'"},         {"pi", "write 'PI'"},
+    {"NULL", "write '\"\"'"}, {"Nn", "write 'normalize(N)'"}, {"V", "write '-normalize(I)'"},
+};
+
+}  // namespace
 
 void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     e.symbol = find_variable(e.name, false);
@@ -145,13 +176,17 @@ void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     }
     if (broken_ || !unknown_.insert(e.name).second) return;
     Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.place, e.name);
+    for (const auto& row : kVariableHints)
+        if (row.name == e.name) finding.help = row.help;
+    if (!finding.help.empty()) return;
     std::string_view near = nearest_name(e.name, variable_names());
     if (near.size() > 1) finding.help = fmt::format("did you mean '{}'?", near);
 }
 
 // array[i], or a component of a triple.
 void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
-    expression(e.array, BaseType::Invalid);
+    bool triple = is_flexible(*e.array) && can_be(*e.array, BaseType::Color);
+    expression(e.array, triple ? BaseType::Color : BaseType::Invalid);
     check_number(e.index, "an index");
     if (e.array->type.base == BaseType::Invalid) return;
     if (e.array->type.is_array()) {
@@ -159,7 +194,8 @@ void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
         return;
     }
     if (!is_triple(e.array->type)) {
-        report(Code::RSL_NOT_ARRAY, e.place, type_name(e.array->type));
+        Finding& finding = report(Code::RSL_NOT_ARRAY, e.place, type_name(e.array->type));
+        if (e.array->type.base == BaseType::Matrix) finding.help = "use comp(m, row, column)";
         return;
     }
     auto* component = ast_.make<ComponentExpr>(e.place);
@@ -188,7 +224,11 @@ bool Checker::check_lvalue(Expr*& slot) {
     if (slot->type.base == BaseType::Invalid) return false;
     Symbol* symbol = lvalue_symbol(*slot);
     if (!symbol) {
-        report(Code::RSL_NOT_ASSIGNABLE, slot->place);
+        const auto* call = as_if<CallExpr>(slot);
+        Finding& finding = report(Code::RSL_NOT_ASSIGNABLE, slot->place);
+        std::string setter = call ? "set" + std::string(call->name) : "";
+        if (call && !find_builtin(setter).empty())
+            finding.help = fmt::format("write '{}(target, ..., value)'", setter);
         return false;
     }
     mark_assigned(*symbol, slot->place);

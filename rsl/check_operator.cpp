@@ -60,8 +60,18 @@ bool Checker::invalid(const BinaryExpr& e) const {
 }
 
 void Checker::bad_operands(BinaryExpr& e) {
-    report(Code::RSL_BAD_OPERANDS, e.place, op_text(e.op), type_name(e.left->type),
-           type_name(e.right->type));
+    BaseType left = e.left->type.base, right = e.right->type.base;
+    Finding& finding =
+        report(Code::RSL_BAD_OPERANDS, e.place, op_text(e.op), type_name(left), type_name(right));
+    bool matrix = left == BaseType::Matrix || right == BaseType::Matrix;
+    if (left == BaseType::String && right == left && e.op == Op::Add)
+        finding.help = "use concat(a, b)";
+    else if (left == BaseType::String && right == left && e.op >= Op::Less && e.op <= Op::NotEqual)
+        finding.help = "strings are compared by == and !=";
+    else if (matrix && e.op == Op::Multiply)
+        finding.help = "use transform(m, p)";
+    else if (e.op == Op::Dot && left == BaseType::Float && right == left)
+        finding.help = "write 'a * b'";
 }
 
 // The type both operands are brought to; Invalid if there is none.
@@ -78,7 +88,8 @@ BaseType Checker::common_type(BaseType a, BaseType b) const {
 }
 
 // A sum wants equal types. In a product with a triple, a noise() or texture() of no stated type is
-// a factor: float ("P += N * noise(P)"); but beside a color a picture is one ("Cs * texture(name)").
+// a factor: float ("P += N * noise(P)"); but beside a color a picture is one ("Cs *
+// texture(name)").
 void Checker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
     bool product = e.op == Op::Multiply || e.op == Op::Divide;
     both_sides(e.left, e.right, wanted, [&](BaseType other, const Expr& flexible) {
@@ -116,7 +127,9 @@ void Checker::check_comparison(BinaryExpr& e) {
     if (invalid(e)) return;
     BaseType common = common_type(e.left->type.base, e.right->type.base);
     bool equality = e.op == Op::Equal || e.op == Op::NotEqual;
-    bool applies = common == BaseType::Float ||
+    if (is_triple(common) && !equality)
+        report(Code::RSL_TRIPLE_ORDER, e.place, op_text(e.op), type_name(common));
+    bool applies = common == BaseType::Float || is_triple(common) ||
                    (equality && (is_numeric(common) || common == BaseType::String));
     if (!applies) return bad_operands(e);
     convert(e.left, common);

@@ -142,6 +142,18 @@ void Checker::check(IlluminanceStmt& s) {
     loop_body(s, *s.body);
 }
 
+constexpr double kHalfPi = 1.57079632679489661923;
+
+// The angle of a cone that is written without one.
+Expr* Checker::assumed_angle(const Stmt& s, const char* statement_name, double angle,
+                             const char* text) {
+    report(Code::RSL_CONE_FORM, s.place, statement_name, text);
+    auto* node = ast_.make<NumberExpr>(s.place);
+    node->value = angle;
+    node->type = {BaseType::Float, -1};
+    return node;
+}
+
 // Says which argument is what; false when they fit no form.
 bool Checker::sort_illuminance(IlluminanceStmt& s, size_t next) {
     auto is_string = [&](size_t k) { return s.args[k]->type.base == BaseType::String; };
@@ -150,10 +162,9 @@ bool Checker::sort_illuminance(IlluminanceStmt& s, size_t next) {
     if (next >= count || is_string(next)) return false;
     s.position = s.args[next++];
     if (next < count && !is_string(next)) {
-        if (next + 1 >= count) return false;
-        s.axis = s.args[next];
-        s.angle = s.args[next + 1];
-        next += 2;
+        s.axis = s.args[next++];
+        bool given = next < count && !is_string(next);
+        s.angle = given ? s.args[next++] : assumed_angle(s, "illuminance", kHalfPi, "PI/2");
     }
     s.pairs = s.args.subspan(next);
     for (size_t k = next; k < count; k += 2)
@@ -174,6 +185,7 @@ void Checker::check(IlluminateStmt& s) {
 }
 
 void Checker::check(SolarStmt& s) {
+    if (s.axis && !s.angle) s.angle = assumed_angle(s, "solar", 0, "0");
     cone(s.axis, s.angle, "solar");
     if (light_statement_) {
         report(Code::RSL_NESTED_ILLUMINATE, s.place, "solar", light_statement_);

@@ -35,6 +35,9 @@ constexpr bool is_digit(char c) {
 constexpr bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$' || (c & 0x80);
 }
+// Left in files by old editors: the end mark of DOS, no-break spaces in Latin-1 and UTF-8.
+constexpr char kDosEnd = '\x1a', kNoBreak = '\xa0', kNoBreakLead = '\xc2';
+
 constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
@@ -105,8 +108,10 @@ bool Lexer::skip_space() {
     size_t begin = position_;
     while (position_ < text_.size()) {
         char c = text_[position_];
-        if (is_blank(c) || c == '\0') {
+        if (is_blank(c) || c == '\0' || c == kDosEnd || c == kNoBreak) {
             ++position_;
+        } else if (c == kNoBreakLead && at(position_ + 1) == kNoBreak) {
+            position_ += 2;
         } else if (size_t newline = newline_length(position_)) {
             position_ += newline;
             line_start_ = true;
@@ -139,7 +144,13 @@ Token Lexer::next() {
 TokenKind Lexer::scan(size_t begin) {
     char c = text_[begin];
     if (is_letter(c)) {
-        while (is_letter(at(position_)) || is_digit(at(position_))) ++position_;
+        while (is_letter(at(position_)) || is_digit(at(position_))) {
+            bool blank = at(position_) == kNoBreakLead && at(position_ + 1) == kNoBreak;
+            bool latin =
+                at(position_) == kNoBreak && position_ > begin && !(at(position_ - 1) & 0x80);
+            if (blank || latin) break;
+            ++position_;
+        }
         return TokenKind::Identifier;
     }
     if (is_digit(c) || (c == '.' && is_digit(at(begin + 1)))) {

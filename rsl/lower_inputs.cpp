@@ -113,7 +113,8 @@ Lowered Lowering::global_input(Global id) {
     const GlobalInfo& info = global_info(id);
     BaseType type = info.type.base;
     bool light = kind() == ShaderKind::Light;
-    if (const ParamBinding* bound = binding(info.name)) {  // a bound Cs or Os
+    if (!((info.readers | info.writers) & in_kind(kind()))) return zero(type);  // warned of
+    if (const ParamBinding* bound = binding(info.name)) {                       // a bound Cs or Os
         if (bound->kind != ParamBinding::Kind::Default)
             return bound_value(*bound, info.name, {type, -1}, 0);
     }

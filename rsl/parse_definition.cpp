@@ -7,12 +7,6 @@ namespace kinora::rsl {
 
 namespace {
 
-bool is_type_word(Word word) {
-    return word >= Word::Float && word <= Word::Void;
-}
-bool is_detail_word(Word word) {
-    return word == Word::Uniform || word == Word::Varying || word == Word::Output;
-}
 bool is_shader_word(Word word) {
     return word >= Word::Surface && word <= Word::Deformation;
 }
@@ -22,15 +16,26 @@ bool is_shader_word(Word word) {
 // ---- definitions --------------------------------------------------------------------------------
 
 void Parser::definition() {
-    if (accept(Punct::Semicolon) || foreign_definition() || shader_definition()) return;
-    function_definition();
+    if (accept(Punct::Semicolon) || newer_definition() || shader_definition()) return;
+    if (!file_variable()) function_definition();
 }
 
-// class and struct of RSL 2.0: reported and skipped as a whole.
-bool Parser::foreign_definition() {
-    bool foreign = token().text == "class" || token().text == "struct";
-    if (!foreign || token(1).kind != TokenKind::Identifier) return false;
-    error(Code::RSL_NOT_RSL, token(), fmt::format("'{}' (RSL 2.0)", token().text));
+bool Parser::newer_definition() {
+    if (token(1).kind != TokenKind::Identifier) return false;
+    if (token().text == "class") return newer_language(token(), "'class' (shader objects)");
+    if (token().text == "struct") return newer_language(token(), "'struct'");
+    if (token().text == "public") return newer_language(token(), "'public' (shader objects)");
+    return false;
+}
+
+// "float x = 1;" outside shaders and functions.
+bool Parser::file_variable() {
+    int type = is(Word::Uniform) || is(Word::Varying) || is(Word::Extern);
+    bool ends = is(Punct::Assign, type + 2) || is(Punct::Semicolon, type + 2) ||
+                is(Punct::Comma, type + 2) || is(Punct::LeftBracket, type + 2);
+    if (!is_type(type) || token(type + 1).kind != TokenKind::Identifier || !ends) return false;
+    reporter_.report(Code::RSL_FILE_VARIABLE, token(type + 1), token(type + 1).text);
+    while (!at_end() && !is(Punct::Semicolon) && !is_shader_word(token().word)) advance();
     return true;
 }
 
@@ -45,13 +50,52 @@ bool Parser::shader_definition() {
     auto* shader = ast_.arena.make<ShaderDefinition>();
     shader->kind = kind;
     shader->place = Place{token().where, next_};
-    shader->name = expect_name("a shader name");
+    if (token().kind == TokenKind::Identifier && (is(Punct::LeftParen, 1) || is_reserved())) {
+        shader->name = token().text;  // any word will do
+        advance();
+    } else {
+        shader->name = expect_name("a shader name");
+    }
     shader->parameters = parameters(SymbolKind::Parameter);
     if (panic_) return true;
-    shader->body = block();
+    shader->body = shader_body(*shader);
     shader->place.token = at;
     ast_.shaders.push_back(shader);
     return true;
+}
+
+// A "return;" of the shader itself ends it. That is no RSL, but its meaning is clear: the body
+// becomes a function, as if the source had "void __body() { ... } __body();". Lights are left out,
+// since their illuminate statements stand in the body.
+BlockStmt* Parser::shader_body(ShaderDefinition& shader) {
+    shader_return_ = nullptr;
+    shader_locals_.clear();
+    shader_functions_.clear();
+    BlockStmt* body = block();
+    bool ends = shader_return_ && shader.kind != ShaderKind::Light && !reporter_.errors();
+    return ends ? body_as_function(body) : body;
+}
+
+BlockStmt* Parser::body_as_function(BlockStmt* body) {
+    reporter_.report(Code::RSL_SHADER_RETURN, ast_.tokens.tokens[shader_return_->place.token]);
+    auto* f = ast_.arena.make<Function>();
+    f->name = "__body";
+    f->result = {BaseType::Void, -1};
+    f->place = body->place;
+    f->id = ast_.function_count++;
+    f->body = body;
+    for (Symbol* local : shader_locals_) local->function = f;
+    for (Function* nested : shader_functions_) nested->parent = f;
+    auto* definition = make<FunctionStmt>(body->place);
+    definition->function = f;
+    auto* call = make<CallExpr>(body->place);
+    call->name = f->name;
+    call->site = ast_.site_count++;
+    auto* statement = make<ExpressionStmt>(body->place);
+    statement->expression = call;
+    auto* whole = make<BlockStmt>(body->place);
+    whole->body = ast_.arena.copy(std::vector<Stmt*>{definition, statement});
+    return whole;
 }
 
 // "sruface x()": perhaps a misspelt kind of shader.
@@ -68,47 +112,67 @@ void Parser::unknown_definition() {
     if (finding) finding->help = fmt::format("did you mean '{}'?", near);
 }
 
+// "[uniform] [type] name (": the detail of a result is inferred.
 void Parser::function_definition() {
-    bool typed = is_type_word(token().word);
-    bool named = token(typed).kind == TokenKind::Identifier && is(Punct::LeftParen, typed ? 2 : 1);
+    while (is(Word::Uniform) || is(Word::Varying) || is(Word::Extern)) advance();
+    int name = is_type() && !is(Punct::LeftParen, 1);
+    bool named = token(name).kind == TokenKind::Identifier && is(Punct::LeftParen, name + 1);
     if (!named) {
         unknown_definition();
         return;
     }
-    if (Function* f = function(typed)) ast_.functions.push_back(f);
+    const Token& after = ast_.tokens.tokens[after_parens(next_ + uint32_t(name) + 1)];
+    if (after.punct == Punct::Semicolon) {  // a prototype: functions need none
+        while (!accept(Punct::Semicolon)) advance();
+        return;
+    }
+    if (Function* f = function()) ast_.functions.push_back(f);
 }
 
-// A missing type means float, as the specification has it.
-Function* Parser::function(bool) {
+// A missing type means float, as the specification has it, or void where nothing is returned.
+Function* Parser::function() {
     auto* f = ast_.arena.make<Function>();
     f->result = {BaseType::Float, -1};
-    if (is_type_word(token().word)) {
+    f->typed = is_type() && !is(Punct::LeftParen, 1);
+    if (f->typed) {
         f->result.base = type_from_name(token().text);
         advance();
     }
     f->place = Place{token().where, next_};
     f->name = expect_name("a function name");
     f->parent = function_;
+    if (!function_) shader_functions_.push_back(f);
     f->id = ast_.function_count++;
     function_ = f;
     f->parameters = parameters(SymbolKind::FunctionParameter);
     if (!panic_) f->body = block();
     function_ = f->parent;
+    if (!f->typed && !f->returns) f->result.base = BaseType::Void;
     return f->body ? f : nullptr;
 }
 
 // "(float a = 1, b; color c)": groups begin with a type; ',' and ';' both separate.
 std::span<Symbol*> Parser::parameters(SymbolKind kind) {
     std::vector<Symbol*> symbols;
+    if (is(Punct::LeftBrace) && kind == SymbolKind::Parameter) {
+        reporter_.report(Code::RSL_MISSING_PARENTHESES, token());
+        return {};
+    }
     if (!expect(Punct::LeftParen, "'('")) return {};
+    if (is(Word::Void) && is(Punct::RightParen, 1)) advance();  // as in C
+    while (accept(Punct::Semicolon)) {
+    }
     Declaration head{{BaseType::Float, -1}, Detail::Unspecified, false};
     bool have_type = false;
     while (!panic_ && !is(Punct::RightParen)) {
-        if (is_type_word(token().word) || is_detail_word(token().word)) {
+        if ((is_type() || is_detail()) && !(have_type && word_as_name())) {
             if (!declaration_head(head)) break;
             have_type = true;
+        } else if (foreign_declaration()) {
+            break;
         } else if (!have_type && token().kind == TokenKind::Identifier) {
-            reporter_.report(Code::RSL_MISSING_TYPE, token(), token().text);
+            reporter_.report(Code::RSL_MISSING_TYPE, token(), token().text,
+                             type_name(head.type.base));
             have_type = true;
         }
         Symbol* symbol = declarator(head, kind);
@@ -128,17 +192,35 @@ std::span<Symbol*> Parser::parameters(SymbolKind kind) {
 
 // ---- declarations -------------------------------------------------------------------------------
 
+// "int i", "shader lights[]": two names where a declaration could stand.
+bool Parser::foreign_declaration() {
+    const Token& at = token();
+    if (at.kind != TokenKind::Identifier || at.word != Word::None) return false;
+    const char* help = foreign_type_help(at.text);
+    bool qualifier = *help && is_type(1);  // "const float a"
+    bool two = token(1).kind == TokenKind::Identifier && (qualifier || !is_reserved(1));
+    if (!two) return false;
+    if (at.text == "shader") return newer_language(at, "'shader' (handles of co-shaders)");
+    std::vector<std::string_view> types;
+    for (int k = 0; k < int(BaseType::Void); ++k) types.push_back(type_name(BaseType(k)));
+    std::string_view near = nearest_name(at.text, types);
+    if (!*help && near.empty()) return false;
+    Finding* finding = error(Code::RSL_UNKNOWN_TYPE, at, at.text);
+    if (finding) finding->help = *help ? help : fmt::format("did you mean '{}'?", near);
+    return true;
+}
+
 // "output uniform float" in any order, the type last.
 bool Parser::declaration_head(Declaration& head) {
     head = Declaration{};
-    while (is_detail_word(token().word)) {
+    while (is_detail()) {
         if (is(Word::Output)) head.output = true;
         if (is(Word::Uniform)) head.detail = Detail::Uniform;
         if (is(Word::Varying)) head.detail = Detail::Varying;
         advance();
     }
-    if (!is_type_word(token().word)) {
-        syntax_error("a type");
+    if (!is_type()) {
+        if (!foreign_declaration()) syntax_error("a type");
         return false;
     }
     head.type.base = type_from_name(token().text);
@@ -154,6 +236,7 @@ Symbol* Parser::declarator(const Declaration& head, SymbolKind kind) {
     symbol->detail = head.detail;
     symbol->output = head.output;
     symbol->function = function_;
+    if (!function_ && kind == SymbolKind::Local) shader_locals_.push_back(symbol);
     symbol->id = ast_.symbol_count++;
     symbol->place = Place{token().where, next_};
     symbol->name = expect_name("a variable name");
@@ -200,16 +283,16 @@ Expr* Parser::initialiser(Symbol& symbol) {
 
 // A type before a name, or a detail. "float noise(P)" and "color (1,2,3)" are expressions.
 bool Parser::at_declaration() const {
-    if (is(Word::Uniform) || is(Word::Varying)) return true;
-    if (is(Word::Output)) return is_type_word(token(1).word) || is_detail_word(token(1).word);
-    if (!is_type_word(token().word)) return false;
-    return token(1).kind == TokenKind::Identifier && !is(Punct::LeftParen, 2) &&
-           !is_type_word(token(1).word);
+    if (is(Word::Uniform) || is(Word::Varying)) return !word_as_name();
+    if (is(Word::Output)) return is_type(1) || is_detail(1);
+    if (!is_type() || token(1).kind != TokenKind::Identifier || is(Punct::LeftParen, 2))
+        return false;
+    return !is_reserved(1);
 }
 
 // "[type] name (...) {" inside a block.
 bool Parser::at_function() const {
-    uint32_t name = next_ + is_type_word(token().word);
+    uint32_t name = next_ + (is_type() && !is(Punct::LeftParen, 1));
     const auto& tokens = ast_.tokens.tokens;
     if (name + 1 >= tokens.size() || tokens[name].kind != TokenKind::Identifier) return false;
     if (tokens[name + 1].punct != Punct::LeftParen) return false;

@@ -26,6 +26,14 @@ constexpr OperatorRow kOperators[] = {
     {Punct::Divide, Op::Divide, 7},   {Punct::Dot, Op::Dot, 8},
 };
 
+// What may follow a variable in parentheses but not a cast.
+bool continues(Punct punct) {
+    if (punct == Punct::Semicolon || punct == Punct::RightParen || punct == Punct::Comma)
+        return true;
+    return punct != Punct::Add && punct != Punct::Subtract && punct != Punct::None &&
+           punct != Punct::LeftParen && punct != Punct::Not;
+}
+
 const OperatorRow* find_operator(Punct punct) {
     for (const OperatorRow& row : kOperators)
         if (row.punct == punct) return &row;
@@ -40,10 +48,6 @@ constexpr struct {
                     {Punct::SubtractAssign, Op::Subtract},
                     {Punct::MultiplyAssign, Op::Multiply},
                     {Punct::DivideAssign, Op::Divide}};
-
-bool is_type_word(Word word) {
-    return word >= Word::Float && word <= Word::Void;
-}
 
 struct Depth {
     explicit Depth(int& depth) : depth_(depth) { ++depth_; }
@@ -145,8 +149,9 @@ Expr* Parser::unary() {
         node->place = place_from(at);
         return node;
     }
-    if (is_type_word(token().word)) return cast();
-    bool c_style = is(Punct::LeftParen) && is_type_word(token(1).word) && is(Punct::RightParen, 2);
+    if (is_type() && !word_as_name()) return cast();
+    bool c_style = is(Punct::LeftParen) && is_type(1) && is(Punct::RightParen, 2) &&
+                   !continues(token(3).punct);
     return c_style ? c_cast() : postfix();
 }
 
@@ -198,8 +203,7 @@ Expr* Parser::primary() {
     if (at.kind == TokenKind::Number) return number();
     if (at.kind == TokenKind::String) return string();
     if (is(Punct::LeftParen)) return parenthesised();
-    bool reserved = at.word != Word::None && at.word < Word::Illuminance;
-    if (at.kind != TokenKind::Identifier || reserved) {
+    if (at.kind != TokenKind::Identifier || is_reserved()) {
         syntax_error("an expression");
         return bad_expression();
     }
@@ -216,11 +220,12 @@ Expr* Parser::number() {
     std::string_view text = at.text;
     double value = 0;
     auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    bool too_large = result.ec == std::errc::result_out_of_range && value != 0;
-    if (too_large || std::fabs(value) > std::numeric_limits<float>::max())
-        reporter_.report(Code::RSL_BAD_NUMBER, at, text);
-    else
-        node->value = value;
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    bool beyond = result.ec == std::errc::result_out_of_range;
+    // 1e400 leaves no value and 1e-400 is 0: the sign of the exponent tells them apart.
+    if (beyond) value = text.find('-') == std::string_view::npos ? kLargest * 2 : 0;
+    if (value > kLargest) reporter_.report(Code::RSL_BAD_NUMBER, at, text);
+    node->value = std::min(value, kLargest);
     advance();
     return node;
 }
@@ -242,7 +247,10 @@ Expr* Parser::parenthesised() {
     std::span<Expr*> items = expression_list(Punct::RightParen);
     if (panic_) return bad_expression();
     if (items.size() == 1) {
-        items[0]->place.where = place_from(at).where;
+        // A sum's place has its parentheses; a name or call stands for itself.
+        ExprKind kind = items[0]->kind;
+        if (kind != ExprKind::Variable && kind != ExprKind::Call)
+            items[0]->place.where = place_from(at).where;
         return items[0];
     }
     Place place = place_from(at);

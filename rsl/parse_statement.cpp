@@ -65,12 +65,27 @@ Stmt* Parser::statement_unguarded() {
         default:
             break;
     }
+    if (foreign_statement()) return nullptr;
     if (at_function()) {
         auto* node = make<FunctionStmt>(Place{token().where, next_});
-        node->function = function(true);
+        node->function = function();
         return node->function ? node : nullptr;
     }
-    return at_declaration() ? declaration_statement() : expression_statement();
+    if (at_declaration()) return declaration_statement();
+    return foreign_declaration() ? nullptr : expression_statement();
+}
+
+// Statements of C that RSL does not have.
+bool Parser::foreign_statement() {
+    const Token& at = token();
+    bool is_do = at.text == "do" && is(Punct::LeftBrace, 1);
+    bool is_switch = at.text == "switch" && is(Punct::LeftParen, 1) &&
+                     ast_.tokens.tokens[after_parens(next_ + 1)].punct == Punct::LeftBrace;
+    if (!is_do && !is_switch) return false;
+    Finding* finding = error(Code::RSL_NOT_RSL, at, fmt::format("'{}'", at.text));
+    if (finding)
+        finding->help = is_do ? "write 'while (...) { ... }'" : "write 'if ... else if ...'";
+    return true;
 }
 
 Stmt* Parser::empty_statement() {
@@ -110,13 +125,50 @@ std::span<Symbol*> Parser::declared_symbols(const Declaration& head, SymbolKind 
 }
 
 Stmt* Parser::expression_statement() {
-    auto* node = make<ExpressionStmt>({});
     uint32_t at = next_;
-    node->expression = expression();
-    if (panic_) return nullptr;
-    node->place = place_from(at);
+    std::vector<Stmt*> parts;
+    do {
+        auto* node = make<ExpressionStmt>({});
+        uint32_t begin = next_;
+        node->expression = effect();
+        if (panic_) return nullptr;
+        node->place = place_from(begin);
+        parts.push_back(node);
+    } while (accept(Punct::Comma));
     expect_semicolon();
-    return panic_ ? nullptr : node;
+    if (panic_ || parts.size() == 1) return panic_ ? nullptr : parts[0];
+    auto* all = make<BlockStmt>(place_from(at));  // "a = 1, b = 2;" as in C
+    all->body = ast_.arena.copy(parts);
+    return all;
+}
+
+// An expression whose value nobody takes: there "i++" and "--i" of C can only mean one thing.
+Expr* Parser::effect() {
+    uint32_t at = next_;
+    if (is(Punct::Increment) || is(Punct::Decrement)) {
+        advance();
+        return step(unary(), at);
+    }
+    Expr* value = expression();
+    bool variable = value->kind == ExprKind::Variable || value->kind == ExprKind::Index;
+    if (panic_ || !variable || !(is(Punct::Increment) || is(Punct::Decrement))) return value;
+    at = next_;
+    advance();
+    return step(value, at);
+}
+
+// target += 1 for the "++" that is token `at`.
+Expr* Parser::step(Expr* target, uint32_t at) {
+    const Token& sign = ast_.tokens.tokens[at];
+    bool up = sign.punct == Punct::Increment;
+    if (!panic_) reporter_.report(Code::RSL_INCREMENT, sign, sign.text, up ? "+= 1" : "-= 1");
+    auto* one = make<NumberExpr>(Place{sign.where, at});
+    one->value = 1;
+    auto* node = make<AssignExpr>(place_from(target->place, at));
+    node->op = up ? Op::Add : Op::Subtract;
+    node->target = target;
+    node->value = one;
+    return node;
 }
 
 // "( expression )" of if and while. A bare '=' in it is probably a mistake.
@@ -173,7 +225,13 @@ Stmt* Parser::for_statement() {
     node->init = ast_.arena.copy(init);
     if (!panic_ && !is(Punct::Semicolon)) node->condition = expression();
     if (!panic_) expect(Punct::Semicolon, "';'");
-    if (!panic_ && !accept(Punct::RightParen)) node->step = expression_list(Punct::RightParen);
+    if (!panic_ && !accept(Punct::RightParen)) {
+        std::vector<Expr*> steps;
+        do steps.push_back(effect());
+        while (!panic_ && accept(Punct::Comma));
+        if (!panic_) expect(Punct::RightParen, "')'");
+        node->step = ast_.arena.copy(steps);
+    }
     if (panic_) return nullptr;
     node->body = statement();
     if (!node->body) node->body = empty_statement();
@@ -212,6 +270,8 @@ Stmt* Parser::return_statement() {
     advance();
     if (!is(Punct::Semicolon) && !is(Punct::RightBrace)) node->value = expression();
     if (panic_) return nullptr;
+    if (function_ && node->value) function_->returns = true;
+    if (!function_ && !node->value && !shader_return_) shader_return_ = node;
     node->place = place_from(at);
     expect_semicolon();
     return node;
@@ -258,15 +318,13 @@ Stmt* Parser::solar_statement() {
     std::span<Expr*> args = arguments();
     if (panic_) return nullptr;
     node->place = place_from(at);
-    if (!args.empty() && args.size() != 2) {
+    if (args.size() > 2) {
         reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "solar",
                          "() or (axis, angle)");
         return nullptr;
     }
-    if (args.size() == 2) {
-        node->axis = args[0];
-        node->angle = args[1];
-    }
+    if (!args.empty()) node->axis = args[0];
+    if (args.size() == 2) node->angle = args[1];
     node->body = statement();
     if (!node->body) node->body = empty_statement();
     return node;

@@ -39,7 +39,6 @@ constexpr ForeignPunct kForeign[] = {
     {Punct::Increment, "write 'i += 1'"},
     {Punct::Decrement, "write 'i -= 1'"},
     {Punct::Modulo, "write 'mod(a, b)'"},
-    {Punct::Arrow, ""},
     {Punct::Scope, ""},
     {Punct::BitAnd, "write '&&'"},
     {Punct::BitOr, "write '||'"},
@@ -52,6 +51,14 @@ constexpr ForeignPunct kForeign[] = {
 void Parser::syntax_error(const char* expected) {
     if (panic_) return;
     const Token& at = token();
+    if (after_cut_string()) {  // reported, and it has swallowed what is missed here
+        panic_ = true;
+        return;
+    }
+    if (at.punct == Punct::Arrow) {
+        newer_language(at, "'->' (calls and members of shader objects)");
+        return;
+    }
     for (const ForeignPunct& row : kForeign) {
         if (row.punct != at.punct) continue;
         Finding* finding = error(Code::RSL_NOT_RSL, at, describe(at));
@@ -70,6 +77,13 @@ bool Parser::expect(Punct punct, const char* what) {
     return false;
 }
 
+// Whether the last token is a string without its end, which the lexer has reported.
+bool Parser::after_cut_string() const {
+    if (next_ == 0) return false;
+    const Token& last = ast_.tokens.tokens[next_ - 1];
+    return last.kind == TokenKind::String && (last.text.size() < 2 || last.text.back() != '"');
+}
+
 // A missing semicolon is reported behind the last token. Where the next token begins a line or ends
 // a block, the statement was whole: nothing is skipped.
 void Parser::expect_semicolon() {
@@ -79,22 +93,95 @@ void Parser::expect_semicolon() {
         syntax_error("';'");
         return;
     }
+    if (after_cut_string()) return;  // it has swallowed the semicolon
     const Token& last = ast_.tokens.tokens[next_ - 1];
-    bool cut = last.kind == TokenKind::String && (last.text.size() < 2 || last.text.back() != '"');
-    if (cut) return;  // the string without its end, reported already, has swallowed the semicolon
     Location behind{last.where.file, last.where.end, last.where.end};
     reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, "';'", describe(token()));
 }
 
 std::string_view Parser::expect_name(const char* what) {
     const Token& at = token();
-    bool reserved = at.word != Word::None && at.word < Word::Illuminance;
-    if (at.kind != TokenKind::Identifier || reserved) {
+    if (at.kind != TokenKind::Identifier || is_reserved()) {
         syntax_error(what);
         return {};
     }
     advance();
     return at.text;
+}
+
+// Control words always are words; types and details only where they can begin something.
+bool Parser::is_reserved(int ahead) const {
+    Word word = token(ahead).word;
+    if (word == Word::None || word >= Word::Illuminance) return false;
+    return !word_as_name(ahead);
+}
+
+// A type or detail that cannot be one here, since what follows continues or ends an expression or a
+// declaration: "color = 1", "normal . I", "float point;".
+bool Parser::word_as_name(int ahead) const {
+    if (token(ahead).word < Word::Float || token(ahead).word > Word::Output) return false;
+    switch (token(ahead + 1).punct) {
+        case Punct::Assign:
+        case Punct::AddAssign:
+        case Punct::SubtractAssign:
+        case Punct::MultiplyAssign:
+        case Punct::DivideAssign:
+        case Punct::Equal:
+        case Punct::NotEqual:
+        case Punct::Less:
+        case Punct::LessEqual:
+        case Punct::Greater:
+        case Punct::GreaterEqual:
+        case Punct::And:
+        case Punct::Or:
+        case Punct::Multiply:
+        case Punct::Divide:
+        case Punct::Dot:
+        case Punct::Cross:
+        case Punct::Question:
+        case Punct::Colon:
+        case Punct::Comma:
+        case Punct::Semicolon:
+        case Punct::RightParen:
+        case Punct::LeftBracket:
+        case Punct::RightBracket:
+            return true;
+        default:
+            return false;
+    }
+}
+
+// RSL 2.0 is another language: it is named once, and nothing more is said of the source.
+bool Parser::newer_language(const Token& at, const char* feature) {
+    if (stopped_) return true;
+    error(Code::RSL_2, at, feature);
+    panic_ = stopped_ = true;
+    next_ = uint32_t(ast_.tokens.tokens.size() - 1);
+    reporter_.stop();
+    return true;
+}
+
+namespace {
+
+constexpr struct {
+    std::string_view word;
+    const char* help;
+} kForeignTypes[] = {
+    {"int", "write 'float'"},    {"double", "write 'float'"}, {"bool", "write 'float'"},
+    {"half", "write 'float'"},   {"long", "write 'float'"},   {"unsigned", "write 'float'"},
+    {"float2", "write 'point'"}, {"vec2", "write 'point'"},   {"float3", "write 'vector'"},
+    {"vec3", "write 'vector'"},  {"float4", "write 'color'"}, {"vec4", "write 'color'"},
+    {"mat4", "write 'matrix'"},  {"char", "write 'string'"},  {"const", "write 'uniform'"},
+    {"static", "leave it out"},  {"inline", "leave it out"},  {"boolean", "write 'float'"},
+    {"scalar", "write 'float'"}, {"colour", "write 'color'"}, {"sampler2D", "write 'string'"},
+};
+
+}  // namespace
+
+const char* foreign_type_help(std::string_view word) {
+    for (const auto& row : kForeignTypes)
+        if (row.word == word) return row.help;
+    return "";
 }
 
 Place Parser::place_from(uint32_t first) const {
@@ -145,13 +232,17 @@ void Parser::skip_statement() {
     }
 }
 
+// A line that surely begins another shader or function.
+bool Parser::begins_definition() const {
+    if (!token().line_start || token(1).kind != TokenKind::Identifier) return false;
+    bool shader = token().word >= Word::Surface && token().word <= Word::Deformation;
+    return (shader || is_type()) && is(Punct::LeftParen, 2);
+}
+
 void Parser::skip_definition() {
     panic_ = false;
-    for (int depth = 0; !at_end() && !is(Punct::LeftBrace); advance()) {
-        depth += is(Punct::LeftParen);
-        depth -= is(Punct::RightParen);
-        if (depth <= 0 && is(Punct::Semicolon)) break;
-    }
+    for (bool first = true; !at_end() && !is(Punct::LeftBrace); first = false, advance())
+        if (!first && begins_definition()) return;
     if (is(Punct::LeftBrace)) skip_balanced(Punct::LeftBrace, Punct::RightBrace);
     while (accept(Punct::Semicolon)) {
     }
@@ -174,6 +265,7 @@ uint32_t Parser::after_parens(uint32_t open) const {
 void Parser::run() {
     while (!at_end() && !reporter_.full()) {
         uint32_t before = next_;
+        panic_ = false;
         definition();
         if (panic_) skip_definition();
         if (next_ == before) advance();

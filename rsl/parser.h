@@ -14,6 +14,9 @@ inline constexpr int kMostNesting = 400;  // of expressions and statements
 inline constexpr int kMostHeight = 400;   // of an expression's tree, which later passes walk
 inline constexpr int kMostArrayLength = 1 << 20;
 
+// Types of other languages and what to write instead of them; "" for other words.
+const char* foreign_type_help(std::string_view word);
+
 class Parser {
   public:
     Parser(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
@@ -30,7 +33,18 @@ class Parser {
     bool accept(Word word);
     bool expect(Punct punct, const char* what);
     void expect_semicolon();
+    bool after_cut_string() const;
+    bool begins_definition() const;
     std::string_view expect_name(const char* what);
+    bool is_reserved(int ahead = 0) const;
+    bool word_as_name(int ahead = 0) const;
+    bool is_type(int ahead = 0) const {
+        return token(ahead).word >= Word::Float && token(ahead).word <= Word::Void;
+    }
+    bool is_detail(int ahead = 0) const {
+        return token(ahead).word >= Word::Uniform && token(ahead).word <= Word::Output;
+    }
+    bool newer_language(const Token& at, const char* feature);
     void syntax_error(const char* expected);
     template <class... Args>
     Finding* error(const FindingInfo& info, const Token& at, const Args&... args) {
@@ -47,11 +61,15 @@ class Parser {
 
     // parse_definition.cpp: shaders, functions, parameters, declarations
     void definition();
-    bool foreign_definition();
+    bool newer_definition();
+    bool foreign_declaration();
+    bool file_variable();
     bool shader_definition();
+    BlockStmt* shader_body(ShaderDefinition& shader);
+    BlockStmt* body_as_function(BlockStmt* body);
     void function_definition();
     void unknown_definition();
-    Function* function(bool typed);
+    Function* function();
     std::span<Symbol*> parameters(SymbolKind kind);
     struct Declaration {
         Type type;
@@ -68,10 +86,13 @@ class Parser {
     // parse_statement.cpp
     Stmt* statement();
     Stmt* statement_unguarded();
+    bool foreign_statement();
     BlockStmt* block();
     Stmt* declaration_statement();
     Stmt* extern_statement();
     Stmt* expression_statement();
+    Expr* effect();
+    Expr* step(Expr* target, uint32_t at);
     Stmt* if_statement();
     Stmt* while_statement();
     Stmt* for_statement();
@@ -113,9 +134,13 @@ class Parser {
     uint32_t next_ = 0;
     bool panic_ = false;     // an error was reported and nothing has been skipped to yet
     bool unclosed_ = false;  // the file's end was met inside a block, and said
+    bool stopped_ = false;   // a construct of RSL 2.0 was met: nothing more is read
     int depth_ = 0;
-    int height_ = 0;                // of the expression parsed last
-    Function* function_ = nullptr;  // being parsed
+    int height_ = 0;                           // of the expression parsed last
+    Function* function_ = nullptr;             // being parsed
+    ReturnStmt* shader_return_ = nullptr;      // the first "return;" of the shader being parsed
+    std::vector<Symbol*> shader_locals_;       // what its body declares
+    std::vector<Function*> shader_functions_;  // and the functions it defines
 };
 
 // The value of a constant whole-number expression (array lengths); -1 when it is none.

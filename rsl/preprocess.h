@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -86,7 +87,7 @@ class Preprocessor {
     bool define_parameters(Macro& macro, Line line, size_t& next);
     void run_undef(const Token& name, Line line);
     void run_include(const Token& name, Line line);
-    bool load_include(const std::string& file, bool quoted, const Token& at);
+    bool load_include(std::string file, bool quoted, const Token& at);
     void run_if(const Token& name, Line line);
     void run_ifdef(const Token& name, Line line);
     void run_ifndef(const Token& name, Line line);
@@ -113,7 +114,7 @@ class Preprocessor {
     TokenList substitute(const Macro& macro, const std::vector<TokenList>& arguments, uint32_t use,
                          const Token& name);
     TokenList expand_list(const TokenList& tokens);
-    Token paste(const Token& left, const Token& right, const Token& at);
+    std::optional<Token> paste(const Token& left, const Token& right, const Token& at);
     Token stringise(const TokenList& tokens, const Token& at);
     void push(TokenList tokens, Macro* macro);
     std::string_view keep(std::string text);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rsl/preprocess.h"
+#include "rsl/standard_headers.h"
 
 namespace kinora::rsl {
 
@@ -97,6 +98,8 @@ bool Preprocessor::define_parameters(Macro& macro, Line line, size_t& next) {
         }
         if (want_name && token.kind == TokenKind::Identifier) {
             macro.parameters.push_back(token.text);
+            for (; next + 1 < line.size() && line[next + 1].punct == Punct::Dot; ++next)
+                macro.variadic = true;                        // "rest..."
         } else if (want_name && token.punct == Punct::Dot) {  // "..." comes as three
             macro.variadic = true;
             while (next + 1 < line.size() && line[next + 1].punct == Punct::Dot) ++next;
@@ -155,15 +158,17 @@ bool read_whole_file(const std::filesystem::path& path, std::string& text) {
 
 }  // namespace
 
-bool Preprocessor::load_include(const std::string& file, bool quoted, const Token& at) {
+bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) {
     if (files_.size() > kMostIncludeDepth || ++includes_ > kMostIncludes) {
         reporter_.report(Code::RSL_INCLUDE_TOO_DEEP, at, file);
         exhausted_ = out_.truncated = true;
         return false;
     }
+    std::replace(file.begin(), file.end(), '\\', '/');  // as written on Windows
     std::vector<std::filesystem::path> places;
     if (quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
     for (const std::string& directory : options_.include_directories) places.push_back(directory);
+    if (!quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
     for (const std::filesystem::path& place : places) {
         std::filesystem::path path = place / file;
         std::string text;
@@ -173,6 +178,12 @@ bool Preprocessor::load_include(const std::string& file, bool quoted, const Toke
         maps_.emplace_back();
         maps_.back().file = diagnostics_.files.add(path.string(), text);
         enter_text(keep(std::move(text)), maps_.back(), std::move(key));
+        return true;
+    }
+    if (std::string_view text = standard_header(file); !text.empty()) {
+        maps_.emplace_back();
+        maps_.back().file = diagnostics_.files.add("include/" + file, std::string(text));
+        enter_text(text, maps_.back(), file);
         return true;
     }
     reporter_.report(Code::RSL_INCLUDE_NOT_FOUND, at, file);

@@ -113,6 +113,7 @@ bool Preprocessor::read_arguments(const Token& name, const Macro& macro,
         bool hash_line = token.punct == Punct::Hash && token.line_start && token.macro == 0;
         if (token.kind == TokenKind::End || exhausted_) {
             reporter_.report(Code::RSL_MACRO_UNCLOSED, name, name.text);
+            out_.truncated = true;  // the rest of the file was taken for arguments
             return false;
         }
         if (hash_line && !isolated_) {
@@ -180,14 +181,14 @@ Token Preprocessor::stringise(const TokenList& tokens, const Token& at) {
     return token;
 }
 
-Token Preprocessor::paste(const Token& left, const Token& right, const Token& at) {
+// Nothing when the two do not make one token.
+std::optional<Token> Preprocessor::paste(const Token& left, const Token& right, const Token& at) {
     if (left.text.empty() || right.text.empty()) return left.text.empty() ? right : left;
     std::string_view text = keep(std::string(left.text) + std::string(right.text));
     SourceMap nowhere;
     Lexer lexer(text, nowhere);
     Token token = lexer.next();
-    if (token.text.size() != text.size())
-        reporter_.report(Code::RSL_BAD_PASTE, at, left.text, right.text);
+    if (token.text.size() != text.size()) return std::nullopt;
     token.where = at.where;
     token.spelling = left.spelling;
     token.macro = at.macro;
@@ -215,10 +216,13 @@ Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
     auto add = [&](Token token) {
         if (std::exchange(pasting, false) && !out.empty()) {
             at.spelling = token.spelling;
-            out.back() = paste(out.back(), token, at);
-        } else {
-            out.push_back(token);
+            if (std::optional<Token> one = paste(out.back(), token, at)) {
+                out.back() = *one;
+                return;
+            }
+            reporter_.report(Code::RSL_BAD_PASTE, at, out.back().text, token.text);
         }
+        out.push_back(token);
     };
     const TokenList& body = macro.replacement;
     for (size_t i = 0; i < body.size() && !exhausted_; ++i) {

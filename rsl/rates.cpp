@@ -90,6 +90,8 @@ class RateWalk {
 
     Flow read(const Symbol& s) const {
         if (!s.global) return flows_[s.id];
+        // Uniform in one peer, so shaders hand them to uniform variables (RSL.md).
+        if (s.global->id == Global::du || s.global->id == Global::dv) return {false, true, false};
         return s.global->rate == Rate::Varying    ? kVaryingFlow
                : s.global->rate == Rate::Constant ? kConstant
                                                   : kUniform;
@@ -186,6 +188,8 @@ class RateWalk {
         for (size_t i = 0; i < e.args.size(); ++i) f = join(f, flow(e.args[i]));
         uint32_t effects = e.builtin->effects;
         if (effects & kVaryingResult) f = kVaryingFlow;
+        // "uniform float r = random()", and lightsource() into a uniform, as real shaders have it.
+        if (effects == kVaryingResult || (effects & kMessage)) f.illegal = false;
         if (effects & (kService | kMessage | kDerivative)) f.constant = false;
         if (*e.builtin->globals) f = kVaryingFlow;
         for (size_t i = 0; i < e.signature->arguments.size(); ++i)

@@ -399,6 +399,7 @@ ReferenceResult Reference<Real>::run() {
         output("Ci", {BaseType::Color, Ci_[0], Ci_[1], Ci_[2]});
         output("Oi", {BaseType::Color, Oi_[0], Oi_[1], Oi_[2]});
     }
+    if (last.kind == ShaderKind::Imager) output("alpha", global(Global::alpha));
     output("N", global(Global::N));
     output("P", global(Global::P));
     return result;

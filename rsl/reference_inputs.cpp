@@ -58,13 +58,21 @@ auto Reference<Real>::first_value(Global id) -> Item {
     const GlobalInfo& info = global_info(id);
     BaseType type = info.type.base;
     bool light_shader = layer->shader->kind == ShaderKind::Light;
+    if (!((info.readers | info.writers) & in_kind(layer->shader->kind))) return Item(type);
     for (const ParamBinding& bound : layer->params)  // Cs, Os
         if (bound.name == info.name)
             return input("param:" + std::to_string(layer_index) + ":" + bound.name, type);
+    bool behind =
+        layer->shader->kind == ShaderKind::Volume || layer->shader->kind == ShaderKind::Imager;
+    if (id == Global::Ci || id == Global::Oi) {  // what a volume or imager is laid over
+        if (behind) return input(std::string(info.name), type);
+        return spread(type, Real(id == Global::Oi));
+    }
+    if (id == Global::alpha && layer->shader->kind == ShaderKind::Imager)
+        return input(std::string(info.name), type);
     switch (id) {
         case Global::Cs:
         case Global::Os:
-        case Global::Oi:
         case Global::alpha:
             return spread(type, Real(1));
         case Global::ncomps:

@@ -11,6 +11,8 @@ namespace kinora::rsl {
 template <class Real>
 auto Reference<Real>::messages(std::string_view name) -> std::vector<Item> {
     if (!light) return {};
+    if (name == "__nondiffuse") return {{BaseType::Float, Number(Real(light->nondiffuse))}};
+    if (name == "__nonspecular") return {{BaseType::Float, Number(Real(light->nonspecular))}};
     auto found = light->messages.find(std::string(name));
     if (found == light->messages.end()) return {};
     Item value(found->second.size() == 3 ? BaseType::Color : BaseType::Float);
@@ -127,25 +129,37 @@ void visibility(RefCall<Real>& c) {
     for (double x : answer) sum += x;
     c.set(Dual<Real>(Real(sum > 0 ? 1 : 0)));
 }
-// Maps are asked without filter widths: the reference knows no footprint.
+// Maps are asked without filter widths, the reference knows no footprint; four corners by their
+// middle.
 template <class Real>
 void texture(RefCall<Real>& c) {
     bool own = c.args.size() < 3;
-    double s = double((own ? c.eval.global(Global::s).c[0] : c.f(1)).x);
-    double t = double((own ? c.eval.global(Global::t).c[0] : c.f(2)).x);
+    Dual<Real> at_s = own ? c.eval.global(Global::s).c[0] : c.f(1);
+    Dual<Real> at_t = own ? c.eval.global(Global::t).c[0] : c.f(2);
+    if (c.args.size() == 9) {
+        at_s = Real(0.25) * ((c.f(1) + c.f(3)) + (c.f(5) + c.f(7)));
+        at_t = Real(0.25) * ((c.f(2) + c.f(4)) + (c.f(6) + c.f(8)));
+    }
+    double s = double(at_s.x), t = double(at_t.x);
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
     from_service(c, c.eval.service("texture", {double(c.f(0).x), channel, s, t}));
+}
+// The point or direction of a map, or the middle of four.
+template <class Real>
+Vec<Real> middle(RefCall<Real>& c) {
+    if (c.args.size() != 5) return c.v(1);
+    return Dual<Real>(Real(0.25)) * ((c.v(1) + c.v(2)) + (c.v(3) + c.v(4)));
 }
 template <class Real>
 void environment(RefCall<Real>& c) {
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
-    Vec<Real> R = c.v(1);
+    Vec<Real> R = middle(c);
     from_service(c, c.eval.service("environment", {double(c.f(0).x), channel, double(R[0].x),
                                                    double(R[1].x), double(R[2].x)}));
 }
 template <class Real>
 void shadow(RefCall<Real>& c) {
-    Vec<Real> p = c.v(1);
+    Vec<Real> p = middle(c);
     from_service(c, c.eval.service("shadow", {double(c.f(0).x), double(p[0].x), double(p[1].x),
                                               double(p[2].x)}));
 }

@@ -29,7 +29,9 @@ class Reporter {
     }
 
     int errors() const { return errors_; }
-    bool full() const { return errors_ > max_errors_; }
+    bool full() const { return stopped_ || errors_ > max_errors_; }
+    // Nothing more is reported: what follows is another language.
+    void stop() { stopped_ = true; }
     Diagnostics& diagnostics() { return diagnostics_; }
 
   private:
@@ -40,6 +42,7 @@ class Reporter {
     const TokenStream& tokens_;
     int max_errors_;
     int errors_ = 0;
+    bool stopped_ = false;
     Finding muted_{};
 };
 

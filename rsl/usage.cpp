@@ -124,9 +124,20 @@ class UsageWalk {
         else
             walk(e);
     }
+    // What surfaces may call, displacements and volumes may too, and lights where it is no light
+    // loop: compilers never enforced the specification's table, and shaders rely on that.
+    static uint8_t legal_kinds(const Builtin& row) {
+        uint8_t kinds = row.legal;
+        if (kinds & kSurface) kinds |= kDisplacement | kVolume;
+        if ((kinds & kSurface) && !(row.effects & (kLights | kDerivative))) kinds |= kLight;
+        return kinds;
+    }
     void builtin_call(const CallExpr& e) {
-        if (!(e.builtin->legal & in_kind(shader_.kind)))
-            report(Code::RSL_NOT_LEGAL_HERE, &e, e.place, fmt::format("'{}'", e.name), kind_name());
+        if (!(legal_kinds(*e.builtin) & in_kind(shader_.kind))) {
+            bool derives = e.builtin->effects & kDerivative;
+            report(derives ? Code::RSL_NO_DERIVATIVES : Code::RSL_NOT_LEGAL_HERE, &e, e.place,
+                   fmt::format("'{}'", e.name), kind_name());
+        }
         read_names(e.builtin->globals);
         for (size_t i = 0; i < e.args.size(); ++i) {
             bool fixed = i < e.signature->arguments.size();
@@ -184,7 +195,8 @@ class UsageWalk {
     void at(const ContinueStmt&) {}
     void at(const ReturnStmt& s) { walk(s.value); }
     void at(const IlluminanceStmt& s) {
-        bool lit = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume;
+        bool lit = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume ||
+                   shader_.kind == ShaderKind::Displacement;
         legal(s, lit, "illuminance");
         walk(s.category), walk(s.position), walk(s.axis), walk(s.angle);
         walk_all(s.pairs);

@@ -27,10 +27,13 @@ Columns random_point(uint64_t seed) {
     triple("dPdv", [&](int k) { return k == 1 ? r.uniform(0.5f, 2) : r.uniform(-0.3f, 0.3f); });
     for (const char* name : {"dNdu", "dNdv", "dIdu", "dIdv"})
         triple(name, [&](int) { return r.uniform(-0.2f, 0.2f); });
+    for (const char* name : {"Ci", "Oi"})  // behind a volume or imager
+        triple(
+            name, [&](int) { return r.uniform(0, 1); }, "rgb");
     for (const char* name : {"N", "Ng", "Ns"})
         triple(name, [&](int k) { return k == 2 ? r.uniform(-1, -0.5f) : r.uniform(-0.5f, 0.5f); });
     triple("I", [&](int k) { return k == 2 ? r.uniform(1, 5) : r.uniform(-1, 1); });
-    for (const char* name : {"u", "v", "s", "t"})
+    for (const char* name : {"u", "v", "s", "t", "alpha"})
         for (size_t i = 0; i < kPoints; ++i) c[name].push_back(r.uniform(0, 1));
     for (const char* name : {"dsdu", "dsdv", "dtdu", "dtdv", "du", "dv"})
         for (size_t i = 0; i < kPoints; ++i) c[name].push_back(r.uniform(0.01f, 0.1f));
@@ -130,6 +133,8 @@ std::vector<std::filesystem::path> shader_files() {
         if (entry.path().filename().string().rfind("good", 0) == 0 &&
             entry.path().extension() == ".sl")
             files.push_back(entry.path());
+    for (auto& entry : std::filesystem::directory_iterator(root / "tests/rsl/constructs"))
+        if (entry.path().extension() == ".sl") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }

@@ -7,6 +7,6 @@ surface x(string name = "";) {
 }
 //! 5:12 warning RSL_ASSIGN_IN_CONDITION '=' assigns; '==' compares
 //! 2:9 error RSL_CONDITION a condition is a comparison or a float, this is point
-//! 3:12 error RSL_CONDITION a condition is a comparison or a float, this is string
-//! 4:10 error RSL_BAD_OPERANDS '<' does not apply to normal and vector
+//! 3:12 warning RSL_STRING_CONDITION taken as != ""
+//! 4:10 warning RSL_TRIPLE_ORDER '<' of two vectors
 //! 5:9 error RSL_CONDITION a condition is a comparison or a float, this is color

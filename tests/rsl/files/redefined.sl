@@ -6,5 +6,5 @@ surface x(float a = 1;) {
 }
 float f(float a) { return a; }
 float f(float b) { return b; }
-//! 8:7 error RSL_FUNCTION_REDEFINED function 'f' is already defined with these parameters
-//! 3:11 error RSL_REDEFINED 'b' is already declared in this scope
+//! 8:7 warning RSL_FUNCTION_REDEFINED function 'f' is already defined with these parameters
+//! 3:11 warning RSL_REDECLARED 'b' is already declared in this scope

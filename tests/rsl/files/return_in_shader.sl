@@ -2,4 +2,4 @@ surface x() {
     Ci = 1;
     return;
 }
-//! 3:5 error RSL_RETURN_OUTSIDE_FUNCTION return outside a function
+//! 3:5 warning RSL_SHADER_RETURN return outside a function

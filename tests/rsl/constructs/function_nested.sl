@@ -1,0 +1,14 @@
+// nested functions capture locals, with and without extern
+surface function_nested(float gain = 2) {
+    float base = s * 0.5;
+    color tint = Cs;
+    float boosted(float x) {
+        extern float base;
+        extern float gain;
+        return x * gain + base;
+    }
+    color tinted(float x) { return tint * boosted(x); }
+    void lift() { extern color tint; tint += 0.1; }
+    lift();
+    Ci = tinted(t);
+}

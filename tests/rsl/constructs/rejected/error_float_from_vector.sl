@@ -1,0 +1,2 @@
+// float = vector
+surface error_float_from_vector() { float a = N; Ci = a; }

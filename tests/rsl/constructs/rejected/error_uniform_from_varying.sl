@@ -1,0 +1,2 @@
+// uniform = varying
+surface error_uniform_from_varying() { uniform float a = s; Ci = a; }

@@ -1,0 +1,2 @@
+// unknown function
+surface error_unknown_function() { Ci = dot(N, I); }

@@ -1,0 +1,2 @@
+// '->'
+surface newer_arrow() { float a = s; Ci = a->b; Ci = undefined; }

@@ -1,0 +1,2 @@
+// resizable arrays
+surface newer_resizable() { float a[]; Ci = 1; }

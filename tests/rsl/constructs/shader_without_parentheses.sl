@@ -1,0 +1,2 @@
+// a shader without parameters and parentheses
+surface shader_without_parentheses { Ci = Cs * Os; Oi = Os; }

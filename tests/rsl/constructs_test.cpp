@@ -1,0 +1,199 @@
+// tests/rsl/constructs_test.cpp: one small shader for each construct that real shaders use. Those
+// of constructs/ compile, those of constructs/rejected give one error; constructs/README.md says
+// so. rsl_differential_test compares the code of constructs/ with the reference and on every
+// target.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "rsl/lower.h"
+#include "tests/rsl/source_text.h"
+
+namespace kinora::rsl {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = fs::path(KINORA_SOURCE_DIR) / "tests/rsl/constructs";
+
+// Rows of RSL.md ("How often" and the micro-conformance matrix) and the file that has them.
+constexpr struct {
+    const char* construct;
+    const char* file;
+} kRows[] = {
+    {"#include, <x.h> and \"x.h\", no last newline", "preprocessor_include"},
+    {"function-like macros", "preprocessor_macros"},
+    {"#if defined(), #ifdef chains", "preprocessor_conditions"},
+    {"// comments", "comments"},
+    {"user functions", "function_typed"},
+    {"more than one return", "function_several_returns"},
+    {"nested functions", "function_nested"},
+    {"extern", "function_extern_globals"},
+    {"recursion", "recursion"},
+    {"if", "control_if"},
+    {"if (s): float as condition", "control_float_condition"},
+    {"for", "control_for"},
+    {"for (i=0,j=1;..;i+=1,j+=1)", "control_for"},
+    {"while", "control_while"},
+    {"break, continue, varying", "control_break"},
+    {"break 2", "control_break_levels"},
+    {"ternary", "control_ternary"},
+    {"string type", "expression_strings"},
+    {"string compare", "expression_strings"},
+    {"string = format(\"%f\", s)", "expression_varying_string"},
+    {"array indexing", "arrays_local"},
+    {"fixed array declarations, = {..}", "arrays_local"},
+    {"array parameters", "parameters_arrays"},
+    {"T x[] parameters of functions", "function_arrays"},
+    {"T x[] of shaders", "parameters_arrays"},
+    {"T a[] (resizable)", "rejected/newer_resizable"},
+    {"whole-array assign a = b", "arrays_assigned"},
+    {"matrix", "expression_matrix"},
+    {"matrix \"space\" 1, m == m", "expression_matrix"},
+    {"uniform", "parameters_details"},
+    {"uniform x = varying expression", "rejected/error_uniform_from_varying"},
+    {"output AOV", "aov_outputs"},
+    {"parameter default expressions, space defaults", "parameters_spaces"},
+    {"bool as float", "expression_bool"},
+    {"Ci[0] read and written", "expression_components"},
+    {"implicit mix of point vector normal color", "expression_triples"},
+    {"pow mod abs smoothstep of colors", "expression_componentwise"},
+    {"float = vector", "rejected/error_float_from_vector"},
+    {"identifiers named light, volume", "names_contextual"},
+    {"illuminance", "illuminance_cone"},
+    {"illuminate", "light_point"},
+    {"solar", "light_solar"},
+    {"gather", "tracing_gather"},
+    {"class", "rejected/newer_class"},
+    {"struct", "rejected/newer_struct"},
+    {"shader handles", "rejected/newer_shader_handles"},
+    {"->", "rejected/newer_arrow"},
+    {"noise", "noise_forms"},
+    {"cellnoise", "noise_cell"},
+    {"pnoise", "noise_periodic"},
+    {"texture, channel [n], 8 coordinates, \"blur\"", "texture_forms"},
+    {"environment, shadow", "texture_environment"},
+    {"textureinfo, rendererinfo", "texture_info"},
+    {"rayinfo, trace, transmission", "tracing"},
+    {"occlusion, indirectdiffuse", "tracing_indirect"},
+    {"spline, spline(basis, ..)", "spline_forms"},
+    {"calculatenormal, area, Du, Dv, filterstep", "derivatives"},
+    {"ctransform", "spaces"},
+    {"fresnel", "geometry_builtins"},
+    {"lightsource()", "illuminance_lightsource"},
+    {"printf", "printing"},
+    {"Ns", "globals_ns"},
+    {"dPdtime, dtime", "globals_surface_read"},
+    {"surface writes P, N, s, t, Cs", "globals_surface_write"},
+    {"surface writes u, v, I", "globals_surface_write"},
+    {"displacement writes Ci", "globals_displacement"},
+    {"transformation (deformation)", "transformation_bend"},
+    {"surface() displacement() incident() opposite()", "messages"},
+    {"unknown function", "rejected/error_unknown_function"},
+    {"C-style commas between parameters", "parameters_c_commas"},
+    {"trailing semicolons", "parameters_trailing"},
+    {"(float) x", "expression_casts"},
+    {"precedence of ^ * .", "expression_precedence"},
+};
+
+// Constructs that the front end reads and whose code is written elsewhere: no result is claimed.
+constexpr const char* kPending[] = {"recursion", "style_gather_era", "texture_info",
+                                    "tracing_gather", "tracing_indirect"};
+
+bool is_pending(const std::string& name) {
+    return std::find(std::begin(kPending), std::end(kPending), name) != std::end(kPending);
+}
+
+std::string read(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A test shader compiled and, where its kind has code, lowered.
+struct Construct {
+    explicit Construct(const fs::path& path) : source(read(path), path.c_str()) {
+        what = source.text.substr(0, source.text.find_first_of("\r\n"));
+        what.erase(0, what.find_first_not_of("/ "));
+        auto shaders = compile(source.source, {}, source.diagnostics);
+        for (const auto& shader : shaders) {
+            Layer layer{shader.get(), {}};
+            if (shader->kind < ShaderKind::Imager) lower({&layer, 1}, {}, source.diagnostics);
+        }
+        for (const Finding& f : source.diagnostics.findings())
+            if (f.severity >= Severity::Error) errors.push_back(f.info->code);
+    }
+    std::string result(const std::string& name) const {
+        if (is_pending(name)) return "pending";
+        if (errors.empty()) return "compiles";
+        return fmt::format("error {}", errors[0]);
+    }
+    TestSource source;
+    std::string what;
+    std::vector<std::string> errors;
+};
+
+// Results by file name without .sl, as kRows has it.
+const std::map<std::string, Construct>& constructs() {
+    static std::map<std::string, Construct> all;
+    if (!all.empty()) return all;
+    for (const char* part : {"", "rejected/"})
+        for (const auto& entry : fs::directory_iterator(kFolder / part))
+            if (entry.path().extension() == ".sl")
+                all.try_emplace(part + entry.path().stem().string(), entry.path());
+    return all;
+}
+
+TEST(Constructs, ThatShadersUseCompileAndThoseOfRsl2GiveOneError) {
+    int files = 0;
+    for (const auto& [name, construct] : constructs()) {
+        bool rejected = name.starts_with("rejected/");
+        if (is_pending(name)) continue;
+        EXPECT_EQ(construct.errors.size(), rejected ? 1u : 0u) << name << "\n"
+                                                               << construct.source.messages();
+        ++files;
+    }
+    EXPECT_GE(files, 110);
+}
+
+std::string readme() {
+    std::string text =
+        "# Constructs\n\nWritten by rsl_front_test (Constructs.TheReadmeIsTrue) with "
+        "KINORA_UPDATE=1; do not edit.\nThe code of what compiles is compared with the reference "
+        "and between targets by rsl_differential_test.\n\n"
+        "## RSL.md: how often, and the micro-conformance matrix\n\n"
+        "| construct | test | result |\n|---|---|---|\n";
+    for (const auto& row : kRows)
+        text += fmt::format("| `{}` | [{}]({}.sl) | {} |\n", row.construct, row.file, row.file,
+                            constructs().at(row.file).result(row.file));
+    text += "\n## All files\n\n| test | what it has | result |\n|---|---|---|\n";
+    for (const auto& [name, construct] : constructs())
+        text += fmt::format("| [{}]({}.sl) | {} | {} |\n", name, name, construct.what,
+                            construct.result(name));
+    return text;
+}
+
+TEST(Constructs, TheReadmeIsTrue) {
+    for (const auto& row : kRows) ASSERT_TRUE(constructs().contains(row.file)) << row.file;
+    if (std::getenv("KINORA_UPDATE")) std::ofstream(kFolder / "README.md") << readme();
+    EXPECT_EQ(read(kFolder / "README.md"), readme()) << "run with KINORA_UPDATE=1";
+}
+
+// An array literal of 64 Ki elements: a compiler that copies its list at each comma takes minutes.
+TEST(Constructs, ALargeArrayLiteralCompiles) {
+    std::string text = "surface x(float table[65536] = {";
+    for (int i = 0; i < 65536; ++i) text += (i ? "," : "") + std::to_string(i % 100) + ".5";
+    TestSource source(text + "}) { Ci = table[s * 65535]; }");
+    auto shaders = compile(source.source, {}, source.diagnostics);
+    ASSERT_EQ(shaders.size(), 1u) << source.messages();
+    ASSERT_TRUE(shaders[0]->parameters[0].constant);
+    EXPECT_EQ(shaders[0]->parameters[0].constant->numbers.size(), 65536u);
+    EXPECT_EQ(shaders[0]->parameters[0].constant->numbers[65535], 35.5f);
+}
+
+}  // namespace
+}  // namespace kinora::rsl

@@ -1,0 +1,140 @@
+// tests/rsl/standard_headers_test.cpp: the headers of assets/shaders/include: found by default, and
+// every function of theirs compiles where shaders call it.
+#include "rsl/standard_headers.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "rsl/lower.h"
+#include "tests/rsl/source_text.h"
+
+namespace kinora::rsl {
+namespace {
+
+// Calls of all names of RSL.md's list, as shaders write them.
+struct HeaderRow {
+    const char* header;
+    const char* parameters;
+    const char* body;
+};
+const HeaderRow kHeaders[] = {
+    {"filterwidth.h", "", "Ci = filterwidth(s) + filterwidthp(P) + MINFILTWIDTH;"},
+    {"noises.h", "",
+     "point p1, p2; float f1, f2, s1, t1, s2, t2;"
+     "Ci = snoise(P) + snoisexy(s, t) + color vsnoise(P) + filteredsnoise(P, 0.1);"
+     "Ci += color filteredvsnoise(P, 0.1) + udn(s, 1, 2) + udn2(s, t, 1, 2);"
+     "Ci += fBm(P, 0.1, 4, 2, 0.5) + fBm_default(P) + color vfBm(P, 0.1, 4, 2, 0.5);"
+     "Ci += color vfBm_default(P) + VLNoise(P, 1) + VLfBm(P, 0.1, 4, 2, 0.5, 1) + VLfBm_default(P);"
+     "Ci += turbulence(P, 0.1, 4, 2, 0.5) + turbulence_default(P);"
+     "voronoi_f1_3d(P, 1, f1, p1); voronoi_f1f2_3d(P, 1, f1, p1, f2, p2);"
+     "voronoi_f1_2d(s, t, 1, f1, s1, t1); voronoi_f1f2_2d(s, t, 1, f1, s1, t1, f2, s2, t2);"
+     "Ci += f1 + f2 + s1 + t2 + color(p1 - p2);"},
+    {"patterns.h", "",
+     "float row, column, x, y, ss, tt;"
+     "basicbrick(s, t, 0.2, 0.1, 0.5, 0.1, 5, 0.1, column, row, x, y);"
+     "Ci = sqr(s) + pulse(0.2, 0.8, s) + pulsetrain(0.3, 1, s * 4) + filteredabs(s - 0.5, 0.1);"
+     "Ci += filteredsmoothstep(0, 1, s, 0.1) + filteredpulse(0.2, 0.8, s, 0.1);"
+     "Ci += filteredpulsetrain(0.3, 1, s * 4, 0.1) + smoothpulse(0.1, 0.2, 0.8, 0.9, s);"
+     "Ci += smoothpulsetrain(0.1, 0.2, 0.8, 0.9, 1, s * 4) + column + row + x + y;"
+     "Ci += tilepattern(s * 4, t * 4, 0.1, 0.1, 0.05, ss, tt) + ss + tt;"},
+    {"reflections.h", "DECLARE_DEFAULTED_ENVPARAMS; string reflname = \"\";",
+     "float a, b; vector R = reflect(normalize(I), normalize(N));"
+     "Ci = Environment(envname, envspace, envrad, P, R, 0, a) + ReflMap(reflname, P, 0.1, b) + a + "
+     "b;"
+     "Ci += SampleEnvironment(P, R, 1, 0, ENVPARAMS);"},
+    {"raytrace.h", "",
+     "float a; vector R = reflect(normalize(I), normalize(N));"
+     "Ci = RayTrace(P, R, 1, 0.1, 1, 4, a) + RayTrace(P, R, 1, 0, 1, a) + a;"},
+    {"material.h", "DECLARE_DEFAULTED_ENVPARAMS; color c = 0.5;",
+     "normal Nf = faceforward(normalize(N), I); vector V = -normalize(I);"
+     "Ci = MaterialMatte(Nf, c, 1, 1) + MaterialPlastic(Nf, c, 1, 1, 1, 0.1);"
+     "Ci += MaterialThinPlastic(Nf, V, c, 1, 1, 1, 1, 0.1) + MaterialRoughMetal(Nf, c, 1, 1, 1, "
+     "0.1);"
+     "Ci += MaterialShinyMetal(Nf, c, 1, 1, 1, 0.1, 1, 0, 1, ENVPARAMS);"
+     "Ci += MaterialShinyPlastic(Nf, c, 1, 1, 1, 0.1, 1, 0, 1.5, 1, ENVPARAMS);"
+     "Ci += MaterialClay(Nf, c, 1, 1, 0.5) + MaterialBrushedMetal(Nf, c, 1, 1, 1, 0.1, 0.3);"
+     "Ci += MaterialCeramic(Nf, c, 1, 1, 1, 0.1, 0.5, 1, 0, 1.5, 1, ENVPARAMS);"
+     "Ci += MaterialGlass(normalize(N), c, 0, 0, 1, 0.1, 1, 0, 1, 0, 1.5, ENVPARAMS);"},
+    {"locillum.h", "",
+     "normal Nf = faceforward(normalize(N), I); vector V = -normalize(I);"
+     "Ci = LocIllumOrenNayar(Nf, V, 0.5) + LocIllumGlossy(Nf, V, 0.1, 0.5);"
+     "Ci += LocIllumWardAnisotropic(Nf, V, dPdu, 0.1, 0.3);"},
+    {"normals.h", "", "Ci = color(shadingnormal(N));"},
+    {"project.h", "string how = \"spherical\";",
+     "float ss, tt, ds, dt; ProjectTo2D(how, P, \"shader\", matrix 1, ss, tt, ds, dt);"
+     "Ci = ss + tt + ds + dt;"},
+    {"displace.h", "", "N = Displace(normalize(N), \"shader\", 0.1, 1); Ci = color N;"},
+    {"util.h", "",
+     "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"
+     "Ci = blend(Cs, Os, s) + lerp(0, 1, s) + boxstep(0.2, 0.4, s) + union(s, t) + complement(s);"
+     "Ci += intersection(s, t) + difference(s, t) + repeat(s, 4) + whichtile(s, 4) + odd(floor(s));"
+     "Ci += even(floor(t)) + bias(0.3, s) + gain(0.3, s) + luminance(Cs) + rx + ry + r + theta;"},
+};
+
+std::string shader_of(const HeaderRow& row) {
+    return fmt::format("#include \"{}\"\nsurface x({}) {{ {} }}", row.header, row.parameters,
+                       row.body);
+}
+
+TEST(StandardHeaders, EveryFunctionCompilesWithoutAWarning) {
+    for (const HeaderRow& row : kHeaders) {
+        TestSource source(shader_of(row));
+        auto shaders = compile(source.source, {}, source.diagnostics);
+        ASSERT_EQ(shaders.size(), 1u) << row.header << "\n" << source.messages();
+        Layer layer{shaders[0].get(), {}};
+        EXPECT_TRUE(lower({&layer, 1}, {}, source.diagnostics)) << source.messages();
+        EXPECT_EQ(source.messages(), "") << row.header;
+    }
+}
+
+TEST(StandardHeaders, AllOfThemAreTested) {
+    std::filesystem::path folder =
+        std::filesystem::path(KINORA_SOURCE_DIR) / "assets/shaders/include";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::string name = entry.path().filename().string();
+        bool tested = std::any_of(std::begin(kHeaders), std::end(kHeaders),
+                                  [&](const HeaderRow& row) { return row.header == name; });
+        EXPECT_TRUE(tested) << name;
+        EXPECT_FALSE(standard_header(name).empty()) << name;
+    }
+}
+
+TEST(StandardHeaders, MayBeIncludedTogetherTwiceAndFromFolders) {
+    std::string text;
+    for (const HeaderRow& row : kHeaders)
+        text += fmt::format("#include \"{}\"\n#include <shaders/{}>\n", row.header, row.header);
+    TestSource source(text + "surface x() { Ci = 1; }");
+    EXPECT_EQ(compile(source.source, {}, source.diagnostics).size(), 1u) << source.messages();
+}
+
+TEST(StandardHeaders, FilesOnTheIncludePathWin) {
+    auto folder = std::filesystem::path(::testing::TempDir()) / "kinora_headers";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "noises.h") << "#define MINE 1\n";
+    TestSource source("#include \"noises.h\"\nsurface x() { Ci = MINE; }");
+    CompileOptions options;
+    options.include_directories = {folder.string()};
+    EXPECT_EQ(compile(source.source, options, source.diagnostics).size(), 1u) << source.messages();
+    std::filesystem::remove_all(folder);
+}
+
+TEST(StandardHeaders, ErrorsInsideHaveTheHeadersPlace) {
+    TestSource source("#include \"patterns.h\"\nsurface x() { Ci = filteredabs(N, Cs); }");
+    compile(source.source, {}, source.diagnostics);
+    EXPECT_NE(source.messages().find("argument 1 of 'filteredabs'"), std::string::npos)
+        << source.messages();
+}
+
+TEST(StandardHeaders, KnowWhatTheyDefine) {
+    EXPECT_EQ(header_that_defines("snoise"), "noises.h");
+    EXPECT_EQ(header_that_defines("filterwidth"), "filterwidth.h");
+    EXPECT_EQ(header_that_defines("MaterialPlastic"), "material.h");
+    EXPECT_EQ(header_that_defines("integral"), "");
+    EXPECT_EQ(header_that_defines("noise"), "");
+}
+
+}  // namespace
+}  // namespace kinora::rsl

@@ -1,0 +1,2 @@
+surface x() { Ci = 1; }
+/* the rest

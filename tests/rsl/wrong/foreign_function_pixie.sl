@@ -1,0 +1,2 @@
+surface x() { Ci = urandom(); }
+//! 1:20 error RSL_FOREIGN_FUNCTION Pixie

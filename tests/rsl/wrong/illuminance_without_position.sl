@@ -1,0 +1,2 @@
+surface x() { illuminance() { Ci += Cl; } }
+//! 1:15 error RSL_ARGUMENT_FORM illuminance takes

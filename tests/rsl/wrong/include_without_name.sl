@@ -1,0 +1,3 @@
+#include nosuch.h
+surface x() { Ci = 1; }
+//! 1:2 error RSL_BAD_DIRECTIVE #include needs

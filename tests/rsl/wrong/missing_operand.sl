@@ -1,0 +1,4 @@
+surface x() {
+    Ci = Cs * ;
+}
+//! 2:15 error RSL_SYNTAX expected an expression before ';'

@@ -1,0 +1,5 @@
+surface x() {
+    Ci = diffuse(normalize(N);
+    Oi = 1;
+}
+//! 2:30 error RSL_SYNTAX expected ')' before ';'
