@@ -102,8 +102,8 @@ constexpr struct {
 };
 
 // Constructs that the front end reads and whose code is written elsewhere: no result is claimed.
-constexpr const char* kPending[] = {"recursion", "style_gather_era", "texture_info",
-                                    "tracing_gather", "tracing_indirect"};
+constexpr const char* kPending[] = {"style_gather_era", "texture_info", "tracing_gather",
+                                    "tracing_indirect"};
 
 bool is_pending(const std::string& name) {
     return std::find(std::begin(kPending), std::end(kPending), name) != std::end(kPending);
