@@ -4,5 +4,5 @@ light x() {
 }
 surface y() { illuminance("a", P, N) Ci += Cl; }
 //! 2:5 error RSL_ARGUMENT_FORM illuminate takes (position) or (position, axis, angle)
-//! 3:5 error RSL_ARGUMENT_FORM solar takes () or (axis, angle)
-//! 5:15 error RSL_ARGUMENT_FORM illuminance takes ([category,] position [, axis, angle] [, "name", value ...])
+//! 3:5 warning RSL_CONE_FORM solar with an axis and no angle
+//! 5:15 warning RSL_CONE_FORM the angle is taken as PI/2
