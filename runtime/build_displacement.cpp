@@ -168,10 +168,29 @@ void SceneBuilder::find_views(std::vector<Displaced>& all) {
     place_camera(scene, width, height);
 }
 
+// `pixels`, or more where a coarse try tells that it would take more than twice the limit: fine
+// tries that fail cost much more.
+double SceneBuilder::coarse_enough(std::vector<Displaced>& all, double pixels) {
+    constexpr double kProbe = 8;
+    double limit = double(scene_->options.dice_limit), base = 0, probed = 0;
+    while (pixels < kCoarsest && !dice_to(all, kProbe * pixels, scene_->options.dice_limit))
+        pixels *= kProbe;
+    for (const Displaced& displaced : all) {
+        if (!displaced.any_diced() || !displaced.made) continue;
+        for (const MeshGroup& group : displaced.base.groups)
+            base += double(group.triangles.size() / 3);
+        probed += double(displaced.made->triangles());
+    }
+    double added = (probed - base) * kProbe * kProbe;
+    for (; base + added > 2 * limit && pixels < kCoarsest; pixels *= kCoarser)
+        added /= kCoarser * kCoarser;
+    return pixels;
+}
+
 void SceneBuilder::dice(std::vector<Displaced>& all) {
     Scene& scene = *scene_;
     const SceneOptions& options = scene.options;
-    double pixels = std::max(options.dice, 1e-3);
+    double pixels = coarse_enough(all, std::max(options.dice, 1e-3));
     while (pixels < kCoarsest && !dice_to(all, pixels, options.dice_limit)) pixels *= kCoarser;
     if (pixels >= kCoarsest) dice_to(all, pixels, ~size_t(0) / 2);
     if (pixels > std::max(options.dice, 1e-3))

@@ -79,6 +79,7 @@ class SceneBuilder {
     std::vector<Displaced> find_displaced();
     void find_views(std::vector<Displaced>& all);
     void dice(std::vector<Displaced>& all);
+    double coarse_enough(std::vector<Displaced>& all, double pixels);
     bool dice_to(std::vector<Displaced>& all, double pixels, size_t limit);
     void wear(Displaced& from);
     void make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced);

@@ -340,6 +340,11 @@ void VertexWork::report(std::string_view name, Diagnostics& diagnostics) {
 
 // ---- when kernels run ---------------------------------------------------------------------------
 
+// "current" is the object's space while vertices are moved.
+static bool is_own_space(std::string_view space) {
+    return space == "current" || space == "object" || space == "shader";
+}
+
 bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
     using Source = FrameInput::Source;
     auto between = [](uint16_t c, uint16_t first) { return c >= first && c < first + 3; };
@@ -350,7 +355,7 @@ bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
         return value < description.animated.size() && description.animated[value];
     };
     auto space_moves = [&](std::string_view space) {
-        if (space == "current" || space == "object" || space == "shader") return false;
+        if (is_own_space(space)) return false;
         if (space == "world") return scene.nodes[node].can_move;
         for (const Node& n : scene.nodes)
             if (description.nodes[n.definition].id == space)
@@ -388,9 +393,11 @@ bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
 }
 
 bool depends_on_node(const Look& look) {
-    for (const FrameInput& input : look.full.inputs)
-        if (input.source == FrameInput::Source::Space) return true;
-    return false;
+    return std::any_of(look.full.inputs.begin(), look.full.inputs.end(),
+                       [&](const FrameInput& input) {
+                           return input.source == FrameInput::Source::Space &&
+                                  !is_own_space(look.spaces[input.index]);
+                       });
 }
 
 }  // namespace kinora
