@@ -14,7 +14,8 @@ sys.path.insert(0, str(ROOT / "scripts/assets"))
 from sheet import png  # noqa: E402
 from dae_writer import Dae, Point, add_box, grid_of, lathe_of  # noqa: E402
 
-KINDS = ("surface", "displacement", "light", "volume", "imager", "transformation")
+KINDS = ("surface", "displacement", "light", "volume", "imager", "transformation",
+         "deformation")
 KEY = ("lookat", "aim", (-3.4, -3.9, 5.4, 0, 0, 0.8, 0, 0, 1))
 # Looks of flat things are shown on the floor and on a block; thin ones on a sheet.
 ON_FLOOR = {"parquet", "tiles", "stonewall", "checks", "water", "planks", "cobbles", "grid",
@@ -43,7 +44,8 @@ def kind_of(code):
     """The stage of a shader file, and the shader's name: the last shader of the file."""
     bare = re.sub(r"/\*.*?\*/|//[^\n]*", " ", code, flags=re.S)
     found = re.findall(rf"\b({'|'.join(KINDS)})\s+(\w+)\s*\([^;]*", bare)
-    return found[-1] if found else (None, None)
+    kind, name = found[-1] if found else (None, None)
+    return "transformation" if kind == "deformation" else kind, name
 
 
 def joined(*meshes):
@@ -127,7 +129,7 @@ class Stage:
             self.material("backdrop", "SURFACE", "scenes/backdrop")
             self.put("backdrop", grid_of(lambda s, t: (80 * s - 40, wall, 40 * t), 1, 1),
                      "backdrop")
-        self.material("card", "SURFACE", "scenes/softbox")
+        self.material("card", "SURFACE", "scenes/whitecard")
         card = grid_of(lambda s, t: (2 * s - 1, 2 * t - 1, 0), 1, 1)
         for name, eye, size in (("left", (-5.2, -4.6, 5.6), (1.7, 1.2, 1)),
                                 ("right", (6.2, -2.4, 2.6), (0.7, 1.9, 1)),

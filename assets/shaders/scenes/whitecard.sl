@@ -1,6 +1,6 @@
-/* softbox.sl: a white card that glows, brightest in its middle: something for metal to mirror.
+/* whitecard.sl: a white card that glows, brightest in its middle: something for metal to mirror.
    Parameters: its strength and colour. */
-surface softbox(float strength = 2.2; color lightcolor = color(1, 0.98, 0.95);) {
+surface whitecard(float strength = 2.2; color lightcolor = color(1, 0.98, 0.95);) {
     float x = 2 * s - 1;
     float y = 2 * t - 1;
     float edge = 1 - smoothstep(0.75, 1, max(abs(x), abs(y)));
