@@ -117,6 +117,56 @@ Value filter_width(LowerCall& c, Value x) {
     return c.b.add(c.b.abs(du), c.b.abs(dv));
 }
 
+// The shares of the RI's filters that lie below u, -1 to 1 over their support: integrals of
+// 1 - |x|, of exp(-2 x^2) (an odd polynomial, off by 2e-5 at most), and of Catmull and Rom's cubic.
+Value below_box(LowerCall& c, Value u) {
+    return c.b.fma(u, c.b.f(0.5f), c.b.f(0.5f));
+}
+Value below_triangle(LowerCall& c, Value u) {
+    auto& b = c.b;
+    return b.add(b.f(0.5f), b.mul(u, b.fma(b.abs(u), b.f(-0.5f), b.f(1))));
+}
+Value below_gaussian(LowerCall& c, Value u) {
+    auto& b = c.b;
+    constexpr float kOdd[] = {0.028227837f, -0.13371288f, 0.32582935f, -0.55624279f, 0.83589848f};
+    Value square = b.mul(u, u), p = b.f(kOdd[0]);
+    for (size_t k = 1; k < std::size(kOdd); ++k) p = b.fma(p, square, b.f(kOdd[k]));
+    return b.fma(u, p, b.f(0.5f));
+}
+Value below_catmull_rom(LowerCall& c, Value u) {
+    auto& b = c.b;
+    Value a = b.abs(b.add(u, u));  // 0 to 2
+    auto poly = [&](std::initializer_list<float> coefficients) {
+        Value p = b.f(0);
+        for (float k : coefficients) p = c.low.fma(p, a, b.f(k));
+        return p;
+    };
+    Value inner = poly({0.375f, -2.5f / 3, 0, 1, 0});
+    Value outer = poly({-0.125f, 2.5f / 3, -2, 2, -1.0f / 6});
+    Value half = b.select(b.lt(a, b.f(1)), inner, outer);
+    return b.add(b.f(0.5f), b.select(b.lt(u, b.f(0)), b.neg(half), half));
+}
+struct StepFilter {
+    std::string_view name;
+    Value (*below)(LowerCall& c, Value u);
+};
+constexpr StepFilter kStepFilters[] = {{"box", below_box},
+                                       {"triangle", below_triangle},
+                                       {"gaussian", below_gaussian},
+                                       {"catmull-rom", below_catmull_rom}};
+
+Value filtered(LowerCall& c, Value share) {
+    for (auto& [name, value] : c.pairs) {
+        const std::string* text = name == "filter" ? c.low.constant_text(value.c[0]) : nullptr;
+        for (const StepFilter& filter : kStepFilters) {
+            if (!text || filter.name != *text || filter.below == below_box) continue;
+            Value u = c.low.clamp(c.b.fma(share, c.b.f(2), c.b.f(-1)), c.b.f(-1), c.b.f(1));
+            return filter.below(c, u);
+        }
+    }
+    return share;
+}
+
 // The step averaged over a box: how much of [low, high] lies above the edge.
 void filterstep(LowerCall& c) {
     auto& b = c.b;
@@ -136,7 +186,7 @@ void filterstep(LowerCall& c) {
     Value width = b.add(half, half);
     Value share = c.low.div(b.sub(b.add(high, half), c.f(0)), width);
     Value hard = b.select(b.lt(c.f(1), c.f(0)), b.f(0), b.f(1));
-    Value soft = c.low.clamp(share, b.f(0), b.f(1));
+    Value soft = c.low.clamp(filtered(c, share), b.f(0), b.f(1));
     c.set(b.select(b.lt(width, b.f(1.17549435e-38f)), hard, soft));
 }
 
@@ -220,7 +270,9 @@ const Builtin kRows[] = {
      KINORA_RSL_REF(ref::smoothstep), kPure, 2,
      "0 below min, 1 above max, a Hermite ramp between: smoothstep(min, max, x)."},
     {"filterstep", "f=ff~ f=fff~", lower::filterstep, KINORA_RSL_REF(ref::filterstep), kDerivative,
-     4, "step filtered over the width of s, or from s1 to s2: filterstep(edge, s1 [, s2]).",
+     4,
+     "step filtered over the width of s, or from s1 to s2: filterstep(edge, s1 [, s2]); \"filter\" "
+     "box (if none is named) triangle gaussian catmull-rom, \"width\".",
      kSurface | kDisplacement | kVolume},
     {"spline",
      "f=ffffff* c=fccccc* p=fppppp* v=fvvvvv* n=fnnnnn* f=sffffff* "

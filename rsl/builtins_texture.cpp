@@ -42,6 +42,12 @@ Lookup of_corners(LowerCall& c) {
             edge(1, 1, 3, 5, 7), edge(0, 1, 5, 3, 7), edge(1, 1, 5, 3, 7)};
 }
 
+bool has_pair(const LowerCall& c, std::string_view name) {
+    for (auto& [key, value] : c.pairs)
+        if (key == name) return true;
+    return false;
+}
+
 Value channel(LowerCall& c) {
     return c.call.channel ? c.low.value(*c.call.channel) : c.b.f(0);
 }
@@ -81,8 +87,27 @@ Value with_differences(LowerCall& c, Value here, Value along_u, Value along_v) {
         Value still = b.op(jit::Op::BitsIF, b.op(jit::Op::IXor, mixed, mask));
         return b.mul(slope, b.sub(x, still));
     };
-    return b.add(here, b.add(term(along_u, Global::u, Global::du),
-                             term(along_v, Global::v, Global::dv)));
+    return b.add(here,
+                 b.add(term(along_u, Global::u, Global::du), term(along_v, Global::v, Global::dv)));
+}
+
+std::vector<Value> look_up(LowerCall& c, const Lookup& at, Value blur, Value swidth, Value twidth) {
+    return c.low.service(
+        "texture", std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx, at.dsdy, at.dtdy,
+                              blur, swidth, twidth, filter_name(c), c.pair("fill", 0)});
+}
+
+// "sblur" and "tblur" widen the footprint by shares of the image after the widths have scaled it.
+void blur_apart(LowerCall& c, Lookup& at, Value& swidth, Value& twidth) {
+    auto& b = c.b;
+    auto widen = [&](Value& x, Value& y, Value& width, std::string_view name) {
+        x = b.add(b.abs(b.mul(x, width)), c.pair(name, 0));
+        y = b.mul(y, width);
+        width = b.f(1);
+    };
+    if (!has_pair(c, "sblur") && !has_pair(c, "tblur")) return;
+    widen(at.dsdx, at.dsdy, swidth, "sblur");
+    widen(at.dtdy, at.dtdx, twidth, "tblur");
 }
 
 void texture(LowerCall& c) {
@@ -100,49 +125,115 @@ void texture(LowerCall& c) {
             if (key == name) return value.c[0];
         return width;
     };
+    Lookup where = at;
+    Value swidth = width_of("swidth"), twidth = width_of("twidth");
+    blur_apart(c, at, swidth, twidth);
     auto lookup = [&](Value s, Value t) {
-        return c.low.service("texture",
-                             std::array{c.f(0), channel(c), s, t, at.dsdx, at.dtdx, at.dsdy,
-                                        at.dtdy, c.pair("blur", 0), width_of("swidth"),
-                                        width_of("twidth"), filter_name(c), c.pair("fill", 0)});
+        Lookup moved = at;
+        moved.s = s, moved.t = t;
+        return look_up(c, moved, c.pair("blur", 0), swidth, twidth);
     };
     std::vector<Value> texels = lookup(at.s, at.t);
     if (bends_normals(c)) {
         auto& b = c.b;
-        std::vector<Value> u = lookup(b.add(at.s, at.dsdx), b.add(at.t, at.dtdx));
-        std::vector<Value> v = lookup(b.add(at.s, at.dsdy), b.add(at.t, at.dtdy));
+        std::vector<Value> u = lookup(b.add(at.s, where.dsdx), b.add(at.t, where.dtdx));
+        std::vector<Value> v = lookup(b.add(at.s, where.dsdy), b.add(at.t, where.dtdy));
         for (size_t k = 0; k < texels.size(); ++k)
             texels[k] = with_differences(c, texels[k], u[k], v[k]);
     }
     set_texels(c, texels);
 }
 
+// A place or direction and how it changes across the shading point; of four, their middle.
+struct Footprint {
+    V3 at, dx, dy;
+};
+Footprint footprint(LowerCall& c) {
+    auto& e = c.low;
+    if (c.args.size() == 5)
+        return {e.scale(e.add(e.add(c.v3(1), c.v3(2)), e.add(c.v3(3), c.v3(4))), e.f(0.25f)),
+                e.scale(e.add(e.sub(c.v3(2), c.v3(1)), e.sub(c.v3(4), c.v3(3))), e.f(0.5f)),
+                e.scale(e.add(e.sub(c.v3(3), c.v3(1)), e.sub(c.v3(4), c.v3(2))), e.f(0.5f))};
+    V3 at = c.v3(1);
+    return {at, e.scale(e.du(at), e.read_global(Global::du).c[0]),
+            e.scale(e.dv(at), e.read_global(Global::dv).c[0])};
+}
+
 void environment(LowerCall& c) {
     auto& e = c.low;
-    V3 R, dx, dy;
-    if (c.args.size() == 5) {
-        R = e.scale(e.add(e.add(c.v3(1), c.v3(2)), e.add(c.v3(3), c.v3(4))), e.f(0.25f));
-        dx = e.scale(e.add(e.sub(c.v3(2), c.v3(1)), e.sub(c.v3(4), c.v3(3))), e.f(0.5f));
-        dy = e.scale(e.add(e.sub(c.v3(3), c.v3(1)), e.sub(c.v3(4), c.v3(2))), e.f(0.5f));
-    } else {
-        R = c.v3(1);
-        dx = e.scale(e.du(R), e.read_global(Global::du).c[0]);
-        dy = e.scale(e.dv(R), e.read_global(Global::dv).c[0]);
-    }
+    Footprint f = footprint(c);
+    Value width = c.pair("width", 1);
+    V3 R = f.at, dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
     set_texels(c, e.service("environment",
                             std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2],
                                        dy[0], dy[1], dy[2], c.pair("blur", 0), c.pair("fill", 0)}));
 }
 
-// 0 lit, 1 in shadow; the four-corner form looks at the middle.
+// 0 lit, 1 in shadow.
 void shadow(LowerCall& c) {
     auto& e = c.low;
     if (!e.options.want_Ci && e.kind() != ShaderKind::Light) return;
-    V3 P = c.v3(1);
-    if (c.args.size() == 5)
-        P = e.scale(e.add(e.add(c.v3(1), c.v3(2)), e.add(c.v3(3), c.v3(4))), e.f(0.25f));
-    set_texels(c, e.service("shadow", std::array{c.f(0), P[0], P[1], P[2], c.pair("bias", 0),
+    Footprint f = footprint(c);
+    V3 P = f.at;
+    Value width = c.pair("width", 1);
+    V3 dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
+    set_texels(c, e.service("shadow", std::array{c.f(0), P[0], P[1], P[2], dx[0], dx[1], dx[2],
+                                                 dy[0], dy[1], dy[2], c.pair("bias", -1),
                                                  c.pair("blur", 0), c.pair("samples", 16)}));
+}
+
+// J. F. Blinn, Simulation of Wrinkled Surfaces, 1978: the surface P + h n has the normal
+// dPds ^ dPdt + h_s (n ^ dPdt) + h_t (dPds ^ n). Slopes are differences over the footprint.
+void bump(LowerCall& c) {
+    auto& e = c.low;
+    auto& b = c.b;
+    V3 N = c.v3(1), along_s = c.v3(2), along_t = c.v3(3);
+    bool placed = c.args.size() == 6;
+    Lookup at = with_derivatives(c, placed ? c.f(4) : e.read_global(Global::s).c[0],
+                                 placed ? c.f(5) : e.read_global(Global::t).c[0]);
+    Value least = e.f(1.0f / 1024);  // a texel of a large map
+    Value ds = b.max(b.add(b.abs(at.dsdx), b.abs(at.dsdy)), least);
+    Value dt = b.max(b.add(b.abs(at.dtdx), b.abs(at.dtdy)), least);
+    auto height = [&](float s, float t) {
+        Lookup beside = {b.fma(ds, e.f(s), at.s), b.fma(dt, e.f(t), at.t), ds, e.f(0), e.f(0), dt};
+        return look_up(c, beside, c.pair("blur", 0), e.f(1), e.f(1))[0];
+    };
+    Value slope_s = e.div(b.sub(height(0.5f, 0), height(-0.5f, 0)), ds);
+    Value slope_t = e.div(b.sub(height(0, 0.5f), height(0, -0.5f)), dt);
+    V3 n = e.normalize(N), flat = e.cross(along_s, along_t);
+    V3 bent = e.fma(e.cross(n, along_t), slope_s, e.fma(e.cross(along_s, n), slope_t, flat));
+    bent = e.select(b.lt(e.dot(flat, N), e.f(0)), e.neg(bent), bent);
+    V3 result = e.scale(e.normalize(bent), e.length(N));
+    c.set(e.select(b.eq(e.dot(bent, bent), e.f(0)), N, result));
+}
+
+// textureinfo(name, field, variable): 1, and the variable set, if the fact is known and fits.
+void textureinfo(LowerCall& c) {
+    auto& e = c.low;
+    auto& b = c.b;
+    std::vector<Value> answer = e.service("textureinfo", std::array{c.f(0), c.f(1)});
+    const Expr& variable = *c.call.args[2];
+    BaseType type = variable.type.base;
+    size_t each = size_t(component_count(type));
+    bool array = variable.type.is_array();
+    std::vector<Lowered> values =
+        array ? e.array_values(variable) : std::vector<Lowered>{c.args[2]};
+    Value known = type == BaseType::String ? b.op(jit::Op::IEq, answer[0], b.i(-1))
+                                           : b.op(jit::Op::ILt, b.i(int(each) - 1), answer[0]);
+    for (size_t k = 0; k < values.size() && (k + 1) * each < answer.size(); ++k) {
+        Value here = b.op(jit::Op::ILt, b.i(int((k + 1) * each) - 1), answer[0]);
+        if (type == BaseType::String) here = k == 0 ? known : b.m(false);
+        for (size_t i = 0; i < each; ++i) {
+            Value x = answer[1 + k * each + i];
+            if (type == BaseType::String) x = b.bits(x);
+            values[k].c[i] = b.select(here, x, values[k].c[i]);
+        }
+    }
+    if (array)
+        e.set_array(variable, values);
+    else
+        c.set_output(2, values[0]);
+    c.set(e.flag(known));
 }
 
 }  // namespace lower_texture
@@ -151,36 +242,45 @@ namespace {
 
 namespace lower = lower_texture;
 
+constexpr const char* kAnyVariable =
+    "f=ssF f=ssC f=ssP f=ssV f=ssN f=ssM f=ssS f=ssF[] f=ssC[] f=ssP[] f=ssV[] f=ssN[] f=ssM[] "
+    "f=ssS[]";
+
 const Builtin kRows[] = {
     // Two rows: only the forms without coordinates read s and t.
     {"texture", "f=s~ c=s~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative,
-     0, "Filtered texture at the surface's s, t; texture(name[channel]).", kAnyShader, "s t"},
+     0,
+     "Filtered texture at the surface's s, t; texture(name[channel]); \"blur\" \"sblur\" "
+     "\"tblur\" \"width\" \"swidth\" \"twidth\" \"filter\" \"fill\".",
+     kAnyShader, "s t"},
     {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", lower::texture,
      KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
      "Filtered texture at s, t or over a quadrilateral; texture(name[channel], s, t)."},
     {"environment", "f=sv~ c=sv~ f=svvvv~ c=svvvv~", lower::environment,
      KINORA_RSL_REF(ref::environment), kService | kDerivative, 0,
-     "Environment map in a direction."},
+     "Environment map (latitude-longitude or six faces) in a direction; \"blur\" \"width\" "
+     "\"fill\"."},
     {"shadow", "f=sp~ c=sp~ f=spppp~ c=spppp~", lower::shadow, KINORA_RSL_REF(ref::shadow),
-     kService | kShadows | kVaryingResult, 0, "Share of shadow at a point, by map or ray.",
+     kService | kShadows | kVaryingResult, 0,
+     "Share of shadow at a point, by a depth map; \"bias\" \"blur\" \"samples\" \"width\".",
      kSurface | kLight},
     {"bump",
      "n=snvv~ n=snvvff~",
-     nullptr,
+     lower::bump,
      {},
      kService | kDerivative,
      0,
-     "Normal bent by a bump map.",
+     "N bent by a map of heights: bump(name, N, dPds, dPdt [, s, t]).",
      kSurface | kDisplacement,
      "s t"},
     {"textureinfo",
-     "f=ssF f=ssC f=ssP f=ssV f=ssN f=ssM f=ssS f=ssF[] f=ssC[] f=ssP[] "
-     "f=ssV[] f=ssN[] f=ssM[] f=ssS[]",
-     nullptr,
+     kAnyVariable,
+     lower::textureinfo,
      {},
      kService,
      0,
-     "A fact about a texture: 1 if known."},
+     "A fact about a texture, 1 if known: resolution channels type exists viewingmatrix "
+     "projectionmatrix."},
     {"texture3d",
      "f=spn~",
      nullptr,
@@ -203,7 +303,7 @@ const Builtin kRows[] = {
      {},
      kService | kPrints,
      0,
-     "Writes a value at s, t to a file.",
+     "Puts a value at s, t into a point file, at (s, t, 0) as channel \"value\".",
      kSurface | kDisplacement},
 };
 

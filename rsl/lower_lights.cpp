@@ -189,7 +189,9 @@ void Lowering::illuminate(const Stmt& stmt, const Expr* position, const Expr* ax
     if (position) lit = inside(cone(axis, angle), L);
     guarded(b.logical_and(running, lit), [&] {
         write_slot(int(Global::L), lowered(BaseType::Vector, L));
+        bool outer_solar = std::exchange(in_solar, position == nullptr);
         statement(body);
+        in_solar = outer_solar;
         for (const LightSource& light : light_sources_) {
             if (light.stmt != &stmt) continue;
             write_slot(light.L, read_global(Global::L));

@@ -112,6 +112,7 @@ class Lowering : public Emitter {
     void declare(const Symbol& symbol);
     void end_scope(std::span<Stmt* const> body);
     std::vector<Lowered> array_values(const Expr& array);  // all elements
+    void set_array(const Expr& array, std::span<const Lowered> values);
     Lowered zero(BaseType type);
     Lowered global_input(Global id);  // as the kernel receives it
     Lowered input(const std::string& name, BaseType type, jit::Rate rate,
@@ -189,6 +190,7 @@ class Lowering : public Emitter {
     V3 record_triple(Value set, Value record, int column);
     Value record_uniform(Value set, Value record, int field, jit::Type type);
     int message_column(std::string_view name, BaseType type, int* index);
+    bool in_solar = false;           // inside a light's solar
     Value current_set = jit::kNone;  // inside illuminance
     Value current_record = jit::kNone;
 

@@ -211,6 +211,11 @@ std::vector<Lowered> Lowering::array_values(const Expr& e) {
     return values;
 }
 
+void Lowering::set_array(const Expr& e, std::span<const Lowered> values) {
+    int array = array_of(*as<VariableExpr>(e).symbol);
+    for (size_t k = 0; k < values.size(); ++k) store_element(array, b.i(int(k)), values[k]);
+}
+
 // EXTREMES.md row 71: one message for the source line; the access itself is clamped.
 void Lowering::check_index(Value x, int length, Location where) {
     Value inside = b.logical_and(b.le(b.f(0), x), b.lt(x, b.f(float(length))));

@@ -117,6 +117,32 @@ void smoothstep(RefCall<Real>& c) {
     each(c, [&](size_t k) { return smooth(c, at(c, 0, k), at(c, 1, k), at(c, 2, k)); });
 }
 
+namespace {
+
+// The RI's filters over -1..1.
+double filter_at(std::string_view name, double x) {
+    double a = std::fabs(x);
+    if (name == "triangle") return 1 - a;
+    if (name == "gaussian") return std::exp(-2 * x * x);
+    if (name != "catmull-rom") return 1;
+    a *= 2;
+    return a < 1 ? 1.5 * a * a * a - 2.5 * a * a + 1 : -0.5 * a * a * a + 2.5 * a * a - 4 * a + 2;
+}
+
+// Below u, by the middle of small steps.
+double share_below(std::string_view name, double u) {
+    constexpr int kSteps = 4000;
+    double below = 0, all = 0;
+    for (int k = 0; k < kSteps; ++k) {
+        double x = (2 * k + 1.0) / kSteps - 1, f = filter_at(name, x);
+        all += f;
+        if (x < u) below += f;
+    }
+    return below / all;
+}
+
+}  // namespace
+
 // The share of the interval s1..s2 (or of the width of s around it) that lies beyond the edge.
 template <class Real>
 void filterstep(RefCall<Real>& c) {
@@ -134,7 +160,11 @@ void filterstep(RefCall<Real>& c) {
     low = middle - half, high = middle + half;
     Real edge = c.f(0).x;
     if (high - low < Real(FLT_MIN)) return c.set(whole(c, Real(s.x < edge ? 0 : 1)));
-    c.set(Number(std::clamp((high - edge) / (high - low), Real(0), Real(1))));
+    Real share = (high - edge) / (high - low);
+    for (auto& [name, value] : c.pairs)
+        if (name == "filter" && value.text() != "box")
+            share = Real(share_below(value.text(), double(2 * share - 1)));
+    c.set(Number(std::clamp(share, Real(0), Real(1))));
 }
 
 // The derivative of a derivative is 0 (DESIGN.md decision 8).

@@ -62,7 +62,10 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //   texture       (int name, channel, s, t, dsdx, dtdx, dsdy, dtdy, blur, swidth, twidth,
 //                  int filter, fill) -> r g b a, starting at the channel
 //   environment   (int name, channel, R xyz, dRdx xyz, dRdy xyz, blur, fill) -> r g b a
-//   shadow        (int name, P xyz, bias, blur, samples) -> r g b
+//   shadow        (int name, P xyz, dPdx xyz, dPdy xyz, bias (< 0: not given), blur, samples) -> r
+//   g b textureinfo   (int name, int field) -> int count, 16 values: so many numbers are known; -1:
+//   the
+//                  first value is a string's id
 //   trace         (P xyz, R xyz) -> r g b distance (1e30 for a miss)
 //   transmission  (from xyz, to xyz) -> r g b
 //   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
@@ -73,7 +76,7 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //                  strings as ids bit for bit, the rest 0) -> nothing
 inline constexpr std::string_view kServiceNames[] = {
     "lights",    "texture", "environment", "shadow", "trace", "transmission",
-    "transform", "print",   "concat",      "format", "match"};
+    "transform", "print",   "concat",      "format", "match", "textureinfo"};
 
 // The process-wide, thread-safe table of strings that shaders handle: id <-> text. Id 0 is "".
 int32_t intern(std::string_view text);

@@ -62,10 +62,9 @@ void environment(const jit::ServiceCall& call) {
     lookup_environment(call);
 }
 
-// Shadow maps are of a scan-line age: where one is asked for, the truth is at hand.
 void shadow(const jit::ServiceCall& call) {
-    for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < kLanes; ++i) result(call, k)[i] = 0.0f;
+    const KernelHost& host = host_of(call);
+    lookup_shadow(call, glm::inverse(current_from_space(*host.scene, "world", host.look->node)));
 }
 
 void trace(const jit::ServiceCall& call) {
@@ -132,9 +131,9 @@ struct Row {
     jit::ServiceFn function;
 };
 constexpr Row kRows[] = {
-    {"lights", lights},       {"texture", texture}, {"environment", environment},
-    {"shadow", shadow},       {"trace", trace},     {"transmission", transmission},
-    {"transform", transform}, {"print", print},
+    {"textureinfo", lookup_texture_info}, {"lights", lights},       {"texture", texture},
+    {"environment", environment},         {"shadow", shadow},       {"trace", trace},
+    {"transmission", transmission},       {"transform", transform}, {"print", print},
 };
 constexpr size_t kStringServices = 3;  // rsl::string_service
 static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));

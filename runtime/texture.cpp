@@ -9,8 +9,7 @@
 #include "jit/ir.h"
 #include "rsl/renderer_services.h"
 #include "runtime/scene_description.h"
-#include "runtime/texture_sample.h"
-#include "runtime/texture_store.h"
+#include "runtime/texture_p.h"
 
 namespace kinora {
 
@@ -60,11 +59,7 @@ void fill_lanes(uint32_t mask, const float* fill, float* results) {
 
 // The texture of lanes that share a name; null for none.
 const Texture* texture_of(const float* names, uint32_t mask) {
-    const Texture* texture =
-        TextureStore::process().find(jit::bits_of(names[std::countr_zero(mask)]));
-    if (texture && !texture->image->error.empty())
-        texture->image->asked.store(true, std::memory_order_relaxed);
-    return texture;
+    return find_texture(jit::bits_of(names[std::countr_zero(mask)]));
 }
 
 // Directions as coordinates, footprints as their angles: lanes without a direction leave `mask`.
@@ -107,6 +102,13 @@ constexpr auto kZeros = filled_row(0), kOnes = filled_row(1);
 
 }  // namespace
 
+const Texture* find_texture(int32_t name) {
+    const Texture* texture = TextureStore::process().find(name);
+    if (texture && !texture->image->error.empty())
+        texture->image->asked.store(true, std::memory_order_relaxed);
+    return texture;
+}
+
 void lookup_texture(const jit::ServiceCall& call) {
     enum { Name, Channel, S, T, Dsdx, Dtdx, Dsdy, Dtdy, Blur, Swidth, Twidth, Filter, Fill };
     auto row = [&](int index) { return argument(call, index); };
@@ -137,7 +139,10 @@ void lookup_environment(const jit::ServiceCall& call) {
     for (uint32_t left = call.mask & at.mask; left;) {
         uint32_t same = lanes_like_first(row(Name), left);
         left &= ~same;
-        if (const Texture* texture = texture_of(row(Name), same)) {
+        const Texture* texture = texture_of(row(Name), same);
+        if (texture && !texture->image->faces.empty()) {
+            lookup_cube(*texture->image, call, same);
+        } else if (texture) {
             modes.nearest = texture->modes.nearest;
             sample_texture(texture->image->pyramid, modes, TextureFilter::Anisotropic, same, lanes);
         } else {

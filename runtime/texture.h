@@ -2,6 +2,7 @@
 #pragma once
 
 #include "jit/target.h"
+#include "runtime/base/math.h"
 
 namespace kinora {
 
@@ -16,10 +17,19 @@ struct SceneDescription;
 // magenta and black checks and a finding of report_textures.
 void lookup_texture(const jit::ServiceCall& call);
 
-// The map is a latitude-longitude image as OpenEXR defines it: y is up, the centre looks along +z
-// and +x lies a quarter of the width left of it. R is taken as it is, in the map's own space. The
-// direction 0 gives the fill colour.
+// The map is a latitude-longitude image, or one of six faces one above the other, as OpenEXR
+// defines them. Of the first: y is up, the centre looks along +z and +x lies a quarter of the width
+// left of it. R is taken as it is, in the map's own space. The direction 0 gives the fill colour.
 void lookup_environment(const jit::ServiceCall& call);
+
+// The service "shadow": the share of the footprint of a point in "current" that lies behind what a
+// depth map saw. The map is an image that holds the matrices worldtocamera and worldtoscreen (or
+// worldtoNDC), as OpenImageIO names them, and depths in its first channel. Any other gives 0.
+void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current);
+
+// The service "textureinfo". Fields: resolution, channels, type ("texture", "environment" or
+// "shadow"), exists, viewingmatrix and projectionmatrix (world to camera, to screen).
+void lookup_texture_info(const jit::ServiceCall& call);
 
 // Reads, in parallel, the images named by the string parameters of a scene's materials and lights,
 // so that no frame has to. Strings that name no file are no error: they may not be images at all.

@@ -95,6 +95,8 @@ std::string read_plain_png(const std::string& path, TextureImage& image) {
     image.height = pixels->height;
     image.encoded = true;
     image.bytes = std::move(pixels->rgba);
+    image.facts.width = image.width, image.facts.height = image.height;
+    image.facts.channels = 4;
     return "";
 }
 
@@ -126,6 +128,18 @@ void expand(const KinoraImage& source, const ChannelMap& map, T one, std::vector
             rgba[i * 4 + size_t(c)] = map.from[c] >= 0 ? in[map.from[c]] : c == 3 ? one : T(0);
 }
 
+TextureFacts facts_of(const KinoraImage& source) {
+    constexpr const char* kTypes[] = {"texture", "environment", "shadow"};
+    TextureFacts facts;
+    facts.width = source.width, facts.height = source.height;
+    facts.channels = source.file_channels;
+    facts.type = kTypes[source.kind];
+    facts.has_matrices = source.has_matrices != 0;
+    std::copy_n(source.world_to_camera, 16, facts.world_to_camera.begin());
+    std::copy_n(source.world_to_screen, 16, facts.world_to_screen.begin());
+    return facts;
+}
+
 std::string first_line(const std::string& text) {
     return text.substr(0, text.find('\n'));
 }
@@ -142,6 +156,7 @@ std::string read_by_module(const std::string& path, TextureImage& image) {
     image.width = source.width;
     image.height = source.height;
     image.encoded = source.encoded != 0;
+    image.facts = facts_of(source);
     ChannelMap map = channel_map(source.channels, source.alpha_channel);
     image.colors = std::max(map.colors, 1);
     if (source.is_float)
@@ -166,6 +181,18 @@ std::string read_texture_image(const std::string& path, TextureImage& image) {
     } catch (const std::bad_alloc&) {
         return "not enough memory";
     }
+}
+
+TextureImage image_rows(const TextureImage& image, int from, int rows) {
+    TextureImage part;
+    part.width = image.width, part.height = rows;
+    part.colors = image.colors, part.encoded = image.encoded;
+    auto begin = long(from) * image.width * 4, end = long(from + rows) * image.width * 4;
+    if (image.is_float())
+        part.floats.assign(image.floats.begin() + begin, image.floats.begin() + end);
+    else
+        part.bytes.assign(image.bytes.begin() + begin, image.bytes.begin() + end);
+    return part;
 }
 
 TextureImage checks_image() {

@@ -22,6 +22,11 @@ std::unique_ptr<StoredImage> read_image(const std::string& path, bool data) {
     if (image->error.empty()) {
         try {
             image->pyramid = TexturePyramid(pixels, pixels.encoded && !data);
+            image->facts = pixels.facts;
+            if (pixels.height == 6 * pixels.width)
+                for (int face = 0; face < 6; ++face)
+                    image->faces.emplace_back(image_rows(pixels, face * pixels.width, pixels.width),
+                                              pixels.encoded && !data);
         } catch (const std::bad_alloc&) {
             image->error = "not enough memory";
         }

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/texture_name.h"
@@ -20,6 +21,8 @@ namespace kinora {
 struct StoredImage {
     std::string path;
     TexturePyramid pyramid;
+    TextureFacts facts;
+    std::vector<TexturePyramid> faces;       // six, where the file is a cube's faces in a column
     std::string error;                       // why it cannot be read, or ""; then it is checks
     mutable std::atomic<bool> asked{false};  // by a lookup; only kept where there is an error
     bool reported = false;

@@ -26,6 +26,35 @@ bool set_limits(uint64_t max_pixels) {
     return true;
 }
 
+bool copy_matrix(const OIIO::ImageSpec& spec, const char* name, float* matrix) {
+    const OIIO::ParamValue* value = spec.find_attribute(name, OIIO::TypeDesc::TypeMatrix);
+    if (!value) return false;
+    std::copy_n(static_cast<const float*>(value->data()), 16, matrix);
+    return true;
+}
+
+// NDC runs from the upper left, 0 to 1; screen from the lower left, -1 to 1.
+void screen_from_ndc(float* matrix) {
+    for (int row = 0; row < 4; ++row) {
+        float* m = matrix + 4 * row;
+        m[0] = 2 * m[0] - m[3];
+        m[1] = m[3] - 2 * m[1];
+    }
+}
+
+void describe(const OIIO::ImageSpec& spec, KinoraImage& image) {
+    std::string format = spec.get_string_attribute("textureformat");
+    bool ndc = false;
+    bool screen = copy_matrix(spec, "worldtoscreen", image.world_to_screen) ||
+                  (ndc = copy_matrix(spec, "worldtoNDC", image.world_to_screen));
+    if (ndc) screen_from_ndc(image.world_to_screen);
+    image.has_matrices = screen && copy_matrix(spec, "worldtocamera", image.world_to_camera);
+    image.file_channels = spec.nchannels;
+    bool depth = format.find("Shadow") != std::string::npos;
+    image.kind = depth ? 2 : format.find("Environment") != std::string::npos ? 1 : 0;
+    if (image.kind == 0 && image.has_matrices && spec.nchannels == 1) image.kind = 2;
+}
+
 int decode(const char* path, uint64_t max_pixels, KinoraImage& image) {
     static const bool limited = set_limits(max_pixels);
     (void)limited;
@@ -39,6 +68,7 @@ int decode(const char* path, uint64_t max_pixels, KinoraImage& image) {
     if (uint64_t(spec.width) * uint64_t(spec.height) > max_pixels)
         return failed(image, "it is too large, " + std::to_string(spec.width) + " x " +
                                  std::to_string(spec.height) + " pixels");
+    describe(spec, image);
     bool bytes = spec.format == OIIO::TypeDesc::UINT8;
     image.width = spec.width;
     image.height = spec.height;

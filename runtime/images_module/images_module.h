@@ -12,8 +12,12 @@ struct KinoraImage {
     int alpha_channel;  // index of alpha among them, or -1
     int is_float;       // pixels are floats, else bytes
     int encoded;        // the file holds integers (16 bits or more come as floats in 0..1)
-    void* pixels;       // rows from the top, channels interleaved; free with kinora_free_image
-    char error[256];    // why it failed
+    int file_channels;  // all that the file has
+    int kind;           // 0 an image, 1 an environment, 2 a depth map
+    int has_matrices;   // those below; row-major for row vectors
+    float world_to_camera[16], world_to_screen[16];
+    void* pixels;     // rows from the top, channels interleaved; free with kinora_free_image
+    char error[256];  // why it failed
 };
 
 // Decodes the first picture of a file, its alpha left unassociated where the file has it so.

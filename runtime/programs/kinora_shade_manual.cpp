@@ -1,7 +1,9 @@
 // runtime/programs/kinora_shade_manual.cpp: the manual of the built-in functions, from their rows.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "rsl/builtin.h"
 #include "runtime/base/diagnostic.h"
@@ -52,9 +54,55 @@ std::string prototype(const rsl::Builtin& row, const rsl::Signature& signature) 
     return text + ")";
 }
 
+// Forms that differ only in one type are one line: T abs(T), and what T may be.
+struct Form {
+    std::string text;  // with T for the type of the result
+    std::vector<std::string> types;
+    std::string plain;
+};
+
+std::string replaced(std::string text, const std::string& word, const std::string& by) {
+    for (size_t at = 0; (at = text.find(word, at)) != std::string::npos;) {
+        bool whole = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
+        if (!whole) {
+            at += word.size();
+            continue;
+        }
+        text.replace(at, word.size(), by);
+        at += by.size();
+    }
+    return text;
+}
+
+std::vector<Form> forms(const rsl::Builtin& row) {
+    std::vector<Form> result;
+    for (const rsl::Signature& signature : rsl::parse_signatures(row.signature)) {
+        std::string type = rsl::type_name(signature.result.base);
+        std::string plain = prototype(row, signature);
+        // A query's result is always a float: its variable is what differs.
+        bool open = !signature.arguments.empty() && signature.arguments.back().output &&
+                    signature.arguments.back().type.base != rsl::BaseType::Invalid;
+        if (open && signature.result.base == rsl::BaseType::Float)
+            type = rsl::type_name(signature.arguments.back().type.base);
+        std::string text = replaced(plain, open ? "output " + type : type, open ? "output T" : "T");
+        auto known = std::find_if(result.begin(), result.end(),
+                                  [&](const Form& form) { return form.text == text; });
+        if (known == result.end())
+            result.push_back({text, {type}, plain});
+        else
+            known->types.push_back(type);
+    }
+    return result;
+}
+
 void print_row(const rsl::Builtin& row) {
-    for (const rsl::Signature& signature : rsl::parse_signatures(row.signature))
-        std::printf("%s\n", prototype(row, signature).c_str());
+    for (const Form& form : forms(row)) {
+        if (form.types.size() == 1)
+            std::printf("%s\n", form.plain.c_str());
+        else
+            std::printf("%s, T: %s\n", form.text.c_str(),
+                        fmt::format("{}", fmt::join(form.types, " ")).c_str());
+    }
     std::printf("    %s\n", row.doc);
     for (const EffectRow& effect : kEffects)
         if (row.effects & effect.flag) std::printf("    It %s.\n", effect.text);

@@ -27,7 +27,8 @@ void lights(const jit::ServiceCall& call) {
     fill(call, 0, jit::float_of(0));
 }
 void shadow(const jit::ServiceCall& call) {
-    for (int k = 0; k < 3; ++k) fill(call, k, 0.0f);
+    const Patch& patch = *static_cast<const Patch*>(call.grid);
+    lookup_shadow(call, glm::inverse(patch.current_from_space("world")));
 }
 void trace(const jit::ServiceCall& call) {
     for (int k = 0; k < 3; ++k) fill(call, k, 0.0f);
@@ -62,10 +63,15 @@ struct Row {
     jit::ServiceFn function;
 };
 constexpr Row kRows[] = {
-    {"lights", lights},       {"texture", lookup_texture},
-    {"shadow", shadow},       {"environment", lookup_environment},
-    {"trace", trace},         {"transmission", transmission},
-    {"transform", transform}, {"print", print},
+    {"textureinfo", lookup_texture_info},
+    {"lights", lights},
+    {"texture", lookup_texture},
+    {"shadow", shadow},
+    {"environment", lookup_environment},
+    {"trace", trace},
+    {"transmission", transmission},
+    {"transform", transform},
+    {"print", print},
 };
 constexpr size_t kStringServices = 3;  // rsl::string_service
 static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));

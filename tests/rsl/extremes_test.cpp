@@ -243,6 +243,15 @@ TEST(Extremes, Row76MinAndMaxTakeTheSecondOperandBesideNan) {
     for (float got : ways("min(x, y)", {2, kNan})) EXPECT_NE(got, got);
     for (float got : ways("max(x, y)", {2, kNan})) EXPECT_NE(got, got);
 }
+// Not a row of the list: the filters of filterstep against their integrals.
+TEST(Filterstep, HasTheFiltersOfTheInterface) {
+    for (const char* filter : {"box", "triangle", "gaussian", "catmull-rom"})
+        for (float edge : {-0.2f, 0.05f, 0.3f, 0.5f, 0.77f, 1.1f}) {
+            std::vector<float> got = ways(
+                "filterstep(x, y, z, \"filter\", \"" + std::string(filter) + "\")", {edge, 0, 1});
+            for (float value : got) EXPECT_NEAR(value, got.back(), 1e-3f) << filter << " " << edge;
+        }
+}
 TEST(Extremes, Row79GreyHasHue0) {
     for (const char* space : {"hsv", "hsl"}) {
         std::string call = "comp(ctransform(\"" + std::string(space) + "\", color(x, x, x)), ";

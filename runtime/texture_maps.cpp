@@ -1,0 +1,199 @@
+// runtime/texture_maps.cpp: what is known of an image, depth maps, and maps of six faces.
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "jit/ir.h"
+#include "rsl/renderer_services.h"
+#include "runtime/texture.h"
+#include "runtime/texture_p.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kLanes = jit::kMaxLanes;
+
+float argument(const jit::ServiceCall& call, int index, int lane) {
+    return call.args[index * kLanes + lane];
+}
+vec3 triple(const jit::ServiceCall& call, int first, int lane) {
+    return {argument(call, first, lane), argument(call, first + 1, lane),
+            argument(call, first + 2, lane)};
+}
+
+// ---- textureinfo --------------------------------------------------------------------------------
+
+constexpr int kIsString = -1;
+
+// Numbers of a fact, or kIsString; 0 if it is not known.
+int find_fact(const TextureFacts& facts, std::string_view name, float* values) {
+    auto copy = [&](const std::array<float, 16>& matrix) {
+        std::copy(matrix.begin(), matrix.end(), values);
+        return facts.has_matrices ? 16 : 0;
+    };
+    if (name == "resolution")
+        return values[0] = float(facts.width), values[1] = float(facts.height), 2;
+    if (name == "channels") return values[0] = float(facts.channels), 1;
+    if (name == "type") return values[0] = jit::float_of(rsl::intern(facts.type)), kIsString;
+    if (name == "exists") return values[0] = 1, 1;
+    if (name == "viewingmatrix") return copy(facts.world_to_camera);
+    if (name == "projectionmatrix") return copy(facts.world_to_screen);
+    return 0;
+}
+
+// ---- shadow -------------------------------------------------------------------------------------
+
+// RenderMan's matrices are for row vectors.
+vec4 row_times(vec3 p, const std::array<float, 16>& m) {
+    vec4 r;
+    for (int k = 0; k < 4; ++k)
+        r[k] = p.x * m[size_t(k)] + p.y * m[size_t(4 + k)] + p.z * m[size_t(8 + k)] +
+               m[size_t(12 + k)];
+    return r;
+}
+
+// A point as the map sees it: s, t in 0..1 from the lower left, and its depth.
+struct Seen {
+    vec2 place{0, 0};
+    float depth = 0;
+    bool inside = false;
+};
+Seen seen_from(const TextureFacts& facts, vec3 world) {
+    vec4 screen = row_times(world, facts.world_to_screen);
+    float depth = row_times(world, facts.world_to_camera).z;
+    if (!(screen.w > 0) || !(depth > 0)) return {};
+    vec2 place = (vec2(screen) / screen.w + 1.0f) * 0.5f;
+    bool inside = place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
+    return {place, depth, inside};
+}
+
+constexpr float kSlope = 0.002f;  // bias as a share of the depth, where none is given
+constexpr int kMostSide = 32;     // samples along one side
+
+// The share of the footprint, widened by blur (a share of the map), that lies behind what the map
+// saw. Beyond the map's edges there is light.
+float share_behind(const StoredImage& image, const Seen& at, vec2 extent, float bias, int side) {
+    const TexturePyramid& pyramid = image.pyramid;
+    const TextureLevel& level = pyramid.levels[0];
+    float limit = at.depth - (bias >= 0 ? bias : kSlope * at.depth);
+    int behind = 0;
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            vec2 offset = (vec2(float(i), float(j)) + 0.5f) / float(side) - 0.5f;
+            vec2 p = at.place + offset * extent;
+            if (!(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1)) continue;
+            float z =
+                pyramid.texel(0, int(p.x * float(level.width)), int(p.y * float(level.height)))[0];
+            behind += z < limit;
+        }
+    return float(behind) / float(side * side);
+}
+
+// ---- six faces ----------------------------------------------------------------------------------
+
+// Face of a direction and the place on it, as OpenEXR lays out its cubes (ImfEnvmap.h): faces +x -x
+// +y -y +z -z from the top, the outermost texels' centres on the cube's edges.
+struct OnFace {
+    int face;
+    float s, t;
+};
+OnFace face_of(vec3 d) {
+    vec3 a = glm::abs(d);
+    if (a.x >= a.y && a.x >= a.z) {
+        float y = d.y / a.x, z = d.z / a.x;
+        return d.x > 0 ? OnFace{0, z, y} : OnFace{1, -z, y};
+    }
+    if (a.y >= a.z) {
+        float x = d.x / a.y, z = d.z / a.y;
+        return d.y > 0 ? OnFace{2, x, z} : OnFace{3, x, -z};
+    }
+    float x = d.x / a.z, y = d.y / a.z;
+    return d.z > 0 ? OnFace{4, -x, y} : OnFace{5, x, y};
+}
+
+}  // namespace
+
+void lookup_texture_info(const jit::ServiceCall& call) {
+    for (int i = 0; i < kLanes; ++i) {
+        if (!(call.mask >> i & 1)) continue;
+        float values[16] = {};
+        int32_t name = jit::bits_of(argument(call, 0, i));
+        const std::string& field = rsl::interned(jit::bits_of(argument(call, 1, i)));
+        int count = 0;
+        // To ask whether a file is there is no use of it.
+        const Texture* texture = TextureStore::process().find(name);
+        if (texture && texture->image->error.empty())
+            count = find_fact(texture->image->facts, field, values);
+        else if (texture && field == "exists")
+            count = 1;
+        call.results[i] = jit::float_of(count);
+        for (int k = 0; k < 16; ++k) call.results[(1 + k) * kLanes + i] = values[k];
+    }
+}
+
+void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current) {
+    enum { Name, P = 1, Dx = 4, Dy = 7, Bias = 10, Blur, Samples };
+    mat4 to_world(world_from_current);
+    for (int i = 0; i < kLanes; ++i) {
+        if (!(call.mask >> i & 1)) continue;
+        for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = 0;
+        const Texture* texture = find_texture(jit::bits_of(argument(call, Name, i)));
+        if (!texture || !texture->image->error.empty() || !texture->image->facts.has_matrices)
+            continue;
+        const TextureFacts& facts = texture->image->facts;
+        auto seen = [&](vec3 current) {
+            return seen_from(facts, vec3(to_world * vec4(current, 1)));
+        };
+        vec3 p = triple(call, P, i);
+        Seen at = seen(p);
+        if (!at.inside) continue;
+        vec2 extent(1.0f / float(facts.width), 1.0f / float(facts.height));
+        for (int from : {Dx, Dy}) {
+            Seen beside = seen(p + triple(call, from, i));
+            if (beside.depth > 0) extent = glm::max(extent, glm::abs(beside.place - at.place));
+        }
+        float blur = argument(call, Blur, i), samples = argument(call, Samples, i);
+        extent = glm::min(extent, vec2(0.1f)) + std::clamp(blur, 0.0f, 1.0f);
+        int side =
+            int(std::ceil(std::sqrt(std::clamp(samples, 1.0f, float(kMostSide * kMostSide)))));
+        float hidden = share_behind(*texture->image, at, extent, argument(call, Bias, i), side);
+        for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = hidden;
+    }
+}
+
+void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_t mask) {
+    enum { Name, Channel, R, Dx = 5, Dy = 8, Blur = 11, Fill };
+    alignas(64) float s[kLanes] = {}, t[kLanes] = {}, ds[kLanes] = {}, zero[kLanes] = {},
+                      one[kLanes];
+    int face[kLanes] = {};
+    std::fill_n(one, kLanes, 1.0f);
+    float size = float(image.faces[0].levels[0].width);
+    for (int i = 0; i < kLanes; ++i) {
+        if (!(mask >> i & 1)) continue;
+        vec3 d = triple(call, R, i), dx = triple(call, Dx, i), dy = triple(call, Dy, i);
+        OnFace at = face_of(d);
+        float large = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        auto on_texels = [&](float x) { return ((x + 1) * 0.5f * (size - 1) + 0.5f) / size; };
+        face[i] = at.face;
+        s[i] = on_texels(at.s), t[i] = on_texels(at.t);
+        float width = std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))) / (2 * large);
+        ds[i] = width >= 0 ? std::min(width, 1.0f) : 0;
+    }
+    auto row = [&](int index) { return call.args + index * kLanes; };
+    TextureLanes lanes{row(Channel), s,         t,   ds,  zero,      zero,
+                       ds,           row(Blur), one, one, row(Fill), call.results};
+    TextureName modes;
+    modes.wrap_s = modes.wrap_t = TextureWrap::Clamp;
+    for (int f = 0; f < 6; ++f) {
+        uint32_t here = 0;
+        for (int i = 0; i < kLanes; ++i) here |= uint32_t(face[i] == f) << i;
+        here &= mask;
+        if (here)
+            sample_texture(image.faces[size_t(f)], modes, TextureFilter::Anisotropic, here, lanes);
+    }
+}
+
+}  // namespace kinora
