@@ -1,6 +1,6 @@
 // tests/runtime/texture_maps_test.cpp: facts of images, depth maps, and cubes of six faces against
 // OpenEXR's own mapping.
-#include <ImathVec.h>
+#include <Imath/ImathVec.h>
 #include <OpenEXR/ImfEnvmap.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -76,7 +76,8 @@ TEST(TextureInfo, KnowsWhatTheFileSays) {
     Exr image("info.exr", depth_spec(8), std::vector<float>(64, 3.0f));
     auto resolution = info(image.name(), "resolution");
     EXPECT_EQ(jit::bits_of(resolution[0]), 2);
-    EXPECT_EQ(resolution[1], 8), EXPECT_EQ(resolution[2], 8);
+    EXPECT_EQ(resolution[1], 8);
+    EXPECT_EQ(resolution[2], 8);
     EXPECT_EQ(info(image.name(), "channels")[1], 1);
     auto type = info(image.name(), "type");
     EXPECT_EQ(jit::bits_of(type[0]), -1);
