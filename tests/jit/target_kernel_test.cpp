@@ -208,6 +208,54 @@ TEST(TargetKernel, AnEndlessLoopEndsWithItsFault) {
     expect_same(m, in);
 }
 
+// A conditional branch of AArch64 reaches 1 MiB: an If and a Loop here are longer.
+TEST(TargetKernel, RegionsLongerThanABranchReaches) {
+    constexpr int kLong = 270'000;
+    Module m = one_function();
+    Builder b(m, 0);
+    Value x = b.input(point("x")), y = b.input(point("y"));
+    Value count = b.ftoi(b.abs(y));
+    b.begin_loop(b.op(Op::ILt, b.i(0), count), b.fault_site({}, "budget"));
+    Value k = b.loop_var(b.i(0));
+    Value sum = b.loop_var(y);
+    b.begin_if(b.lt(sum, x));
+    Value inner = sum;
+    for (int i = 0; i < kLong; ++i) inner = b.fma(inner, b.f(0.99999f), x);
+    b.end_if();
+    Value next_k = b.iadd(k, b.i(1));
+    Value next[] = {next_k, b.merge(inner, sum)};
+    b.end_loop(b.op(Op::ILt, next_k, count), next);
+    b.output({"sum", Type::F}, b.loop_out(sum));
+    b.finish();
+    expect_same(m, wave(9, 2));
+}
+
+// Constants, frame slots and array elements beyond what an instruction's offset holds.
+TEST(TargetKernel, PlacesFarFromTheirBase) {
+    constexpr int kMany = 5000;
+    Module m = one_function();
+    m.frame_slots = kMany;
+    Builder b(m, 0);
+    Value x = b.input(point("x"));
+    Value sum = x;
+    for (int i = 0; i < kMany; ++i) sum = b.fma(sum, b.f(0.5f), b.f(static_cast<float>(i) + 0.25f));
+    int arrays[] = {b.declare_array("near", Type::F, kMany),
+                    b.declare_array("far", Type::F, kMany)};
+    Value index = b.iadd(b.ftoi(b.mul(x, b.f(100))), b.i(kMany - 1));
+    for (int array : arrays) {
+        b.op(Op::ArrayStore, b.i(kMany - 1), sum, b.m(true), array);
+        b.op(Op::ArrayStore, index, b.op(Op::FrameLoad, kNone, kNone, kNone, kMany - 1),
+             b.lt(x, b.f(1)), array);
+        sum = b.add(sum, b.op(Op::ArrayLoad, b.i(kMany - 1), kNone, kNone, array));
+        sum = b.add(sum, b.op(Op::ArrayLoad, index, kNone, kNone, array));
+    }
+    b.output({"sum", Type::F}, sum);
+    b.finish();
+    RunInput in = wave(20, 1);
+    in.frame.assign(kMany, bits_of(7));
+    expect_same(m, in);
+}
+
 TEST(TargetKernel, NoExecutableMemoryGivesNoKernel) {
     Module m = one_function();
     Builder b(m, 0);
