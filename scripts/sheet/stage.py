@@ -32,7 +32,7 @@ VALUES = {
     "depthcue": {"mindistance": 0.08, "maxdistance": 0.8, "background": (0.08, 0.09, 0.12)},
     "smoke": {"density": 0.10, "stepsize": 0.4, "frequency": 0.8, "smokecolor": (0.8, 0.8, 0.85)},
     "paintedplastic": {"texturename": "pattern.png"}, "bumpy": {"texturename": "pattern.png"},
-    "shinymetal": {"texturename": "sky.png"}, "background": {"background": (0.15, 0.3, 0.55)},
+    "bumpmapped": {"bumpname": "pattern.png"}, "shinymetal": {"texturename": "sky.png"}, "background": {"background": (0.15, 0.3, 0.55)},
     "planks": {"width": 0.3}, "bulblight": {"intensity": 6.0}, "ambientlight": {"intensity": 0.7},
     "ocean": SEA, "ripples": SEA, "windowlight": {"from": Point((-4.0, -1.2, 2.6)), "to": Point((0.0, 0.0, 0.4)),
                     "intensity": 1.4},

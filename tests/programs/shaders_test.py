@@ -9,7 +9,7 @@ STANDARD = ("constant matte metal shinymetal plastic paintedplastic ambientlight
             "pointlight spotlight").split()
 # Text that shows a construct in use; what words.def holds is looked for as a word.
 CONSTRUCTS = {
-    "#define": r"#define \w+ ", "macro with arguments": r"#define \w+\(",
+    "#include": r"#include \"", "#define": r"#define \w+ ", "macro with arguments": r"#define \w+\(",
     "function": r"^(float|color|point|void) \w+\(", "nested function": r"^    (float|color) \w+\(.*\{",
     "several returns": r"return[^}]*\}[^}]*return|return color", "condition operator": r"\?[^;]*:",
     "array": r"\w+\[\d+\] = \{", "array parameter": r"\[\d+\] = \{[^}]*\};\)",
