@@ -22,7 +22,7 @@ surface harlequin(float Ka = 1, Kd = 0.8, Ks = 0.25, roughness = 0.2, freq = 14,
 
     /* Threads along both diagonals; the weave in each lozenge runs its own way. */
     float gold = filteredpulsetrain(1 - thread, 1, a + thread / 2, wa);
-    gold = 1 - min(gold, filteredpulsetrain(1 - thread, 1, b + thread / 2, wb));
+    gold = max(gold, filteredpulsetrain(1 - thread, 1, b + thread / 2, wb));
     point Q = point(40 * a, 40 * b, which);
     float weave = filteredsnoise(Q, filterwidthp(Q));
     Ct *= 0.85 + 0.25 * weave;
