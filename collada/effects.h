@@ -162,7 +162,9 @@ struct Material {
     std::string id, name;
     uint32_t effect = kNone;  // kNone: unresolved, reported; use the default material
     std::vector<SetParam> setparams;
-    std::string volume_target;  // <extra> RSL "interior" or "exterior"; "" if silent
+    uint32_t samples = 0;         // <extra> RSL <samples> of an area light; 0 if silent
+    std::optional<bool> shadows;  // and its <shadows>
+    std::string volume_target;    // <extra> RSL "interior" or "exterior"; "" if silent
     Location where;
 };
 

@@ -48,15 +48,15 @@ void check_light(Extraction& x, Light& light) {
     }
 }
 
-std::optional<bool> read_shadows(const Element& light) {
-    const Element* technique = extra_technique(light, "RSL");
+}  // namespace
+
+std::optional<bool> read_shadows(const Element& owner) {
+    const Element* technique = extra_technique(owner, "RSL");
     const Element* shadows = technique ? technique->child("shadows") : nullptr;
     if (!shadows) return std::nullopt;
     std::string_view text = trim(shadows->text);
     return !(text == "0" || text == "false");
 }
-
-}  // namespace
 
 uint32_t light_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);

@@ -51,6 +51,20 @@ std::string read_volume_target(const Element& material) {
     return std::string(target);
 }
 
+// <extra><technique profile="RSL"><samples>: of an area light, at each lit point.
+uint32_t read_samples(Extraction& x, Link material) {
+    constexpr uint64_t kMost = 4096;
+    const Element* technique = extra_technique(*material.element, "RSL");
+    const Element* samples = technique ? technique->child("samples") : nullptr;
+    if (!samples) return 0;
+    uint64_t count = 0;
+    bool good = parse_count(trim(samples->text), count) && count >= 1 && count <= kMost;
+    if (good) return uint32_t(count);
+    x.diag.report(Code::LIGHT_SAMPLES, x.where({material.doc, samples}), trim(samples->text),
+                  kMost);
+    return 0;
+}
+
 uint32_t make_material(Extraction& x, Link owner, const Element* instance) {
     auto [at, fresh] = x.made.emplace(owner.element, kNone);
     if (!fresh) return at->second;
@@ -60,6 +74,8 @@ uint32_t make_material(Extraction& x, Link owner, const Element* instance) {
     material.name = owner.element->value("name");
     material.where = x.where(owner);
     material.volume_target = read_volume_target(*owner.element);
+    material.samples = read_samples(x, owner);
+    material.shadows = read_shadows(*owner.element);
     if (instance) {
         Link link{owner.doc, instance};
         if (Link effect = resolve(x, link, "url", {"effect"}))

@@ -108,6 +108,9 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
 void read_light_instance(Extraction& x, Link link, Node& node);
 void read_camera_instance(Extraction& x, Link link, Node& node);
 
+// extract_lights.cpp: <shadows> of an RSL extra, "0" or "false" for none; nothing if silent.
+std::optional<bool> read_shadows(const Element& owner);
+
 // extract_mesh.cpp and its like -------------------------------------------------------------------
 
 uint32_t geometry_index(Extraction& x, Link geometry);

@@ -48,7 +48,8 @@ struct LowerOptions {
     bool want_Ci = true;  // colour
     bool want_Oi = true;  // opacity; with want_Ci false this is the opacity-only kernel, in which
                           // lights are unshadowed and trace and gather give 0 (decision 6)
-    bool want_N = false;  // the shading normal as the shaders leave it
+    bool area_light = false;  // a light on geometry: its P, N, u, v, s, t are those of a sample
+    bool want_N = false;      // the shading normal as the shaders leave it
     bool want_P = false;
     std::vector<std::string> aovs;      // names of output parameters wanted
     std::vector<std::string> messages;  // light shaders: parameters that some lightsource() reads

@@ -53,6 +53,13 @@ const GlobalInput kLightInputs[] = {
     {Global::dtime, "dtime", "", "", jit::Rate::Frame},
 };
 
+// Those of lights on geometry, at the sample; u, v and what is along them are the mesh's.
+const GlobalInput kAreaInputs[] = {
+    {Global::P, "P", "", ""},       {Global::N, "N", "", ""},       {Global::Ng, "Ng", "", ""},
+    {Global::dPdu, "dPdu", "", ""}, {Global::dPdv, "dPdv", "", ""}, {Global::u, "u", "", ""},
+    {Global::v, "v", "", ""},       {Global::s, "s", "", ""},       {Global::t, "t", "", ""},
+};
+
 // Globals with a first value that no input gives.
 struct GlobalConstant {
     Global id;
@@ -123,6 +130,9 @@ Lowered Lowering::global_input(Global id) {
         return input(std::string(info.name), type, jit::Rate::Point);
     if (kind() == ShaderKind::Imager && id == Global::alpha)
         return input("alpha", type, jit::Rate::Point);
+    if (light && options.area_light)
+        for (const GlobalInput& row : kAreaInputs)
+            if (row.id == id) return input(row.name, type, row.rate, row.du, row.dv);
     auto rows =
         light ? std::span<const GlobalInput>(kLightInputs) : std::span<const GlobalInput>(kInputs);
     for (const GlobalInput& row : rows)

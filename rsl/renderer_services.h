@@ -28,7 +28,8 @@
 //                   Triples that are 0 at all points have no outputs; nor has a lit that is 1.
 //   message:NAME[.c]  its parameters
 // An ambient light has statement 0 alone, with L = 0 and lit = 1. In a light P is the origin of its
-// "shader" space (no input of its own), N is Ns.
+// "shader" space (no input of its own), N is Ns; on geometry (LowerOptions::area_light) P N Ng dPdu
+// dPdv u v s t are inputs at a sample of the mesh.
 // clang-format on
 #pragma once
 

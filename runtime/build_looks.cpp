@@ -73,16 +73,16 @@ bool SceneBuilder::choose_camera() {
 void SceneBuilder::add_light(LightDefinition definition, uint32_t node) {
     description_.animated.resize(description_.values.size(), false);
     description_.lights.push_back(std::move(definition));
-    scene_->lights.push_back({uint32_t(description_.lights.size() - 1), node, kNone});
+    scene_->lights.push_back({uint32_t(description_.lights.size() - 1), node, kNone, kNone});
     scene_->added.push_back(description_.lights.back().name);
 }
 
 void SceneBuilder::place_lights() {
     Scene& scene = *scene_;
-    bool lit = false;
+    bool lit = add_area_lights();
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (uint32_t light : description_.nodes[scene.nodes[n].definition].lights) {
-            scene.lights.push_back({light, n, kNone});
+            scene.lights.push_back({light, n, kNone, kNone});
             lit |= !description_.lights[light].ambient;
         }
     if (lit) return;
@@ -247,7 +247,9 @@ uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
     bool bump = scene.options.displacement == DisplacementMode::Bump;
     if (!bump) vertex_look(LookKind::Displacement, surface, use, *definition, surface.displacement);
     std::vector<ShaderUse> layers = definition->displacements;
-    layers.insert(layers.end(), surfaces.begin(), surfaces.end());
+    bool bare = definition->surfaces.empty() && !definition->lights.empty();
+    const std::vector<ShaderUse>& seen = bare ? emitter(*definition) : surfaces;
+    layers.insert(layers.end(), seen.begin(), seen.end());
     std::string key;
     auto look = begin_look(LookKind::Surface, *definition, std::move(layers), use, shape, key);
     add_volumes(surface, *definition, use);
@@ -367,6 +369,7 @@ bool SceneBuilder::make_looks() {
         look->name = definition.id.empty() ? definition.name : definition.id;
         look->layers = {definition.shader};
         look->node = light.node;
+        look->area_light = light.surface != kNone;
         ok &= compile(*look, messages);
         light.look = uint32_t(scene.looks.size());
         scene.looks.push_back(std::move(look));

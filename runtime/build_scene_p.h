@@ -66,6 +66,10 @@ class SceneBuilder {
     uint32_t volume_look(const std::vector<ShaderUse>& layers, const std::string& name,
                          uint32_t node, const MaterialUse* use, bool exterior);
     void add_atmosphere();
+    // build_area_lights.cpp
+    bool add_area_lights();
+    const MaterialUse* material_use(size_t surface) const;
+    std::vector<ShaderUse> emitter(const MaterialDefinition& material);
     // build_imager.cpp
     void add_outputs();
     void add_imager();

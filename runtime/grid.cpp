@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "raytrace/sampling.h"
 #include "runtime/affine_map.h"
 #include "runtime/scene.h"
 #include "runtime/shading_p.h"
@@ -138,7 +137,7 @@ class Gather {
         }
         if (float* rng = column(kColRng))
             for (size_t i = 0; i < grid_.count(); ++i)
-                rng[i] = jit::float_of(int32_t(random(grid_.points[i])));
+                rng[i] = jit::float_of(int32_t(random_of(hits_, grid_.points[i])));
         constants();
     }
 
@@ -315,11 +314,6 @@ class Gather {
                                                                     {kColdtdv, 1.0f}};
         for (auto [which, value] : kConstants)
             if (float* row = column(which)) std::fill_n(row, padded(grid_.count()), value);
-    }
-
-    uint32_t random(uint32_t hit) const {
-        uint32_t pixel = raytrace::hash(hits_.pixel_x[hit], hits_.pixel_y[hit]);
-        return raytrace::hash(pixel, hits_.sample[hit], hits_.layer[hit] + 64 * hits_.depth);
     }
 
     Grid& grid_;

@@ -141,11 +141,14 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
 void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
                                  MaterialDefinition& result) {
     const std::string& target = data_.materials[index].volume_target;
+    result.light_samples = data_.materials[index].samples;
+    result.light_shadows = data_.materials[index].shadows;
     for (const collada::RslShader& shader : effect.rsl->shaders) {
         std::vector<ShaderUse>* stack = nullptr;
         if (shader.stage == collada::RslStage::Surface) stack = &result.surfaces;
         if (shader.stage == collada::RslStage::Displacement) stack = &result.displacements;
         if (shader.stage == collada::RslStage::Transformation) stack = &result.transformations;
+        if (shader.stage == collada::RslStage::Light) stack = &result.lights;
         if (shader.stage == collada::RslStage::Volume) {
             stack = target == "exterior" ? &result.exterior : &result.interior;
             if (!target.empty() && target != "exterior" && target != "interior")

@@ -1,7 +1,11 @@
 // runtime/light_records.cpp: lights run once for a grid; their answers become records that surface
 // kernels replay (DESIGN.md decision 5).
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "raytrace/sampling.h"
 
 #include "runtime/shading_p.h"
 
@@ -137,7 +141,14 @@ void Shading::bind_lights() {
         for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
             statements.push_back(statement_of(look, s, scene_.description->lights[light.definition],
                                               scene_.options.shadows));
-        record_count_ += statements.size();
+        size_t samples = 1;
+        if (AreaLight* area = area_lights_[statements_.size() - 1].get()) {
+            bool directed = std::any_of(statements.begin(), statements.end(),
+                                        [](const auto& s) { return s.kind != rsl::kLightAmbient; });
+            if (!directed) area->samples = 1;
+            samples = area->samples;
+        }
+        record_count_ += statements.size() * samples;
     }
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         scene_.looks[l]->index = uint32_t(l);
@@ -150,6 +161,14 @@ void Shading::bind_lights() {
 
 // ---- in the frame
 // --------------------------------------------------------------------------------
+
+// What every grid with lights needs for them.
+void Shading::want_lights(Grid& grid) const {
+    want_triple(grid, kColP);
+    want_triple(grid, kColN);
+    constexpr uint16_t kRandom[] = {kColRng};
+    if (lights_need_rng_) want_columns(grid, kRandom);
+}
 
 void Shading::run_lights(Grid& grid) {
     size_t count = grid.count();
@@ -171,6 +190,9 @@ void Shading::run_lights(Grid& grid) {
         at.Ng[k] = Ng;
     }
     at.rng = grid.columns[kColRng];
+    std::span<uint32_t> surface = grid.arena->allocate_span<uint32_t>(count);
+    for (size_t i = 0; i < count; ++i) surface[i] = grid.hits.instance[grid.points[i]];
+    at.surface = surface.data();
     grid.record_sets[0] = make_records(grid, at);
 }
 
@@ -181,6 +203,10 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
     std::span<jit::Record> records = arena.allocate_span<jit::Record>(record_count_);
     jit::Record* next = records.data();
     for (size_t l = 0; l < scene_.lights.size(); ++l) {
+        if (area_lights_[l]) {
+            next = area_records(grid, at, l, next, zeros);
+            continue;
+        }
         const Look& look = *scene_.looks[scene_.lights[l].look];
         const jit::Kernel& kernel = look.full.kernel();
         std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
@@ -211,7 +237,7 @@ static const float* ones_column(Arena& arena, size_t count) {
 
 jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statement& statement,
                                  const LightBinding& binding, std::span<float* const> out,
-                                 const float* zeros) {
+                                 const float* zeros, const LightSamples* samples) {
     std::span<const float*> columns =
         grid.arena->allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), zeros);
@@ -235,7 +261,7 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
         }
         if (statement.casts_shadow && grid.shadows && Cl[0] && Cl[1] && Cl[2])
             shadow(grid, at, statement.kind == rsl::kLightSolar, L,
-                   statement.lit < 0 ? nullptr : out[size_t(statement.lit)], Cl);
+                   statement.lit < 0 ? nullptr : out[size_t(statement.lit)], Cl, samples);
     }
     float* uniforms =
         grid.arena->allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
@@ -251,7 +277,7 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
 }
 
 void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const float* const L[3],
-                     const float* lit, float* const Cl[3]) {
+                     const float* lit, float* const Cl[3], const LightSamples* samples) {
     Thread& own = thread(grid.thread);
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     raytrace::RayPacket16 packet;
@@ -289,6 +315,15 @@ void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const 
         if (Ng == vec3(0)) Ng = glm::normalize(to_light);
         vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light);
         vec3 dir = solar ? to_light : P + to_light - org;
+        if (samples && !solar) {  // the ray ends before the surface that shines
+            const raytrace::HitBatch& ends = samples->hits;
+            vec3 end = triple(ends.P, i);
+            // Origin, direction and the distance of a hit all round: 16 steps of the largest.
+            vec3 size = glm::max(glm::abs(end), glm::abs(P));
+            vec3 error = vec3(std::max(size.x, std::max(size.y, size.z)) * 16 * 0x1p-24f) +
+                         triple(ends.P_error, i);
+            dir += raytrace::offset_ray_origin(end, error, triple(ends.Ng, i), -to_light) - end;
+        }
         packet.org_x[filled] = org.x;
         packet.org_y[filled] = org.y;
         packet.org_z[filled] = org.z;
@@ -316,6 +351,10 @@ void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const 
         for (size_t k = 0; k < 3; ++k) Cl[k][points[r]] *= through[r][int(k)];
 }
 
+static uint32_t bits(float x) {
+    return uint32_t(jit::bits_of(x));
+}
+
 int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
     // A part of the grid: one lane group at its own points. Records of a group that is done are
     // let go, or a marching loop would keep them all.
@@ -329,7 +368,7 @@ int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
     at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
     at.first = size_t(call.first);
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
-    float* rows[12];
+    float* rows[13];
     for (float*& row : rows) row = arena.allocate_span<float>(jit::kMaxLanes).data();
     for (size_t i = 0; i < jit::kMaxLanes; ++i) {
         vec3 P(call.args[i], call.args[jit::kMaxLanes + i], call.args[2 * jit::kMaxLanes + i]);
@@ -343,7 +382,15 @@ int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
             rows[6 + k][i] = error[k];
             rows[9 + k][i] = 0;
         }
+        // Each step of a march has numbers of its own.
+        uint32_t h = grid.points[std::min(size_t(call.first) + i, grid.count() - 1)];
+        rows[12][i] = jit::float_of(int32_t(raytrace::hash(
+            random_of(grid.hits, h), raytrace::hash(bits(P.x), bits(P.y), bits(P.z)))));
     }
+    at.rng = rows[12];
+    std::span<uint32_t> surface = arena.allocate_span<uint32_t>(jit::kMaxLanes);
+    std::fill(surface.begin(), surface.end(), kNone);
+    at.surface = surface.data();
     for (size_t k = 0; k < 3; ++k) {
         at.P[k] = rows[k];
         at.accel[k] = rows[3 + k];

@@ -260,6 +260,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
             for (const rsl::ShaderParameter& p : use.shader->parameters)
                 if (p.output && !p.type.is_array()) lower.aovs.emplace_back(p.name);
     }
+    lower.area_light = look.area_light;
     jit::CompileOptions compile;
     compile.target = options.target;
     compile.dumps = options.dumps;

@@ -101,6 +101,7 @@ struct Look {
     bool hide_backfaces = false;
     uint32_t volume = 0;    // an interior's or exterior's number: runtime/medium.h
     bool exterior = false;  // that volume surrounds its object
+    bool area_light = false;
     std::vector<int> aovs;  // of each plane of the film: the full kernel's output, -1 if none
 
     bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }

@@ -120,6 +120,7 @@ struct LightSource {
     uint32_t definition = kNone;
     uint32_t node = kNone;
     uint32_t look = kNone;
+    uint32_t surface = kNone;  // whose triangles shine; kNone: no area light
 };
 
 struct CameraSource {
@@ -138,6 +139,7 @@ struct SceneOptions {
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
     raytrace::AccelPolicy accel;
+    uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
     // Range played, seconds: frames the default camera, and its views tell how fine to dice.
     double start_time = 0, end_time = 0;

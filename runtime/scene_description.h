@@ -137,6 +137,9 @@ struct MaterialDefinition {
     std::vector<ShaderUse> displacements;       // bottom first
     std::vector<ShaderUse> surfaces;            // bottom first
     std::vector<ShaderUse> interior, exterior;  // volumes, each on what the one before it left
+    std::vector<ShaderUse> lights;              // make the geometry an area light
+    uint32_t light_samples = 0;                 // 0: SceneOptions::light_samples
+    std::optional<bool> light_shadows;
     bool hide_backfaces = false;
 };
 
@@ -145,6 +148,7 @@ struct LightDefinition {
     ShaderUse shader;
     std::optional<bool> shadows;  // profile RSL's <shadows>; nothing: automatic
     bool ambient = false;
+    uint32_t samples = 0;  // of a light on geometry; 0: not said
     Location where;
 };
 
@@ -198,8 +202,10 @@ void for_each_shader_use(Description& description, F&& f) {
         };
         (one(lists), ...);
     };
-    for (auto& m : description.materials)
+    for (auto& m : description.materials) {
         all(m.transformations, m.displacements, m.surfaces, m.interior, m.exterior);
+        all(m.lights);
+    }
     for (auto& light : description.lights) f(light.shader);
     all(description.picture.atmosphere, description.picture.imagers);
     for (auto& camera : description.cameras) all(camera.picture.atmosphere, camera.picture.imagers);

@@ -18,6 +18,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
 }
 
 Shading::Shading(Scene& scene) : scene_(scene) {
+    bind_area_lights();
     bind_lights();
 }
 Shading::~Shading() = default;
@@ -42,6 +43,7 @@ void Shading::begin_frame(double time, double shutter, uint32_t seed) {
         any_transparent_ |= look->kind == LookKind::Surface && look->opacity.has_value();
         has_exteriors_ |= look->exterior;
     }
+    update_area_lights();
     const raytrace::Camera& view = scene_.view;
     dmat3 axes(view.right, view.up, view.forward);
     camera_from_accel_ = mat3(glm::transpose(axes));
@@ -164,10 +166,7 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
     Grid grid(scene_, hits, points, &look);
     prepare_grid(grid, thread_id);
     want_columns(grid, look.full.columns);
-    if (look.lowered.uses_lights) {
-        want_triple(grid, kColP);
-        want_triple(grid, kColN);
-    }
+    if (look.lowered.uses_lights) want_lights(grid);
     gather(grid);
     if (look.lowered.uses_lights) run_lights(grid);
     std::span<float*> out = run_for_colors(look.full, grid);
@@ -207,10 +206,7 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
             prepare_grid(grid, thread_id);
             grid.shadows = false;
             want_columns(grid, look.opacity->columns);
-            if (look.lowered.uses_lights) {
-                want_triple(grid, kColP);
-                want_triple(grid, kColN);
-            }
+            if (look.lowered.uses_lights) want_lights(grid);
             gather(grid);
             if (look.lowered.uses_lights) run_lights(grid);
             std::span<float*> out = run_for_colors(*look.opacity, grid);

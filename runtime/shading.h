@@ -75,6 +75,7 @@ class Shading : public raytrace::SurfaceShading {
     };
 
   private:
+    struct LightPoints;  // where light is wanted
     void shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
                     const Look& look, int thread, raytrace::ShadeResult& result);
     void prepare_grid(Grid& grid, int thread);
@@ -93,16 +94,25 @@ class Shading : public raytrace::SurfaceShading {
     void apply_volumes(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result);
     void pass_volumes(const raytrace::HitBatch& hits, int thread, vec3* Oi);
     void image_pixels(raytrace::Film& film, size_t first, size_t count);
+    // area_light.cpp
+    struct AreaLight;
+    struct LightSamples;
+    void bind_area_lights();
+    void update_area_lights();
+    void choose_samples(const Grid& grid, const LightPoints& at, const AreaLight& light,
+                        uint32_t sample, LightSamples& samples) const;
+    jit::Record* area_records(Grid& grid, const LightPoints& at, size_t light, jit::Record* next,
+                              const float* zeros);
+    void want_lights(Grid& grid) const;
     // light_records.cpp
-    struct LightPoints;  // where light is wanted
     void bind_lights();
     void run_lights(Grid& grid);
     jit::Record make_record(Grid& grid, const LightPoints& at, const Statement& statement,
                             const LightBinding& binding, std::span<float* const> out,
-                            const float* zeros);
+                            const float* zeros, const LightSamples* samples = nullptr);
     jit::RecordSet make_records(Grid& grid, const LightPoints& at);
     void shadow(const Grid& grid, const LightPoints& at, bool solar, const float* const L[3],
-                const float* lit, float* const Cl[3]);
+                const float* lit, float* const Cl[3], const LightSamples* samples);
     // transmission.cpp
     void pass_transparent(int thread, raytrace::RayBatch& rays, vec3* through);
     void pass_ends(int thread, const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
@@ -117,8 +127,10 @@ class Shading : public raytrace::SurfaceShading {
     bool has_exteriors_ = false;
     float miss_distance_ = 0;
     size_t record_count_ = 0;
-    std::vector<std::vector<Statement>> statements_;   // [light]
-    std::vector<std::vector<LightBinding>> bindings_;  // [look][light]
+    std::vector<std::vector<Statement>> statements_;       // [light]
+    std::vector<std::vector<LightBinding>> bindings_;      // [look][light]
+    std::vector<std::unique_ptr<AreaLight>> area_lights_;  // [light], null where it is none
+    bool lights_need_rng_ = false;
     mat3 camera_from_accel_{1.0f};
     vec3 eye_{0.0f};
     friend void gather(Grid&);

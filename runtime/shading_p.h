@@ -2,6 +2,7 @@
 // transmission.cpp and services.cpp only.
 #pragma once
 
+#include "raytrace/sampling.h"
 #include "runtime/scene.h"
 #include "runtime/shading.h"
 
@@ -52,7 +53,24 @@ struct Shading::LightPoints {
     const float* error[3];
     const float* Ng[3];  // accel space
     const float* rng = nullptr;
+    const uint32_t* surface = nullptr;  // the surface that is lit, kNone: none
     size_t first = 0;  // grid point of element 0: what record columns are relative to
+};
+
+// A light on geometry: its triangles by area.
+struct Shading::AreaLight {
+    uint32_t surface = kNone;
+    uint32_t samples = 1;
+    std::vector<float> below;  // area of the triangles up to each, summed
+    bool known = false;
+};
+
+// One sample of an area light for each of a number of lit points.
+struct Shading::LightSamples {
+    raytrace::HitBatch hits;
+    std::span<uint32_t> instance, primitive;
+    float *u, *v;
+    raytrace::Accel::SurfacePoints place;
 };
 
 inline vec3 triple(const float* const columns[3], size_t i) {
@@ -62,6 +80,12 @@ inline void set_triple(float* const columns[3], size_t i, vec3 value) {
     columns[0][i] = value.x;
     columns[1][i] = value.y;
     columns[2][i] = value.z;
+}
+
+// A hit's random number (DESIGN.md decision 10).
+inline uint32_t random_of(const raytrace::HitBatch& hits, size_t h) {
+    uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]);
+    return raytrace::hash(pixel, hits.sample[h], hits.layer[h] + 64 * hits.depth);
 }
 
 // The way of a hit's ray since its last surface, or since it began; accel space.

@@ -116,10 +116,7 @@ void Shading::shade_volume(const raytrace::HitBatch& hits, std::span<const uint3
     prepare_grid(grid, thread_id);
     grid.shadows = shadows;
     want_columns(grid, bound.columns);
-    if (look.lowered.uses_lights) {
-        want_triple(grid, kColP);
-        want_triple(grid, kColN);
-    }
+    if (look.lowered.uses_lights) want_lights(grid);
     gather(grid);
     auto load = [&](uint16_t column, float* const from[3]) {
         for (size_t k = 0; k < 3; ++k)

@@ -123,6 +123,7 @@ SceneOptions Render::scene_options() const {
     o.accel.robust = options_.quality.robust;
     o.accel.always_rebuild = options_.quality.always_rebuild;
     o.accel.background = false;  // a frame depends on its time alone
+    o.light_samples = options_.light_samples;
     o.aovs = options_.aovs;
     o.want_dumps = !options_.dump.empty();
     o.displacement = options_.quality.displacement;
@@ -202,7 +203,8 @@ std::string Render::fingerprint(double time) const {
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
-    text += fmt::format(" imager {} aovs {}", o.imager, fmt::join(o.aovs, ","));
+    text += fmt::format(" imager {} aovs {} light samples {}", o.imager, fmt::join(o.aovs, ","),
+                        o.light_samples);
     for (const auto& [material, file] : o.shaders) text += fmt::format(" {}={}", material, file);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }

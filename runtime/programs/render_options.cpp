@@ -148,6 +148,8 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
             {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}}));
     std::vector<std::string> shaders;
     app.add_option("--shader", shaders, "MATERIAL=FILE.sl: try a shader; MATERIAL may be a glob");
+    app.add_option("--light-samples", o.light_samples, "of each area light (the file's, else 16)")
+        ->check(CLI::Range(1, 4096));
     app.add_option("--imager", o.imager, "a standard imager's name, FILE.sl or none");
     app.add_option("--aov", o.aovs, "output parameters of surfaces: channels of the EXR")
         ->delimiter(',');

@@ -39,6 +39,7 @@ struct RenderOptions {
     ColorEncoding color = ColorEncoding::Srgb;
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
     std::string imager;             // a standard one's name, a file, "none"; "": the scene's own
+    uint32_t light_samples = 0;     // of area lights; 0: the file's
     std::vector<std::string> aovs;  // output parameters of surfaces
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
