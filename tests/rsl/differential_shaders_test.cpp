@@ -123,18 +123,18 @@ std::vector<std::filesystem::path> shader_files() {
     std::vector<std::filesystem::path> files;
     std::filesystem::path root = KINORA_SOURCE_DIR;
     // Volumes and imagers change what is there already, which these runs do not give them.
-    for (auto& entry : std::filesystem::directory_iterator(root / "assets/shaders")) {
-        if (entry.path().extension() != ".sl") continue;
-        std::string text = read_file(entry.path());
+    auto add = [&](const std::filesystem::path& path) {
+        if (path.extension() != ".sl") return;
+        std::string text = "\n" + read_file(path);
         if (text.find("\nvolume ") == text.npos && text.find("\nimager ") == text.npos)
-            files.push_back(entry.path());
-    }
+            files.push_back(path);
+    };
+    for (auto& entry : std::filesystem::directory_iterator(root / "assets/shaders"))
+        add(entry.path());
     for (auto& entry : std::filesystem::directory_iterator(root / "tests/rsl/files"))
-        if (entry.path().filename().string().rfind("good", 0) == 0 &&
-            entry.path().extension() == ".sl")
-            files.push_back(entry.path());
+        if (entry.path().filename().string().rfind("good", 0) == 0) add(entry.path());
     for (auto& entry : std::filesystem::directory_iterator(root / "tests/rsl/constructs"))
-        if (entry.path().extension() == ".sl") files.push_back(entry.path());
+        add(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
