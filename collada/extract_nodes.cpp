@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "collada/extract_p.h"
+#include "collada/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -34,6 +35,10 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
     node.parent = parent;
     node.document = link.doc;
     node.where = x.where(link);
+    if (const Element* technique = extra_technique(e, "RSL"))
+        for (const Element& item : technique->children())
+            if (item.name == "attribute")
+                node.attributes.emplace_back(item.value("name"), trim(item.text));
     for (const Element& child : e.children()) {
         Link part{link.doc, &child};
         if (is_transform(child.name)) {

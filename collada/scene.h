@@ -107,6 +107,9 @@ struct Node {
     uint32_t parent = kNone;  // the node it is written in
     uint32_t document = 0;    // index into SceneData::documents
     Location where;
+    // <extra><technique profile="RSL"><attribute name="user:x">text</attribute>: what shaders ask
+    // the geometry for.
+    std::vector<std::pair<std::string, std::string>> attributes;
 };
 
 // --- animation -----------------------------------------------------------------------------------

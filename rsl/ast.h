@@ -318,11 +318,18 @@ struct SolarStmt : Stmt {
     Expr* angle = nullptr;
     Stmt* body = nullptr;
 };
-// gather(category, position, direction, angle, samples, pairs...) body [else missed]. Parsed; the
-// checker reports it as not supported yet.
+// gather(category, position, direction, angle, samples, "name", value ...) body [else missed]: the
+// body once for each ray that hits something, `missed` once for each that does not. Pairs whose
+// names are results (rsl/pairs.h) are variables that are set before.
 struct GatherStmt : Stmt {
     static constexpr StmtKind kKind = StmtKind::Gather;
-    std::span<Expr*> args;
+    std::span<Expr*> args;      // as written, checked: the five and the pairs
+    Expr* category = nullptr;   // String
+    Expr* position = nullptr;   // Point
+    Expr* direction = nullptr;  // Vector
+    Expr* angle = nullptr;      // Float, from the direction to the cone's side
+    Expr* samples = nullptr;    // Float
+    std::span<Expr*> pairs;
     Stmt* body = nullptr;
     Stmt* missed = nullptr;
 };

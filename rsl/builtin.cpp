@@ -61,8 +61,8 @@ std::vector<Signature> parse_signatures(std::string_view text) {
 
 const std::vector<std::span<const Builtin>>& builtin_groups() {
     static const std::vector<std::span<const Builtin>> groups = {
-        builtins_math(),   builtins_geometric(), builtins_color(),
-        builtins_noise(),  builtins_light(),     builtins_texture(),
+        builtins_math(),   builtins_geometric(), builtins_color(),  builtins_noise(),
+        builtins_light(),  builtins_rays(),      builtins_points(), builtins_texture(),
         builtins_matrix(), builtins_string(),    builtins_message()};
     return groups;
 }
@@ -95,7 +95,7 @@ struct ForeignRow {
 };
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
-    {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture raydepth raylabel "
+    {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture "
      "rayhittest irradiance stof sprintf strlen ",
      "other renderers"},
     {" getvar getshader getshaders getlights arraylength resize reserve push pop capacity "

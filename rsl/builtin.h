@@ -37,6 +37,7 @@ enum Effects : uint32_t {
     kMessage = 1 << 6,        // reads another shader or the renderer's state
     kShadows = 1 << 7,        // its presence in a light switches automatic shadows off (decision 5)
     kUniformOnly = 1 << 8,    // all inputs must be uniform
+    kChannelPairs = 1 << 9,   // pairs name channels and the variables they are put in (rsl/pairs.h)
 };
 
 // Shader kinds that may call the function.
@@ -96,6 +97,8 @@ std::span<const Builtin> builtins_geometric();
 std::span<const Builtin> builtins_color();
 std::span<const Builtin> builtins_noise();
 std::span<const Builtin> builtins_light();
+std::span<const Builtin> builtins_rays();
+std::span<const Builtin> builtins_points();
 std::span<const Builtin> builtins_texture();
 std::span<const Builtin> builtins_matrix();
 std::span<const Builtin> builtins_string();

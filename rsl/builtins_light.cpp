@@ -1,4 +1,4 @@
-// rsl/builtins_light.cpp: rows of the built-in table: lights, ray tracing and illumination.
+// rsl/builtins_light.cpp: rows of the built-in table: lights and illumination.
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
@@ -102,36 +102,6 @@ void specularbrdf(LowerCall& c) {
     c.set(V3{term, term, term});
 }
 
-// In an opacity kernel nothing is traced (DESIGN.md decision 6).
-bool traces(LowerCall& c) {
-    return c.low.options.want_Ci;
-}
-
-void trace(LowerCall& c) {
-    if (!traces(c)) return;
-    V3 P = c.v3(0), R = c.v3(1);
-    std::vector<Value> hit = c.low.service("trace", std::array{P[0], P[1], P[2], R[0], R[1], R[2]});
-    if (c.result_type() == BaseType::Float)
-        c.set(hit[3]);
-    else
-        c.set(V3{hit[0], hit[1], hit[2]});
-}
-
-V3 let_through(LowerCall& c) {
-    if (!traces(c)) return c.low.f3(1);
-    V3 from = c.v3(0), to = c.v3(1);
-    std::vector<Value> share_of_light =
-        c.low.service("transmission", std::array{from[0], from[1], from[2], to[0], to[1], to[2]});
-    return {share_of_light[0], share_of_light[1], share_of_light[2]};
-}
-void transmission(LowerCall& c) {
-    c.set(let_through(c));
-}
-void visibility(LowerCall& c) {
-    V3 t = let_through(c);
-    c.set(c.low.flag(c.b.lt(c.b.f(0), c.b.max(c.b.max(t[0], t[1]), t[2]))));
-}
-
 }  // namespace lower_light
 
 namespace {
@@ -149,63 +119,6 @@ const Builtin kRows[] = {
      "Phong reflection of all lights: phong(N, V, size).", kSurface, "P"},
     {"specularbrdf", "c=vnvf", lower::specularbrdf, KINORA_RSL_REF(ref::specularbrdf), kPure, 16,
      "The term of specular() for one light: specularbrdf(L, N, V, roughness)."},
-    {"trace", "c=pv~ f=pv~", lower::trace, KINORA_RSL_REF(ref::trace),
-     kService | kTraces | kVaryingResult, 0,
-     "Color seen from a point in a direction, or the distance of what is hit.", kSurface | kVolume},
-    {"transmission", "c=pp~", lower::transmission, KINORA_RSL_REF(ref::transmission),
-     kService | kTraces | kShadows | kVaryingResult, 0, "Light let through between two points.",
-     kSurface | kLight},
-    {"visibility", "f=pp~", lower::visibility, KINORA_RSL_REF(ref::visibility),
-     kService | kTraces | kShadows | kVaryingResult, 0, "1 if two points see each other, else 0.",
-     kSurface | kLight},
-    {"occlusion",
-     "f=pnf~ f=spnf~",
-     nullptr,
-     {},
-     kService | kTraces | kVaryingResult,
-     0,
-     "Share of the hemisphere that is blocked.",
-     kSurface | kLight},
-    {"indirectdiffuse",
-     "c=pnf~",
-     nullptr,
-     {},
-     kService | kTraces | kVaryingResult,
-     0,
-     "Diffuse light from other surfaces.",
-     kSurface | kLight},
-    {"photonmap",
-     "c=sp~ c=spn~",
-     nullptr,
-     {},
-     kService | kVaryingResult,
-     0,
-     "Density in a photon map file.",
-     kSurface | kLight},
-    {"caustic",
-     "c=pn~ c=spn~",
-     nullptr,
-     {},
-     kService | kVaryingResult,
-     0,
-     "Density of caustic photons.",
-     kSurface | kLight},
-    {"subsurface",
-     "c=p~ c=pn~",
-     nullptr,
-     {},
-     kService | kVaryingResult,
-     0,
-     "Light scattered below the surface.",
-     kSurface | kLight},
-    {"areashadow",
-     "f=spppp~ c=spppp~",
-     nullptr,
-     {},
-     kService | kShadows | kVaryingResult,
-     0,
-     "Soft shadow from a map.",
-     kSurface | kLight},
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 // rsl/builtins_message.cpp: rows of the built-in table: messages between shaders and questions to
 // the renderer.
+#include <algorithm>
+
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
@@ -8,62 +10,137 @@ namespace kinora::rsl {
 
 namespace lower_message {
 
-bool is_array(const LowerCall& c) {
-    return c.call.args[1]->type.is_array();
+// The variable that the answer goes to, as elements: one unless it is an array.
+struct Variable {
+    LowerCall& c;
+    const Expr& expr;
+    Type type;
+    std::vector<Lowered> before;
+
+    explicit Variable(LowerCall& call) : c(call), expr(*call.call.args[1]), type(expr.type) {
+        before = type.is_array() ? c.low.array_values(expr) : std::vector<Lowered>{c.args[1]};
+    }
+    void store(std::span<const Lowered> values) {
+        if (type.is_array())
+            c.low.set_array(expr, values);
+        else
+            c.set_output(1, values[0]);
+    }
+};
+
+// A triple fits any triple; all else must be the same.
+bool same_kind(Type asked, Type given) {
+    bool bases = asked.base == given.base || (is_triple(asked.base) && is_triple(given.base));
+    int asked_length = std::max(asked.array_length, -1);
+    return bases && asked_length == given.array_length;
 }
 
-// What a layer of the kind left in its parameter: the layers below this one are done.
-template <ShaderKind from>
+char type_letter(BaseType type) {
+    return "fcpvnms"[int(type)];
+}
+
+// Asks the renderer; the variable keeps its value where there is no answer.
+void ask(LowerCall& c, QueryKind kind, bool of_point) {
+    Variable variable(c);
+    auto& b = c.b;
+    if (of_point) c.low.out.uses_rng = true;
+    Value anchor = of_point ? c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point) : b.i(0);
+    bool array = variable.type.is_array();
+    int length = int(variable.before.size());
+    bool text = variable.type.base == BaseType::String;
+    std::vector<Lowered> values = variable.before;
+    Value known = b.m(true);
+    for (int k = 0; k < length; ++k) {
+        std::vector<Value> answer =
+            c.low.service("query", std::array{b.i(int32_t(kind)), c.args[0].c[0],
+                                              b.i(type_letter(variable.type.base)),
+                                              b.i(array ? k : -1), b.i(length), anchor});
+        Value here = b.logical_not(b.op(jit::Op::IEq, answer[0], b.i(0)));
+        known = b.logical_and(known, here);
+        for (size_t i = 0; i < size_t(values[size_t(k)].size()); ++i) {
+            Value number = text ? b.bits(answer[1 + i]) : answer[1 + i];
+            values[size_t(k)].c[i] = b.select(known, number, values[size_t(k)].c[i]);
+        }
+    }
+    variable.store(values);
+    c.set(c.low.flag(known));
+}
+
+template <QueryKind kind>
+void query(LowerCall& c) {
+    ask(c, kind, kind != QueryKind::Option && kind != QueryKind::RendererInfo);
+}
+
+// What a layer below left in its parameter; else a parameter's value as the renderer bound it: of
+// layers above, or of the surface that a light or volume works for.
+template <ShaderKind from, QueryKind kind>
 void of_layer(LowerCall& c) {
-    const std::string* name = c.text(0);
-    if (!name || is_array(c)) return;
+    const std::string* name = c.low.constant_text(c.args[0].c[0]);
     auto& messages = c.low.messages;
-    for (auto m = messages.rbegin(); m != messages.rend(); ++m) {
+    for (auto m = messages.rbegin(); name && m != messages.rend(); ++m) {
         if (m->from != from || m->name != *name) continue;
-        if (m->value.size() != c.args[1].size()) return;
-        c.set_output(1, m->value);
+        Variable variable(c);
+        if (!same_kind(variable.type, m->type)) return;
+        variable.store(c.low.message_values(*m));
         return c.set(c.b.f(1));
     }
+    ask(c, kind, true);
 }
 
-// A parameter of the light that the illuminance loop is at. __nondiffuse and __nonspecular are
-// uniforms of every record.
+// A parameter of the light that the illuminance loop is at.
 void lightsource(LowerCall& c) {
     const std::string* name = c.text(0);
-    auto& e = c.low;
-    if (!name || is_array(c) || e.current_record == jit::kNone) return;
-    Value set = e.current_set, record = e.current_record;
-    const Lowered& before = c.args[1];
-    if (before.type == BaseType::Float && (*name == "__nondiffuse" || *name == "__nonspecular")) {
-        int field = *name == "__nondiffuse" ? kLightNondiffuse : kLightNonspecular;
-        c.set_output(1,
-                     lowered(BaseType::Float, e.record_uniform(set, record, field, jit::Type::F)));
-        return c.set(c.b.f(1));
-    }
-    int message;
-    int column = e.message_column(*name, before.type, &message);
-    Value has = e.record_uniform(set, record, kLightUniforms + message, jit::Type::I);
-    Value known = c.b.logical_not(c.b.op(jit::Op::IEq, has, c.b.i(0)));
-    jit::Type type = before.type == BaseType::String ? jit::Type::I : jit::Type::F;
-    Lowered value = before;
-    for (int k = 0; k < value.size(); ++k)
-        value.c[size_t(k)] =
-            c.b.select(known, e.record_field(set, record, column + k, type), before.c[size_t(k)]);
-    c.set_output(1, value);
-    c.set(e.flag(known));
+    if (!name || c.low.current_record == jit::kNone) return;
+    Variable variable(c);
+    Value known;
+    std::vector<Lowered> values =
+        c.low.light_message(*name, variable.type, variable.before, &known);
+    variable.store(values);
+    c.set(c.low.flag(known));
 }
 
-// Not known to this renderer: 0, and the variable keeps its value.
-void unknown(LowerCall&) {}
-
-// Name of this shader; a kind other than its own names none.
+// Name of this shader, or of the one of a kind that works on the same point; "" if there is none.
 void shadername(LowerCall& c) {
-    const Shader& shader = *c.low.layer->shader;
-    if (c.args.size() == 1) {
-        const std::string* kind = c.text(0);
-        if (!kind || *kind != shader_kind_name(shader.kind)) return;
-    }
-    c.set(c.b.i(intern(shader.name)));
+    if (c.args.empty()) return c.set(c.b.i(intern(c.low.layer->shader->name)));
+    const std::string* kind = c.text(0);
+    if (!kind) return;
+    for (auto layer = c.low.layers.rbegin(); layer != c.low.layers.rend(); ++layer)
+        if (*kind == shader_kind_name(layer->shader->kind))
+            return c.set(c.b.i(intern(layer->shader->name)));
+    c.low.out.uses_rng = true;
+    Value anchor = c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point);
+    std::vector<Value> answer =
+        c.low.service("query", std::array{c.b.i(int32_t(QueryKind::ShaderName)), c.args[0].c[0],
+                                          c.b.i('s'), c.b.i(-1), c.b.i(1), anchor});
+    Value known = c.b.logical_not(c.b.op(jit::Op::IEq, answer[0], c.b.i(0)));
+    c.set(c.b.select(known, c.b.bits(answer[1]), c.b.i(0)));
+}
+
+// rayinfo's facts as functions of their own.
+void ray_fact(LowerCall& c, const char* name) {
+    auto& b = c.b;
+    c.low.out.uses_rng = true;
+    std::vector<Value> answer = c.low.service(
+        "query", std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern(name)),
+                            b.i(type_letter(c.result_type())), b.i(-1), b.i(1),
+                            c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point)});
+    if (c.result_type() == BaseType::String) return c.set(b.bits(answer[1]));
+    for (size_t k = 0; k < size_t(c.result.size()); ++k) c.result.c[k] = answer[1 + k];
+}
+void raydepth(LowerCall& c) {
+    ray_fact(c, "depth");
+}
+void raylabel(LowerCall& c) {
+    ray_fact(c, "label");
+}
+void rayorigin(LowerCall& c) {
+    ray_fact(c, "origin");
+}
+void raydirection(LowerCall& c) {
+    ray_fact(c, "direction");
+}
+void raylength(LowerCall& c) {
+    ray_fact(c, "length");
 }
 
 }  // namespace lower_message
@@ -72,86 +149,52 @@ namespace {
 
 namespace lower = lower_message;
 
+// A name and a variable of any type, which is set where the function answers 1.
+constexpr const char* kAnyVariable =
+    "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] f=sM[] f=sS[]";
+
 const Builtin kRows[] = {
-    {"surface",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::of_layer<ShaderKind::Surface>,
-     {},
-     kMessage | kVaryingResult,
-     0,
+    {"surface", kAnyVariable, lower::of_layer<ShaderKind::Surface, QueryKind::Surface>,
+     KINORA_RSL_REF(ref::surface_message), kMessage | kVaryingResult, 0,
      "Value of a surface parameter: 1 if there is one."},
-    {"displacement",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::of_layer<ShaderKind::Displacement>,
-     {},
-     kMessage | kVaryingResult,
-     0,
+    {"displacement", kAnyVariable,
+     lower::of_layer<ShaderKind::Displacement, QueryKind::Displacement>,
+     KINORA_RSL_REF(ref::displacement_message), kMessage | kVaryingResult, 0,
      "Value of a displacement parameter: 1 if there is one."},
-    {"lightsource",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::lightsource, KINORA_RSL_REF(ref::lightsource), kMessage | kVaryingResult, 0,
-     "Value of a parameter of the light in an illuminance loop."},
-    {"atmosphere",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage | kVaryingResult,
-     0,
-     "Value of a volume parameter: 1 if there is one."},
-    {"incident",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage | kVaryingResult,
-     0,
-     "Value of a parameter of the volume in front."},
-    {"opposite",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage | kVaryingResult,
-     0,
-     "Value of a parameter of the volume behind."},
-    {"attribute",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage,
-     0,
-     "Value of an attribute of the geometry: 1 if known."},
-    {"option",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage,
-     0,
-     "Value of an option of the renderer: 1 if known."},
-    {"rendererinfo",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage,
-     0,
-     "A fact about the renderer: 1 if known."},
-    {"rayinfo",
-     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] "
-     "f=sM[] f=sS[]",
-     lower::unknown,
-     {},
-     kMessage | kVaryingResult,
-     0,
-     "A fact about the ray that sees the point: 1 if known."},
-    {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername), kMessage, 0,
-     "Name of this shader, or of the one of a kind."},
+    {"lightsource", kAnyVariable, lower::lightsource, KINORA_RSL_REF(ref::lightsource),
+     kMessage | kVaryingResult, 0,
+     "Value of a parameter of the light in an illuminance loop: 1 if it has one."},
+    {"atmosphere", kAnyVariable, lower::query<QueryKind::Atmosphere>,
+     KINORA_RSL_REF(ref::atmosphere), kMessage | kVaryingResult, 0,
+     "Value of a parameter of the scene's atmosphere: 1 if there is one."},
+    {"incident", kAnyVariable, lower::query<QueryKind::Incident>, KINORA_RSL_REF(ref::incident),
+     kMessage | kVaryingResult, 0,
+     "Value of a parameter of the volume that the ray comes through: 1 if there is one."},
+    {"opposite", kAnyVariable, lower::query<QueryKind::Opposite>, KINORA_RSL_REF(ref::opposite),
+     kMessage | kVaryingResult, 0,
+     "Value of a parameter of the volume on the surface's other side: 1 if there is one."},
+    {"attribute", kAnyVariable, lower::query<QueryKind::Attribute>, KINORA_RSL_REF(ref::attribute),
+     kMessage | kVaryingResult, 0, "Value of an attribute of the geometry: 1 if known."},
+    {"option", kAnyVariable, lower::query<QueryKind::Option>, KINORA_RSL_REF(ref::option), kMessage,
+     0, "Value of an option of the renderer: 1 if known."},
+    {"rendererinfo", kAnyVariable, lower::query<QueryKind::RendererInfo>,
+     KINORA_RSL_REF(ref::rendererinfo), kMessage, 0, "A fact about the renderer: 1 if known."},
+    {"rayinfo", kAnyVariable, lower::query<QueryKind::RayInfo>, KINORA_RSL_REF(ref::rayinfo),
+     kMessage | kVaryingResult, 0,
+     "A fact about the ray that sees the point (depth type label origin direction length): 1 if "
+     "known."},
+    {"raydepth", "f=", lower::raydepth, KINORA_RSL_REF(ref::raydepth), kMessage | kVaryingResult, 0,
+     "How many rays lie between the eye and this point: 0 for what the camera sees."},
+    {"raylabel", "s=", lower::raylabel, KINORA_RSL_REF(ref::raylabel), kMessage | kVaryingResult, 0,
+     "The label that trace or gather gave the ray that sees the point."},
+    {"rayorigin", "p=", lower::rayorigin, KINORA_RSL_REF(ref::rayorigin), kMessage | kVaryingResult,
+     0, "Where the ray that sees the point began."},
+    {"raydirection", "v=", lower::raydirection, KINORA_RSL_REF(ref::raydirection),
+     kMessage | kVaryingResult, 0, "Its direction, of length 1."},
+    {"raylength", "f=", lower::raylength, KINORA_RSL_REF(ref::raylength), kMessage | kVaryingResult,
+     0, "The distance it went."},
+    {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername),
+     kMessage | kVaryingResult, 0, "Name of this shader, or of the one of a kind."},
 };
 
 }  // namespace

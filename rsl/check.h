@@ -92,6 +92,8 @@ class Checker {
     void loop_body(Stmt& loop, Stmt& body);
     Stmt* jump_target(const Stmt& jump, const char* word, int levels);
     bool sort_illuminance(IlluminanceStmt& s, size_t next);
+    void output_pairs(std::span<Expr*> pairs, const char* statement_name,
+                      bool (*is_output)(std::string_view name));
     void cone(Expr*& axis, Expr*& angle, const char* statement_name);
     Expr* assumed_angle(const Stmt& s, const char* statement_name, double angle, const char* text);
 

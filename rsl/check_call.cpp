@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rsl/check.h"
+#include "rsl/pairs.h"
 #include "rsl/standard_headers.h"
 
 namespace kinora::rsl {
@@ -211,6 +212,11 @@ void Checker::bind_builtin(CallExpr& e, const Overload& overload) {
     for (size_t i = 0; i < e.args.size(); ++i) {
         if (i >= e.pairs) {
             bind_argument(e, i, {BaseType::Invalid, -1}, false);
+            if (!is_output_pair(e, i) || e.args[i]->type.base == BaseType::Invalid) continue;
+            if (Symbol* symbol = lvalue_symbol(*e.args[i]); symbol && !e.args[i]->type.is_array())
+                mark_assigned(*symbol, e.args[i]->place);
+            else
+                report(Code::RSL_OUTPUT_ARGUMENT, e.args[i]->place, i + 1, e.name);
             continue;
         }
         const Signature::Argument& a = i < fixed ? s.arguments[i] : s.repeated;

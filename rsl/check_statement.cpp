@@ -1,5 +1,6 @@
 // rsl/check_statement.cpp: statements.
 #include "rsl/check.h"
+#include "rsl/pairs.h"
 
 namespace kinora::rsl {
 
@@ -138,6 +139,7 @@ void Checker::check(IlluminanceStmt& s) {
     bring_to(s.position, {BaseType::Point, -1}, "position of illuminance");
     if (s.axis) bring_to(s.axis, {BaseType::Vector, -1}, "axis of illuminance");
     if (s.angle) bring_to(s.angle, {BaseType::Float, -1}, "angle of illuminance");
+    output_pairs(s.pairs, "illuminance", is_light_output);
     Within<const char*> within(light_statement_, "illuminance");
     loop_body(s, *s.body);
 }
@@ -196,11 +198,41 @@ void Checker::check(SolarStmt& s) {
     statement(*s.body);
 }
 
+// gather(category, position, direction, angle, samples [, "name", value ...])
 void Checker::check(GatherStmt& s) {
-    report(Code::RSL_NOT_SUPPORTED, s.place, "gather");
-    for (Expr*& argument : s.args) value(argument, BaseType::Invalid);
+    constexpr BaseType kWanted[] = {BaseType::String, BaseType::Point, BaseType::Vector,
+                                    BaseType::Float, BaseType::Float};
+    for (size_t k = 0; k < s.args.size(); ++k)
+        value(s.args[k], k < 5 ? kWanted[k] : BaseType::Invalid);
+    bool named = s.args.size() >= 5 && s.args.size() % 2 == 1;
+    for (size_t k = 5; named && k < s.args.size(); k += 2)
+        named = s.args[k]->type == Type{BaseType::String, -1};
+    if (!named) {
+        report(Code::RSL_ARGUMENT_FORM, s.place, "gather",
+               "(category, position, direction, angle, samples [, \"name\", value ...])");
+        return;
+    }
+    Expr** wanted[] = {&s.category, &s.position, &s.direction, &s.angle, &s.samples};
+    for (size_t k = 0; k < 5; ++k) {
+        bring_to(s.args[k], {kWanted[k], -1}, fmt::format("argument {} of gather", k + 1));
+        *wanted[k] = s.args[k];
+    }
+    s.pairs = s.args.subspan(5);
+    output_pairs(s.pairs, "gather", is_gather_output);
     loop_body(s, *s.body);
-    if (s.missed) statement(*s.missed);
+    if (s.missed) loop_body(s, *s.missed);
+}
+
+// Results among "name", value pairs must be variables.
+void Checker::output_pairs(std::span<Expr*> pairs, const char* statement_name,
+                           bool (*is_output)(std::string_view name)) {
+    for (size_t k = 1; k < pairs.size(); k += 2) {
+        if (!is_output(pair_name(pairs, k)) || pairs[k]->type.base == BaseType::Invalid) continue;
+        if (Symbol* symbol = lvalue_symbol(*pairs[k]); symbol && !pairs[k]->type.is_array())
+            mark_assigned(*symbol, pairs[k]->place);
+        else
+            report(Code::RSL_OUTPUT_ARGUMENT, pairs[k]->place, k + 1, statement_name);
+    }
 }
 
 }  // namespace kinora::rsl

@@ -102,8 +102,12 @@ class Stack {
             for (const std::string& name : names) {
                 auto found = std::find_if(low_.messages.rbegin(), low_.messages.rend(),
                                           [&](auto& message) { return message.name == name; });
-                if (found != low_.messages.rend())
-                    output(prefix + name, found->value.type, found->value);
+                if (found == low_.messages.rend()) continue;
+                std::vector<Lowered> values = low_.message_values(*found);
+                for (size_t k = 0; k < values.size(); ++k)
+                    output(prefix + name +
+                               (found->type.is_array() ? "[" + std::to_string(k) + "]" : ""),
+                           values[k].type, values[k]);
             }
         };
         write("aov:", low_.options.aovs);
@@ -196,9 +200,25 @@ void Lowering::run_layer(const Layer& next) {
             write_slot(slot_of(*parameter.symbol), this->parameter(*parameter.symbol));
     }
     block(shader.definition->body->body);
-    for (const ShaderParameter& parameter : shader.parameters)
+    for (const ShaderParameter& parameter : shader.parameters) {
+        Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
+        bool last = layer == &layers.back() && options.messages.empty() && options.aovs.empty();
         if (!parameter.type.is_array())
-            messages.push_back({shader.kind, std::string(parameter.name), read(*parameter.symbol)});
+            message.value = read(*parameter.symbol);
+        else if (last)
+            continue;  // nobody is left to ask
+        else
+            message.array = array_of(*parameter.symbol);
+        messages.push_back(std::move(message));
+    }
+}
+
+std::vector<Lowered> Lowering::message_values(const Message& message) {
+    if (message.array < 0) return {message.value};
+    std::vector<Lowered> values;
+    for (int k = 0; k < message.type.array_length; ++k)
+        values.push_back(load_element(message.array, b.i(k)));
+    return values;
 }
 
 std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOptions& options,
@@ -210,6 +230,7 @@ std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOpt
     jit::add_function(result.module, "kernel", {});
     jit::Builder builder(result.module, 0);
     Lowering lowering(builder, options, diagnostics, result);
+    lowering.layers = layers;
     Stack(lowering, layers).run();
     if (lowering.failed) return std::nullopt;
     builder.finish();

@@ -69,6 +69,13 @@ struct LoweredShader {
     std::vector<std::string> categories;  // category strings of illuminance, for kLightCategories
     std::vector<std::string> light_messages;  // names read by lightsource(), columns in this order
     std::vector<int> light_message_components;
+    std::vector<Type> light_message_types;  // an array's elements follow one another
+    // What the gather statements want of each ray, by the number that service "gather" gets.
+    struct GatherResult {
+        std::string name;  // "surface:Ci"
+        BaseType type = BaseType::Float;
+    };
+    std::vector<std::vector<GatherResult>> gathers;
     bool uses_lights = false;  // reads record set 0
     bool uses_rng = false;
     // Displacements and transformations: whether P, N as they leave them can differ from the input.
@@ -82,6 +89,10 @@ struct LoweredShader {
 // at their place in the shader source; the result is then empty.
 std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOptions& options,
                                    Diagnostics& diagnostics);
+
+// Output parameters that gather statements of the shader read of what they hit ("surface:NAME"),
+// each once: those shaders must have them among LowerOptions::aovs. "N" stands for want_N.
+std::vector<std::string> gathered_parameters(const Shader& shader);
 
 // Splits which of a shader's parameters decide the kernel's shape: true where the parameter's value
 // reaches a condition, a loop bound, an array size or a string use, so that it must be Constant.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "rsl/pairs.h"
 #include "rsl/shader.h"
 
 namespace kinora::rsl {
@@ -54,7 +55,9 @@ void ChangeFinder::add(const Expr* expr) {
         add(*call->function);
     } else if (call->builtin) {
         changes.effects |= call->builtin->effects;
-        if (call->name == "random") changes.random = true;
+        if (call->name == "random" || (call->builtin->effects & kTraces)) changes.random = true;
+        for (size_t i = call->pairs + 1; i < call->args.size(); i += 2)
+            if (is_output_pair(*call, i)) written(call->args[i]);
         auto& arguments = call->signature->arguments;
         for (size_t i = 0; i < call->args.size() && i < arguments.size(); ++i)
             if (arguments[i].output) written(call->args[i]);
@@ -79,7 +82,19 @@ void ChangeFinder::add(const Stmt* stmt) {
         add_once(changes.continues, (const Stmt*)jump->loop);
     if (stmt->kind == StmtKind::Illuminate || stmt->kind == StmtKind::Solar)
         add_once(changes.light_sources, stmt);
-    if (stmt->kind == StmtKind::Illuminance) changes.effects |= kLights;
+    auto results = [&](std::span<Expr* const> pairs, bool (*is_output)(std::string_view)) {
+        for (size_t k = 1; k < pairs.size(); k += 2)
+            if (is_output(pair_name(pairs, k))) written(pairs[k]);
+    };
+    if (auto* lights = as_if<IlluminanceStmt>(stmt)) {
+        changes.effects |= kLights;
+        results(lights->pairs, is_light_output);
+    }
+    if (auto* gather = as_if<GatherStmt>(stmt)) {
+        changes.effects |= kService | kTraces;
+        changes.random = true;
+        results(gather->pairs, is_gather_output);
+    }
 }
 
 namespace {

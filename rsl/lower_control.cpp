@@ -40,7 +40,7 @@ void Lowering::statement(const Stmt& stmt) {
             return illuminate(stmt, nullptr, node.axis, node.angle, *node.body);
         }
         case StmtKind::Gather:
-            return error(Code::RSL_NOT_COMPILED, stmt.place.where, "gather");
+            return gather(as<GatherStmt>(stmt));
     }
 }
 

@@ -1,5 +1,6 @@
 // rsl/lower_expressions.cpp: expressions and calls as IR values.
 #include "rsl/lower_p.h"
+#include "rsl/pairs.h"
 
 namespace kinora::rsl {
 
@@ -238,13 +239,9 @@ Lowered Lowering::assign(const AssignExpr& e) {
 // ---- calls --------------------------------------------------------------------------------------
 
 Lowered Lowering::call_builtin(const CallExpr& e) {
-    LowerCall call{*this,
-                   b,
-                   e,
-                   {},
-                   {},
-                   {},
-                   zero(e.type.base == BaseType::Void ? BaseType::Float : e.type.base)};
+    LowerCall call{
+        *this, b,  e,  {},
+        {},    {}, {}, zero(e.type.base == BaseType::Void ? BaseType::Float : e.type.base)};
     size_t plain = e.signature->pairs ? std::min<size_t>(e.pairs, e.args.size()) : e.args.size();
     auto& declared = e.signature->arguments;
     for (size_t k = 0; k < plain; ++k) {
@@ -257,7 +254,9 @@ Lowered Lowering::call_builtin(const CallExpr& e) {
     }
     for (size_t k = plain; k + 1 < e.args.size(); k += 2) {
         const std::string* name = constant_text(value(*e.args[k]));
-        if (name && !e.args[k + 1]->type.is_array())
+        if (name && is_output_pair(e, k + 1))
+            call.output_pairs.push_back({*name, target(*e.args[k + 1])});
+        else if (name && !e.args[k + 1]->type.is_array())
             call.pairs.push_back({*name, expr(*e.args[k + 1])});
     }
     e.builtin->lower(call);
@@ -279,6 +278,25 @@ Value LowerCall::pair(std::string_view name, float otherwise) const {
     for (auto& [key, value] : pairs)
         if (key == name && value.type != BaseType::String) return value.c[0];
     return b.f(otherwise);
+}
+
+Value LowerCall::text_pair(std::string_view name) const {
+    for (auto& [key, value] : pairs)
+        if (key == name && value.type == BaseType::String) return value.c[0];
+    return b.i(0);
+}
+
+void LowerCall::known_pairs(std::string_view names) const {
+    std::string list = " " + std::string(names) + " ";
+    for (auto& [key, value] : pairs)
+        if (list.find(" " + key + " ") == std::string::npos)
+            low.diagnostics.report(Code::RSL_PAIR_UNKNOWN, where(), key, call.name);
+}
+
+Target* LowerCall::output_pair(std::string_view name) {
+    for (auto& [key, target] : output_pairs)
+        if (key == name) return &target;
+    return nullptr;
 }
 
 // The body in place of the call. Output arguments are copied in and out, arrays are shared.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "rsl/lower_p.h"
+#include "rsl/pairs.h"
 
 namespace kinora::rsl {
 
@@ -29,22 +30,48 @@ Value Lowering::record_uniform(Value set, Value record, int field, jit::Type typ
 
 // The column of a light's parameter, and its number among the messages. The type that the first
 // reader wants is kept.
-int Lowering::message_column(std::string_view name, BaseType type, int* index) {
+int Lowering::message_column(std::string_view name, Type type, int* index) {
     int column = kLightMessages;
+    int components = component_count(type.base) * std::max(type.array_length, 1);
+    bool text = type.base == BaseType::String;
     for (size_t k = 0; k < out.light_messages.size(); ++k) {
         *index = int(k);
-        if (out.light_messages[k] == name &&
-            out.light_message_components[k] == component_count(type))
+        Type known = out.light_message_types[k];
+        if (out.light_messages[k] == name && out.light_message_components[k] == components &&
+            known.array_length == type.array_length && (known.base == BaseType::String) == text)
             return column;
         column += out.light_message_components[k];
     }
     *index = int(out.light_messages.size());
     out.light_messages.emplace_back(name);
-    out.light_message_components.push_back(component_count(type));
+    out.light_message_components.push_back(components);
+    out.light_message_types.push_back(type);
     return column;
 }
 
-// "name" asks for lights of the category, "-name" for all others, "" for all.
+// __nondiffuse and __nonspecular are uniforms of every record.
+std::vector<Lowered> Lowering::light_message(const std::string& name, Type type,
+                                             std::span<const Lowered> before, Value* known) {
+    Value set = current_set, record = current_record;
+    if (type == Type{BaseType::Float, -1} && (name == "__nondiffuse" || name == "__nonspecular")) {
+        int field = name == "__nondiffuse" ? kLightNondiffuse : kLightNonspecular;
+        *known = b.m(true);
+        return {lowered(BaseType::Float, record_uniform(set, record, field, jit::Type::F))};
+    }
+    int message;
+    int column = message_column(name, type, &message);
+    Value has = record_uniform(set, record, kLightUniforms + message, jit::Type::I);
+    *known = b.logical_not(b.op(jit::Op::IEq, has, b.i(0)));
+    jit::Type read_as = type.base == BaseType::String ? jit::Type::I : jit::Type::F;
+    std::vector<Lowered> values(before.begin(), before.end());
+    for (Lowered& value : values)
+        for (size_t c = 0; c < size_t(value.size()); ++c)
+            value.c[c] = b.select(*known, record_field(set, record, column++, read_as), value.c[c]);
+    return values;
+}
+
+// "name" asks for lights of the category, "-name" for all others, "" for all. What an expression
+// ("a|b", "a&-b") means is the renderer's to say once (kLightCategories).
 Value Lowering::category_matches(Value set, Value record, const Expr& category) {
     const std::string* text = constant_text(value(category));
     if (!text) {
@@ -52,9 +79,11 @@ Value Lowering::category_matches(Value set, Value record, const Expr& category) 
         return b.m(true);
     }
     if (text->empty()) return b.m(true);
-    bool without = text->front() == '-';
+    bool without = text->front() == '-' && text->find_first_of("|&") == std::string::npos;
     std::string name = text->substr(without ? 1 : 0);
     auto found = std::find(out.categories.begin(), out.categories.end(), name);
+    if (found == out.categories.end() && out.categories.size() == 32)
+        error(Code::RSL_TOO_MANY_CATEGORIES, category.place.where, 32);
     int bit = int(found - out.categories.begin());
     if (found == out.categories.end()) out.categories.push_back(name);
     Value bits = record_uniform(set, record, kLightCategories, jit::Type::I);
@@ -91,7 +120,7 @@ void Lowering::illuminance(const IlluminanceStmt& stmt) {
     Value set = record_set(position.v3());
     Cone around = cone(stmt.axis, stmt.angle);
     ChangeFinder finder(ast());
-    finder.add(stmt.body);
+    finder.add(&stmt);
     const Changes& changes = finder.changes;
     Value outer = running, outer_region = region_;
     bool was_in_loop = std::exchange(in_loop_, true);
@@ -127,6 +156,22 @@ void Lowering::illuminance(const IlluminanceStmt& stmt) {
     running = after_loop(changes, outer);
 }
 
+// "light:x", variable: as lightsource("x", variable). "lightcache" needs nothing: records of a
+// point are shared by all loops.
+void Lowering::light_pairs(const IlluminanceStmt& stmt) {
+    for (size_t k = 1; k < stmt.pairs.size(); k += 2) {
+        std::string_view name = pair_name(stmt.pairs, k);
+        if (name.starts_with("send:"))
+            diagnostics.report(Code::RSL_LIGHT_PAIR, stmt.pairs[k]->place.where, name);
+        if (!is_light_output(name)) continue;
+        Target to = target(*stmt.pairs[k]);
+        Lowered before = load(to);
+        Value known;
+        store(to, light_message(std::string(name.substr(6)), stmt.pairs[k]->type, {&before, 1},
+                                &known)[0]);
+    }
+}
+
 // One turn: the body for the lanes that this record reaches.
 void Lowering::light_body(const IlluminanceStmt& stmt, Value set, Value record, const Cone& around,
                           const Lowered& position) {
@@ -150,6 +195,7 @@ void Lowering::light_body(const IlluminanceStmt& stmt, Value set, Value record, 
             slots_[size_t(Global::Ps)] = {true, position};
             Value outer_set = std::exchange(current_set, set);
             Value outer_record = std::exchange(current_record, record);
+            light_pairs(stmt);
             statement(*stmt.body);
             current_set = outer_set;
             current_record = outer_record;

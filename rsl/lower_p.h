@@ -50,6 +50,7 @@ struct LowerCall {
     std::vector<Lowered> args;    // values; of outputs, before the call; pairs are not among them
     std::vector<Target> targets;  // of output arguments
     std::vector<std::pair<std::string, Lowered>> pairs;
+    std::vector<std::pair<std::string, Target>> output_pairs;  // variables that pairs name
     Lowered result;
 
     int overload() const { return call.signature->overload; }
@@ -62,6 +63,10 @@ struct LowerCall {
     // The text of a string argument, or null if it is not known at compile time (then reported).
     const std::string* text(int i) const;
     Value pair(std::string_view name, float otherwise) const;
+    Value text_pair(std::string_view name) const;  // its string id, that of "" if absent
+    // Reports pairs that are not among these (separated by spaces): they have no effect.
+    void known_pairs(std::string_view names) const;
+    Target* output_pair(std::string_view name);  // null if absent
     const Location& where() const { return call.place.where; }
 };
 
@@ -169,6 +174,13 @@ class Lowering : public Emitter {
                   Step&& step);
     int loop_site(const Stmt& stmt);
 
+    // lower_gather.cpp
+    void gather(const GatherStmt& stmt);
+    struct GatherResults;
+    void gather_branch(const GatherStmt& stmt, Value set, Value record, GatherResults& results,
+                       bool hit);
+    int gather_depth_ = 0;
+
     // lower_lights.cpp
     void illuminance(const IlluminanceStmt& stmt);
     void illuminate(const Stmt& stmt, const Expr* position, const Expr* axis, const Expr* angle,
@@ -180,6 +192,7 @@ class Lowering : public Emitter {
     Value inside(const Cone& cone, const V3& L);
     void light_body(const IlluminanceStmt& stmt, Value set, Value record, const Cone& around,
                     const Lowered& position);
+    void light_pairs(const IlluminanceStmt& stmt);
     Value category_matches(Value set, Value record, const Expr& category);
     // Calls body(record) for each record of a set, inside a Loop whose counter agrees in all lanes;
     // `carried` are plain values that body may replace.
@@ -189,7 +202,10 @@ class Lowering : public Emitter {
     Value record_field(Value set, Value record, int column, jit::Type type = jit::Type::F);
     V3 record_triple(Value set, Value record, int column);
     Value record_uniform(Value set, Value record, int field, jit::Type type);
-    int message_column(std::string_view name, BaseType type, int* index);
+    int message_column(std::string_view name, Type type, int* index);
+    // The light's parameter where it has one, else `before`; *known says where.
+    std::vector<Lowered> light_message(const std::string& name, Type type,
+                                       std::span<const Lowered> before, Value* known);
     bool in_solar = false;           // inside a light's solar
     Value current_set = jit::kNone;  // inside illuminance
     Value current_record = jit::kNone;
@@ -226,6 +242,8 @@ class Lowering : public Emitter {
     uint32_t path_factor = 1;
     Value path_value();
     void enter_path(uint32_t site);
+    // The ints that seed a call's samples: the point's, and this place's with its loop iterations.
+    std::array<Value, 2> sample_seed(uint32_t site);
 
     std::vector<Value> service(std::string_view name, std::span<const Value> args);
 
@@ -233,9 +251,16 @@ class Lowering : public Emitter {
     struct Message {
         ShaderKind from;
         std::string name;
+        Type type;
         Lowered value;
+        int array = -1;  // index in Lowering's arrays
     };
     std::vector<Message> messages;
+    // The elements of a message; one if it is no array.
+    std::vector<Lowered> message_values(const Message& message);
+    // Stores all elements of a whole array.
+    void set_array(const Expr& array, std::span<const Lowered> values);
+    std::span<const Layer> layers;  // the whole stack
 
   private:
     struct Slot {

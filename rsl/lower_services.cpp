@@ -8,8 +8,8 @@ namespace {
 // Signatures as rsl/renderer_services.h lists them: i int, f float, a digit repeats what follows.
 struct ServiceRow {
     std::string_view name;
-    std::string_view params;
-    std::string_view results;
+    std::string params;
+    std::string results;
     bool pure;
 };
 const ServiceRow kServices[] = {
@@ -18,8 +18,15 @@ const ServiceRow kServices[] = {
     {"environment", "iffffffffffff", "ffff", true},
     {"shadow", "iffffffffffff", "fff", true},
     {"textureinfo", "ii", "iffffffffffffffff", true},
-    {"trace", "ffffff", "ffff", true},
-    {"transmission", "ffffff", "fff", true},
+    {"trace", "iiffffffffffi", "ffff", true},
+    {"transmission", "iifffffffff", "fff", true},
+    {"occlusion", "iiffffffffffff", "ffff", true},
+    {"indirectdiffuse", "iiffffffffffi", "fff", true},
+    {"gather", "iiiiffffffffffii", "i", false},
+    {"query", "iiiiii", "iffffffffffffffff", true},
+    {"bake3d", "iii" + std::string(7 + kPointFloats, 'f'), "", false},
+    {"texture3d", "iiffffff", "i" + std::string(kPointFloats, 'f'), true},
+    {"photons", "iiiffffff", "fff", true},
     {"transform", "i", "ffffffffffffffffffffffff", true},
     {"print", "iffffffffffffffff", "", false},
     {"concat", "ii", "i", true},
@@ -51,6 +58,15 @@ V3 Lowering::du(const V3& v) {
 }
 V3 Lowering::dv(const V3& v) {
     return {b.op(jit::Op::Dv, v[0]), b.op(jit::Op::Dv, v[1]), b.op(jit::Op::Dv, v[2])};
+}
+
+std::array<Value, 2> Lowering::sample_seed(uint32_t site) {
+    out.uses_rng = true;
+    Value path = b.imul(path_value(), b.i(int32_t(2654435761u)));
+    Value place = b.ixor(path, b.i(int32_t((site + 1) * 2246822519u)));
+    for (Value counter : loop_counters)
+        place = b.iadd(b.imul(place, b.i(int32_t(747796405u))), b.iadd(counter, b.i(1)));
+    return {scalar_input("rng", jit::Type::I, jit::Rate::Point), place};
 }
 
 // DESIGN.md decision 10: a hash of the sample, the place of the call and the loop iterations.

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "rsl/pairs.h"
 #include "rsl/usage.h"
 
 namespace kinora::rsl {
@@ -194,6 +195,8 @@ class RateWalk {
         if (*e.builtin->globals) f = kVaryingFlow;
         for (size_t i = 0; i < e.signature->arguments.size(); ++i)
             if (e.signature->arguments[i].output) store_to(e.args[i], f, *e.args[i]);
+        for (size_t i = e.pairs + 1; i < e.args.size(); i += 2)
+            if (is_output_pair(e, i)) store_to(e.args[i], f, *e.args[i]);
         return f;
     }
 
@@ -373,7 +376,12 @@ class RateWalk {
     void at(IlluminanceStmt& s) {
         flow(s.category), flow(s.position), flow(s.axis), flow(s.angle);
         flow_all(s.pairs);
+        store_pairs(s.pairs, is_light_output);
         loop(s, *s.body, nullptr, {}, true);
+    }
+    void store_pairs(std::span<Expr*> pairs, bool (*is_output)(std::string_view)) {
+        for (size_t k = 1; k < pairs.size(); k += 2)
+            if (is_output(pair_name(pairs, k))) store_to(pairs[k], kVaryingFlow, *pairs[k]);
     }
     void at(IlluminateStmt& s) {
         flow(s.position), flow(s.axis), flow(s.angle);
@@ -383,7 +391,12 @@ class RateWalk {
         flow(s.axis), flow(s.angle);
         walk_under(*s.body, true);
     }
-    void at(GatherStmt&) {}
+    void at(GatherStmt& s) {
+        flow_all(s.args);
+        store_pairs(s.pairs, is_gather_output);
+        loop(s, *s.body, nullptr, {}, true);
+        if (s.missed) loop(s, *s.missed, nullptr, {}, true);
+    }
 
     const ShaderDefinition& shader_;
     Ast& ast_;

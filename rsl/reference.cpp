@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rsl/pairs.h"
 #include "rsl/reference_p.h"
 #include "runtime/base/check.h"
 
@@ -300,6 +301,11 @@ auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
     for (size_t k = 0; k < plain && k < e.signature->arguments.size(); ++k)
         if (e.signature->arguments[k].output && !e.args[k]->type.is_array())
             store(*e.args[k], call.args[k]);
+    for (size_t k = plain, p = 0; k + 1 < e.args.size(); k += 2) {
+        if (e.args[k + 1]->type.is_array()) continue;
+        if (is_output_pair(e, k + 1)) store(*e.args[k + 1], call.pairs[p].second);
+        ++p;
+    }
     return call.result;
 }
 
@@ -414,7 +420,8 @@ ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInpu
     template auto Reference<Real>::expr(const Expr&)->Item;                    \
     template auto Reference<Real>::convert(const Item&, BaseType) const->Item; \
     template auto Reference<Real>::global(Global)->Item&;                      \
-    template void Reference<Real>::declare(const Symbol&);
+    template void Reference<Real>::declare(const Symbol&);                     \
+    template void Reference<Real>::store(const Expr&, const Item&);
 KINORA_REFERENCE_METHODS(float)
 KINORA_REFERENCE_METHODS(double)
 

@@ -16,7 +16,12 @@
     F(comp) F(setcomp) F(ctransform) F(determinant) F(translate) F(scale)                     \
     F(random) F(noise) F(pnoise) F(cellnoise)                                                 \
     F(ambient) F(diffuse) F(specular) F(phong) F(specularbrdf)                                \
-    F(trace) F(transmission) F(visibility) F(texture) F(environment) F(shadow)                \
+    F(trace) F(transmission) F(visibility) F(occlusion) F(indirectdiffuse) F(photonmap)       \
+    F(caustic) F(subsurface) F(texture3d) F(bake3d) F(areashadow)                             \
+    F(surface_message) F(displacement_message) F(atmosphere) F(incident) F(opposite)          \
+    F(attribute) F(option) F(rendererinfo) F(rayinfo)                                         \
+    F(raydepth) F(raylabel) F(rayorigin) F(raydirection) F(raylength)                         \
+    F(texture) F(environment) F(shadow)                \
     F(concat) F(format) F(match) F(printf) F(lightsource) F(shadername)
 // clang-format on
 

@@ -1,4 +1,5 @@
 // rsl/reference_control.cpp: statements, at one point.
+#include "rsl/pairs.h"
 #include "rsl/reference_p.h"
 
 namespace kinora::rsl {
@@ -58,10 +59,11 @@ RefFlow Reference<Real>::statement(const Stmt& stmt) {
             auto& node = as<SolarStmt>(stmt);
             return illuminate(stmt, nullptr, node.axis, node.angle, *node.body);
         }
+        case StmtKind::Gather:
+            return gather(as<GatherStmt>(stmt));
         case StmtKind::Extern:
         case StmtKind::DefineFunction:
-        case StmtKind::Gather:
-            break;  // nothing to do; gather is an error of the checker
+            break;  // nothing to do
     }
     return {};
 }
@@ -95,14 +97,39 @@ RefFlow Reference<Real>::loop(const Stmt& stmt, const Expr* condition, const Stm
     return flow;
 }
 
-// "name" asks for lights of the category, "-name" for all others, "" for all.
-static bool matches(const ReferenceLight& light, std::string category) {
+// "name" asks for lights of the category, "-name" for all others, "" for all; "a,b" for those of
+// any, "-a,b" for those of none; "a|b" and "a&-b" join names, & first.
+static bool matches(const ReferenceLight& light, const std::string& category) {
+    auto has = [&](std::string name) {
+        bool without = !name.empty() && name[0] == '-';
+        if (without) name.erase(0, 1);
+        bool found = false;
+        for (const std::string& own : light.categories) found = found || own == name;
+        return found != without;
+    };
+    auto split = [](const std::string& text, char at) {
+        std::vector<std::string> parts{""};
+        for (char c : text)
+            if (c == at)
+                parts.emplace_back();
+            else
+                parts.back() += c;
+        return parts;
+    };
     if (category.empty()) return true;
-    bool without = category[0] == '-';
-    if (without) category.erase(0, 1);
-    bool has = false;
-    for (const std::string& name : light.categories) has = has || name == category;
-    return has != without;
+    if (category.find_first_of("|&") == std::string::npos) {
+        bool without = category[0] == '-';
+        bool any = false;
+        for (const std::string& name : split(category.substr(without ? 1 : 0), ','))
+            any = any || has(name);
+        return any != without;
+    }
+    for (const std::string& either : split(category, '|')) {
+        bool all = true;
+        for (const std::string& name : split(either, '&')) all = all && has(name);
+        if (all) return true;
+    }
+    return false;
 }
 
 template <class Real>
@@ -132,9 +159,55 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
         global(Global::Ol) = triple(BaseType::Color, l.Ol);
         global(Global::Ps) = position;
         const ReferenceLight* outer = std::exchange(light, &l);
+        for (size_t p = 1; p < stmt.pairs.size(); p += 2) {
+            std::string_view name = pair_name(stmt.pairs, p);
+            if (!is_light_output(name)) continue;
+            std::vector<Item> found = messages(name.substr(6));
+            if (!found.empty()) store(*stmt.pairs[p], found[0]);
+        }
         flow = statement(*stmt.body);
         light = outer;
         for (size_t i = 0; i < 4; ++i) global(kSet[i]) = saved[i];
+        ends_loop(flow, stmt, leave);
+    }
+    loop_counters.pop_back();
+    return flow;
+}
+
+// Service "gather" answers the number of rays, then for each its state (GatherState) and the
+// results' components in the order of the statement.
+template <class Real>
+RefFlow Reference<Real>::gather(const GatherStmt& stmt) {
+    std::vector<double> args = {0, 0, double(gathers_++), 0};
+    auto add = [&](const Expr& e) {
+        Item x = expr(e);
+        for (size_t k = 0; k < x.size(); ++k) args.push_back(double(x.c[k].x));
+    };
+    bool shoots = expr(*stmt.category).text() != "samplepattern";
+    add(*stmt.position), add(*stmt.direction), add(*stmt.angle), add(*stmt.samples);
+    std::vector<double> rays = service("gather", args);
+    size_t next = 0;
+    auto number = [&] { return next < rays.size() ? rays[next++] : 0; };
+    int count = int(number());
+    RefFlow flow;
+    bool leave = false;
+    loop_counters.push_back(0);
+    for (int k = 0; k < count && !leave; ++k) {
+        loop_counters.back() = k;
+        int state = int(number());
+        bool body = state == kGatherHit || (!shoots && !stmt.missed);
+        for (size_t p = 1; p < stmt.pairs.size(); p += 2) {
+            std::string_view name = pair_name(stmt.pairs, p);
+            if (!is_gather_output(name)) continue;
+            Item value(stmt.pairs[p]->type.base);
+            for (size_t c = 0; c < value.size(); ++c) value.c[c] = Number(Real(number()));
+            bool branch = body || stmt.missed;
+            if (state != kGatherNone && branch && (body || name.starts_with("ray:")))
+                store(*stmt.pairs[p], value);
+        }
+        const Stmt* branch = body ? stmt.body : stmt.missed;
+        if (state == kGatherNone || !branch) continue;
+        flow = statement(*branch);
         ends_loop(flow, stmt, leave);
     }
     loop_counters.pop_back();

@@ -59,13 +59,6 @@ void from_service(RefCall<Real>& c, const std::vector<double>& answer) {
         c.result.c[k] = Real(k < answer.size() ? answer[k] : 0);
 }
 template <class Real>
-std::vector<double> six(RefCall<Real>& c) {
-    Vec<Real> a = c.v(0), b = c.v(1);
-    return {double(a[0].x), double(a[1].x), double(a[2].x),
-            double(b[0].x), double(b[1].x), double(b[2].x)};
-}
-
-template <class Real>
 void find_message(RefCall<Real>& c, const std::vector<RefValue<Real>>& found) {
     c.set(Dual<Real>(Real(found.empty() ? 0 : 1)));
     if (!found.empty()) c.args[1].c = found[0].c;
@@ -112,23 +105,6 @@ void specularbrdf(RefCall<Real>& c) {
     c.set({k, k, k});
 }
 
-template <class Real>
-void trace(RefCall<Real>& c) {
-    std::vector<double> answer = c.eval.service("trace", six(c));
-    if (c.result.type == BaseType::Float && answer.size() > 3) answer = {answer[3]};
-    from_service(c, answer);
-}
-template <class Real>
-void transmission(RefCall<Real>& c) {
-    from_service(c, c.eval.service("transmission", six(c)));
-}
-template <class Real>
-void visibility(RefCall<Real>& c) {
-    std::vector<double> answer = c.eval.service("transmission", six(c));
-    double sum = 0;
-    for (double x : answer) sum += x;
-    c.set(Dual<Real>(Real(sum > 0 ? 1 : 0)));
-}
 // Maps are asked without filter widths, the reference knows no footprint; four corners by their
 // middle.
 template <class Real>
@@ -203,9 +179,6 @@ KINORA_RSL_DEFINE_REF(diffuse)
 KINORA_RSL_DEFINE_REF(specular)
 KINORA_RSL_DEFINE_REF(phong)
 KINORA_RSL_DEFINE_REF(specularbrdf)
-KINORA_RSL_DEFINE_REF(trace)
-KINORA_RSL_DEFINE_REF(transmission)
-KINORA_RSL_DEFINE_REF(visibility)
 KINORA_RSL_DEFINE_REF(texture)
 KINORA_RSL_DEFINE_REF(environment)
 KINORA_RSL_DEFINE_REF(shadow)

@@ -182,6 +182,7 @@ class Reference {
     RefFlow loop(const Stmt& stmt, const Expr* condition, const Stmt& body,
                  std::span<Expr* const> step);
     RefFlow illuminance(const IlluminanceStmt& stmt);
+    RefFlow gather(const GatherStmt& stmt);
     RefFlow illuminate(const Stmt& stmt, const Expr* position, const Expr* axis, const Expr* angle,
                        const Stmt& body);
     // Has the flow reached this loop? Then whether to go on with the next turn.
@@ -205,6 +206,7 @@ class Reference {
     std::vector<Source> sources_;
     Vec<Real> Ci_{}, Oi_{};
     bool have_surface_ = false;
+    int gathers_ = 0;
 };
 
 template <class Real>

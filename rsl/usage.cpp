@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "rsl/pairs.h"
+
 namespace kinora::rsl {
 
 namespace {
@@ -141,7 +143,7 @@ class UsageWalk {
         read_names(e.builtin->globals);
         for (size_t i = 0; i < e.args.size(); ++i) {
             bool fixed = i < e.signature->arguments.size();
-            argument(e.args[i], fixed && e.signature->arguments[i].output);
+            argument(e.args[i], fixed ? e.signature->arguments[i].output : is_output_pair(e, i));
         }
     }
     void reach(Function& f) {
@@ -199,7 +201,8 @@ class UsageWalk {
                    shader_.kind == ShaderKind::Displacement;
         legal(s, lit, "illuminance");
         walk(s.category), walk(s.position), walk(s.axis), walk(s.angle);
-        walk_all(s.pairs);
+        for (size_t k = 0; k < s.pairs.size(); ++k)
+            argument(s.pairs[k], k % 2 == 1 && is_light_output(pair_name(s.pairs, k)));
         walk_inside(*s.body, Inside::Illuminance);
     }
     void at(const IlluminateStmt& s) {
@@ -212,7 +215,15 @@ class UsageWalk {
         walk(s.axis), walk(s.angle);
         walk_inside(*s.body, Inside::Light);
     }
-    void at(const GatherStmt&) {}
+    void at(const GatherStmt& s) {
+        bool traces = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume;
+        legal(s, traces, "gather");
+        walk_all(s.args.first(5));
+        for (size_t k = 0; k < s.pairs.size(); ++k)
+            argument(s.pairs[k], k % 2 == 1 && is_gather_output(pair_name(s.pairs, k)));
+        walk(*s.body);
+        if (s.missed) walk(*s.missed);
+    }
 
     Shader& shader_;
     Ast& ast_;

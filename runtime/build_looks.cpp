@@ -337,6 +337,7 @@ bool SceneBuilder::compile(Look& look, const std::vector<std::string>& messages)
     options.light_messages = messages;
     if (look.kind == LookKind::Surface) options.aovs = output_names_;
     options.spaces = &space_names_;
+    if (look.kind == LookKind::Surface) options.gathered = gathered_;
     if (scene_->options.want_dumps) options.dumps = &scene_->options.dumps;
     return compile_look(look, description_, options, diagnostics_);
 }
@@ -351,6 +352,11 @@ bool SceneBuilder::make_looks() {
     add_outputs();
     add_imager();
     bool ok = vertex_looks_ok_;
+    for (const auto& look : scene.looks)
+        for (const ShaderUse& layer : look->layers)
+            for (const std::string& name : rsl::gathered_parameters(*layer.shader))
+                if (std::find(gathered_.begin(), gathered_.end(), name) == gathered_.end())
+                    gathered_.push_back(name);
     std::vector<std::string> messages;
     for (auto& look : scene.looks) {
         ok &= compile(*look, {});

@@ -173,7 +173,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
                                      settings.integrator, scene.scratch, counters, progress);
     if (whole && scene.imager != kNone) scene.shading->run_imager(film);
-    ShadingCounters shading = scene.shading->end_frame(diagnostics);
+    ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     report_textures(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();

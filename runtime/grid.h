@@ -37,6 +37,14 @@ constexpr size_t padded(size_t count) {
     return (count + jit::kMaxLanes - 1) / jit::kMaxLanes * jit::kMaxLanes;
 }
 
+// How the rays came about that see a grid's points.
+enum class RayKind : uint8_t { Camera, Specular, Diffuse, Transmission };
+struct RayTag {
+    RayKind kind = RayKind::Camera;
+    int32_t label = 0;                   // interned; of trace or gather
+    uint32_t specular = 0, diffuse = 0;  // rays of each kind on the way from the eye
+};
+
 // Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
 // Lives on the stack of shade(); what services see through KernelArgs::grid.
 struct Grid {
@@ -59,6 +67,11 @@ struct Grid {
     int32_t record_group = -1;  // first lane of the group that lights_at served last
     Arena::Mark record_mark{};  // where its records begin
     bool shadows = true;        // false inside opacity kernels
+    RayTag ray;
+    // Whose parameters surface() and displacement() show a light: of the surface it lights; null
+    // in lights and volumes: each point's own surface.
+    const Look* surface = nullptr;
+    const Grid* lit = nullptr;  // a light's: the grid of the surface, point by point the same
 
     size_t count() const { return points.size(); }
 };

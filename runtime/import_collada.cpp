@@ -2,6 +2,8 @@
 #include "runtime/import_collada.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 
 #include "runtime/import_collada_p.h"
 
@@ -146,6 +148,19 @@ MeshUse ColladaImport::mesh_use(const collada::MeshInstance& instance) const {
     return use;
 }
 
+// All numbers, or a text.
+static UserAttribute user_attribute(const std::string& name, const std::string& text) {
+    UserAttribute attribute{name, {}, text};
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        char* end = nullptr;
+        double number = std::strtod(word.c_str(), &end);
+        if (*end != '\0') return {name, {}, text};
+        attribute.numbers.push_back(number);
+    }
+    return attribute;
+}
+
 void ColladaImport::import_nodes() {
     for (size_t n = 0; n < data_.nodes.size(); ++n) {
         const collada::Node& from = data_.nodes[n];
@@ -153,6 +168,8 @@ void ColladaImport::import_nodes() {
         to.id = from.id;
         to.sid = from.sid;
         to.name = from.name;
+        for (const auto& [name, text] : from.attributes)
+            to.attributes.push_back(user_attribute(name, text));
         for (size_t t = 0; t < from.transforms.size(); ++t)
             to.transforms.push_back(
                 {TransformKind(from.transforms[t].kind), transform_values_[n][t]});

@@ -46,24 +46,39 @@ int find_output(const jit::Kernel& kernel, const std::string& name) {
     return -1;
 }
 
-bool has_category(const Look& light, std::string_view wanted) {
-    // __category holds a comma separated list; "-x" asks for lights that are not x.
-    bool exclude = wanted.starts_with("-");
-    if (exclude) wanted.remove_prefix(1);
-    std::string categories;
+// The light's __category: a comma separated list.
+std::string categories_of(const Look& light) {
     for (const ParamSource& source : light.layers[0].params)
-        if (source.name == "__category" && !source.strings.empty()) categories = source.strings[0];
-    if (categories.empty())
-        for (const rsl::ShaderParameter& p : light.shader().parameters)
-            if (p.name == "__category" && p.constant && !p.constant->strings.empty())
-                categories = p.constant->strings[0];
-    bool found = false;
-    for (size_t at = 0; at <= categories.size();) {
-        size_t end = std::min(categories.find(',', at), categories.size());
-        found |= categories.substr(at, end - at) == wanted;
+        if (source.name == "__category" && !source.strings.empty()) return source.strings[0];
+    for (const rsl::ShaderParameter& p : light.shader().parameters)
+        if (p.name == "__category" && p.constant && !p.constant->strings.empty())
+            return p.constant->strings[0];
+    return "";
+}
+
+// The parts of a text between separators: calls each(part) until one is true.
+template <class Each>
+bool any_part(std::string_view text, char separator, Each&& each) {
+    for (size_t at = 0; at <= text.size();) {
+        size_t end = std::min(text.find(separator, at), text.size());
+        if (each(text.substr(at, end - at))) return true;
         at = end + 1;
     }
-    return found != exclude;
+    return false;
+}
+
+// "a", "a,b" (any of them), "a|b", "a&-b"; & binds closer than |, - stands before a name.
+bool has_category(std::string_view own, std::string_view wanted) {
+    auto has = [&](std::string_view name) {
+        bool without = name.starts_with("-");
+        if (without) name.remove_prefix(1);
+        return any_part(own, ',', [&](std::string_view part) { return part == name; }) != without;
+    };
+    if (wanted.find_first_of("|&") == std::string_view::npos)
+        return any_part(wanted, ',', [&](std::string_view name) { return has(name); });
+    return any_part(wanted, '|', [&](std::string_view both) {
+        return !any_part(both, '&', [&](std::string_view name) { return !has(name); });
+    });
 }
 
 float constant_param(const Look& light, const Scene& scene, std::string_view name) {
@@ -106,23 +121,43 @@ Statement statement_of(const Look& look, size_t index, const LightDefinition& de
     return statement;
 }
 
+// Has the light a parameter that a variable of the type can take?
+bool parameter_fits(const Look& light, std::string_view name, rsl::Type type) {
+    for (const rsl::ShaderParameter& p : light.shader().parameters) {
+        if (p.name != name) continue;
+        bool triples = rsl::is_triple(p.type.base) && rsl::is_triple(type.base);
+        return (p.type.base == type.base || triples) && p.type.array_length == type.array_length;
+    }
+    return false;
+}
+
+// Triples are read as any triple.
+int find_component(const jit::Kernel& kernel, const std::string& name, rsl::BaseType type, int k) {
+    if (rsl::component_count(type) == 1) return find_output(kernel, name);
+    if (type == rsl::BaseType::Matrix) return find_output(kernel, name + "." + std::to_string(k));
+    int output = find_output(kernel, name + "." + "xyz"[k]);
+    return output >= 0 ? output : find_output(kernel, name + "." + "rgb"[k]);
+}
+
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.
 LightBinding binding_of(const Look& surface, const Look& light, const Scene& scene) {
     LightBinding binding;
+    std::string own = categories_of(light);
     for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
-        binding.categories |= int32_t(has_category(light, surface.lowered.categories[c])) << c;
+        binding.categories |= int32_t(has_category(own, surface.lowered.categories[c])) << c;
     binding.nondiffuse = constant_param(light, scene, "__nondiffuse");
     binding.nonspecular = constant_param(light, scene, "__nonspecular");
     const jit::Kernel& kernel = light.full.kernel();
     for (size_t m = 0; m < surface.lowered.light_messages.size(); ++m) {
-        int components = surface.lowered.light_message_components[m];
+        rsl::Type type = surface.lowered.light_message_types[m];
         std::string name = "message:" + surface.lowered.light_messages[m];
-        bool known = false;
-        for (int k = 0; k < components; ++k) {
-            int output = find_output(kernel, components == 1 ? name : name + "." + "xyz"[k]);
-            if (output < 0 && components == 3) output = find_output(kernel, name + "." + "rgb"[k]);
-            binding.messages.push_back(output);
-            known |= output >= 0;
+        int length = std::max(type.array_length, 1);
+        bool known = parameter_fits(light, surface.lowered.light_messages[m], type);
+        for (int e = 0; e < length; ++e) {
+            std::string element = type.is_array() ? name + "[" + std::to_string(e) + "]" : name;
+            for (int k = 0; k < rsl::component_count(type.base); ++k)
+                binding.messages.push_back(known ? find_component(kernel, element, type.base, k)
+                                                 : -1);
         }
         binding.known.push_back(known);
     }
@@ -211,8 +246,12 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
         const jit::Kernel& kernel = look.full.kernel();
         std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
         for (float*& column : out) column = arena.allocate_span<float>(padded(at.count)).data();
-        Grid lit(grid.scene, grid.hits, grid.points.first(at.count), &look);
+        Grid lit(grid.scene, grid.hits, grid.points.subspan(at.first, at.count), &look);
         lit.depth = grid.depth;
+        lit.ray = grid.ray;
+        lit.shadows = grid.shadows;
+        lit.surface = grid.look->kind == LookKind::Surface ? grid.look : nullptr;
+        lit.lit = at.first == 0 && at.count == grid.count() ? &grid : nullptr;
         lit.thread = grid.thread;
         lit.shading = this;
         lit.arena = &arena;
@@ -398,7 +437,7 @@ int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
         at.N[k] = at.Ng[k] = rows[9 + k];
     }
     uint32_t handle = grid.next_record_set;
-    grid.next_record_set = handle + 1 < grid.record_sets.size() ? handle + 1 : 1;
+    grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
     grid.record_sets[handle] = make_records(grid, at);
     return int32_t(handle);
 }

@@ -251,6 +251,11 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     lower.spaces = options.spaces;
     lower.messages = options.light_messages;
     lower.aovs = options.aovs;
+    for (const std::string& name : options.gathered)
+        if (name == "N")
+            lower.want_N = true;
+        else
+            lower.aovs.push_back(name);
     bool of_vertices = look.kind == LookKind::Displacement || look.kind == LookKind::Transformation;
     if (of_vertices) {
         lower.want_Ci = lower.want_Oi = false;
@@ -274,6 +279,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     bool fills = look.kind == LookKind::Volume && look.volume != 0 && !look.exterior;
     if (shades_shadows || fills) {
         lower.want_Ci = false;
+        lower.want_N = false;
         lower.aovs.clear();
         compile.dumps = nullptr;
         std::optional<rsl::LoweredShader> opacity = rsl::lower(layers, lower, diagnostics);
@@ -299,18 +305,13 @@ void Look::update(const FrameContext& context) {
     if (opacity) opacity->update(context, *this);
 }
 
-namespace {
-
-// A point-like parameter, given in shader space, in current space.
-dvec3 place(rsl::BaseType type, const dmat4& current_from_shader, const double* v) {
+dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, const double* v) {
     dvec3 value(v[0], v[1], v[2]);
     if (type == rsl::BaseType::Point) return dvec3(current_from_shader * dvec4(value, 1.0));
     dmat3 linear(current_from_shader);
     if (type == rsl::BaseType::Normal) return glm::transpose(glm::inverse(linear)) * value;
     return linear * value;
 }
-
-}  // namespace
 
 void BoundKernel::update(const FrameContext& context, const Look& look) {
     if (!pair.frame) return;
@@ -325,7 +326,8 @@ void BoundKernel::update(const FrameContext& context, const Look& look) {
                 return float(scene.values[input.index]);
             case Source::Placed: {
                 const dmat4& m = current_from_space[input.space];
-                return float(place(input.type, m, &scene.values[input.index])[input.component]);
+                return float(
+                    place_parameter(input.type, m, &scene.values[input.index])[input.component]);
             }
             case Source::Space: {
                 const dmat4& m = current_from_space[input.index];

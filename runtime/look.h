@@ -116,9 +116,13 @@ struct LookOptions {
     const jit::Target* target = nullptr;
     std::vector<std::string> light_messages;  // lights: names that some surface reads
     std::vector<std::string> aovs;            // surfaces: output parameters that the film keeps
+    std::vector<std::string> gathered;  // surfaces: outputs that some gather reads of what it hits
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
 };
+
+// A point-like parameter, given in shader space, in current space.
+dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, const double* value);
 
 // Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
 // compiled (findings say why).

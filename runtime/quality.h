@@ -18,6 +18,8 @@ struct Quality {
     DisplacementMode displacement;  // move vertices, or only bend N
     double dice;                    // edges of displaced surfaces, pixels
     bool always_rebuild;            // a fresh BVH each frame instead of a refitted one
+    int ray_depth;                  // SceneOptions::ray_depth, diffuse_depth
+    int diffuse_depth;
 };
 
 std::span<const Quality> qualities();

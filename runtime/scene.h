@@ -138,6 +138,8 @@ struct SceneOptions {
     jit::math::Tier math = jit::math::Tier::Precise;
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
+    int ray_depth = 16;  // rays that trace, gather and indirectdiffuse may hang behind each other
+    int diffuse_depth = 1;  // of those, bounces of indirectdiffuse
     raytrace::AccelPolicy accel;
     uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps

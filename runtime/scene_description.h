@@ -64,8 +64,17 @@ struct ChildUse {
     dmat4 conversion{1.0};
 };
 
+// <extra><technique profile="RSL"><attribute name="user:tint">1 0.5 0</attribute>: what attribute()
+// finds on the node and those below it.
+struct UserAttribute {
+    std::string name;
+    std::vector<double> numbers;
+    std::string text;  // where it is no numbers
+};
+
 struct NodeDefinition {
     std::string id, sid, name;
+    std::vector<UserAttribute> attributes;
     std::vector<Transform> transforms;
     std::vector<ChildUse> children;  // own children and instance_node targets
     std::vector<MeshUse> meshes;

@@ -7,8 +7,10 @@
 
 #include "rsl/renderer_services.h"
 #include "rsl/string_functions.h"
+#include "runtime/bake.h"
 #include "runtime/base/check.h"
 #include "runtime/print.h"
+#include "runtime/queries.h"
 #include "runtime/shading_p.h"
 #include "runtime/spaces.h"
 #include "runtime/texture.h"
@@ -30,15 +32,6 @@ const KernelHost& host_of(const jit::ServiceCall& call) {
 }
 Grid& grid_of(const jit::ServiceCall& call) {
     return *host_of(call).grid;
-}
-
-void triples(const jit::ServiceCall& call, int first, vec3* out) {
-    for (int i = 0; i < kLanes; ++i)
-        for (int k = 0; k < 3; ++k) out[i][k] = argument(call, first + k)[i];
-}
-void set_results(const jit::ServiceCall& call, int first, const vec3* values) {
-    for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < kLanes; ++i) result(call, first + k)[i] = values[i][k];
 }
 
 // Kernels that move vertices see no lights and no other surfaces.
@@ -69,25 +62,42 @@ void shadow(const jit::ServiceCall& call) {
 
 void trace(const jit::ServiceCall& call) {
     if (zeros_without_grid(call, 4)) return;
-    vec3 P[kLanes], R[kLanes], color[kLanes];
-    triples(call, 0, P);
-    triples(call, 3, R);
     Grid& grid = grid_of(call);
-    grid.shading->trace(grid, call.mask, P, R, color, result(call, 3));
-    set_results(call, 0, color);
+    grid.shading->trace(grid, call);
 }
-
 void transmission(const jit::ServiceCall& call) {
     if (zeros_without_grid(call, 3)) return;
-    vec3 P[kLanes], Q[kLanes], through[kLanes];
-    triples(call, 0, P);
-    triples(call, 3, Q);
     Grid& grid = grid_of(call);
-    if (grid.shadows)
-        grid.shading->transmission(grid, call.mask, P, Q, through);
-    else
-        std::fill_n(through, kLanes, vec3(1.0f));
-    set_results(call, 0, through);
+    grid.shading->transmission(grid, call);
+}
+void occlusion(const jit::ServiceCall& call) {
+    if (zeros_without_grid(call, 4)) return;
+    Grid& grid = grid_of(call);
+    grid.shading->occlusion(grid, call);
+}
+void indirectdiffuse(const jit::ServiceCall& call) {
+    if (zeros_without_grid(call, 3)) return;
+    Grid& grid = grid_of(call);
+    grid.shading->indirect_diffuse(grid, call);
+}
+void gather_service(const jit::ServiceCall& call) {
+    Grid& grid = grid_of(call);
+    int32_t handle = grid.shading->gather_rays(grid, call);
+    for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
+}
+void query(const jit::ServiceCall& call) {
+    answer_query(host_of(call), call);
+}
+void bake3d(const jit::ServiceCall& call) {
+    if (zeros_without_grid(call, 0)) return;
+    Grid& grid = grid_of(call);
+    grid.shading->bake(grid, call);
+}
+void texture3d(const jit::ServiceCall& call) {
+    look_up_points(host_of(call), call);
+}
+void photons(const jit::ServiceCall& call) {
+    look_up_photons(host_of(call), call);
 }
 
 void transform(const jit::ServiceCall& call) {
@@ -131,9 +141,12 @@ struct Row {
     jit::ServiceFn function;
 };
 constexpr Row kRows[] = {
-    {"textureinfo", lookup_texture_info}, {"lights", lights},       {"texture", texture},
-    {"environment", environment},         {"shadow", shadow},       {"trace", trace},
-    {"transmission", transmission},       {"transform", transform}, {"print", print},
+    {"textureinfo", lookup_texture_info},
+    {"lights", lights},       {"texture", texture},     {"environment", environment},
+    {"shadow", shadow},       {"trace", trace},         {"transmission", transmission},
+    {"transform", transform}, {"print", print},         {"query", query},
+    {"occlusion", occlusion}, {"bake3d", bake3d},       {"gather", gather_service},
+    {"photons", photons},     {"texture3d", texture3d}, {"indirectdiffuse", indirectdiffuse},
 };
 constexpr size_t kStringServices = 3;  // rsl::string_service
 static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));

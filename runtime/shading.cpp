@@ -25,6 +25,8 @@ Shading::~Shading() = default;
 
 void Shading::begin_frame(double time, double shutter, uint32_t seed) {
     seed_ = seed;
+    time_ = time;
+    shutter_ = shutter;
     while (threads_.size() < size_t(thread_count())) threads_.push_back(std::make_unique<Thread>());
     for (auto& thread : threads_) {
         thread->counters = {};
@@ -54,10 +56,18 @@ void Shading::begin_frame(double time, double shutter, uint32_t seed) {
         camera.zfar.present() ? float(view.zfar) : float(glm::length(view.eye) + scene_.size);
 }
 
-ShadingCounters Shading::end_frame(Diagnostics& diagnostics) {
+uint32_t Shading::ray_depth() const {
+    return uint32_t(scene_.options.ray_depth);
+}
+uint32_t Shading::diffuse_depth() const {
+    return uint32_t(scene_.options.diffuse_depth);
+}
+
+ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     ShadingCounters total;
     for (auto& thread : threads_) total += thread->counters;
     flush_prints();
+    flush_bakes(whole, diagnostics);
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         const BoundKernel* kernels[] = {&scene_.looks[l]->full, scene_.looks[l]->opacity
                                                                     ? &*scene_.looks[l]->opacity
@@ -102,17 +112,12 @@ void Shading::shade(const raytrace::HitBatch& hits, int thread_id, raytrace::Sha
     own.arena.release(mark);
 }
 
-namespace {
-
-constexpr size_t kRecordSets = 64;  // handles a grid may hold at once
-
-}  // namespace
-
 void Shading::prepare_grid(Grid& grid, int thread_id) {
     Arena& arena = thread(thread_id).arena;
     grid.depth = grid.hits.depth;
     grid.thread = thread_id;
     grid.shading = this;
+    grid.ray = thread(thread_id).ray;
     grid.arena = &arena;
     grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
@@ -168,8 +173,11 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
     want_columns(grid, look.full.columns);
     if (look.lowered.uses_lights) want_lights(grid);
     gather(grid);
+    const HitOutputs* outputs = std::exchange(own.outputs, nullptr);  // not those of rays from here
     if (look.lowered.uses_lights) run_lights(grid);
     std::span<float*> out = run_for_colors(look.full, grid);
+    own.outputs = outputs;
+    if (outputs) copy_outputs(*outputs, look.full.kernel(), out, points);
     own.counters.points += grid.count();
     float *Ci[3], *Oi[3];
     find_color(look.full.kernel(), out, "Ci", Ci);
@@ -183,6 +191,39 @@ void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];
     own.arena.release(mark);
+}
+
+// "surface:NAME": the shader's parameter of that name where it is an output; "surface:N" its
+// normal.
+void Shading::copy_outputs(const HitOutputs& wanted, const jit::Kernel& kernel,
+                           std::span<float* const> out, std::span<const uint32_t> points) {
+    size_t column = 0;
+    for (const rsl::LoweredShader::GatherResult& result : wanted.wanted) {
+        size_t components = size_t(rsl::component_count(result.type));
+        std::string_view name = result.name;
+        if (name.starts_with("surface:")) {
+            name.remove_prefix(8);
+            for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+                std::string_view full = kernel.outputs[o].name;
+                if (full.starts_with("aov:"))
+                    full.remove_prefix(4);
+                else if (name != "N")
+                    continue;
+                if (!full.starts_with(name)) continue;
+                std::string_view suffix = full.substr(name.size());
+                constexpr std::string_view kSuffixes = "xyzrgb";
+                size_t k = 0;
+                if (suffix.size() == 2 && suffix[0] == '.' &&
+                    kSuffixes.find(suffix[1]) != std::string_view::npos)
+                    k = kSuffixes.find(suffix[1]) % 3;
+                else if (!suffix.empty())
+                    continue;
+                for (size_t i = 0; k < components && i < points.size(); ++i)
+                    wanted.columns[column + k][points[i]] = out[o][i];
+            }
+        }
+        column += components;
+    }
 }
 
 void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* result) {

@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <memory>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "raytrace/integrator.h"
@@ -32,7 +34,8 @@ class Shading : public raytrace::SurfaceShading {
     // Before a frame's first shade(): sizes the threads' memory, runs the frame kernels.
     void begin_frame(double time, double shutter, uint32_t seed);
     // After the last: sums counters; reports faults, one finding a source line.
-    ShadingCounters end_frame(Diagnostics& diagnostics);
+    // `whole`: the picture was finished, so what it baked is written.
+    ShadingCounters end_frame(Diagnostics& diagnostics, bool whole = true);
 
     void shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) override;
     // volumes.cpp: rays that leave the scene end at the camera's far clip where its file has one,
@@ -46,18 +49,28 @@ class Shading : public raytrace::SurfaceShading {
     // imager.cpp: runs the scene's imager over the finished picture, after integrate().
     void run_imager(raytrace::Film& film);
 
-    // For services. Colour and opacity of hits found at `grid.depth + 1`.
-    static constexpr uint32_t kMaxDepth = 16;
-    void trace(const Grid& grid, uint32_t mask, const vec3* P, const vec3* R, vec3* color,
-               float* distance);
-    // Light that passes from P to Q (current space) for the lanes of mask.
-    void transmission(const Grid& grid, uint32_t mask, const vec3* P, const vec3* Q, vec3* result);
+    // The services that shoot rays (rsl/renderer_services.h), for one lane group of a grid.
+    void trace(Grid& grid, const jit::ServiceCall& call);
+    void transmission(Grid& grid, const jit::ServiceCall& call);
+    void occlusion(Grid& grid, const jit::ServiceCall& call);
+    void indirect_diffuse(Grid& grid, const jit::ServiceCall& call);
+    int32_t gather_rays(Grid& grid, const jit::ServiceCall& call);
+    // A point of bake3d: kept with its pixel, written after the frame.
+    void bake(const Grid& grid, const jit::ServiceCall& call);
+    uint32_t ray_depth() const;      // the deepest ray that is shot
+    uint32_t diffuse_depth() const;  // bounces of indirectdiffuse
+    const mat3& camera_from_accel() const { return camera_from_accel_; }
+    vec3 eye() const { return eye_; }  // accel space
+    double time() const { return time_; }
+    double shutter() const { return shutter_; }
     // A shader's printf: kept with its pixel, printed in picture order after the frame.
     void print(const Grid& grid, const jit::ServiceCall& call);
     // Light records at other points than the grid's own; their handle.
     int32_t lights_at(Grid& grid, const jit::ServiceCall& call);
 
     struct Thread;
+    struct GatherMemory;
+    struct HitOutputs;
     Thread& thread(int index) { return *threads_[size_t(index)]; }
 
     // Output columns of one illuminate or solar statement (-1: the kernel has none).
@@ -113,6 +126,25 @@ class Shading : public raytrace::SurfaceShading {
     jit::RecordSet make_records(Grid& grid, const LightPoints& at);
     void shadow(const Grid& grid, const LightPoints& at, bool solar, const float* const L[3],
                 const float* lit, float* const Cl[3], const LightSamples* samples);
+    // nested_rays.cpp, trace_rays.cpp, gather_rays.cpp
+    struct Seen;
+    struct GatherJob;
+    void see(int thread, raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
+             std::span<Seen> seen);
+    void see_beyond(int thread, const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                    std::span<Seen> seen);
+    void pass(int thread, raytrace::RayBatch& rays, std::span<vec3> through);
+    void distances(int thread, const raytrace::RayBatch& rays, raytrace::HitStore& store,
+                   std::span<float> out);
+    void shade_gathered(const GatherJob& job, raytrace::RayBatch& rays);
+    using GatherResults = std::span<const rsl::LoweredShader::GatherResult>;
+    void copy_colors(GatherResults results, std::span<float* const> columns,
+                     const raytrace::ShadeResult& from, size_t count);
+    void fill_geometry(GatherResults results, std::span<float* const> columns,
+                       const raytrace::HitBatch& hits, int thread);
+    void copy_outputs(const HitOutputs& wanted, const jit::Kernel& kernel,
+                      std::span<float* const> out, std::span<const uint32_t> points);
+    void flush_bakes(bool whole, Diagnostics& diagnostics);  // bake.cpp
     // transmission.cpp
     void pass_transparent(int thread, raytrace::RayBatch& rays, vec3* through);
     void pass_ends(int thread, const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
@@ -122,7 +154,9 @@ class Shading : public raytrace::SurfaceShading {
 
     Scene& scene_;
     std::vector<std::unique_ptr<Thread>> threads_;
+    std::set<std::string> reported_points_;  // point files that could not be read
     uint32_t seed_ = 0;
+    double time_ = 0, shutter_ = 0;
     bool any_transparent_ = false;
     bool has_exteriors_ = false;
     float miss_distance_ = 0;

@@ -3,10 +3,35 @@
 #pragma once
 
 #include "raytrace/sampling.h"
+#include "runtime/point_file.h"
 #include "runtime/scene.h"
 #include "runtime/shading.h"
 
 namespace kinora {
+
+// A point of bake3d: P, N, radius, then its channels' numbers.
+struct BakedPoint {
+    int32_t file = 0, channels = 0;  // interned
+    uint32_t pixel_y = 0, pixel_x = 0, layer = 0, order = 0;
+    float numbers[kPointHead + rsl::kPointFloats];
+};
+
+// The records of one gather statement at one depth; kept from frame to frame.
+struct Shading::GatherMemory {
+    std::vector<float> values;
+    std::vector<const float*> columns;
+    std::vector<jit::Record> records;
+};
+
+// What a ray saw.
+struct Shading::Seen {
+    vec3 color{0.0f};
+    vec3 open{1.0f};         // share of what lies behind that is let through
+    float distance = 1e30f;  // of the nearest surface
+};
+
+inline constexpr size_t kRecordSets = 64;  // handles a grid may hold at once
+inline constexpr size_t kGatherSets = kRecordSets - rsl::kGatherLevels;  // the last ones
 
 // One thread's memory. Nested shading (reflections, opacity of shadow rays) takes its rays and hits
 // by depth, so that an outer wavefront is never overwritten.
@@ -23,8 +48,23 @@ struct Shading::Thread {
         std::string text;
     };
     std::vector<Print> prints;
+    std::vector<BakedPoint> bakes;
     std::vector<std::unique_ptr<Level>> levels;
-    size_t level = 0;  // levels in use
+    size_t level = 0;                     // levels in use
+    RayTag ray;                           // of the hits that shade() is given
+    const HitOutputs* outputs = nullptr;  // wanted of those beside Ci and Oi
+    std::vector<std::unique_ptr<GatherMemory>> gathers;
+    GatherMemory& gather_memory(uint32_t depth, int nesting) {
+        size_t index = size_t(depth) * rsl::kGatherLevels + size_t(nesting);
+        while (gathers.size() <= index) gathers.push_back(std::make_unique<GatherMemory>());
+        return *gathers[index];
+    }
+};
+
+// What gather wants of each hit: columns of all components, in the order of the results.
+struct Shading::HitOutputs {
+    std::span<const rsl::LoweredShader::GatherResult> wanted;
+    std::span<float* const> columns;  // by hit
 };
 
 // Takes the next level of nested wavefronts for its scope.

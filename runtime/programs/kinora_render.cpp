@@ -120,6 +120,8 @@ SceneOptions Render::scene_options() const {
     o.math = options_.quality.math;
     o.target = options_.target;
     o.shadows = options_.shadows;
+    o.ray_depth = options_.quality.ray_depth;
+    o.diffuse_depth = options_.quality.diffuse_depth;
     o.accel.robust = options_.quality.robust;
     o.accel.always_rebuild = options_.quality.always_rebuild;
     o.accel.background = false;  // a frame depends on its time alone
@@ -193,11 +195,12 @@ void Render::dump() const {
 std::string Render::fingerprint(double time) const {
     const RenderOptions& o = options_;
     std::string text = fmt::format(
-        "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} filter {} {} seed {} "
-        "shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time {:a}",
+        "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} rays {} {} filter {} {} "
+        "seed {} shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time {:a}",
         KINORA_VERSION, scene_hash_, settings_.width, settings_.height, o.quality.name,
         o.quality.samples_per_pixel, int(o.quality.math), o.quality.robust,
-        o.quality.always_rebuild, o.filter, o.filter_width, o.seed, int(o.shadows), int(o.nan),
+        o.quality.always_rebuild, o.quality.ray_depth, o.quality.diffuse_depth, o.filter,
+        o.filter_width, o.seed, int(o.shadows), int(o.nan),
         int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0),
         int(o.quality.displacement), o.quality.dice, o.dice_limit, time);
     if (o.background)

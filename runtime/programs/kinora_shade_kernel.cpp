@@ -116,7 +116,7 @@ void ShadeKernel::fill_records() {
         uniforms[rsl::kLightKind] = jit::float_of(light.kind);
         records_.push_back({columns.data(), uniforms});
     }
-    record_set_ = {int32_t(records_.size()), records_.data()};
+    record_sets_[0] = {int32_t(records_.size()), records_.data()};
 }
 
 void ShadeKernel::run_frame() {
@@ -138,7 +138,7 @@ void ShadeKernel::run_frame() {
     args.scratch = scratch_;
     args.fault = frame_faults_.data();
     args.services = frame_services_.data();
-    args.record_sets = &record_set_;
+    args.record_sets = record_sets_;
     args.grid = const_cast<Patch*>(patch_);
     args.count = 1;
     kernel.run(args);
@@ -160,7 +160,7 @@ void ShadeKernel::run() {
     args.scratch = scratch_;
     args.fault = faults_.data();
     args.services = services_.data();
-    args.record_sets = &record_set_;
+    args.record_sets = record_sets_;
     args.grid = const_cast<Patch*>(patch_);
     for (size_t at = 0; at < patch_->count(); at += kSlice) {
         for (size_t k = 0; k < in.size(); ++k) in[k] = in_[k] + at;

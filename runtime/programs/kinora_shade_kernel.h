@@ -68,7 +68,7 @@ class ShadeKernel {
     std::vector<uint8_t> faults_, frame_faults_;
     std::byte* scratch_ = nullptr;
     std::vector<jit::Record> records_;
-    jit::RecordSet record_set_;
+    jit::RecordSet record_sets_[2];  // the lights; the empty set of gather
 };
 
 // The light that shines on the patch: what kinora-shade's surfaces see.

@@ -38,6 +38,16 @@ void transmission(const jit::ServiceCall& call) {
     for (int k = 0; k < 3; ++k) fill(call, k, 1.0f);
 }
 
+// Nothing is near, nothing is known: all results 0.
+template <int results>
+void nothing(const jit::ServiceCall& call) {
+    for (int k = 0; k < results; ++k) fill(call, k, 0.0f);
+}
+// Without a scene gather has no rays to loop over: set 1 is empty.
+void gather(const jit::ServiceCall& call) {
+    fill(call, 0, jit::float_of(1));
+}
+
 void transform(const jit::ServiceCall& call) {
     const Patch& patch = *static_cast<const Patch*>(call.grid);
     for (int i = 0; i < kLanes; ++i) {
@@ -72,6 +82,13 @@ constexpr Row kRows[] = {
     {"transmission", transmission},
     {"transform", transform},
     {"print", print},
+    {"query", nothing<17>},
+    {"occlusion", nothing<4>},
+    {"gather", gather},
+    {"bake3d", nothing<0>},
+    {"photons", nothing<3>},
+    {"texture3d", nothing<33>},
+    {"indirectdiffuse", nothing<3>},
 };
 constexpr size_t kStringServices = 3;  // rsl::string_service
 static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));

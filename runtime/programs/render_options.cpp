@@ -107,7 +107,7 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     app.add_option("--threads", threads, "N, -N (all but N) or all");
     app.add_option("--target", target, "avx512, avx2, neon or interp (the best this CPU has)");
     app.add_option("--quality", quality, "draft, preview, final or reference");
-    std::optional<int> spp;
+    std::optional<int> spp, rays, bounces;
     std::optional<jit::math::Tier> math;
     std::optional<bool> robust, rebuild;
     app.add_option("--spp", spp, "samples per pixel")->check(CLI::Range(1, 1 << 20));
@@ -134,6 +134,10 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
             "FILTER"));
     app.add_option("--filter-width", o.filter_width, "in pixels (the filter's own)");
     app.add_option("--seed", o.seed, "of all sampling");
+    app.add_option("--rays", rays, "rays that shaders may send one from the hit of another (16)")
+        ->check(CLI::Range(0, 64));
+    app.add_option("--bounces", bounces, "of these, of indirect diffuse light (1)")
+        ->check(CLI::Range(0, 64));
     app.add_option("--shadows", o.shadows, "auto, explicit or off")
         ->transform(names<ShadowMode>({{"auto", ShadowMode::Auto},
                                        {"explicit", ShadowMode::Explicit},
@@ -207,6 +211,8 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
         if (math) o.quality.math = *math;
         if (robust) o.quality.robust = *robust;
         if (rebuild) o.quality.always_rebuild = *rebuild;
+        if (rays) o.quality.ray_depth = *rays;
+        if (bounces) o.quality.diffuse_depth = *bounces;
         if (displacement) o.quality.displacement = *displacement;
         if (dice) {
             check_range("--dice", *dice, 0.01, 1e6, "takes 0.01 to 1e6 pixels");

@@ -1,0 +1,143 @@
+// rsl/builtins_points.cpp: rows of the built-in table: point files and photon maps.
+#include "rsl/builtin.h"
+#include "rsl/lower_p.h"
+#include "rsl/pairs.h"
+#include "rsl/reference_builtins.h"
+
+namespace kinora::rsl {
+
+namespace lower_points {
+
+// Channels as the services take them: "float _area,color _radiosity" and their numbers in a row.
+struct Channels {
+    std::string text;
+    std::vector<Value> numbers;
+    void add(const std::string& name, const Lowered& value) {
+        text += (text.empty() ? "" : ",") + std::string(type_name(value.type)) + " " + name;
+        numbers.insert(numbers.end(), value.c.begin(), value.c.begin() + value.size());
+    }
+};
+
+bool is_option(std::string_view name) {
+    constexpr std::string_view kOptions = " radius interpolate coordsystem radiusscale ";
+    return kOptions.find(" " + std::string(name) + " ") != std::string_view::npos;
+}
+
+// bake3d(file, channels, P, N, "channel", value, ...) or without the list of channels.
+void bake3d(LowerCall& c) {
+    auto& e = c.low;
+    c.set(c.b.f(1));
+    if (!e.options.want_Ci) return;
+    int at = c.args.size() == 4 ? 2 : 1;
+    Channels channels;
+    for (auto& [name, value] : c.pairs)
+        if (!is_option(name) && value.type != BaseType::String) channels.add(name, value);
+    if (channels.numbers.size() > size_t(kPointFloats)) {
+        e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
+        return;
+    }
+    V3 P = c.v3(at), N = c.v3(at + 1);
+    e.out.uses_rng = true;
+    std::vector<Value> args = {c.args[0].c[0],
+                               c.b.i(intern(channels.text)),
+                               e.scalar_input("rng", jit::Type::I, jit::Rate::Point),
+                               P[0],
+                               P[1],
+                               P[2],
+                               N[0],
+                               N[1],
+                               N[2],
+                               c.pair("radius", 0)};
+    channels.numbers.resize(size_t(kPointFloats), c.b.f(0));
+    args.insert(args.end(), channels.numbers.begin(), channels.numbers.end());
+    e.service("bake3d", args);
+}
+
+// Each "channel", variable pair is set if the file has the channel; 1 if it has them all.
+void texture3d(LowerCall& c) {
+    auto& e = c.low;
+    Channels channels;
+    std::vector<Lowered> before;
+    for (auto& [name, target] : c.output_pairs) {
+        before.push_back(e.load(target));
+        before.back().type = target.type;
+        channels.add(name, before.back());
+    }
+    if (channels.numbers.size() > size_t(kPointFloats)) {
+        e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
+        return;
+    }
+    V3 P = c.v3(1), N = c.v3(2);
+    std::vector<Value> answer =
+        e.service("texture3d", std::array{c.args[0].c[0], c.b.i(intern(channels.text)), P[0], P[1],
+                                          P[2], N[0], N[1], N[2]});
+    size_t next = 1;
+    Value all = c.b.m(true);
+    for (size_t k = 0; k < c.output_pairs.size(); ++k) {
+        Value bit = c.b.iand(answer[0], c.b.i(int32_t(1u << k)));
+        Value known = c.b.logical_not(c.b.op(jit::Op::IEq, bit, c.b.i(0)));
+        all = c.b.logical_and(all, known);
+        Lowered value = before[k];
+        for (size_t i = 0; i < size_t(value.size()); ++i)
+            value.c[i] = c.b.select(known, answer[next++], value.c[i]);
+        e.store(c.output_pairs[k].second, value);
+    }
+    c.set(e.flag(all));
+}
+
+template <PhotonKind kind>
+void photons(LowerCall& c) {
+    auto& e = c.low;
+    c.known_pairs(
+        "estimator lookup mindist samples smooth maxdist albedo diffusemeanfreepath "
+        "dmfp ior scale unitlength filename");
+    bool named = c.args[0].type == BaseType::String;
+    size_t at = named ? 1 : 0;
+    V3 P = c.v3(int(at));
+    V3 N = c.args.size() > at + 1 ? c.v3(int(at) + 1) : e.f3(0);
+    Value estimator = c.b.ftoi(c.pair("estimator", 50));
+    Value file = named ? c.args[0].c[0] : c.text_pair("filename");
+    std::vector<Value> light = e.service(
+        "photons",
+        std::array{file, c.b.i(int32_t(kind)), estimator, P[0], P[1], P[2], N[0], N[1], N[2]});
+    c.set(V3{light[0], light[1], light[2]});
+}
+
+}  // namespace lower_points
+
+namespace {
+
+namespace lower = lower_points;
+
+constexpr uint32_t kLooksUp = kService | kVaryingResult;
+
+const Builtin kRows[] = {
+    {"texture3d", "f=spn~", lower::texture3d, KINORA_RSL_REF(ref::texture3d),
+     kLooksUp | kChannelPairs, 0,
+     "Values of a point file near P: texture3d(file, P, N, \"channel\", variable, ...), 1 if the "
+     "file has all channels.",
+     kSurface | kLight | kDisplacement | kVolume},
+    {"bake3d", "f=spn~ f=sspn~", lower::bake3d, KINORA_RSL_REF(ref::bake3d),
+     kService | kPrints | kVaryingResult, 0,
+     "Puts a point into a point file, written after the frame: bake3d(file, channels, P, N, "
+     "\"channel\", value, ...).",
+     kSurface | kLight | kDisplacement},
+    {"photonmap", "c=sp~ c=spn~", lower::photons<PhotonKind::Map>, KINORA_RSL_REF(ref::photonmap),
+     kLooksUp, 0, "Photon power per area near P, of a point file with a channel \"power\".",
+     kSurface | kLight | kVolume},
+    {"caustic", "c=spn~ c=pn~", lower::photons<PhotonKind::Caustic>, KINORA_RSL_REF(ref::caustic),
+     kLooksUp, 0, "As photonmap; without a file (or \"filename\") there are no caustics: 0.",
+     kSurface | kLight},
+    {"subsurface", "c=sp~ c=spn~ c=p~ c=pn~", lower::photons<PhotonKind::Subsurface>,
+     KINORA_RSL_REF(ref::subsurface), kLooksUp, 0,
+     "Mean of a point file's \"_ssdiffusion\" or \"_radiance_t\" near P; without a file 0.",
+     kSurface | kLight},
+};
+
+}  // namespace
+
+std::span<const Builtin> builtins_points() {
+    return kRows;
+}
+
+}  // namespace kinora::rsl

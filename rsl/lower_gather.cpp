@@ -1,0 +1,187 @@
+// rsl/lower_gather.cpp: gather: all rays of the statement are shot by one service, then its body is
+// replayed once for each (DESIGN.md decision 5).
+#include <algorithm>
+#include <set>
+
+#include "rsl/lower_p.h"
+#include "rsl/pairs.h"
+
+namespace kinora::rsl {
+
+// The results a statement asks for: where they go, and their first columns.
+struct Lowering::GatherResults {
+    struct Item {
+        std::string name;
+        const Expr* variable;
+        int column;
+        bool of_ray;  // known for rays that meet nothing too
+    };
+    std::vector<Item> items;
+};
+
+namespace {
+
+// Results that are no output parameters: name and type letter.
+struct Known {
+    std::string_view name;
+    BaseType type;
+};
+constexpr Known kKnown[] = {
+    {"surface:Ci", BaseType::Color},   {"surface:Oi", BaseType::Color},
+    {"surface:P", BaseType::Point},    {"surface:N", BaseType::Normal},
+    {"ray:origin", BaseType::Point},   {"ray:direction", BaseType::Vector},
+    {"ray:length", BaseType::Float},   {"primitive:P", BaseType::Point},
+    {"primitive:N", BaseType::Normal}, {"primitive:Ng", BaseType::Normal},
+    {"primitive:u", BaseType::Float},  {"primitive:v", BaseType::Float},
+    {"primitive:s", BaseType::Float},  {"primitive:t", BaseType::Float},
+};
+const Known* find_known(std::string_view name) {
+    for (const Known& row : kKnown)
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+bool fits(BaseType wanted, BaseType variable) {
+    return wanted == variable || (is_triple(wanted) && is_triple(variable));
+}
+
+constexpr std::string_view kOptions[] = {"bias",         "maxdist", "samplebase",
+                                         "distribution", "label",   "hitmode",
+                                         "hitsides",     "volume",  "lightcache"};
+
+void find_gathers(const Stmt* stmt, std::set<std::string>& names) {
+    if (!stmt) return;
+    if (auto* gather = as_if<GatherStmt>(stmt))
+        for (size_t k = 1; k < gather->pairs.size(); k += 2) {
+            std::string_view name = pair_name(gather->pairs, k);
+            if (name.starts_with("surface:") && (name == "surface:N" || !find_known(name)))
+                names.insert(std::string(name.substr(8)));
+        }
+    for_each_part(
+        *stmt, [](const Expr*) {}, [&](const Stmt* part) { find_gathers(part, names); });
+}
+
+}  // namespace
+
+std::vector<std::string> gathered_parameters(const Shader& shader) {
+    std::set<std::string> names;
+    find_gathers(shader.definition->body, names);
+    for (const Function* function : shader.functions) find_gathers(function->body, names);
+    return {names.begin(), names.end()};
+}
+
+void Lowering::gather(const GatherStmt& stmt) {
+    if (!options.want_Ci) return;  // opacity kernels trace nothing (decision 6)
+    if (gather_depth_ >= kGatherLevels)
+        return error(Code::RSL_GATHER_NESTED, stmt.place.where, kGatherLevels);
+    V3 P = expr(*stmt.position).v3(), D = expr(*stmt.direction).v3();
+    Value angle = value(*stmt.angle), samples = value(*stmt.samples);
+    const std::string* category = constant_text(value(*stmt.category));
+    bool shoots = !category || *category != "samplepattern";
+    Value maxdist = b.f(1e30f), bias = b.f(-1), label = b.i(0);
+    int flags = shoots ? 0 : kGatherNoRays;
+    GatherResults results;
+    std::vector<LoweredShader::GatherResult> wanted;
+    int column = kGatherResults;
+    for (size_t k = 1; k < stmt.pairs.size(); k += 2) {
+        std::string name(pair_name(stmt.pairs, k));
+        const Expr& given = *stmt.pairs[k];
+        if (is_gather_output(name)) {
+            const Known* known = find_known(name);
+            bool parameter = !known && name.starts_with("surface:");
+            if ((!known && !parameter) || (known && !fits(known->type, given.type.base)))
+                return error(Code::RSL_GATHER_OUTPUT, given.place.where, name);
+            wanted.push_back({name, given.type.base});
+            results.items.push_back({name, &given, column, name.starts_with("ray:")});
+            column += component_count(given.type.base);
+        } else if (name == "maxdist") {
+            maxdist = value(given);
+        } else if (name == "bias") {
+            bias = value(given);
+        } else if (name == "label") {
+            label = value(given);
+        } else if (name == "distribution") {
+            const std::string* text = constant_text(value(given));
+            if (text && *text == "cosine") flags |= kGatherCosine;
+        } else if (std::find(std::begin(kOptions), std::end(kOptions), name) ==
+                   std::end(kOptions)) {
+            diagnostics.report(Code::RSL_PAIR_UNKNOWN, given.place.where, name, "gather");
+        }
+    }
+    auto seed = sample_seed(uint32_t(out.gathers.size()) * 2654435761u + 77);
+    Value set = service("gather", std::array{seed[0], seed[1], b.i(int(out.gathers.size())),
+                                             b.i(gather_depth_), P[0], P[1], P[2], D[0], D[1], D[2],
+                                             angle, samples, maxdist, bias, label, b.i(flags)})[0];
+    out.gathers.push_back(std::move(wanted));
+
+    // As illuminance: the counter agrees in all lanes, `alive` keeps out those that left.
+    ChangeFinder finder(ast());
+    finder.add(&stmt);
+    const Changes& changes = finder.changes;
+    Value outer = running, outer_region = region_;
+    bool was_in_loop = std::exchange(in_loop_, true);
+    Loop jumps = begin_jumps(stmt, changes);
+    int alive = new_slot(lowered(BaseType::Bool, running));
+    Value count = b.op(jit::Op::RecordCount, set);
+    region_ = b.begin_loop(b.op(jit::Op::ILt, b.i(0), count), loop_site(stmt));
+    Value record = b.loop_var(b.i(0));
+    std::vector<int> slots = carried_slots(changes);
+    loops_.push_back(jumps);
+    bool leaves = leaves_loop(changes);
+    if (leaves) slots.push_back(alive);
+    Carried carried = open_carried(std::move(slots));
+    loop_counters.push_back(record);
+    ++gather_depth_;
+    running = read_slot(alive).c[0];
+    Value state = record_field(set, record, kGatherState, jit::Type::I);
+    Value entered = running;
+    auto lanes_in = [&](GatherState s) {
+        return b.logical_and(entered, b.op(jit::Op::IEq, state, b.i(s)));
+    };
+    // Without rays nothing is hit: the branch for misses runs, or the only one there is.
+    bool only_body = !shoots && !stmt.missed;
+    guarded(lanes_in(only_body ? kGatherMiss : kGatherHit),
+            [&] { gather_branch(stmt, set, record, results, true); });
+    if (stmt.missed) {
+        Value after_hits = running;
+        running = entered;
+        guarded(lanes_in(kGatherMiss), [&] { gather_branch(stmt, set, record, results, false); });
+        if (after_hits != entered)
+            running = running == entered ? after_hits : b.logical_and(running, after_hits);
+    }
+    --gather_depth_;
+    if (leaves) {
+        Value rest = running;
+        if (jumps.continued >= 0) rest = b.logical_or(rest, read_slot(jumps.continued).c[0]);
+        write_slot(alive, lowered(BaseType::Bool, rest));
+    }
+    loop_counters.pop_back();
+    loops_.pop_back();
+    std::vector<Value> next = {b.iadd(record, b.i(1))};
+    close_carried(carried, next);
+    b.end_loop(b.op(jit::Op::ILt, next[0], count), next);
+    carried_out(carried);
+    for (int slot : {jumps.broken, jumps.continued, alive})
+        if (slot >= 0) free_slot(slot);
+    in_loop_ = was_in_loop;
+    region_ = outer_region;
+    running = after_loop(changes, outer);
+}
+
+// One ray: its results into their variables, then the branch.
+void Lowering::gather_branch(const GatherStmt& stmt, Value set, Value record,
+                             GatherResults& results, bool hit) {
+    for (const GatherResults::Item& item : results.items) {
+        if (!hit && !item.of_ray) continue;
+        Target to = target(*item.variable);
+        Lowered x = zero(item.variable->type.base);
+        bool text = x.type == BaseType::String;
+        for (int c = 0; c < x.size(); ++c)
+            x.c[size_t(c)] =
+                record_field(set, record, item.column + c, text ? jit::Type::I : jit::Type::F);
+        store(to, x);
+    }
+    statement(hit ? *stmt.body : *stmt.missed);
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,23 @@
+// rsl/pairs.h: the "name", value pairs that end calls and statements: those whose values are
+// variables that the renderer writes.
+#pragma once
+
+#include <string_view>
+
+#include "rsl/ast.h"
+
+namespace kinora::rsl {
+
+// Is args[value] of the call the variable of an output pair: texture3d(..., "channel", x)?
+bool is_output_pair(const CallExpr& call, size_t value);
+
+// gather(..., "surface:Ci", x, "ray:length", y): names with one of these prefixes are results.
+bool is_gather_output(std::string_view name);
+
+// illuminance(..., "light:falloff", x): a parameter of the light.
+bool is_light_output(std::string_view name);
+
+// The literal that names the pair whose value is args[value]; "" if it is no literal.
+std::string_view pair_name(std::span<Expr* const> args, size_t value);
+
+}  // namespace kinora::rsl

@@ -1,0 +1,273 @@
+// runtime/gather_rays.cpp: the service gather: all rays of a statement at once, their hits shaded
+// as grids, the results kept as records that the statement's loop replays (DESIGN.md decision 5).
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "raytrace/sampling.h"
+#include "runtime/nested_rays_p.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kLanes = jit::kMaxLanes;
+using GatherResult = rsl::LoweredShader::GatherResult;
+
+// Columns of a grid that "primitive:" results show.
+struct PrimitiveRow {
+    std::string_view name;
+    uint16_t column;
+    int components;
+};
+constexpr PrimitiveRow kPrimitive[] = {
+    {"primitive:P", kColP, 3}, {"primitive:N", kColN, 3}, {"primitive:Ng", kColNg, 3},
+    {"primitive:u", kColU, 1}, {"primitive:v", kColV, 1}, {"primitive:s", kColS, 1},
+    {"primitive:t", kColT, 1},
+};
+
+const PrimitiveRow* find_primitive(std::string_view name) {
+    for (const PrimitiveRow& row : kPrimitive)
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+// Results that are known before the ray is shot.
+enum class RayFact : uint8_t { Origin, Direction, Length };
+struct RayColumn {
+    RayFact fact;
+    int column;
+};
+std::span<const RayColumn> ray_columns(std::span<const GatherResult> results, Arena& arena) {
+    std::span<RayColumn> found = arena.allocate_span<RayColumn>(results.size());
+    size_t count = 0;
+    int column = rsl::kGatherResults;
+    for (const GatherResult& result : results) {
+        if (result.name == "ray:origin") found[count++] = {RayFact::Origin, column};
+        if (result.name == "ray:direction") found[count++] = {RayFact::Direction, column};
+        if (result.name == "ray:length") found[count++] = {RayFact::Length, column};
+        column += rsl::component_count(result.type);
+    }
+    return found.first(count);
+}
+
+bool any_of_surface(std::span<const GatherResult> results) {
+    for (const GatherResult& result : results)
+        if (result.name.starts_with("surface:") && result.name != "surface:P") return true;
+    return false;
+}
+
+// One statement's records: columns [record][state, results...][lane].
+class Records {
+  public:
+    Records(Shading::GatherMemory& memory, int count, int width, size_t first)
+        : memory_(memory), width_(width) {
+        size_t columns = size_t(count) * size_t(width);
+        memory.values.assign(columns * kLanes, 0.0f);
+        memory.columns.resize(columns);
+        memory.records.resize(size_t(count));
+        for (size_t c = 0; c < columns; ++c)  // read at the grid's point: a part starts before it
+            memory.columns[c] = memory.values.data() + c * kLanes - first;
+        for (size_t r = 0; r < size_t(count); ++r)
+            memory.records[r] = {memory.columns.data() + r * size_t(width), nullptr};
+    }
+    float& at(uint32_t record, int column, int lane) {
+        return memory_
+            .values[(size_t(record) * size_t(width_) + size_t(column)) * kLanes + size_t(lane)];
+    }
+    void set(uint32_t record, int column, int lane, vec3 v) {
+        for (int k = 0; k < 3; ++k) at(record, column + k, lane) = v[k];
+    }
+
+  private:
+    Shading::GatherMemory& memory_;
+    int width_;
+};
+
+}  // namespace
+
+// The rays of one batch: what they meet goes into their records.
+struct Shading::GatherJob {
+    Grid& grid;
+    std::span<const GatherResult> results;
+    Records& records;
+    std::span<const uint8_t> lane_of;
+    std::span<const uint32_t> sample_of;
+    int32_t label;
+};
+
+int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
+    enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags };
+    Lanes lanes(call);
+    int any = std::countr_zero(call.mask);
+    const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Request, any))];
+    int level = lanes.integer(Level, any), flags = lanes.integer(Flags, any);
+    int width = rsl::kGatherResults;
+    for (const GatherResult& result : results) width += rsl::component_count(result.type);
+    auto count = [&](int lane) {
+        vec3 d = lanes.triple(D, lane);
+        return glm::length(d) > 0 && glm::length(d) < kMiss ? lanes.samples(Samples, lane) : 0;
+    };
+    int most = 0;
+    for (int lane = 0; lane < kLanes; ++lane)
+        if (lanes.asks(lane)) most = std::max(most, count(lane));
+
+    Thread& own = thread(grid.thread);
+    Records records(own.gather_memory(grid.depth, level), most, width, size_t(call.first));
+    Arena::Mark mark = own.arena.mark();
+    std::span<const RayColumn> of_ray = ray_columns(results, own.arena);
+    bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < ray_depth();
+    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+    NestedWavefront nested(own);
+    raytrace::RayBatch& rays = nested->rays;
+    rays.reserve(kGridPoints);
+    rays.count = 0;
+    uint8_t lane_of[kGridPoints];
+    uint32_t sample_of[kGridPoints];
+    auto flush = [&] {
+        size_t n = rays.count;
+        if (n > 0 && shoots)
+            shade_gathered(
+                {grid, results, records, {lane_of, n}, {sample_of, n}, lanes.integer(Label, any)},
+                rays);
+        rays.count = 0;
+    };
+    for (int lane = 0; lane < kLanes; ++lane) {
+        int n = lanes.asks(lane) ? count(lane) : 0;
+        for (int k = n; k < most; ++k)
+            records.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
+        if (n == 0) continue;
+        uint32_t seed = lanes.seed(lane);
+        Cone cone(accel_from_camera * lanes.triple(D, lane), lanes.number(Angle, lane),
+                  flags & rsl::kGatherCosine);
+        RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+        for (uint32_t k = 0; k < uint32_t(n); ++k) {
+            // A cone without width is its axis.
+            vec3 dir = lanes.number(Angle, lane) > 0 ? cone.direction(k, seed) : cone.z;
+            float reach = lanes.number(Maxdist, lane);
+            for (const RayColumn& c : of_ray) {
+                if (c.fact == RayFact::Origin)
+                    records.set(k, c.column, lane, lanes.triple(P, lane));
+                else if (c.fact == RayFact::Direction)
+                    records.set(k, c.column, lane, camera_from_accel_ * dir);
+                else
+                    records.at(k, c.column, lane) = reach;
+            }
+            if (!shoots) continue;
+            lane_of[rays.count] = uint8_t(lane);
+            sample_of[rays.count] = k;
+            add_ray(rays, grid, start, dir, reach, lanes.number(Bias, lane),
+                    raytrace::hash(seed, k), uint32_t(rays.count));
+            if (rays.count == kGridPoints) flush();
+        }
+    }
+    flush();
+    own.arena.release(mark);
+    int32_t handle = int32_t(kGatherSets) + level;
+    grid.record_sets[size_t(handle)] = {most, own.gather_memory(grid.depth, level).records.data()};
+    return handle;
+}
+
+void Shading::shade_gathered(const GatherJob& job, raytrace::RayBatch& rays) {
+    Grid& grid = job.grid;
+    Thread& own = thread(grid.thread);
+    Arena::Mark mark = own.arena.mark();
+    NestedWavefront nested(own);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& hits = raytrace::trace(
+        scene_.accel, rays, raytrace::kMaskAll, grid.depth + 1, nested->hits, own.counters.trace);
+    if (hits.count == 0) return;
+    size_t components = 0;
+    for (const GatherResult& result : job.results)
+        components += size_t(rsl::component_count(result.type));
+    std::span<float*> columns = own.arena.allocate_span<float*>(components);
+    for (float*& column : columns) {
+        column = own.arena.allocate_span<float>(padded(hits.count)).data();
+        std::fill_n(column, padded(hits.count), 0.0f);
+    }
+    if (any_of_surface(job.results)) {
+        raytrace::ShadeResult result = take_colors(own.arena, hits.count);
+        HitOutputs outputs{job.results, columns};
+        RayTag outer_ray = std::exchange(own.ray, deeper(grid, RayKind::Specular, job.label));
+        const HitOutputs* outer = std::exchange(own.outputs, &outputs);
+        shade(hits, grid.thread, result);
+        own.outputs = outer;
+        own.ray = outer_ray;
+        copy_colors(job.results, columns, result, hits.count);
+    }
+    fill_geometry(job.results, columns, hits, grid.thread);
+    // Origin and direction stand already.
+    size_t at = 0;
+    for (const GatherResult& result : job.results) {
+        size_t width = size_t(rsl::component_count(result.type));
+        bool length = result.name == "ray:length";
+        if (length) std::copy_n(hits.t, hits.count, columns[at]);
+        if (!length && result.name.starts_with("ray:"))
+            for (size_t k = 0; k < width; ++k) columns[at + k] = nullptr;
+        at += width;
+    }
+    for (size_t h = 0; h < hits.count; ++h) {
+        uint32_t slot = rays.slot[hits.ray[h]];
+        uint32_t record = job.sample_of[slot];
+        int lane = job.lane_of[slot];
+        job.records.at(record, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherHit);
+        for (size_t c = 0; c < components; ++c)
+            if (columns[c])
+                job.records.at(record, rsl::kGatherResults + int(c), lane) = columns[c][h];
+    }
+    own.arena.release(mark);
+}
+
+void Shading::copy_colors(std::span<const GatherResult> results, std::span<float* const> columns,
+                          const raytrace::ShadeResult& from, size_t count) {
+    size_t c = 0;
+    for (const GatherResult& result : results) {
+        bool Ci = result.name == "surface:Ci", Oi = result.name == "surface:Oi";
+        for (size_t k = 0; k < 3 && (Ci || Oi); ++k)
+            std::copy_n(Ci ? from.Ci[k] : from.Oi[k], count, columns[c + k]);
+        c += size_t(rsl::component_count(result.type));
+    }
+}
+
+// What is known of a hit without its shader.
+void Shading::fill_geometry(std::span<const GatherResult> results, std::span<float* const> columns,
+                            const raytrace::HitBatch& hits, int thread_id) {
+    bool wanted = false;
+    for (const GatherResult& result : results)
+        wanted |= result.name == "surface:P" || find_primitive(result.name);
+    if (!wanted) return;
+    static const Look plain;  // no parameters, so that hits of all looks go together
+    Thread& own = thread(thread_id);
+    for (size_t begin = 0; begin < hits.count; begin += kGridPoints) {
+        Arena::Mark mark = own.arena.mark();
+        size_t n = std::min(kGridPoints, hits.count - begin);
+        std::span<uint32_t> points = own.arena.allocate_span<uint32_t>(n);
+        for (size_t i = 0; i < n; ++i) points[i] = uint32_t(begin + i);
+        Grid grid(scene_, hits, points, &plain);
+        grid.shading = this;
+        grid.arena = &own.arena;
+        grid.columns = own.arena.allocate_span<float*>(kColVarying);
+        std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
+        auto row_of = [](const GatherResult& result) {
+            return find_primitive(result.name == "surface:P" ? "primitive:P" : result.name);
+        };
+        for (const GatherResult& result : results)
+            if (const PrimitiveRow* row = row_of(result))
+                for (int k = 0; k < row->components; ++k) {
+                    uint16_t column = uint16_t(row->column + k);
+                    want_columns(grid, {&column, 1});
+                }
+        gather(grid);
+        size_t c = 0;
+        for (const GatherResult& result : results) {
+            if (const PrimitiveRow* row = row_of(result))
+                for (size_t k = 0; k < size_t(row->components); ++k)
+                    std::copy_n(grid.columns[row->column + k], n, columns[c + k] + begin);
+            c += size_t(rsl::component_count(result.type));
+        }
+        own.arena.release(mark);
+    }
+}
+
+}  // namespace kinora

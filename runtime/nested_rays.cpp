@@ -1,0 +1,168 @@
+// runtime/nested_rays.cpp: rays that shaders shoot, set up in one place, and what they see.
+#include "runtime/nested_rays_p.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "raytrace/sampling.h"
+#include "rsl/renderer_services.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kSeenLayers = 16;       // surfaces one ray sees through (DESIGN.md decision 6)
+constexpr float kLeastLight = 1e-4f;  // of what lies behind them, still worth a ray
+
+}  // namespace
+
+RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
+    RayStart start;
+    start.hit = grid.points[std::min(point, grid.count() - 1)];
+    const mat3& camera_from_accel = grid.shading->camera_from_accel();
+    vec3 eye = grid.shading->eye();
+    vec3 on_surface = triple(grid.hits.P, start.hit);
+    if (camera_from_accel * (on_surface - eye) == P) {
+        start.P = on_surface;
+        start.error = triple(grid.hits.P_error, start.hit);
+        start.Ng = triple(grid.hits.Ng, start.hit);
+        return start;
+    }
+    start.P = glm::transpose(camera_from_accel) * P + eye;
+    // gamma(4) of the magnitudes bounds a rotation and a sum.
+    start.error = (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(eye)) * 2.4e-7f;
+    start.Ng = vec3(0.0f);
+    return start;
+}
+
+void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
+             float tfar, float bias, uint32_t path, uint32_t slot) {
+    vec3 org;
+    if (start.Ng != vec3(0.0f)) {
+        org = raytrace::offset_ray_origin(start.P, start.error, start.Ng, dir);
+    } else {
+        float clear = 2 * std::max(start.error.x, std::max(start.error.y, start.error.z));
+        org = start.P + dir * (clear / glm::length(dir));
+    }
+    size_t i = rays.count++;
+    set_nested_ray(rays, i, org, dir, tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar,
+                   grid.hits, start.hit);
+    if (bias > 0) rays.tnear[i] = bias;
+    if (!grid.scene.volumes.empty())
+        rays.medium[i] = grid.shading->nested_medium(grid.hits, start.hit, dir);
+    rays.sample[i] = path;
+    rays.slot[i] = slot;
+}
+
+// An orthonormal basis without a branch: Duff et al., Building an Orthonormal Basis, Revisited,
+// JCGT 2017.
+Cone::Cone(vec3 axis, float angle, bool cosine_weighted) : by_cosine(cosine_weighted) {
+    z = axis / glm::length(axis);
+    float sign = std::copysign(1.0f, z.z);
+    float a = -1.0f / (sign + z.z), b = z.x * z.y * a;
+    x = vec3(1.0f + sign * z.x * z.x * a, sign * b, -sign * z.x);
+    y = vec3(b, sign + z.y * z.y * a, -z.y);
+    float half_turn = by_cosine ? 1.57079633f : 3.14159265f;
+    cosine = std::cos(std::clamp(angle, 0.0f, half_turn));
+}
+
+// By cosine: a disc's uniform points lifted to the sphere (Malley); else uniform in solid angle.
+vec3 Cone::direction(uint32_t k, uint32_t seed) const {
+    dvec2 s = raytrace::stratified_sample(k, seed);
+    double phi = 2 * kPi * s.y, c = cosine;
+    double up = by_cosine ? std::sqrt(1 - s.x * (1 - c * c)) : 1 - s.x * (1 - c);
+    double out = std::sqrt(std::max(0.0, 1 - up * up));
+    return float(out * std::cos(phi)) * x + float(out * std::sin(phi)) * y + float(up) * z;
+}
+
+uint32_t Lanes::seed(int lane) const {
+    return raytrace::hash(uint32_t(integer(0, lane)), uint32_t(integer(1, lane)));
+}
+
+RayTag deeper(const Grid& grid, RayKind kind, int32_t label) {
+    RayTag tag = grid.ray;
+    tag.kind = kind;
+    tag.label = label;
+    (kind == RayKind::Diffuse ? tag.diffuse : tag.specular) += 1;
+    return tag;
+}
+
+raytrace::ShadeResult take_colors(Arena& arena, size_t count) {
+    raytrace::ShadeResult result;
+    for (size_t k = 0; k < 3; ++k) {
+        result.Ci[k] = arena.allocate_span<float>(padded(count)).data();
+        result.Oi[k] = arena.allocate_span<float>(padded(count)).data();
+    }
+    return result;
+}
+
+// Rays that meet nothing (more) run through the atmosphere to the scene's end.
+void Shading::see_beyond(int thread_id, const raytrace::RayBatch& rays,
+                         const raytrace::HitBatch& hits, std::span<Seen> seen) {
+    Thread& own = thread(thread_id);
+    Arena::Mark mark = own.arena.mark();
+    NestedWavefront nested(own);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& ends = raytrace::missed(rays, hits, miss_distance(), nested->hits);
+    raytrace::ShadeResult result = take_colors(own.arena, ends.count);
+    shade_misses(ends, thread_id, result);
+    for (size_t k = 0; k < ends.count; ++k) {
+        Seen& at = seen[rays.slot[ends.ray[k]]];
+        at.color += at.open * triple(result.Ci, k);
+        at.open *= vec3(1.0f) - triple(result.Oi, k);
+    }
+    own.arena.release(mark);
+}
+
+// Colour along each ray through what is not opaque, what of it is still open behind, and the
+// distance of the nearest surface. Consumes the rays.
+void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
+                  std::span<Seen> seen) {
+    Thread& own = thread(thread_id);
+    for (size_t r = 0; r < rays.count; ++r) seen[rays.slot[r]] = {};
+    RayTag outer = std::exchange(own.ray, tag);
+    const HitOutputs* outputs = std::exchange(own.outputs, nullptr);
+    Arena::Mark mark = own.arena.mark();
+    for (int layer = 0; layer < kSeenLayers && rays.count > 0; ++layer) {
+        NestedWavefront nested(own);
+        nested->hits.reserve(kGridPoints);
+        const raytrace::HitBatch& hits = raytrace::trace(scene_.accel, rays, raytrace::kMaskAll,
+                                                         depth, nested->hits, own.counters.trace);
+        if (miss_distance() > 0 && hits.count < rays.count) see_beyond(thread_id, rays, hits, seen);
+        if (hits.count == 0) break;
+        raytrace::ShadeResult result = take_colors(own.arena, hits.count);
+        shade(hits, thread_id, result);
+        size_t kept = 0;
+        for (size_t h = 0; h < hits.count; ++h) {
+            uint32_t r = hits.ray[h], slot = rays.slot[r];
+            Seen& at = seen[slot];
+            at.color += at.open * triple(result.Ci, h);
+            at.open *= vec3(1.0f) - triple(result.Oi, h);
+            at.distance = std::min(at.distance, hits.t[h]);
+            if (std::max(at.open.x, std::max(at.open.y, at.open.z)) < kLeastLight) {
+                at.open = vec3(0.0f);
+                continue;
+            }
+            // Hits come in the order of their rays, so rays are packed in place.
+            vec3 dir = triple(rays.dir, r), first = triple(hits.org, h);
+            vec3 org = raytrace::offset_ray_origin(triple(hits.P, h), triple(hits.P_error, h),
+                                                   triple(hits.Ng, h), dir);
+            uint32_t medium = medium_behind(hits, h);
+            float left = rays.tfar[r] - (hits.t[h] - rays.t_passed[r]);
+            set_nested_ray(rays, kept, org, dir, left, hits, uint32_t(h));
+            for (size_t k = 0; k < 3; ++k) rays.first_org[k][kept] = first[int(k)];
+            rays.t_passed[kept] = hits.t[h];
+            rays.layer[kept] = hits.layer[h] + 1;
+            rays.medium[kept] = medium;
+            rays.slot[kept++] = slot;
+        }
+        rays.count = kept;
+    }
+    own.arena.release(mark);
+    own.ray = outer;
+    own.outputs = outputs;
+}
+
+}  // namespace kinora

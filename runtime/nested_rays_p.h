@@ -1,0 +1,71 @@
+// runtime/nested_rays_p.h: rays that shaders shoot: where they begin, how they spread, and the
+// batches they go in; for the files that answer ray services only.
+#pragma once
+
+#include "runtime/shading_p.h"
+
+namespace kinora {
+
+inline constexpr float kMiss = 1e30f;       // distance of a ray that met nothing
+inline constexpr int kMostSamples = 65536;  // of one call at one point
+
+// Where the rays of one lane begin, in accel space.
+struct RayStart {
+    vec3 P, error;     // with the bound of its rounding error
+    vec3 Ng;           // of the surface that P is on, length 1; 0: on none that is known
+    uint32_t hit = 0;  // of the grid's batch: the point that asks
+};
+
+// An unmodified P is the hit itself (DESIGN.md decision 18); any other carries the error of coming
+// from current space.
+RayStart ray_start(const Grid& grid, size_t point, vec3 P);
+
+// A ray of a batch from there in a direction of any length but 0; `bias` >= 0 leaves out what is
+// nearer. Its length counts in units of the scene.
+void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
+             float tfar, float bias, uint32_t path, uint32_t slot);
+
+// The axes of a cone and the direction of sample k of n stratified ones in it.
+struct Cone {
+    vec3 x, y, z;  // orthonormal, z the axis
+    float cosine;  // of the angle between axis and side
+    bool by_cosine;
+    Cone(vec3 axis, float angle, bool cosine_weighted);
+    vec3 direction(uint32_t k, uint32_t seed) const;
+};
+
+// Rays that see something: `type` and `label` are interned texts.
+RayTag deeper(const Grid& grid, RayKind kind, int32_t label);
+
+// Memory for the colours of that many hits.
+raytrace::ShadeResult take_colors(Arena& arena, size_t count);
+
+// Lanes of a service call, by name of the argument row.
+class Lanes {
+  public:
+    explicit Lanes(const jit::ServiceCall& call) : call_(call) {}
+    bool asks(int lane) const { return call_.mask >> lane & 1; }
+    float number(int row, int lane) const { return call_.args[row * jit::kMaxLanes + lane]; }
+    int32_t integer(int row, int lane) const { return jit::bits_of(number(row, lane)); }
+    vec3 triple(int row, int lane) const {
+        return {number(row, lane), number(row + 1, lane), number(row + 2, lane)};
+    }
+    void set(int row, int lane, float value) const {
+        call_.results[row * jit::kMaxLanes + lane] = value;
+    }
+    void set(int row, int lane, vec3 v) const {
+        for (int k = 0; k < 3; ++k) set(row + k, lane, v[k]);
+    }
+    size_t point(int lane) const { return size_t(call_.first + lane); }
+    int samples(int row, int lane) const {
+        float n = number(row, lane);
+        return n >= 1 ? int(std::min(n + 0.5f, float(kMostSamples))) : 1;
+    }
+    // Of all samples of the call at this lane: the point, the place of the call, its loops.
+    uint32_t seed(int lane) const;
+
+  private:
+    const jit::ServiceCall& call_;
+};
+
+}  // namespace kinora

@@ -1,0 +1,207 @@
+// runtime/queries.cpp: parameters of other shaders, and the service that all questions go through.
+#include "runtime/queries.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/scene.h"
+#include "runtime/spaces.h"
+
+namespace kinora {
+
+namespace {
+
+using rsl::QueryKind;
+
+char letter_of(rsl::BaseType type) {
+    return "fcpvnms"[int(type)];
+}
+
+// A triple is read as any triple; all else must be of the parameter's type.
+bool fits(const Question& question, rsl::Type type) {
+    Question own{{}, letter_of(type.base)};
+    bool same = question.type == own.type || (question.triple() && own.triple());
+    return same && (type.is_array() ? question.element >= 0 && question.length == type.array_length
+                                    : question.element < 0);
+}
+
+// Bound to a vertex input: the value is at hand where the surface's own kernel reads it.
+bool from_column(const Asker& asker, const Look& look, uint32_t layer, const Question& question,
+                 Answer& answer, bool* varying) {
+    *varying = false;
+    for (const VaryingParam& v : look.varying) {
+        if (v.layer != layer || v.name != question.name) continue;
+        *varying = true;
+        const Grid* grid = asker.grid && asker.grid->lit ? asker.grid->lit : asker.grid;
+        if (!grid || grid->look != &look || grid->columns.size() <= v.column) return false;
+        for (uint32_t c = 0; c < v.components; ++c) {
+            const float* column = grid->columns[v.column + c];
+            if (!column) return false;
+            answer[c] = column[asker.point];
+        }
+        return true;
+    }
+    return false;
+}
+
+bool from_source(const Asker& asker, const Look& look, const ParamSource& source, rsl::Type type,
+                 const Question& question, Answer& answer) {
+    size_t element = size_t(std::max(question.element, 0));
+    if (type.base == rsl::BaseType::String) {
+        if (element >= source.strings.size()) return false;
+        answer[0] = jit::float_of(rsl::intern(source.strings[element]));
+        return true;
+    }
+    if (!source.value.present()) return false;
+    const double* values = &asker.scene.values[source.value.offset];
+    uint32_t count = source.value.count, width = uint32_t(rsl::component_count(type.base));
+    auto number = [&](uint32_t c) {
+        return count == 1 ? values[0] : values[std::min(uint32_t(element) * width + c, count - 1)];
+    };
+    if (rsl::is_spatial(type.base) && count >= 3) {
+        dvec3 placed =
+            place_parameter(type.base, current_from_space(asker.scene, "shader", look.node),
+                            values + std::min(uint32_t(element) * width, count - 3));
+        for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
+        return true;
+    }
+    for (uint32_t c = 0; c < width; ++c) answer[c] = float(number(c));
+    return true;
+}
+
+bool from_default(const rsl::ShaderParameter& parameter, const Question& question, Answer& answer) {
+    if (!parameter.constant) return false;
+    size_t element = size_t(std::max(question.element, 0));
+    const rsl::ConstantValue& value = *parameter.constant;
+    if (parameter.type.base == rsl::BaseType::String) {
+        if (element >= value.strings.size()) return false;
+        answer[0] = jit::float_of(rsl::intern(value.strings[element]));
+        return true;
+    }
+    size_t width = size_t(rsl::component_count(parameter.type.base));
+    if ((element + 1) * width > value.numbers.size()) return false;
+    for (size_t c = 0; c < width; ++c) answer[c] = value.numbers[element * width + c];
+    return true;
+}
+
+const Look* look_at(const Scene& scene, uint32_t index) {
+    return index < scene.looks.size() ? scene.looks[index].get() : nullptr;
+}
+
+// The volume on the side that the ray comes from, or on the other: outside is where Ng points.
+const Look* volume_of(const Asker& asker, bool opposite) {
+    if (!asker.on_surface()) return nullptr;
+    const Grid& grid = *asker.grid;
+    uint32_t hit = asker.hit();
+    float along = 0;
+    for (size_t k = 0; k < 3; ++k) along += grid.hits.dir[k][hit] * grid.hits.Ng[k][hit];
+    bool from_outside = along < 0;
+    const Surface& surface = asker.surface();
+    return look_at(asker.scene, from_outside != opposite ? surface.exterior : surface.interior);
+}
+
+struct Asked {
+    const Look* look = nullptr;
+    rsl::ShaderKind kind = rsl::ShaderKind::Surface;
+};
+
+Asked whom(QueryKind kind, const Asker& asker) {
+    const Look* surface = &asker.look;
+    if (asker.grid && asker.grid->surface)
+        surface = asker.grid->surface;
+    else if (surface->kind != LookKind::Surface)
+        surface = asker.on_surface() ? look_at(asker.scene, asker.surface().look) : nullptr;
+    switch (kind) {
+        case QueryKind::Surface:
+            return {surface, rsl::ShaderKind::Surface};
+        case QueryKind::Displacement:
+            return {surface, rsl::ShaderKind::Displacement};
+        case QueryKind::Atmosphere:
+            return {look_at(asker.scene, asker.scene.atmosphere), rsl::ShaderKind::Volume};
+        case QueryKind::Incident:
+            return {volume_of(asker, false), rsl::ShaderKind::Volume};
+        case QueryKind::Opposite:
+            return {volume_of(asker, true), rsl::ShaderKind::Volume};
+        default:
+            return {};
+    }
+}
+
+bool answer_name(const Asker& asker, const Question& question, Answer& answer) {
+    struct Row {
+        std::string_view name;
+        QueryKind kind;
+    };
+    constexpr Row kRows[] = {
+        {"surface", QueryKind::Surface},       {"displacement", QueryKind::Displacement},
+        {"atmosphere", QueryKind::Atmosphere}, {"volume", QueryKind::Atmosphere},
+        {"incident", QueryKind::Incident},     {"opposite", QueryKind::Opposite},
+        {"interior", QueryKind::Opposite},     {"exterior", QueryKind::Incident}};
+    for (const Row& row : kRows) {
+        if (row.name != question.name) continue;
+        Asked asked = whom(row.kind, asker);
+        for (size_t l = asked.look ? asked.look->layers.size() : 0; l-- > 0;) {
+            const rsl::Shader& shader = *asked.look->layers[l].shader;
+            if (shader.kind != asked.kind) continue;
+            answer[0] = jit::float_of(rsl::intern(shader.name));
+            return true;
+        }
+    }
+    return false;
+}
+
+bool answer_question(QueryKind kind, const Asker& asker, const Question& question, Answer& answer) {
+    if (kind == QueryKind::ShaderName) return answer_name(asker, question, answer);
+    if (kind <= QueryKind::RayInfo) return answer_fact(kind, asker, question, answer);
+    Asked asked = whom(kind, asker);
+    return asked.look && answer_parameter(asker, *asked.look, asked.kind, question, answer);
+}
+
+}  // namespace
+
+const Surface& Asker::surface() const {
+    return scene.surfaces[grid->hits.instance[hit()]];
+}
+
+bool answer_parameter(const Asker& asker, const Look& look, rsl::ShaderKind kind,
+                      const Question& question, Answer& answer) {
+    for (size_t l = look.layers.size(); l-- > 0;) {
+        const ShaderUse& use = look.layers[l];
+        if (use.shader->kind != kind) continue;
+        for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
+            if (parameter.name != question.name) continue;
+            if (!fits(question, parameter.type)) return false;
+            bool varying;
+            if (from_column(asker, look, uint32_t(l), question, answer, &varying)) return true;
+            if (varying) return false;
+            for (const ParamSource& source : use.params)
+                if (source.name == parameter.name &&
+                    from_source(asker, look, source, parameter.type, question, answer))
+                    return true;
+            return from_default(parameter, question, answer);
+        }
+    }
+    return false;
+}
+
+void answer_query(const KernelHost& host, const jit::ServiceCall& call) {
+    constexpr int kLanes = jit::kMaxLanes;
+    auto integer = [&](int row, int lane) { return jit::bits_of(call.args[row * kLanes + lane]); };
+    for (int lane = 0; lane < kLanes; ++lane) {
+        float* known = &call.results[lane];
+        *known = jit::float_of(0);
+        if (!(call.mask >> lane & 1)) continue;
+        Asker asker{*host.scene, *host.look, host.grid};
+        if (host.grid) asker.point = std::min(size_t(call.first + lane), host.grid->count() - 1);
+        Question question{rsl::interned(integer(1, lane)), char(integer(2, lane)), integer(3, lane),
+                          integer(4, lane)};
+        Answer answer{};
+        if (!answer_question(QueryKind(integer(0, lane)), asker, question, answer)) continue;
+        *known = jit::float_of(1);
+        for (int k = 0; k < question.components(); ++k)
+            call.results[(1 + k) * kLanes + lane] = answer[size_t(k)];
+    }
+}
+
+}  // namespace kinora

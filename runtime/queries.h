@@ -1,0 +1,53 @@
+// runtime/queries.h: what shaders ask about each other, the geometry, the ray and the renderer: the
+// service "query".
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "rsl/renderer_services.h"
+#include "runtime/grid.h"
+
+namespace kinora {
+
+struct Surface;
+
+// Who asks: a point of a grid, or nobody in particular (frame rate).
+struct Asker {
+    const Scene& scene;
+    const Look& look;
+    const Grid* grid = nullptr;
+    size_t point = 0;  // of the grid
+
+    uint32_t hit() const { return grid->points[point]; }
+    bool on_surface() const { return grid && grid->hits.instance[hit()] != kNone; }
+    const Surface& surface() const;  // that the grid's point lies on
+};
+
+// What is asked for: a number of a type (letters of rsl/builtin.h), or an element of an array.
+struct Question {
+    std::string_view name;
+    char type = 'f';
+    int element = -1;  // of an array of `length`; -1: no array
+    int length = 1;
+    bool triple() const { return type == 'c' || type == 'p' || type == 'v' || type == 'n'; }
+    int components() const { return triple() ? 3 : type == 'm' ? 16 : 1; }
+};
+
+// An answer: up to 16 numbers, a string's id bit for bit.
+using Answer = std::array<float, 16>;
+
+// The service; lanes without an answer get known = 0.
+void answer_query(const KernelHost& host, const jit::ServiceCall& call);
+
+// Rows of attribute(), option(), rendererinfo() and rayinfo(): facts by their customary names; a
+// prefix "Ri:" is the same without it. False where the name or the type is not known.
+bool answer_fact(rsl::QueryKind kind, const Asker& asker, const Question& question, Answer& answer);
+
+// A shader parameter as it is bound (or its constant default): `kind` chooses the layer, the last
+// one first. False if there is none of that name and type.
+bool answer_parameter(const Asker& asker, const Look& look, rsl::ShaderKind kind,
+                      const Question& question, Answer& answer);
+
+}  // namespace kinora

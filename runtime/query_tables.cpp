@@ -1,0 +1,310 @@
+// runtime/query_tables.cpp: the facts that attribute, option, rendererinfo and rayinfo know.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "runtime/queries.h"
+#include "runtime/scene.h"
+#include "runtime/shading.h"
+
+namespace kinora {
+
+namespace {
+
+// Numbers in a row or one text; `kind` 'p' (point) and 'v' (vector) are in current space.
+struct Fact {
+    std::array<double, 4> numbers{};
+    int count = 0;
+    std::string_view text;
+    bool is_text = false;
+
+    Fact() = default;
+    Fact(double x) : numbers{x}, count(1) {}
+    Fact(std::initializer_list<double> list) : count(int(list.size())) {
+        std::copy(list.begin(), list.end(), numbers.begin());
+    }
+    Fact(vec3 v) : Fact({double(v.x), double(v.y), double(v.z)}) {}
+    Fact(std::string_view s) : text(s), is_text(true) {}
+    bool known() const { return count > 0 || is_text; }
+};
+
+using Find = Fact (*)(const Asker& asker);
+struct Row {
+    std::string_view name;
+    Find find;
+};
+
+template <int x>
+Fact constant(const Asker&) {
+    return double(x);
+}
+
+// ---- attribute ----------------------------------------------------------------------------------
+
+const NodeDefinition& node_of(const Asker& asker) {
+    const Shape& shape = asker.scene.shapes[asker.surface().shape];
+    return asker.scene.description->nodes[asker.scene.nodes[shape.node].definition];
+}
+const Look& look_of(const Asker& asker) {
+    return *asker.scene.looks[asker.surface().look];
+}
+
+Fact sides(const Asker& asker) {
+    return look_of(asker).hide_backfaces ? 1.0 : 2.0;
+}
+Fact node_name(const Asker& asker) {
+    const NodeDefinition& node = node_of(asker);
+    return std::string_view(node.id.empty() ? node.name : node.id);
+}
+Fact material_name(const Asker& asker) {
+    return std::string_view(look_of(asker).name);
+}
+Fact mesh_name(const Asker& asker) {
+    const Shape& shape = asker.scene.shapes[asker.surface().shape];
+    return std::string_view(asker.scene.description->meshes[shape.mesh].id);
+}
+Fact row_number(const Asker& asker) {
+    return double(asker.grid->hits.instance[asker.hit()]);
+}
+Fact ray_depth(const Asker& asker) {
+    return double(asker.scene.options.ray_depth);
+}
+Fact diffuse_depth(const Asker& asker) {
+    return double(asker.scene.options.diffuse_depth);
+}
+Fact backfacing(const Asker& asker) {
+    return look_of(asker).hide_backfaces ? 1.0 : 0.0;
+}
+Fact transmission_mode(const Asker& asker) {
+    return std::string_view(look_of(asker).opaque() ? "opaque" : "shader");
+}
+Fact shader_mode(const Asker&) {
+    return std::string_view("shader");
+}
+
+constexpr Row kAttributes[] = {
+    {"ShadingRate", constant<1>},  // a sample is shaded where it hits
+    {"ShadingInterpolation", [](const Asker&) { return Fact(std::string_view("smooth")); }},
+    {"Sides", sides},
+    {"Matte", constant<0>},
+    {"matte", constant<0>},
+    {"identifier:name", node_name},
+    {"identifier:object", mesh_name},
+    {"identifier:shadinggroup", material_name},
+    {"identifier:id", row_number},
+    {"displacementbound:sphere", constant<0>},
+    {"displacementbound:coordinatesystem",
+     [](const Asker&) { return Fact(std::string_view("object")); }},
+    {"trace:maxspeculardepth", ray_depth},
+    {"trace:maxdiffusedepth", diffuse_depth},
+    {"trace:displacements", constant<0>},
+    {"trace:samplemotion", constant<0>},
+    {"trace:bias", constant<0>},
+    {"visibility:camera", constant<1>},
+    {"visibility:diffuse", constant<1>},
+    {"visibility:specular", constant<1>},
+    {"visibility:transmission", constant<1>},
+    {"visibility:trace", constant<1>},
+    {"visibility:photon", constant<0>},
+    {"shade:diffusehitmode", shader_mode},
+    {"shade:specularhitmode", shader_mode},
+    {"shade:camerahitmode", shader_mode},
+    {"shade:transmissionhitmode", transmission_mode},
+    {"cull:hidden", constant<0>},
+    {"cull:backfacing", backfacing},
+    {"dice:rasterorient", constant<0>},
+};
+
+// ---- option -------------------------------------------------------------------------------------
+
+Fact format(const Asker& asker) {
+    return {double(asker.scene.view.width), double(asker.scene.view.height), 1.0};
+}
+Fact frame_aspect(const Asker& asker) {
+    return asker.scene.view.half_width / asker.scene.view.half_height;
+}
+Fact shutter(const Asker& asker) {
+    double open = asker.scene.shading->time();
+    return {open, open + asker.scene.shading->shutter()};
+}
+Fact clipping(const Asker& asker) {
+    return {asker.scene.view.znear, asker.scene.view.zfar};
+}
+Fact frame(const Asker& asker) {
+    return std::round(asker.scene.shading->time() * play_range(*asker.scene.description).rate);
+}
+Fact projection(const Asker& asker) {
+    return std::string_view(asker.scene.view.orthographic ? "orthographic" : "perspective");
+}
+Fact scene_file(const Asker& asker) {
+    return std::string_view(asker.scene.description->path);
+}
+
+constexpr Row kOptions[] = {
+    {"Format", format},
+    {"DeviceResolution", format},
+    {"FrameAspectRatio", frame_aspect},
+    {"PixelAspectRatio", constant<1>},
+    {"CropWindow",
+     [](const Asker&) {
+         return Fact({0.0, 1.0, 0.0, 1.0});
+     }},
+    {"DepthOfField",
+     [](const Asker&) {
+         return Fact({1e30, 1.0, 1.0});
+     }},  // a pinhole
+    {"Shutter", shutter},
+    {"Clipping", clipping},
+    {"Frame", frame},
+    {"Projection", projection},
+    {"Exposure",
+     [](const Asker&) {
+         return Fact({1.0, 1.0});
+     }},
+    {"RelativeDetail", constant<1>},
+    {"MaxRayLevel", ray_depth},
+    {"trace:maxdepth", ray_depth},
+    {"limits:gridsize", [](const Asker&) { return Fact(double(kGridPoints)); }},
+    {"limits:bucketsize",
+     [](const Asker&) {
+         return Fact({64.0, 64.0});
+     }},
+    {"scene:file", scene_file},
+};
+
+// ---- rendererinfo -------------------------------------------------------------------------------
+
+constexpr Row kRenderer[] = {
+    {"renderer", [](const Asker&) { return Fact(std::string_view("Kinora")); }},
+    {"version",
+     [](const Asker&) {
+         double v[3] = {};
+         std::sscanf(KINORA_VERSION, "%lf.%lf.%lf", &v[0], &v[1], &v[2]);
+         return Fact({v[0], v[1], v[2], 0.0});
+     }},
+    {"versionstring", [](const Asker&) { return Fact(std::string_view(KINORA_VERSION)); }},
+};
+
+// ---- rayinfo ------------------------------------------------------------------------------------
+
+Fact depth(const Asker& asker) {
+    return double(asker.grid->depth);
+}
+Fact kind(const Asker& asker) {
+    constexpr std::string_view kNames[] = {"camera", "specular", "diffuse", "transmission"};
+    return kNames[size_t(asker.grid->ray.kind)];
+}
+Fact label(const Asker& asker) {
+    return std::string_view(rsl::interned(asker.grid->ray.label));
+}
+vec3 of_hit(const Asker& asker, const float* const columns[3]) {
+    uint32_t hit = asker.hit();
+    return {columns[0][hit], columns[1][hit], columns[2][hit]};
+}
+Fact origin(const Asker& asker) {
+    const Shading& shading = *asker.grid->shading;
+    return shading.camera_from_accel() * (of_hit(asker, asker.grid->hits.org) - shading.eye());
+}
+Fact direction(const Asker& asker) {
+    return asker.grid->shading->camera_from_accel() *
+           glm::normalize(of_hit(asker, asker.grid->hits.dir));
+}
+Fact length(const Asker& asker) {
+    vec3 way = of_hit(asker, asker.grid->hits.P) - of_hit(asker, asker.grid->hits.org);
+    return double(glm::length(way));
+}
+Fact specular_depth(const Asker& asker) {
+    return double(asker.grid->ray.specular);
+}
+Fact ray_diffuse_depth(const Asker& asker) {
+    return double(asker.grid->ray.diffuse);
+}
+Fact shadow_depth(const Asker& asker) {
+    return asker.grid->ray.kind == RayKind::Transmission ? 1.0 : 0.0;
+}
+
+constexpr Row kRay[] = {
+    {"depth", depth},
+    {"type", kind},
+    {"label", label},
+    {"origin", origin},
+    {"direction", direction},
+    {"length", length},
+    {"speculardepth", specular_depth},
+    {"diffusedepth", ray_diffuse_depth},
+    {"shadowdepth", shadow_depth},
+};
+
+// -------------------------------------------------------------------------------------------------
+
+std::span<const Row> rows_of(rsl::QueryKind kind_asked) {
+    switch (kind_asked) {
+        case rsl::QueryKind::Attribute:
+            return kAttributes;
+        case rsl::QueryKind::Option:
+            return kOptions;
+        case rsl::QueryKind::RendererInfo:
+            return kRenderer;
+        case rsl::QueryKind::RayInfo:
+            return kRay;
+        default:
+            return {};
+    }
+}
+
+// Several numbers are read as an array no longer than they are, or three as a triple.
+bool read(const Fact& fact, const Question& question, Answer& answer) {
+    if (fact.is_text) {
+        if (question.type != 's' || question.element >= 0) return false;
+        answer[0] = jit::float_of(rsl::intern(fact.text));
+        return true;
+    }
+    bool array = question.element >= 0;
+    if (question.type == 'f' && array) {
+        if (question.length > fact.count) return false;
+        answer[0] = float(fact.numbers[size_t(question.element)]);
+        return true;
+    }
+    int wanted = question.triple() ? 3 : 1;
+    if (array || question.type == 'm' || question.type == 's' || fact.count != wanted) return false;
+    for (int k = 0; k < wanted; ++k) answer[size_t(k)] = float(fact.numbers[size_t(k)]);
+    return true;
+}
+
+// "user:NAME" of the node, else of the nodes above it.
+bool user_attribute(const Asker& asker, const Question& question, Answer& answer) {
+    const Shape& shape = asker.scene.shapes[asker.surface().shape];
+    for (uint32_t n = shape.node; n != kNone; n = asker.scene.nodes[n].parent) {
+        const NodeDefinition& node =
+            asker.scene.description->nodes[asker.scene.nodes[n].definition];
+        for (const UserAttribute& user : node.attributes) {
+            if (user.name != question.name) continue;
+            if (user.numbers.empty()) {
+                return read(Fact(std::string_view(user.text)), question, answer);
+            }
+            Fact fact;
+            fact.count = int(std::min(user.numbers.size(), fact.numbers.size()));
+            std::copy_n(user.numbers.begin(), fact.count, fact.numbers.begin());
+            return read(fact, question, answer);
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+bool answer_fact(rsl::QueryKind kind_asked, const Asker& asker, const Question& question,
+                 Answer& answer) {
+    bool of_point =
+        kind_asked == rsl::QueryKind::Attribute || kind_asked == rsl::QueryKind::RayInfo;
+    if (of_point && !asker.grid) return false;
+    if (kind_asked == rsl::QueryKind::Attribute && !asker.on_surface()) return false;
+    std::string_view name = question.name;
+    if (name.starts_with("Ri:")) name.remove_prefix(3);
+    for (const Row& row : rows_of(kind_asked))
+        if (row.name == name) return read(row.find(asker), question, answer);
+    return kind_asked == rsl::QueryKind::Attribute && user_attribute(asker, question, answer);
+}
+
+}  // namespace kinora

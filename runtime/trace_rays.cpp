@@ -1,0 +1,303 @@
+// runtime/trace_rays.cpp: the services trace, transmission, occlusion and indirectdiffuse: the
+// samples of a lane group go in dense batches, each lane sums its own in their order, so that no
+// result depends on its neighbours.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "raytrace/sampling.h"
+#include "runtime/nested_rays_p.h"
+#include "runtime/texture.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kLanes = jit::kMaxLanes;
+
+// Fills batches with the samples of all lanes and hands each full one to flush(first sample of the
+// batch). add(lane, k) adds one ray with slot = its place in the batch.
+template <class Count, class Add, class Flush>
+void in_batches(const Lanes& lanes, raytrace::RayBatch& rays, Count&& count, Add&& add,
+                Flush&& flush) {
+    uint8_t lane_of[kGridPoints];
+    uint32_t filled = 0;
+    rays.reserve(kGridPoints);
+    rays.count = 0;
+    auto empty = [&] {
+        if (filled > 0) flush(std::span<const uint8_t>(lane_of, filled));
+        rays.count = 0;
+        filled = 0;
+    };
+    for (int lane = 0; lane < kLanes; ++lane) {
+        if (!lanes.asks(lane)) continue;
+        int n = count(lane);
+        for (int k = 0; k < n; ++k) {
+            lane_of[filled] = uint8_t(lane);
+            add(lane, uint32_t(k), filled);
+            if (++filled == kGridPoints) empty();
+        }
+    }
+    empty();
+}
+
+bool has_direction(vec3 d) {
+    float length = glm::length(d);
+    return length > 0 && length < kMiss;
+}
+
+// Light of a map along directions in world space, filtered over `width` radians.
+void look_up(int32_t map, std::span<const vec3> directions, float width, vec3* light) {
+    alignas(64) float args[13 * kLanes] = {}, results[4 * kLanes];
+    for (size_t begin = 0; begin < directions.size(); begin += kLanes) {
+        size_t count = std::min(directions.size() - begin, size_t(kLanes));
+        for (size_t i = 0; i < count; ++i) {
+            vec3 d = directions[begin + i];
+            // Any two directions across d span the footprint.
+            vec3 side = std::abs(d.x) > 0.5f ? vec3(-d.y, d.x, 0) : vec3(0, -d.z, d.y);
+            side *= width / glm::length(side);
+            vec3 up = glm::cross(d, side);
+            args[i] = jit::float_of(map);
+            for (int k = 0; k < 3; ++k) {
+                args[(2 + k) * kLanes + int(i)] = d[k];
+                args[(5 + k) * kLanes + int(i)] = side[k];
+                args[(8 + k) * kLanes + int(i)] = up[k];
+            }
+        }
+        lookup_environment({nullptr, args, results, (1u << count) - 1, 0, kLanes});
+        for (size_t i = 0; i < count; ++i)
+            for (int k = 0; k < 3; ++k) light[begin + i][k] = results[k * kLanes + int(i)];
+    }
+}
+
+}  // namespace
+
+void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
+    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label };
+    Lanes lanes(call);
+    vec3 color[kLanes] = {};
+    float distance[kLanes];
+    std::fill_n(distance, kLanes, kMiss);
+    if (grid.shadows && grid.depth < ray_depth()) {
+        Thread& own = thread(grid.thread);
+        Arena::Mark mark = own.arena.mark();
+        std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
+        mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+        NestedWavefront nested(own);
+        in_batches(
+            lanes, nested->rays,
+            [&](int lane) {
+                if (!has_direction(lanes.triple(R, lane))) return 0;
+                return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
+            },
+            [&](int lane, uint32_t k, uint32_t slot) {
+                uint32_t seed = lanes.seed(lane);
+                vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
+                if (float spread = lanes.number(Spread, lane); spread > 0)
+                    dir = Cone(dir, spread, false).direction(k, seed);
+                RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+                add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
+                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot);
+            },
+            [&](std::span<const uint8_t> lane_of) {
+                int32_t label = lanes.integer(Label, lane_of[0]);
+                see(grid.thread, nested->rays, grid.depth + 1,
+                    deeper(grid, RayKind::Specular, label), seen);
+                for (size_t i = 0; i < lane_of.size(); ++i) {
+                    color[lane_of[i]] += seen[i].color;
+                    distance[lane_of[i]] = std::min(distance[lane_of[i]], seen[i].distance);
+                }
+            });
+        own.arena.release(mark);
+    }
+    for (int lane = 0; lane < kLanes; ++lane) {
+        bool many = lanes.asks(lane) && lanes.number(Spread, lane) > 0;
+        lanes.set(0, lane, many ? color[lane] / float(lanes.samples(Samples, lane)) : color[lane]);
+        lanes.set(3, lane, distance[lane]);
+    }
+}
+
+// What passes of each ray; consumes the rays. Slots must be 0, 1, 2, ...
+void Shading::pass(int thread_id, raytrace::RayBatch& rays, std::span<vec3> through) {
+    Thread& own = thread(thread_id);
+    uint8_t blocked[kGridPoints];
+    std::fill(through.begin(), through.end(), vec3(1.0f));
+    raytrace::occluded_by_opaque(scene_.accel, rays, blocked, own.counters.trace);
+    size_t count = rays.count;
+    if (any_transparent_) pass_transparent(thread_id, rays, through.data());
+    for (size_t r = 0; r < count; ++r)
+        if (blocked[r]) through[r] = vec3(0.0f);
+}
+
+void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
+    enum { From = 2, To = 5, Samples = 8, Spread, Bias };
+    Lanes lanes(call);
+    vec3 sum[kLanes];
+    auto count = [&](int lane) {
+        return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
+    };
+    for (int lane = 0; lane < kLanes; ++lane) sum[lane] = vec3(0.0f);
+    Thread& own = thread(grid.thread);
+    Arena::Mark mark = own.arena.mark();
+    std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
+    NestedWavefront nested(own);
+    auto open = [&](int lane) {  // nothing can lie between two points that are the same
+        return !grid.shadows || !has_direction(lanes.triple(To, lane) - lanes.triple(From, lane));
+    };
+    in_batches(
+        lanes, nested->rays, [&](int lane) { return open(lane) ? 0 : count(lane); },
+        [&](int lane, uint32_t k, uint32_t slot) {
+            // The end keeps clear of the surface it may lie on, as the beginning does.
+            RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(From, lane));
+            RayStart end = ray_start(grid, lanes.point(lane), lanes.triple(To, lane));
+            vec3 way = end.P - start.P;
+            if (float spread = lanes.number(Spread, lane); spread > 0)
+                way = Cone(way, spread, false).direction(k, lanes.seed(lane)) * glm::length(way);
+            vec3 target = start.P + way;
+            if (end.Ng != vec3(0.0f)) {
+                target = raytrace::offset_ray_origin(target, end.error, end.Ng, -way);
+            } else {
+                float clear = 2 * std::max(end.error.x, std::max(end.error.y, end.error.z));
+                target -= way * (clear / glm::length(way));
+            }
+            vec3 org = start.P;
+            if (start.Ng != vec3(0.0f))
+                org = raytrace::offset_ray_origin(org, start.error, start.Ng, way);
+            vec3 dir = target - org;
+            if (!has_direction(dir) || glm::dot(dir, way) <= 0) dir = way * 1e-6f;
+            add_ray(nested->rays, grid, start, dir, 1.0f,
+                    lanes.number(Bias, lane) / glm::length(dir),
+                    raytrace::hash(lanes.seed(lane), k), slot);
+        },
+        [&](std::span<const uint8_t> lane_of) {
+            pass(grid.thread, nested->rays, through.first(lane_of.size()));
+            for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += through[i];
+        });
+    own.arena.release(mark);
+    for (int lane = 0; lane < kLanes; ++lane)
+        lanes.set(0, lane,
+                  !lanes.asks(lane) || open(lane) ? vec3(1.0f) : sum[lane] / float(count(lane)));
+}
+
+void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
+    enum { P = 2, N = 5, Samples = 8, Angle, Maxdist, Bias, Falloff, Mode };
+    Lanes lanes(call);
+    Thread& own = thread(grid.thread);
+    float blocked[kLanes] = {};
+    vec3 open[kLanes] = {};
+    Arena::Mark mark = own.arena.mark();
+    std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
+    std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
+    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+    NestedWavefront nested(own), near(own);
+    auto count = [&](int lane) {
+        bool asks = grid.shadows && has_direction(lanes.triple(N, lane));
+        return asks ? lanes.samples(Samples, lane) : 0;
+    };
+    in_batches(
+        lanes, nested->rays, count,
+        [&](int lane, uint32_t k, uint32_t slot) {
+            uint32_t seed = lanes.seed(lane);
+            Cone cone(accel_from_camera * lanes.triple(N, lane), lanes.number(Angle, lane), true);
+            RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+            dirs[slot] = cone.direction(k, seed);
+            add_ray(nested->rays, grid, start, dirs[slot], lanes.number(Maxdist, lane),
+                    lanes.number(Bias, lane), raytrace::hash(seed, k), slot);
+        },
+        [&](std::span<const uint8_t> lane_of) {
+            bool by_distance = false;
+            for (uint8_t lane : lane_of) by_distance |= lanes.number(Falloff, lane) > 0;
+            std::span<float> weight = own.arena.allocate_span<float>(by_distance ? kGridPoints : 0);
+            if (by_distance) distances(grid.thread, nested->rays, near->hits, weight);
+            pass(grid.thread, nested->rays, through.first(lane_of.size()));
+            for (size_t i = 0; i < lane_of.size(); ++i) {
+                int lane = lane_of[i];
+                float hidden = 1 - (through[i].x + through[i].y + through[i].z) / 3;
+                float falloff = lanes.number(Falloff, lane);
+                // "falloffmode" 0: exponential, 1: a power of the share of maxdist left.
+                if (falloff > 0 && hidden > 0)
+                    hidden *=
+                        lanes.number(Mode, lane) > 0
+                            ? std::pow(std::max(0.0f, 1 - weight[i] / lanes.number(Maxdist, lane)),
+                                       falloff)
+                            : std::exp(-falloff * weight[i]);
+                blocked[lane] += hidden;
+                open[lane] += (1 - hidden) * dirs[i];
+            }
+        });
+    own.arena.release(mark);
+    for (int lane = 0; lane < kLanes; ++lane) {
+        int n = lanes.asks(lane) ? count(lane) : 0;
+        lanes.set(0, lane, n ? blocked[lane] / float(n) : 0.0f);
+        float length = glm::length(open[lane]);
+        vec3 mean = length > 0 ? camera_from_accel_ * open[lane] / length : vec3(0.0f);
+        lanes.set(1, lane, n ? mean : lanes.triple(N, lane));
+    }
+}
+
+// Of the nearest surface along each ray, kMiss without one.
+void Shading::distances(int thread_id, const raytrace::RayBatch& rays, raytrace::HitStore& store,
+                        std::span<float> out) {
+    std::fill(out.begin(), out.end(), kMiss);
+    store.reserve(kGridPoints);
+    const raytrace::HitBatch& hits = raytrace::trace(scene_.accel, rays, raytrace::kMaskAll, 1,
+                                                     store, thread(thread_id).counters.trace);
+    for (size_t h = 0; h < hits.count; ++h) out[rays.slot[hits.ray[h]]] = hits.t[h];
+}
+
+void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
+    enum { P = 2, N = 5, Samples = 8, Angle, Maxdist, Bias, Map };
+    Lanes lanes(call);
+    Thread& own = thread(grid.thread);
+    vec3 sum[kLanes] = {};
+    // What lies beyond the last bounce is black; a map alone costs no ray.
+    bool bounces = grid.depth < ray_depth() && grid.ray.diffuse < diffuse_depth();
+    Arena::Mark mark = own.arena.mark();
+    std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
+    std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
+    std::span<vec3> light = own.arena.allocate_span<vec3>(kGridPoints);
+    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+    NestedWavefront nested(own);
+    auto count = [&](int lane) {
+        bool asks = grid.shadows && has_direction(lanes.triple(N, lane));
+        asks &= bounces || lanes.integer(Map, lane) != 0;
+        return asks ? lanes.samples(Samples, lane) : 0;
+    };
+    in_batches(
+        lanes, nested->rays, count,
+        [&](int lane, uint32_t k, uint32_t slot) {
+            uint32_t seed = lanes.seed(lane);
+            Cone cone(accel_from_camera * lanes.triple(N, lane), lanes.number(Angle, lane), true);
+            RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+            dirs[slot] = cone.direction(k, seed);
+            seen[slot] = {};
+            if (bounces && lanes.number(Maxdist, lane) > 0)
+                add_ray(nested->rays, grid, start, dirs[slot], lanes.number(Maxdist, lane),
+                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot);
+        },
+        [&](std::span<const uint8_t> lane_of) {
+            see(grid.thread, nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), seen);
+            for (size_t begin = 0; begin < lane_of.size();) {
+                size_t end = begin + 1;
+                int32_t map = lanes.integer(Map, lane_of[begin]);
+                while (end < lane_of.size() && lane_of[end] == lane_of[begin]) ++end;
+                if (map != 0) {
+                    // Each sample stands for its share of the hemisphere.
+                    float width =
+                        std::sqrt(2 * float(kPi) / float(lanes.samples(Samples, lane_of[begin])));
+                    look_up(map, dirs.subspan(begin, end - begin), width, light.data());
+                    for (size_t i = begin; i < end; ++i)
+                        seen[i].color += seen[i].open * light[i - begin];
+                }
+                begin = end;
+            }
+            for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += seen[i].color;
+        });
+    own.arena.release(mark);
+    for (int lane = 0; lane < kLanes; ++lane) {
+        int n = lanes.asks(lane) ? count(lane) : 0;
+        lanes.set(0, lane, n ? sum[lane] / float(n) : vec3(0.0f));
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,227 @@
+// tests/runtime/queries_test.cpp: messages between shaders, and what attribute, option,
+// rendererinfo, rayinfo and shadername say, against what the scene's text says.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "scene_text.h"
+
+namespace kinora {
+namespace {
+
+SceneText floor_scene(const std::string& code,
+                      const std::string& passes = "<shader stage=\"SURFACE\"/>") {
+    SceneText scene;
+    scene.square("floor", 1.5).look("floor-look", code, passes).place("floor", "floor-look");
+    return scene;
+}
+
+vec3 middle(const SceneText& scene) {
+    Rendering r(scene.text());
+    r.frame(4, 4, 0.5);
+    EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    return r.color(1, 1);
+}
+
+std::string surface(const std::string& body, const std::string& parameters = "") {
+    return "surface s(" + parameters + ") { Oi = 1; Ci = 0; " + body + " }";
+}
+
+// ---- messages
+
+const char* kLamp =
+    "light lamp(float steps[3] = {1, 2, 4}; string name = \"lantern\"; color tint = color(1, 2, 3);"
+    " matrix m = matrix(1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1); string __category = \"key,warm\";) {"
+    " solar(vector \"world\" (0, 0, -1), 0) Cl = 1; }";
+
+SceneText lit(const std::string& body) {
+    SceneText scene = floor_scene(surface("illuminance(P, normalize(N), PI/2) { " + body + " }"));
+    scene.rsl_light("lamp", kLamp);
+    return scene;
+}
+
+TEST(Lightsource, TellsArraysTextsAndMatrices) {
+    EXPECT_EQ(middle(lit("float a[3] = {0, 0, 0}; float ok = lightsource(\"steps\", a);"
+                         " Ci = ok * color(a[0], a[1], a[2]);")),
+              vec3(1, 2, 4));
+    EXPECT_EQ(middle(lit("string n = \"\"; float ok = lightsource(\"name\", n);"
+                         " if (n == \"lantern\") Ci = ok;")),
+              vec3(1));
+    EXPECT_EQ(middle(lit("matrix m = 1; float ok = lightsource(\"m\", m);"
+                         " Ci = ok * color(comp(m, 3, 0), comp(m, 3, 1), comp(m, 3, 2));")),
+              vec3(5, 6, 7));
+    EXPECT_EQ(middle(lit("point p = 0; float ok = lightsource(\"tint\", p);"
+                         " Ci = ok * color(xcomp(p), ycomp(p), zcomp(p));")),
+              vec3(1, 2, 3));
+}
+
+TEST(Lightsource, LeavesTheVariableWhereNameOrTypeIsAnother) {
+    EXPECT_EQ(middle(lit("float x = 7; float a = lightsource(\"tint\", x);"
+                         " float y = 8; float b = lightsource(\"none\", y);"
+                         " float l[2] = {9, 9}; float c = lightsource(\"steps\", l);"
+                         " Ci = color(x + a, y + b, l[0] + c);")),
+              vec3(7, 8, 9));
+}
+
+TEST(Lightsource, IsReadByPairsOfIlluminanceToo) {
+    SceneText scene = floor_scene(surface(
+        "color t = 0; string name = \"\"; illuminance(P, normalize(N), PI/2, \"lightcache\","
+        " \"refresh\", \"light:tint\", t, \"light:name\", name) if (name == \"lantern\") Ci = t;"));
+    scene.rsl_light("lamp", kLamp);
+    EXPECT_EQ(middle(scene), vec3(1, 2, 3));
+}
+
+TEST(Categories, AreListsAndExpressions) {
+    auto lights = [](const char* category) {
+        SceneText scene = floor_scene(
+            surface(fmt::format("illuminance(\"{}\", P, normalize(N), PI/2) Ci += Cl;", category)));
+        int value = 1;
+        for (const char* own : {"key,warm", "key", "fill,warm", ""}) {
+            scene.rsl_light(fmt::format("l{}", value),
+                            fmt::format("light l(string __category = \"{}\";) {{"
+                                        " solar(vector \"world\" (0,0,-1), 0) Cl = {}; }}",
+                                        own, value));
+            value *= 10;
+        }
+        return middle(scene).x;
+    };
+    EXPECT_EQ(lights("key"), 11);
+    EXPECT_EQ(lights("-key"), 1100);
+    EXPECT_EQ(lights("key,fill"), 111);
+    EXPECT_EQ(lights("-key,fill"), 1000);
+    EXPECT_EQ(lights("key|fill"), 111);
+    EXPECT_EQ(lights("key&warm"), 1);
+    EXPECT_EQ(lights("warm&-key"), 100);
+    EXPECT_EQ(lights("key&-warm|fill"), 110);
+    EXPECT_EQ(lights("-key|warm"), 1101);
+    EXPECT_EQ(lights(""), 1111);
+}
+
+TEST(SurfaceMessage, ShowsALightTheParametersOfWhatItLights) {
+    const char* lamp =
+        "light lamp() { solar(vector \"world\" (0, 0, -1), 0) { color c = 0; string n = \"\";"
+        " float bump = 0; float gone = 4; float ok = surface(\"base\", c);"
+        " ok += surface(\"label\", n); ok += displacement(\"height\", bump);"
+        " ok += surface(\"nothing\", gone);"
+        " Cl = n == \"oak\" ? color(comp(c, 1), ok, bump + gone) : color(0); } }";
+    SceneText scene = floor_scene(
+        "displacement d(float height = 0.25;) { N = normalize(N); }"
+        "surface s(color base = color(1, 2, 3); string label = \"\";) {"
+        " Oi = 1; illuminance(P, normalize(N), PI/2) Ci = Cl; }",
+        "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\">"
+        "<bind symbol=\"base\"><float3>4 5 6</float3></bind>"
+        "<bind symbol=\"label\"><string>oak</string></bind></shader>");
+    scene.rsl_light("lamp", lamp);
+    EXPECT_EQ(middle(scene), vec3(5, 3, 4.25f));
+}
+
+TEST(SurfaceMessage, ShowsADisplacementTheSurfaceAboveIt) {
+    SceneText scene = floor_scene(
+        "displacement d(output float got = 0;) { float k = 0; float ok = surface(\"Kd\", k);"
+        " got = k + ok; }"
+        "surface s(float Kd = 0.5; float list[2] = {1, 2};) { Oi = 1; float g = 0;"
+        " float ok = displacement(\"got\", g); Ci = color(g, ok, 0); }",
+        "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\"/>");
+    EXPECT_EQ(middle(scene), vec3(1.5f, 1, 0));
+}
+
+TEST(SurfaceMessage, CarriesArraysBetweenLayers) {
+    SceneText scene = floor_scene(
+        "displacement d(output float got[3] = {0, 0, 0};) { got[1] = 5; got[2] = s > -1 ? 6 : 0; }"
+        "surface s() { Oi = 1; float g[3] = {1, 1, 1}; float ok = displacement(\"got\", g);"
+        " Ci = ok * color(g[0], g[1], g[2]); }",
+        "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\"/>");
+    EXPECT_EQ(middle(scene), vec3(0, 5, 6));
+}
+
+TEST(VolumeMessages, AnswerNoWhereThereIsNoVolume) {
+    EXPECT_EQ(middle(floor_scene(surface(
+                  "float x = 3; float ok = atmosphere(\"density\", x) + incident(\"density\", x) +"
+                  " opposite(\"density\", x); Ci = color(x, ok, 0);"))),
+              vec3(3, 0, 0));
+}
+
+// ---- questions
+
+TEST(Attribute, TellsTheGeometrysOwn) {
+    SceneText scene;
+    scene.square("floor", 1.5)
+        .look(
+            "oak",
+            surface("uniform string name = \"\", look = \"\"; uniform float sides = 0, rate = 0;"
+                    " attribute(\"identifier:name\", name); attribute(\"identifier:shadinggroup\", "
+                    "look);"
+                    " float ok = attribute(\"Ri:Sides\", sides) + attribute(\"ShadingRate\", rate);"
+                    " float none = 5; ok += attribute(\"no:such\", none);"
+                    " if (name == \"plank\" && look == \"oak\") Ci = color(sides, ok, none);"));
+    scene.place("floor", "oak", "", "plank");
+    EXPECT_EQ(middle(scene), vec3(2, 2, 5));
+}
+
+TEST(Attribute, FindsTheUsersOnTheNodeAndAboveIt) {
+    SceneText scene;
+    scene.square("floor", 1.5)
+        .look("oak",
+              surface("color tint = 0; string who = \"\"; float k = 0;"
+                      " float ok = attribute(\"user:tint\", tint) + attribute(\"user:who\", who) +"
+                      " attribute(\"user:k\", k); if (who == \"anna bell\") Ci = tint * k * ok;"));
+    scene.nodes +=
+        "<node><node><instance_geometry url=\"#floor\"><bind_material><technique_common>"
+        "<instance_material symbol=\"skin\" target=\"#oak\"/></technique_common></bind_material>"
+        "</instance_geometry><extra><technique profile=\"RSL\"><attribute name=\"user:tint\">1 2 3"
+        "</attribute><attribute name=\"user:k\">2</attribute></technique></extra></node>"
+        "<extra><technique profile=\"RSL\"><attribute name=\"user:who\">anna bell</attribute>"
+        "<attribute name=\"user:k\">9</attribute></technique></extra></node>";
+    EXPECT_EQ(middle(scene), vec3(6, 12, 18));
+}
+
+TEST(Option, TellsThePictureAndTheTime) {
+    EXPECT_EQ(
+        middle(floor_scene(surface(
+            "uniform float f[3] = {0, 0, 0}, c[2] = {0, 0}, t[2] = {0, 0}; uniform float a = 0;"
+            " float ok = option(\"Format\", f) + option(\"Clipping\", c) +"
+            " option(\"Ri:Shutter\", t) + option(\"FrameAspectRatio\", a);"
+            " if (ok == 4) Ci = color(f[0] + f[1] / 10 + a, c[1], t[0]);"))),
+        vec3(5.4f, 100, 0.5f));
+}
+
+TEST(Option, LeavesTheVariableWhereTypeOrNameIsAnother) {
+    EXPECT_EQ(
+        middle(floor_scene(surface(
+            "string s = \"x\"; float f[4] = {7, 7, 7, 7}; float g = 3;"
+            " float ok = option(\"Format\", s) + option(\"Format\", f) + option(\"what\", g) +"
+            " option(\"Format\", g); if (s == \"x\") Ci = color(ok, f[3], g);"))),
+        vec3(0, 7, 3));
+}
+
+TEST(Rendererinfo, NamesTheRendererAndItsVersion) {
+    EXPECT_EQ(middle(floor_scene(surface(
+                  "string who = \"\", text = \"\"; float v[4] = {9, 9, 9, 9};"
+                  " float ok = rendererinfo(\"renderer\", who) + rendererinfo(\"version\", v) +"
+                  " rendererinfo(\"versionstring\", text);"
+                  " if (who == \"Kinora\" && text != \"\" && v[0] + v[1] + v[2] > 0 && v[0] < 9)"
+                  "   Ci = color(ok, v[3], 1);"))),
+              vec3(3, 0, 1));
+}
+
+TEST(Rayinfo, TellsTheCamerasRay) {
+    EXPECT_EQ(middle(floor_scene(surface(
+                  "string kind = \"\"; float d = 9, l = 0; point o = 0; vector w = 0;"
+                  " float ok = rayinfo(\"type\", kind) + rayinfo(\"depth\", d) +"
+                  " rayinfo(\"length\", l) + rayinfo(\"origin\", o) + rayinfo(\"direction\", w);"
+                  " l += length(o + l * w - P);"
+                  " if (kind == \"camera\") Ci = color(ok, l, d + raydepth());"))),
+              vec3(5, 10, 0));
+}
+
+TEST(Shadername, NamesTheOthersOfThePoint) {
+    SceneText scene = floor_scene(
+        "displacement bumps() { N = N; } surface paint() { Oi = 1; Ci = 0;"
+        " if (shadername() == \"paint\") Ci += color(1, 0, 0);"
+        " if (shadername(\"displacement\") == \"bumps\") Ci += color(0, 1, 0);"
+        " if (shadername(\"atmosphere\") == \"\") Ci += color(0, 0, 1); }",
+        "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\"/>");
+    EXPECT_EQ(middle(scene), vec3(1));
+}
+
+}  // namespace
+}  // namespace kinora

@@ -1,0 +1,423 @@
+// tests/runtime/rays_test.cpp: trace, transmission, occlusion, indirectdiffuse and gather against
+// closed forms: where a ray goes and what it meets is known from the scene's few planes.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "allocations_of_ours.h"
+#include "jit/target.h"
+#include "scene_text.h"
+
+namespace kinora {
+namespace {
+
+// A floor that fills the picture and, at x = 1, a wall of a height, endless along y for all
+// purposes, with its normal towards the floor's middle (-x).
+SceneText floor_and_wall(const std::string& floor, const std::string& wall, double height) {
+    SceneText scene;
+    scene.square("floor", 1.5).look("floor-look", floor).place("floor", "floor-look");
+    scene.look("wall-look", wall);
+    scene.mesh("wall", {{0, -5000, -1}, {0, -5000, height}, {0, 5000, height}, {0, 5000, -1}},
+               {0, 1, 2, 0, 2, 3}, std::vector<dvec3>(4, dvec3(-1, 0, 0)));
+    scene.place("wall", "wall-look", "<translate>1.25 0 0</translate>");
+    return scene;
+}
+
+// A box around everything, the camera too.
+void add_box(SceneText& scene, const std::string& code, double s = 40) {
+    scene.look("box-look", code);
+    std::vector<dvec3> corners;
+    for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? s : -s, k & 2 ? s : -s, k & 4 ? s : -s});
+    scene.mesh("box", corners, {0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 3, 7, 1, 7, 5});
+    scene.place("box", "box-look");
+}
+
+std::string floor_code(const std::string& body) {
+    return "surface floor() { Oi = 1; Ci = 0; normal n = normalize(N);"
+           " vector up = vector \"world\" (0, 0, 1), right = vector \"world\" (1, 0, 0); " +
+           body + " }";
+}
+const char* kBlack = "surface black() { Oi = 1; Ci = 0; }";
+
+// What a point of the floor sees of the wall: half of 1 - cos(elevation of its top) (the form
+// factor of two perpendicular strips; Siegel and Howell, Thermal Radiation Heat Transfer).
+double wall_share(double x, double height) {
+    double d = 1.25 - x;
+    return 0.5 * (1 - d / std::sqrt(d * d + height * height));
+}
+
+TEST(Occlusion, OfAFloorBesideAWallIsItsFormFactor) {
+    SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 256);"), kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    for (int x = 0; x < 16; ++x) {
+        double want = wall_share(r.place(x, 0).x, 0.8), mean = 0;
+        for (int y = 0; y < 16; ++y) {
+            EXPECT_NEAR(r.color(x, y).x, want, 0.02) << x << "," << y;
+            mean += double(r.color(x, y).x) / 16;
+        }
+        EXPECT_NEAR(mean, want, 0.003) << "column " << x;
+    }
+}
+
+TEST(Occlusion, OfAnOpenFloorIsExactlyNothing) {
+    SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 64);"), kBlack, -0.5);
+    Rendering r(scene.text());
+    r.frame();
+    for (int x = 0; x < 16; ++x) EXPECT_EQ(r.color(x, 3).x, 0.0f) << r.findings();
+}
+
+TEST(Occlusion, OptionsNarrowShortenAndWeigh) {
+    SceneText scene = floor_and_wall(
+        floor_code("float near = occlusion(P, n, 256, \"maxdist\", 0.6);"
+                   " float narrow = occlusion(P, n, 256, \"coneangle\", 0.1);"
+                   " vector open = 0; float all = occlusion(P, n, 256, \"environmentdir\", open);"
+                   " Ci = color(near, narrow, xcomp(vtransform(\"world\", open)));"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    EXPECT_EQ(r.color(3, 8).x, 0.0f);  // the wall is 1.7 away
+    EXPECT_GT(r.color(15, 8).x, 0.1f);
+    EXPECT_LT(r.color(15, 8).x, float(wall_share(r.place(15, 8).x, 0.8)) + 0.02f);
+    EXPECT_EQ(r.color(3, 8).y, 0.0f);    // straight up is free
+    EXPECT_LT(r.color(15, 8).z, -0.1f);  // away from the wall
+}
+
+TEST(Occlusion, CountsTransparentSurfacesByTheirOpacity) {
+    auto share = [](const char* wall) {
+        SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 64);"), wall, 0.8);
+        Rendering r(scene.text());
+        r.frame();
+        return r.color(14, 8).x;
+    };
+    float full = share(kBlack);
+    EXPECT_NEAR(share("surface g() { Oi = 0.25; Ci = 0; }"), 0.25f * full, 1e-6f);
+    EXPECT_NEAR(share("surface g() { Oi = 0.25 + 0 * s; Ci = 0; }"), 0.25f * full, 1e-6f);
+}
+
+TEST(IndirectDiffuse, InAWhiteFurnaceIsOne) {
+    SceneText scene;
+    scene.square("floor", 1.5)
+        .look("floor-look", floor_code("Ci = indirectdiffuse(P, n, 32);"))
+        .place("floor", "floor-look");
+    add_box(scene, "surface white() { Oi = 1; Ci = 1; }");
+    Rendering r(scene.text());
+    r.frame();
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) ASSERT_EQ(r.color(x, y), vec3(1.0f)) << r.findings();
+}
+
+TEST(IndirectDiffuse, IsTheColorTimesTheFormFactor) {
+    SceneText scene = floor_and_wall(floor_code("Ci = indirectdiffuse(P, n, 256);"),
+                                     "surface lamp() { Oi = 1; Ci = color(1, 2, 4); }", 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    for (int x = 0; x < 16; ++x) {
+        vec3 mean(0.0f);
+        for (int y = 0; y < 16; ++y) mean += r.color(x, y) / 16.0f;
+        double want = wall_share(r.place(x, 0).x, 0.8);
+        EXPECT_NEAR(mean.x, want, 0.003) << x;
+        EXPECT_FLOAT_EQ(mean.z, 4 * mean.x);
+    }
+}
+
+// A floor of albedo 1/2 inside a box that glows by 1 sees itself nowhere: one bounce and two are
+// the same there; a wall that is lit by indirectdiffuse alone is black after the last bounce.
+TEST(IndirectDiffuse, BouncesAsOftenAsTheSceneAllows) {
+    for (int bounces : {1, 2}) {
+        SceneText scene = floor_and_wall(
+            floor_code("Ci = trace(P, right + 0.3 * up);"),
+            "surface wall() { Oi = 1; Ci = 0.5 * indirectdiffuse(P, normalize(N), 16); }", 5);
+        add_box(scene,
+                "surface white() { Oi = 1; normal n = normalize(N);"
+                " if (n . I > 0) n = -n; Ci = 1 + 0.5 * indirectdiffuse(P, n, 4); }");
+        SceneOptions options;
+        options.diffuse_depth = bounces;
+        Rendering r(scene.text(), options);
+        r.frame(4, 4);
+        EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+        // The wall's mirror image of the box: at least the glow, more with another bounce.
+        if (bounces == 1)
+            EXPECT_NEAR(r.color(1, 1).x, 0.5, 0.2);
+        else
+            EXPECT_GT(r.color(1, 1).x, 0.6);
+    }
+}
+
+TEST(Trace, SeesThroughWhatIsNotOpaque) {
+    SceneText scene =
+        floor_and_wall(floor_code("float d = trace(P, right + up); Ci = trace(P, right + up);"
+                                  " if (s < 0.5) Ci = d;"),
+                       "surface pane() { Oi = 0.5; Ci = color(0.25, 0, 0.125); }", 30);
+    add_box(scene, "surface white() { Oi = 1; Ci = 1; }", 60);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    EXPECT_EQ(r.color(12, 8), vec3(0.75f, 0.5f, 0.625f));
+    EXPECT_NEAR(r.color(2, 8).x, (1.25 - r.place(2, 8).x) * std::sqrt(2.0), 1e-5);
+}
+
+TEST(Trace, MissesBeyondMaxdistAndInANarrowConeSeesTheSame) {
+    SceneText scene = floor_and_wall(
+        floor_code("color far = trace(P, right + up, \"maxdist\", 0.1);"
+                   " float d = trace(P, right + up, \"maxdist\", 0.1);"
+                   " color cone = trace(P, right + up, \"samples\", 16, \"samplecone\", 0.01);"
+                   " Ci = color(comp(far, 0), comp(cone, 1), d > 1e29 ? 1 : 0);"),
+        "surface lamp() { Oi = 1; Ci = 1; }", 30);
+    Rendering r(scene.text());
+    r.frame();
+    EXPECT_EQ(r.color(8, 8), vec3(0, 1, 1)) << r.findings();
+}
+
+TEST(Trace, HangsNoMoreRaysBehindEachOtherThanAllowed) {
+    // Two mirrors that add 1 each: the depth shows in the sum.
+    const char* mirror =
+        "surface m() { Oi = 1; Ci = 1 + trace(P, reflect(normalize(I), normalize(N))); }";
+    for (int depth : {1, 4, 16}) {
+        SceneText scene;
+        scene.square("a", 1.5).look("m", mirror).place("a", "m");
+        // The camera's side has its back culled, so that the picture sees past it.
+        scene.mesh("b", {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}, {0, 2, 1, 0, 3, 2});
+        scene.place("b", "m", "<translate>0 0 11</translate>");
+        SceneOptions options;
+        options.ray_depth = depth;
+        Rendering r(scene.text(), options);
+        r.frame(4, 4);
+        EXPECT_EQ(r.color(1, 1).x, 1.0f + float(depth)) << r.findings();
+    }
+}
+
+TEST(Transmission, IsTheProductOfWhatLiesBetween) {
+    SceneText scene =
+        floor_and_wall(floor_code("point there = P + 4 * right + up; Ci = transmission(P, there);"
+                                  " if (s < 0.5) Ci = visibility(P, there);"
+                                  " if (s < 0.35) Ci = transmission(P, P + 0.1 * up);"),
+                       "surface pane() { Oi = color(0.5, 0.25, 0); Ci = Oi; }", 30);
+    scene.look("second-look", "surface pane() { Oi = 0.5 + 0 * s; Ci = Oi; }");
+    scene.place("wall", "second-look", "<translate>3 0 0</translate>");
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    EXPECT_EQ(r.color(13, 8), vec3(0.25f, 0.375f, 0.5f));
+    EXPECT_EQ(r.color(6, 8), vec3(1.0f));
+    EXPECT_EQ(r.color(1, 8), vec3(1.0f));
+}
+
+TEST(Transmission, OfAConeOfSamplesIsTheirMean) {
+    // The cone's axis grazes the wall's top edge: half the samples are blocked.
+    SceneText scene = floor_and_wall(
+        floor_code("point top = point \"world\" (1.25, 0, 0.8); vector way = 3 * (top - P);"
+                   " Ci = transmission(P, P + way, \"samples\", 256, \"samplecone\", 0.05);"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    EXPECT_NEAR(r.color(8, 7).x, 0.5, 0.02) << r.findings();
+}
+
+// ---- gather
+
+// Rays from P = (x, y, 0) meet the wall at x = 1.25 below its top, and nothing else.
+const char* kMeetsWall =
+    "float meets(point from; vector way;) { vector w = vtransform(\"world\", way);"
+    " point p = transform(\"world\", from); float along = (1.25 - xcomp(p)) / xcomp(w);"
+    " return (xcomp(w) > 0 && along * zcomp(w) < 0.8) ? 1 : 0; }\n";
+
+TEST(Gather, TakesTheBranchThatTheGeometrySays) {
+    SceneText scene = floor_and_wall(
+        kMeetsWall +
+            floor_code("float wrong = 0, rays = 0, hits = 0; vector way = 0; point from = 0;"
+                       " gather(\"illuminance\", P, n, PI/2, 64, \"ray:direction\", way,"
+                       "        \"ray:origin\", from) {"
+                       "   hits += 1; rays += 1; wrong += 1 - meets(from, way);"
+                       " } else { rays += 1; wrong += meets(from, way); }"
+                       " Ci = color(wrong, rays, hits);"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    float hits = 0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            ASSERT_EQ(r.color(x, y).x, 0.0f) << x << "," << y;
+            ASSERT_EQ(r.color(x, y).y, 64.0f) << x << "," << y;
+            hits += r.color(x, y).z;
+        }
+    EXPECT_GT(hits, 1000);
+}
+
+TEST(Gather, SpreadsItsRaysAsTheDistributionSays) {
+    // The mean cosine is 1/2 of uniform directions and 2/3 of those by cosine.
+    SceneText scene = floor_and_wall(
+        floor_code("float even = 0, by_cosine = 0, cap = 1; vector way = 0;"
+                   " gather(\"\", P, n, PI/2, 256, \"ray:direction\", way) {;}"
+                   " else even += (normalize(way) . n) / 256;"
+                   " gather(\"\", P, n, PI/2, 256, \"ray:direction\", way, \"distribution\","
+                   "        \"cosine\") {;} else by_cosine += (normalize(way) . n) / 256;"
+                   " gather(\"\", P, n, 0.3, 64, \"ray:direction\", way) {;}"
+                   " else cap = min(cap, normalize(way) . n);"
+                   " Ci = color(even, by_cosine, cap);"),
+        kBlack, -0.5);
+    Rendering r(scene.text());
+    r.frame(4, 4);
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(r.color(k, k).x, 0.5, 0.005);
+        EXPECT_NEAR(r.color(k, k).y, 2.0 / 3, 0.005);
+        EXPECT_GE(r.color(k, k).z, std::cos(0.3) - 1e-6);
+        EXPECT_LT(r.color(k, k).z, 0.99);
+    }
+}
+
+TEST(Gather, GivesWhatTheRayMeets) {
+    SceneText scene = floor_and_wall(
+        floor_code(
+            "float t = 0, mark = 0, shade = 0; color c = 0, o = 0; point at = 0;"
+            " normal pn = 0, sn = 0, g = 0; float bad = 0, level = 0;"
+            " gather(\"\", P, right + 0.2 * up, 0, 1, \"ray:length\", t, \"surface:Ci\", c,"
+            "        \"surface:Oi\", o, \"surface:P\", at, \"surface:mark\", mark,"
+            "        \"surface:N\", sn, \"primitive:N\", pn, \"primitive:Ng\", g,"
+            "        \"label\", \"probe\") {"
+            "   point w = transform(\"world\", at);"
+            "   float x = xcomp(transform(\"world\", P));"
+            "   bad += abs(xcomp(w) - 1.25) > 1e-5 ? 1 : 0;"
+            "   bad += abs(t - (1.25 - x) * sqrt(1.04)) > 1e-5 ? 2 : 0;"
+            "   bad += abs(zcomp(w) - 0.2 * (1.25 - x)) > 1e-5 ? 4 : 0;"
+            "   bad += distance(ntransform(\"world\", pn), normal (-1, 0, 0)) > 1e-5 ? 8 : 0;"
+            "   bad += distance(ntransform(\"world\", sn), normal (0, 1, 0)) > 1e-5 ? 16 : 0;"
+            "   bad += abs(abs(xcomp(ntransform(\"world\", g))) - 1) > 1e-5 ? 32 : 0;"
+            "   bad += abs(mark - zcomp(w)) > 1e-5 ? 64 : 0;"
+            "   Ci = color(comp(c, 1) + bad, comp(o, 2), comp(c, 0)); }"),
+        "surface wall(output varying float mark = 0;) { Oi = color(1, 1, 0.5); float d = 0;"
+        " string kind = \"\", label = \"\"; rayinfo(\"depth\", d); rayinfo(\"type\", kind);"
+        " rayinfo(\"label\", label); mark = zcomp(transform(\"world\", P));"
+        " Ci = color(d, 0.125, 0); if (kind != \"specular\" || label != \"probe\") Ci = 7;"
+        " N = normal \"world\" (0, 1, 0); }",
+        5);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    for (int x = 0; x < 14; ++x) EXPECT_EQ(r.color(x, 8), vec3(0.125f, 0.5f, 1.0f)) << x;
+}
+
+TEST(Gather, BreaksAndContinuesPointByPoint) {
+    SceneText scene = floor_and_wall(
+        floor_code("float n1 = 0, n2 = 0, k = floor(10 * s);"
+                   " gather(\"\", P, n, PI/2, 8) {;} else { if (n1 >= k) break; n1 += 1; }"
+                   " gather(\"\", P, n, PI/2, 8) {;} else { n2 += 1; if (n2 > k) continue;"
+                   "   n2 += 0; }"
+                   " Ci = color(n1, n2, min(k, 8));"),
+        kBlack, -0.5);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    for (int x = 0; x < 16; ++x) {
+        EXPECT_EQ(r.color(x, 5).x, r.color(x, 5).z) << x;
+        EXPECT_EQ(r.color(x, 5).y, 8.0f);
+    }
+}
+
+TEST(Gather, SampleCountsMayDifferFromPointToPoint) {
+    SceneText scene = floor_and_wall(
+        floor_code("float k = 1 + floor(7 * s), rays = 0;"
+                   " gather(\"\", P, n, PI/2, k) {;} else rays += 1; Ci = color(rays, k, 0);"),
+        kBlack, -0.5);
+    Rendering r(scene.text());
+    r.frame();
+    for (int x = 0; x < 16; ++x) EXPECT_EQ(r.color(x, 5).x, r.color(x, 5).y) << r.findings();
+}
+
+TEST(Gather, ASamplePatternShootsNothing) {
+    SceneText scene = floor_and_wall(
+        floor_code("float a = 0, b = 0; vector way = 0;"
+                   " gather(\"samplepattern\", P, right, 0.1, 8, \"ray:direction\", way) a += 1;"
+                   " gather(\"samplepattern\", P, right, 0.1, 8) {;} else b += 1;"
+                   " Ci = color(a, b, xcomp(vtransform(\"world\", way)) > 0.99 ? 1 : 0);"),
+        kBlack, 5);
+    Rendering r(scene.text());
+    r.frame(4, 4);
+    EXPECT_EQ(r.color(1, 1), vec3(8, 8, 1)) << r.findings();
+}
+
+TEST(Gather, NestsInItselfAndInLoops) {
+    SceneText scene = floor_and_wall(
+        floor_code("float sum = 0, i; for (i = 0; i < 3; i += 1) {"
+                   "  gather(\"\", P, n, PI/2, 4) {;} else {"
+                   "    gather(\"\", P, n, PI/2, 5) {;} else sum += 1; sum += 100; } }"
+                   " Ci = sum;"),
+        kBlack, -0.5);
+    Rendering r(scene.text());
+    r.frame(4, 4);
+    EXPECT_EQ(r.color(2, 2).x, 3 * 4 * (5 + 100)) << r.findings();
+}
+
+TEST(Gather, AWrongResultIsAnErrorNamingIt) {
+    SceneText scene = floor_and_wall(
+        floor_code("float x = 0; gather(\"\", P, n, PI/2, 4, \"ray:flavour\", x) {;}"), kBlack, 1);
+    Rendering r(scene.text());
+    ASSERT_TRUE(r.diagnostics.has_errors());
+    EXPECT_NE(r.findings().find("ray:flavour"), std::string::npos) << r.findings();
+}
+
+// ---- all of them
+
+SceneText ray_zoo() {
+    SceneText scene = floor_and_wall(
+        floor_code(
+            "color c = 0; vector way = 0; gather(\"\", P, n, 1, 6, \"surface:Ci\", c,"
+            " \"ray:direction\", way) Ci += c * random(); else Ci += 0.1 * abs(xcomp(way));"
+            " Ci += occlusion(P, n, 9) + indirectdiffuse(P, n, 7);"
+            " Ci += trace(P, right + up, \"samples\", 3, \"samplecone\", 0.5);"
+            " Ci *= transmission(P, P + 3 * up + right, \"samples\", 3, \"samplecone\", 0.2);"),
+        "surface wall() { Oi = 0.5 + 0.4 * noise(3 * P); Ci = Oi * (0.2 + diffuse(normalize(N)))"
+        " + 0.1 * trace(P, normalize(N)); }",
+        0.8);
+    scene.octahedron("ball").look("mirror",
+                                  "surface m() { Oi = 1; normal nn = normalize(N);"
+                                  " Ci = 0.1 + 0.5 * trace(P, reflect(normalize(I), nn)); }");
+    scene.place("ball", "mirror", "<translate>0 0 0.5</translate><scale>.4 .4 .4</scale>");
+    scene.light("bulb", "<point><color>1 1 1</color></point>", "<translate>-2 2 3</translate>");
+    return scene;
+}
+
+TEST(Rays, GiveTheSameBytesForAnyThreadsTilesAndTargets) {
+    raytrace::Film first;
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        for (int threads : {1, 2}) {
+            Threads count(threads);
+            SceneOptions options;
+            options.target = &target;
+            Rendering r(ray_zoo().text(), options);
+            ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+            if (threads == 2) {
+                r.settings.integrator.tile = 4;
+                r.settings.integrator.chunk_rays = 16;
+            }
+            r.settings.integrator.samples_per_pixel = 2;
+            r.frame(33, 21);
+            if (first.rgba.empty()) first = r.film;
+            EXPECT_TRUE(same_bytes(first, r.film))
+                << target.name << " " << threads << ": " << difference(first, r.film);
+        }
+    }
+    float sum = 0;
+    for (const vec4& pixel : first.rgba) sum += pixel.x;
+    EXPECT_GT(sum, 10);
+}
+
+TEST(Rays, AllocateNothingAfterTheFirstFrames) {
+    Threads one(1);
+    Rendering r(ray_zoo().text());
+    for (int k = 0; k < 3; ++k) r.frame(32, 32);
+    watch_allocations();
+    render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics);
+    size_t count = allocations_of_ours();
+    EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours();
+}
+
+}  // namespace
+}  // namespace kinora
