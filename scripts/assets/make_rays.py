@@ -56,7 +56,7 @@ def geometry(name, mesh):
 
 
 def effect(name, shader, binds=""):
-    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../assets/shaders")
+    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../assets/shaders/surface")
     with open(os.path.join(folder, shader + ".sl")) as file:
         code = file.read()
     return (f'<effect id="{name}-fx"><profile_RSL><technique sid="default"><code><![CDATA[\n{code}'

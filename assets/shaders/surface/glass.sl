@@ -32,6 +32,9 @@ surface glass(float Ks = 0.8; float roughness = 0.02; float ior = 1.5; float Kr 
         float way = length(I);
         through = color(pow(tint[0], way), pow(tint[1], way), pow(tint[2], way));
     }
-    Oi = 1;
+    /* Light on its way to what lies behind is let through by the same share. */
+    string kind = "camera";
+    rayinfo("type", kind);
+    Oi = kind == "transmission" ? 1 - kt * tint : color(1);
     Ci = through * (mirrored + bent) + (1 - inside) * Ks * specular(Nf, -In, roughness);
 }

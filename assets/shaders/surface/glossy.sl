@@ -1,16 +1,14 @@
-// Lacquer or brushed metal: a cone of gathered rays mirrors the surroundings, blurred by `blur`
-// (radians); rays that meet nothing see the sky.
+/* glossy.sl: lacquer: a cone of gathered rays mirrors the surroundings, blurred; rays that meet
+   nothing see the sky.
+   Parameters: Kd, Kr (of the mirrored picture), blur (radians), samples, maxdepth, sky, ground. */
 surface glossy(float Kd = 0.35; float Kr = 0.6; float blur = 0.12; float samples = 16;
                float maxdepth = 2; color sky = color(0.55, 0.68, 0.85);
-               color ground = color(0.28, 0.25, 0.22);)
-{
+               color ground = color(0.28, 0.25, 0.22);) {
     normal Nf = faceforward(normalize(N), I);
     vector way = reflect(normalize(I), Nf);
     color seen = 0, sum = 0;
     vector ray = 0;
-    float depth = 0;
-    rayinfo("depth", depth);
-    if (depth < maxdepth) {
+    if (raydepth() < maxdepth) {
         gather("illuminance", P, way, blur, samples, "surface:Ci", seen, "ray:direction", ray,
                "label", "gloss") {
             sum += seen;
