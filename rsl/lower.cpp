@@ -175,7 +175,8 @@ void Lowering::declare_layer(const Layer& next) {
     enter_layer();
     for (const ShaderParameter& p : next.shader->parameters)
         if (!p.type.is_array())
-            messages.push_back({next.shader->kind, std::string(p.name), parameter(*p.symbol)});
+            messages.push_back(
+                {next.shader->kind, std::string(p.name), p.type, parameter(*p.symbol), -1});
 }
 
 void Lowering::run_layer(const Layer& next) {
