@@ -258,8 +258,6 @@ class Lowering : public Emitter {
     std::vector<Message> messages;
     // The elements of a message; one if it is no array.
     std::vector<Lowered> message_values(const Message& message);
-    // Stores all elements of a whole array.
-    void set_array(const Expr& array, std::span<const Lowered> values);
     std::span<const Layer> layers;  // the whole stack
 
   private:
