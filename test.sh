@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds and runs all tests. --all adds the slow stages (AArch64 under qemu, sanitizers); .ci/run calls
-# it so.
+# Builds and runs all tests. --all adds the slow stages (fuzzing, AArch64 under qemu, sanitizers);
+# .ci/run calls it so.
 set -euo pipefail
 cd "$(dirname "$0")"
 all=0
@@ -18,9 +18,11 @@ stage() {  # stage NAME COMMAND...: runs it and prints how long it took
 stage "release build" scripts/build release -DKINORA_TESTS=ON -DKINORA_WERROR=$([[ $all == 1 ]] && echo ON || echo OFF)
 stage "release tests" ctest --preset release
 if ((all)); then
+    stage "fuzzing of code" scripts/fuzz build/release code
     stage "AArch64 build" scripts/cross-arm64 -DKINORA_WERROR=ON
     # Emulated code is ten times slower: a tenth of the random programs.
     stage "neon under qemu" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
     stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
     stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
+    stage "fuzzing of sources" scripts/fuzz build/asan text
 fi

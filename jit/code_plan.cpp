@@ -2,6 +2,7 @@
 #include "jit/code_plan_p.h"
 
 #include "jit/analysis.h"
+#include "jit/planted_fault.h"
 
 namespace kinora::jit {
 
@@ -90,7 +91,7 @@ class Planner {
                 break;
             case Op::Call:
             case Op::Service:
-                p.clobber = true;
+                p.clobber = !planted(PlantedFault::CallKeepsRegisters);
                 plan_.calls = true;
                 break;
             default:

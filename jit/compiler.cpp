@@ -8,6 +8,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "jit/code_tools.h"
 #include "jit/ieee_scope_p.h"
 #include "runtime/base/check.h"
 
@@ -152,18 +153,20 @@ uint64_t hash_of(const std::string& key) {
 }
 
 std::shared_ptr<const Kernel> emit(const Module& module, const Target& target, uint64_t hash,
-                                   std::string* assembly) {
+                                   const SourceFiles* files, std::string* assembly) {
     auto start = Clock::now();
     std::shared_ptr<Kernel> kernel = target.emit(module, assembly);
     if (kernel == nullptr) kernel = find_target("interp")->emit(module, assembly);
     kernel->ir_hash = hash;
     kernel->compile_ms = ms_since(start);
+    show_code(*kernel, files);
     return kernel;
 }
 
 // The cached kernel, or a new one; `fresh` tells which. A listing can only be had by emitting.
 std::shared_ptr<const Kernel> find_or_emit(const Module& module, const Target& target,
-                                           std::string* assembly, bool* fresh) {
+                                           const SourceFiles* files, std::string* assembly,
+                                           bool* fresh) {
     std::string key = Key(module, target).take();
     uint64_t hash = hash_of(key);
     std::promise<std::shared_ptr<const Kernel>> promise;
@@ -174,12 +177,12 @@ std::shared_ptr<const Kernel> find_or_emit(const Module& module, const Target& t
         if (!is_new) {
             KernelFuture known = at->second;
             lock.unlock();
-            if (assembly != nullptr) emit(module, target, hash, assembly);
+            if (assembly != nullptr) emit(module, target, hash, files, assembly);
             return known.get();
         }
         at->second = promise.get_future().share();
     }
-    std::shared_ptr<const Kernel> kernel = emit(module, target, hash, assembly);
+    std::shared_ptr<const Kernel> kernel = emit(module, target, hash, files, assembly);
     promise.set_value(kernel);
     std::lock_guard lock(cache().mutex);
     cache().total_ms += kernel->compile_ms;
@@ -200,9 +203,11 @@ KernelPair compile(Module module, const CompileOptions& options) {
     std::string assembly, frame_assembly;
     bool listing = options.dumps != nullptr;
     bool fresh_point = false, fresh_frame = false;
-    pair.point = find_or_emit(module, target, listing ? &assembly : nullptr, &fresh_point);
+    auto listed = [&](std::string& text) { return listing ? &text : nullptr; };
+    pair.point = find_or_emit(module, target, options.files, listed(assembly), &fresh_point);
     if (!frame.outputs.empty())
-        pair.frame = find_or_emit(frame, target, listing ? &frame_assembly : nullptr, &fresh_frame);
+        pair.frame =
+            find_or_emit(frame, target, options.files, listed(frame_assembly), &fresh_frame);
     pair.emit_ms = ms_since(start);
     pair.cached = !fresh_point && !fresh_frame;
     if (listing) {

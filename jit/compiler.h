@@ -36,6 +36,7 @@ struct CompileOptions {
     const Target* target = nullptr;  // null: best_target()
     // Filled when not null: (stage, text) pairs "ir", "ir:fold", ..., "asm", for --dump.
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
+    const SourceFiles* files = nullptr;  // names of the source's lines, for debuggers
 };
 
 // Optimises, splits and emits. Kernels are cached by the hash of their final IR and the target

@@ -10,6 +10,7 @@
 
 #include "jit/analysis.h"
 #include "jit/compiler.h"
+#include "jit/planted_fault.h"
 #include "jit/rewrite_p.h"
 
 namespace kinora::jit {
@@ -71,7 +72,7 @@ class CommonValues {
             if (inst.op == Op::Loop) around.push_back(v);
             if (inst.op == Op::EndLoop) around.pop_back();
             if (inst.op == Op::ArrayStore || (call && !is_effect_free(inst)))
-                for (Value loop : around) writes_[loop] = true;
+                for (Value loop : around) writes_[loop] = !planted(PlantedFault::CseAcrossTurns);
         }
     }
 
@@ -90,13 +91,14 @@ class CommonValues {
             is_effect_free(inst) ? lead_call(v) : void(++epoch_);
         } else if (inst.op == Op::Result) {
             leader_[v] = leader_[inst.a] + (v - inst.a);
-        } else if (inst.op == Op::ArrayStore) {
+        } else if (inst.op == Op::ArrayStore && !planted(PlantedFault::CseAcrossStore)) {
             ++epoch_;
         }
     }
 
     bool is_effect_free(const Inst& inst) const {
         auto index = static_cast<size_t>(inst.imm);
+        if (planted(PlantedFault::EffectMerged)) return true;
         return inst.op == Op::Call ? !effects_[index] : m_.services[index].pure;
     }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "jit/planted_fault.h"
 #include "jit/scalar_p.h"
 
 namespace kinora::jit {
@@ -90,6 +91,7 @@ using Rule = Folded (*)(Site& s);
 // x + -0 = x for every x (x + +0 is not: -0 + +0 = +0).
 Folded fold_add(Site& s) {
     if (s.is_f(s.inst.b, -0.0f)) return same(s.inst.a);
+    if (planted(PlantedFault::ZeroAdded) && s.is_f(s.inst.b, 0.0f)) return same(s.inst.a);
     if (s.b().op == Op::Neg) return rewrite(s.inst, Op::Sub, s.inst.a, s.b().a);
     return kKeep;
 }

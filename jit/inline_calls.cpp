@@ -4,6 +4,7 @@
 // of their own, and results in other lanes are free.
 #include "jit/analysis.h"
 #include "jit/compiler.h"
+#include "jit/planted_fault.h"
 #include "jit/rewrite_p.h"
 
 namespace kinora::jit {
@@ -108,6 +109,7 @@ class Inliner {
         for (size_t k = 0; k < callee.arrays.size(); ++k) {
             const ArrayInfo& array = callee.arrays[k];
             r.function.arrays.push_back(array);
+            if (planted(PlantedFault::InlinedArraysKept)) continue;
             Value zero = r.append(
                 {.op = array.type == Type::F ? Op::ConstF : Op::ConstI, .type = array.type});
             for (int32_t i = 0; i < array.length; ++i) {

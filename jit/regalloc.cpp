@@ -1,5 +1,6 @@
 // jit/regalloc.cpp: linear-scan register allocation over the structured IR.
 #include "jit/regalloc.h"
+#include "jit/planted_fault.h"
 
 #include <algorithm>
 #include <bit>
@@ -71,6 +72,7 @@ class Allocator {
                 Place& p = place(v);
                 if (first_use_[v] == kNone) {
                     Value loop = loop_between(p.begin, at);
+                    if (planted(PlantedFault::RangeNotStretched)) loop = kNone;
                     p.end = std::max(p.end, loop == kNone ? at : s_.end_of[loop]);
                 }
                 first_use_[v] = at;
@@ -136,7 +138,8 @@ class Allocator {
     // The register of `from`, if it dies here, becomes the register of `to`.
     void take_over(Value to, Value from, Value at) {
         if (f_.insts[from].op == Op::LoopOut) from = f_.insts[from].a;
-        if (plan_[from].fused || plan_[from].cls != plan_[to].cls || place(from).end != at) return;
+        bool dies = place(from).end == at || planted(PlantedFault::MergeTakesLiveRegister);
+        if (plan_[from].fused || plan_[from].cls != plan_[to].cls || !dies) return;
         Place& p = place(from);
         if (!p.in_reg(at) || p.reg < 0) return;
         Value holder = occupant_[cls(to)][p.reg];
@@ -330,8 +333,9 @@ class Allocator {
             if (inst.op == Op::If)
                 for (Value m = s_.end_of[at] + 1; f_.insts[m].op == Op::Merge; ++m) take_slot(m);
             if (inst.op != Op::Merge) take_slot(at);
+            Value ahead = planted(PlantedFault::SlotFreedEarly) ? 4 : 0;
             uses(at, [&](Value v) {
-                if (place(v).end == at) free_slot(v);
+                if (place(v).end <= at + ahead) free_slot(v);
             });
             if (inst.op == Op::EndLoop || inst.op == Op::EndIf) free_ended(at);
         }

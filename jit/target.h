@@ -51,6 +51,12 @@ struct KernelArgs {
 };
 using KernelFn = void (*)(const KernelArgs* args);
 
+// Code from `offset` on comes from there in the source, up to the next row's offset.
+struct CodePlace {
+    uint32_t offset;
+    Location where;  // without a file: from no line
+};
+
 // A kernel ready to run. Immutable and shared; its code lives as long as it does.
 struct Kernel {
     virtual ~Kernel() = default;
@@ -64,10 +70,13 @@ struct Kernel {
     std::vector<FaultSite> fault_sites;
     int32_t frame_slots = 0;
     size_t scratch_bytes = 0;
-    size_t code_bytes = 0;    // 0 for the interpreter
-    double compile_ms = 0;    // IR to code, passes apart
-    const char* target = "";  // "avx2"
-    uint64_t ir_hash = 0;     // of the final IR
+    size_t code_bytes = 0;                    // 0 for the interpreter
+    std::span<const std::byte> machine_code;  // with its constants; entry first
+    std::vector<CodePlace> places;      // its lines, by offset; the last row is where code ends
+    std::shared_ptr<const void> shown;  // keeps the code known to a debugger (jit/code_tools.h)
+    double compile_ms = 0;              // IR to code, passes apart
+    const char* target = "";            // "avx2"
+    uint64_t ir_hash = 0;               // of the final IR
 };
 
 // A CPU family at a feature level, or the interpreter: one row of the table in target.cpp.

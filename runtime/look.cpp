@@ -269,6 +269,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     jit::CompileOptions compile;
     compile.target = options.target;
     compile.dumps = options.dumps;
+    compile.files = &diagnostics.files;
     std::optional<rsl::LoweredShader> lowered = rsl::lower(layers, lower, diagnostics);
     if (!lowered) return false;
     look.lowered = std::move(*lowered);

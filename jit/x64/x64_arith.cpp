@@ -62,7 +62,7 @@ void Emit::op_Add() {
     binary(Id::kIdVaddps, true);
 }
 void Emit::op_Sub() {
-    binary(Id::kIdVsubps, false);
+    binary(Id::kIdVsubps, planted(PlantedFault::SwappedOperands));
 }
 void Emit::op_Mul() {
     binary(Id::kIdVmulps, true);
@@ -95,7 +95,8 @@ void Emit::op_Floor() {
     unary_imm(isa_.wide ? Id::kIdVrndscaleps : Id::kIdVroundps, kDown);
 }
 void Emit::op_Ceil() {
-    unary_imm(isa_.wide ? Id::kIdVrndscaleps : Id::kIdVroundps, kUp);
+    unary_imm(isa_.wide ? Id::kIdVrndscaleps : Id::kIdVroundps,
+              planted(PlantedFault::WrongRounding) ? kDown : kUp);
 }
 void Emit::op_Trunc() {
     unary_imm(isa_.wide ? Id::kIdVrndscaleps : Id::kIdVroundps, kTowardsZero);
@@ -135,7 +136,7 @@ void Emit::op_IShr() {
     shift(Id::kIdVpsrld);
 }
 void Emit::op_ISar() {
-    shift(Id::kIdVpsrad);
+    shift(planted(PlantedFault::WrongShift) ? Id::kIdVpsrld : Id::kIdVpsrad);
 }
 
 void Emit::op_FToI() {
@@ -188,6 +189,7 @@ void Emit::fma_into(const x86::Vec& to, const Inst& fma, const x86::KReg* under)
             negative[k] = true;
             v[k] = inst(v[k]).a;
         }
+    if (planted(PlantedFault::FmaNegationLost)) negative[2] = false;
     auto [a, b, c] = v;
     const FmaForm& form = kFma[negative[0] != negative[1]][negative[2]];
     auto emit = [&](InstId id, const x86::Vec& second, const Operand& third) {
@@ -198,7 +200,8 @@ void Emit::fma_into(const x86::Vec& to, const Inst& fma, const x86::KReg* under)
     if (lies_in(to, a) && !lies_in(to, c)) {
         x86::Vec second = reg(in_register(b) ? b : c, 1);
         if (in_register(b))
-            emit(form.mul12_add3, second, operand(c));
+            emit(planted(PlantedFault::FmaFormsMixed) ? form.mul13_add2 : form.mul12_add3, second,
+                 operand(c));
         else
             emit(form.mul13_add2, second, operand(b));
     } else if (!lies_in(to, c) && in_register(c) && !in_register(b)) {

@@ -22,6 +22,7 @@ void Emit::op_Service() {
     Label skip = a_.newLabel();
     record_ = kNone;
     mask_bits(x86::edx, now().a);
+    if (planted(PlantedFault::ServiceIgnoresMask)) a_.mov(x86::edx, -1);
     a_.and_(x86::edx, x86::dword_ptr(x86::r13, kValidBits));
     a_.jz(skip);
     auto field = [](size_t offset) { return kServiceCall + static_cast<int32_t>(offset); };
@@ -91,6 +92,7 @@ void Emit::op_Return() {
 
 void Emit::op_Fault() {
     mask_bits(x86::eax, now().a);
+    if (planted(PlantedFault::FaultIgnoresMask)) a_.mov(x86::eax, -1);
     Label none = a_.newLabel();
     a_.test(x86::dword_ptr(x86::r13, kValidBits), x86::eax);
     a_.jz(none);

@@ -38,14 +38,15 @@ void Emit::op_EndIf() {
     auto begin = static_cast<Value>(now().imm);
     Value mask = inst(begin).a;
     for (Value m = at_ + 1; inst(m).op == Op::Merge; ++m) {
-        if (plan_.values[begin].masked)
+        if (plan_.values[begin].masked && !planted(PlantedFault::MergeIgnoresMask))
             merge_into(m, inst(m).a, mask);
         else
             copy(m, inst(m).a);
     }
     const OpenIf& open = ifs_.back();
     a_.bind(open.end);
-    if (record_set_ != open.record_set || record_ != open.record) record_ = kNone;
+    bool another = record_set_ != open.record_set || record_ != open.record;
+    if (another && !planted(PlantedFault::RecordKeptAtJoin)) record_ = kNone;
     ifs_.pop_back();
     for (Value m = at_ + 1; inst(m).op == Op::Merge; ++m) fill_slot(m);
 }
@@ -64,8 +65,8 @@ void Emit::fill_slot(Value v) {
 void Emit::op_Loop() {
     bool masked = plan_.values[at_].masked;
     OpenLoop loop{at_, a_.newLabel(), a_.newLabel(), {}};
-    if (!plan_.calls && loops_.size() < std::size(kCounters))
-        loop.counter = kCounters[loops_.size()];
+    bool kept = !plan_.calls || planted(PlantedFault::CountersAcrossCalls);
+    if (kept && loops_.size() < std::size(kCounters)) loop.counter = kCounters[loops_.size()];
     loops_.push_back(loop);
     if (!masked) {
         set_if_any(now().a);
@@ -100,10 +101,11 @@ void Emit::begin_body(Value begin) {
     auto& hoists = allocation_.loop_hoists;
     for (size_t k = 0; k < hoists.size(); ++k)
         if (hoists[k].first == begin) load_constant(hoists[k].second);
+    int32_t budget = module_.loop_budget + planted(PlantedFault::LoopBudgetOffByOne);
     if (loop.counter.isValid())
-        a_.mov(loop.counter, module_.loop_budget);
+        a_.mov(loop.counter, budget);
     else
-        a_.mov(counter(), module_.loop_budget);
+        a_.mov(counter(), budget);
     a_.bind(loop.header);
 }
 
@@ -189,6 +191,7 @@ void Emit::save(int k, Value variable) {
 
 bool Emit::is_read_later(Value variable, size_t except) const {
     if (saved_[0] == variable || saved_[1] == variable) return false;
+    if (planted(PlantedFault::LoopVariablesInTurn)) return false;
     for (size_t k = 0; k < updates_.size(); ++k)
         if (k != except && updates_[k].next == variable) return true;
     return false;
@@ -200,12 +203,13 @@ void Emit::update_mask(Value loop, Value next_mask) {
     bool memory = place(loop).reg < 0;
     if (isa_.wide) {
         x86::KReg to = memory ? x86::k7 : x86::k(static_cast<uint32_t>(place(loop).reg));
-        a_.kandw(to, mask_reg(loop, 7), mask_reg(next_mask, 0));
+        Value kept = planted(PlantedFault::LoopMaskNotKept) ? next_mask : loop;
+        a_.kandw(to, mask_reg(kept, 7), mask_reg(next_mask, 0));
         if (memory) store_mask_slot(loop, to);
         a_.kortestw(to, to);
     } else {
         x86::Vec to = memory ? scratch(0) : vec(place(loop).reg);
-        x86::Vec old = reg(loop, 1);
+        x86::Vec old = reg(planted(PlantedFault::LoopMaskNotKept) ? next_mask : loop, 1);
         a_.emit(Id::kIdVandps, to, old, operand(next_mask));
         if (memory) store_slot(loop, to);
         a_.vmovmskps(x86::eax, to);

@@ -122,6 +122,7 @@ void Emit::find_valid_lanes() {
     a_.shr(x86::ecx, 2);
     a_.mov(x86::eax, x86::dword_ptr(x86::rbx, offsetof(KernelArgs, count)));
     a_.sub(x86::eax, x86::ecx);
+    if (planted(PlantedFault::PaddingLaneAsks)) a_.inc(x86::eax);
     if (!isa_.wide) {
         a_.vmovd(x86::xmm15, x86::eax);
         a_.vpbroadcastd(x86::ymm15, x86::xmm15);
@@ -147,11 +148,23 @@ void Emit::broadcast_frame() {
     }
 }
 
+void note_place(ModuleState& state, Location where) {
+    auto offset = static_cast<uint32_t>(state.a.offset());
+    std::vector<CodePlace>& places = state.places;
+    auto same = [&](const Location& known) {
+        return known.file == where.file && known.begin == where.begin && known.end == where.end;
+    };
+    if (!places.empty() && same(places.back().where)) return;
+    if (!places.empty() && places.back().offset == offset) places.pop_back();
+    places.push_back({offset, where});
+}
+
 void Emit::emit_body(bool listing) {
     zero_arrays();
     record_ = kNone;
     for (at_ = 0; at_ < f_.insts.size(); ++at_) {
         if (listing) comment();
+        if (uint32_t where = now().where; where != 0) note_place(state_, module_.locations[where]);
         for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
             if (place(v).reg >= 0 && place(v).in_reg(at_)) load_memory(vec(place(v).reg), home(v));
         if (plan_.values[at_].fused) continue;

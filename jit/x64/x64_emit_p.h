@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "jit/planted_fault.h"
 #include "jit/target.h"
 #include "jit/x64/x64_isa_p.h"
 #include "jit/x64/x64_pool_p.h"
@@ -43,7 +44,11 @@ struct ModuleState {
     std::vector<int32_t> frame_row;  // AVX2: frame slot -> row at kFrameRows, -1 if unused
     int32_t globals_bytes = kFrameRows;
     bool uses_valid = false;  // something asks which lanes hold points
+    std::vector<CodePlace> places = {};
 };
+
+// Code from here on comes from `where`.
+void note_place(ModuleState& state, Location where);
 
 // Where things lie in a function's frame (offsets from r15).
 struct FrameLayout {

@@ -22,7 +22,7 @@ constexpr Isa kAvx512 = {"avx512", 16, true, 30, 7};
 struct X64Kernel final : Kernel {
     void run(const KernelArgs& args) const override { entry(&args); }
 
-    std::shared_ptr<const CodeMemory> code;
+    std::shared_ptr<const CodeMemory> memory;
     KernelFn entry = nullptr;
 };
 
@@ -43,6 +43,7 @@ struct Emitted {
     asmjit::CodeHolder code;
     asmjit::StringLogger log;
     size_t scratch_bytes = 0;
+    std::vector<CodePlace> places;
     std::string fault;  // of the register allocation, if asked for
 };
 
@@ -67,7 +68,9 @@ void emit_module(const Module& module, const Isa& isa, bool listing, bool check,
     }
     out.scratch_bytes = static_cast<size_t>(state.globals_bytes) + deepest_stack(module, frames);
     for (Emit& emit : emits) emit.emit_function(listing);
+    state.places.push_back({static_cast<uint32_t>(a.offset()), Location{}});
     pool.place(a);
+    out.places = std::move(state.places);
 }
 
 std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* assembly) {
@@ -77,12 +80,14 @@ std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* 
     if (assembly != nullptr) *assembly = emitted.log.data();
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
     auto kernel = std::make_shared<X64Kernel>();
-    kernel->code = make_executable({bytes.data(), bytes.size()});
-    if (kernel->code == nullptr) return nullptr;
+    kernel->memory = make_executable({bytes.data(), bytes.size()});
+    if (kernel->memory == nullptr) return nullptr;
     describe(module, isa.name, *kernel);
     kernel->scratch_bytes = emitted.scratch_bytes;
     kernel->code_bytes = bytes.size();
-    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->code->data()));
+    kernel->machine_code = {kernel->memory->data(), bytes.size()};
+    kernel->places = std::move(emitted.places);
+    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
     std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     kernel->compile_ms = took.count();
     return kernel;

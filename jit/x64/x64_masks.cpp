@@ -35,6 +35,7 @@ Emit::Compare Emit::predicate(Op op, bool negate, bool swapped) const {
 void Emit::compare_into(const Operand& to, const Inst& compare, bool negate,
                         const x86::KReg* under) {
     Value a = compare.a, b = compare.b;
+    if (planted(PlantedFault::NegatedCompareLost)) negate = false;
     bool integer = compare.op == Op::ILt || compare.op == Op::IEq;
     if (integer && !isa_.wide) {
         // There is only "greater" and "equal".
@@ -45,7 +46,8 @@ void Emit::compare_into(const Operand& to, const Inst& compare, bool negate,
     }
     bool swapped = !in_register(a) && in_register(b);
     if (swapped) std::swap(a, b);
-    Compare how = predicate(compare.op, negate, swapped);
+    bool mirrored = swapped && !planted(PlantedFault::PredicateNotMirrored);
+    Compare how = predicate(compare.op, negate, mirrored);
     x86::Vec left = reg(a, 1);
     Operand right = operand(b);
     if (under != nullptr) a_.k(*under);
@@ -107,12 +109,15 @@ void Emit::op_MAndNot() {
         finish_mask(mask_target());
     } else if (isa_.wide) {
         x86::KReg a = mask_reg(now().a, 0), b = mask_reg(now().b, 7);
+        if (planted(PlantedFault::AndNotMirrored)) std::swap(a, b);
         a_.kandnw(mask_target(), b, a);
         finish_mask(mask_target());
     } else {
-        x86::Vec b = reg(now().b, 1);
+        Value kept = now().a, cleared = now().b;
+        if (planted(PlantedFault::AndNotMirrored)) std::swap(kept, cleared);
+        x86::Vec b = reg(cleared, 1);
         x86::Vec to = target();
-        a_.emit(Id::kIdVandnps, to, b, operand(now().a));
+        a_.emit(Id::kIdVandnps, to, b, operand(kept));
         finish(to);
     }
 }
@@ -168,14 +173,15 @@ void Emit::op_Select() {
         Operand from = operand(then);
         bool word = from.isMem() && from.as<x86::Mem>().hasBroadcast();
         if (word) from.as<x86::Mem>().resetBroadcast();
-        a_.k(k).z();
+        planted(PlantedFault::ZeroArmMixed) ? a_.k(k) : a_.k(k).z();
         a_.emit(word ? Id::kIdVbroadcastss : Id::kIdVmovaps, to, from);
     } else if (!isa_.wide && is_zero(otherwise)) {
         x86::Vec m = reg(mask, 1);
         a_.emit(Id::kIdVandps, to, m, operand(then));
     } else if (!isa_.wide && is_zero(then)) {
         x86::Vec m = reg(mask, 1);
-        a_.emit(Id::kIdVandnps, to, m, operand(otherwise));
+        a_.emit(planted(PlantedFault::ZeroArmMixed) ? Id::kIdVandps : Id::kIdVandnps, to, m,
+                operand(otherwise));
     } else {
         blend(to, reg(otherwise, 0), then, mask);
     }

@@ -45,6 +45,7 @@ void Emit::index_to(const x86::Gp& to, Value index, int32_t length) {
 
 void Emit::clamp_lanes(const x86::Vec& to, Value index, int32_t length) {
     x86::Vec from = reg(index, 1);
+    if (planted(PlantedFault::ClampOffByOne) && now().op == Op::ArrayLoad) ++length;
     a_.emit(Id::kIdVpmaxsd, to, from, constant(0));
     a_.emit(Id::kIdVpminsd, to, to, constant(static_cast<uint32_t>(length - 1)));
 }

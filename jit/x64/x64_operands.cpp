@@ -47,8 +47,10 @@ x86::Mem Emit::home(Value v) {
             return slot(v);
         }
         case Op::FrameLoad: {
-            if (isa_.wide) return x86::ptr(x86::r14, 4 * i.imm)._1to16();
+            bool stale = planted(PlantedFault::StaleFrameSlot) && i.imm > 0;
+            if (isa_.wide) return x86::ptr(x86::r14, 4 * (i.imm - stale))._1to16();
             int32_t index = state_.frame_row[static_cast<size_t>(i.imm)];
+            if (stale && index > 0) --index;
             return x86::ptr(x86::r13, kFrameRows + 32 * index);
         }
         case Op::Input: {
@@ -113,6 +115,7 @@ x86::Vec Emit::target_of(Value v) const {
 }
 
 void Emit::store_slot(Value v, const x86::Vec& value) {
+    if (planted(PlantedFault::MissingSpill) && place(v).reg >= 0) return;
     if (place(v).slot >= 0) a_.emit(Id::kIdVmovaps, slot(v), value);
 }
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "runtime/programs/disassembly.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/kinora_shade_kernel.h"
 
@@ -42,10 +43,15 @@ int dump_code(const ShadeOptions& options, const std::vector<std::string>& wante
     ShadeStack stack;
     if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
     std::vector<std::pair<std::string, std::string>> dumps;
-    ShadeKernel kernel;
-    bool compiled = kernel.compile(stack, options.target, source.diagnostics, &dumps);
+    ShadeKernel code;
+    bool compiled = code.compile(stack, options.target, source.diagnostics, &dumps);
     source.print_findings(options);
     if (!compiled) return kExitShader;
+    for (auto& [name, text] : dumps) {  // the interpreter's listing is its IR
+        const auto& kernel = name == "asm:frame" ? code.pair().frame : code.pair().point;
+        if (name.starts_with("asm") && !kernel->machine_code.empty())
+            text = disassembly(*kernel, source.diagnostics.files);
+    }
     for (const std::string& stage : wanted) {
         bool any = false;
         for (const auto& [name, text] : dumps)

@@ -62,7 +62,7 @@ bool ShadeKernel::compile(const ShadeStack& stack, const jit::Target* target,
     if (!lowered) return false;
     lower_ms = watch.ms();
     lowered_ = std::move(*lowered);
-    pair_ = jit::compile(std::move(lowered_.module), {target, dumps});
+    pair_ = jit::compile(std::move(lowered_.module), {target, dumps, &diagnostics.files});
     return pair_.point != nullptr;
 }
 

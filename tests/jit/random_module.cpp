@@ -5,7 +5,6 @@
 #include <limits>
 #include <string_view>
 
-#include "jit/rewrite_p.h"
 #include "tests/jit/world.h"
 
 namespace kinora::jit::test {
@@ -14,7 +13,7 @@ const RandomPolicy kPolicies[] = {
     //           ifs loops calls services arrays records masks hashed functions
     {"plain", 3, 1, 1, 1, 2, 1, 10, 8, 1},   {"masks", 8, 2, 1, 2, 2, 1, 50, 8, 1},
     {"spills", 1, 1, 1, 1, 1, 1, 10, 60, 1}, {"loops", 3, 8, 2, 1, 4, 2, 15, 8, 2},
-    {"calls", 3, 2, 8, 6, 3, 1, 15, 10, 4},
+    {"calls", 3, 2, 8, 6, 3, 1, 15, 10, 4},  {"memory", 6, 12, 6, 1, 45, 12, 10, 12, 2},
 };
 const int kPolicyCount = static_cast<int>(std::size(kPolicies));
 
@@ -136,9 +135,11 @@ class Grower {
         for (auto& p : pools_) p.clear();
         f_->name = index == 0 ? "kernel" : "f" + std::to_string(index);
         if (index > 0) grow_params();
-        for (int k = below(3); k > 0; --k)
-            f_->arrays.push_back({"a", chance(50) ? Type::F : Type::I, 1 + below(5)});
+        for (int k = chance(policy_.arrays) ? 1 + below(2) : below(3); k > 0; --k)
+            f_->arrays.push_back(
+                {"a", chance(50) ? Type::F : Type::I, 1 + below(chance(50) ? 2 : 5)});
         if (index == 0) grow_inputs();
+        for (Value& v : small_) v = const_i(static_cast<int32_t>(&v - small_));
         budget_ = index == 0 ? size_ : std::min(size_ / 3, 60);
         region_depth_ = 0;
         while (budget_ > 0) step();
@@ -196,6 +197,10 @@ class Grower {
             Type wanted = type_of_letter(info.operands[k]);
             *operands[k] = any(wanted == Type::None ? type : wanted);
         }
+        if (o == Op::Fma && chance(50)) {  // negated operands are part of what targets emit
+            Value& operand = *operands[below(3)];
+            operand = op(Op::Neg, Type::F, operand);
+        }
         if (o == Op::IShl || o == Op::IShr || o == Op::ISar) inst.imm = below(32);
         append(inst);
     }
@@ -232,7 +237,7 @@ class Grower {
         size_t sizes[4];
         Value running;
     };
-    Scope enter() {
+    Scope enter_scope() {
         Scope scope{};
         for (int t = 1; t < 4; ++t) scope.sizes[t] = pools_[t].size();
         scope.running = running_;
@@ -265,10 +270,13 @@ class Grower {
 
     void grow_if() {
         if (region_depth_ > 3) return grow_pure();
-        Value mask = chance(10) ? running_ : submask();
-        Scope scope = enter();
+        grow_if_of(chance(10) ? running_ : submask());
+    }
+    // Effects inside are for lanes that run here.
+    void grow_if_of(Value mask) {
+        Scope scope = enter_scope();
         auto begin = op(Op::If, Type::None, mask);
-        running_ = mask;
+        running_ = op(Op::MAnd, Type::M, mask, running_);
         grow_body();
         std::vector<Value> inner = leave(scope);
         op(Op::EndIf, Type::None, kNone, kNone, kNone, static_cast<int32_t>(begin));
@@ -289,7 +297,7 @@ class Grower {
         Value one = const_i(1);
         std::vector<Value> inits = {zero};
         for (int k = below(4); k > 0; --k) inits.push_back(any(any_type()));
-        Scope scope = enter();
+        Scope scope = enter_scope();
         Value begin = op(Op::Loop, Type::M, mask);
         running_ = begin;
         std::vector<Value> vars;
@@ -311,7 +319,7 @@ class Grower {
     // Lanes off the mask hold anything; only a select by the mask may be looked at.
     void use_results(Value mask, const std::vector<Type>& types, Value call) {
         std::vector<Value> results;
-        Scope scope = enter();
+        Scope scope = enter_scope();
         for (size_t k = 0; k < types.size(); ++k)
             results.push_back(
                 op(Op::Result, types[k], call, kNone, kNone, static_cast<int32_t>(k)));
@@ -349,24 +357,66 @@ class Grower {
         if (f_->arrays.empty()) return grow_pure();
         int k = below(static_cast<int>(f_->arrays.size()));
         Type type = f_->arrays[static_cast<size_t>(k)].type;
-        Value index = any(Type::I);
+        // Often an element that is used elsewhere too.
+        Value index = chance(50) ? small_[below(2)] : any(Type::I);
         if (chance(50)) {
             op(Op::ArrayLoad, type, index, kNone, kNone, k);
             return;
         }
         Value value = any(type);
-        op(Op::ArrayStore, Type::None, index, value, submask(), k);
+        Value mask = chance(50) ? running_ : submask();
+        op(Op::ArrayStore, Type::None, index, value, mask, k);
     }
 
     // Constant sets and records agree in all lanes. Set 0 is empty: only its count is asked.
     void grow_record() {
-        Value set = const_i(below(kRecordSets));
-        op(Op::RecordCount, Type::I, set);
-        Value full = const_i(1 + below(kRecordSets - 1));
-        Value record = const_i(0);
+        if (chance(35)) return grow_record_loop();
+        op(Op::RecordCount, Type::I, small_[below(kRecordSets)]);
+        Value full = small_[1 + below(kRecordSets - 1)];
+        Value record = small_[below(2)];
         bool uniform = chance(50);
         op(uniform ? Op::RecordUniform : Op::RecordField, Type::F, full, record, kNone,
            below(kRecordFields));
+    }
+
+    // As lights are gone through: all lanes together, from 0 while below the count.
+    void grow_record_loop() {
+        if (region_depth_ > 2) return grow_pure();
+        Value set = small_[below(kRecordSets)];
+        Value count = op(Op::RecordCount, Type::I, set);
+        Value enter = op(Op::ILt, Type::M, small_[0], count);
+        std::vector<Value> inits = {small_[0]};
+        for (int k = below(4); k > 0; --k) inits.push_back(any(any_type()));
+        Value outer_running = running_;
+        Scope scope = enter_scope();
+        Value begin = op(Op::Loop, Type::M, enter);
+        std::vector<Value> vars;
+        for (Value init : inits)
+            vars.push_back(op(Op::LoopVar, f_->insts[init].type, init, kNone, kNone,
+                              static_cast<int32_t>(begin)));
+        running_ = op(Op::MAnd, Type::M, outer_running, begin);
+        for (int k = 1 + below(3); k > 0; --k) read_record(set, vars[0]);
+        grow_body();
+        std::vector<Value> next = {op(Op::IAdd, Type::I, vars[0], small_[1])};
+        for (size_t k = 1; k < vars.size(); ++k) next.push_back(any(f_->insts[vars[k]].type));
+        Value more = op(Op::ILt, Type::M, next[0], count);
+        append({.op = Op::EndLoop, .a = more, .imm = static_cast<int32_t>(begin)}, next);
+        leave(scope);
+        for (Value var : vars)
+            if (chance(70)) op(Op::LoopOut, f_->insts[var].type, var);
+    }
+
+    // A field; or an If on an int of the record, as on a light's kind.
+    void read_record(Value set, Value record) {
+        if (chance(60)) {
+            op(chance(50) ? Op::RecordUniform : Op::RecordField, Type::F, set, record, kNone,
+               below(kRecordFields));
+            return;
+        }
+        Value kind = op(Op::RecordUniform, Type::I, set, record, kNone, below(kRecordFields));
+        Value same = op(Op::IEq, Type::M, kind, const_i(chance(50) ? 0x3e800000 : 0));
+        if (chance(50)) same = op(Op::MNot, Type::M, same);
+        grow_if_of(same);
     }
 
     // An output that hangs on many values finds what a few would not.
@@ -407,6 +457,7 @@ class Grower {
     Function* f_ = nullptr;
     std::vector<Value> pools_[4];
     Value running_ = kNone;
+    Value small_[kRecordSets] = {};  // the constants 0, 1, 2, at the function's start
     int budget_ = 0;
     int region_depth_ = 0;
 };
@@ -415,47 +466,6 @@ class Grower {
 
 Module random_module(uint64_t seed, const RandomPolicy& policy, int size) {
     return Grower(seed, policy, size).grow();
-}
-
-Module with_derivatives(const Module& module, uint64_t seed) {
-    Module m = module;
-    std::mt19937_64 rng(seed);
-    m.inputs[0].du = "1";
-    m.inputs[1].du = "p0";
-    m.inputs[1].dv = "f0";
-    for (size_t k = 0; k < kArrayInputs; ++k) m.inputs[kPointArray + k].dv = "p1";
-    for (Function& function : m.functions) {
-        std::vector<Value> top;  // derivatives outside of regions
-        int depth = 0;
-        Rewrite r(function);
-        for (Value v = 0; v < r.old.size(); ++v) {
-            const Inst& inst = r.old[v];
-            depth += (inst.op == Op::If || inst.op == Op::Loop) -
-                     (inst.op == Op::EndIf || inst.op == Op::EndLoop);
-            if (inst.op == Op::Return && &function == &m.functions[0]) {
-                for (size_t k = 0; k < 2; ++k)
-                    top.insert(top.begin(), r.append({.op = k == 0 ? Op::Du : Op::Dv,
-                                                      .type = Type::F,
-                                                      .a = r.renamed[r.old_args_of(inst)[1 + k]]}));
-            }
-            r.copy(v);
-            if (!is_pure(inst.op) || inst.type != Type::F || rng() % 4 != 0) continue;
-            Op op = rng() % 2 == 0 ? Op::Du : Op::Dv;
-            Value d = r.append({.op = op, .type = Type::F, .a = r.renamed[v]});
-            if (depth == 0) top.push_back(d);
-        }
-        if (&function != &m.functions[0]) continue;
-        Inst& end = function.insts.back();
-        std::vector<Value> results(function.args_of(end).begin(), function.args_of(end).end());
-        results.insert(results.end(), top.begin(), top.begin() + 2);
-        end.args = static_cast<uint32_t>(function.args.size());
-        end.arg_count = static_cast<uint16_t>(results.size());
-        function.args.insert(function.args.end(), results.begin(), results.end());
-        function.results.insert(function.results.end(), {Type::F, Type::F});
-        m.outputs.push_back({"du", Type::F});
-        m.outputs.push_back({"dv", Type::F});
-    }
-    return m;
 }
 
 }  // namespace kinora::jit::test

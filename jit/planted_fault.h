@@ -1,0 +1,23 @@
+// jit/planted_fault.h: faults of code generation for tests of the tests (planted_faults.def).
+#pragma once
+
+#include <cstdint>
+
+namespace kinora::jit {
+
+enum class PlantedFault : uint8_t {
+    None,
+#define FAULT(name, where, meaning) name,
+#include "jit/planted_faults.def"
+#undef FAULT
+    Count
+};
+
+// Set by tests only, and by one thread while no other compiles. Asked when code is made, never by
+// code that runs.
+inline PlantedFault planted_fault = PlantedFault::None;
+inline bool planted(PlantedFault fault) {
+    return planted_fault == fault;
+}
+
+}  // namespace kinora::jit

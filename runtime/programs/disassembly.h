@@ -1,0 +1,17 @@
+// runtime/programs/disassembly.h: machine code of a kernel beside the shader's lines.
+#pragma once
+
+#include <string>
+
+#include "jit/target.h"
+#include "runtime/base/diagnostic.h"
+
+namespace kinora {
+
+// One instruction a line, each run of code from one place in the source under that place's line:
+//   ; plastic.sl:12: Ci = Cs * diffuse(Nf);
+//     0040  vmulps zmm0, zmm1, zmm2
+// Empty for the interpreter, which has no code.
+std::string disassembly(const jit::Kernel& kernel, const SourceFiles& files);
+
+}  // namespace kinora

@@ -1,0 +1,78 @@
+// tests/jit/module_difference.cpp: agreement of interpreter, passes and targets on one module.
+#include "tests/jit/module_difference.h"
+
+#include <cstring>
+
+#include "jit/compiler.h"
+#include "jit/interp.h"
+#if defined(__x86_64__)
+#include "jit/x64/x64_check.h"
+#endif
+
+namespace kinora::jit::test {
+
+World world_of(uint64_t seed) {
+    return World(seed * 7919 + 1, 1 + static_cast<int32_t>(seed % 37));
+}
+
+void forgive_loop_fault(RunResult& before, const RunResult& after) {
+    if (before.fault[0] == 1 && after.fault[0] == 0) before.fault[0] = 0;
+}
+
+std::string allocation_difference(const Module& module, const Target& target) {
+    [[maybe_unused]] std::string_view name = target.name;
+#if defined(__x86_64__)
+    if (name == "avx2" || name == "avx512") return check_x64_allocation(module, name == "avx512");
+#endif
+    (void)module;
+    return "";
+}
+
+namespace {
+
+bool same_code(const Kernel& a, const Kernel& b) {
+    return a.machine_code.size() == b.machine_code.size() &&
+           std::memcmp(a.machine_code.data(), b.machine_code.data(), a.machine_code.size()) == 0;
+}
+
+}  // namespace
+
+std::string target_difference(const Module& module, const Target& target, uint64_t seed) {
+    auto kernel = target.emit(module, nullptr);
+    if (kernel == nullptr) return "no executable memory";
+    World world = world_of(seed);
+    return difference(*kernel, world.run(*emit_interp(module, nullptr)), world.run(*kernel));
+}
+
+std::string optimized_difference(const Module& module, const Target& target, uint64_t seed) {
+    Module point = module, frame;
+    optimize(point, &frame);
+    for (const Module* m : {&point, &frame})
+        if (std::string error = verify(*m); !error.empty()) return "verify: " + error;
+    auto kernel = target.emit(point, nullptr), frame_kernel = target.emit(frame, nullptr);
+    if (kernel == nullptr || frame_kernel == nullptr) return "no executable memory";
+    World world = world_of(seed);
+    auto plain = emit_interp(module, nullptr);
+    RunResult before = world.run(*plain);
+    RunResult after = world.run_pair(frame_kernel.get(), *kernel);
+    forgive_loop_fault(before, after);
+    return difference(*plain, before, after);
+}
+
+std::string module_difference(const Module& module, uint64_t seed) {
+    for (const Target& target : targets()) {
+        if (!target.supported()) continue;
+        auto named = [&](const std::string& what) { return target.name + (": " + what); };
+        if (std::string wrong = allocation_difference(module, target); !wrong.empty())
+            return named("allocation: " + wrong);
+        if (std::string wrong = target_difference(module, target, seed); !wrong.empty())
+            return named(wrong);
+        if (std::string wrong = optimized_difference(module, target, seed); !wrong.empty())
+            return named("optimized: " + wrong);
+        auto first = target.emit(module, nullptr), second = target.emit(module, nullptr);
+        if (first && second && !same_code(*first, *second)) return named("not the same bytes");
+    }
+    return "";
+}
+
+}  // namespace kinora::jit::test

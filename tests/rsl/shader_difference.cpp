@@ -1,0 +1,253 @@
+// tests/rsl/shader_difference.cpp: agreement of reference, interpreter and targets on one source.
+#include "tests/rsl/shader_difference.h"
+
+#include <cstring>
+
+#include "tests/rsl/shading_world.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+constexpr size_t kReferencePoints = 8;
+constexpr double kFloor = 2e-5;  // of 1 + |value|: where all agree to rounding
+constexpr double kFactor = 16;
+constexpr double kUnstable = 0.25;
+
+bool begins_with(std::string_view text, std::string_view start) {
+    return text.substr(0, start.size()) == start;
+}
+
+// The same bindings and columns for the same shader and world.
+struct Setting {
+    std::vector<ParamBinding> params;
+    Columns columns;
+    LowerOptions options;
+    size_t points = 1;
+};
+
+void bind_parameter(const ShaderParameter& p, Random& random, Setting& setting) {
+    bool frame = begins_with(p.name, "frame_"), vary = begins_with(p.name, "vary_");
+    if (p.output && p.type.base != BaseType::String) setting.options.aovs.emplace_back(p.name);
+    if (!frame && !vary) return;
+    setting.params.push_back({std::string(p.name),
+                              frame ? ParamBinding::Kind::Frame : ParamBinding::Kind::Varying,
+                              {},
+                              {}});
+    for (int c = 0; c < component_count(p.type.base); ++c) {
+        std::string suffix =
+            component_count(p.type.base) == 1
+                ? ""
+                : std::string(".") + (p.type.base == BaseType::Color ? "rgb"[c] : "xyz"[c]);
+        std::string name = "param:0:" + std::string(p.name) + suffix;
+        for (size_t i = 0; i < (frame ? 1 : setting.points); ++i) {
+            setting.columns[name].push_back(random.argument(random.next() % 4 != 0));
+            if (!frame)
+                for (const char* partial : {":du", ":dv"})
+                    setting.columns[name + partial].push_back(random.uniform(-1, 1));
+        }
+    }
+}
+
+// "world" and "object" are scaled and moved, each with its inverse.
+void add_spaces(Random& random, Setting& setting) {
+    for (const char* space : {"world", "object"}) {
+        float scale = random.next() % 2 ? 2.0f : 0.5f;
+        std::string stem = "space:" + std::string(space);
+        for (char row = '0'; row < '3'; ++row) {
+            auto shift = float(int(random.next() % 9) - 4) * 0.5f;
+            auto set = [&](const char* direction, char column, float value) {
+                setting.columns[stem + direction + row + column] = {value};
+            };
+            set(":to_current:", row, scale), set(":to_current:", '3', shift);
+            set(":from_current:", row, 1 / scale), set(":from_current:", '3', -shift / scale);
+        }
+    }
+}
+
+Setting setting_of(const Shader& shader, uint64_t world) {
+    Setting setting;
+    setting.points = 1 + world % 37;
+    Random random{world * 7919 + 3};
+    setting.columns = random_point(world * 31 + 5, setting.points);
+    for (const ShaderParameter& p : shader.parameters) bind_parameter(p, random, setting);
+    add_spaces(random, setting);
+    setting.columns["camera:near"] = {0.5f}, setting.columns["camera:far"] = {100};
+    setting.options.want_N = shader.kind != ShaderKind::Light;
+    setting.options.want_P = shader.kind == ShaderKind::Displacement;  // as these leave it
+    return setting;
+}
+
+// How far the value at one point may be from the exact one; negative: not to be compared.
+struct Allowance {
+    std::map<std::string, double> by_output;
+    bool decided = true;
+};
+
+// Nearby inputs and float arithmetic on them, from the point itself on.
+Allowance allowance(const Layer& layer, const ReferenceInputs& inputs, const ReferenceResult& exact,
+                    const ReferenceResult& single) {
+    Allowance result;
+    auto note = [&](const ReferenceResult& a, const ReferenceResult& b) {
+        result.decided =
+            result.decided && a.decisions == exact.decisions && b.decisions == exact.decisions;
+        for (auto& [name, value] : a.values) {
+            double moved = std::fabs(value - b.values.at(name));
+            double& most = result.by_output[name];
+            most = std::isnan(moved) ? 1e300 : std::max(most, moved);
+        }
+    };
+    note(exact, single);
+    Random random{17};
+    for (int k = 0; k < 3 && result.decided; ++k) {
+        ReferenceInputs moved = inputs;
+        for (auto& [name, value] : moved.values)
+            if (name != "rng" && std::fabs(value) < 1e30)
+                value = double(float(value * (1 + double(random.uniform(-1, 1)) * 0x1p-22)));
+        ReferenceResult near = run_reference<double>({&layer, 1}, moved);
+        note(near, exact);
+        note(near, run_reference<float>({&layer, 1}, moved));
+    }
+    return result;
+}
+
+bool extreme(double value) {
+    return !(std::fabs(value) < 1e30);
+}
+
+std::string text_of(const std::string& name, size_t point, double got, double single, double exact,
+                    double allowed) {
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "reference: output %s at point %zu: got %.9g, float reference %.9g, exactly "
+                  "%.17g, allowed %.3g",
+                  name.c_str(), point, got, single, exact, allowed);
+    return text;
+}
+
+// One point of interp against the reference.
+std::string compare_point(const Layer& layer, const ReferenceInputs& inputs, size_t i,
+                          const std::map<std::string, std::vector<float>>& got,
+                          DifferenceCounts& counts) {
+    ReferenceResult exact = run_reference<double>({&layer, 1}, inputs);
+    ReferenceResult single = run_reference<float>({&layer, 1}, inputs);
+    if (!exact.missing.empty()) return counts.no_reference += got.size(), "";
+    if (exact.decisions != single.decisions) return counts.undecided += got.size(), "";
+    Allowance near;  // found when first needed
+    for (auto& [name, column] : got) {
+        double want = exact.values.at(name), plain = single.values.at(name);
+        bool flag = name.find(":lit") != std::string::npos;
+        double have = flag ? double(std::bit_cast<int32_t>(column[i]) != 0) : double(column[i]);
+        double most = kFloor * (1 + std::fabs(want));
+        if (extreme(want) || extreme(plain)) {
+            ++counts.extreme;
+        } else if (std::fabs(have - want) <= most) {
+            ++counts.values;
+        } else {
+            if (near.by_output.empty()) near = allowance(layer, inputs, exact, single);
+            double moved = near.by_output.at(name);
+            if (!near.decided) {
+                ++counts.undecided;
+            } else if (kFactor * moved > kUnstable * (1 + std::fabs(want))) {
+                ++counts.unstable;
+            } else if (std::fabs(have - want) <= most + kFactor * moved) {
+                ++counts.values;
+            } else {
+                return text_of(name, i, have, plain, want, most + kFactor * moved);
+            }
+        }
+    }
+    return "";
+}
+
+std::string against_reference(RunShader& run, const Setting& setting,
+                              const std::vector<ReferenceLight>& lights, DifferenceCounts& counts) {
+    auto got = run.run(int(setting.points));
+    Layer layer{run.shaders.back().get(), setting.params};
+    for (size_t i = 0; i < std::min(setting.points, kReferencePoints); ++i) {
+        ReferenceInputs inputs = at_point(setting.columns, {"rng"}, i);
+        inputs.lights = lights;
+        inputs.service = reference_service;
+        std::string wrong = compare_point(layer, inputs, i, got, counts);
+        if (!wrong.empty()) return wrong;
+    }
+    return "";
+}
+
+std::string against_targets(RunShader& run, const Setting& setting, DifferenceCounts& counts) {
+    auto want = run.run(int(setting.points));
+    int want_faults = run.faults;
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported() || std::string_view(target.name) == "interp") continue;
+        run.kernels = jit::compile(run.lowered.module, {&target, nullptr});
+        auto got = run.run(int(setting.points));
+        if (run.faults != want_faults) return std::string(target.name) + ": faults differ";
+        for (auto& [name, column] : want)
+            for (size_t i = 0; i < column.size(); ++i, ++counts.bits) {
+                if (same_bits(column[i], got.at(name)[i])) continue;
+                char text[200];
+                std::snprintf(text, sizeof text, "%s: output %s at point %zu: %.9g, interp %.9g",
+                              target.name, name.c_str(), i, double(got.at(name)[i]),
+                              double(column[i]));
+                return text;
+            }
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string shader_difference(const std::string& source, uint64_t world, DifferenceCounts& counts) {
+    ++counts.shaders;
+    // Compiled once for the parameters' names, then with all outputs.
+    Diagnostics diagnostics;
+    ShaderSource text{source, {}};
+    text.map.file = diagnostics.files.add("fuzz.sl", source);
+    text.map.segments = {{0, 0}};
+    auto shaders = compile(text, {}, diagnostics);
+    auto reject = [&](std::string why) {
+        if (counts.rejected++ == 0) counts.first_rejection = why + "\n" + source;
+        return "";
+    };
+    if (shaders.empty())
+        return reject(diagnostics.findings().empty()
+                          ? "no finding"
+                          : format_finding(diagnostics.findings()[0], diagnostics.files));
+    Setting setting = setting_of(*shaders.back(), world);
+    RunShader run(source, setting.options, setting.params);
+    if (!run.verdict.empty()) return "verify: " + run.verdict;
+    if (!run.ok()) return reject(run.findings());
+    ReferenceInputs shared;
+    add_lights(run, shared);
+    add_services(run);
+    run.inputs = setting.columns;
+    std::string wrong = against_reference(run, setting, shared.lights, counts);
+    if (wrong.empty()) wrong = against_targets(run, setting, counts);
+    if (wrong.empty()) wrong = emission_difference(run.lowered.module);
+    if (counts.shaders % 64 == 0) jit::clear_cache();
+    return wrong;
+}
+
+std::string emission_difference(const jit::Module& lowered) {
+    jit::Module first = lowered, second = lowered, frame, same_frame;
+    jit::optimize(first, &frame);
+    jit::optimize(second, &same_frame);
+    if (jit::print(first) != jit::print(second) || jit::print(frame) != jit::print(same_frame))
+        return "optimize twice gives two modules";
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported() || std::string_view(target.name) == "interp") continue;
+        for (const jit::Module* module : {&first, &frame}) {
+            auto a = target.emit(*module, nullptr), b = target.emit(*module, nullptr);
+            if (!a || !b) return std::string(target.name) + ": no executable memory";
+            if (a->machine_code.empty())
+                return std::string(target.name) + ": a kernel without code";
+            if (a->machine_code.size() != b->machine_code.size() ||
+                std::memcmp(a->machine_code.data(), b->machine_code.data(),
+                            a->machine_code.size()) != 0)
+                return std::string(target.name) + ": compiling twice gives different bytes";
+        }
+    }
+    return "";
+}
+
+}  // namespace kinora::rsl

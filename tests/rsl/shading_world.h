@@ -1,0 +1,113 @@
+// tests/rsl/shading_world.h: random points, lights and services that kernels and the reference see
+// alike.
+#pragma once
+
+#include "tests/rsl/differential.h"
+
+namespace kinora::rsl {
+
+// A curved patch lit from three sides.
+inline Columns random_point(uint64_t seed, size_t points) {
+    Random r{seed};
+    Columns c;
+    auto triple = [&](const std::string& name, auto make, const char* parts = "xyz") {
+        for (int k = 0; k < 3; ++k)
+            for (size_t i = 0; i < points; ++i) c[name + "." + parts[k]].push_back(make(k));
+    };
+    triple("P", [&](int) { return r.uniform(-3, 3); });
+    triple("Ps", [&](int) { return r.uniform(-3, 3); });
+    triple("dPdu", [&](int k) { return k == 0 ? r.uniform(0.5f, 2) : r.uniform(-0.3f, 0.3f); });
+    triple("dPdv", [&](int k) { return k == 1 ? r.uniform(0.5f, 2) : r.uniform(-0.3f, 0.3f); });
+    for (const char* name : {"dNdu", "dNdv", "dIdu", "dIdv"})
+        triple(name, [&](int) { return r.uniform(-0.2f, 0.2f); });
+    for (const char* name : {"Ci", "Oi"})  // behind a volume or imager
+        triple(
+            name, [&](int) { return r.uniform(0, 1); }, "rgb");
+    for (const char* name : {"N", "Ng", "Ns"})
+        triple(name, [&](int k) { return k == 2 ? r.uniform(-1, -0.5f) : r.uniform(-0.5f, 0.5f); });
+    triple("I", [&](int k) { return k == 2 ? r.uniform(1, 5) : r.uniform(-1, 1); });
+    for (const char* name : {"u", "v", "s", "t", "alpha"})
+        for (size_t i = 0; i < points; ++i) c[name].push_back(r.uniform(0, 1));
+    for (const char* name : {"dsdu", "dsdv", "dtdu", "dtdv", "du", "dv"})
+        for (size_t i = 0; i < points; ++i) c[name].push_back(r.uniform(0.01f, 0.1f));
+    for (size_t i = 0; i < points; ++i) c["rng"].push_back(std::bit_cast<float>(r.next() >> 4));
+    c["time"] = {0.25f};
+    c["dtime"] = {0.02f};
+    return c;
+}
+
+// What services answer, the same for kernels and the reference: smooth in a few arguments.
+inline double answer(std::string_view name, const double* args, int result) {
+    int first = name == "texture" || name == "environment" ? 2 : name == "shadow" ? 1 : 0;
+    int count = name == "texture" ? 2 : 3;
+    double sum = 0.3 * result;
+    for (int k = 0; k < count; ++k) sum += args[first + k] * (0.7 + 0.2 * k);
+    return 0.5 + 0.4 * std::sin(sum);
+}
+
+template <int kService>
+void kernel_service(const jit::ServiceCall& call) {
+    std::string_view name = kServiceNames[kService];
+    int results = name == "lights" || name == "print" ? 0 : name == "transform" ? 24 : 4;
+    if (name == "shadow" || name == "transmission") results = 3;
+    for (int lane = 0; lane < call.lanes; ++lane) {
+        double args[6];
+        for (int k = 0; k < 6 && results; ++k)
+            args[k] = double(call.args[k * jit::kMaxLanes + lane]);
+        for (int k = 0; k < results; ++k)
+            call.results[k * jit::kMaxLanes + lane] = float(answer(name, args, k));
+        if (name == "lights") call.results[lane] = std::bit_cast<float>(0);
+    }
+}
+
+inline std::vector<double> reference_service(std::string_view name, std::span<const double> args) {
+    double padded[6] = {};
+    std::copy_n(args.begin(), std::min<size_t>(args.size(), 6), padded);
+    std::vector<double> results;
+    for (int k = 0; k < 4; ++k) results.push_back(double(float(answer(name, padded, k))));
+    return results;
+}
+
+inline void add_services(RunShader& run) {
+    run.services = {{"lights", kernel_service<0>},      {"texture", kernel_service<1>},
+                    {"environment", kernel_service<2>}, {"shadow", kernel_service<3>},
+                    {"trace", kernel_service<4>},       {"transmission", kernel_service<5>},
+                    {"transform", kernel_service<6>},   {"print", kernel_service<7>}};
+}
+
+inline void add_lights(RunShader& run, ReferenceInputs& inputs) {
+    for (int k = 0; k < 4; ++k) {
+        TestLight light;
+        ReferenceLight same;
+        light.kind = same.kind = k == 0 ? kLightAmbient : k == 1 ? kLightSolar : kLightIlluminate;
+        const float L[4][3] = {{0, 0, 0}, {0.6f, 0, -0.8f}, {1, 2, -3}, {-2, 0.5f, -0.5f}};
+        for (size_t c = 0; c < 3; ++c) {
+            light.L[c] = L[k][c], same.L[c] = double(L[k][c]);
+            light.Cl[c] = 0.2f * float(k + 1) + 0.1f * float(c), same.Cl[c] = double(light.Cl[c]);
+            same.Ol[c] = 1;
+        }
+        if (k == 3) light.nonspecular = 1, same.nonspecular = 1;
+        for (size_t j = 0; j < run.lowered.categories.size(); ++j)
+            if (int(j) % 2 == k % 2) {
+                light.categories |= 1u << j;
+                same.categories.push_back(run.lowered.categories[j]);
+            }
+        for (size_t j = 0; j < run.lowered.light_messages.size(); ++j) {
+            std::vector<double> value;
+            for (int c = 0; c < run.lowered.light_message_components[j]; ++c) {
+                light.messages.push_back(0.25f * float(k + c));
+                value.push_back(double(light.messages.back()));
+            }
+            same.messages[run.lowered.light_messages[j]] = value;
+        }
+        run.lights.push_back(light);
+        inputs.lights.push_back(same);
+    }
+}
+
+inline bool same_bits(float a, float b) {
+    return std::bit_cast<int32_t>(a) == std::bit_cast<int32_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
+}
+
+}  // namespace kinora::rsl
