@@ -45,7 +45,12 @@ void diffuse(LowerCall& c) {
     bool cone = c.args.size() == 3;
     V3 N = c.v3(cone ? 1 : 0);
     V3 P = cone ? c.v3(0) : e.read_global(Global::P).v3();
-    Value limit = cone ? e.mul(jit::math::cos(c.b, c.f(2), e.tier), e.length(N)) : e.f(0);
+    Value limit = e.f(0);
+    if (cone) {  // nothing lies outside half a turn or more
+        Value all = c.b.le(e.f(3.14159f), c.f(2));
+        Value cosine = c.b.select(all, e.f(-2), jit::math::cos(c.b, c.f(2), e.tier));
+        limit = e.mul(cosine, e.length(N));
+    }
     c.set(sum_of_lights(c, P, false, [&](Value set, Value record, const V3& sum) {
         V3 L = e.normalize(e.record_triple(set, record, kLightL));
         Value cosine = e.dot(L, N);

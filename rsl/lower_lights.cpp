@@ -103,8 +103,11 @@ Lowering::Cone Lowering::cone(const Expr* axis, const Expr* angle) {
     V3 a = expr(*axis).v3();
     Value half = value(*angle);
     float known;
-    if (b.constant_f(half, &known) && known >= 3.14159f) return {};
+    bool constant = b.constant_f(half, &known);
+    if (constant && known >= 3.14159f) return {};
     Value cosine = jit::math::cos(b, half, tier);
+    if (!constant)  // nothing lies outside a cone of half a turn or more
+        cosine = b.select(b.le(f(3.14159f), half), f(-2), cosine);
     return {false, a, b.mul(cosine, length(a))};
 }
 

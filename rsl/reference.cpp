@@ -175,7 +175,25 @@ bool Reference<Real>::compare(Op op, const Item& a, const Item& b) {
 }
 
 template <class Real>
+auto Reference<Real>::jittered(Item x) -> Item {
+    bool number = is_numeric(x.type);
+    for (size_t k = 0; in.jitter != 0 && number && k < x.size(); ++k) {
+        uint64_t h = (in.jitter + ++jitter_) * 0x9e3779b97f4a7c15u;
+        h = (h ^ h >> 32) * 0xff51afd7ed558ccdu;
+        Real move = Real(double(int64_t(h ^ h >> 33)) * 0x1p-85);
+        if (x.c[k].x == 0) x.c[k].x = std::copysign(Real(0), move);  // x * 0 is 0 or -0
+        if (x.c[k].x != std::floor(x.c[k].x)) x.c[k].x *= 1 + move;
+        x.c[k].u *= 1 + move, x.c[k].v *= 1 + move;
+    }
+    return x;
+}
+
+template <class Real>
 auto Reference<Real>::binary(Op op, const Item& a, const Item& b) -> Item {
+    return jittered(operate(op, a, b));
+}
+template <class Real>
+auto Reference<Real>::operate(Op op, const Item& a, const Item& b) -> Item {
     if (op == Op::And) return {BaseType::Bool, Number(Real(a.truth() && b.truth()))};
     if (op == Op::Or) return {BaseType::Bool, Number(Real(a.truth() || b.truth()))};
     if (op >= Op::Less && op <= Op::NotEqual)
@@ -306,7 +324,7 @@ auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
         if (is_output_pair(e, k + 1)) store(*e.args[k + 1], call.pairs[p].second);
         ++p;
     }
-    return call.result;
+    return jittered(call.result);
 }
 
 // ---- shaders ------------------------------------------------------------------------------------

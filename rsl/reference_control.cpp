@@ -4,10 +4,6 @@
 
 namespace kinora::rsl {
 
-namespace {
-constexpr int kLoopBudget = 1'000'000;  // EXTREMES.md row 72
-}
-
 template <class Real>
 RefFlow Reference<Real>::block(std::span<Stmt* const> body) {
     for (const Stmt* stmt : body) {
@@ -84,7 +80,7 @@ RefFlow Reference<Real>::loop(const Stmt& stmt, const Expr* condition, const Stm
     bool leave = false;
     loop_counters.push_back(0);
     for (int turn = 0; !condition || decide(expr(*condition).truth()); ++turn) {
-        if (turn >= kLoopBudget) {
+        if (turn >= in.loop_budget) {
             ++result.faults;
             break;
         }

@@ -115,7 +115,8 @@ void fresnel(RefCall<Real>& c) {
     Number eta = c.f(2);
     Bent<Real> t = bend(c, I, N, eta);
     Number kr(1);
-    if (!t.total && eta.x > 0) {
+    bool passes = !t.total && eta.x > 0 && dot(I, N).x != 0;
+    if (passes) {
         Number cos_i = rsl::abs(dot(I, N)), cos_t = rsl::abs(dot(t.direction, N));
         Number s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
         Number p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
@@ -125,7 +126,7 @@ void fresnel(RefCall<Real>& c) {
     c.args[4].c[0] = Number(1) - kr;
     if (c.args.size() < 7) return;
     c.set_output(5, mirrored(I, N));
-    c.set_output(6, t.direction);
+    c.set_output(6, passes ? t.direction : Vec<Real>{});
 }
 
 template <class Real>

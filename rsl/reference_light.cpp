@@ -36,6 +36,7 @@ template <class Real, class F>
 void sum_lights(RefCall<Real>& c, const Vec<Real>& N, double ReferenceLight::*off, F weight,
                 Dual<Real> angle = Dual<Real>(Real(1.57079632679))) {
     Vec<Real> sum{};
+    if (!(rsl::length(N).x > 0)) return c.set(sum);  // faces nothing
     c.eval.for_each_light(&N, angle, [&](const ReferenceLight& light, const Vec<Real>& L) {
         Dual<Real> k = weight(rsl::normalize(L));
         k = Real(1 - light.*off) * k;

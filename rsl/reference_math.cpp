@@ -147,24 +147,24 @@ double share_below(std::string_view name, double u) {
 template <class Real>
 void filterstep(RefCall<Real>& c) {
     using Number = Dual<Real>;
-    Number s = c.f(1);
-    Real low, high;
+    Number s = c.f(1), low, high;
     if (c.args.size() == 3) {
-        low = std::min(s.x, c.f(2).x), high = std::max(s.x, c.f(2).x);
+        low = rsl::min(s, c.f(2)), high = rsl::max(s, c.f(2));
     } else {
         Real width = std::fabs(s.u * c.eval.global(Global::du).c[0].x) +
                      std::fabs(s.v * c.eval.global(Global::dv).c[0].x);
-        low = s.x - width / 2, high = s.x + width / 2;
+        low = s - Number(width / 2), high = s + Number(width / 2);
     }
-    Real middle = (low + high) / 2, half = (high - low) / 2 * c.pair("width", 1).x;
+    Number middle = Real(0.5) * (low + high);
+    Number half = Real(0.5) * (high - low) * c.pair("width", 1);
     low = middle - half, high = middle + half;
-    Real edge = c.f(0).x;
-    if (high - low < Real(FLT_MIN)) return c.set(whole(c, Real(s.x < edge ? 0 : 1)));
-    Real share = (high - edge) / (high - low);
+    Number edge = c.f(0);
+    if ((high - low).x < Real(FLT_MIN)) return c.set(whole(c, Real(s.x < edge.x ? 0 : 1)));
+    Number share = (high - edge) / (high - low);
     for (auto& [name, value] : c.pairs)
         if (name == "filter" && value.text() != "box")
-            share = Real(share_below(value.text(), double(2 * share - 1)));
-    c.set(Number(std::clamp(share, Real(0), Real(1))));
+            share = Number(Real(share_below(value.text(), double(2 * share.x - 1))));
+    c.set(rsl::clamp(share, Number(0), Number(1)));
 }
 
 // The derivative of a derivative is 0 (DESIGN.md decision 8).

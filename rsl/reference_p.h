@@ -167,6 +167,8 @@ class Reference {
     Item* place(const Expr& target, int* component);
     size_t index(const Expr& e, size_t length);
     Item binary(Op op, const Item& a, const Item& b);
+    Item operate(Op op, const Item& a, const Item& b);
+    Item jittered(Item x);
     bool compare(Op op, const Item& a, const Item& b);
     Item cast(const CastExpr& e);
     Item assign(const AssignExpr& e);
@@ -193,6 +195,7 @@ class Reference {
     void light_outputs();
 
     std::span<const Layer> layers_;
+    uint64_t jitter_ = 0;  // calls of jittered() so far
     std::unordered_map<const Symbol*, Storage> variables_;
     std::map<Global, Item> globals_;
     Item returned_;

@@ -87,7 +87,7 @@ std::string ShaderWriter::literal(BaseType type) {
 
 std::string ShaderWriter::leaf(BaseType type) {
     if (chance(55))
-        if (Variable* v = variable(type, false, false)) return v->name;
+        if (Variable* v = variable(type, false, false)) return read(*v);
     if (type == BaseType::String || type == BaseType::Matrix || chance(30)) return literal(type);
     std::vector<std::string_view> fits;
     for (const GlobalInfo& g : globals()) {
@@ -157,12 +157,12 @@ std::string ShaderWriter::select(BaseType type, int depth) {
 // Array elements with wild indices, components.
 std::string ShaderWriter::element(BaseType type, int depth) {
     if (Variable* v = variable(type, false, true))
-        return v->name + "[" +
+        return read(*v) + "[" +
                (chance(60) ? value(BaseType::Float, depth - 1) : std::to_string(below(9) - 2)) +
                "]";
     if (type != BaseType::Float) return "";
     if (Variable* v = variable(BaseType::Color, false, false))
-        return v->name + "[" + std::to_string(below(3)) + "]";
+        return read(*v) + "[" + std::to_string(below(3)) + "]";
     return "";
 }
 
@@ -238,13 +238,14 @@ bool ShaderWriter::argument(const Builtin& row, const Signature::Argument& argum
         Variable* v =
             argument.output ? output_variable(type, array, 4) : variable(type, false, array, 4);
         if (!v) return false;
-        text += v->name;
+        text += argument.output ? v->name : read(*v);
         return true;
     }
     if (type == BaseType::String)
         text += "\"" + text_for(row.name) + "\"";
     else if (is_spatial(type) && std::count(std::begin(kUnitRows), std::end(kUnitRows), row.name))
-        text += std::string(type_name(type)) + " normalize(" + value(type, depth - 1) + ")";
+        text += std::string(type_name(type)) + " normalize(" + value(type, depth - 1) + " + " +
+                type_name(type) + " (0.1, 0.2, 0.3))";
     else
         text += value(type == BaseType::Invalid ? BaseType::Float : type, depth - 1);
     return true;

@@ -25,7 +25,7 @@ struct DifferenceCounts {
 // what differs. Parameters frame_* and vary_* are bound to frame and point inputs.
 //
 // The stated error of interp against the double reference: 16 times the largest that rounding the
-// inputs, or computing in float, moves the reference at that point (7 samples), plus 2e-5 of 1 +
+// inputs, or computing in float, moves the reference at that point (11 samples), plus 2e-5 of 1 +
 // the value.
 std::string shader_difference(const std::string& source, uint64_t world, DifferenceCounts& counts);
 

@@ -48,6 +48,7 @@ class ShaderWriter {
     // random_shader.cpp
     void find_rows(bool all_rows);
     void function();
+    void recursion();
     void parameters();
     std::string shader_head();
     void finish_surface();
@@ -66,6 +67,13 @@ class ShaderWriter {
     void light_source();
     Variable* output_variable(BaseType type, bool array, int shortest);
     Variable* variable(BaseType type, bool writable, bool array, int shortest = 1);
+    static bool is_in(const std::vector<std::string>& list, const std::string& name) {
+        return std::find(list.begin(), list.end(), name) != list.end();
+    }
+    const std::string& read(const Variable& v) {
+        read_.push_back(v.name);
+        return v.name;
+    }
     bool in_loop() const { return !loop_kinds_.empty(); }
 
     // random_shader_expressions.cpp
@@ -92,8 +100,9 @@ class ShaderWriter {
     std::map<BaseType, std::vector<Callable>> rows_;
     std::vector<Variable> scope_;
     std::vector<UserFunction> functions_;
-    std::vector<char> loop_kinds_;      // 'f' for, 'w' while, 'i' illuminance, innermost last
-    std::vector<std::string> written_;  // by calls of this statement: each variable once
+    std::vector<char> loop_kinds_;  // 'f' for, 'w' while, 'i' illuminance, innermost last
+    // By the statement being written: what calls write is not read or written elsewhere in it.
+    std::vector<std::string> written_, read_;
     const UserFunction* inside_ = nullptr;
     bool uniform_ = false;  // only uniform values may be written
     bool in_illuminance_ = false, in_illuminate_ = false;
