@@ -25,4 +25,13 @@ void describe(const Module& module, const char* target, Kernel& kernel) {
     kernel.target = target;
 }
 
+void note_place(std::vector<CodePlace>& places, size_t offset, const Location& where) {
+    auto same = [&](const Location& known) {
+        return known.file == where.file && known.begin == where.begin && known.end == where.end;
+    };
+    if (!places.empty() && same(places.back().where)) return;
+    if (!places.empty() && places.back().offset == offset) places.pop_back();
+    places.push_back({static_cast<uint32_t>(offset), where});
+}
+
 }  // namespace kinora::jit

@@ -14,4 +14,7 @@ std::vector<size_t> reached_functions(const Module& module);
 // Tells callers of the kernel about the module; everything but the code.
 void describe(const Module& module, const char* target, Kernel& kernel);
 
+// Code from `offset` on comes from `where`; offsets rise from call to call.
+void note_place(std::vector<CodePlace>& places, size_t offset, const Location& where);
+
 }  // namespace kinora::jit

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "jit/a64/a64_emit_p.h"
+#include "jit/module_code_p.h"
 
 namespace kinora::jit::a64 {
 
@@ -180,6 +181,8 @@ void Emit::emit_body(bool listing) {
     record_ = kNone;
     for (at_ = 0; at_ < f_.insts.size(); ++at_) {
         if (listing) comment();
+        if (uint32_t where = now().where; where != 0)
+            note_place(state_.places, a_.offset(), module_.locations[where]);
         for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
             if (place(v).reg >= 0 && place(v).in_reg(at_)) load_home(vec(place(v).reg), v);
         if (plan_.values[at_].fused) continue;

@@ -47,6 +47,7 @@ struct ModuleState {
     std::vector<Label> entries;    // of functions
     bool uses_valid = false;       // something asks which lanes hold points
     bool saves_registers = false;  // something uses v8..v15
+    std::vector<CodePlace> places = {};
 };
 
 // Where things lie in a function's frame.

@@ -22,7 +22,7 @@ struct A64Kernel final : Kernel {
         entry(&args);
     }
 
-    std::shared_ptr<const CodeMemory> code;
+    std::shared_ptr<const CodeMemory> memory;
     KernelFn entry = nullptr;
 };
 
@@ -39,6 +39,7 @@ struct Emitted {
     asmjit::CodeHolder code;
     asmjit::StringLogger log;
     size_t scratch_bytes = 0;
+    std::vector<CodePlace> places;
     std::string fault;  // of the register allocation, if asked for
 };
 
@@ -71,9 +72,11 @@ void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
     a.bind(end);
     a.adr(arm::x9, pool);
     a.b(state.entries[0]);
+    state.places.push_back({static_cast<uint32_t>(a.offset()), Location{}});
     a.align(asmjit::AlignMode::kData, 64);
     a.bind(pool);
     state.pool.place(a);
+    out.places = std::move(state.places);
 }
 
 std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
@@ -85,12 +88,14 @@ std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
     if (!emitted.error.text.empty()) return nullptr;
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
     auto kernel = std::make_shared<A64Kernel>();
-    kernel->code = make_executable({bytes.data(), bytes.size()});
-    if (kernel->code == nullptr) return nullptr;
+    kernel->memory = make_executable({bytes.data(), bytes.size()});
+    if (kernel->memory == nullptr) return nullptr;
     describe(module, "neon", *kernel);
     kernel->scratch_bytes = emitted.scratch_bytes;
     kernel->code_bytes = bytes.size();
-    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->code->data()));
+    kernel->machine_code = {kernel->memory->data(), bytes.size()};
+    kernel->places = std::move(emitted.places);
+    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
     std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     kernel->compile_ms = took.count();
     return kernel;

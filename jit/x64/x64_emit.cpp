@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "jit/module_code_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit::x64 {
@@ -148,23 +149,12 @@ void Emit::broadcast_frame() {
     }
 }
 
-void note_place(ModuleState& state, Location where) {
-    auto offset = static_cast<uint32_t>(state.a.offset());
-    std::vector<CodePlace>& places = state.places;
-    auto same = [&](const Location& known) {
-        return known.file == where.file && known.begin == where.begin && known.end == where.end;
-    };
-    if (!places.empty() && same(places.back().where)) return;
-    if (!places.empty() && places.back().offset == offset) places.pop_back();
-    places.push_back({offset, where});
-}
-
 void Emit::emit_body(bool listing) {
     zero_arrays();
     record_ = kNone;
     for (at_ = 0; at_ < f_.insts.size(); ++at_) {
         if (listing) comment();
-        if (uint32_t where = now().where; where != 0) note_place(state_, module_.locations[where]);
+        if (uint32_t where = now().where; where != 0) note_place(state_.places, a_.offset(), module_.locations[where]);
         for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
             if (place(v).reg >= 0 && place(v).in_reg(at_)) load_memory(vec(place(v).reg), home(v));
         if (plan_.values[at_].fused) continue;

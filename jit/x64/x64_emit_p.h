@@ -47,9 +47,6 @@ struct ModuleState {
     std::vector<CodePlace> places = {};
 };
 
-// Code from here on comes from `where`.
-void note_place(ModuleState& state, Location where);
-
 // Where things lie in a function's frame (offsets from r15).
 struct FrameLayout {
     int32_t params = 0, results = 0;   // rows

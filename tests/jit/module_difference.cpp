@@ -5,9 +5,6 @@
 
 #include "jit/compiler.h"
 #include "jit/interp.h"
-#if defined(__x86_64__)
-#include "jit/x64/x64_check.h"
-#endif
 
 namespace kinora::jit::test {
 
@@ -17,15 +14,6 @@ World world_of(uint64_t seed) {
 
 void forgive_loop_fault(RunResult& before, const RunResult& after) {
     if (before.fault[0] == 1 && after.fault[0] == 0) before.fault[0] = 0;
-}
-
-std::string allocation_difference(const Module& module, const Target& target) {
-    [[maybe_unused]] std::string_view name = target.name;
-#if defined(__x86_64__)
-    if (name == "avx2" || name == "avx512") return check_x64_allocation(module, name == "avx512");
-#endif
-    (void)module;
-    return "";
 }
 
 namespace {
@@ -63,8 +51,8 @@ std::string module_difference(const Module& module, uint64_t seed) {
     for (const Target& target : targets()) {
         if (!target.supported()) continue;
         auto named = [&](const std::string& what) { return target.name + (": " + what); };
-        if (std::string wrong = allocation_difference(module, target); !wrong.empty())
-            return named("allocation: " + wrong);
+        std::string proof = target.check != nullptr ? target.check(module) : "";
+        if (!proof.empty()) return named("allocation: " + proof);
         if (std::string wrong = target_difference(module, target, seed); !wrong.empty())
             return named(wrong);
         if (std::string wrong = optimized_difference(module, target, seed); !wrong.empty())

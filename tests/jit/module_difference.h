@@ -14,9 +14,7 @@ World world_of(uint64_t seed);
 // A loop that nobody needs may go, and its budget's fault (site 0) with it.
 void forgive_loop_fault(RunResult& before, const RunResult& after);
 
-// Each gives "" or what is wrong. The register allocation of a target's code, proven:
-std::string allocation_difference(const Module& module, const Target& target);
-// Code of one target against the interpreter, bit for bit:
+// Each gives "" or what is wrong. Code of one target against the interpreter, bit for bit:
 std::string target_difference(const Module& module, const Target& target, uint64_t seed);
 // The module after all passes, split, on a target, against itself without passes on interp:
 std::string optimized_difference(const Module& module, const Target& target, uint64_t seed);

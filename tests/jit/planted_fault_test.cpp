@@ -88,6 +88,7 @@ TEST(PlantedFaults, AreAllCaught) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "generated code is the same without sanitizers, and faster to compile";
 #endif
+    if (!has_target("avx2")) GTEST_SKIP() << "nearly all are faults of x64";
     int shown = 0, caught = 0;
     for (const FaultRow& row : kFaults) {
         if (!can_show(row)) continue;
@@ -100,7 +101,7 @@ TEST(PlantedFaults, AreAllCaught) {
         EXPECT_NE(found.seed, 0u) << row.name << ": " << row.meaning;
     }
     std::printf("%d of %d planted faults caught\n", caught, shown);
-    EXPECT_TRUE(shown >= 20 || !has_target("avx2"));
+    EXPECT_GE(shown, 20);
 }
 
 TEST(PlantedFaults, NothingIsWrongWithoutThem) {
