@@ -29,6 +29,7 @@ ShaderWriter::ShaderWriter(uint64_t seed, bool all_rows)
 }
 
 void ShaderWriter::find_rows(bool all_rows) {
+    bool maps = kind_ != ShaderKind::Displacement && chance(40);
     for (std::span<const Builtin> group : builtin_groups())
         for (const Builtin& row : group) {
             bool usable = row.lower && (row.legal >> int(kind_) & 1) != 0;
@@ -36,6 +37,10 @@ void ShaderWriter::find_rows(bool all_rows) {
             // yet.
             if (std::string_view(row.name) == "calculatenormal") continue;
             if (!usable || (!row.ref.single && !all_rows)) continue;
+            // Maps give their coordinates' slopes, which the reference does not know: a shader has
+            // maps or takes derivatives.
+            bool slopes = (row.effects & kDerivative) != 0, map = (row.effects & kService) != 0;
+            if (slopes && map != maps) continue;
             std::map<BaseType, std::vector<Signature>> by_result;
             for (Signature& s : parse_signatures(row.signature))
                 by_result[s.result.base].push_back(std::move(s));

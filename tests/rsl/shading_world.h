@@ -51,6 +51,10 @@ void kernel_service(const jit::ServiceCall& call) {
     int results = name == "lights" || name == "print" ? 0 : name == "transform" ? 24 : 4;
     if (name == "shadow" || name == "transmission") results = 3;
     for (int lane = 0; lane < call.lanes; ++lane) {
+        if (name == "textureinfo") {  // nothing is known
+            for (int k = 0; k < 17; ++k) call.results[k * jit::kMaxLanes + lane] = 0;
+            continue;
+        }
         double args[6];
         for (int k = 0; k < 6 && results; ++k)
             args[k] = double(call.args[k * jit::kMaxLanes + lane]);
@@ -72,7 +76,8 @@ inline void add_services(RunShader& run) {
     run.services = {{"lights", kernel_service<0>},      {"texture", kernel_service<1>},
                     {"environment", kernel_service<2>}, {"shadow", kernel_service<3>},
                     {"trace", kernel_service<4>},       {"transmission", kernel_service<5>},
-                    {"transform", kernel_service<6>},   {"print", kernel_service<7>}};
+                    {"transform", kernel_service<6>},   {"print", kernel_service<7>},
+                    {"textureinfo", kernel_service<11>}};
 }
 
 inline void add_lights(RunShader& run, ReferenceInputs& inputs) {
