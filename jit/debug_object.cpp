@@ -108,8 +108,10 @@ Bytes lines(const Kernel& kernel, const SourceFiles* files) {
     uint32_t at = 0;
     int64_t line = 1;
     for (const CodePlace& place : kernel.places) {
-        bytes.byte(2), bytes.unsigned_leb(place.offset - at);  // DW_LNS_advance_pc
-        at = place.offset;
+        // The entry belongs to the first line, so that a breakpoint there names the file.
+        uint32_t offset = &place == &kernel.places.front() ? 0 : place.offset;
+        bytes.byte(2), bytes.unsigned_leb(offset - at);  // DW_LNS_advance_pc
+        at = offset;
         if (files == nullptr || place.where.file >= files->count()) continue;
         int64_t wanted = files->line_column(place.where.file, place.where.begin).line;
         bytes.byte(4), bytes.unsigned_leb(place.where.file + 1);  // DW_LNS_set_file

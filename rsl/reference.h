@@ -37,8 +37,9 @@ struct ReferenceInputs {
     std::map<std::string, double> values;
     std::vector<ReferenceLight> lights;  // at any position asked for
     ReferenceService service;
-    // Not 0: every sum, product and built-in's result that is no whole number is moved by up to 2^-22
-    // of itself, at random from this seed (Monte Carlo arithmetic): shows what rounding may change.
+    // Not 0: every sum, product and built-in's result that is no whole number is moved by up to
+    // 2^-22 of itself, at random from this seed (Monte Carlo arithmetic): shows what rounding may
+    // change.
     uint64_t jitter = 0;
     int loop_budget = 1'000'000;  // EXTREMES.md row 72
 };

@@ -200,13 +200,14 @@ KINORA_FACT(rayorigin, "origin")
 KINORA_FACT(raydirection, "direction")
 KINORA_FACT(raylength, "length")
 
-#define KINORA_ALL(F)                                                                    \
-    F(trace)                                                                             \
-    F(transmission)                                                                      \
-    F(visibility) F(occlusion) F(indirectdiffuse) F(areashadow) F(photonmap) F(caustic)  \
-        F(subsurface) F(bake3d) F(texture3d) F(surface_message) F(displacement_message)  \
-            F(atmosphere) F(incident) F(opposite) F(attribute) F(option) F(rendererinfo) \
-                F(rayinfo) F(raydepth) F(raylabel) F(rayorigin) F(raydirection) F(raylength)
+#define KINORA_ALL(F)                                                                             \
+    F(trace)                                                                                      \
+    F(transmission)                                                                               \
+    F(visibility)                                                                                 \
+    F(occlusion) F(indirectdiffuse) F(areashadow) F(photonmap) F(caustic) F(subsurface) F(bake3d) \
+        F(texture3d) F(surface_message) F(displacement_message) F(atmosphere) F(incident)         \
+            F(opposite) F(attribute) F(option) F(rendererinfo) F(rayinfo) F(raydepth) F(raylabel) \
+                F(rayorigin) F(raydirection) F(raylength)
 KINORA_ALL(KINORA_RSL_DEFINE_REF)
 
 }  // namespace kinora::rsl::ref

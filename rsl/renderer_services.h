@@ -94,10 +94,9 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //                  strings as ids bit for bit, the rest 0) -> nothing
 // clang-format on
 inline constexpr std::string_view kServiceNames[] = {
-    "lights",       "texture",   "environment", "shadow",  "trace",
-    "transmission", "transform", "print",       "concat",  "format",
-    "match",        "textureinfo", "query",     "occlusion", "gather",
-    "bake3d",       "texture3d", "photons",     "indirectdiffuse"};
+    "lights", "texture", "environment", "shadow",  "trace",          "transmission", "transform",
+    "print",  "concat",  "format",      "match",   "textureinfo",    "query",        "occlusion",
+    "gather", "bake3d",  "texture3d",   "photons", "indirectdiffuse"};
 
 // A ray of a gather: columns of its record, then the wanted results in their order.
 enum GatherColumn { kGatherState = 0, kGatherResults = 1 };

@@ -99,7 +99,7 @@ class SceneBuilder {
     std::map<std::string, uint32_t> looks_by_key_;
     std::vector<std::string> space_names_;
     std::vector<std::string> output_names_;  // parameters behind Scene::outputs
-    std::vector<std::string> gathered_;  // outputs that gather statements read of what they hit
+    std::vector<std::string> gathered_;      // outputs that gather statements read of what they hit
     MaterialDefinition default_material_;
 };
 

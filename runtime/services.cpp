@@ -142,11 +142,21 @@ struct Row {
 };
 constexpr Row kRows[] = {
     {"textureinfo", lookup_texture_info},
-    {"lights", lights},       {"texture", texture},     {"environment", environment},
-    {"shadow", shadow},       {"trace", trace},         {"transmission", transmission},
-    {"transform", transform}, {"print", print},         {"query", query},
-    {"occlusion", occlusion}, {"bake3d", bake3d},       {"gather", gather_service},
-    {"photons", photons},     {"texture3d", texture3d}, {"indirectdiffuse", indirectdiffuse},
+    {"lights", lights},
+    {"texture", texture},
+    {"environment", environment},
+    {"shadow", shadow},
+    {"trace", trace},
+    {"transmission", transmission},
+    {"transform", transform},
+    {"print", print},
+    {"query", query},
+    {"occlusion", occlusion},
+    {"bake3d", bake3d},
+    {"gather", gather_service},
+    {"photons", photons},
+    {"texture3d", texture3d},
+    {"indirectdiffuse", indirectdiffuse},
 };
 constexpr size_t kStringServices = 3;  // rsl::string_service
 static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));

@@ -154,7 +154,8 @@ void Emit::emit_body(bool listing) {
     record_ = kNone;
     for (at_ = 0; at_ < f_.insts.size(); ++at_) {
         if (listing) comment();
-        if (uint32_t where = now().where; where != 0) note_place(state_.places, a_.offset(), module_.locations[where]);
+        if (uint32_t where = now().where; where != 0)
+            note_place(state_.places, a_.offset(), module_.locations[where]);
         for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
             if (place(v).reg >= 0 && place(v).in_reg(at_)) load_memory(vec(place(v).reg), home(v));
         if (plan_.values[at_].fused) continue;

@@ -196,13 +196,14 @@ std::string Render::fingerprint(double time) const {
     const RenderOptions& o = options_;
     std::string text = fmt::format(
         "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} rays {} {} filter {} {} "
-        "seed {} shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time {:a}",
+        "seed {} shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time "
+        "{:a}",
         KINORA_VERSION, scene_hash_, settings_.width, settings_.height, o.quality.name,
         o.quality.samples_per_pixel, int(o.quality.math), o.quality.robust,
         o.quality.always_rebuild, o.quality.ray_depth, o.quality.diffuse_depth, o.filter,
-        o.filter_width, o.seed, int(o.shadows), int(o.nan),
-        int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0),
-        int(o.quality.displacement), o.quality.dice, o.dice_limit, time);
+        o.filter_width, o.seed, int(o.shadows), int(o.nan), int(o.color), o.camera,
+        o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), int(o.quality.displacement),
+        o.quality.dice, o.dice_limit, time);
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);

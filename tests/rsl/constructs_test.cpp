@@ -101,14 +101,6 @@ constexpr struct {
     {"precedence of ^ * .", "expression_precedence"},
 };
 
-// Constructs that the front end reads and whose code is written elsewhere: no result is claimed.
-constexpr const char* kPending[] = {"style_gather_era", "texture_info", "tracing_gather",
-                                    "tracing_indirect"};
-
-bool is_pending(const std::string& name) {
-    return std::find(std::begin(kPending), std::end(kPending), name) != std::end(kPending);
-}
-
 std::string read(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -127,8 +119,7 @@ struct Construct {
         for (const Finding& f : source.diagnostics.findings())
             if (f.severity >= Severity::Error) errors.push_back(f.info->code);
     }
-    std::string result(const std::string& name) const {
-        if (is_pending(name)) return "pending";
+    std::string result() const {
         if (errors.empty()) return "compiles";
         return fmt::format("error {}", errors[0]);
     }
@@ -152,7 +143,6 @@ TEST(Constructs, ThatShadersUseCompileAndThoseOfRsl2GiveOneError) {
     int files = 0;
     for (const auto& [name, construct] : constructs()) {
         bool rejected = name.starts_with("rejected/");
-        if (is_pending(name)) continue;
         EXPECT_EQ(construct.errors.size(), rejected ? 1u : 0u) << name << "\n"
                                                                << construct.source.messages();
         ++files;
@@ -169,11 +159,11 @@ std::string readme() {
         "| construct | test | result |\n|---|---|---|\n";
     for (const auto& row : kRows)
         text += fmt::format("| `{}` | [{}]({}.sl) | {} |\n", row.construct, row.file, row.file,
-                            constructs().at(row.file).result(row.file));
+                            constructs().at(row.file).result());
     text += "\n## All files\n\n| test | what it has | result |\n|---|---|---|\n";
     for (const auto& [name, construct] : constructs())
         text += fmt::format("| [{}]({}.sl) | {} | {} |\n", name, name, construct.what,
-                            construct.result(name));
+                            construct.result());
     return text;
 }
 

@@ -37,6 +37,7 @@ void ShaderWriter::find_rows(bool all_rows) {
             // yet.
             if (std::string_view(row.name) == "calculatenormal") continue;
             if (!usable || (!row.ref.single && !all_rows)) continue;
+            if (row.effects & kChannelPairs) continue;  // their arguments follow a list of names
             // Maps give their coordinates' slopes, which the reference does not know: a shader has
             // maps or takes derivatives.
             bool slopes = (row.effects & kDerivative) != 0, map = (row.effects & kService) != 0;

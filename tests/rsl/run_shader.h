@@ -75,8 +75,8 @@ class RunShader {
         faults = 0;
         std::vector<float> frame;
         if (kernels.frame) frame = run_kernel(*kernels.frame, 1, nullptr, nullptr);
-        auto records = light_records();
-        std::vector<float> flat = run_kernel(*kernels.point, count, frame.data(), &records);
+        const jit::RecordSet records[] = {light_records(), {}};  // kNoRecords: what a gather finds
+        std::vector<float> flat = run_kernel(*kernels.point, count, frame.data(), records);
         std::map<std::string, std::vector<float>> result;
         for (size_t k = 0; k < kernels.point->outputs.size(); ++k)
             result[kernels.point->outputs[k].name] = {flat.begin() + long(k) * count,
@@ -97,6 +97,7 @@ class RunShader {
     std::map<std::string, std::vector<float>> inputs;
     std::vector<TestLight> lights;
     std::map<std::string, jit::ServiceFn> services;
+    static constexpr int32_t kNoRecords = 1;  // the handle of a record set without records
     int faults = 0;  // sites that reported in the last run, of the frame kernel too
 
   private:
@@ -165,6 +166,12 @@ class RunShader {
             functions[k] = services.count(kernel.services[k].name)
                                ? services.at(kernel.services[k].name)
                                : string_service(kernel.services[k].name);
+        for (size_t k = 0; k < kernel.services.size(); ++k)
+            if (!functions[k]) {
+                fprintf(stderr, "the test gives no service '%s'\n",
+                        kernel.services[k].name.c_str());
+                abort();
+            }
         auto reported = arena.allocate_span<uint8_t>(kernel.fault_sites.size() + 1);
         std::fill(reported.begin(), reported.end(), uint8_t(0));
         jit::KernelArgs args;

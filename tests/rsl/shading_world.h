@@ -67,6 +67,10 @@ void zero_service(const jit::ServiceCall& call) {
     std::fill_n(call.results, results * jit::kMaxLanes, 0.0f);
 }
 
+inline void gather_nothing(const jit::ServiceCall& call) {
+    std::fill_n(call.results, jit::kMaxLanes, std::bit_cast<float>(RunShader::kNoRecords));
+}
+
 inline std::vector<double> reference_service(std::string_view name, std::span<const double> args) {
     auto known = std::find(std::begin(kServiceNames), std::end(kServiceNames), name);
     if (known - std::begin(kServiceNames) >= 8) return {};
@@ -84,7 +88,8 @@ inline void add_services(RunShader& run) {
                     {"transform", kernel_service<6>},     {"print", kernel_service<7>},
                     {"query", zero_service<17>},          {"occlusion", zero_service<4>},
                     {"indirectdiffuse", zero_service<3>}, {"photons", zero_service<3>},
-                    {"texture3d", zero_service<33>},      {"bake3d", zero_service<0>}};
+                    {"texture3d", zero_service<33>},      {"bake3d", zero_service<0>},
+                    {"gather", gather_nothing},           {"textureinfo", zero_service<17>}};
 }
 
 inline void add_lights(RunShader& run, ReferenceInputs& inputs) {

@@ -70,10 +70,8 @@ TEST(Strings, MatchAsPosixDoes) {
         "ab?c",     "[abc]", "[^abc]+$", "^[a-c]+$", "a|bc", "(ab)+c", "^(a|b)*$",
         "x(y|z)*$", "\\.",   "[0-9]+",   "^$",       "a*",   "(a*)*b", "tex[0-9]\\.tif$",
         "((a)b)c"};
-    const char* words[] = {"",     "a",        "ab",      "abc",
-                           "abbc", "ac",       "bc",      "xyz",
-                           "xzzy", "ababc",    "a.c",     "12",
-                           "q",    "tex7.tif", "tex.tif", "aaaaac"};
+    const char* words[] = {"",     "a",     "ab",  "abc", "abbc", "ac",       "bc",      "xyz",
+                           "xzzy", "ababc", "a.c", "12",  "q",    "tex7.tif", "tex.tif", "aaaaac"};
     for (const char* pattern : patterns)
         for (const char* word : words) {
             if (std::string_view(pattern).empty()) {

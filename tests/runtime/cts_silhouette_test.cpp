@@ -123,8 +123,8 @@ TEST(UpAxis, XUpAndZUpShowTheSamePicture) {
     raytrace::Film films[2];
     for (int i = 0; i < 2; ++i) {
         Diagnostics diagnostics;
-        auto scene = load(files(kScenes / (i ? "cts_z_up" : "cts_x_up"), ".dae").front(),
-                          diagnostics);
+        auto scene =
+            load(files(kScenes / (i ? "cts_z_up" : "cts_x_up"), ".dae").front(), diagnostics);
         ASSERT_TRUE(scene);
         FrameSettings settings;
         settings.width = settings.height = 128;
