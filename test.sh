@@ -18,11 +18,11 @@ stage() {  # stage NAME COMMAND...: runs it and prints how long it took
 stage "release build" scripts/build release -DKINORA_TESTS=ON -DKINORA_WERROR=$([[ $all == 1 ]] && echo ON || echo OFF)
 stage "release tests" ctest --preset release
 if ((all)); then
-    stage "fuzzing of code" scripts/fuzz build/release code
+    stage "fuzzing of code" scripts/fuzz build/release code 10
     stage "AArch64 build" scripts/cross-arm64 -DKINORA_WERROR=ON
     # Emulated code is ten times slower: a tenth of the random programs.
     stage "neon under qemu" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
     stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
     stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
-    stage "fuzzing of sources" scripts/fuzz build/asan text
+    stage "fuzzing of sources" scripts/fuzz build/asan text 20
 fi

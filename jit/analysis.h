@@ -8,6 +8,11 @@
 
 namespace kinora::jit {
 
+// Does it answer one int for all lanes, such as the handle of a record set?
+inline bool gives_handle(const ServiceInfo& service) {
+    return service.results.size() == 1 && service.results[0] == Type::I;
+}
+
 // Per value: do all lanes that hold points surely hold the same bits whenever it is computed?
 // Conservative (false when not known); parameters and results of services count as false.
 std::vector<bool> lanes_agree(const Module& module, const Function& function);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "jit/analysis.h"
 #include "jit/interp_p.h"
 #include "jit/scalar_p.h"
 
@@ -244,6 +245,9 @@ Value step_call(const Frame& frame, const Inst& inst, Value at) {
 
 Value step_service(const Frame& frame, const Inst& inst, Value at) {
     uint32_t mask = mask_bits(frame.row(inst.a)) & frame.valid;
+    // Record sets are read by all lanes: where none asks, the handle is 0 all the same.
+    if (gives_handle(frame.program.module.services[static_cast<size_t>(inst.imm)]))
+        fill((&frame.row(at))[1], 0);
     if (mask == 0) return at + 1;
     const Row* params = gather_args(frame, inst);
     ServiceCall call;

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "jit/a64/a64_emit_p.h"
+#include "jit/analysis.h"
 
 namespace kinora::jit::a64 {
 
@@ -20,6 +21,11 @@ void Emit::pass_arguments(int32_t to) {
 void Emit::op_Service() {
     Label skip = a_.newLabel();
     record_ = kNone;
+    if (gives_handle(module_.services[static_cast<size_t>(now().imm)])) {
+        // Record sets are read by all lanes: where none asks, the handle is 0 all the same.
+        add_offset(arm::x0, kStack, layout_.service_results);
+        a_.stp(arm::xzr, arm::xzr, arm::ptr(arm::x0));
+    }
     mask_bits(arm::w0, now().a);
     a_.ldr(arm::w1, arm::ptr(kGlobals, kValidBits));
     a_.and_(arm::w0, arm::w0, arm::w1);

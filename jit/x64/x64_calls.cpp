@@ -1,5 +1,6 @@
 // jit/x64/x64_calls.cpp: calls of services (C++) and of the module's own functions. No vector
 // register lives through a call (values in need lie in memory); rbx rbp r12..r15 are kept.
+#include "jit/analysis.h"
 #include "jit/x64/x64_emit_p.h"
 
 namespace kinora::jit::x64 {
@@ -21,6 +22,11 @@ void Emit::pass_arguments(int32_t to, bool to_service) {
 void Emit::op_Service() {
     Label skip = a_.newLabel();
     record_ = kNone;
+    if (gives_handle(module_.services[static_cast<size_t>(now().imm)])) {
+        // Record sets are read by all lanes: where none asks, the handle is 0 all the same.
+        a_.vxorps(xmm(scratch(0)), xmm(scratch(0)), xmm(scratch(0)));
+        a_.emit(Id::kIdVmovaps, row(layout_.service_results), scratch(0));
+    }
     mask_bits(x86::edx, now().a);
     if (planted(PlantedFault::ServiceIgnoresMask)) a_.mov(x86::edx, -1);
     a_.and_(x86::edx, x86::dword_ptr(x86::r13, kValidBits));
