@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Builds and runs all tests. --all adds the slow stages (fuzzing, AArch64 under qemu, sanitizers);
-# .ci/run calls it so.
+# Builds and runs all tests. --all adds the sanitizers (.ci/run calls it so), --more also the long
+# fuzz runs and AArch64 under qemu.
 set -euo pipefail
 cd "$(dirname "$0")"
-all=0
-[[ ${1:-} == --all ]] && all=1
+all=0 more=0
+[[ ${1:-} == --all || ${1:-} == --more ]] && all=1
+[[ ${1:-} == --more ]] && more=1
 
 stage() {  # stage NAME COMMAND...: runs it and prints how long it took
     local name=$1 start=$SECONDS
@@ -18,11 +19,15 @@ stage() {  # stage NAME COMMAND...: runs it and prints how long it took
 stage "release build" scripts/build release -DKINORA_TESTS=ON -DKINORA_WERROR=$([[ $all == 1 ]] && echo ON || echo OFF)
 stage "release tests" ctest --preset release
 if ((all)); then
-    stage "fuzzing of code" scripts/fuzz build/release code 10
+    stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
+    stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
+fi
+# Stages that have not been seen whole at one commit yet; they move up to --all when they have.
+if ((more)); then
+    stage "fuzzing of code" scripts/fuzz build/release code
+    stage "fuzzing of shaders" scripts/fuzz build/release shaders
     stage "AArch64 build" scripts/cross-arm64 -DKINORA_WERROR=ON
     # Emulated code is ten times slower: a tenth of the random programs.
     stage "neon under qemu" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
-    stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
-    stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
-    stage "fuzzing of sources" scripts/fuzz build/asan text 20
+    stage "fuzzing of sources" scripts/fuzz build/asan text
 fi
