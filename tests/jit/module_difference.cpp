@@ -1,6 +1,7 @@
 // tests/jit/module_difference.cpp: agreement of interpreter, passes and targets on one module.
 #include "tests/jit/module_difference.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "jit/compiler.h"
@@ -19,8 +20,8 @@ void forgive_loop_fault(RunResult& before, const RunResult& after) {
 namespace {
 
 bool same_code(const Kernel& a, const Kernel& b) {
-    return a.machine_code.size() == b.machine_code.size() &&
-           std::memcmp(a.machine_code.data(), b.machine_code.data(), a.machine_code.size()) == 0;
+    return std::equal(a.machine_code.begin(), a.machine_code.end(), b.machine_code.begin(),
+                      b.machine_code.end());
 }
 
 }  // namespace
