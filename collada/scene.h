@@ -219,6 +219,7 @@ struct ExtractOptions {
     bool allow_external = false;  // read files outside the scene's own folder tree
     uint32_t max_documents = 256;
     uint64_t max_node_instances = 1'000'000;  // nodes after unrolling instance_node
+    bool everything = false;  // read what <scene> does not reach too, for its findings
 };
 
 // Makes the structs of what <scene> reaches, in one pass over what it needs. Findings go to

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 #include "runtime/base/check.h"
 
@@ -93,6 +94,24 @@ Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string m
 void Diagnostics::set_severity(std::string_view code, Severity severity) {
     std::lock_guard lock(mutex_);
     overrides_.emplace_back(code, severity);
+}
+
+void Diagnostics::sort_unique() {
+    std::lock_guard lock(mutex_);
+    auto place = [](const Finding& f) { return std::tie(f.where.file, f.where.begin); };
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
+    std::vector<Finding> kept;
+    size_t same_place = 0;  // where those of this place begin in `kept`
+    for (Finding& f : findings_) {
+        if (!kept.empty() && place(kept.back()) != place(f)) same_place = kept.size();
+        bool known = std::any_of(kept.begin() + std::ptrdiff_t(same_place), kept.end(),
+                                 [&](const Finding& k) {
+                                     return k.info->code == f.info->code && k.message == f.message;
+                                 });
+        if (!known) kept.push_back(std::move(f));
+    }
+    findings_ = std::move(kept);
 }
 
 int Diagnostics::count(Severity severity) const {

@@ -112,6 +112,9 @@ class Diagnostics {
     int count(Severity severity) const;
     bool has_errors() const { return count(Severity::Error) > 0; }
     void clear() { findings_.clear(); }
+    // Orders findings by file and place (those of one place as reported) and drops all but the
+    // first with the same code, place and message.
+    void sort_unique();
 
   private:
     mutable std::mutex mutex_;
