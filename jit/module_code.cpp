@@ -1,7 +1,38 @@
 // jit/module_code.cpp: what every code generator needs to know of a module as a whole.
 #include "jit/module_code_p.h"
 
+#include <fmt/format.h>
+
+#include "jit/code_memory.h"
+#include "runtime/base/check.h"
+
 namespace kinora::jit {
+
+namespace {
+
+struct CodeKernel final : Kernel {
+    void run(const KernelArgs& args) const override {
+        CHECK(runs_here);
+        entry(&args);
+    }
+
+    std::shared_ptr<const CodeMemory> memory;
+    KernelFn entry = nullptr;
+    bool runs_here = false;
+};
+
+// Tells callers of the kernel about the module; everything but the code.
+void describe(const Module& module, const char* target, Kernel& kernel) {
+    kernel.name = module.name;
+    kernel.inputs = module.inputs;
+    kernel.outputs = module.outputs;
+    kernel.services = module.services;
+    kernel.fault_sites = module.fault_sites;
+    kernel.frame_slots = module.frame_slots;
+    kernel.target = target;
+}
+
+}  // namespace
 
 std::vector<size_t> reached_functions(const Module& module) {
     std::vector<size_t> order = {0};
@@ -15,14 +46,28 @@ std::vector<size_t> reached_functions(const Module& module) {
     return order;
 }
 
-void describe(const Module& module, const char* target, Kernel& kernel) {
-    kernel.name = module.name;
-    kernel.inputs = module.inputs;
-    kernel.outputs = module.outputs;
-    kernel.services = module.services;
-    kernel.fault_sites = module.fault_sites;
-    kernel.frame_slots = module.frame_slots;
-    kernel.target = target;
+std::shared_ptr<Kernel> finish_kernel(const Module& module, const char* target, FinishedCode code) {
+    auto kernel = std::make_shared<CodeKernel>();
+    kernel->memory = make_executable(code.bytes);
+    if (kernel->memory == nullptr) return nullptr;
+    describe(module, target, *kernel);
+    kernel->scratch_bytes = code.scratch_bytes;
+    kernel->code_bytes = code.bytes.size();
+    kernel->machine_code = {kernel->memory->data(), code.bytes.size()};
+    kernel->places = std::move(code.places);
+    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
+    kernel->runs_here = code.runs_here;
+    std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - code.begun;
+    kernel->compile_ms = took.count();
+    return kernel;
+}
+
+std::string text_of(const Function& function, Value at, bool fused) {
+    const Inst& i = function.insts[at];
+    std::string text = fmt::format("%{} = {}", at, op_info(i.op).name);
+    for (Value v : {i.a, i.b, i.c})
+        if (v != kNone) text += fmt::format(" %{}", v);
+    return fused ? text + " (fused)" : text;
 }
 
 void note_place(std::vector<CodePlace>& places, size_t offset, const Location& where) {

@@ -1,6 +1,10 @@
 // jit/module_code_p.h: what every code generator needs to know of a module as a whole.
 #pragma once
 
+#include <chrono>
+#include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "jit/ir.h"
@@ -11,8 +15,20 @@ namespace kinora::jit {
 // Functions that the kernel calls, directly or not, callers first; the kernel is the first.
 std::vector<size_t> reached_functions(const Module& module);
 
-// Tells callers of the kernel about the module; everything but the code.
-void describe(const Module& module, const char* target, Kernel& kernel);
+// What a code generator has written, and what it takes to run it.
+struct FinishedCode {
+    std::span<const uint8_t> bytes;  // entry first
+    size_t scratch_bytes;
+    std::vector<CodePlace> places;
+    std::chrono::steady_clock::time_point begun;
+    bool runs_here;  // false: other machines' code, made to be looked at
+};
+
+// The kernel over a copy of the code in executable memory; null if that cannot be had.
+std::shared_ptr<Kernel> finish_kernel(const Module& module, const char* target, FinishedCode code);
+
+// An instruction as listings name it.
+std::string text_of(const Function& function, Value at, bool fused);
 
 // Code from `offset` on comes from `where`; offsets rise from call to call.
 void note_place(std::vector<CodePlace>& places, size_t offset, const Location& where);

@@ -1,6 +1,4 @@
 // jit/a64/a64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 
@@ -180,7 +178,7 @@ void Emit::emit_body(bool listing) {
     zero_arrays();
     record_ = kNone;
     for (at_ = 0; at_ < f_.insts.size(); ++at_) {
-        if (listing) comment();
+        if (listing) a_.commentf("; %s", text_of(f_, at_, plan_.values[at_].fused).c_str());
         if (uint32_t where = now().where; where != 0)
             note_place(state_.places, a_.offset(), module_.locations[where]);
         for (Value v = allocation_.load_at[at_]; v != kNone; v = allocation_.load_next[v])
@@ -188,15 +186,6 @@ void Emit::emit_body(bool listing) {
         if (plan_.values[at_].fused) continue;
         (this->*kMembers[static_cast<size_t>(inst(at_).op)])();
     }
-}
-
-void Emit::comment() {
-    const Inst& i = now();
-    std::string text = fmt::format("%{} = {}", at_, op_info(i.op).name);
-    for (Value v : {i.a, i.b, i.c})
-        if (v != kNone) text += fmt::format(" %{}", v);
-    if (plan_.values[at_].fused) text += " (fused)";
-    a_.commentf("; %s", text.c_str());
 }
 
 }  // namespace kinora::jit::a64

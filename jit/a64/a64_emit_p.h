@@ -96,7 +96,6 @@ class Emit {
     void emit_local(bool listing);
     void emit_body(bool listing);
     void find_valid_lanes();
-    void comment();
 
     // a64_operands.cpp: places of values
     const Inst& inst(Value v) const {

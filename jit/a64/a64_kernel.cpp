@@ -6,25 +6,13 @@
 #include "jit/a64/a64.h"
 #include "jit/a64/a64_emit_p.h"
 #include "jit/analysis.h"
-#include "jit/code_memory.h"
 #include "jit/module_code_p.h"
-#include "runtime/base/check.h"
 
 namespace kinora::jit {
 
 namespace a64 {
 
 namespace {
-
-struct A64Kernel final : Kernel {
-    void run(const KernelArgs& args) const override {
-        CHECK(neon_supported());
-        entry(&args);
-    }
-
-    std::shared_ptr<const CodeMemory> memory;
-    KernelFn entry = nullptr;
-};
 
 // The first instruction that AsmJit cannot encode.
 struct FirstError final : asmjit::ErrorHandler {
@@ -87,18 +75,12 @@ std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
     // The interpreter serves rather than code with a hole.
     if (!emitted.error.text.empty()) return nullptr;
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
-    auto kernel = std::make_shared<A64Kernel>();
-    kernel->memory = make_executable({bytes.data(), bytes.size()});
-    if (kernel->memory == nullptr) return nullptr;
-    describe(module, "neon", *kernel);
-    kernel->scratch_bytes = emitted.scratch_bytes;
-    kernel->code_bytes = bytes.size();
-    kernel->machine_code = {kernel->memory->data(), bytes.size()};
-    kernel->places = std::move(emitted.places);
-    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
-    std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    kernel->compile_ms = took.count();
-    return kernel;
+    return finish_kernel(module, "neon",
+                         {{bytes.data(), bytes.size()},
+                          emitted.scratch_bytes,
+                          std::move(emitted.places),
+                          start,
+                          neon_supported()});
 }
 
 }  // namespace

@@ -94,7 +94,6 @@ class Emit {
     void emit_body(bool listing);
     void find_valid_lanes();
     void broadcast_frame();
-    void comment();
 
     // x64_memory.cpp
     void zero_arrays();

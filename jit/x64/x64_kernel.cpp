@@ -3,11 +3,9 @@
 #include <deque>
 
 #include "jit/analysis.h"
-#include "jit/code_memory.h"
 #include "jit/module_code_p.h"
 #include "jit/x64/x64.h"
 #include "jit/x64/x64_emit_p.h"
-#include "runtime/base/check.h"
 
 namespace kinora::jit {
 
@@ -18,13 +16,6 @@ namespace {
 // Registers 14, 15 (AVX2) and 30, 31 (AVX-512) are the emitter's scratch; k0 and k7 too.
 constexpr Isa kAvx2 = {"avx2", 8, false, 14, 0};
 constexpr Isa kAvx512 = {"avx512", 16, true, 30, 7};
-
-struct X64Kernel final : Kernel {
-    void run(const KernelArgs& args) const override { entry(&args); }
-
-    std::shared_ptr<const CodeMemory> memory;
-    KernelFn entry = nullptr;
-};
 
 void number_frame_rows(ModuleState& state, std::span<const size_t> functions) {
     if (state.isa.wide) return;
@@ -79,18 +70,12 @@ std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* 
     emit_module(module, isa, assembly != nullptr, false, emitted);
     if (assembly != nullptr) *assembly = emitted.log.data();
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
-    auto kernel = std::make_shared<X64Kernel>();
-    kernel->memory = make_executable({bytes.data(), bytes.size()});
-    if (kernel->memory == nullptr) return nullptr;
-    describe(module, isa.name, *kernel);
-    kernel->scratch_bytes = emitted.scratch_bytes;
-    kernel->code_bytes = bytes.size();
-    kernel->machine_code = {kernel->memory->data(), bytes.size()};
-    kernel->places = std::move(emitted.places);
-    kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
-    std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    kernel->compile_ms = took.count();
-    return kernel;
+    return finish_kernel(module, isa.name,
+                         {{bytes.data(), bytes.size()},
+                          emitted.scratch_bytes,
+                          std::move(emitted.places),
+                          start,
+                          true});
 }
 
 std::string check(const Module& module, const Isa& isa) {
