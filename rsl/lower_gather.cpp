@@ -114,25 +114,14 @@ void Lowering::gather(const GatherStmt& stmt) {
                                              angle, samples, maxdist, bias, label, b.i(flags)})[0];
     out.gathers.push_back(std::move(wanted));
 
-    // As illuminance: the counter agrees in all lanes, `alive` keeps out those that left.
-    ChangeFinder finder(ast());
-    finder.add(&stmt);
-    const Changes& changes = finder.changes;
-    Value outer = running, outer_region = region_;
-    bool was_in_loop = std::exchange(in_loop_, true);
-    Loop jumps = begin_jumps(stmt, changes);
-    int alive = new_slot(lowered(BaseType::Bool, running));
-    Value count = b.op(jit::Op::RecordCount, set);
-    region_ = b.begin_loop(b.op(jit::Op::ILt, b.i(0), count), loop_site(stmt));
-    Value record = b.loop_var(b.i(0));
-    std::vector<int> slots = carried_slots(changes);
-    loops_.push_back(jumps);
-    bool leaves = leaves_loop(changes);
-    if (leaves) slots.push_back(alive);
-    Carried carried = open_carried(std::move(slots));
-    loop_counters.push_back(record);
     ++gather_depth_;
-    running = read_slot(alive).c[0];
+    replay(stmt, set, [&](Value record) { gather_turn(stmt, set, record, results, shoots); });
+    --gather_depth_;
+}
+
+// Lanes whose ray hit something run the body, those whose ray met nothing the other branch.
+void Lowering::gather_turn(const GatherStmt& stmt, Value set, Value record, GatherResults& results,
+                           bool shoots) {
     Value state = record_field(set, record, kGatherState, jit::Type::I);
     Value entered = running;
     auto lanes_in = [&](GatherState s) {
@@ -142,30 +131,12 @@ void Lowering::gather(const GatherStmt& stmt) {
     bool only_body = !shoots && !stmt.missed;
     guarded(lanes_in(only_body ? kGatherMiss : kGatherHit),
             [&] { gather_branch(stmt, set, record, results, true); });
-    if (stmt.missed) {
-        Value after_hits = running;
-        running = entered;
-        guarded(lanes_in(kGatherMiss), [&] { gather_branch(stmt, set, record, results, false); });
-        if (after_hits != entered)
-            running = running == entered ? after_hits : b.logical_and(running, after_hits);
-    }
-    --gather_depth_;
-    if (leaves) {
-        Value rest = running;
-        if (jumps.continued >= 0) rest = b.logical_or(rest, read_slot(jumps.continued).c[0]);
-        write_slot(alive, lowered(BaseType::Bool, rest));
-    }
-    loop_counters.pop_back();
-    loops_.pop_back();
-    std::vector<Value> next = {b.iadd(record, b.i(1))};
-    close_carried(carried, next);
-    b.end_loop(b.op(jit::Op::ILt, next[0], count), next);
-    carried_out(carried);
-    for (int slot : {jumps.broken, jumps.continued, alive})
-        if (slot >= 0) free_slot(slot);
-    in_loop_ = was_in_loop;
-    region_ = outer_region;
-    running = after_loop(changes, outer);
+    if (!stmt.missed) return;
+    Value after_hits = running;
+    running = entered;
+    guarded(lanes_in(kGatherMiss), [&] { gather_branch(stmt, set, record, results, false); });
+    if (after_hits != entered)
+        running = running == entered ? after_hits : b.logical_and(running, after_hits);
 }
 
 // One ray: its results into their variables, then the branch.

@@ -116,12 +116,16 @@ Value Lowering::inside(const Cone& cone, const V3& L) {
     return b.le(mul(cone.cosine, length(L)), dot(L, cone.axis));
 }
 
-// The loop's counter and mask agree in all lanes, as reading records demands; lanes that do not
-// take part, or have left by break, are kept out by `alive`.
 void Lowering::illuminance(const IlluminanceStmt& stmt) {
     Lowered position = expr(*stmt.position);
     Value set = record_set(position.v3());
     Cone around = cone(stmt.axis, stmt.angle);
+    replay(stmt, set, [&](Value record) { light_body(stmt, set, record, around, position); });
+}
+
+// The loop's counter and mask agree in all lanes, as reading records demands; lanes that do not
+// take part, or have left by break, are kept out by `alive`.
+void Lowering::replay(const Stmt& stmt, Value set, const std::function<void(Value record)>& turn) {
     ChangeFinder finder(ast());
     finder.add(&stmt);
     const Changes& changes = finder.changes;
@@ -140,7 +144,7 @@ void Lowering::illuminance(const IlluminanceStmt& stmt) {
     Carried carried = open_carried(std::move(slots));
     loop_counters.push_back(record);
     running = read_slot(alive).c[0];
-    light_body(stmt, set, record, around, position);
+    turn(record);
     if (leaves) {
         Value rest = running;
         if (jumps.continued >= 0) rest = b.logical_or(rest, read_slot(jumps.continued).c[0]);

@@ -7,6 +7,7 @@
 // return take lanes out of it, after which the rest of each block stands in an If of its own.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -177,12 +178,16 @@ class Lowering : public Emitter {
     // lower_gather.cpp
     void gather(const GatherStmt& stmt);
     struct GatherResults;
+    void gather_turn(const GatherStmt& stmt, Value set, Value record, GatherResults& results,
+                     bool shoots);
     void gather_branch(const GatherStmt& stmt, Value set, Value record, GatherResults& results,
                        bool hit);
     int gather_depth_ = 0;
 
     // lower_lights.cpp
     void illuminance(const IlluminanceStmt& stmt);
+    // The statement's loop over the records of a set: `turn` lowers its body for one.
+    void replay(const Stmt& stmt, Value set, const std::function<void(Value record)>& turn);
     void illuminate(const Stmt& stmt, const Expr* position, const Expr* axis, const Expr* angle,
                     const Stmt& body);
     void begin_light(const Changes& changes);
