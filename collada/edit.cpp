@@ -1,0 +1,171 @@
+// collada/edit.cpp: changes to the bytes of a document.
+#include "collada/edit.h"
+
+#include <algorithm>
+
+#include "runtime/base/check.h"
+
+namespace kinora::collada {
+
+namespace {
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+bool is_empty_tag(std::string_view original, const Element& element) {
+    return element.start_tag.end >= 2 && original[element.start_tag.end - 2] == '/' &&
+           element.bytes.end == element.start_tag.end;
+}
+
+// The '>' or the "/>" that ends the start tag, without the spaces before it.
+uint32_t start_tag_close(std::string_view original, const Element& element) {
+    uint32_t at = element.start_tag.end - 1;
+    if (is_empty_tag(original, element)) --at;
+    while (at > element.start_tag.begin && is_space(original[at - 1])) --at;
+    return at;
+}
+
+struct Escape {
+    char letter;
+    std::string_view text;
+    bool in_attributes_only;
+};
+constexpr Escape kEscapes[] = {{'&', "&amp;", false},  {'<', "&lt;", false},  {'>', "&gt;", false},
+                               {'\r', "&#13;", false}, {'"', "&quot;", true}, {'\t', "&#9;", true},
+                               {'\n', "&#10;", true}};
+
+std::string escape(std::string_view text, bool attribute) {
+    std::string out;
+    out.reserve(text.size());
+    for (char c : text) {
+        const Escape* escape = nullptr;
+        for (const Escape& e : kEscapes)
+            if (e.letter == c && (attribute || !e.in_attributes_only)) escape = &e;
+        if (escape)
+            out += escape->text;
+        else
+            out += c;
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string apply_edits(std::string_view original, std::vector<Edit> edits, size_t* left_out) {
+    for (const Edit& e : edits) {
+        CHECK_LE(e.bytes.begin, e.bytes.end);
+        CHECK_LE(e.bytes.end, original.size());
+    }
+    // An edit is in the way when its range, or its place if it inserts, is inside an earlier one's.
+    std::vector<const Edit*> made;
+    auto before = [](const Edit* a, const Edit* b) { return a->bytes.begin < b->bytes.begin; };
+    auto overlap = [](const Edit& a, const Edit& b) {
+        bool a_inserts = a.bytes.begin == a.bytes.end, b_inserts = b.bytes.begin == b.bytes.end;
+        if (a_inserts && b_inserts) return false;
+        if (a_inserts) return a.bytes.begin > b.bytes.begin && a.bytes.begin < b.bytes.end;
+        if (b_inserts) return b.bytes.begin > a.bytes.begin && b.bytes.begin < a.bytes.end;
+        return a.bytes.begin < b.bytes.end && b.bytes.begin < a.bytes.end;
+    };
+    size_t dropped = 0;
+    for (const Edit& e : edits) {
+        // `made` is sorted and free of overlaps, so only neighbours by place can be in the way.
+        auto at = std::upper_bound(made.begin(), made.end(), &e, before);
+        bool in_the_way = false;
+        for (auto m = at; m != made.end() && (*m)->bytes.begin < e.bytes.end; ++m)
+            in_the_way = in_the_way || overlap(**m, e);
+        for (auto m = at; m != made.begin() && !in_the_way;) {
+            --m;
+            in_the_way = overlap(**m, e);
+            bool inserts = (*m)->bytes.begin == (*m)->bytes.end;
+            if (!inserts && (*m)->bytes.begin < e.bytes.begin) break;
+        }
+        if (in_the_way)
+            ++dropped;
+        else
+            made.insert(at, &e);
+    }
+    // At one place inserts come before the range that begins there.
+    std::stable_sort(made.begin(), made.end(), [](const Edit* a, const Edit* b) {
+        if (a->bytes.begin != b->bytes.begin) return a->bytes.begin < b->bytes.begin;
+        return a->bytes.end == a->bytes.begin && b->bytes.end != b->bytes.begin;
+    });
+    std::string out;
+    out.reserve(original.size() + 64 * made.size());
+    size_t at = 0;
+    for (const Edit* e : made) {
+        out += original.substr(at, e->bytes.begin - at);
+        out += e->text;
+        at = e->bytes.end;
+    }
+    out += original.substr(at);
+    if (left_out) *left_out = dropped;
+    return out;
+}
+
+std::string escape_text(std::string_view text) {
+    return escape(text, false);
+}
+
+std::string escape_attribute(std::string_view value) {
+    return escape(value, true);
+}
+
+std::string attribute_text(std::string_view name, std::string_view value) {
+    return std::string(name) + "=\"" + escape_attribute(value) + "\"";
+}
+
+std::string cdata(std::string_view text) {
+    std::string out = "<![CDATA[";
+    for (size_t at = 0; at < text.size();) {
+        size_t end = text.find("]]>", at);
+        if (end == text.npos) {
+            out += text.substr(at);
+            break;
+        }
+        out += text.substr(at, end + 2 - at);
+        out += "]]><![CDATA[";
+        at = end + 2;
+    }
+    return out + "]]>";
+}
+
+Edit erase_element(std::string_view original, const Element& element) {
+    uint32_t begin = element.bytes.begin;
+    while (begin > 0 && (original[begin - 1] == ' ' || original[begin - 1] == '\t')) --begin;
+    if (begin > 0 && original[begin - 1] == '\n') {
+        --begin;
+        if (begin > 0 && original[begin - 1] == '\r') --begin;
+    } else {
+        begin = element.bytes.begin;  // it shares its line: keep what parts the others
+    }
+    return {{begin, element.bytes.end}, ""};
+}
+
+Edit set_attribute(std::string_view original, const Element& element, std::string_view name,
+                   std::string_view value) {
+    if (const Attribute* a = element.attribute(name)) {
+        std::string text = escape_attribute(value);
+        // Between single quotes those must be escaped too.
+        if (a->value_bytes.begin > 0 && original[a->value_bytes.begin - 1] == '\'')
+            for (size_t at = 0; (at = text.find('\'', at)) != text.npos; at += 6)
+                text.replace(at, 1, "&apos;");
+        return {a->value_bytes, std::move(text)};
+    }
+    uint32_t at = start_tag_close(original, element);
+    return {{at, at}, " " + attribute_text(name, value)};
+}
+
+Edit append_child(std::string_view original, const Element& element, std::string_view markup) {
+    if (is_empty_tag(original, element)) {
+        std::string_view name = original.substr(element.start_tag.begin + 1);
+        name = name.substr(0, name.find_first_of(" \t\r\n/>"));  // with its prefix
+        return {{start_tag_close(original, element), element.start_tag.end},
+                ">" + std::string(markup) + "</" + std::string(name) + ">"};
+    }
+    size_t at = original.rfind("</", element.bytes.end - 1);
+    CHECK(at != original.npos && at >= element.start_tag.end);
+    return {{uint32_t(at), uint32_t(at)}, std::string(markup)};
+}
+
+}  // namespace kinora::collada
