@@ -48,11 +48,15 @@ std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
     add_document(x, document, real_path(document.path()));
     x.scene.asset = x.scene.documents[0].asset;
     Link scene = find_visual_scene(x);
-    if (!scene) {
+    if (!scene && !options.everything) {
         diag.report(Code::SCENE_NONE, document.location(document.root()));
         return std::nullopt;
     }
-    read_visual_scene(x, scene);
+    if (scene)
+        read_visual_scene(x, scene);
+    else  // a document may well serve as a library for others
+        diag.report(Code::SCENE_MISSING, document.location(document.root()));
+    if (options.everything) read_everything(x);
     check_node_graph(x);
     resolve_joints(x);
     read_animations(x);

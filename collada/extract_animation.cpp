@@ -124,6 +124,7 @@ void AnimationReader::read_animation(Link link) {
     for (const Element& child : link.element->children()) {
         if (child.name == "channel") read_channel({link.doc, &child});
         if (child.name == "animation") read_animation({link.doc, &child});
+        if (child.name == "sampler" && x_.options.everything) raw_sampler({link.doc, &child});
     }
     channels_of_[link.element] = {first, uint32_t(x_.scene.channels.size())};
 }
@@ -172,7 +173,7 @@ void AnimationReader::read_clips(uint32_t doc) {
             clip.end = clip_time(x_, link, "end", std::max(last_key, clip.start));
             if (clip.end < clip.start) {
                 x_.diag.report(Code::ANIM_CLIP_RANGE, clip.where,
-                               clip.id.empty() ? clip.name : clip.id);
+                               clip.id.empty() ? clip.name : clip.id, "ends before it starts");
                 std::swap(clip.start, clip.end);
             }
             x_.scene.clips.push_back(std::move(clip));

@@ -49,7 +49,13 @@ void NameIndex::build(const std::vector<Node>& nodes, const std::vector<uint32_t
 
 class JointResolver {
   public:
-    explicit JointResolver(Extraction& x) : x_(x) { scene_.build(x.scene.nodes, x.scene.roots); }
+    explicit JointResolver(Extraction& x) : x_(x) {
+        std::vector<uint32_t> all;
+        for (uint32_t n = 0; x.options.everything && n < x.scene.nodes.size(); ++n)
+            all.push_back(n);
+        scene_.build(x.scene.nodes, x.scene.roots);
+        rest_.build(x.scene.nodes, all);
+    }
     void resolve_instance(const Extraction::PendingSkin& pending);
 
   private:
@@ -58,11 +64,13 @@ class JointResolver {
         Key key = Sid;
         bool outside = false;
     };
-    Found find(const std::string& name, JointNames kind, const NameIndex* skeleton) const;
+    Found find(const std::string& name, JointNames kind, const NameIndex* skeleton,
+               bool reached) const;
     const NameIndex& index_below(const std::vector<uint32_t>& roots);
 
     Extraction& x_;
     NameIndex scene_;
+    NameIndex rest_;  // everything, for skins in nodes that <scene> does not reach
     std::vector<std::pair<std::vector<uint32_t>, NameIndex>> skeletons_;
 };
 
@@ -75,16 +83,16 @@ const NameIndex& JointResolver::index_below(const std::vector<uint32_t>& roots) 
 
 // IDREF names are ids; a SIDREF path ends in a sid.
 JointResolver::Found JointResolver::find(const std::string& name, JointNames kind,
-                                         const NameIndex* skeleton) const {
+                                         const NameIndex* skeleton, bool reached) const {
     std::string_view last = name;
     if (kind == JointNames::Sidref) last.remove_prefix(last.find_last_of('/') + 1);
     if (last.starts_with('#')) last.remove_prefix(1);
     constexpr Key kByName[] = {Sid, Id, Name}, kById[] = {Id, Sid, Name};
-    for (const NameIndex* index : {skeleton, &scene_}) {
-        if (!index) continue;
+    for (const NameIndex* index : {skeleton, &scene_, &rest_}) {
+        if (!index || (index == &rest_ && reached)) continue;
         for (Key key : kind == JointNames::Idref ? kById : kByName) {
             uint32_t node = index->find(last, key);
-            if (node != kNone) return {node, key, index == &scene_};
+            if (node != kNone) return {node, key, index != skeleton};
         }
     }
     return {};
@@ -99,9 +107,10 @@ void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
         x_.diag.report(Code::SKIN_NO_SKELETON, where);
     else
         skeleton = &index_below(mesh.skeleton_roots);
+    bool reached = pending.node < x_.reached_nodes;
     size_t by_key[KeyCount] = {}, outside = 0, lost = 0;
     for (const std::string& name : skin.joints) {
-        Found found = find(name, skin.joint_kind, skeleton);
+        Found found = find(name, skin.joint_kind, skeleton, reached);
         mesh.joint_nodes.push_back(found.node);
         if (found.node == kNone) {
             if (++lost <= 8) x_.diag.report(Code::SKIN_JOINT_UNRESOLVED, where, name);

@@ -32,7 +32,7 @@ uint32_t linked_document(Extraction& x, Link from, std::string_view file, Locati
     auto known = x.doc_by_path.find(real);
     if (known != x.doc_by_path.end()) return known->second;
     if (x.docs.size() >= x.options.max_documents) {
-        x.diag.report(Code::LINK_LIMIT, where,
+        x.diag.report(Code::LINK_TOO_MANY, where,
                       fmt::format("more than {} linked documents", x.options.max_documents));
         return kNone;
     }

@@ -97,7 +97,7 @@ class GraphCheck {
     uint64_t total(uint32_t node) const { return state_[node].total; }
     void report_limit(Location where) {
         if (!limit_reported_)
-            x_.diag.report(Code::LINK_LIMIT, where,
+            x_.diag.report(Code::LINK_TOO_MANY, where,
                            fmt::format("instances unroll to more than {} nodes",
                                        x_.options.max_node_instances));
         limit_reported_ = true;

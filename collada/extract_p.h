@@ -37,6 +37,7 @@ struct Extraction {
     // Nodes whose index is given out and whose content is still to be read.
     std::vector<std::pair<uint32_t, Link>> pending_nodes{};
     std::vector<bool> node_filled{};
+    uint32_t reached_nodes = kNone;  // those behind are read by read_everything
 
     // The parts of instances that can only be resolved when all nodes are known.
     struct PendingBinding {
@@ -60,6 +61,9 @@ struct Extraction {
     }
     Location text_where(Link link) const { return docs[link.doc]->text_location(*link.element); }
 };
+
+// extract_everything.cpp: the library items of the root document that nothing reached.
+void read_everything(Extraction& x);
 
 // extract_links.cpp -------------------------------------------------------------------------------
 

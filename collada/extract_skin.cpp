@@ -107,7 +107,7 @@ bool SkinReader::read_base(const Element& element) {
         skin.morph = morph_index(x, base);
         if (skin.morph != kNone) skin.geometry = x.scene.morphs[skin.morph].geometry;
     } else {
-        x.diag.report(Code::SKIN_COUNT, x.where({doc, &element}, "source"), skin.id,
+        x.diag.report(Code::SKIN_UNUSABLE, x.where({doc, &element}, "source"), skin.id,
                       std::string("its source is another skin"));
     }
     return skin.geometry != kNone;
@@ -129,7 +129,7 @@ bool SkinReader::read_joints(const Element& element) {
     const Element* joints = element.child("joints");
     Link source = joints ? input_source({doc, joints}, "JOINT") : Link{};
     if (!source) {
-        x.diag.report(Code::SKIN_COUNT, x.where({doc, &element}), skin.id,
+        x.diag.report(Code::SKIN_UNUSABLE, x.where({doc, &element}), skin.id,
                       std::string("it names no joints"));
         return false;
     }
@@ -251,7 +251,7 @@ void SkinReader::read_weights(const Element& element) {
     const Element* weights = element.child("vertex_weights");
     Layout layout;
     if (!weights || !read_layout({doc, weights}, layout)) {
-        x.diag.report(Code::SKIN_COUNT, x.where({doc, weights ? weights : &element}), skin.id,
+        x.diag.report(Code::SKIN_UNUSABLE, x.where({doc, weights ? weights : &element}), skin.id,
                       std::string("it has no usable <vertex_weights>"));
         skin.joints.clear();
         skin.inverse_bind.clear();

@@ -219,11 +219,14 @@ struct ExtractOptions {
     bool allow_external = false;  // read files outside the scene's own folder tree
     uint32_t max_documents = 256;
     uint64_t max_node_instances = 1'000'000;  // nodes after unrolling instance_node
-    bool everything = false;  // read what <scene> does not reach too, for its findings
+    // For findings: reads what <scene> does not reach too, of the root document. Those items stand
+    // behind the others in SceneData's lists (channels between them, in document order). A document
+    // without a visual scene gives a SceneData without roots.
+    bool everything = false;
 };
 
 // Makes the structs of what <scene> reaches, in one pass over what it needs. Findings go to
-// `diag`; nothing is returned when there is nothing to show (no visual scene at all).
+// `diag`; nothing is returned when there is nothing to show (no visual scene at all; SCENE_NONE).
 // Calls check_elements on every document it reads.
 std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
                                  const ExtractOptions& options = {});

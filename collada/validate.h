@@ -18,7 +18,7 @@ struct ValidateOptions {
 
 // Reports, sorted by place and each once: the element table's findings, those of reading every
 // element (not only what <scene> reaches), and those of the lint rules of lint.def. The typed scene
-// is returned for further checks (profile_RSL); nothing if there is none to show.
+// is returned for further checks (profile_RSL); without a visual scene it has no roots.
 std::optional<SceneData> validate(const Document& document, Diagnostics& diag,
                                   const ValidateOptions& options = {});
 

@@ -70,7 +70,7 @@ TEST(Nodes, UnrollingIsBounded) {
     read_text(r, with_scene(library + "</library_nodes>",
                             "<node id=\"top\"><instance_node url=\"#n40\"/></node>"));
     ASSERT_TRUE(r.scene);
-    EXPECT_EQ(r.count("LINK_LIMIT"), 1u);
+    EXPECT_EQ(r.count("LINK_TOO_MANY"), 1u);
     std::string chain = "<library_nodes>";
     for (int i = 0; i < 50000; ++i)
         chain += "<node id=\"c" + std::to_string(i) + "\"><instance_node url=\"#c" +
