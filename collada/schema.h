@@ -1,0 +1,16 @@
+// collada/schema.h: the element table as others need it: as an XSD, and as an order of children.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "collada/document.h"
+
+namespace kinora::collada {
+
+// An XML Schema of the version (1.4.0 and 1.4.1 share one) written from the element table,
+// profile_RSL included. It needs no other file: attributes of the xml: namespace on <COLLADA> and
+// MathML are let through unseen.
+std::string print_schema(Version version);
+
+}  // namespace kinora::collada
