@@ -55,7 +55,7 @@ struct Param {
 struct Image {
     std::string id, name;
     std::string uri;   // as written
-    std::string path;  // the file found; "" if none (IMAGE_MISSING was reported)
+    std::string path;  // the file found; "" if none (FILE_MISSING was reported)
     Location where;
 };
 

@@ -42,24 +42,29 @@ void read_visual_scene(Extraction& x, Link scene) {
 
 }  // namespace
 
-std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
-                                 const ExtractOptions& options) {
-    Extraction x{diag, options};
+bool extract_into(Extraction& x, const Document& document) {
     add_document(x, document, real_path(document.path()));
     x.scene.asset = x.scene.documents[0].asset;
     Link scene = find_visual_scene(x);
-    if (!scene && !options.everything) {
-        diag.report(Code::SCENE_NONE, document.location(document.root()));
-        return std::nullopt;
+    if (!scene && !x.options.everything) {
+        x.diag.report(Code::SCENE_NONE, document.location(document.root()));
+        return false;
     }
     if (scene)
         read_visual_scene(x, scene);
     else  // a document may well serve as a library for others
-        diag.report(Code::SCENE_MISSING, document.location(document.root()));
-    if (options.everything) read_everything(x);
+        x.diag.report(Code::SCENE_MISSING, document.location(document.root()));
+    if (x.options.everything) read_everything(x);
     check_node_graph(x);
     resolve_joints(x);
     read_animations(x);
+    return true;
+}
+
+std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
+                                 const ExtractOptions& options) {
+    Extraction x{diag, options};
+    if (!extract_into(x, document)) return std::nullopt;
     return std::move(x.scene);
 }
 

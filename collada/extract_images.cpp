@@ -70,13 +70,13 @@ std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std
     if (inside) found = search_folder(path.substr(0, path.size() - name.size()), name);
     if (found.empty()) found = search_folder(beside, name);
     if (!found.empty()) {
-        x.diag.report(Code::IMAGE_FALLBACK, where, uri, found);
+        x.diag.report(Code::FILE_FALLBACK, where, uri, found);
         return found;
     }
     if (!inside && is_file(path))
         x.diag.report(Code::LINK_OUTSIDE, where, uri);
     else
-        x.diag.report(Code::IMAGE_MISSING, where, uri);
+        x.diag.report(Code::FILE_MISSING, where, uri);
     return {};
 }
 

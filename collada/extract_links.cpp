@@ -20,6 +20,15 @@ std::string kinds_text(Kinds kinds) {
     return text;
 }
 
+// Each link into a document that cannot be had says so.
+void report_unread(Extraction& x, const std::string& path, std::string_view file, Location where) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error))
+        x.diag.report(Code::LINK_EXTERNAL_UNREADABLE, where, file);
+    else
+        x.diag.report(Code::LINK_EXTERNAL_MISSING, where, file);
+}
+
 // The document that the part before '#' names; kNone and a finding if there is none.
 uint32_t linked_document(Extraction& x, Link from, std::string_view file, Location where) {
     std::string path = path_of_uri(x.document(from.doc), file);
@@ -30,19 +39,23 @@ uint32_t linked_document(Extraction& x, Link from, std::string_view file, Locati
     std::error_code error;
     std::string real = real_path(path);
     auto known = x.doc_by_path.find(real);
-    if (known != x.doc_by_path.end()) return known->second;
+    if (known != x.doc_by_path.end()) {
+        if (known->second == kNone) report_unread(x, path, file, where);
+        return known->second;
+    }
     if (x.docs.size() >= x.options.max_documents) {
         x.diag.report(Code::LINK_TOO_MANY, where,
                       fmt::format("more than {} linked documents", x.options.max_documents));
         return kNone;
     }
     if (!std::filesystem::is_regular_file(path, error)) {
-        x.diag.report(Code::LINK_EXTERNAL_MISSING, where, file);
+        report_unread(x, path, file, where);
         x.doc_by_path[real] = kNone;
         return kNone;
     }
     std::optional<Document> document = read_document(path, x.diag);
     if (!document) {
+        report_unread(x, path, file, where);
         x.doc_by_path[real] = kNone;
         return kNone;
     }
@@ -94,7 +107,7 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
             x.diag.report(Code::LINK_UNRESOLVED, where, url, kinds_text(kinds));
             return {};
         }
-        x.diag.report(Code::LINK_NO_HASH, where, url);
+        x.diag.report(attribute == "source" ? Code::SRC_NO_HASH : Code::LINK_NO_HASH, where, url);
         id = url;
     } else {
         if (hash > 0) doc = linked_document(x, from, url.substr(0, hash), where);

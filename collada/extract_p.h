@@ -62,6 +62,9 @@ struct Extraction {
     Location text_where(Link link) const { return docs[link.doc]->text_location(*link.element); }
 };
 
+// extract.cpp: fills x.scene; false when there is nothing to show.
+bool extract_into(Extraction& x, const Document& document);
+
 // extract_everything.cpp: the library items of the root document that nothing reached.
 void read_everything(Extraction& x);
 

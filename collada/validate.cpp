@@ -7,9 +7,10 @@ namespace kinora::collada {
 
 namespace {
 
-void list_elements(const Element& element, std::vector<const Element*>& list) {
-    list.push_back(&element);
-    for (const Element& child : element.children()) list_elements(child, list);
+void list_elements(const Element& element, Lint& lint) {
+    lint.elements.push_back(&element);
+    lint.by_name[element.name].push_back(&element);
+    for (const Element& child : element.children()) list_elements(child, lint);
 }
 
 constexpr void (*kRules[])(Lint&) = {
@@ -24,13 +25,15 @@ std::optional<SceneData> validate(const Document& document, Diagnostics& diag,
                                   const ValidateOptions& options) {
     ExtractOptions everything = options.extract;
     everything.everything = true;
-    std::optional<SceneData> scene = extract(document, diag, everything);
-    Lint lint{document, scene ? &*scene : nullptr, options, diag, {}};
+    Extraction x{diag, everything};
+    bool shown = extract_into(x, document);
+    Lint lint{x, document, x.scene, options, diag, {}, {}};
     lint.elements.reserve(document.element_count());
-    list_elements(document.root(), lint.elements);
+    list_elements(document.root(), lint);
     for (auto rule : kRules) rule(lint);
     diag.sort_unique();
-    return scene;
+    if (!shown) return std::nullopt;
+    return std::move(x.scene);
 }
 
 }  // namespace kinora::collada

@@ -38,7 +38,7 @@ std::unique_ptr<StoredImage> read_image(const std::string& path, bool data) {
 // The reader of the scene says so of files its <image> elements name.
 bool known_missing(const Diagnostics& diagnostics, const std::string& path) {
     for (const Finding& finding : diagnostics.findings())
-        if (finding.info == &collada::Code::IMAGE_MISSING &&
+        if (finding.info == &collada::Code::FILE_MISSING &&
             finding.message.find("'" + path + "'") != std::string::npos)
             return true;
     return false;

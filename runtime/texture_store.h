@@ -50,7 +50,7 @@ class TextureStore {
     void preload(std::span<const std::string> names);
 
     // One finding for each unreadable file that find's callers asked for and that is not reported,
-    // not even by the reader of the scene (collada::Code::IMAGE_MISSING).
+    // not even by the reader of the scene (collada::Code::FILE_MISSING).
     void report(Diagnostics& diagnostics);
 
     int images() const;

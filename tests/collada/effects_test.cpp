@@ -132,7 +132,7 @@ TEST(Common, ReadsSlotsSamplersAndExtras) {
     EXPECT_EQ(s.min, Filter::Nearest);
     EXPECT_EQ(s.mip, Filter::Linear);
     EXPECT_EQ(r.scene->images.at(s.image).path, "");
-    EXPECT_EQ(r.count("IMAGE_MISSING"), 1u);
+    EXPECT_EQ(r.count("FILE_MISSING"), 1u);
 }
 
 TEST(Common, ColorsAndTextures15AndDirectImages) {

@@ -119,7 +119,7 @@ TEST_F(TextureFiles, AFileTheReaderFoundMissingIsNotReportedAgain) {
     TextureStore store;
     std::string path = (folder_ / "none.png").string();
     Diagnostics diagnostics;
-    diagnostics.report(collada::Code::IMAGE_MISSING, Location{}, path);
+    diagnostics.report(collada::Code::FILE_MISSING, Location{}, path);
     store.find(rsl::intern(path))->image->asked = true;
     store.report(diagnostics);
     EXPECT_EQ(diagnostics.findings().size(), 1u);
