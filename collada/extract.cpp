@@ -10,6 +10,9 @@ namespace {
 // The visual scene of <scene>; else the first of the document; else null.
 Link find_visual_scene(Extraction& x) {
     const Document& document = x.document(0);
+    const std::string& wanted = x.options.scene_id;
+    const Element* named = wanted.empty() ? nullptr : find_kind(document, wanted, {"visual_scene"});
+    if (named) return {0, named};
     const Element* scene = document.root().child("scene");
     const Element* instance = scene ? scene->child("instance_visual_scene") : nullptr;
     if (instance) {

@@ -69,11 +69,16 @@ std::string real_path(const std::string& path) {
 
 bool inside_tree(const Extraction& x, const std::string& path) {
     namespace fs = std::filesystem;
-    if (x.options.allow_external) return true;
-    std::string folder = x.document(0).directory();
-    fs::path root = real_path(folder.empty() ? "." : folder);
-    fs::path relative = fs::path(real_path(path)).lexically_relative(root);
-    return !relative.empty() && *relative.begin() != "..";
+    fs::path real = real_path(path);
+    auto inside = [&](const std::string& folder) {
+        fs::path relative = real.lexically_relative(real_path(folder.empty() ? "." : folder));
+        return !relative.empty() && *relative.begin() != "..";
+    };
+    const std::string& own = x.options.folder;
+    if (inside(own.empty() ? x.document(0).directory() : own)) return true;
+    for (const std::string& folder : x.options.allow_external)
+        if (inside(folder)) return true;
+    return false;
 }
 
 }  // namespace kinora::collada

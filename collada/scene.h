@@ -216,7 +216,10 @@ struct SceneData {
 };
 
 struct ExtractOptions {
-    bool allow_external = false;  // read files outside the scene's own folder tree
+    // The tree that links and images may name: "" is the folder of the document.
+    std::string folder;
+    std::vector<std::string> allow_external;  // further trees, allowed by the user
+    std::string scene_id;  // of the visual scene instead of <scene>'s; ignored if there is none
     uint32_t max_documents = 256;
     uint64_t max_node_instances = 1'000'000;  // nodes after unrolling instance_node
     // For findings: reads what <scene> does not reach too, of the root document. Those items stand

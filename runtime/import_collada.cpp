@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "collada/open_scene.h"
 #include "runtime/import_collada_p.h"
 
 namespace kinora {
@@ -12,15 +13,21 @@ namespace kinora {
 std::optional<SceneDescription> import_collada(const std::string& path,
                                                const ImportOptions& options,
                                                Diagnostics& diagnostics) {
-    std::optional<collada::Document> document = collada::read_document(path, diagnostics);
+    std::optional<collada::SceneFile> file = collada::open_scene(path, diagnostics);
+    if (!file) return std::nullopt;
+    std::optional<collada::Document> document =
+        collada::read_document(file->document, diagnostics);
     if (!document) return std::nullopt;
     collada::ExtractOptions extract_options;
+    extract_options.folder = file->folder;
+    extract_options.scene_id = file->scene_id;
     extract_options.allow_external = options.allow_external;
     std::optional<collada::SceneData> data =
         collada::extract(*document, diagnostics, extract_options);
     if (!data) return std::nullopt;
     SceneDescription description;
     description.path = path;
+    description.files = file->keep;
     ColladaImport(*data, options, diagnostics, description).run();
     return description;
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene_description.h"
@@ -10,13 +11,13 @@
 namespace kinora {
 
 struct ImportOptions {
-    bool allow_external = false;                   // read files outside the scene's folder tree
+    std::vector<std::string> allow_external;       // folders besides the scene's own tree
     std::optional<UpAxis> up_axis;                 // instead of the file's
     std::optional<double> meter;                   // instead of the file's
     std::vector<std::string> include_directories;  // for #include in shaders
 };
 
-// Reads the document, extracts what <scene> reaches and compiles every shader bound there. Findings
+// Reads the document (a .dae, .zae or .kmz), extracts what <scene> reaches and compiles every shader bound there. Findings
 // have their places in the .dae, also those inside shader code. Nothing is returned when there is
 // no scene to show; errors that leave a scene (a shader that does not compile: its material becomes
 // the default one) are in `diagnostics`.

@@ -183,6 +183,7 @@ enum class UpAxis : uint8_t { X, Y, Z };
 
 struct SceneDescription {
     std::string path;
+    std::shared_ptr<const void> files;  // what paths name is there as long as this is held
     double meter = 1;
     UpAxis up_axis = UpAxis::Y;
     std::vector<double> values;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "runtime/base/check.h"
+#include "runtime/base/shown_path.h"
 
 namespace kinora {
 
@@ -87,7 +88,8 @@ Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string m
     Severity severity = info.severity;
     for (const auto& [code, forced] : overrides_)
         if (code == info.code) severity = forced;
-    findings_.push_back({&info, severity, where, std::move(message), {}, info.fix, {}});
+    findings_.push_back(
+        {&info, severity, where, shown_path(std::move(message)), {}, info.fix, {}});
     return findings_.back();
 }
 
@@ -127,7 +129,7 @@ constexpr size_t kWidestLine = 200;  // longer lines (number lists) are shown ar
 std::string place_text(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return "kinora";
     LineColumn at = files.line_column(where.file, where.begin);
-    return fmt::format("{}:{}:{}", files.name(where.file), at.line, at.column);
+    return fmt::format("{}:{}:{}", shown_path(files.name(where.file)), at.line, at.column);
 }
 
 std::string caret_text(Location where, const SourceFiles& files) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/parallel.h"
+#include "runtime/base/shown_path.h"
 #include "runtime/findings.h"
 #include "runtime/frame.h"
 #include "runtime/import_collada.h"
@@ -226,7 +227,7 @@ XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription&
                 std::error_code code;
                 std::filesystem::path path(text.substr(0, text.find('\x1f')));
                 auto size = std::filesystem::file_size(path, code);
-                std::string stamp = text + (code ? "" : fmt::format("{}", size));
+                std::string stamp = shown_path(text) + (code ? "" : fmt::format("{}", size));
                 auto time = std::filesystem::last_write_time(path, code);
                 if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
                 hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);

@@ -161,7 +161,11 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     app.add_option("--up", o.up_axis, "X, Y or Z instead of the file's up axis")
         ->transform(names<UpAxis>({{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}}));
     app.add_option("--unit", o.meter, "metres per unit instead of the file's");
-    app.add_flag("--allow-external", o.allow_external, "read files outside the scene's folder");
+    app.add_option("--allow-external", o.allow_external,
+                   "a folder that the scene may read besides its own (repeatable)")
+        ->check(CLI::ExistingDirectory)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     bool overwrite = false;
     auto* skip = app.add_flag("--skip-existing", o.skip_existing,
                               "keep whole files of the same scene and options");

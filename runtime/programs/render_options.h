@@ -44,7 +44,7 @@ struct RenderOptions {
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;
-    bool allow_external = false;
+    std::vector<std::string> allow_external;  // folders
     bool skip_existing = false;
     bool keep_going = false;
     bool strict = false;

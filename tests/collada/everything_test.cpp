@@ -8,7 +8,7 @@
 namespace kinora::collada {
 namespace {
 
-constexpr ExtractOptions kEverything = [] {
+const ExtractOptions kEverything = [] {
     ExtractOptions options;
     options.everything = true;
     return options;

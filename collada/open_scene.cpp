@@ -1,0 +1,162 @@
+// collada/open_scene.cpp: manifest.xml, .kml and the order of members say which .dae is the scene.
+#include "collada/open_scene.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uintmax_t kMaxIndexBytes = 4 << 20;  // of manifest.xml and .kml
+
+bool ends_like(std::string_view name, std::string_view ending) {
+    if (name.size() < ending.size()) return false;
+    for (size_t i = 0; i < ending.size(); ++i)
+        if (std::tolower(uint8_t(name[name.size() - ending.size() + i])) !=
+            std::tolower(uint8_t(ending[i])))
+            return false;
+    return true;
+}
+
+// Expat's events of a manifest or .kml: the text of the first element so named that ends like
+// `ending`. Its namespace prefix does not matter.
+struct TextSearch {
+    std::string_view name, ending;
+    XML_Parser parser = nullptr;
+    bool inside = false;
+    std::string text, found;
+
+    static void XMLCALL on_start(void* self, const XML_Char* name, const XML_Char**) {
+        auto* search = static_cast<TextSearch*>(self);
+        std::string_view local = name;
+        local.remove_prefix(local.find(':') == local.npos ? 0 : local.find(':') + 1);
+        search->inside = local == search->name;
+        search->text.clear();
+    }
+    static void XMLCALL on_text(void* self, const XML_Char* text, int length) {
+        auto* search = static_cast<TextSearch*>(self);
+        if (search->inside) search->text.append(text, size_t(length));
+    }
+    static void XMLCALL on_end(void* self, const XML_Char*) {
+        auto* search = static_cast<TextSearch*>(self);
+        std::string_view text = trim(search->text);
+        std::string_view file = text.substr(0, text.find('#'));
+        if (search->inside && !text.empty() && ends_like(file, search->ending)) {
+            search->found = text;
+            XML_StopParser(search->parser, XML_FALSE);
+        }
+        search->inside = false;
+    }
+    static void XMLCALL on_entity(void* self, const XML_Char*, int, const XML_Char*, int,
+                                  const XML_Char*, const XML_Char*, const XML_Char*,
+                                  const XML_Char*) {
+        XML_StopParser(static_cast<TextSearch*>(self)->parser, XML_FALSE);  // none is expanded
+    }
+};
+
+// "" where there is none; what such a file gets wrong is no finding, it is no COLLADA.
+std::string first_text(const std::string& path, std::string_view name, std::string_view ending) {
+    std::error_code error;
+    uintmax_t size = fs::file_size(path, error);
+    if (error || size > kMaxIndexBytes) return {};
+    std::string bytes(size_t(size), '\0');
+    std::ifstream in(path, std::ios::binary);
+    if (!in.read(bytes.data(), std::streamsize(size))) return {};
+    TextSearch search;
+    search.name = name;
+    search.ending = ending;
+    search.parser = XML_ParserCreate(nullptr);
+    if (!search.parser) return {};
+    XML_SetUserData(search.parser, &search);
+    XML_SetElementHandler(search.parser, TextSearch::on_start, TextSearch::on_end);
+    XML_SetCharacterDataHandler(search.parser, TextSearch::on_text);
+    XML_SetEntityDeclHandler(search.parser, TextSearch::on_entity);
+    XML_Parse(search.parser, bytes.data(), int(size), XML_TRUE);
+    XML_ParserFree(search.parser);
+    return std::move(search.found);
+}
+
+struct Root {
+    std::string path, scene_id;
+};
+
+// What a link written in `index`, a member, means: another member, or nothing.
+Root linked(const Archive& archive, std::string_view index, std::string_view uri) {
+    Root root;
+    size_t hash = uri.find('#');
+    if (hash != uri.npos) root.scene_id = percent_decode(uri.substr(hash + 1));
+    std::string file = percent_decode(trim(uri.substr(0, hash)));
+    std::replace(file.begin(), file.end(), '\\', '/');
+    file = (fs::path(index).parent_path() / file).lexically_normal().string();
+    while (file.starts_with("/")) file.erase(0, 1);  // exporters mean the archive's top
+    for (const std::string& member : archive.members)
+        if (member == file) root.path = member;
+    for (const std::string& member : archive.members)
+        if (root.path.empty() && member.size() == file.size() && ends_like(member, file))
+            root.path = member;
+    return root;
+}
+
+const std::string* first_scene(const Archive& archive) {
+    const std::string* best = nullptr;
+    auto depth = [](const std::string& path) { return std::count(path.begin(), path.end(), '/'); };
+    for (const std::string& member : archive.members)
+        if (ends_like(member, ".dae") && (!best || depth(member) < depth(*best))) best = &member;
+    return best;
+}
+
+std::optional<SceneFile> scene_of(const std::string& path, Archive archive, Diagnostics& diag) {
+    const std::string& folder = archive.folder->path();
+    std::string index, link;
+    for (const std::string& member : archive.members)
+        if (ends_like(member, "manifest.xml") && (index.empty() || member.size() < index.size()))
+            index = member;
+    if (!index.empty()) link = first_text(folder + "/" + index, "dae_root", "");
+    for (const std::string& member : archive.members)
+        if (link.empty() && ends_like(member, ".kml")) {
+            index = member;
+            link = first_text(folder + "/" + member, "href", ".dae");
+        }
+    Root root = link.empty() ? Root{} : linked(archive, index, link);
+    if (root.path.empty()) {
+        const std::string* first = first_scene(archive);
+        if (!first) {
+            diag.report(Code::ARCHIVE_NO_SCENE, Location{}, path);
+            return std::nullopt;
+        }
+        std::string what = link.empty()
+                               ? "nothing in the archive names its scene"
+                               : fmt::format("'{}' names '{}', which is not there", index, link);
+        diag.report(Code::ARCHIVE_ROOT, Location{}, what, path + "!" + *first);
+        root = {*first, {}};
+    }
+    return SceneFile{folder + "/" + root.path, folder, root.scene_id, std::move(archive.folder)};
+}
+
+}  // namespace
+
+std::optional<SceneFile> open_scene(const std::string& path, Diagnostics& diag,
+                                    const ArchiveLimits& limits) {
+    if (!is_archive(path)) return SceneFile{path, {}, {}, {}};
+    std::optional<Archive> archive = unpack_archive(path, limits, diag);
+    if (!archive) return std::nullopt;
+    return scene_of(path, std::move(*archive), diag);
+}
+
+std::optional<SceneFile> open_scene_bytes(const std::string& path, std::string_view bytes,
+                                          Diagnostics& diag, const ArchiveLimits& limits) {
+    std::optional<Archive> archive = unpack_archive_bytes(path, bytes, limits, diag);
+    if (!archive) return std::nullopt;
+    return scene_of(path, std::move(*archive), diag);
+}
+
+}  // namespace kinora::collada
