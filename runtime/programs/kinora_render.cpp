@@ -23,12 +23,15 @@ namespace kinora {
 
 namespace {
 
-// Set by the first signal; the frame under way is dropped. A second signal stops at once.
+// Set by the first signal; the frame under way is dropped at its next tile. A second signal stops at
+// once, and so does a tile that takes longer than this: no file is open while a frame is made.
+constexpr unsigned kStopSeconds = 4;
 volatile std::sig_atomic_t g_signal = 0;
 
 void on_signal(int number) {
-    if (g_signal) _exit(128 + number);
+    if (g_signal) _exit(128 + g_signal);
     g_signal = number;
+    alarm(kStopSeconds);
 }
 
 struct FrameRecord {
@@ -296,6 +299,7 @@ void catch_signals() {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGALRM, &action, nullptr);
 }
 
 int Render::frames() {

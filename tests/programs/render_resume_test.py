@@ -4,9 +4,11 @@ import random
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 from programs import MATTE, ProgramTest, command, main, render
 
+RAYS = MATTE.parent / "rays.dae"
 SMALL = ("--size", "64x48", "--spp", "4", "--threads", "1", "-q")
 FRAMES = ("--frames", "1-24")
 KILLS = 12
@@ -85,6 +87,24 @@ class Resume(ProgramTest):
             process.send_signal(number)
             self.assertEqual(process.wait(timeout=30), code)
             self.assertGreater(len(self.pictures(folder)), 0)
+
+    def test_a_tile_that_takes_minutes_does_not_hold_up_a_signal(self):
+        out = self.folder / "slow.png"
+        process = subprocess.Popen(
+            command("kinora-render", RAYS, "-o", out, "--size", "32x32", "--spp", "100000", "-q"))
+        deadline = time.monotonic() + 60
+        while not self.catches(process.pid, signal.SIGTERM):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 143)
+        self.assertEqual(list(self.folder.glob("*slow*")), [])
+
+    @staticmethod
+    def catches(pid, number):
+        status = Path(f"/proc/{pid}/status").read_text()
+        mask = next(line for line in status.splitlines() if line.startswith("SigCgt:")).split()[1]
+        return int(mask, 16) >> (number - 1) & 1
 
     def test_two_processes_in_one_folder_both_finish(self):
         wanted = self.undisturbed(*SMALL, "--frames", "1-12")
