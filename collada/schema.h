@@ -1,8 +1,8 @@
 // collada/schema.h: the element table as others need it: as an XSD, and as an order of children.
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "collada/document.h"
 
@@ -12,5 +12,9 @@ namespace kinora::collada {
 // profile_RSL included. It needs no other file: attributes of the xml: namespace on <COLLADA> and
 // MathML are let through unseen.
 std::string print_schema(Version version);
+
+// The children of an element in the order its content model asks for; those that may alternate, and
+// those the table does not know there, keep their order.
+std::vector<const Element*> schema_order(const Document& document, const Element& parent);
 
 }  // namespace kinora::collada

@@ -160,7 +160,9 @@ TEST(Document, TheElementTableIsClosedUnderItsOwnNames) {
         r.document = read_document(test_file(name), r.diag);
         ASSERT_TRUE(r.document);
         check_elements(*r.document, r.diag);
-        EXPECT_TRUE(r.diag.findings().empty()) << r.all();
+        for (const char* code : {"SCHEMA_UNKNOWN_ELEMENT", "SCHEMA_UNKNOWN_ATTRIBUTE",
+                                 "SCHEMA_UNEXPECTED", "SCHEMA_VERSION"})
+            EXPECT_EQ(r.count(code), 0u) << r.all();
     }
 }
 

@@ -1,0 +1,157 @@
+// collada/check_children.cpp: the children of an element against its content model, and what to say
+// of those that do not fit.
+#include "collada/check_elements_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+using Kind = Particle::Kind;
+
+std::string place_name(const ContentModel::Place& place) {
+    if (place.kind == Kind::Any) return "an element";
+    return place.kind == Kind::Math ? "<math>" : "<" + std::string(place.name) + ">";
+}
+
+// "<a>", "one of <a>, <b>": what may follow.
+std::string expected(const ContentModel& model, uint16_t at) {
+    constexpr size_t kMost = 12;
+    const auto& next = model.places[at].next;
+    std::string out = next.size() > 1 ? "one of " : "";
+    for (size_t i = 0; i < next.size() && i < kMost; ++i)
+        out += (i ? ", " : "") + place_name(model.places[next[i]]);
+    return next.size() > kMost ? out + ", ..." : out;
+}
+
+bool has_child(const Element* from, std::string_view name) {
+    for (; from; from = from->next)
+        if (from->name == name) return true;
+    return false;
+}
+
+size_t count_before(const Element& parent, const Element& child) {
+    size_t n = 0;
+    for (const Element* e = parent.first_child; e && e != &child; e = e->next)
+        n += e->name == child.name;
+    return n;
+}
+
+}  // namespace
+
+void ElementChecker::check_children(const Element& element, const ElementType& type, bool kept) {
+    const ContentModel& model = type.rules().content;
+    uint16_t at = 0;
+    for (const Element& child : element.children()) {
+        uint16_t next = step(model, at, child);
+        if (!next) {
+            at = misplaced(element, type, at, child, kept);
+            continue;
+        }
+        at = next;
+        const ContentModel::Place& place = model.places[at];
+        if (place.type)
+            check(child, *place.type, kept);
+        else if (place.kind == Kind::Any)
+            check_any(child, kept);
+    }
+    if (!model.places[at].last) missing_children(element, type, at);
+}
+
+uint16_t ElementChecker::step(const ContentModel& model, uint16_t at, const Element& child) const {
+    if (foreign(child)) {
+        if (uint16_t any = model.step(at, Kind::Any)) return any;
+        bool math = child.name == "math" || child.name.ends_with(":math");
+        return math ? model.step(at, Kind::Math) : uint16_t(0);
+    }
+    if (uint16_t next = model.step(at, child.name)) return next;
+    return model.step(at, Kind::Any);
+}
+
+uint16_t ElementChecker::misplaced(const Element& element, const ElementType& type, uint16_t at,
+                                   const Element& child, bool kept) {
+    const ContentModel& model = type.rules().content;
+    uint16_t place = foreign(child) ? uint16_t(0) : model.find(child.name);
+    if (!place) {
+        unknown_child(element, type, at, child, kept);
+        return at;
+    }
+    std::vector<uint16_t> way = model.way(at, child.name);
+    if (way.empty()) {
+        disordered_child(element, type, child);
+        check(child, *model.places[place].type, kept);
+        return at;
+    }
+    // What was jumped over is missing, or comes later and is then out of order.
+    bool later = true;
+    for (size_t i = 0; i + 1 < way.size(); ++i)
+        later = later && has_child(child.next, model.places[way[i]].name);
+    if (!later && first(Code::SCHEMA_MIN_OCCURS, &type, child.name))
+        diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(child), element.name,
+                     expected(model, at) + " before <" + std::string(child.name) + ">");
+    check(child, *model.places[way.back()].type, kept);
+    return way.back();
+}
+
+void ElementChecker::unknown_child(const Element& element, const ElementType& type, uint16_t at,
+                                   const Element& child, bool kept) {
+    const ElementType* other = type.row ? other_version_.find(type.name) : nullptr;
+    uint16_t place = other && !foreign(child) ? other->rules().content.find(child.name) : uint16_t(0);
+    if (place) {
+        if (first(Code::SCHEMA_VERSION, &type, child.name))
+            diag_.report(Code::SCHEMA_VERSION, document_.location(child), child.name,
+                         is_15(document_.version()) ? "1.5" : "1.4");
+        return check(child, *other->rules().content.places[place].type, kept);
+    }
+    const ContentModel& model = type.rules().content;
+    if (foreign(child) || types_.has_element(child.name) || other_version_.has_element(child.name)) {
+        if (first(Code::SCHEMA_UNEXPECTED, &type, child.name))
+            diag_.report(Code::SCHEMA_UNEXPECTED, document_.location(child), child.name,
+                         element.name,
+                         model.places[at].next.empty() ? "" : ", expected " + expected(model, at));
+        return;
+    }
+    if (!first(Code::SCHEMA_UNKNOWN_ELEMENT, &type, child.name)) return;
+    Finding& finding = diag_.report(Code::SCHEMA_UNKNOWN_ELEMENT, document_.location(child),
+                                    child.name, element.name);
+    std::string_view near = types_.nearest(child.name);
+    if (!near.empty()) finding.help = fmt::format("did you mean <{}>?", near);
+}
+
+// The child is known here, but nothing leads from where we are to it.
+void ElementChecker::disordered_child(const Element& element, const ElementType& type,
+                                      const Element& child) {
+    const ContentModel& model = type.rules().content;
+    uint16_t place = model.find(child.name);
+    // The first sibling before it that could follow it: it stands too late.
+    for (const Element* e = element.first_child; e && e != &child; e = e->next) {
+        if (e->name == child.name || model.way(place, e->name).empty()) continue;
+        if (first(Code::SCHEMA_ORDER, &type, child.name))
+            diag_.report(Code::SCHEMA_ORDER, document_.location(child), child.name, e->name);
+        return;
+    }
+    if (size_t before = count_before(element, child)) {
+        if (!first(Code::SCHEMA_MAX_OCCURS, &type, child.name)) return;
+        diag_.report(Code::SCHEMA_MAX_OCCURS, document_.location(child), child.name,
+                     before == 1 ? std::string("once") : fmt::format("{} times", before),
+                     element.name);
+        return;
+    }
+    const Element* beside = element.first_child;
+    while (beside->next && beside->next != &child) beside = beside->next;
+    if (first(Code::SCHEMA_CHOICE, &type, child.name))
+        diag_.report(Code::SCHEMA_CHOICE, document_.location(child), child.name, beside->name);
+}
+
+void ElementChecker::missing_children(const Element& element, const ElementType& type, uint16_t at) {
+    const ContentModel& model = type.rules().content;
+    bool library = element.name.starts_with("library_");
+    if (library && first(Code::SCHEMA_EMPTY_LIBRARY, &type, element.name))
+        diag_.report(Code::SCHEMA_EMPTY_LIBRARY, document_.location(element), element.name);
+    if (library || !first(Code::SCHEMA_MIN_OCCURS, &type, {})) return;
+    std::string what = expected(model, at);
+    uint16_t only = model.places[at].next.size() == 1 ? model.places[at].next[0] : uint16_t(0);
+    if (only && model.places[only].name == model.places[at].name) what = "another " + what;
+    diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(element), element.name, what);
+}
+
+}  // namespace kinora::collada

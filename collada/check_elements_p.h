@@ -1,0 +1,67 @@
+// collada/check_elements_p.h: the walk that holds a document against the element table.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "collada/element_types_p.h"
+#include "collada/findings.h"
+
+namespace kinora::collada {
+
+// Each kind of finding once per element type and name: a file repeats its habits.
+class ElementChecker {
+  public:
+    ElementChecker(const Document& document, Diagnostics& diag);
+    void run();
+
+  private:
+    // `kept`: inside what is not rendered as a whole, where nothing more is said about that.
+    void check(const Element& element, const ElementType& type, bool kept);
+    void report_unsupported(const Element& element, const ElementType& type);
+
+    // check_values.cpp
+    void check_attributes(const Element& element, const ElementType& type);
+    void check_attribute(const Element& element, const ElementType& type, const Attribute& a,
+                         const AttributeType& rule);
+    void unknown_attribute(const Element& element, const ElementType& type, const Attribute& a);
+    void check_text(const Element& element, const ElementType& type);
+    void report_value(const Element& element, const ElementType& type, const Attribute* a,
+                      const SimpleType& simple, const ValueCheck& check, std::string_view value,
+                      Location where);
+
+    // check_children.cpp
+    void check_children(const Element& element, const ElementType& type, bool kept);
+    uint16_t step(const ContentModel& model, uint16_t at, const Element& child) const;
+    // A child that may not stand where it does: reports it, checks what is inside. Returns where in
+    // the model to go on.
+    uint16_t misplaced(const Element& element, const ElementType& type, uint16_t at,
+                       const Element& child, bool kept);
+    void unknown_child(const Element& element, const ElementType& type, uint16_t at,
+                       const Element& child, bool kept);
+    void disordered_child(const Element& element, const ElementType& type, const Element& child);
+    void missing_children(const Element& element, const ElementType& type, uint16_t at);
+    void check_any(const Element& child, bool kept);
+
+    // Is the child in another namespace than COLLADA's?
+    bool foreign(const Element& child) const;
+    std::string_view name_space(const Element& child) const;
+    void report_foreign(const Element& child);
+
+    bool first(const FindingInfo& code, const void* type, std::string_view name) {
+        return seen_.emplace(&code, type, name).second;
+    }
+
+    const Document& document_;
+    Diagnostics& diag_;
+    const ElementTypes& types_;
+    const ElementTypes& other_version_;
+    std::string_view name_space_;  // COLLADA's, as the root has it
+    std::string_view xmlns_;       // the root's attribute that says so
+    std::set<std::tuple<const FindingInfo*, const void*, std::string_view>> seen_;
+};
+
+// For a message: not longer than a line.
+std::string shortened(std::string_view value);
+
+}  // namespace kinora::collada

@@ -1,0 +1,238 @@
+// collada/content_model.cpp: content cells to automata.
+#include "collada/content_model_p.h"
+
+#include <algorithm>
+
+#include "collada/schema_rows_p.h"
+#include "runtime/base/check.h"
+
+namespace kinora::collada {
+
+namespace {
+
+// content = item { item } | item { "|" item };  item = (word | "(" content ")") [ ? * + {m,n} ]
+class ContentParser {
+  public:
+    explicit ContentParser(std::string_view text) : text_(text) {}
+
+    Particle parse() {
+        Particle all = sequence();
+        CHECK(at_ == text_.size());  // a row with a stray ")" or "|"
+        return all;
+    }
+
+  private:
+    char peek() {
+        while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+        return at_ < text_.size() ? text_[at_] : '\0';
+    }
+
+    Particle sequence() {
+        Particle out;
+        while (peek() && peek() != ')') {
+            out.parts.push_back(item());
+            if (peek() != '|') continue;
+            out.kind = Particle::Kind::Choice;
+            ++at_;
+        }
+        return out;
+    }
+
+    Particle item() {
+        Particle out;
+        if (peek() == '(') {
+            ++at_;
+            out = sequence();
+            CHECK(peek() == ')');  // a row with an open "("
+            ++at_;
+        } else {
+            out = word();
+        }
+        occurs(out);
+        return out;
+    }
+
+    Particle word() {
+        size_t end = std::min(text_.find_first_of(" ()|?*+{", at_), text_.size());
+        std::string_view w = text_.substr(at_, end - at_);
+        CHECK(!w.empty());
+        at_ = end;
+        Particle out;
+        out.kind = w == "%any"          ? Particle::Kind::Any
+                   : w == "%math"       ? Particle::Kind::Math
+                   : w.front() == '@'   ? Particle::Kind::Group
+                                        : Particle::Kind::Element;
+        if (out.kind == Particle::Kind::Group) w.remove_prefix(1);
+        size_t mark = w.find_first_of(":=");
+        out.name = w.substr(0, mark);
+        out.type = mark == w.npos ? w : w.substr(w[mark] == '=' ? mark : mark + 1);
+        return out;
+    }
+
+    uint32_t number() {
+        uint32_t n = 0;
+        while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9')
+            n = n * 10 + uint32_t(text_[at_++] - '0');
+        return n;
+    }
+
+    void occurs(Particle& out) {
+        char c = at_ < text_.size() ? text_[at_] : '\0';
+        if (c == '?' || c == '*') out.low = 0;
+        if (c == '*' || c == '+') out.high = Particle::kMany;
+        if (c == '?' || c == '*' || c == '+') ++at_;
+        if (c != '{') return;
+        ++at_;
+        out.low = number();
+        CHECK(text_[at_] == ',');
+        ++at_;
+        out.high = text_[at_] == '}' ? Particle::kMany : number();
+        ++at_;
+    }
+
+    std::string_view text_;
+    size_t at_ = 0;
+};
+
+struct Ends {
+    bool nullable = false;
+    std::vector<uint16_t> first, last;
+};
+
+void add(std::vector<uint16_t>& list, const std::vector<uint16_t>& more) {
+    for (uint16_t p : more)
+        if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
+}
+
+class ModelBuilder {
+  public:
+    ModelBuilder(ContentModel& model, Version version) : model_(model), version_(version) {}
+
+    Ends build(const Particle& particle) {
+        // Copies for the least number; then one that repeats, or optional ones up to the most.
+        bool many = particle.high == Particle::kMany;
+        uint32_t copies = std::max(many ? particle.low : particle.high, 1u);
+        bool outer = one_rank_;
+        if (copies > 1 || many) share_rank(particle);
+        Ends all{true, {}, {}};
+        for (uint32_t i = 0; i < copies; ++i) {
+            Ends one = once(particle);
+            if (many && i + 1 == copies) connect(one.last, one.first);
+            one.nullable = one.nullable || i >= particle.low;
+            all = follow(all, one);
+        }
+        one_rank_ = outer;
+        return all;
+    }
+
+  private:
+    // What repeats as a whole has no order of its own: (a | b)*.
+    void share_rank(const Particle&) {
+        if (!one_rank_) ++rank_;
+        one_rank_ = true;
+    }
+
+    Ends once(const Particle& particle) {
+        switch (particle.kind) {
+            case Particle::Kind::Sequence: {
+                Ends all{true, {}, {}};
+                for (const Particle& part : particle.parts) all = follow(all, build(part));
+                return all;
+            }
+            case Particle::Kind::Choice: {
+                Ends all;
+                for (const Particle& part : particle.parts) {
+                    Ends one = build(part);
+                    all.nullable = all.nullable || one.nullable;
+                    add(all.first, one.first);
+                    add(all.last, one.last);
+                }
+                return all;
+            }
+            case Particle::Kind::Group: return build(parse_content(group(particle.name)));
+            case Particle::Kind::Element:
+            case Particle::Kind::Any:
+            case Particle::Kind::Math: return place(particle);
+        }
+        return {};
+    }
+
+    Ends place(const Particle& particle) {
+        uint16_t at = uint16_t(model_.places.size());
+        ContentModel::Place& p = model_.places.emplace_back();
+        p.kind = particle.kind;
+        if (p.kind == Particle::Kind::Element) p.name = particle.name, p.type_name = particle.type;
+        if (!one_rank_) ++rank_;
+        p.rank = rank_;
+        return {false, {at}, {at}};
+    }
+
+    std::string_view group(std::string_view name) const {
+        for (const ContentRow& row : group_rows())
+            if (row.name == name && holds_for(row.versions, version_)) return row.content;
+        CHECK(false);  // a row that names a group without one
+        return {};
+    }
+
+    void connect(const std::vector<uint16_t>& from, const std::vector<uint16_t>& to) {
+        for (uint16_t p : from) add(model_.places[p].next, to);
+    }
+
+    Ends follow(const Ends& a, const Ends& b) {
+        connect(a.last, b.first);
+        Ends out{a.nullable && b.nullable, a.first, b.last};
+        if (a.nullable) add(out.first, b.first);
+        if (b.nullable) add(out.last, a.last);
+        return out;
+    }
+
+    ContentModel& model_;
+    Version version_;
+    uint16_t rank_ = 0;
+    bool one_rank_ = false;
+};
+
+}  // namespace
+
+Particle parse_content(std::string_view cell) {
+    return ContentParser(cell).parse();
+}
+
+ContentModel build_model(std::string_view cell, Version version) {
+    ContentModel model;
+    model.places.emplace_back();
+    Ends ends = ModelBuilder(model, version).build(parse_content(cell));
+    model.places[0].next = ends.first;
+    model.places[0].last = ends.nullable;
+    for (uint16_t p : ends.last) model.places[p].last = true;
+    return model;
+}
+
+uint16_t ContentModel::find(std::string_view name) const {
+    for (size_t i = 1; i < places.size(); ++i)
+        if (places[i].name == name) return uint16_t(i);
+    return 0;
+}
+
+std::vector<uint16_t> ContentModel::way(uint16_t at, std::string_view name) const {
+    std::vector<uint16_t> from(places.size(), 0), queue{at};
+    std::vector<bool> seen(places.size());
+    for (size_t i = 0; i < queue.size(); ++i) {
+        for (uint16_t next : places[queue[i]].next) {
+            if (seen[next]) continue;
+            seen[next] = true;
+            from[next] = queue[i];
+            if (name.empty() ? !places[next].last : places[next].name != name) {
+                queue.push_back(next);
+                continue;
+            }
+            std::vector<uint16_t> found{next};
+            while (from[found.back()] != at) found.push_back(from[found.back()]);
+            std::reverse(found.begin(), found.end());
+            return found;
+        }
+    }
+    return {};
+}
+
+}  // namespace kinora::collada

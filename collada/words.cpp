@@ -1,0 +1,183 @@
+// collada/words.cpp: the forms of one word: names, URIs, dates.
+#include <cstring>
+
+#include "collada/simple_types_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool is_hex(char c) {
+    return is_digit(c) || ((c | 32) >= 'a' && (c | 32) <= 'f');
+}
+// Letters beyond ASCII are taken as they come.
+bool starts_name(char c) {
+    return is_letter(c) || c == '_' || (c & 0x80);
+}
+bool is_name_char(char c) {
+    return starts_name(c) || is_digit(c) || c == '-' || c == '.';
+}
+
+// Reads a URI reference by the grammar of RFC 3986.
+class Uri {
+  public:
+    explicit Uri(std::string_view text) : p_(text.data()), end_(text.data() + text.size()) {}
+
+    bool whole() {
+        const char* start = p_;
+        if (scheme()) {
+            if (!hierarchy(true)) return false;
+        } else {
+            p_ = start;
+            if (!hierarchy(false)) return false;
+        }
+        if (at('?')) ++p_, run("/?");
+        if (at('#')) ++p_, run("/?[]");
+        return p_ == end_;
+    }
+
+  private:
+    bool at(char c) const { return p_ < end_ && *p_ == c; }
+
+    bool scheme() {
+        if (p_ == end_ || !is_letter(*p_)) return false;
+        while (p_ < end_ && (is_letter(*p_) || is_digit(*p_) || std::strchr("+-.", *p_))) ++p_;
+        if (!at(':')) return false;
+        ++p_;
+        return true;
+    }
+
+    // "//" authority path | path; without a scheme the first segment has no ':'.
+    bool hierarchy(bool has_scheme) {
+        if (end_ - p_ >= 2 && p_[0] == '/' && p_[1] == '/') {
+            p_ += 2;
+            if (!authority()) return false;
+            if (p_ < end_ && *p_ != '/' && *p_ != '?' && *p_ != '#') return false;
+        } else if (!has_scheme) {
+            const char* segment = p_;
+            run("");
+            if (std::memchr(segment, ':', size_t(p_ - segment))) return false;
+        }
+        run("/");
+        return true;
+    }
+
+    bool authority() {
+        const char* begin = p_;
+        run("");  // user@host:port; ':' and '@' are path characters too
+        if (at('[')) {
+            while (p_ < end_ && *p_ != ']') ++p_;
+            if (!at(']')) return false;
+            ++p_;
+            if (at(':')) run("");
+            return true;
+        }
+        std::string_view host(begin, size_t(p_ - begin));
+        size_t user = host.rfind('@');
+        if (user != host.npos) host.remove_prefix(user + 1);
+        size_t colon = host.find(':');
+        if (colon == host.npos) return true;
+        std::string_view port = host.substr(colon + 1);
+        for (char c : port)
+            if (!is_digit(c)) return false;
+        return !port.empty();
+    }
+
+    // Characters of a path segment, and those given.
+    void run(const char* more) {
+        while (p_ < end_) {
+            char c = *p_;
+            bool escaped = c == '%' && end_ - p_ > 2 && is_hex(p_[1]) && is_hex(p_[2]);
+            if (escaped) {
+                p_ += 3;
+                continue;
+            }
+            // What an IRI may hold besides, and what anyURI lets be written unescaped.
+            bool free = (c & 0x80) || (c && std::strchr(" <>\"{}|\\^`", c)) || uint8_t(c) < 32;
+            bool known = is_letter(c) || is_digit(c) || (c && std::strchr("-._~!$&'()*+,;=:@", c));
+            if (!free && !known && !(c && std::strchr(more, c))) return;
+            ++p_;
+        }
+    }
+
+    const char* p_;
+    const char* end_;
+};
+
+// Digits from `at`, exactly n (or at least n with more); the value.
+bool take(std::string_view& text, size_t n, int& value, bool more = false) {
+    size_t count = 0;
+    value = 0;
+    while (count < text.size() && is_digit(text[count]) && (more || count < n))
+        value = value * 10 % 100000000 + (text[count++] - '0');
+    if (count < n) return false;
+    text.remove_prefix(count);
+    return true;
+}
+
+bool take(std::string_view& text, char c) {
+    if (text.empty() || text[0] != c) return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+int days_of(int year, int month) {
+    constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    return kDays[month - 1] + (month == 2 && leap);
+}
+
+bool is_zone(std::string_view text) {
+    if (text.empty() || text == "Z") return true;
+    int hours, minutes;
+    if (text[0] != '+' && text[0] != '-') return false;
+    text.remove_prefix(1);
+    if (!take(text, 2, hours) || !take(text, ':') || !take(text, 2, minutes)) return false;
+    return text.empty() && minutes < 60 && hours * 60 + minutes <= 14 * 60;
+}
+
+}  // namespace
+
+bool is_ncname(std::string_view word) {
+    if (word.empty() || !starts_name(word[0])) return false;
+    for (char c : word)
+        if (!is_name_char(c)) return false;
+    return true;
+}
+
+bool is_name(std::string_view word) {
+    if (word.empty() || !(starts_name(word[0]) || word[0] == ':')) return false;
+    for (char c : word)
+        if (!is_name_char(c) && c != ':') return false;
+    return true;
+}
+
+bool is_uri(std::string_view word) {
+    return Uri(word).whole();
+}
+
+bool is_date_time(std::string_view text) {
+    int year, month, day, hour, minute, second, ignored;
+    if (!text.empty() && text[0] == '-') text.remove_prefix(1);
+    bool padded = !text.empty() && text[0] == '0';
+    size_t size = text.size();
+    if (!take(text, 4, year, true) || year == 0 || (padded && size - text.size() > 4)) return false;
+    if (!take(text, '-') || !take(text, 2, month) || !take(text, '-') || !take(text, 2, day))
+        return false;
+    if (!take(text, 'T') || !take(text, 2, hour) || !take(text, ':') || !take(text, 2, minute) ||
+        !take(text, ':') || !take(text, 2, second))
+        return false;
+    bool fraction = take(text, '.');
+    if (fraction && !take(text, 1, ignored, true)) return false;
+    bool midnight = hour == 24 && minute == 0 && second == 0;
+    return month >= 1 && month <= 12 && day >= 1 && day <= days_of(year, month) && minute < 60 &&
+           second < 60 && (hour < 24 || midnight) && is_zone(text);
+}
+
+}  // namespace kinora::collada
