@@ -95,7 +95,8 @@ uint16_t ElementChecker::misplaced(const Element& element, const ElementType& ty
 void ElementChecker::unknown_child(const Element& element, const ElementType& type, uint16_t at,
                                    const Element& child, bool kept) {
     const ElementType* other = type.row ? other_version_.find(type.name) : nullptr;
-    uint16_t place = other && !foreign(child) ? other->rules().content.find(child.name) : uint16_t(0);
+    uint16_t place =
+        other && !foreign(child) ? other->rules().content.find(child.name) : uint16_t(0);
     if (place) {
         if (first(Code::SCHEMA_VERSION, &type, child.name))
             diag_.report(Code::SCHEMA_VERSION, document_.location(child), child.name,
@@ -103,7 +104,8 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
         return check(child, *other->rules().content.places[place].type, kept);
     }
     const ContentModel& model = type.rules().content;
-    if (foreign(child) || types_.has_element(child.name) || other_version_.has_element(child.name)) {
+    if (foreign(child) || types_.has_element(child.name) ||
+        other_version_.has_element(child.name)) {
         if (first(Code::SCHEMA_UNEXPECTED, &type, child.name))
             diag_.report(Code::SCHEMA_UNEXPECTED, document_.location(child), child.name,
                          element.name,
@@ -142,7 +144,8 @@ void ElementChecker::disordered_child(const Element& element, const ElementType&
         diag_.report(Code::SCHEMA_CHOICE, document_.location(child), child.name, beside->name);
 }
 
-void ElementChecker::missing_children(const Element& element, const ElementType& type, uint16_t at) {
+void ElementChecker::missing_children(const Element& element, const ElementType& type,
+                                      uint16_t at) {
     const ContentModel& model = type.rules().content;
     bool library = element.name.starts_with("library_");
     if (library && first(Code::SCHEMA_EMPTY_LIBRARY, &type, element.name))

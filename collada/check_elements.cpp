@@ -26,7 +26,9 @@ std::string_view schema_location(const Element& root, std::string_view name_spac
 }  // namespace
 
 ElementChecker::ElementChecker(const Document& document, Diagnostics& diag)
-    : document_(document), diag_(diag), types_(ElementTypes::of(document.version())),
+    : document_(document),
+      diag_(diag),
+      types_(ElementTypes::of(document.version())),
       other_version_(ElementTypes::of(other(document.version()))) {
     const Element& root = document.root();
     for (const Attribute& a : root.attributes) {
@@ -88,8 +90,9 @@ void ElementChecker::report_foreign(const Element& child) {
     std::string_view uri = name_space(child);
     if (!first(Code::SCHEMA_FOREIGN, nullptr, uri)) return;
     std::string_view file = schema_location(document_.root(), uri);
-    diag_.report(Code::SCHEMA_FOREIGN, document_.location(child), uri,
-                 file.empty() ? std::string() : ": their schema '" + std::string(file) + "' is not read");
+    diag_.report(
+        Code::SCHEMA_FOREIGN, document_.location(child), uri,
+        file.empty() ? std::string() : ": their schema '" + std::string(file) + "' is not read");
 }
 
 void check_elements(const Document& document, Diagnostics& diag) {

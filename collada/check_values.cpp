@@ -82,11 +82,11 @@ void ElementChecker::check_text(const Element& element, const ElementType& type)
         bool space = trim(element.text).empty();
         if (element.text.empty() || (space && !rules.content.empty())) return;
         if (!first(Code::SCHEMA_TEXT, &type, {})) return;
-        Finding& finding = diag_.report(
-            Code::SCHEMA_TEXT,
-            space ? document_.location(element) : document_.text_location(element), element.name,
-            space ? "white space" : shortened(element.text),
-            rules.content.empty() ? "nothing" : "only elements");
+        Finding& finding =
+            diag_.report(Code::SCHEMA_TEXT,
+                         space ? document_.location(element) : document_.text_location(element),
+                         element.name, space ? "white space" : shortened(element.text),
+                         rules.content.empty() ? "nothing" : "only elements");
         if (space && finding.severity > Severity::Hint) finding.severity = Severity::Hint;
         return;
     }
@@ -108,7 +108,8 @@ void ElementChecker::report_value(const Element& element, const ElementType& typ
     auto once = [&](const FindingInfo& code) { return first(code, &type, key); };
     std::string shown = shortened(value);
     switch (check.fault) {
-        case ValueFault::None: return;
+        case ValueFault::None:
+            return;
         case ValueFault::Type:
             if (a && once(Code::SCHEMA_ATTR_VALUE))
                 diag_.report(Code::SCHEMA_ATTR_VALUE, where, a->name, element.name, shown,

@@ -58,10 +58,10 @@ class ContentParser {
         CHECK(!w.empty());
         at_ = end;
         Particle out;
-        out.kind = w == "%any"          ? Particle::Kind::Any
-                   : w == "%math"       ? Particle::Kind::Math
-                   : w.front() == '@'   ? Particle::Kind::Group
-                                        : Particle::Kind::Element;
+        out.kind = w == "%any"        ? Particle::Kind::Any
+                   : w == "%math"     ? Particle::Kind::Math
+                   : w.front() == '@' ? Particle::Kind::Group
+                                      : Particle::Kind::Element;
         if (out.kind == Particle::Kind::Group) w.remove_prefix(1);
         size_t mark = w.find_first_of(":=");
         out.name = w.substr(0, mark);
@@ -149,10 +149,12 @@ class ModelBuilder {
                 }
                 return all;
             }
-            case Particle::Kind::Group: return build(parse_content(group(particle.name)));
+            case Particle::Kind::Group:
+                return build(parse_content(group(particle.name)));
             case Particle::Kind::Element:
             case Particle::Kind::Any:
-            case Particle::Kind::Math: return place(particle);
+            case Particle::Kind::Math:
+                return place(particle);
         }
         return {};
     }

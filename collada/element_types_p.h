@@ -1,4 +1,5 @@
-// collada/element_types_p.h: the element table of one version, each row parsed when first asked for.
+// collada/element_types_p.h: the element table of one version, each row parsed when first asked
+// for.
 #pragma once
 
 #include <deque>

@@ -30,8 +30,22 @@ constexpr void ends(Table& t, uint8_t state) {
 }
 
 constexpr Table real_table() {
-    enum : uint8_t { Sign = 1, Int, Point, BarePoint, Fraction, E, ESign, Exponent, I, In, Inf, N,
-                     Na, Nan };
+    enum : uint8_t {
+        Sign = 1,
+        Int,
+        Point,
+        BarePoint,
+        Fraction,
+        E,
+        ESign,
+        Exponent,
+        I,
+        In,
+        Inf,
+        N,
+        Na,
+        Nan
+    };
     Table t = bad_table();
     for (uint8_t s : {uint8_t(kSpace), uint8_t(Sign)}) digits(t, s, Int), t[s]['.'] = BarePoint;
     t[kSpace]['+'] = t[kSpace]['-'] = Sign;

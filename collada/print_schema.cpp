@@ -12,10 +12,14 @@ namespace {
 std::string escaped(std::string_view text) {
     std::string out;
     for (char c : text) {
-        if (c == '&') out += "&amp;";
-        else if (c == '<') out += "&lt;";
-        else if (c == '"') out += "&quot;";
-        else out += c;
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
     }
     return out;
 }
@@ -37,7 +41,8 @@ std::string list_name(const SimpleType& type) {
 
 class SchemaPrinter {
   public:
-    explicit SchemaPrinter(Version version) : version_(version), types_(ElementTypes::of(version)) {}
+    explicit SchemaPrinter(Version version)
+        : version_(version), types_(ElementTypes::of(version)) {}
 
     std::string print() {
         std::string body;
@@ -54,8 +59,9 @@ class SchemaPrinter {
         std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
         out += "<!-- COLLADA " + std::string(is_15(version_) ? "1.5.0" : "1.4.1") +
                " with profile_RSL, written by Kinora from its table of elements. -->\n";
-        out += "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\"" + attribute("xmlns", uri) +
-               attribute("targetNamespace", uri) + " elementFormDefault=\"qualified\">\n";
+        out += "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\"" +
+               attribute("xmlns", uri) + attribute("targetNamespace", uri) +
+               " elementFormDefault=\"qualified\">\n";
         out += body;
         for (const auto& [name, text] : simple_) out += text;
         return out + "</xs:schema>\n";
@@ -104,8 +110,10 @@ class SchemaPrinter {
     static std::string occurs(const Particle& p) {
         std::string out;
         if (p.low != 1) out += attribute("minOccurs", std::to_string(p.low));
-        if (p.high == Particle::kMany) out += attribute("maxOccurs", "unbounded");
-        else if (p.high != 1) out += attribute("maxOccurs", std::to_string(p.high));
+        if (p.high == Particle::kMany)
+            out += attribute("maxOccurs", "unbounded");
+        else if (p.high != 1)
+            out += attribute("maxOccurs", std::to_string(p.high));
         return out;
     }
 
@@ -123,7 +131,8 @@ class SchemaPrinter {
 
     std::string particle(const Particle& p, const std::string& indent) {
         switch (p.kind) {
-            case Particle::Kind::Element: return indent + element(p) + "\n";
+            case Particle::Kind::Element:
+                return indent + element(p) + "\n";
             case Particle::Kind::Any:
                 return indent + "<xs:any namespace=\"##any\" processContents=\"lax\"" + occurs(p) +
                        "/>\n";
@@ -134,7 +143,8 @@ class SchemaPrinter {
                 return indent + "<xs:group" + attribute("ref", "G." + std::string(p.name)) +
                        occurs(p) + "/>\n";
             case Particle::Kind::Sequence:
-            case Particle::Kind::Choice: break;
+            case Particle::Kind::Choice:
+                break;
         }
         std::string name = p.kind == Particle::Kind::Sequence ? "sequence" : "choice";
         std::string out = indent + "<xs:" + name + occurs(p) + ">\n";

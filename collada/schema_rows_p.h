@@ -38,7 +38,9 @@ std::span<const ContentRow> group_rows();
 std::span<const SimpleRow> simple_rows();
 std::span<const ContentRow> global_rows();
 
-inline bool is_15(Version version) { return version == Version::V1_5_0; }
+inline bool is_15(Version version) {
+    return version == Version::V1_5_0;
+}
 inline bool holds_for(Versions versions, Version version) {
     return versions == Versions::All || (versions == Versions::V15) == is_15(version);
 }

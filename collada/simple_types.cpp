@@ -63,7 +63,8 @@ bool is_fragment(std::string_view word) {
     return word.starts_with('#') && word.find_first_of("\r\n") == word.npos;
 }
 
-// id, or one character, then "/sid"s; at the end (i) or (i)(j). A ".member" is part of the last sid.
+// id, or one character, then "/sid"s; at the end (i) or (i)(j). A ".member" is part of the last
+// sid.
 bool is_sidref(std::string_view word) {
     for (int k = 0; k < 2 && word.ends_with(')'); ++k) {
         size_t open = word.rfind('(');
@@ -164,16 +165,21 @@ ValueFault check_word(const SimpleType& type, std::string_view word) {
 
 bool is_number_list(const SimpleType& type, std::string_view text) {
     switch (type.base->numbers) {
-        case Numbers::No: return false;
-        case Numbers::Real: return text.find("+I") == text.npos && is_real_list(text);
-        case Numbers::Whole: return is_whole_list(text, true);
-        case Numbers::Natural: return is_whole_list(text, false);
+        case Numbers::No:
+            return false;
+        case Numbers::Real:
+            return text.find("+I") == text.npos && is_real_list(text);
+        case Numbers::Whole:
+            return is_whole_list(text, true);
+        case Numbers::Natural:
+            return is_whole_list(text, false);
     }
     return false;
 }
 
 ValueCheck check_list(const SimpleType& type, std::string_view text) {
-    if (!type.length && !type.ranged && type.values.empty() && is_number_list(type, text)) return {};
+    if (!type.length && !type.ranged && type.values.empty() && is_number_list(type, text))
+        return {};
     constexpr std::string_view kSpace = " \t\r\n";
     ValueCheck out;
     for (size_t at = text.find_first_not_of(kSpace); at < text.size(); ++out.words) {
@@ -182,7 +188,8 @@ ValueCheck check_list(const SimpleType& type, std::string_view text) {
         if (fault != ValueFault::None) return {fault, at, end, out.words};
         at = text.find_first_not_of(kSpace, end);
     }
-    if (type.length && out.words != type.length) out = {ValueFault::Length, 0, text.size(), out.words};
+    if (type.length && out.words != type.length)
+        out = {ValueFault::Length, 0, text.size(), out.words};
     return out;
 }
 

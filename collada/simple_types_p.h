@@ -11,12 +11,12 @@ namespace kinora::collada {
 
 // What XML Schema, or COLLADA by a pattern, calls one word of a value.
 struct BaseType {
-    std::string_view name;                    // "unsignedLong"
-    bool (*fits)(std::string_view word);      // null: any text
-    std::string_view what;                    // "a whole number from 0"
+    std::string_view name;                // "unsignedLong"
+    bool (*fits)(std::string_view word);  // null: any text
+    std::string_view what;                // "a whole number from 0"
     enum class Numbers : uint8_t { No, Real, Whole, Natural } numbers = Numbers::No;
-    bool keeps_space = false;                 // string: white space around the value counts
-    std::string_view base = {}, pattern = {}; // of an XSD, where it is not one of XML Schema's
+    bool keeps_space = false;                  // string: white space around the value counts
+    std::string_view base = {}, pattern = {};  // of an XSD, where it is not one of XML Schema's
 };
 const BaseType* find_base(std::string_view name);
 

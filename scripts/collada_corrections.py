@@ -57,9 +57,8 @@ CHAPTERS = [
 ]
 
 # What the picture would need and is made without.
-UNSUPPORTED = {"lines", "linestrips", "convex_mesh", "spline", "brep", "create_2d", "create_3d",
-               "create_cube", "evaluate_scene", "instance_formula", "instance_physics_scene",
-               "instance_kinematics_scene"}
+UNSUPPORTED = {"lines", "linestrips", "convex_mesh", "spline", "brep", "instance_formula",
+               "instance_physics_scene", "instance_kinematics_scene"}
 # What is read into the picture; all else is kept.
 RENDERED = set("""
 COLLADA asset unit up_axis scene instance_with_extra
@@ -78,7 +77,11 @@ fx_common_float_or_param fx_common_transparent color float texture param_ref fx_
 fx_surface_init_from fx_sampler2D instance_image
 profile_RSL technique_in_profile_RSL rsl_newparam rsl_array rsl_pass rsl_shader rsl_bind fx_code
 rsl_include
-library_nodes library_visual_scenes visual_scene node lookat matrix rotate scale skew translate
+hex_in_image create_2d create_3d create_cube init_from_in_create_2d init_from_in_create_3d
+init_from_in_create_cube wrap_s_in_fx_sampler1D wrap_s_in_fx_sampler_states wrap_t_in_fx_sampler2D
+wrap_t_in_fx_sampler_states minfilter magfilter mipfilter_in_fx_sampler1D
+mipfilter_in_fx_sampler_states
+library_nodes library_visual_scenes visual_scene evaluate_scene render node lookat matrix rotate scale skew translate
 instance_controller instance_geometry instance_node bind_material technique_common_in_bind_material
 instance_material bind_in_instance_material bind_vertex_input
 """.split())

@@ -64,10 +64,12 @@ inline void read_file(Reading& r, const std::string& path, const ExtractOptions&
 
 // A document around some libraries and the content of one node.
 inline std::string with_scene(const std::string& libraries, const std::string& nodes) {
-    return "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
-           "<asset><created>2026-01-01T00:00:00Z</created><modified>2026-01-01T00:00:00Z</modified>"
-           "</asset>\n" +
-           libraries + "\n<library_visual_scenes><visual_scene id=\"vs\">" + nodes +
+    std::string asset =
+        "<asset><created>2026-01-01T00:00:00Z</created><modified>2026-01-01T00:00:00Z</modified>"
+        "</asset>";
+    if (libraries.find("<asset>") != std::string::npos) asset.clear();
+    return "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">" +
+           asset + "\n" + libraries + "\n<library_visual_scenes><visual_scene id=\"vs\">" + nodes +
            "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#vs\"/>"
            "</scene></COLLADA>\n";
 }
