@@ -6,46 +6,19 @@
 
 #include "runtime/findings.h"
 #include "runtime/import_collada_p.h"
-#include "runtime/joined_code.h"
+#include "runtime/profile_rsl/effect_shaders.h"
+#include "runtime/profile_rsl/findings.h"
 #include "runtime/shader_library.h"
 #include "runtime/texture_name.h"
 
 namespace kinora {
 
-namespace {
-
-constexpr const char* kStageNames[] = {"SURFACE", "DISPLACEMENT",   "LIGHT",
-                                       "VOLUME",  "TRANSFORMATION", "IMAGER"};
-constexpr rsl::ShaderKind kStageKinds[] = {
-    rsl::ShaderKind::Surface, rsl::ShaderKind::Displacement,   rsl::ShaderKind::Light,
-    rsl::ShaderKind::Volume,  rsl::ShaderKind::Transformation, rsl::ShaderKind::Imager};
-
-const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::string_view name) {
-    for (const rsl::ShaderParameter& parameter : shader.parameters)
-        if (parameter.name == name) return &parameter;
-    return nullptr;
-}
-
-// Whether `count` numbers can fill the parameter: its own count, or one for all of a triple.
-bool fits(const rsl::Type& type, uint32_t count) {
-    uint32_t needed = uint32_t(rsl::component_count(type.base)) *
-                      uint32_t(type.is_array() ? std::max(type.array_length, 1) : 1);
-    return count == needed || (count == 1 && rsl::is_triple(type)) ||
-           (count == 4 && rsl::is_triple(type));
-}
-
-}  // namespace
-
-const ColladaImport::Shaders& ColladaImport::compiled(const collada::Effect& effect) {
+const EffectShaders& ColladaImport::compiled(const collada::Effect& effect) {
     auto [place, is_new] = compiled_.try_emplace(&effect);
     if (!is_new) return place->second;
-    rsl::ShaderSource source;
-    std::string text = joined_code(*effect.rsl, source.map);
-    source.text = text;
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
-    for (auto& shader : rsl::compile(source, options, diagnostics_))
-        place->second.push_back(std::move(shader));
+    place->second = compile_effect(effect, options, diagnostics_);
     return place->second;
 }
 
@@ -67,37 +40,15 @@ const collada::ParamValue& ColladaImport::param_value(uint32_t material, uint32_
 
 std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const collada::Effect& effect,
                                                    const collada::RslShader& from) {
-    const Shaders& shaders = compiled(effect);
+    const EffectShaders& shaders = compiled(effect);
     if (shaders.empty()) return std::nullopt;  // errors were reported
-    rsl::ShaderKind kind = kStageKinds[size_t(from.stage)];
     ShaderUse use;
-    int candidates = 0;
-    for (const auto& shader : shaders) {
-        if (shader->kind != kind || (!from.name.empty() && shader->name != from.name)) continue;
-        use.shader = shader;
-        ++candidates;
-    }
-    if (candidates == 0) {
-        diagnostics_.report(Code::RSL_SHADER_MISSING, from.where, rsl::shader_kind_name(kind),
-                            from.name.empty() ? "" : fmt::format(" named '{}'", from.name));
-        return std::nullopt;
-    }
-    if (candidates > 1) {
-        diagnostics_.report(Code::RSL_SHADER_AMBIGUOUS, from.where, rsl::shader_kind_name(kind));
-        return std::nullopt;
-    }
+    use.shader = choose_shader(shaders, from, diagnostics_);
+    if (!use.shader) return std::nullopt;
     uint32_t effect_index = uint32_t(&effect - data_.effects.data());
     for (const collada::RslBind& bind : from.binds) {
-        const rsl::ShaderParameter* parameter = find_parameter(*use.shader, bind.symbol);
-        if (!parameter) {
-            std::vector<std::string_view> names;
-            for (const auto& p : use.shader->parameters) names.push_back(p.name);
-            Finding& finding = diagnostics_.report(Code::RSL_BIND_UNKNOWN, bind.where,
-                                                   use.shader->name, bind.symbol);
-            if (std::string_view near = nearest_name(bind.symbol, names); !near.empty())
-                finding.help = fmt::format("did you mean '{}'?", near);
-            continue;
-        }
+        const rsl::ShaderParameter* parameter = bound_parameter(*use.shader, bind, diagnostics_);
+        if (!parameter) continue;
         ParamSource source;
         source.name = bind.symbol;
         source.where = bind.where;
@@ -124,13 +75,9 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
                                : ValueSlot{append(value.numbers.data(), value.numbers.size()),
                                            uint32_t(value.numbers.size())};
         }
-        bool is_string = parameter->type.base == rsl::BaseType::String;
-        if (is_string != (value.type == collada::ParamType::String) ||
-            (!is_string && !fits(parameter->type, source.value.count))) {
-            diagnostics_.report(
-                Code::RSL_BIND_TYPE, bind.where, bind.symbol, rsl::type_name(parameter->type),
-                fmt::format("{} of {} number(s)", collada::param_type_name(value.type),
-                            value.numbers.size()));
+        if (!takes(*parameter, value)) {
+            diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
+                                rsl::type_name(parameter->type), value_text(value));
             continue;
         }
         use.params.push_back(std::move(source));
@@ -160,7 +107,7 @@ void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
         }
         if (!stack) {
             diagnostics_.report(Code::RSL_STAGE_NOT_RENDERED, shader.where,
-                                kStageNames[size_t(shader.stage)]);
+                                stage_name(shader.stage));
             continue;
         }
         if (auto use = shader_use(index, effect, shader)) stack->push_back(std::move(*use));
@@ -293,7 +240,7 @@ PictureShaders ColladaImport::picture_shaders(const std::vector<uint32_t>& mater
             if (shader.stage == collada::RslStage::Imager) stack = &result.imagers;
             if (!stack)
                 diagnostics_.report(Code::RSL_STAGE_PLACE, shader.where,
-                                    kStageNames[size_t(shader.stage)], "a scene or camera");
+                                    stage_name(shader.stage), "a scene or camera");
             else if (auto use = shader_use(m, effect, shader))
                 stack->push_back(std::move(*use));
         }

@@ -8,6 +8,7 @@
 
 #include "collada/scene.h"
 #include "runtime/import_collada.h"
+#include "runtime/profile_rsl/effect_shaders.h"
 
 namespace kinora {
 
@@ -45,8 +46,7 @@ class ColladaImport {
     void common_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
     std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
                                         const collada::RslShader& shader);
-    using Shaders = std::vector<std::shared_ptr<const rsl::Shader>>;
-    const Shaders& compiled(const collada::Effect& effect);
+    const EffectShaders& compiled(const collada::Effect& effect);
     ValueSlot param_slot(uint32_t material, uint32_t effect, uint32_t param) const;
     const collada::ParamValue& param_value(uint32_t material, uint32_t effect,
                                            uint32_t param) const;
@@ -65,7 +65,7 @@ class ColladaImport {
     std::vector<std::vector<uint32_t>> transform_values_, light_values_, camera_values_,
         param_values_, common_values_, setparam_values_;
     std::vector<uint32_t> morph_values_;
-    std::map<const collada::Effect*, Shaders> compiled_;
+    std::map<const collada::Effect*, EffectShaders> compiled_;
 };
 
 }  // namespace kinora

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "runtime/findings.h"
+#include "runtime/profile_rsl/findings.h"
 #include "runtime/shader_library.h"
 
 namespace kinora {

@@ -1,88 +1,18 @@
-// runtime/transforms.cpp: translate, rotate, scale, matrix, lookat and skew; the node hierarchy.
+// runtime/transforms.cpp: values to matrices; the node hierarchy.
 #include "runtime/transforms.h"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
+#include "runtime/base/transform_matrix.h"
 #include "runtime/scene.h"
 
 namespace kinora {
 
 namespace {
 
-dmat4 translate(const double* v) {
-    dmat4 m(1.0);
-    m[3] = dvec4(v[0], v[1], v[2], 1.0);
-    return m;
-}
-
-// Rodrigues' formula; the angle is reduced in double, so large ones keep their accuracy.
-dmat4 rotate(const double* v) {
-    dvec3 axis(v[0], v[1], v[2]);
-    double length = glm::length(axis);
-    if (!(length > 0)) return dmat4(1.0);
-    axis /= length;
-    double angle = radians(std::remainder(v[3], 360.0));
-    double c = std::cos(angle), s = std::sin(angle);
-    dmat4 m(1.0);
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            m[column][row] = (1 - c) * axis[column] * axis[row] + (column == row ? c : 0.0);
-    m[0][1] += s * axis.z;
-    m[0][2] -= s * axis.y;
-    m[1][0] -= s * axis.z;
-    m[1][2] += s * axis.x;
-    m[2][0] += s * axis.y;
-    m[2][1] -= s * axis.x;
-    return m;
-}
-
-dmat4 scale(const double* v) {
-    dmat4 m(1.0);
-    for (int i = 0; i < 3; ++i) m[i][i] = v[i];
-    return m;
-}
-
-dmat4 matrix(const double* v) {
-    dmat4 m;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) m[column][row] = v[row * 4 + column];
-    // The last row of an affine matrix is 0 0 0 1 (EXTREMES row 14: anything else is ignored).
-    for (int column = 0; column < 4; ++column) m[column][3] = column == 3 ? 1.0 : 0.0;
-    return m;
-}
-
-dmat4 lookat(const double* v) {
-    dvec3 eye(v[0], v[1], v[2]), interest(v[3], v[4], v[5]), up(v[6], v[7], v[8]);
-    dvec3 back = eye - interest;
-    dvec3 right = glm::cross(up, back);
-    if (!(glm::length(right) > 0)) return translate(v);
-    back = glm::normalize(back);
-    right = glm::normalize(right);
-    return dmat4(dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0), dvec4(eye, 1));
-}
-
-// d1 = sin(phi) o + cos(phi) d2 with o perpendicular to d2; p + k (p . o) d2 turns d1 towards d2 by
-// the angle when k = cot(phi - angle) - cot(phi).
-dmat4 skew(const double* v) {
-    dvec3 d1(v[1], v[2], v[3]), d2(v[4], v[5], v[6]);
-    if (!(glm::length(d1) > 0) || !(glm::length(d2) > 0)) return dmat4(1.0);
-    d1 = glm::normalize(d1);
-    d2 = glm::normalize(d2);
-    dvec3 o = d1 - glm::dot(d1, d2) * d2;
-    double sine = glm::length(o);
-    if (!(sine > 1e-12)) return dmat4(1.0);
-    o /= sine;
-    double phi = std::atan2(sine, glm::dot(d1, d2));
-    double k = 1.0 / std::tan(phi - radians(v[0])) - 1.0 / std::tan(phi);
-    dmat4 m(1.0);
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row) m[column][row] += k * o[column] * d2[row];
-    return m;
-}
-
 using MatrixOf = dmat4 (*)(const double*);
-constexpr MatrixOf kMatrixOf[] = {translate, rotate, scale, matrix, lookat, skew};  // TransformKind
+constexpr MatrixOf kMatrixOf[] = {translation_matrix, rotation_matrix, scale_matrix,
+                                  rows_matrix,        lookat_matrix,   skew_matrix};  // TransformKind
 
 }  // namespace
 

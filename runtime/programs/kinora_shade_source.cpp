@@ -12,7 +12,7 @@
 
 #include "collada/document.h"
 #include "collada/scene.h"
-#include "runtime/joined_code.h"
+#include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/exit_codes.h"
 
 namespace kinora {

@@ -1,4 +1,4 @@
-// runtime/joined_code.h: the code of a profile_RSL technique as one translation unit.
+// runtime/profile_rsl/joined_code.h: the code of a profile_RSL technique as one translation unit.
 #pragma once
 
 #include <string>

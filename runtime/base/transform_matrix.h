@@ -1,0 +1,18 @@
+// runtime/base/transform_matrix.h: the matrices of COLLADA's transforms (1.4.1, chapter 5). Angles
+// in degrees; `v` starts at the values in their order.
+#pragma once
+
+#include "runtime/base/math.h"
+
+namespace kinora {
+
+dmat4 translation_matrix(const double* v);  // x y z
+dmat4 rotation_matrix(const double* v);     // axis x y z, angle; a zero axis: the identity
+dmat4 scale_matrix(const double* v);        // x y z
+dmat4 rows_matrix(const double* v);         // 16 numbers row by row; the last row is ignored
+dmat4 lookat_matrix(const double* v);       // eye, interest, up
+// Angle, rotated axis, translated axis: the rotated axis turns towards the translated one by the
+// angle, as RiSkew has it.
+dmat4 skew_matrix(const double* v);
+
+}  // namespace kinora

@@ -1,0 +1,107 @@
+// runtime/profile_rsl/effect_shaders.cpp: from an effect's code to the shader a pass runs.
+#include "runtime/profile_rsl/effect_shaders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/profile_rsl/findings.h"
+#include "runtime/profile_rsl/joined_code.h"
+
+namespace kinora {
+
+namespace {
+
+struct Stage {
+    const char* name;
+    rsl::ShaderKind kind;
+};
+constexpr Stage kStages[] = {
+    {"SURFACE", rsl::ShaderKind::Surface},
+    {"DISPLACEMENT", rsl::ShaderKind::Displacement},
+    {"LIGHT", rsl::ShaderKind::Light},
+    {"VOLUME", rsl::ShaderKind::Volume},
+    {"TRANSFORMATION", rsl::ShaderKind::Transformation},
+    {"IMAGER", rsl::ShaderKind::Imager},
+};
+
+bool fits(const rsl::Type& type, size_t count) {
+    size_t needed = size_t(rsl::component_count(type.base)) *
+                    size_t(type.is_array() ? std::max(type.array_length, 1) : 1);
+    return count == needed || (rsl::is_triple(type) && (count == 1 || count == 4));
+}
+
+}  // namespace
+
+const char* stage_name(collada::RslStage stage) {
+    return kStages[size_t(stage)].name;
+}
+
+rsl::ShaderKind stage_kind(collada::RslStage stage) {
+    return kStages[size_t(stage)].kind;
+}
+
+EffectShaders compile_effect(const collada::Effect& effect, const rsl::CompileOptions& options,
+                             Diagnostics& diagnostics) {
+    rsl::ShaderSource source;
+    std::string text = joined_code(*effect.rsl, source.map);
+    source.text = text;
+    EffectShaders shaders;
+    for (auto& shader : rsl::compile(source, options, diagnostics))
+        shaders.push_back(std::move(shader));
+    return shaders;
+}
+
+std::shared_ptr<const rsl::Shader> choose_shader(const EffectShaders& shaders,
+                                                 const collada::RslShader& from,
+                                                 Diagnostics& diagnostics) {
+    rsl::ShaderKind kind = stage_kind(from.stage);
+    std::shared_ptr<const rsl::Shader> chosen;
+    int candidates = 0;
+    for (const auto& shader : shaders) {
+        if (shader->kind != kind || (!from.name.empty() && shader->name != from.name)) continue;
+        chosen = shader;
+        ++candidates;
+    }
+    if (candidates == 1) return chosen;
+    if (candidates > 1)
+        diagnostics.report(Code::RSL_SHADER_AMBIGUOUS, from.where, rsl::shader_kind_name(kind));
+    else
+        diagnostics.report(Code::RSL_SHADER_MISSING, from.where, rsl::shader_kind_name(kind),
+                           from.name.empty() ? "" : fmt::format(" named '{}'", from.name));
+    return nullptr;
+}
+
+const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::string_view name) {
+    for (const rsl::ShaderParameter& parameter : shader.parameters)
+        if (parameter.name == name) return &parameter;
+    return nullptr;
+}
+
+const rsl::ShaderParameter* bound_parameter(const rsl::Shader& shader, const collada::RslBind& bind,
+                                            Diagnostics& diagnostics) {
+    if (const rsl::ShaderParameter* parameter = find_parameter(shader, bind.symbol))
+        return parameter;
+    std::vector<std::string_view> names;
+    for (const rsl::ShaderParameter& p : shader.parameters) names.push_back(p.name);
+    Finding& finding =
+        diagnostics.report(Code::RSL_BIND_UNKNOWN, bind.where, shader.name, bind.symbol);
+    if (std::string_view near = nearest_name(bind.symbol, names); !near.empty())
+        finding.help = fmt::format("did you mean '{}'?", near);
+    return nullptr;
+}
+
+bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& value) {
+    bool is_string = parameter.type.base == rsl::BaseType::String;
+    if (is_string || value.type == collada::ParamType::String)
+        return is_string && value.type == collada::ParamType::String;
+    return fits(parameter.type, value.numbers.size());
+}
+
+std::string value_text(const collada::ParamValue& value) {
+    if (value.type == collada::ParamType::String) return "a string";
+    return fmt::format("{} of {} number(s)", collada::param_type_name(value.type),
+                       value.numbers.size());
+}
+
+}  // namespace kinora

@@ -1,0 +1,13 @@
+// runtime/profile_rsl/findings.h: the findings of profile_RSL, one constant a row of findings.def.
+#pragma once
+
+#include "runtime/base/diagnostic.h"
+
+namespace kinora::Code {
+
+#define FINDING(code, severity, text, explanation, fix) \
+    inline constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
+#include "runtime/profile_rsl/findings.def"
+#undef FINDING
+
+}  // namespace kinora::Code

@@ -1,0 +1,148 @@
+// runtime/programs/kinora_validate_batch.cpp: files on several threads, their reports in order.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <condition_variable>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "runtime/base/stats.h"
+#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/kinora_validate.h"
+#include "runtime/programs/output_file.h"
+#include "runtime/programs/validate_report.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kReadAhead = 64;  // files a thread, past the one that is to be printed next
+
+// A piece of the report and what it adds to the totals.
+struct Piece {
+    std::string text;
+    ValidateTotals totals;
+    bool done = false;
+};
+
+// Files are taken in order; a thread that runs too far ahead of the printer waits, so that memory
+// is bounded however long one file takes.
+class Queue {
+  public:
+    Queue(size_t count, size_t window) : pieces_(count), window_(window) {}
+
+    // The number of the next file to do, or nothing.
+    std::optional<size_t> take() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return stopped_ || taken_ < printed_ + window_; });
+        if (stopped_ || taken_ == pieces_.size()) return std::nullopt;
+        return taken_++;
+    }
+    void finish(size_t index, Piece piece) {
+        piece.done = true;
+        std::lock_guard lock(mutex_);
+        pieces_[index] = std::move(piece);
+        changed_.notify_all();
+    }
+    Piece wait_for(size_t index) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return pieces_[index].done; });
+        printed_ = index + 1;
+        changed_.notify_all();
+        return std::move(pieces_[index]);
+    }
+    void stop() {
+        std::lock_guard lock(mutex_);
+        stopped_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<Piece> pieces_;
+    size_t window_, taken_ = 0, printed_ = 0;
+    bool stopped_ = false;
+};
+
+Piece make_piece(const std::string& file, const ValidateSettings& settings,
+                 const std::string& stdin_bytes) {
+    FileResult result = validate_file(file, settings, stdin_bytes);
+    Piece piece;
+    piece.totals.add(result, settings.fail_on);
+    piece.text = settings.format->file(result, settings);
+    return piece;
+}
+
+void add(ValidateTotals& sum, const ValidateTotals& one) {
+    sum.files += one.files;
+    sum.failed += one.failed;
+    sum.unreadable += one.unreadable;
+    sum.bytes += one.bytes;
+    for (size_t s = 0; s < sum.counts.size(); ++s) sum.counts[s] += one.counts[s];
+}
+
+void print_stats(const ValidateTotals& totals, double ms, const ValidateSettings& settings) {
+    double seconds = std::max(ms, 1e-3) * 1e-3;
+    double files = double(totals.files) / seconds, mb = double(totals.bytes) * 1e-6 / seconds;
+    if (settings.stats_json)
+        fmt::print(stderr,
+                   "{{\"files\": {}, \"bytes\": {}, \"ms\": {:.3f}, \"files_per_second\": {:.1f}, "
+                   "\"mb_per_second\": {:.2f}, \"threads\": {}, \"peak_bytes\": {}}}\n",
+                   totals.files, totals.bytes, ms, files, mb, settings.threads,
+                   peak_memory_bytes());
+    else
+        fmt::print(stderr,
+                   "{} in {:.1f} ms: {:.0f} files/s, {:.1f} MB/s, {}, peak memory {:.1f} MB\n",
+                   counted(totals.files, "file"), ms, files, mb,
+                   counted(size_t(settings.threads), "thread"), double(peak_memory_bytes()) * 1e-6);
+}
+
+// Prints pieces in order, until the reader goes away.
+ValidateTotals print_report(Queue& queue, size_t count, const ValidateSettings& settings,
+                            OutputFile& out) {
+    const ReportFormat& format = *settings.format;
+    ValidateTotals totals;
+    bool any = false;
+    out.write(format.head(settings));
+    for (size_t i = 0; i < count && out.good(); ++i) {
+        Piece piece = queue.wait_for(i);
+        add(totals, piece.totals);
+        if (piece.text.empty()) continue;
+        if (any) out.write(format.separator);
+        out.write(piece.text);
+        any = true;
+    }
+    out.write(format.tail(totals, settings));
+    return totals;
+}
+
+}  // namespace
+
+int validate_batch(const ValidateSettings& settings, const std::vector<std::string>& files) {
+    Stopwatch watch;
+    OutputFile out(settings.output);
+    std::string stdin_bytes;
+    for (const std::string& file : files)
+        if (file == "-" && stdin_bytes.empty()) stdin_bytes = read_stdin();
+    size_t threads = std::min(size_t(settings.threads), files.size());
+    Queue queue(files.size(), kReadAhead * std::max<size_t>(threads, 1));
+    auto work = [&] {
+        while (auto index = queue.take())
+            queue.finish(*index, make_piece(files[*index], settings, stdin_bytes));
+    };
+    std::vector<std::thread> workers;
+    for (size_t t = 0; t < threads; ++t) workers.emplace_back(work);
+    ValidateTotals totals = print_report(queue, files.size(), settings, out);
+    queue.stop();
+    for (std::thread& worker : workers) worker.join();
+    if (settings.stats) print_stats(totals, watch.ms(), settings);
+    if (!out.close()) return kExitUnwritable;
+    return totals.exit_code();
+}
+
+}  // namespace kinora

@@ -1,0 +1,142 @@
+// runtime/programs/kinora_validate_file.cpp: one file through reading, rules, shaders and budgets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "collada/findings.h"
+#include "collada/id_path.h"
+#include "collada/profile.h"
+#include "runtime/profile_rsl/check.h"
+#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/kinora_validate.h"
+#include "runtime/programs/validate_rules.h"
+
+namespace kinora {
+
+namespace {
+
+// The last --severity that names the code, or what the profile makes of it.
+Severity weigh(const Finding& finding, const ValidateSettings& settings) {
+    std::string_view code = finding.info->code;
+    for (auto row = settings.severities.rbegin(); row != settings.severities.rend(); ++row) {
+        std::string_view name = row->first;
+        bool prefix = name.ends_with('*');
+        if (prefix ? code.starts_with(name.substr(0, name.size() - 1)) : code == name)
+            return row->second;
+    }
+    return collada::profile_severity(*finding.info, finding.severity, settings.validate.profile);
+}
+
+bool wanted(const Finding& finding, const ValidateSettings& settings) {
+    std::string_view code = finding.info->code;
+    return settings.only.empty() ||
+           std::any_of(settings.only.begin(), settings.only.end(),
+                       [&](const std::string& prefix) { return code.starts_with(prefix); });
+}
+
+void take_findings(FileResult& result, const ValidateSettings& settings) {
+    for (const Finding& finding : result.diagnostics->findings()) {
+        Severity severity = weigh(finding, settings);
+        if (severity == Severity::Off || !wanted(finding, settings)) continue;
+        ++result.counts[size_t(severity)];
+        if (settings.max_issues && result.findings.size() >= settings.max_issues) {
+            ++result.hidden;
+            continue;
+        }
+        result.findings.push_back(finding);
+        result.findings.back().severity = severity;
+    }
+}
+
+void finish(FileResult& result, const collada::Document* document,
+            const ValidateSettings& settings) {
+    take_findings(result, settings);
+    if (document) collada::add_id_paths(*document, result.files(), result.findings);
+    for (const Finding& finding : result.diagnostics->findings())
+        if (finding.info == &collada::Code::XML_OPEN && finding.where.file == kNoFile)
+            result.unreadable = true;
+    for (FileId file = 0; file < result.files().count(); ++file)
+        result.bytes += result.files().text(file).size();
+}
+
+void check(FileResult& result, const std::optional<collada::Document>& document,
+           const ValidateSettings& settings) {
+    Diagnostics& diagnostics = *result.diagnostics;
+    if (document) {
+        auto scene = collada::validate(*document, diagnostics, settings.validate);
+        if (scene) {
+            check_profile_rsl(*scene, settings.include_directories, diagnostics);
+            if (settings.info || !settings.budgets.empty()) {
+                result.info = scene_info(*document, *scene);
+                check_budgets(*result.info, settings, document->location(document->root()),
+                              diagnostics);
+            }
+        }
+        diagnostics.sort_unique();
+    }
+    finish(result, document ? &*document : nullptr, settings);
+}
+
+FileResult new_result(const std::string& name) {
+    FileResult result;
+    result.name = name;
+    result.diagnostics = std::make_unique<Diagnostics>();
+    return result;
+}
+
+FileResult refused(const std::string& input, const char* why, const ValidateSettings& settings) {
+    FileResult result = new_result(input);
+    result.diagnostics->report(collada::Code::XML_OPEN, Location{}, input, why);
+    finish(result, nullptr, settings);
+    return result;
+}
+
+}  // namespace
+
+size_t FileResult::at_least(Severity severity) const {
+    size_t sum = 0;
+    for (size_t s = size_t(severity); s < counts.size(); ++s) sum += counts[s];
+    return sum;
+}
+
+void ValidateTotals::add(const FileResult& result, Severity fail_on) {
+    ++files;
+    bytes += result.bytes;
+    unreadable += result.unreadable;
+    failed += !result.unreadable && result.at_least(fail_on) > 0;
+    for (size_t s = 0; s < counts.size(); ++s) counts[s] += result.counts[s];
+}
+
+int ValidateTotals::exit_code() const {
+    return unreadable ? kExitUnreadable : failed ? kExitSomeFailed : kExitOk;
+}
+
+FileResult validate_text(const std::string& name, std::string bytes,
+                         const ValidateSettings& settings) {
+    FileResult result = new_result(name);
+    auto document = collada::read_document_text(name, std::move(bytes), *result.diagnostics);
+    check(result, document, settings);
+    return result;
+}
+
+FileResult validate_file(const std::string& input, const ValidateSettings& settings,
+                         const std::string& stdin_bytes) {
+    if (input == "-") return validate_text("<stdin>", stdin_bytes, settings);
+    std::error_code error;
+    auto type = std::filesystem::status(input, error).type();
+    using std::filesystem::file_type;
+    if (type == file_type::directory)
+        return refused(input,
+                       settings.recurse ? "no .dae, .zae or .kmz file in it"
+                                        : "it is a directory; -r reads the files in it",
+                       settings);
+    if (type == file_type::character || type == file_type::block || type == file_type::socket)
+        return refused(input, "it is a device, not a file", settings);
+    FileResult result = new_result(input);
+    auto document = collada::read_document(input, *result.diagnostics);
+    check(result, document, settings);
+    return result;
+}
+
+}  // namespace kinora

@@ -1,0 +1,50 @@
+// runtime/programs/kinora_validate_inputs.cpp: files and directories to a list of files.
+#include <algorithm>
+#include <filesystem>
+
+#include "runtime/programs/kinora_validate.h"
+
+namespace kinora {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_scene_name(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return extension == ".dae" || extension == ".zae" || extension == ".kmz";
+}
+
+// Links to directories are not followed: they may lead back. What cannot be opened is passed over.
+void add_directory(const std::string& directory, std::vector<std::string>& files) {
+    std::error_code error;
+    std::vector<std::string> found;
+    fs::recursive_directory_iterator at(
+        directory, fs::directory_options::skip_permission_denied, error);
+    for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+        std::error_code ignored;
+        if (is_scene_name(at->path()) && !at->is_directory(ignored))
+            found.push_back(at->path().string());
+    }
+    std::sort(found.begin(), found.end());
+    files.insert(files.end(), found.begin(), found.end());
+    if (found.empty()) files.push_back(directory);  // reported as what it is
+}
+
+}  // namespace
+
+std::vector<std::string> expand_inputs(const ValidateSettings& settings) {
+    std::vector<std::string> files;
+    for (const std::string& input : settings.inputs) {
+        std::error_code error;
+        if (settings.recurse && input != "-" && fs::is_directory(input, error))
+            add_directory(input, files);
+        else
+            files.push_back(input);
+    }
+    return files;
+}
+
+}  // namespace kinora

@@ -1,0 +1,34 @@
+// runtime/programs/output_file.h: text to stdout, or to a file that has its name only when whole.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kinora {
+
+class OutputFile {
+  public:
+    explicit OutputFile(std::string path);  // "" or "-": stdout
+    ~OutputFile();                          // what was not closed is dropped
+    OutputFile(const OutputFile&) = delete;
+
+    void write(std::string_view text);
+    bool good() const { return error_ == 0; }
+    // Gives the file its name. False: it cannot be written; stderr says why, unless the reader of
+    // stdout has gone away.
+    bool close();
+
+  private:
+    std::string path_, temporary_;
+    int descriptor_ = -1;
+    int error_ = 0;  // errno of the first failure
+    std::string buffer_;
+    void flush();
+};
+
+// Replaces a file by the text, at once; permissions stay. 0, or errno of what failed.
+int replace_file(const std::string& path, std::string_view text);
+
+std::string read_stdin();
+
+}  // namespace kinora

@@ -1,0 +1,56 @@
+// runtime/programs/validate_report_junit.cpp: JUnit's XML as build servers read it: a suite a file,
+// a case a finding that fails, or one case that passes.
+#include <fmt/format.h>
+
+#include "runtime/programs/json_text.h"
+#include "runtime/programs/validate_report.h"
+
+namespace kinora {
+
+namespace {
+
+std::string junit_head(const ValidateSettings&) {
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"kinora-validate\">\n";
+}
+
+std::string failing_case(const FileResult& result, const Finding& finding) {
+    return fmt::format(
+        "    <testcase classname=\"{}\" name=\"{}\">\n"
+        "      <{} type=\"{}\" message=\"{}\">{}</{}>\n    </testcase>\n",
+        xml_text(result.name),
+        xml_text(fmt::format("{} {}", finding.info->code, finding.id_path)),
+        result.unreadable ? "error" : "failure", finding.info->code, xml_text(finding.message),
+        xml_text(format_finding(finding, result.files())), result.unreadable ? "error" : "failure");
+}
+
+std::string junit_file(const FileResult& result, const ValidateSettings& settings) {
+    std::string cases, remarks;
+    size_t failing = 0;
+    for (const Finding& finding : result.findings) {
+        if (finding.severity < settings.fail_on) {
+            remarks += format_finding(finding, result.files());
+            continue;
+        }
+        ++failing;
+        cases += failing_case(result, finding);
+    }
+    if (cases.empty())
+        cases = fmt::format("    <testcase classname=\"{}\" name=\"valid\"/>\n",
+                            xml_text(result.name));
+    if (!remarks.empty())
+        cases += fmt::format("    <system-out>{}</system-out>\n", xml_text(remarks));
+    return fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}  </testsuite>\n",
+        xml_text(result.name), failing ? failing : 1, result.unreadable ? 0 : failing,
+        result.unreadable ? failing : 0, cases);
+}
+
+std::string junit_tail(const ValidateTotals&, const ValidateSettings&) {
+    return "</testsuites>\n";
+}
+
+}  // namespace
+
+const ReportFormat kJunitReport{"junit", junit_head, junit_file, "", junit_tail};
+
+}  // namespace kinora

@@ -1,0 +1,134 @@
+// runtime/programs/validate_rules.cpp: the rows of all findings.def files as one list.
+#include "runtime/programs/validate_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "collada/findings.h"
+#include "jit/findings.h"
+#include "rsl/findings.h"
+#include "runtime/findings.h"
+#include "runtime/profile_rsl/findings.h"
+#include "runtime/programs/json_text.h"
+
+namespace kinora {
+
+namespace {
+
+using Rows = std::vector<const FindingInfo*>;
+
+// By code; of several rows with one code the first one given stays.
+void order(Rows& rows) {
+    auto code = [](const FindingInfo* row) { return std::string_view(row->code); };
+    std::stable_sort(rows.begin(), rows.end(), [&](auto* a, auto* b) { return code(a) < code(b); });
+    rows.erase(std::unique(rows.begin(), rows.end(),
+                           [&](auto* a, auto* b) { return code(a) == code(b); }),
+               rows.end());
+}
+
+Rows make_rules() {
+    Rows rows;
+    for (auto row = collada::all_findings(); *row; ++row) rows.push_back(*row);
+    for (const FindingInfo* row : rsl::finding_rows()) rows.push_back(row);
+    for (const FindingInfo* row : {
+#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#include "runtime/profile_rsl/findings.def"
+#include "runtime/programs/validate_findings.def"
+#undef FINDING
+         })
+        rows.push_back(row);
+    order(rows);
+    return rows;
+}
+
+Rows make_others() {
+    Rows rows = {
+#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#include "runtime/findings.def"
+#undef FINDING
+#define FINDING(code, severity, text, explanation, fix) &jit::Code::code,
+#include "jit/findings.def"
+#undef FINDING
+    };
+    order(rows);
+    return rows;
+}
+
+const FindingInfo* find(const Rows& rows, std::string_view code) {
+    auto at = std::lower_bound(rows.begin(), rows.end(), code,
+                               [](auto* row, std::string_view c) { return row->code < c; });
+    return at != rows.end() && (*at)->code == code ? *at : nullptr;
+}
+
+}  // namespace
+
+const std::vector<const FindingInfo*>& validate_rules() {
+    static const Rows kRules = make_rules();
+    return kRules;
+}
+
+const FindingInfo* find_rule(std::string_view code) {
+    static const Rows kOthers = make_others();
+    const FindingInfo* own = find(validate_rules(), code);
+    return own ? own : find(kOthers, code);
+}
+
+std::optional<size_t> rule_index(const FindingInfo& info) {
+    const Rows& rows = validate_rules();
+    auto at = std::lower_bound(rows.begin(), rows.end(), std::string_view(info.code),
+                               [](auto* row, std::string_view c) { return row->code < c; });
+    if (at == rows.end() || std::string_view((*at)->code) != info.code) return std::nullopt;
+    return size_t(at - rows.begin());
+}
+
+std::optional<Severity> parse_severity(std::string_view name) {
+    for (int s = 0; s <= int(Severity::Error); ++s)
+        if (name == severity_name(Severity(s))) return Severity(s);
+    return std::nullopt;
+}
+
+std::string rule_text(const FindingInfo& info) {
+    std::string text;
+    for (const char* c = info.text; *c; ++c) {
+        if (*c == '{' && c[1] != '{') {
+            while (*c && *c != '}') ++c;
+            text += 'N';
+            if (!*c) break;
+        } else {
+            text += *c;
+            if ((*c == '{' || *c == '}') && c[1] == *c) ++c;
+        }
+    }
+    return text;
+}
+
+std::string rules_text() {
+    std::string text;
+    for (const FindingInfo* row : validate_rules())
+        text += fmt::format("{:<28} {:<8} {}\n", row->code, severity_name(row->severity),
+                            rule_text(*row));
+    return text;
+}
+
+std::string rules_json() {
+    std::string text = "[";
+    for (const FindingInfo* row : validate_rules())
+        text += fmt::format(
+            "{}\n{{\"code\": {}, \"severity\": {}, \"text\": {}, \"explanation\": {}, "
+            "\"fix\": {}}}",
+            row == validate_rules().front() ? "" : ",", json_string(row->code),
+            json_string(severity_name(row->severity)), json_string(rule_text(*row)),
+            json_string(row->explanation), json_string(row->fix));
+    return text + "\n]\n";
+}
+
+std::string explain_text(const FindingInfo& info) {
+    std::string text = fmt::format("{} ({})\n    {}\n", info.code, severity_name(info.severity),
+                                   rule_text(info));
+    if (*info.explanation) text += fmt::format("\n{}\n", info.explanation);
+    if (*info.fix) text += fmt::format("\nTo fix it: {}.\n", info.fix);
+    return text;
+}
+
+}  // namespace kinora
