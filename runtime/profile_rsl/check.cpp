@@ -164,8 +164,7 @@ class Check {
         const CheckedEffect* effect = effect_of(binding.material);
         if (!effect || !effect->compiled) return;
         const collada::Material& material = scene_.materials[binding.material];
-        for (const PassShader& pass : effect->passes)
-            check_surface_stage(*pass.from, material);
+        for (const PassShader& pass : effect->passes) check_surface_stage(*pass.from, material);
         auto some_has = [&](const std::string& name) {
             return std::any_of(
                 effect->passes.begin(), effect->passes.end(),

@@ -1,4 +1,5 @@
-// runtime/profile_rsl/joined_code.cpp: several <code> and <include> texts as one, with their places.
+// runtime/profile_rsl/joined_code.cpp: several <code> and <include> texts as one, with their
+// places.
 #include "runtime/profile_rsl/joined_code.h"
 
 #include <fmt/format.h>

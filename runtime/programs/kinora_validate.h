@@ -20,13 +20,13 @@ struct ReportFormat;
 struct ValidateSettings {
     std::vector<std::string> inputs;  // files, directories, - for stdin
     const ReportFormat* format = nullptr;
-    std::string output;   // -o; "": stdout
+    std::string output;    // -o; "": stdout
     bool recurse = false;  // -r
     int threads = 1;
     collada::ValidateOptions validate;
     std::vector<std::string> include_directories;
     std::vector<std::pair<std::string, Severity>> severities;  // code or PREFIX*; the last counts
-    std::vector<std::string> only;                              // prefixes of codes; none: all
+    std::vector<std::string> only;                             // prefixes of codes; none: all
     std::vector<std::pair<std::string, double>> budgets;
     Severity fail_on = Severity::Error;
     size_t max_issues = 0;  // shown per file; 0: all
@@ -77,9 +77,6 @@ FileResult validate_text(const std::string& name, std::string bytes,
 
 // kinora_validate_batch.cpp: all files; prints the report. Returns an exit code.
 int validate_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
-
-// kinora_validate_fix.cpp: repairs files as --fix asks. Returns an exit code.
-int fix_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
 
 // kinora_validate_budget.cpp: findings where `info` passes a budget.
 void check_budgets(const SceneInfo& info, const ValidateSettings& settings, Location where,

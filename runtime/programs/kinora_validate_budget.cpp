@@ -1,6 +1,8 @@
 // runtime/programs/kinora_validate_budget.cpp: how much of what a scene may hold.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "runtime/programs/json_text.h"
 #include "runtime/programs/kinora_validate.h"
 #include "runtime/programs/validate_rules.h"

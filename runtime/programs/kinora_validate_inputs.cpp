@@ -21,8 +21,8 @@ bool is_scene_name(const fs::path& path) {
 void add_directory(const std::string& directory, std::vector<std::string>& files) {
     std::error_code error;
     std::vector<std::string> found;
-    fs::recursive_directory_iterator at(
-        directory, fs::directory_options::skip_permission_denied, error);
+    fs::recursive_directory_iterator at(directory, fs::directory_options::skip_permission_denied,
+                                        error);
     for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
         std::error_code ignored;
         if (is_scene_name(at->path()) && !at->is_directory(ignored))

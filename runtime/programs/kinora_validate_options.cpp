@@ -20,7 +20,8 @@ constexpr int kMostThreads = 1024;
 constexpr const char* kExitHelp =
     "Exit codes: 0 valid; 1 some file has errors (or what --fail-on names); 2 usage; 3 some file\n"
     "cannot be read; 6 the report cannot be written; 75 out of memory.\n"
-    "Groups of codes: XML_ DOC_ SCHEMA_ ID_ SID_ LINK_ FILE_ SRC_ PRIM_ MAT_ TEX_ FX_ SKIN_ MORPH_\n"
+    "Groups of codes: XML_ DOC_ SCHEMA_ ID_ SID_ LINK_ FILE_ SRC_ PRIM_ MAT_ TEX_ FX_ SKIN_ "
+    "MORPH_\n"
     "ANIM_ CAM_ LIGHT_ RSL_ INFO_ PORT_.";
 
 int parse_threads(const std::string& text) {
@@ -65,8 +66,8 @@ bool is_prefix_of_some_rule(std::string_view prefix) {
 }
 
 void add_severity(const std::string& text, ValidateSettings& s) {
-    auto [code, name] =
-        split_pair(text, "--severity", "takes CODE=off|hint|info|warning|error, CODE may be PORT_*");
+    auto [code, name] = split_pair(text, "--severity",
+                                   "takes CODE=off|hint|info|warning|error, CODE may be PORT_*");
     code = upper(code);
     auto severity = parse_severity(name);
     if (!severity)
@@ -77,8 +78,7 @@ void add_severity(const std::string& text, ValidateSettings& s) {
 
 void add_budget(const std::string& text, ValidateSettings& s) {
     auto [name, number] = split_pair(text, "--budget", "takes NAME=NUMBER");
-    if (!is_budget_name(name))
-        throw CLI::ValidationError("--budget", "knows " + budget_names());
+    if (!is_budget_name(name)) throw CLI::ValidationError("--budget", "knows " + budget_names());
     double most = 0;
     auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), most);
     if (error != std::errc() || *end != 0 || !std::isfinite(most) || most < 0)
@@ -131,9 +131,6 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
     app.add_option("--budget", w.budgets, "NAME=NUMBER,...: " + budget_names())
         ->delimiter(',')
         ->allow_extra_args(false);
-    auto* fix = app.add_flag("--fix", s.fix, "repair: the text to -o or stdout");
-    auto* diff = app.add_flag("--diff", s.diff, "show the repairs as a unified diff")->needs(fix);
-    app.add_flag("--in-place", s.in_place, "write them into the files")->needs(fix)->excludes(diff);
     app.add_flag("--list-rules", w.list_rules, "every code, its severity and text");
     app.add_option("--explain", w.explain, "what a code means and what to do; all for all");
     app.add_option("--print-schema", w.schema, "an XSD with profile_RSL: 1.4.1 or 1.5");
@@ -151,7 +148,8 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
 
 void take_words(const CLI::App& app, const Words& w, ValidateSettings& s) {
     s.format = find_report_format(w.format);
-    if (!s.format) throw CLI::ValidationError("--format", "knows text, json, sarif, junit and html");
+    if (!s.format)
+        throw CLI::ValidationError("--format", "knows text, json, sarif, junit and html");
     s.threads = parse_threads(w.threads);
     s.validate.profile = parse_profile(w.profile);
     auto fail_on = parse_severity(w.fail_on);

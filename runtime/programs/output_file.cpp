@@ -88,8 +88,8 @@ int replace_file(const std::string& path, std::string_view text) {
     if (::stat(path.c_str(), &status) != 0) return errno;
     if (::access(path.c_str(), W_OK) != 0) return errno;
     std::string temporary = path + ".tmp" + std::to_string(::getpid());
-    int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                            status.st_mode & 07777);
+    int descriptor =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, status.st_mode & 07777);
     if (descriptor < 0) return errno;
     int error = write_all(descriptor, text);
     if (!error && ::fchmod(descriptor, status.st_mode & 07777) != 0) error = errno;

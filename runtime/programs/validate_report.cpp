@@ -19,8 +19,9 @@ int count_characters(std::string_view text) {
 }
 
 int character_column(FileId file, LineColumn at, const SourceFiles& files) {
-    return count_characters(files.line_text(file, at.line).substr(
-               0, std::min(size_t(at.column) - 1, files.line_text(file, at.line).size()))) +
+    return count_characters(files.line_text(file, at.line)
+                                .substr(0, std::min(size_t(at.column) - 1,
+                                                    files.line_text(file, at.line).size()))) +
            1;
 }
 

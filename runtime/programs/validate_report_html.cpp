@@ -89,7 +89,8 @@ update();
 std::string marked_line(std::string_view line, size_t begin, size_t end) {
     begin = std::min(begin, line.size());
     end = std::clamp(end, begin, line.size());
-    size_t first = begin > kWidestLine / 2 && line.size() > kWidestLine ? begin - kWidestLine / 2 : 0;
+    size_t first =
+        begin > kWidestLine / 2 && line.size() > kWidestLine ? begin - kWidestLine / 2 : 0;
     size_t last = std::min(line.size(), first + kWidestLine);
     end = std::min(end, last);
     std::string text = first ? "&hellip;" : "";
@@ -131,10 +132,11 @@ std::string article(const Finding& finding, const SourceFiles& files) {
         finding.info->code, place(finding.where, files), xml_text(finding.id_path),
         excerpt(finding.where, files));
     for (const Note& note : finding.notes)
-        text += fmt::format("<p>note: {} <span class=\"path\">{}</span></p>{}",
-                            xml_text(note.message), place(note.where, files),
-                            excerpt(note.where, files));
-    if (!finding.help.empty()) text += fmt::format("<p class=\"help\">{}</p>", xml_text(finding.help));
+        text +=
+            fmt::format("<p>note: {} <span class=\"path\">{}</span></p>{}", xml_text(note.message),
+                        place(note.where, files), excerpt(note.where, files));
+    if (!finding.help.empty())
+        text += fmt::format("<p class=\"help\">{}</p>", xml_text(finding.help));
     if (*finding.info->explanation)
         text += fmt::format("<details><summary>why</summary><p>{}</p></details>",
                             xml_text(finding.info->explanation));
@@ -150,7 +152,8 @@ std::string html_file(const FileResult& result, const ValidateSettings&) {
                                    xml_text(result.name), counts_text(result.counts));
     for (const Finding& finding : result.findings) text += article(finding, result.files());
     if (result.findings.empty()) text += "<p class=\"none\">nothing to say</p>\n";
-    if (result.hidden) text += fmt::format("<p class=\"none\">{} more not shown</p>\n", result.hidden);
+    if (result.hidden)
+        text += fmt::format("<p class=\"none\">{} more not shown</p>\n", result.hidden);
     if (result.info)
         text += fmt::format("<details><summary>what it holds</summary><pre>{}</pre></details>\n",
                             xml_text(info_text(result.name, *result.info)));
@@ -158,9 +161,9 @@ std::string html_file(const FileResult& result, const ValidateSettings&) {
 }
 
 std::string html_tail(const ValidateTotals& totals, const ValidateSettings&) {
-    return fmt::format("</main>\n<p class=\"none\">{}: {}. kinora-validate {}</p>\n{}</body></html>\n",
-                       counted(totals.files, "file"), counts_text(totals.counts), KINORA_VERSION,
-                       kScript);
+    return fmt::format(
+        "</main>\n<p class=\"none\">{}: {}. kinora-validate {}</p>\n{}</body></html>\n",
+        counted(totals.files, "file"), counts_text(totals.counts), KINORA_VERSION, kScript);
 }
 
 }  // namespace

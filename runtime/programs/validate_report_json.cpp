@@ -20,10 +20,10 @@ std::string place_json(Location where, const SourceFiles& files) {
 }
 
 std::string finding_json(const Finding& finding, const SourceFiles& files) {
-    std::string text = fmt::format("{{\"code\": {}, \"severity\": {}, \"message\": {}{}",
-                                   json_string(finding.info->code),
-                                   json_string(severity_name(finding.severity)),
-                                   json_string(finding.message), place_json(finding.where, files));
+    std::string text =
+        fmt::format("{{\"code\": {}, \"severity\": {}, \"message\": {}{}",
+                    json_string(finding.info->code), json_string(severity_name(finding.severity)),
+                    json_string(finding.message), place_json(finding.where, files));
     if (!finding.id_path.empty())
         text += fmt::format(", \"path\": {}", json_string(finding.id_path));
     if (!finding.help.empty()) text += fmt::format(", \"help\": {}", json_string(finding.help));

@@ -17,8 +17,7 @@ std::string failing_case(const FileResult& result, const Finding& finding) {
     return fmt::format(
         "    <testcase classname=\"{}\" name=\"{}\">\n"
         "      <{} type=\"{}\" message=\"{}\">{}</{}>\n    </testcase>\n",
-        xml_text(result.name),
-        xml_text(fmt::format("{} {}", finding.info->code, finding.id_path)),
+        xml_text(result.name), xml_text(fmt::format("{} {}", finding.info->code, finding.id_path)),
         result.unreadable ? "error" : "failure", finding.info->code, xml_text(finding.message),
         xml_text(format_finding(finding, result.files())), result.unreadable ? "error" : "failure");
 }
@@ -35,8 +34,8 @@ std::string junit_file(const FileResult& result, const ValidateSettings& setting
         cases += failing_case(result, finding);
     }
     if (cases.empty())
-        cases = fmt::format("    <testcase classname=\"{}\" name=\"valid\"/>\n",
-                            xml_text(result.name));
+        cases =
+            fmt::format("    <testcase classname=\"{}\" name=\"valid\"/>\n", xml_text(result.name));
     if (!remarks.empty())
         cases += fmt::format("    <system-out>{}</system-out>\n", xml_text(remarks));
     return fmt::format(

@@ -23,8 +23,8 @@ std::string rule_json(const FindingInfo& row) {
     std::string text = fmt::format(
         "{{\"id\": {}, \"shortDescription\": {}, \"defaultConfiguration\": {{\"enabled\": {}, "
         "\"level\": \"{}\"}}",
-        json_string(row.code), message_json(rule_text(row)),
-        row.severity != Severity::Off, level(row.severity));
+        json_string(row.code), message_json(rule_text(row)), row.severity != Severity::Off,
+        level(row.severity));
     if (*row.explanation)
         text += fmt::format(", \"fullDescription\": {}", message_json(row.explanation));
     if (*row.fix) text += fmt::format(", \"help\": {}", message_json(row.fix));
@@ -46,9 +46,9 @@ std::string sarif_head(const ValidateSettings&) {
 std::string location_json(const std::string& file, Location where, const SourceFiles& files,
                           std::string_view id_path, std::string_view message = {}) {
     std::string uri = where.file == kNoFile ? file : files.name(where.file);
-    std::string text = fmt::format(
-        "{{\"physicalLocation\": {{\"artifactLocation\": {{\"uri\": {}}}",
-        json_string(uri_of_path(uri)));
+    std::string text =
+        fmt::format("{{\"physicalLocation\": {{\"artifactLocation\": {{\"uri\": {}}}",
+                    json_string(uri_of_path(uri)));
     if (where.file != kNoFile) {
         TextRegion r = text_region(where, files);
         text += fmt::format(
@@ -72,8 +72,7 @@ std::string result_json(const FileResult& result, const Finding& finding) {
     if (auto index = rule_index(*finding.info)) text += fmt::format(", \"ruleIndex\": {}", *index);
     text += fmt::format(", \"level\": \"{}\", \"message\": {}, \"locations\": [{}]",
                         level(finding.severity), message_json(message),
-                        location_json(result.name, finding.where, result.files(),
-                                      finding.id_path));
+                        location_json(result.name, finding.where, result.files(), finding.id_path));
     if (!finding.notes.empty()) {
         text += ", \"relatedLocations\": [";
         for (const Note& note : finding.notes)

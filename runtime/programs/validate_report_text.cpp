@@ -20,10 +20,9 @@ std::string text_file(const FileResult& result, const ValidateSettings& settings
             text += fmt::format("    why: {}\n", finding.info->explanation);
     }
     if (result.hidden && !settings.quiet)
-        text += fmt::format("{}: {} more not shown (--max-issues {})\n", result.name,
-                            result.hidden, settings.max_issues);
-    if (settings.verbose)
-        text += fmt::format("{}: {}\n", result.name, counts_text(result.counts));
+        text += fmt::format("{}: {} more not shown (--max-issues {})\n", result.name, result.hidden,
+                            settings.max_issues);
+    if (settings.verbose) text += fmt::format("{}: {}\n", result.name, counts_text(result.counts));
     if (result.info) text += info_text(result.name, *result.info);
     return text;
 }

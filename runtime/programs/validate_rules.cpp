@@ -22,9 +22,9 @@ using Rows = std::vector<const FindingInfo*>;
 void order(Rows& rows) {
     auto code = [](const FindingInfo* row) { return std::string_view(row->code); };
     std::stable_sort(rows.begin(), rows.end(), [&](auto* a, auto* b) { return code(a) < code(b); });
-    rows.erase(std::unique(rows.begin(), rows.end(),
-                           [&](auto* a, auto* b) { return code(a) == code(b); }),
-               rows.end());
+    rows.erase(
+        std::unique(rows.begin(), rows.end(), [&](auto* a, auto* b) { return code(a) == code(b); }),
+        rows.end());
 }
 
 Rows make_rules() {
@@ -124,8 +124,8 @@ std::string rules_json() {
 }
 
 std::string explain_text(const FindingInfo& info) {
-    std::string text = fmt::format("{} ({})\n    {}\n", info.code, severity_name(info.severity),
-                                   rule_text(info));
+    std::string text =
+        fmt::format("{} ({})\n    {}\n", info.code, severity_name(info.severity), rule_text(info));
     if (*info.explanation) text += fmt::format("\n{}\n", info.explanation);
     if (*info.fix) text += fmt::format("\nTo fix it: {}.\n", info.fix);
     return text;

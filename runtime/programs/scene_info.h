@@ -1,0 +1,63 @@
+// runtime/programs/scene_info.h: what a scene holds, counted, for kinora-validate --info.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collada/scene.h"
+#include "runtime/base/math.h"
+#include "runtime/programs/image_size.h"
+
+namespace kinora {
+
+struct TextureInfo {
+    std::string name;  // the image's id
+    std::string uri;   // as written
+    bool found = false;
+    uint32_t width = 0, height = 0;  // 0: not known
+    std::string format;              // "png"
+};
+
+struct ClipInfo {
+    std::string name;
+    double start = 0, end = 0;  // seconds
+    size_t channels = 0;
+};
+
+struct Bounds {
+    dvec3 low{0}, high{0};
+};
+
+// Counts speak of the visual scene with instance_node unrolled: what a picture has to draw.
+struct SceneInfo {
+    std::string version;  // "1.4.1"
+    std::string unit;     // its name, "" if not written
+    double meter = 1;
+    char up = 'Y';
+    size_t nodes = 0, mesh_instances = 0, cameras = 0, lights = 0;
+    size_t meshes = 0;  // different ones among the instances
+    size_t triangles = 0, vertices = 0, lines = 0;
+    size_t uv_sets = 0;            // most on one mesh
+    size_t skins = 0, joints = 0;  // different joint nodes of all skins
+    size_t joints_per_skin = 0;    // most
+    size_t influences = 0;         // most on one vertex, weights of 0 left out
+    size_t morph_targets = 0;      // most on one mesh
+    std::vector<std::string> materials;
+    std::vector<TextureInfo> textures;
+    std::vector<ClipInfo> clips;
+    size_t channels = 0;
+    std::optional<std::pair<double, double>> animated;  // first and last key, seconds
+    // Of the rest pose, metres, in the file's own axes; nothing if there is no surface.
+    std::optional<Bounds> bounds;
+};
+
+SceneInfo scene_info(const collada::Document& document, const collada::SceneData& scene);
+
+// scene_bounds.cpp: node transforms, skins and morph weights at their rest values, metres.
+std::optional<Bounds> rest_bounds(const collada::SceneData& scene);
+
+std::string info_text(const std::string& name, const SceneInfo& info);
+std::string info_json(const SceneInfo& info);
+
+}  // namespace kinora
