@@ -41,6 +41,7 @@ struct FileResult {
     std::string name;  // as the user or the directory gave it; "<stdin>"
     bool unreadable = false;
     std::unique_ptr<Diagnostics> diagnostics;  // the texts that the findings speak of
+    std::shared_ptr<const void> keep;          // an unpacked archive, while it is spoken of
     std::vector<Finding> findings;             // to be shown
     std::array<size_t, 5> counts{};            // by severity, of all, shown or not
     size_t hidden = 0;                         // beyond --max-issues

@@ -6,6 +6,7 @@
 
 #include "collada/findings.h"
 #include "collada/id_path.h"
+#include "collada/open_scene.h"
 #include "collada/profile.h"
 #include "runtime/profile_rsl/check.h"
 #include "runtime/programs/exit_codes.h"
@@ -61,10 +62,13 @@ void finish(FileResult& result, const collada::Document* document,
 }
 
 void check(FileResult& result, const std::optional<collada::Document>& document,
-           const ValidateSettings& settings) {
+           const collada::SceneFile& file, const ValidateSettings& settings) {
     Diagnostics& diagnostics = *result.diagnostics;
     if (document) {
-        auto scene = collada::validate(*document, diagnostics, settings.validate);
+        collada::ValidateOptions options = settings.validate;
+        options.extract.folder = file.folder;
+        options.extract.scene_id = file.scene_id;
+        auto scene = collada::validate(*document, diagnostics, options);
         if (scene) {
             check_profile_rsl(*scene, settings.include_directories, diagnostics);
             if (settings.info || !settings.budgets.empty()) {
@@ -76,6 +80,14 @@ void check(FileResult& result, const std::optional<collada::Document>& document,
         diagnostics.sort_unique();
     }
     finish(result, document ? &*document : nullptr, settings);
+}
+
+void check_scene_file(FileResult& result, const std::optional<collada::SceneFile>& file,
+                      const ValidateSettings& settings) {
+    if (!file) return finish(result, nullptr, settings);
+    result.keep = file->keep;
+    auto document = collada::read_document(file->document, *result.diagnostics);
+    check(result, document, *file, settings);
 }
 
 FileResult new_result(const std::string& name) {
@@ -115,8 +127,13 @@ int ValidateTotals::exit_code() const {
 FileResult validate_text(const std::string& name, std::string bytes,
                          const ValidateSettings& settings) {
     FileResult result = new_result(name);
+    if (collada::is_archive_bytes(bytes)) {
+        check_scene_file(result, collada::open_scene_bytes(name, bytes, *result.diagnostics),
+                         settings);
+        return result;
+    }
     auto document = collada::read_document_text(name, std::move(bytes), *result.diagnostics);
-    check(result, document, settings);
+    check(result, document, {}, settings);
     return result;
 }
 
@@ -134,8 +151,7 @@ FileResult validate_file(const std::string& input, const ValidateSettings& setti
     if (type == file_type::character || type == file_type::block || type == file_type::socket)
         return refused(input, "it is a device, not a file", settings);
     FileResult result = new_result(input);
-    auto document = collada::read_document(input, *result.diagnostics);
-    check(result, document, settings);
+    check_scene_file(result, collada::open_scene(input, *result.diagnostics), settings);
     return result;
 }
 

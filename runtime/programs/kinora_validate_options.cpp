@@ -134,8 +134,9 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
     app.add_flag("--list-rules", w.list_rules, "every code, its severity and text");
     app.add_option("--explain", w.explain, "what a code means and what to do; all for all");
     app.add_option("--print-schema", w.schema, "an XSD with profile_RSL: 1.4.1 or 1.5");
-    app.add_flag("--allow-external", s.validate.extract.allow_external,
-                 "read files outside the scene's folder");
+    app.add_option("--allow-external", s.validate.extract.allow_external,
+                   "DIR: read files there too, outside the scene's folder")
+        ->allow_extra_args(false);
     app.add_option("-I", s.include_directories, "where shaders find #include files")
         ->allow_extra_args(false);
     app.add_option("--stats", w.stats, "what the run took, on stderr: text or json")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/shown_path.h"
 #include "runtime/programs/json_text.h"
 #include "runtime/programs/validate_report.h"
 
@@ -120,7 +121,8 @@ std::string excerpt(Location where, const SourceFiles& files) {
 std::string place(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return {};
     LineColumn at = files.line_column(where.file, where.begin);
-    return fmt::format("{}:{}:{}", xml_text(files.name(where.file)), at.line, at.column);
+    return fmt::format("{}:{}:{}", xml_text(shown_path(files.name(where.file))), at.line,
+                       at.column);
 }
 
 std::string article(const Finding& finding, const SourceFiles& files) {

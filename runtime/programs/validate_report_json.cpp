@@ -1,6 +1,7 @@
 // runtime/programs/validate_report_json.cpp: one JSON object; a line a file.
 #include <fmt/format.h>
 
+#include "runtime/base/shown_path.h"
 #include "runtime/programs/json_text.h"
 #include "runtime/programs/validate_report.h"
 
@@ -15,8 +16,8 @@ std::string place_json(Location where, const SourceFiles& files) {
     return fmt::format(
         ", \"file\": {}, \"line\": {}, \"column\": {}, \"end_line\": {}, \"end_column\": {}, "
         "\"offset\": {}, \"length\": {}",
-        json_string(files.name(where.file)), at.line, at.column, end.line, end.column, where.begin,
-        where.end > where.begin ? where.end - where.begin : 0);
+        json_string(shown_path(files.name(where.file))), at.line, at.column, end.line, end.column,
+        where.begin, where.end > where.begin ? where.end - where.begin : 0);
 }
 
 std::string finding_json(const Finding& finding, const SourceFiles& files) {
