@@ -70,7 +70,8 @@ std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std
     if (inside) found = search_folder(path.substr(0, path.size() - name.size()), name);
     if (found.empty()) found = search_folder(beside, name);
     if (!found.empty()) {
-        x.diag.report(Code::FILE_FALLBACK, where, uri, found);
+        bool case_only = lower(found) == lower(path);
+        x.diag.report(case_only ? Code::FILE_CASE : Code::FILE_FALLBACK, where, uri, found);
         return found;
     }
     if (!inside && is_file(path))
@@ -78,6 +79,13 @@ std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std
     else
         x.diag.report(Code::FILE_MISSING, where, uri);
     return {};
+}
+
+// 1.5 may make an image instead of loading it.
+bool is_created(const Element& image) {
+    for (const Element& child : image.children())
+        if (child.name.starts_with("create_")) return true;
+    return false;
 }
 
 }  // namespace
@@ -95,11 +103,14 @@ uint32_t image_index(Extraction& x, Link link) {
     if (from && !trim(from->text).empty()) {
         image.uri = trim(from->text);
         Location where = x.text_where({link.doc, from});
+        check_file_uri(x, image.uri, where);
         std::string path = path_of_uri(x.document(link.doc), image.uri);
         image.path = find_image(x, link.doc, path, image.uri, where);
     } else if (e.child("data") || (from && from->child("hex"))) {
         x.diag.report(Code::IMAGE_EMBEDDED, image.where, image.id);
-    } else {
+    } else if (from) {
+        x.diag.report(Code::FILE_EMPTY_URI, x.where({link.doc, from}), from->name);
+    } else if (!is_created(e)) {
         x.diag.report(Code::SCHEMA_MISSING_ELEMENT, image.where, "image", "init_from");
     }
     return at->second = append(x.scene.images, std::move(image));

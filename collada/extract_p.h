@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "collada/findings.h"
 #include "collada/scene.h"
@@ -34,6 +35,7 @@ struct Extraction {
     std::unordered_map<const Element*, uint32_t> made{};
     // Elements (of a value, or around one) that a channel may name.
     std::unordered_map<const Element*, TargetRef> target_of{};
+    std::unordered_set<const Element*> read_arrays{};  // whose numbers were parsed and checked
     // Nodes whose index is given out and whose content is still to be read.
     std::vector<std::pair<uint32_t, Link>> pending_nodes{};
     std::vector<bool> node_filled{};
@@ -91,6 +93,8 @@ void read_time_range(Extraction& x, Link visual_scene);
 std::string percent_decode(std::string_view text);
 // The path a URI means for a document, not checked to exist: schemes, %xx and backslashes undone.
 std::string path_of_uri(const Document& document, std::string_view uri);
+// Reports what is unportable about the spelling of a file's URI.
+void check_file_uri(Extraction& x, std::string_view uri, Location where);
 // Absolute, with links followed as far as it exists.
 std::string real_path(const std::string& path);
 // True when `path` (existing or not) lies in the folder tree of the root document, or all may.
@@ -183,6 +187,8 @@ void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& ef
 void read_rsl(Extraction& x, Link profile, uint32_t effect_number, Effect& effect);
 void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_number,
                  Effect& effect);
+// The <newparam sid> seen from `from`: in the elements around it, inside out; or null.
+const Element* find_newparam(const Element& from, std::string_view sid);
 // Index into effect.samplers of the texture `name`, or kNone (reported).
 uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect);
 

@@ -58,6 +58,22 @@ std::string path_of_uri(const Document& document, std::string_view uri) {
     return std::filesystem::path(path).lexically_normal().string();
 }
 
+void check_file_uri(Extraction& x, std::string_view uri, Location where) {
+    if (uri.find('\\') != uri.npos) x.diag.report(Code::FILE_BACKSLASH, where, uri);
+    if (uri.find(' ') != uri.npos) x.diag.report(Code::FILE_SPACE, where, uri);
+    std::string path(uri);
+    for (char& c : path)
+        if (c == '\\') c = '/';
+    bool scheme = path.starts_with("file:");
+    if (scheme) path.erase(0, 5);
+    bool host = path.starts_with("//") && !path.starts_with("///") &&
+                !starts_with_drive(std::string_view(path).substr(2));
+    if (host && scheme)
+        x.diag.report(Code::FILE_HOST, where, uri);
+    else if (path.starts_with('/') || starts_with_drive(path))
+        x.diag.report(Code::FILE_ABSOLUTE, where, uri);
+}
+
 std::string real_path(const std::string& path) {
     std::error_code error;
     // Absolute first: a relative path of nothing that exists would stay relative.

@@ -1,5 +1,6 @@
 // collada/extract_polygons.cpp: the five kinds of primitives as triangles of vertices.
 #include "collada/numbers_p.h"
+#include "collada/polygon_shape_p.h"
 #include "collada/primitives_p.h"
 #include "collada/triangulate_p.h"
 
@@ -88,6 +89,7 @@ class TriangleList {
     void read_polygons();
     void read_strips();
     void read_fans();
+    void report_shapes();
     std::vector<uint32_t> take() { return std::move(triangles_); }
 
   private:
@@ -95,6 +97,8 @@ class TriangleList {
     void add(uint32_t a, uint32_t b, uint32_t c) {
         if (ok(a) && ok(b) && ok(c)) triangles_.insert(triangles_.end(), {a, b, c});
     }
+    // An outline as the file has it; strips and fans repeat corners on purpose.
+    void see_shape(uint32_t first, uint32_t count);
     void add_polygon(uint32_t first, std::span<const uint32_t> loops);
     void report_short(uint32_t count) {
         if (!short_reported_)
@@ -111,6 +115,7 @@ class TriangleList {
     std::vector<uint32_t> triangles_;
     std::vector<dvec3> corners_;
     std::vector<uint32_t> cut_;
+    PolygonStatistics shapes_;  // only the validator asks for them
     bool short_reported_ = false, crossing_reported_ = false, hole_reported_ = false;
 };
 
@@ -122,6 +127,29 @@ void TriangleList::read_triangles() {
                             3 * p_.stride);
     triangles_.reserve(size_t(count) * 3);
     for (uint32_t t = 0; t < count; ++t) add(3 * t, 3 * t + 1, 3 * t + 2);
+    if (mesh_.x.options.everything)
+        for (uint32_t t = 0; t < count; ++t) see_shape(3 * t, 3);
+}
+
+void TriangleList::see_shape(uint32_t first, uint32_t count) {
+    corners_.clear();
+    for (uint32_t v = first; v < first + count; ++v) {
+        if (!ok(v)) return;
+        corners_.push_back(
+            mesh_.geometry.positions[size_t(p_.numbers[size_t(v) * p_.stride + offset_])]);
+    }
+    shapes_.add(corners_);
+}
+
+void TriangleList::report_shapes() {
+    Location where = mesh_.x.where(primitive_);
+    Diagnostics& diag = mesh_.x.diag;
+    if (shapes_.empty)
+        diag.report(Code::PRIM_DEGENERATE, where, shapes_.empty, shapes_.polygons);
+    if (shapes_.bent)
+        diag.report(Code::PRIM_NON_PLANAR, where, shapes_.bent, shapes_.polygons,
+                    100 * shapes_.worst_deviation);
+    if (shapes_.concave) diag.report(Code::PORT_CONCAVE, where, shapes_.concave);
 }
 
 // `loops` are the corner counts of outline and holes, which follow one another from `first`.
@@ -131,6 +159,7 @@ void TriangleList::add_polygon(uint32_t first, std::span<const uint32_t> loops) 
     for (uint32_t loop : loops) corners += loop;
     for (uint32_t v = first; v < first + corners; ++v)
         if (!ok(v)) return;
+    if (mesh_.x.options.everything) see_shape(first, loops[0]);
     if (corners == 3) return add(first, first + 1, first + 2);
     corners_.clear();
     for (uint32_t v = first; v < first + corners; ++v)
@@ -232,6 +261,25 @@ const KindRow* find_row(std::string_view name) {
 
 }  // namespace
 
+uint32_t count_lines(Extraction& x, Link primitive, const PrimitiveIndices& p,
+                     const PolygonList& strips) {
+    if (primitive.element->name == "lines") {
+        check_count(x, primitive, p.vertex_count() / 2);
+        if (p.vertex_count() % 2)
+            x.diag.report(Code::PRIM_P_COUNT, x.where(primitive), p.numbers.size(), 2 * p.stride);
+        return p.vertex_count() / 2;
+    }
+    check_count(x, primitive, strips.loop_sizes.size());
+    uint32_t segments = 0;
+    bool reported = false;
+    for (uint32_t vertices : strips.loop_sizes) {
+        if (vertices < 2 && !std::exchange(reported, true))
+            x.diag.report(Code::PRIM_STRIP_SHORT, x.where(primitive), vertices);
+        segments += vertices - std::min(vertices, 1u);
+    }
+    return segments;
+}
+
 bool is_triangulated(std::string_view name) {
     return find_row(name) != nullptr;
 }
@@ -241,6 +289,7 @@ std::vector<uint32_t> triangles_of(MeshReader& mesh, Link primitive, const Primi
                                    uint32_t position_offset) {
     TriangleList list(mesh, primitive, p, polygons, usable, position_offset);
     (list.*find_row(primitive.element->name)->read)();
+    list.report_shapes();
     return list.take();
 }
 

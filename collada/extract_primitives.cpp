@@ -160,14 +160,11 @@ void read_primitive(MeshReader& mesh, Link primitive) {
         mesh.x.diag.report(Code::PRIM_EMPTY, mesh.x.where(primitive), e.name);
         return;
     }
+    std::vector<bool> usable = usable_vertices(mesh, primitive, p, inputs);
     if (!is_triangulated(e.name)) {
-        uint32_t parts = uint32_t(p.parts.size());
-        mesh.geometry.line_count += e.name == "lines"
-                                        ? p.vertex_count() / 2
-                                        : p.vertex_count() - std::min(parts, p.vertex_count());
+        mesh.geometry.line_count += count_lines(mesh.x, primitive, p, polygons);
         return;
     }
-    std::vector<bool> usable = usable_vertices(mesh, primitive, p, inputs);
     std::vector<uint32_t> triangles =
         triangles_of(mesh, primitive, p, polygons, usable, inputs.offsets[0].offset);
     if (triangles.empty()) {

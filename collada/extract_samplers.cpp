@@ -95,16 +95,6 @@ void read_placement(const Element& texture, TextureSampler& sampler) {
     }
 }
 
-// The <newparam sid> seen from `from`: in the elements around it, inside out.
-const Element* find_newparam(const Element& from, std::string_view sid) {
-    for (const Element* scope = from.parent; scope; scope = scope->parent) {
-        for (const Element& child : scope->children())
-            if (child.name == "newparam" && child.value("sid") == sid) return &child;
-        if (scope->name == "effect") break;
-    }
-    return nullptr;
-}
-
 uint32_t image_by_id(Extraction& x, uint32_t doc, std::string_view id) {
     const Element* image = find_kind(x.document(doc), id, {"image"});
     return image ? image_index(x, {doc, image}) : kNone;
@@ -134,6 +124,15 @@ uint32_t image_of_param(Extraction& x, Link param, TextureSampler& sampler, int 
 }
 
 }  // namespace
+
+const Element* find_newparam(const Element& from, std::string_view sid) {
+    for (const Element* scope = from.parent; scope; scope = scope->parent) {
+        for (const Element& child : scope->children())
+            if (child.name == "newparam" && child.value("sid") == sid) return &child;
+        if (scope->name == "effect") break;
+    }
+    return nullptr;
+}
 
 uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect) {
     std::string_view name = texture.element->value("texture");

@@ -96,14 +96,17 @@ bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& 
     read_columns(*element, view);
     uint64_t stride = read_count(x, accessor, "stride", 1);
     uint64_t needed = view.columns.empty() ? 1 : view.columns.back() + 1;
-    if (stride < needed) {
-        x.diag.report(Code::SRC_STRIDE, x.where(accessor, "stride"), stride,
-                      std::string(stride == 0 ? "zero" : "less than its params"));
-        stride = needed;
-    }
+    if (stride == 0)
+        x.diag.report(Code::SRC_STRIDE, x.where(accessor, "stride"), stride);
+    else if (stride < needed)
+        x.diag.report(Code::SRC_PARAM, x.where(accessor, "stride"),
+                      fmt::format("stride is {}, the <param>s ask for {}", stride, needed));
+    stride = std::max(stride, needed);
     if (view.columns.empty())
         for (uint32_t i = 0; i < std::min<uint64_t>(stride, 4096); ++i) view.columns.push_back(i);
     uint64_t offset = read_count(x, accessor, "offset", 0);
+    if (offset > 0 && offset >= array_length)
+        x.diag.report(Code::SRC_OFFSET, x.where(accessor, "offset"), offset, array_length);
     uint64_t held = offset < array_length ? (array_length - offset) / stride : 0;
     uint64_t count = read_count(x, accessor, "count", held);
     uint64_t reach = 0;
@@ -131,6 +134,7 @@ DoubleSource read_double_source(Extraction& x, Link source) {
         return out;
     }
     std::vector<double> values = read_doubles(x.document(source.doc), *array, x.diag);
+    if (x.options.everything) x.read_arrays.insert(array);
     check_array_count(x, {source.doc, array}, values.size());
     SourceView view;
     if (!read_accessor(x, source, values.size(), view)) return out;

@@ -22,7 +22,8 @@ struct Lint {
     std::vector<const Element*> elements;  // in document order
     std::unordered_map<std::string_view, std::vector<const Element*>> by_name;
 
-    // The elements of this name, in document order.
+    // The elements of this name, in document order; not those inside a <technique profile> of other
+    // makers, where names mean what their maker says (RSL's are ours).
     std::span<const Element* const> named(std::string_view name) const {
         auto found = by_name.find(name);
         if (found == by_name.end()) return {};

@@ -44,6 +44,10 @@ struct MeshReader {
 // Adds the triangles of one element to the geometry.
 void read_primitive(MeshReader& mesh, Link primitive);
 
+// Segments of a <lines> or <linestrips>; checks its count.
+uint32_t count_lines(Extraction& x, Link primitive, const PrimitiveIndices& p,
+                     const PolygonList& strips);
+
 // Vertex numbers, three a triangle; only vertices with `usable` are named (empty: all are).
 std::vector<uint32_t> triangles_of(MeshReader& mesh, Link primitive, const PrimitiveIndices& p,
                                    const PolygonList& polygons, const std::vector<bool>& usable,

@@ -7,10 +7,18 @@ namespace kinora::collada {
 
 namespace {
 
-void list_elements(const Element& element, Lint& lint) {
+bool is_foreign(const Element& element) {
+    if (element.name != "technique") return false;
+    const Attribute* profile = element.attribute("profile");
+    return profile && profile->value != "RSL" && profile->value != "COMMON";
+}
+
+// As deep as the document may be.
+void list_elements(const Element& element, bool ours, Lint& lint) {
     lint.elements.push_back(&element);
-    lint.by_name[element.name].push_back(&element);
-    for (const Element& child : element.children()) list_elements(child, lint);
+    if (ours) lint.by_name[element.name].push_back(&element);
+    ours = ours && !is_foreign(element);
+    for (const Element& child : element.children()) list_elements(child, ours, lint);
 }
 
 constexpr void (*kRules[])(Lint&) = {
@@ -29,7 +37,7 @@ std::optional<SceneData> validate(const Document& document, Diagnostics& diag,
     bool shown = extract_into(x, document);
     Lint lint{x, document, x.scene, options, diag, {}, {}};
     lint.elements.reserve(document.element_count());
-    list_elements(document.root(), lint);
+    list_elements(document.root(), true, lint);
     for (auto rule : kRules) rule(lint);
     diag.sort_unique();
     if (!shown) return std::nullopt;

@@ -1,0 +1,133 @@
+// collada/lint_cycles.cpp: definitions that lead back to themselves. Cycles of instance_node are
+// found where the node tree is read.
+#include <algorithm>
+#include <string>
+
+#include "collada/lint_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+// The definitions of one kind and the links between them, followed depth first without recursion:
+// a chain may be as long as the file.
+class Definitions {
+  public:
+    explicit Definitions(Lint& lint) : lint_(lint) {}
+
+    void add_link(const Element* from, const Element* to, Location where) {
+        if (from && to) state_of(from).links.push_back({to, where});
+    }
+    void report_cycles() {
+        for (const Element* start : order_) {
+            if (states_[start].color == White) enter(start);
+            while (!path_.empty()) step();
+        }
+    }
+
+  private:
+    enum Color : uint8_t { White, Gray, Black };
+    struct State {
+        Color color = White;
+        size_t next = 0;
+        std::vector<std::pair<const Element*, Location>> links;
+    };
+
+    State& state_of(const Element* element) {
+        auto [at, fresh] = states_.try_emplace(element);
+        if (fresh) order_.push_back(element);
+        return at->second;
+    }
+    void enter(const Element* element) {
+        states_[element].color = Gray;
+        path_.push_back(element);
+    }
+    void step() {
+        State& s = states_[path_.back()];
+        if (s.next == s.links.size()) {
+            s.color = Black;
+            path_.pop_back();
+            return;
+        }
+        auto [to, where] = s.links[s.next++];
+        Color color = states_[to].color;
+        if (color == White) enter(to);
+        if (color == Gray) report(to, where);
+    }
+    void report(const Element* to, Location where) {
+        constexpr long kShown = 16;
+        auto from = std::find(path_.begin(), path_.end(), to);
+        std::string text;
+        for (auto e = from; e != path_.end(); ++e) {
+            if (e - from == kShown) {
+                text += "... -> ";
+                break;
+            }
+            text += label(**e) + " -> ";
+        }
+        lint_.diag.report(Code::LINK_CYCLE, where, text + label(*to));
+    }
+    static std::string label(const Element& e) {
+        std::string_view name = e.value(e.name == "newparam" ? "sid" : "id");
+        return name.empty() ? "<" + std::string(e.name) + ">" : "'" + std::string(name) + "'";
+    }
+
+    Lint& lint_;
+    std::unordered_map<const Element*, State> states_;
+    std::vector<const Element*> order_;
+    std::vector<const Element*> path_;
+};
+
+const Element* enclosing(const Element& element, std::string_view name) {
+    const Element* e = element.parent;
+    while (e && e->name != name) e = e->parent;
+    return e;
+}
+
+// Where `link` stands inside a `definition`, its attribute may name another one.
+struct CycleRow {
+    std::string_view definition, link, attribute;
+};
+constexpr CycleRow kCycles[] = {
+    {"controller", "skin", "source"},
+    {"controller", "morph", "source"},
+    {"physics_model", "instance_physics_model", "url"},
+    {"articulated_system", "instance_articulated_system", "url"},
+    {"formula", "csymbol", "definitionURL"},
+    {"formula", "instance_formula", "url"},
+};
+
+void add_links(Lint& lint, const CycleRow& row, Definitions& graph) {
+    for (const Element* link : lint.named(row.link)) {
+        std::string_view url = trim(link->value(row.attribute));
+        if (!url.starts_with('#')) continue;
+        const Element* from = enclosing(*link, row.definition);
+        const Element* to = from ? find_kind(lint.document, url.substr(1), {row.definition}) : nullptr;
+        graph.add_link(from, to, lint.where(*link, row.attribute));
+    }
+}
+
+// <newparam> whose sampler takes its <source> from another one: the sid in the elements around it.
+void add_params(Lint& lint, Definitions& graph) {
+    for (const Element* param : lint.named("newparam")) {
+        for (const Element& value : param->children()) {
+            const Element* source = value.child("source");
+            if (!source || !value.name.starts_with("sampler")) continue;
+            if (const Element* to = find_newparam(*source, trim(source->text)))
+                graph.add_link(param, to, lint.document.text_location(*source));
+        }
+    }
+}
+
+}  // namespace
+
+void lint_cycles(Lint& lint) {
+    // One graph: links lead from a definition to one of its own kind.
+    Definitions graph(lint);
+    for (const CycleRow& row : kCycles) add_links(lint, row, graph);
+    add_params(lint, graph);
+    graph.report_cycles();
+}
+
+}  // namespace kinora::collada

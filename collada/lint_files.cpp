@@ -1,0 +1,37 @@
+// collada/lint_files.cpp: files that <include> names; of images the reader speaks, of RSL sources
+// the reader of profile_RSL.
+#include <filesystem>
+
+#include "collada/lint_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+bool in_profile_rsl(const Element& element) {
+    for (const Element* e = element.parent; e; e = e->parent)
+        if (e->name == "profile_RSL") return true;
+    return false;
+}
+
+}  // namespace
+
+void lint_files(Lint& lint) {
+    for (const Element* include : lint.named("include")) {
+        std::string_view url = trim(include->value("url"));
+        Location where = lint.where(*include, "url");
+        if (url.empty()) {
+            if (include->attribute("url"))
+                lint.diag.report(Code::FILE_EMPTY_URI, where, include->name);
+            continue;
+        }
+        check_file_uri(lint.x, url, where);
+        if (in_profile_rsl(*include)) continue;
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(path_of_uri(lint.document, url), error))
+            lint.diag.report(Code::FILE_MISSING, where, url);
+    }
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,146 @@
+// tests/collada/rules_test.cpp: each code with a file that must cause it and one that must not.
+//
+// rules/CODE.dae holds <!-- expect: CODE --> at the end of each line where a finding begins, or
+// alone on the line before it; rules/CODE.ok.dae must not cause CODE at all. A second file of
+// either kind has more between the dots: CODE.morph.dae, CODE.ok.morph.dae.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "collada/validate.h"
+#include "tests/collada/reading.h"
+
+namespace kinora::collada {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = fs::path(KINORA_SOURCE_DIR) / "tests/collada/rules";
+
+struct RuleFile {
+    std::string name, code;
+    bool ok = false;  // must not cause it
+};
+
+std::vector<RuleFile> rule_files() {
+    std::vector<RuleFile> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(kFolder)) {
+        if (!entry.is_regular_file() || entry.path().extension() == ".md") continue;
+        std::string name = entry.path().filename().string();
+        std::string code = name.substr(0, name.find('.'));
+        std::string rest = name.substr(code.size());
+        files.push_back({name, code, rest.starts_with(".ok.")});
+    }
+    std::sort(files.begin(), files.end(), [](auto& a, auto& b) { return a.name < b.name; });
+    return files;
+}
+
+using Mark = std::pair<int, std::string>;  // line, code
+
+std::vector<Mark> read_marks(const fs::path& path) {
+    std::vector<Mark> marks;
+    std::ifstream in(path);
+    std::string line;
+    const std::string open = "<!-- expect: ";
+    for (int number = 1; std::getline(in, line); ++number) {
+        size_t at = line.find(open);
+        bool alone = at != line.npos && line.find_first_not_of(" \t") == at;
+        for (; at != line.npos; at = line.find(open, at + 1)) {
+            size_t begin = at + open.size();
+            marks.push_back({number + alone, line.substr(begin, line.find(' ', begin) - begin)});
+        }
+    }
+    return marks;
+}
+
+// Codes that are off by default are on here.
+void validate_file(Reading& r, const std::string& name, const std::string& code) {
+    for (const FindingInfo* const* info = all_findings(); *info; ++info)
+        if ((*info)->code == code && (*info)->severity == Severity::Off)
+            r.diag.set_severity(code, Severity::Hint);
+    r.document = read_document((kFolder / name).string(), r.diag);
+    if (r.document) r.scene = validate(*r.document, r.diag);
+}
+
+std::set<Mark> found_marks(const Reading& r) {
+    std::set<Mark> found;
+    for (const Finding& f : r.diag.findings())
+        if (f.where.file == 0)
+            found.insert({r.diag.files.line_column(0, f.where.begin).line, f.info->code});
+    return found;
+}
+
+// Files that cannot hold a mark: the finding may be anywhere.
+const std::set<std::string> kUnmarked = {"XML_EMPTY", "XML_ENCODING", "XML_RECODED"};
+
+class Rules : public testing::TestWithParam<RuleFile> {};
+
+TEST_P(Rules, FileSaysWhatIsFound) {
+    const RuleFile& file = GetParam();
+    Reading r;
+    validate_file(r, file.name, file.code);
+    if (file.ok) {
+        EXPECT_EQ(r.count(file.code), 0u) << r.all();
+        return;
+    }
+    EXPECT_GE(r.count(file.code), 1u) << r.all();
+    std::vector<Mark> marks = read_marks(kFolder / file.name);
+    bool marked = false;
+    for (const Mark& mark : marks) marked = marked || mark.second == file.code;
+    EXPECT_TRUE(marked || kUnmarked.count(file.code)) << "no mark <!-- expect: " << file.code;
+    std::set<Mark> found = found_marks(r);
+    for (const Mark& mark : marks)
+        EXPECT_TRUE(found.count(mark))
+            << mark.second << " is not reported at line " << mark.first << "\n"
+            << r.all();
+    // The code of the file is found at its marks only.
+    std::set<Mark> wanted(marks.begin(), marks.end());
+    for (const Mark& at : found)
+        if (marked && at.second == file.code) EXPECT_TRUE(wanted.count(at)) << r.all();
+}
+
+INSTANTIATE_TEST_SUITE_P(Folder, Rules, testing::ValuesIn(rule_files()), [](const auto& info) {
+    std::string name = info.param.name.substr(0, info.param.name.rfind('.'));
+    std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+    return name;
+});
+
+// Codes without a pair, and why.
+const std::set<std::string> kNoPair = {
+    "XML_OPEN",   // there is no file to hold
+    "XML_LIMIT",  // takes a file beyond 2 GB
+};
+
+TEST(RuleFiles, EveryCodeHasAFileThatCausesItAndOneThatDoesNot) {
+    std::set<std::string> bad, ok;
+    for (const RuleFile& file : rule_files()) (file.ok ? ok : bad).insert(file.code);
+    std::string missing;
+    for (const FindingInfo* const* info = all_findings(); *info; ++info) {
+        std::string code = (*info)->code;
+        if (kNoPair.count(code)) continue;
+        if (!bad.count(code)) missing += code + ".dae ";
+        if (!ok.count(code)) missing += code + ".ok.dae ";
+    }
+    EXPECT_EQ(missing, "");
+}
+
+TEST(RuleFiles, EveryFileIsOfACode) {
+    std::set<std::string> codes;
+    for (const FindingInfo* const* info = all_findings(); *info; ++info) codes.insert((*info)->code);
+    for (const RuleFile& file : rule_files()) EXPECT_TRUE(codes.count(file.code)) << file.name;
+}
+
+// No finding is doubled, and a validation is the same each time.
+TEST(RuleFiles, ValidatingTwiceSaysTheSame) {
+    for (const RuleFile& file : rule_files()) {
+        Reading first, second;
+        validate_file(first, file.name, file.code);
+        validate_file(second, file.name, file.code);
+        EXPECT_EQ(first.all(), second.all()) << file.name;
+    }
+}
+
+}  // namespace
+}  // namespace kinora::collada
