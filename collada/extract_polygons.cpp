@@ -1,4 +1,7 @@
 // collada/extract_polygons.cpp: the five kinds of primitives as triangles of vertices.
+#include <algorithm>
+#include <utility>
+
 #include "collada/numbers_p.h"
 #include "collada/polygon_shape_p.h"
 #include "collada/primitives_p.h"
@@ -149,6 +152,7 @@ void TriangleList::report_shapes() {
     if (shapes_.bent)
         diag.report(Code::PRIM_NON_PLANAR, where, shapes_.bent, shapes_.polygons,
                     100 * shapes_.worst_deviation);
+    if (shapes_.crossing) diag.report(Code::PRIM_SELF_INTERSECT, where);
     if (shapes_.concave) diag.report(Code::PORT_CONCAVE, where, shapes_.concave);
 }
 

@@ -1,4 +1,4 @@
-// collada/lint_effects.cpp: transparency that means something else than it says.
+// collada/lint_effects.cpp: transparency in parts that readers fill in differently.
 #include <algorithm>
 
 #include "collada/lint_p.h"
@@ -17,10 +17,6 @@ const char* opaque_name(Opaque opaque) {
     return "";
 }
 
-bool is_known(const CommonValue& value) {
-    return value.source == SlotSource::Absent || value.source == SlotSource::Value;
-}
-
 // COLLADA 1.4.1 and 1.5, "Determining Transparency": the largest opacity of the three channels.
 double opacity(const CommonShading& common) {
     const Slot& color = common[CommonSlot::Transparent].slot;
@@ -34,21 +30,6 @@ double opacity(const CommonShading& common) {
         largest = std::max(largest, inverted ? 1 - part : part);
     }
     return largest;
-}
-
-void check_opacity(Lint& lint, const Effect& effect, bool animated) {
-    const CommonShading& common = *effect.common;
-    const CommonValue& transparent = common[CommonSlot::Transparent];
-    if (transparent.source != SlotSource::Value || animated ||
-        !is_known(common[CommonSlot::Transparency]))
-        return;
-    constexpr double kInvisible = 1.0 / 512;  // rounds to 0 in 8 bits
-    double solid = opacity(common);
-    if (solid < kInvisible)
-        lint.diag.report(Code::FX_TRANSPARENT_ALL, transparent.where, effect.id,
-                         opaque_name(common.opaque));
-    else if (solid < 1 - kInvisible && common.opaque != Opaque::AOne)
-        lint.diag.report(Code::PORT_TRANSPARENCY, transparent.where, opaque_name(common.opaque));
 }
 
 void check_parts(Lint& lint, const Effect& effect) {
@@ -67,19 +48,22 @@ void check_parts(Lint& lint, const Effect& effect) {
                                      opaque_name(common.opaque)));
 }
 
+// A picture half seen through, by a mode that other importers take inverted.
+void check_port(Lint& lint, const Effect& effect) {
+    const CommonShading& common = *effect.common;
+    const CommonValue& transparent = common[CommonSlot::Transparent];
+    if (transparent.source != SlotSource::Value || common.opaque == Opaque::AOne) return;
+    double solid = opacity(common);
+    if (solid > 0.002 && solid < 0.998)
+        lint.diag.report(Code::PORT_TRANSPARENCY, transparent.where, opaque_name(common.opaque));
+}
+
 }  // namespace
 
 void lint_effects(Lint& lint) {
-    std::vector<bool> animated(lint.scene.effects.size());
-    for (const Channel& channel : lint.scene.channels)
-        if (channel.ref.kind == Owner::EffectCommon &&
-            (channel.ref.slot == uint32_t(CommonSlot::Transparent) ||
-             channel.ref.slot == uint32_t(CommonSlot::Transparency)))
-            animated[channel.ref.owner] = true;
-    for (size_t i = 0; i < lint.scene.effects.size(); ++i) {
-        const Effect& effect = lint.scene.effects[i];
+    for (const Effect& effect : lint.scene.effects) {
         if (!effect.common || effect.rsl || effect.document != 0) continue;
-        check_opacity(lint, effect, animated[i]);
+        check_port(lint, effect);
         check_parts(lint, effect);
     }
 }

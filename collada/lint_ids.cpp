@@ -8,10 +8,10 @@ namespace kinora::collada {
 namespace {
 
 bool is_name_start(unsigned char c) {
-    return c == '_' || (c | 32) - 'a' < 26u || c >= 0x80;
+    return c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c >= 0x80;
 }
 bool is_name(unsigned char c) {
-    return is_name_start(c) || c == '-' || c == '.' || c - '0' < 10u;
+    return is_name_start(c) || c == '-' || c == '.' || (c >= '0' && c <= '9');
 }
 
 // XML Namespaces' NCName; letters beyond ASCII are taken as they come.

@@ -1,6 +1,5 @@
 // collada/lint_port_mesh.cpp: meshes that other importers cut or colour in their own way. Each
 // habit is reported where it first occurs.
-#include <map>
 #include <set>
 
 #include "collada/lint_p.h"
@@ -29,44 +28,11 @@ void check_vertices(Lint& lint) {
         }
 }
 
-// Inputs of one primitive element by semantic: sets that occur twice are a fault, several sets are
-// what importers mix up.
-class SetCheck {
-  public:
-    explicit SetCheck(Lint& lint) : lint_(lint) {}
-    void run(const Element& primitive) {
-        std::map<std::string_view, std::vector<std::string_view>> sets;
-        for (const Element& input : primitive.children()) {
-            if (input.name != "input") continue;
-            std::string_view semantic = input.value("semantic"), set = input.value("set");
-            std::vector<std::string_view>& known = sets[semantic];
-            for (std::string_view other : known)
-                if (other == set) {
-                    lint_.diag.report(Code::PRIM_SET_TWICE, lint_.where(input), semantic,
-                                      set.empty() ? std::string_view("0") : set);
-                    break;
-                }
-            known.push_back(set);
-        }
-        for (auto& [semantic, known] : sets)
-            if (known.size() > 1 && seen_.insert(semantic).second)
-                lint_.diag.report(Code::PORT_MULTI_SET, lint_.where(primitive), known.size(),
-                                  semantic);
-    }
-
-  private:
-    Lint& lint_;
-    std::set<std::string_view> seen_;
-};
-
 }  // namespace
 
 void lint_port_mesh(Lint& lint) {
     check_kinds(lint);
     check_vertices(lint);
-    SetCheck sets(lint);
-    for (std::string_view name : {"triangles", "polylist", "polygons", "tristrips", "trifans"})
-        for (const Element* primitive : lint.named(name)) sets.run(*primitive);
 }
 
 }  // namespace kinora::collada

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace kinora::collada {
 
@@ -21,6 +22,38 @@ constexpr double kFileDigits = 1e-7;
 constexpr double kFlat = 0.01;
 // Corners that turn back by less (as a sine) are those of a straight edge.
 constexpr double kStraight = 1e-3;
+
+double cross2(dvec2 a, dvec2 b, dvec2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// The corners seen along the axis nearest the normal.
+void project(std::span<const dvec3> corners, const dvec3& normal, std::vector<dvec2>& points) {
+    int drop = 2;
+    if (std::abs(normal.x) >= std::abs(normal.y) && std::abs(normal.x) >= std::abs(normal.z))
+        drop = 0;
+    else if (std::abs(normal.y) >= std::abs(normal.z))
+        drop = 1;
+    points.clear();
+    for (const dvec3& c : corners) {
+        dvec3 p = c - corners[0];
+        points.emplace_back(p[(drop + 1) % 3], p[(drop + 2) % 3]);
+    }
+}
+
+// Edges that only touch, as where a hole is joined to its outline, do not cross.
+bool edges_cross(std::span<const dvec2> p, double tolerance) {
+    size_t n = p.size();
+    auto side = [&](double area) { return area > tolerance ? 1 : area < -tolerance ? -1 : 0; };
+    for (size_t i = 0; i + 2 < n; ++i)
+        for (size_t k = i + 2; k < n && k < n - (i == 0); ++k) {
+            dvec2 a = p[i], b = p[i + 1], c = p[k], d = p[(k + 1) % n];
+            if (side(cross2(a, b, c)) * side(cross2(a, b, d)) < 0 &&
+                side(cross2(c, d, a)) * side(cross2(c, d, b)) < 0)
+                return true;
+        }
+    return false;
+}
 
 }  // namespace
 
@@ -57,6 +90,14 @@ PolygonShape polygon_shape(std::span<const dvec3> corners) {
             shape.concave = true;
     }
     shape.deviation /= std::sqrt(diameter2);
+    constexpr size_t kMostCorners = 256;  // the work is the square of it
+    constexpr double kFlatEnough = 0.05;  // a folded polygon crosses only as it is seen
+    if (n <= kMostCorners && shape.deviation < kFlatEnough) {
+        thread_local std::vector<dvec2> points;
+        project(corners, normal, points);
+        shape.crossing = edges_cross(points, kFileDigits * diameter2);
+    }
+    shape.concave = shape.concave && !shape.crossing;
     return shape;
 }
 
@@ -65,6 +106,7 @@ void PolygonStatistics::add(std::span<const dvec3> corners) {
     ++polygons;
     empty += shape.empty;
     concave += shape.concave;
+    crossing += shape.crossing;
     bent += shape.deviation > kFlat;
     worst_deviation = std::max(worst_deviation, shape.deviation);
 }

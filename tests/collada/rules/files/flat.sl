@@ -1,0 +1,4 @@
+surface flat(color c = 1) {
+    Ci = c;
+    Oi = 1;
+}
