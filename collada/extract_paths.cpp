@@ -19,6 +19,12 @@ bool starts_with_drive(std::string_view path) {
     return path.size() > 2 && std::isalpha(uint8_t(path[0])) && path[1] == ':' && path[2] == '/';
 }
 
+// "C:/", also behind "../../": how exporters made absolute paths relative.
+bool names_drive(std::string_view path) {
+    while (path.starts_with("../")) path.remove_prefix(3);
+    return starts_with_drive(path);
+}
+
 }  // namespace
 
 std::string percent_decode(std::string_view text) {
@@ -70,7 +76,7 @@ void check_file_uri(Extraction& x, std::string_view uri, Location where) {
                 !starts_with_drive(std::string_view(path).substr(2));
     if (host && scheme)
         x.diag.report(Code::FILE_HOST, where, uri);
-    else if (path.starts_with('/') || starts_with_drive(path))
+    else if (path.starts_with('/') || names_drive(path))
         x.diag.report(Code::FILE_ABSOLUTE, where, uri);
 }
 

@@ -147,8 +147,7 @@ void TriangleList::see_shape(uint32_t first, uint32_t count) {
 void TriangleList::report_shapes() {
     Location where = mesh_.x.where(primitive_);
     Diagnostics& diag = mesh_.x.diag;
-    if (shapes_.empty)
-        diag.report(Code::PRIM_DEGENERATE, where, shapes_.empty, shapes_.polygons);
+    if (shapes_.empty) diag.report(Code::PRIM_DEGENERATE, where, shapes_.empty, shapes_.polygons);
     if (shapes_.bent)
         diag.report(Code::PRIM_NON_PLANAR, where, shapes_.bent, shapes_.polygons,
                     100 * shapes_.worst_deviation);

@@ -103,18 +103,44 @@ void add_links(Lint& lint, const CycleRow& row, Definitions& graph) {
         std::string_view url = trim(link->value(row.attribute));
         if (!url.starts_with('#')) continue;
         const Element* from = enclosing(*link, row.definition);
-        const Element* to = from ? find_kind(lint.document, url.substr(1), {row.definition}) : nullptr;
+        const Element* to =
+            from ? find_kind(lint.document, url.substr(1), {row.definition}) : nullptr;
         graph.add_link(from, to, lint.where(*link, row.attribute));
     }
 }
 
+// The <newparam>s by the element they stand in and their sid: looked up inside out.
+class ParamScopes {
+  public:
+    explicit ParamScopes(const Lint& lint) {
+        for (const Element* param : lint.named("newparam"))
+            scopes_[param->parent].try_emplace(param->value("sid"), param);
+    }
+    const Element* find(const Element& from, std::string_view sid) const {
+        for (const Element* e = from.parent; e; e = e->parent) {
+            auto scope = scopes_.find(e);
+            if (scope != scopes_.end()) {
+                auto param = scope->second.find(sid);
+                if (param != scope->second.end()) return param->second;
+            }
+            if (e->name == "effect") break;
+        }
+        return nullptr;
+    }
+
+  private:
+    std::unordered_map<const Element*, std::unordered_map<std::string_view, const Element*>>
+        scopes_;
+};
+
 // <newparam> whose sampler takes its <source> from another one: the sid in the elements around it.
 void add_params(Lint& lint, Definitions& graph) {
+    ParamScopes scopes(lint);
     for (const Element* param : lint.named("newparam")) {
         for (const Element& value : param->children()) {
             const Element* source = value.child("source");
             if (!source || !value.name.starts_with("sampler")) continue;
-            if (const Element* to = find_newparam(*source, trim(source->text)))
+            if (const Element* to = scopes.find(*source, trim(source->text)))
                 graph.add_link(param, to, lint.document.text_location(*source));
         }
     }

@@ -9,10 +9,14 @@ namespace {
 
 const char* opaque_name(Opaque opaque) {
     switch (opaque) {
-        case Opaque::AOne: return "A_ONE";
-        case Opaque::RgbZero: return "RGB_ZERO";
-        case Opaque::AZero: return "A_ZERO";
-        case Opaque::RgbOne: return "RGB_ONE";
+        case Opaque::AOne:
+            return "A_ONE";
+        case Opaque::RgbZero:
+            return "RGB_ZERO";
+        case Opaque::AZero:
+            return "A_ZERO";
+        case Opaque::RgbOne:
+            return "RGB_ONE";
     }
     return "";
 }

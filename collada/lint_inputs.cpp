@@ -14,18 +14,13 @@ class SetCheck {
   public:
     explicit SetCheck(Lint& lint) : lint_(lint) {}
     void run(const Element& primitive) {
-        std::map<std::string_view, std::vector<std::string_view>> sets;
+        std::map<std::string_view, std::set<std::string_view>> sets;
         for (const Element& input : primitive.children()) {
             if (input.name != "input") continue;
             std::string_view semantic = input.value("semantic"), set = input.value("set");
-            std::vector<std::string_view>& known = sets[semantic];
-            for (std::string_view other : known)
-                if (other == set) {
-                    lint_.diag.report(Code::PRIM_SET_TWICE, lint_.where(input), semantic,
-                                      set.empty() ? std::string_view("0") : set);
-                    break;
-                }
-            known.push_back(set);
+            if (!sets[semantic].insert(set).second)
+                lint_.diag.report(Code::PRIM_SET_TWICE, lint_.where(input), semantic,
+                                  set.empty() ? "no set" : fmt::format("set {}", set));
         }
         for (auto& [semantic, known] : sets)
             if (known.size() > 1 && seen_.insert(semantic).second)

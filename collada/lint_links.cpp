@@ -15,11 +15,11 @@ struct LinkRow {
     std::string_view element, attribute;
     void (*resolve)(Extraction& x, Link link, std::string_view attribute);
 };
-#define LINK_ROW(element, attribute, ...)                                  \
-    LinkRow {                                                              \
+#define LINK_ROW(element, attribute, ...)                                      \
+    LinkRow {                                                                  \
         element, attribute, [](Extraction& x, Link link, std::string_view a) { \
-            resolve(x, link, a, {__VA_ARGS__});                            \
-        }                                                                  \
+            resolve(x, link, a, {__VA_ARGS__});                                \
+        }                                                                      \
     }
 constexpr LinkRow kLinks[] = {
     LINK_ROW("instance_animation", "url", "animation"),
@@ -126,8 +126,7 @@ void check_idref_arrays(Lint& lint) {
         if (!owner || owner->name == "skin" || owner->name == "morph") continue;
         for (std::string_view word : split_words(array->text)) {
             size_t begin = size_t(word.data() - array->text.data());
-            check_idref(lint, word,
-                        lint.document.text_location(*array, begin, begin + word.size()),
+            check_idref(lint, word, lint.document.text_location(*array, begin, begin + word.size()),
                         "element");
         }
     }

@@ -11,14 +11,15 @@ namespace {
 using Symbols = std::vector<std::string_view>;
 
 bool is_primitive(std::string_view name) {
-    constexpr std::string_view kPrimitives[] = {"triangles", "polylist",  "polygons", "tristrips",
-                                                "trifans",   "lines",     "linestrips"};
+    constexpr std::string_view kPrimitives[] = {"triangles", "polylist", "polygons",  "tristrips",
+                                                "trifans",   "lines",    "linestrips"};
     return std::find(std::begin(kPrimitives), std::end(kPrimitives), name) != std::end(kPrimitives);
 }
 
 // The symbols of a geometry's primitives, sorted, each once; once a geometry.
 class SymbolTable {
   public:
+    bool first_time(const Element& geometry) const { return !symbols_.count(&geometry); }
     const Symbols& of(const Element& geometry) {
         auto [at, fresh] = symbols_.try_emplace(&geometry);
         if (!fresh) return at->second;
@@ -56,11 +57,21 @@ bool has_mesh(const Element& geometry) {
     return geometry.child("mesh") || geometry.child("convex_mesh");
 }
 
+// Primitives without a symbol beside an instance that binds materials are forgotten ones.
+void check_no_symbol(Lint& lint, const Element& geometry) {
+    const Element* mesh = geometry.child("mesh");
+    if (!mesh) return;
+    for (const Element& child : mesh->children())
+        if (is_primitive(child.name) && child.value("material").empty())
+            lint.diag.report(Code::MAT_NO_SYMBOL, lint.where(child), child.name);
+}
+
 void check_instance(Lint& lint, const Element& instance, SymbolTable& table) {
     const Element* bind = instance.child("bind_material");
     const Element* common = bind ? bind->child("technique_common") : nullptr;
     const Element* geometry = common ? shown_geometry(lint, instance) : nullptr;
     if (!geometry || !has_mesh(*geometry)) return;
+    if (table.first_time(*geometry)) check_no_symbol(lint, *geometry);
     const Symbols& symbols = table.of(*geometry);
     for (const Element& material : common->children()) {
         std::string_view symbol = material.value("symbol");
@@ -71,26 +82,12 @@ void check_instance(Lint& lint, const Element& instance, SymbolTable& table) {
     }
 }
 
-// Primitives without a symbol beside an instance that binds materials are forgotten ones.
-void check_no_symbol(Lint& lint, const Element& instance) {
-    const Element* geometry = instance.child("bind_material") ? shown_geometry(lint, instance)
-                                                              : nullptr;
-    const Element* mesh = geometry ? geometry->child("mesh") : nullptr;
-    if (!mesh) return;
-    for (const Element& child : mesh->children())
-        if (is_primitive(child.name) && child.value("material").empty())
-            lint.diag.report(Code::MAT_NO_SYMBOL, lint.where(child), child.name);
-}
-
 }  // namespace
 
 void lint_materials(Lint& lint) {
     SymbolTable table;
     for (std::string_view name : {"instance_geometry", "instance_controller"})
-        for (const Element* instance : lint.named(name)) {
-            check_instance(lint, *instance, table);
-            check_no_symbol(lint, *instance);
-        }
+        for (const Element* instance : lint.named(name)) check_instance(lint, *instance, table);
 }
 
 }  // namespace kinora::collada

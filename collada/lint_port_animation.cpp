@@ -22,8 +22,7 @@ void check_curves(Lint& lint) {
 
 void check_clips(Lint& lint) {
     if (!lint.scene.clips.empty())
-        lint.diag.report(Code::PORT_CLIPS, lint.scene.clips.front().where,
-                         lint.scene.clips.size());
+        lint.diag.report(Code::PORT_CLIPS, lint.scene.clips.front().where, lint.scene.clips.size());
 }
 
 const Transform* transform_of(const Lint& lint, const Channel& channel) {

@@ -13,8 +13,7 @@ void check_kinds(Lint& lint) {
     if (!holed.empty()) lint.diag.report(Code::PORT_HOLES, lint.where(*holed.front()));
     for (std::string_view name : {"tristrips", "trifans"}) {
         auto strips = lint.named(name);
-        if (!strips.empty())
-            lint.diag.report(Code::PORT_STRIPS, lint.where(*strips.front()), name);
+        if (!strips.empty()) lint.diag.report(Code::PORT_STRIPS, lint.where(*strips.front()), name);
     }
 }
 

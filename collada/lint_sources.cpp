@@ -58,25 +58,34 @@ struct WidthRow {
     std::string_view semantic;
     uint32_t least;
 };
-constexpr WidthRow kWidths[] = {{"POSITION", 3},    {"NORMAL", 3},      {"TANGENT", 3},
-                                {"BINORMAL", 3},    {"TEXTANGENT", 3},  {"TEXBINORMAL", 3},
-                                {"COLOR", 3},       {"TEXCOORD", 1},    {"UV", 2},
-                                {"INV_BIND_MATRIX", 16}};
+constexpr WidthRow kWidths[] = {
+    {"POSITION", 3},    {"NORMAL", 3}, {"TANGENT", 3},  {"BINORMAL", 3}, {"TEXTANGENT", 3},
+    {"TEXBINORMAL", 3}, {"COLOR", 3},  {"TEXCOORD", 1}, {"UV", 2},       {"INV_BIND_MATRIX", 16}};
 
-void check_width(Lint& lint, const Element& input) {
+using Widths = std::unordered_map<const Element*, uint32_t>;
+
+// The values of an entry that the accessor gives, 0 if it cannot be read; once a source.
+uint32_t width_of(Lint& lint, const Element& source, Widths& widths) {
+    auto [at, fresh] = widths.try_emplace(&source, 0);
+    SourceView view;
+    constexpr size_t kAnyLength = SIZE_MAX / 2;  // the array's length was checked already
+    if (fresh && accessor_of(source) && read_accessor(lint.x, {0, &source}, kAnyLength, view))
+        at->second = view.stride;
+    return at->second;
+}
+
+void check_width(Lint& lint, const Element& input, Widths& widths) {
     std::string_view url = input.value("source");
     if (!url.starts_with('#')) return;
     const Element* source = find_kind(lint.document, url.substr(1), {"source"});
-    const Element* accessor = source ? accessor_of(*source) : nullptr;
-    if (!accessor) return;
+    uint32_t width = source ? width_of(lint, *source, widths) : 0;
+    if (width == 0) return;
     for (const WidthRow& row : kWidths) {
         if (row.semantic != input.value("semantic")) continue;
-        SourceView view;
-        constexpr size_t kAnyLength = SIZE_MAX / 2;  // the array's length was checked already
-        if (read_accessor(lint.x, {0, source}, kAnyLength, view) && view.stride < row.least)
-            lint.diag.report(Code::SRC_PARAM, lint.where(*accessor),
+        if (width < row.least)
+            lint.diag.report(Code::SRC_PARAM, lint.where(*accessor_of(*source)),
                              fmt::format("{} wants {} values an entry, the <param>s name {}",
-                                         row.semantic, row.least, view.stride));
+                                         row.semantic, row.least, width));
     }
 }
 
@@ -85,7 +94,8 @@ void check_width(Lint& lint, const Element& input) {
 void lint_sources(Lint& lint) {
     for (const Element* source : lint.named("source"))
         if (source->parent && source->attribute("id")) check_source(lint, *source);
-    for (const Element* input : lint.named("input")) check_width(lint, *input);
+    Widths widths;
+    for (const Element* input : lint.named("input")) check_width(lint, *input, widths);
 }
 
 }  // namespace kinora::collada

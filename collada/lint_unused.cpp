@@ -9,9 +9,9 @@ namespace kinora::collada {
 namespace {
 
 // Attributes whose value is never a link.
-constexpr std::string_view kNames[] = {"id",    "sid",    "name", "semantic", "symbol", "count",
-                                       "stride", "offset", "set",  "type",     "digits", "magnitude",
-                                       "version", "profile", "opaque"};
+constexpr std::string_view kNames[] = {"id",     "sid",       "name",    "semantic", "symbol",
+                                       "count",  "stride",    "offset",  "set",      "type",
+                                       "digits", "magnitude", "version", "profile",  "opaque"};
 
 // Whatever could be read as the id of an item makes it used: a wrong finding would cost more than
 // a missing one.
@@ -88,6 +88,12 @@ class Reachable {
     std::vector<const Element*> pending_;
 };
 
+std::string label(const Element& item) {
+    for (std::string_view attribute : {"id", "name"})
+        if (!item.value(attribute).empty()) return fmt::format("'{}'", item.value(attribute));
+    return "without an id";
+}
+
 }  // namespace
 
 void lint_unused(Lint& lint) {
@@ -103,7 +109,7 @@ void lint_unused(Lint& lint) {
             continue;
         for (const Element& item : library.children()) {
             if (item.name == "asset" || item.name == "extra" || reachable.used(item)) continue;
-            lint.diag.report(Code::INFO_UNUSED, lint.where(item), item.name, item.value("id"));
+            lint.diag.report(Code::INFO_UNUSED, lint.where(item), item.name, label(item));
         }
     }
 }

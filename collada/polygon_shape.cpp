@@ -19,7 +19,7 @@ double dot3(const dvec3& a, const dvec3& b) {
 // Files hold about seven digits: corners off a line by less are on it.
 constexpr double kFileDigits = 1e-7;
 // A polygon bent by less than this part of its diameter shows no difference however it is cut.
-constexpr double kFlat = 0.01;
+constexpr double kFlat = 0.02;
 // Corners that turn back by less (as a sine) are those of a straight edge.
 constexpr double kStraight = 1e-3;
 
