@@ -1,0 +1,37 @@
+// runtime/export_gltf.h: a SceneDescription as a binary glTF 2.0 file.
+#pragma once
+
+#include <string>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+struct GltfExportOptions {
+    // Where a curve is none that glTF knows, it is sampled until straight pieces (slerp for
+    // rotations) stay this near: translations and weights relative to the range they move over,
+    // scales to their size, rotations in radians.
+    double animation_error = 1e-4;
+};
+
+// The bytes of a .glb. Axes and unit become the matrix of one root node (none if the scene has
+// glTF's: metres, y up). instance_node trees are unrolled, since a glTF node has one parent.
+// LINEAR and STEP curves of translations, scales, weights and turns about one axis come out exact,
+// so do cubics with times at the thirds (CUBICSPLINE) of all but rotations.
+//
+// Materials: base color = diffuse (emission for <constant>, with KHR_materials_unlit), emissive =
+// emission, metallic 0, roughness = sqrt(2 / (shininess + 2)) for phong and its square root from
+// blinn's width (1 for lambert), KHR_materials_specular with the specular color; opaque modes
+// become alpha. What that leaves out, and RSL, goes into extras (kinora_common, kinora_rsl,
+// kinora_light) with a finding CONVERT_EXTRAS; what no extra keeps gives CONVERT_LOST.
+std::string export_glb(const SceneDescription& description, const GltfExportOptions& options,
+                       Diagnostics& diagnostics);
+
+// The two parts of such a file: the JSON, and the buffer it speaks of ("" if none).
+struct GlbParts {
+    std::string json, buffer;
+};
+GlbParts split_glb(const std::string& glb);
+
+}  // namespace kinora

@@ -1,0 +1,386 @@
+// runtime/export_gltf_animation.cpp: curves as glTF's: exact where it has them, else sampled.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "anim/decompose.h"
+#include "runtime/export_gltf_p.h"
+#include "runtime/findings.h"
+#include "runtime/transforms.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr double kLargestTurn = 90;      // degrees between keys: slerp takes the shorter way
+constexpr double kShortestPiece = 1e-4;  // seconds
+constexpr size_t kMostKeys = 200000;     // a path
+constexpr double kProbes[] = {0.5, 0.25, 0.75, 0.13};  // where a piece is measured
+
+anim::Quaternion quaternion(const double* xyzw) {
+    return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
+}
+
+double angle_between(const double* a, const double* b) {
+    double dot = std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]);
+    if (dot > 0.999) {  // acos is blind there
+        double sign = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1, sum = 0;
+        for (int i = 0; i < 4; ++i) sum += (a[i] - sign * b[i]) * (a[i] - sign * b[i]);
+        return 2 * std::sqrt(sum);
+    }
+    return 2 * std::acos(std::min(1.0, dot));
+}
+
+// What a reader makes of two keys between them.
+void between(bool rotation, uint32_t width, const double* a, const double* b, double s,
+             double* out) {
+    if (rotation) {
+        anim::Quaternion q = anim::slerp(quaternion(a), quaternion(b), s);
+        out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
+        return;
+    }
+    for (uint32_t i = 0; i < width; ++i) out[i] = a[i] + s * (b[i] - a[i]);
+}
+
+double distance(bool rotation, uint32_t width, const double* a, const double* b) {
+    if (rotation) return angle_between(a, b);
+    double worst = 0;
+    for (uint32_t i = 0; i < width; ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+    return worst;
+}
+
+// The times as the file holds them, each later than the one before.
+std::vector<double> distinct(std::vector<double> times) {
+    for (double& t : times) t = double(float(t));
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+}  // namespace
+
+std::vector<GltfExport::Channel> GltfExport::channels_of(uint32_t first_value,
+                                                         uint32_t count) const {
+    std::vector<Channel> result;
+    const anim::Animation& animation = description_.animation;
+    for (const anim::Channel& c : animation.channels) {
+        const anim::Sampler& sampler = animation.samplers[c.sampler];
+        if (c.slot < first_value + count && c.slot + c.count > first_value && !sampler.empty())
+            result.push_back({&sampler, &c});
+    }
+    return result;
+}
+
+// All times at which a channel has a key, more within pieces where a turn passes 90 degrees; the
+// whole played range where a channel goes on beyond its keys.
+std::vector<double> GltfExport::key_times(std::span<const Transform> stack,
+                                          const std::vector<Channel>& channels) const {
+    std::vector<double> times;
+    bool endless = false;
+    for (const Channel& c : channels) {
+        const std::vector<double>& keys = c.sampler->times;
+        times.insert(times.end(), keys.begin(), keys.end());
+        endless |= c.sampler->pre != anim::Behaviour::Constant ||
+                   c.sampler->post != anim::Behaviour::Constant;
+        bool angle = false;
+        for (const Transform& t : stack)
+            angle |= t.kind == TransformKind::Rotate && c.channel->slot <= t.value + 3 &&
+                     t.value + 3 < c.channel->slot + c.channel->count;
+        for (size_t k = 0; angle && k + 1 < keys.size(); ++k) {
+            double a, b;
+            uint32_t component = c.channel->component + c.channel->count - 1;
+            anim::evaluate(*c.sampler, keys[k], component, {&a, 1});
+            anim::evaluate(*c.sampler, keys[k + 1], component, {&b, 1});
+            double pieces = std::min(std::ceil(std::abs(b - a) / kLargestTurn), 1e4);
+            for (double i = 1; i < pieces; ++i)
+                times.push_back(keys[k] + (keys[k + 1] - keys[k]) * i / pieces);
+        }
+    }
+    if (endless) {
+        PlayRange range = play_range(description_);
+        times.push_back(range.start);
+        times.push_back(range.end);
+        double step = range.rate > 0 ? 1 / range.rate : 1.0 / 24;
+        for (double t = range.start; t < range.end && times.size() < kMostKeys; t += step)
+            times.push_back(t);
+    }
+    times = distinct(std::move(times));
+    // glTF's time begins at 0.
+    if (!times.empty() && times[0] < 0) {
+        times.erase(std::remove_if(times.begin(), times.end(), [](double t) { return t < 0; }),
+                    times.end());
+        if (times.empty() || times[0] > 0) times.insert(times.begin(), 0.0);
+    }
+    return times;
+}
+
+void GltfExport::add_channel(uint32_t node, const char* path, const std::vector<double>& times,
+                             const std::vector<double>& numbers, uint32_t width,
+                             const char* interpolation) {
+    auto [input, fresh] = key_accessors_.try_emplace(times, 0);
+    if (fresh) input->second = accessor(std::vector<float>(times.begin(), times.end()), 1, 0, true);
+    uint32_t output = accessor(std::vector<float>(numbers.begin(), numbers.end()), width, 0, false);
+    channels_.push_back(
+        {{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});
+    samplers_.push_back(
+        {{"input", input->second}, {"interpolation", interpolation}, {"output", output}});
+}
+
+// Steps alone: the values at the keys, held.
+bool GltfExport::add_step(uint32_t node, const Path& path) {
+    for (const Channel& c : path.channels)
+        for (size_t k = 0; k + 1 < c.sampler->interpolations.size(); ++k)
+            if (c.sampler->interpolations[k] != anim::Interpolation::Step) return false;
+    std::vector<double> numbers(path.times.size() * path.width);
+    for (size_t k = 0; k < path.times.size(); ++k) path.at(path.times[k], &numbers[k * path.width]);
+    add_channel(node, path.name, path.times, numbers, path.element_width(), "STEP");
+    return true;
+}
+
+// Cubics whose inner times are the thirds are cubics of the time: tangents are three times the legs
+// over the duration. All numbers of the path must come from channels with the same keys.
+bool GltfExport::add_spline(uint32_t node, const Path& path, uint32_t first_value) {
+    if (path.channels.empty()) return false;
+    const std::vector<double>& keys = path.channels[0].sampler->times;
+    bool curved = false;
+    for (const Channel& c : path.channels) {
+        const anim::Sampler& s = *c.sampler;
+        if (s.times != keys || keys.size() < 2 || keys[0] < 0 || distinct(keys) != keys ||
+            s.kind != anim::SampleKind::Numbers || s.pre != anim::Behaviour::Constant ||
+            s.post != anim::Behaviour::Constant)
+            return false;
+        for (size_t k = 0; k + 1 < keys.size(); ++k) {
+            if (s.interpolations[k] == anim::Interpolation::Step) return false;
+            if (s.interpolations[k] == anim::Interpolation::Linear) continue;
+            curved = true;
+            for (uint32_t i = 0; i < c.channel->count; ++i)
+                if (!s.curves[k * s.stride + c.channel->component + i].linear_time) return false;
+        }
+    }
+    if (!curved) return false;
+    uint32_t width = path.width;
+    std::vector<double> numbers(keys.size() * 3 * width, 0.0);  // in tangent, value, out tangent
+    for (size_t k = 0; k < keys.size(); ++k) path.at(keys[k], &numbers[(3 * k + 1) * width]);
+    for (const Channel& c : path.channels)
+        for (uint32_t i = 0; i < c.channel->count; ++i) {
+            uint32_t number = c.channel->slot + i * c.channel->slot_step - first_value;
+            if (number >= width) return false;
+            const anim::Sampler& s = *c.sampler;
+            for (size_t k = 0; k + 1 < keys.size(); ++k) {
+                double duration = keys[k + 1] - keys[k];
+                size_t at = k * s.stride + c.channel->component + i;
+                double out, in;
+                if (s.interpolations[k] == anim::Interpolation::Linear) {
+                    size_t value = k * s.stride + c.channel->component + i;
+                    out = in = (s.values[value + s.stride] - s.values[value]) / duration;
+                } else {
+                    const double* v = s.curves[at].value;
+                    out = 3 * (v[1] - v[0]) / duration;
+                    in = 3 * (v[3] - v[2]) / duration;
+                }
+                numbers[(3 * k + 2) * width + number] = out;
+                numbers[(3 * (k + 1)) * width + number] = in;
+            }
+        }
+    add_channel(node, path.name, keys, numbers, path.element_width(), "CUBICSPLINE");
+    return true;
+}
+
+// Straight pieces: halved until they keep to the tolerance, then joined where one says as much.
+void GltfExport::add_sampled(uint32_t node, const Path& path) {
+    uint32_t width = path.width;
+    struct Key {
+        double time;
+        std::vector<double> value;
+    };
+    auto key = [&](double time) {
+        Key k{time, std::vector<double>(width)};
+        path.at(time, k.value.data());
+        return k;
+    };
+    double worst = 0;
+    std::vector<double> truth(width), guess(width);
+    auto error = [&](const Key& a, const Key& b) {
+        double most = 0;
+        for (double s : kProbes) {
+            path.at(a.time + s * (b.time - a.time), truth.data());
+            between(path.rotation, width, a.value.data(), b.value.data(), s, guess.data());
+            most = std::max(most, distance(path.rotation, width, truth.data(), guess.data()));
+        }
+        return most;
+    };
+    std::vector<Key> keys;
+    for (size_t i = 0; i < path.times.size(); ++i) {
+        if (i == 0) {
+            keys.push_back(key(path.times[0]));
+            continue;
+        }
+        std::vector<Key> ahead{key(path.times[i])};  // nearest last
+        while (!ahead.empty()) {
+            const Key& a = keys.back();
+            Key& b = ahead.back();
+            double e = error(a, b);
+            double middle = double(float(0.5 * (a.time + b.time)));
+            bool splits = e > path.tolerance && b.time - a.time > kShortestPiece &&
+                          middle > a.time && middle < b.time && keys.size() < kMostKeys;
+            if (splits) {
+                ahead.push_back(key(middle));
+                continue;
+            }
+            if (b.time - a.time > kShortestPiece) worst = std::max(worst, e);
+            keys.push_back(std::move(b));
+            ahead.pop_back();
+        }
+    }
+    // Keys that the line through their neighbours passes anyway.
+    std::vector<Key> kept;
+    std::vector<const Key*> left_out;
+    double exact = 1e-9 * path.tolerance;
+    for (size_t i = 0; i < keys.size(); ++i) {
+        bool redundant = i > 0 && i + 1 < keys.size() && left_out.size() < 256;
+        if (redundant) {
+            left_out.push_back(&keys[i]);
+            const Key &a = kept.back(), &b = keys[i + 1];
+            redundant = !path.rotation || angle_between(a.value.data(), b.value.data()) < 1.6;
+            for (const Key* k : left_out) {
+                double s = (k->time - a.time) / (b.time - a.time);
+                between(path.rotation, width, a.value.data(), b.value.data(), s, guess.data());
+                redundant =
+                    redundant && distance(path.rotation, width, k->value.data(), guess.data()) <=
+                                     std::max(exact, 1e-7 * path.tolerance);
+            }
+        }
+        if (redundant) continue;
+        kept.push_back(keys[i]);
+        left_out.clear();
+    }
+    std::vector<double> times, numbers;
+    for (const Key& k : kept) {
+        times.push_back(k.time);
+        numbers.insert(numbers.end(), k.value.begin(), k.value.end());
+    }
+    if (worst > 1e-6 * path.tolerance) {
+        ++sampled_paths_;
+        worst_error_ = std::max(worst_error_, worst * options_.animation_error / path.tolerance);
+    }
+    add_channel(node, path.name, times, numbers, path.element_width(), "LINEAR");
+}
+
+// A path that stays where it is needs no keys: it is written into the node.
+void GltfExport::add_path(uint32_t node, Path path) {
+    if (path.times.empty()) return;
+    uint32_t width = path.width;
+    std::vector<double> first(width), now(width);
+    path.at(path.times[0], first.data());
+    double moves = 0, size = 0;
+    auto look = [&](double time) {
+        path.at(time, now.data());
+        moves = std::max(moves, distance(path.rotation, width, first.data(), now.data()));
+        for (uint32_t i = 0; i < width; ++i) size = std::max(size, std::abs(now[i]));
+    };
+    for (size_t k = 0; k < path.times.size(); ++k) {
+        look(path.times[k]);
+        if (k + 1 < path.times.size())
+            for (double s : kProbes) look(path.times[k] + s * (path.times[k + 1] - path.times[k]));
+    }
+    if (moves <= 1e-12 * std::max(size, 1e-12)) {
+        json_["nodes"][node][path.name] = first;
+        return;
+    }
+    path.tolerance = options_.animation_error;
+    if (!path.rotation) path.tolerance *= path.name == std::string_view("scale") ? size : moves;
+    if (add_step(node, path)) return;
+    add_sampled(node, path);
+}
+
+void GltfExport::move_node(uint32_t node, std::span<const Transform> stack, const dmat4& conversion,
+                           const std::vector<Channel>& channels) {
+    auto trs_at = [this, stack, conversion, channels](double time) {
+        for (const Channel& c : channels)
+            anim::evaluate(*c.sampler, time, c.channel->component,
+                           std::span(at_time_).subspan(c.channel->slot, c.channel->count));
+        dmat4 m = conversion;
+        for (const Transform& t : stack) m = m * transform_matrix(t.kind, &at_time_[t.value]);
+        Trs trs;
+        decompose_trs(m, trs);
+        return trs;
+    };
+    Path path;
+    path.channels = channels;
+    path.times = key_times(stack, channels);
+    auto triple = [](const dvec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; };
+    // Where the stack is translations and scales and turns each in its place, one transform's
+    // cubics are the path's.
+    auto spline = [&](TransformKind kind) {
+        const Transform* only = nullptr;
+        bool linear_before = true, clean = true;
+        for (const Transform& t : stack) {
+            bool moving = !channels_of(t.value, 16).empty();
+            if (t.kind == TransformKind::Matrix || t.kind == TransformKind::Skew ||
+                t.kind == TransformKind::Lookat)
+                clean = false;
+            if (t.kind == kind) {
+                clean = clean && (!only || !moving) && linear_before;
+                if (moving) only = &t;
+            }
+            if (t.kind != TransformKind::Translate && kind == TransformKind::Translate)
+                linear_before = false;
+            if (t.kind == TransformKind::Scale && kind == TransformKind::Scale && only != &t)
+                clean = false;
+        }
+        bool identity = conversion == dmat4(1.0);
+        return clean && identity ? only : nullptr;
+    };
+    path.name = "translation";
+    path.width = 3;
+    path.at = [&](double t, double* out) { triple(trs_at(t).translation, out); };
+    auto add = [&](TransformKind kind) {
+        if (const Transform* t = spline(kind)) {
+            Path own = path;
+            own.channels = channels_of(t->value, 3);
+            if (add_spline(node, own, t->value)) return;
+        }
+        add_path(node, path);
+    };
+    add(TransformKind::Translate);
+    path.name = "scale";
+    path.at = [&](double t, double* out) { triple(trs_at(t).scale, out); };
+    // A scale that mirrors is written as another scale with a turn: only sampled.
+    bool mirrors = false;
+    for (double t : path.times) mirrors |= trs_at(t).scale.x < 0;
+    if (mirrors)
+        add_path(node, path);
+    else
+        add(TransformKind::Scale);
+    path.name = "rotation";
+    path.width = 4;
+    path.rotation = true;
+    path.at = [&](double t, double* out) {
+        std::array<double, 4> q = trs_at(t).rotation;
+        std::copy(q.begin(), q.end(), out);
+    };
+    add_path(node, path);
+    for (const Channel& c : channels)  // back to rest for whoever evaluates next
+        for (uint32_t i = 0; i < c.channel->count; ++i)
+            at_time_[c.channel->slot + i] = description_.values[c.channel->slot + i];
+}
+
+void GltfExport::move_weights(uint32_t node, const MorphDefinition& morph) {
+    if (!is_animated(morph.weights)) return;
+    Path path;
+    path.name = "weights";
+    path.width = morph.weights.count;
+    path.channels = channels_of(morph.weights.offset, morph.weights.count);
+    path.times = key_times({}, path.channels);
+    path.at = [&](double time, double* out) {
+        for (const Channel& c : path.channels)
+            anim::evaluate(*c.sampler, time, c.channel->component,
+                           std::span(at_time_).subspan(c.channel->slot, c.channel->count));
+        std::copy_n(&at_time_[morph.weights.offset], morph.weights.count, out);
+    };
+    if (!add_spline(node, path, morph.weights.offset)) add_path(node, path);
+}
+
+}  // namespace kinora

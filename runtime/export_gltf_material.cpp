@@ -1,0 +1,270 @@
+// runtime/export_gltf_material.cpp: fixed-function materials as pbrMetallicRoughness.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/export_gltf_p.h"
+#include "runtime/findings.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr const char* kModels[] = {"collada_constant", "collada_lambert", "collada_phong",
+                                   "collada_blinn"};
+
+double mean(const dvec3& c) {
+    return (c.x + c.y + c.z) / 3;
+}
+
+double clamp01(double x) {
+    return std::clamp(std::isfinite(x) ? x : 0.0, 0.0, 1.0);
+}
+
+// The parameters of a collada_* shader use.
+struct CommonParams {
+    const ShaderUse& use;
+    const std::vector<double>& values;
+
+    dvec3 color(const char* name, double otherwise) const {
+        const ParamSource* p = find_source(use, name);
+        if (!p || !p->value.present() || p->value.count < 1) return dvec3(otherwise);
+        const double* v = &values[p->value.offset];
+        return p->value.count < 3 ? dvec3(v[0]) : dvec3(v[0], v[1], v[2]);
+    }
+    double number(const char* name, double otherwise) const { return color(name, otherwise).x; }
+    std::string text(const std::string& name) const {
+        const ParamSource* p = find_source(use, name);
+        return p && !p->strings.empty() ? p->strings[0] : "";
+    }
+};
+
+// Blinn's exponent is 1 / roughness, Phong's the shininess; sqrt(2 / (n + 2)) is GGX's width.
+double roughness(double exponent) {
+    return clamp01(std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))));
+}
+
+}  // namespace
+
+Json GltfExport::texture_info(const std::string& name, const ParamSource& source,
+                              const MaterialUse& use, const PrimitiveGroup& group) {
+    uint32_t index = texture(name);
+    if (index == kNone) return nullptr;
+    Json info = {{"index", index}};
+    if (uint32_t set = texcoord_index(source.texcoord, use, group)) info["texCoord"] = set;
+    std::array<float, 4> uv = parse_texture_name(name).uv;
+    if (uv != std::array<float, 4>{1, 1, 0, 0}) {
+        // s' = s a + c, t' = t b + d with t = 1 - v.
+        Json transform = {{"offset", {uv[2], 1 - uv[1] - uv[3]}}, {"scale", {uv[0], uv[1]}}};
+        info["extensions"]["KHR_texture_transform"] = transform;
+        use_extension("KHR_texture_transform");
+    }
+    return info;
+}
+
+// Which TEXCOORD_n a texcoord name means on this group: by the instance's vertex bindings, else the
+// lowest set.
+uint32_t GltfExport::texcoord_index(const std::string& name, const MaterialUse& use,
+                                    const PrimitiveGroup& group) const {
+    std::vector<uint32_t> sets;
+    for (const VertexAttribute& a : group.attributes)
+        if (a.semantic == "TEXCOORD" && a.stride >= 2) sets.push_back(a.set);
+    std::sort(sets.begin(), sets.end());
+    for (const VertexBinding& b : use.vertex_bindings) {
+        if (b.param != name || b.semantic != "TEXCOORD" || b.set == kNone) continue;
+        auto found = std::find(sets.begin(), sets.end(), b.set);
+        if (found != sets.end()) return uint32_t(found - sets.begin());
+    }
+    return 0;
+}
+
+Json GltfExport::common_material(const MaterialDefinition& definition, const ShaderUse& shader,
+                                 const MaterialUse& use, const PrimitiveGroup& group) {
+    CommonParams p{shader, description_.values};
+    std::string model = shader.shader->name;
+    bool unlit = model == kModels[0];
+    const char* base_slot = unlit ? "emission" : "diffuse";
+    dvec3 base = p.color(base_slot, 0);
+    Json pbr = {{"metallicFactor", 0}}, material = Json::object();
+    auto map = [&](const std::string& slot) -> Json {
+        const ParamSource* source = find_source(shader, slot + "_map");
+        if (!source || source->strings.empty() || source->strings[0].empty()) return nullptr;
+        return texture_info(source->strings[0], *source, use, group);
+    };
+    if (Json info = map(base_slot); !info.is_null()) {
+        pbr["baseColorTexture"] = info;
+        base = dvec3(1.0);
+    }
+    // collada_*.sl, slot_opacity: how much of what lies behind is hidden.
+    std::string opaque = p.text("opaque");
+    double alpha = 1;
+    bool by_alpha = opaque == "A_ONE" || opaque == "A_ZERO";
+    if (opaque != "NONE" && !opaque.empty()) {
+        alpha = p.number("transparency", 1) *
+                (by_alpha ? p.number("transparent_alpha", 1) : mean(p.color("transparent", 1)));
+        if (opaque.ends_with("ZERO")) alpha = 1 - alpha;
+    }
+    bool blends = clamp01(alpha) < 1;
+    if (std::string t = p.text("transparent_map"); !t.empty() && opaque != "NONE") {
+        bool same = parse_texture_name(t).path ==
+                    parse_texture_name(p.text(std::string(base_slot) + "_map")).path;
+        blends = same && opaque == "A_ONE";
+        alpha = p.number("transparency", 1);
+        if (!blends) {
+            alpha = 1;
+            lost(fmt::format("material '{}'", definition.id),
+                 "a transparency texture other than the color's alpha", material_place(shader));
+        }
+    }
+    alpha = clamp01(alpha);
+    if (blends) material["alphaMode"] = "BLEND";
+    pbr["baseColorFactor"] = {clamp01(base.x), clamp01(base.y), clamp01(base.z), alpha};
+    dvec3 specular = p.color("specular", 0);
+    bool shines = model == kModels[2] || model == kModels[3];
+    double most = std::max({specular.x, specular.y, specular.z});
+    double exponent = p.number("shininess", 20);
+    pbr["roughnessFactor"] = shines && most > 0 ? roughness(exponent) : 1.0;
+    material["pbrMetallicRoughness"] = pbr;
+    if (unlit) {
+        material["extensions"]["KHR_materials_unlit"] = Json::object();
+        use_extension("KHR_materials_unlit");
+        return material;
+    }
+    Json layer = {{"specularFactor", shines ? clamp01(most) : 0.0}};
+    if (shines && most > 0)
+        layer["specularColorFactor"] = {clamp01(specular.x / most), clamp01(specular.y / most),
+                                        clamp01(specular.z / most)};
+    material["extensions"]["KHR_materials_specular"] = layer;
+    use_extension("KHR_materials_specular");
+    if (!(shines && most > 0)) {
+        material["extensions"]["KHR_materials_ior"] = {{"ior", 1.0}};
+        use_extension("KHR_materials_ior");
+    }
+    dvec3 emission = p.color("emission", 0);
+    if (Json info = map("emission"); !info.is_null()) {
+        material["emissiveTexture"] = info;
+        emission = dvec3(1.0);
+    }
+    if (emission != dvec3(0.0))
+        material["emissiveFactor"] = {clamp01(emission.x), clamp01(emission.y),
+                                      clamp01(emission.z)};
+    return material;
+}
+
+// What import_gltf makes of glTF's own materials, written back.
+Json GltfExport::pbr_material(const MaterialDefinition&, const ShaderUse& shader,
+                              const MaterialUse& use, const PrimitiveGroup& group) {
+    CommonParams p{shader, description_.values};
+    dvec3 base = p.color("base_color", 1), emissive = p.color("emissive", 0);
+    Json pbr = {
+        {"baseColorFactor",
+         {clamp01(base.x), clamp01(base.y), clamp01(base.z), clamp01(p.number("base_alpha", 1))}}};
+    Json material = Json::object();
+    auto map = [&](const std::string& slot) -> Json {
+        const ParamSource* source = find_source(shader, slot + "_map");
+        if (!source || source->strings.empty() || source->strings[0].empty()) return nullptr;
+        return texture_info(source->strings[0], *source, use, group);
+    };
+    auto set = [](Json& place, const char* name, Json info) {
+        if (!info.is_null()) place[name] = std::move(info);
+    };
+    set(pbr, "baseColorTexture", map("base_color"));
+    bool unlit = shader.shader->name == "gltf_unlit";
+    if (!unlit) {
+        pbr["metallicFactor"] = clamp01(p.number("metallic", 1));
+        pbr["roughnessFactor"] = clamp01(p.number("roughness", 1));
+        set(pbr, "metallicRoughnessTexture", map("metallic_roughness"));
+        if (Json info = map("normal"); !info.is_null()) {
+            info["scale"] = p.number("normal_scale", 1);
+            material["normalTexture"] = info;
+        }
+        if (Json info = map("occlusion"); !info.is_null()) {
+            info["strength"] = clamp01(p.number("occlusion_strength", 1));
+            material["occlusionTexture"] = info;
+        }
+        set(material, "emissiveTexture", map("emissive"));
+        double most = std::max({emissive.x, emissive.y, emissive.z, 1.0});
+        if (emissive != dvec3(0.0))
+            material["emissiveFactor"] = {emissive.x / most, emissive.y / most, emissive.z / most};
+        if (most > 1) {
+            material["extensions"]["KHR_materials_emissive_strength"] = {
+                {"emissiveStrength", most}};
+            use_extension("KHR_materials_emissive_strength");
+        }
+        double r = std::sqrt(std::clamp(p.number("dielectric_F0", 0.04), 0.0, 0.99));
+        if (std::abs(r - 0.2) > 1e-9) {
+            material["extensions"]["KHR_materials_ior"] = {{"ior", (1 + r) / (1 - r)}};
+            use_extension("KHR_materials_ior");
+        }
+    } else {
+        material["extensions"]["KHR_materials_unlit"] = Json::object();
+        use_extension("KHR_materials_unlit");
+    }
+    material["pbrMetallicRoughness"] = pbr;
+    std::string mode = p.text("alpha_mode");
+    if (mode == "BLEND" || mode == "MASK") material["alphaMode"] = mode;
+    if (mode == "MASK") material["alphaCutoff"] = std::max(p.number("alpha_cutoff", 0.5), 0.0);
+    return material;
+}
+
+uint32_t GltfExport::material(const MeshUse& use, const PrimitiveGroup& group) {
+    const MaterialUse* bound = nullptr;
+    for (const MaterialUse& m : use.materials)
+        if (m.symbol == group.symbol) bound = &m;
+    if (!bound || bound->material == kNone) return kNone;
+    const MaterialDefinition& definition = description_.materials[bound->material];
+    const ShaderUse* top = definition.surfaces.empty() ? nullptr : &definition.surfaces.back();
+    Json result = Json::object();
+    bool common = false, pbr = false;
+    for (const char* model : kModels) common |= top && is_library_shader(*top, model);
+    pbr = top && (is_library_shader(*top, "gltf_pbr") || is_library_shader(*top, "gltf_unlit"));
+    if (common)
+        result = common_material(definition, *top, *bound, group);
+    else if (pbr)
+        result = pbr_material(definition, *top, *bound, group);
+    else
+        result["pbrMetallicRoughness"] = {{"metallicFactor", 0},
+                                          {"baseColorFactor", {0.8, 0.8, 0.8, 1}}};
+    if (!definition.id.empty()) result["name"] = definition.id;
+    bool double_sided = !definition.hide_backfaces && description_.meshes[use.mesh].double_sided;
+    if (double_sided) result["doubleSided"] = true;
+    Json shaders = rsl_of(definition, *bound, group);
+    if (!shaders.empty() && !(pbr && shaders.size() == 1)) result["extras"]["kinora_rsl"] = shaders;
+    auto [found, fresh] = materials_.try_emplace(result.dump(), uint32_t(materials_.size()));
+    if (fresh) {
+        json_["materials"].push_back(result);
+        tell_losses(definition, common, pbr, !shaders.empty());
+    }
+    return found->second;
+}
+
+void GltfExport::tell_losses(const MaterialDefinition& definition, bool common, bool pbr,
+                             bool shaders) {
+    if (!told_materials_.insert(&definition).second) return;
+    std::string name = fmt::format("material '{}'", definition.id);
+    Location where;
+    bool moves = false;
+    auto look = [&](const std::vector<ShaderUse>& uses) {
+        for (const ShaderUse& use : uses)
+            for (const ParamSource& p : use.params) {
+                if (where.file == kNoFile) where = p.where;
+                moves |= is_animated(p.value);
+            }
+    };
+    look(definition.surfaces);
+    look(definition.displacements);
+    look(definition.transformations);
+    if (moves) lost(name, "its animated parameters", where);
+    if (shaders && !common && !pbr) in_extras(name, "its RSL shaders", where);
+    if (shaders && common)
+        in_extras(name, "its shading model (pbrMetallicRoughness comes near it)", where);
+}
+
+Location GltfExport::material_place(const ShaderUse& use) const {
+    for (const ParamSource& p : use.params)
+        if (p.where.file != kNoFile) return p.where;
+    return {};
+}
+
+}  // namespace kinora

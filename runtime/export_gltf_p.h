@@ -1,0 +1,155 @@
+// runtime/export_gltf_p.h: the parts of the glTF exporter; for export_gltf*.cpp only.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/export_gltf.h"
+#include "runtime/scene.h"
+#include "runtime/texture_name.h"
+
+namespace kinora {
+
+using Json = nlohmann::ordered_json;
+
+// M = translation * rotation * diag(scale), rotation as x y z w.
+struct Trs {
+    dvec3 translation{0.0};
+    std::array<double, 4> rotation{0, 0, 0, 1};
+    dvec3 scale{1.0};
+};
+// False where the columns are not orthogonal: `trs` is then the nearest.
+bool decompose_trs(const dmat4& m, Trs& trs);
+// Any affine matrix as two nodes, outer * inner, exactly.
+void split_shear(const dmat4& m, Trs& outer, Trs& inner);
+
+class GltfExport {
+  public:
+    GltfExport(const SceneDescription& description, const GltfExportOptions& options,
+               Diagnostics& diagnostics);
+    std::string glb();
+
+  private:
+    // An occurrence of a node definition in the unrolled tree.
+    struct Placed {
+        uint32_t definition;
+        uint32_t parent;  // kNone: a root
+        uint32_t node;    // the glTF node with its whole matrix: what children hang on
+        dmat4 world;      // at rest, in the scene's own axes and unit
+    };
+    struct Channel {  // one that moves some number of a stack of transforms
+        const anim::Sampler* sampler;
+        const anim::Channel* channel;
+    };
+    // A curve of glTF: what it is at any time, and how near its keys must come.
+    struct Path {
+        const char* name;
+        uint32_t width;
+        std::function<void(double, double*)> at;
+        std::vector<Channel> channels;
+        bool rotation = false;
+        double tolerance = 1e-4;
+        std::vector<double> times;  // keys of the channels, more where they turn far
+        uint32_t element_width() const { return name == std::string_view("weights") ? 1 : width; }
+    };
+
+    // export_gltf.cpp: the file, its buffer, cameras
+    template <class T>
+    uint32_t accessor(const std::vector<T>& numbers, uint32_t width, int target, bool bounds);
+    uint32_t buffer_view(const void* data, size_t size, int target);
+    void lost(const std::string& what, const std::string& why, Location where = {});
+    void in_extras(const std::string& what, const std::string& why, Location where = {});
+    bool is_animated(ValueSlot slot) const;
+    std::span<const double> values(ValueSlot slot) const;
+    Json camera(const CameraDefinition& definition);
+    void use_extension(const char* name);
+    std::string finish();
+
+    // export_gltf_nodes.cpp
+    uint32_t add_node(Json node, uint32_t parent);
+    void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
+    uint32_t stack_nodes(const NodeDefinition& definition, const dmat4& conversion,
+                         uint32_t parent);
+    uint32_t static_nodes(const dmat4& matrix, uint32_t parent);
+    void hang_content(uint32_t placed);
+    void set_bounds(const dmat4& axes);
+    uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
+    uint32_t skin(const MeshUse& use, uint32_t placed);
+
+    // export_gltf_animation.cpp
+    std::vector<Channel> channels_of(uint32_t first_value, uint32_t count) const;
+    void move_node(uint32_t node, std::span<const Transform> stack, const dmat4& conversion,
+                   const std::vector<Channel>& channels);
+    void move_weights(uint32_t node, const MorphDefinition& morph);
+    std::vector<double> key_times(std::span<const Transform> stack,
+                                  const std::vector<Channel>& channels) const;
+    void add_path(uint32_t node, Path path);
+    bool add_step(uint32_t node, const Path& path);
+    bool add_spline(uint32_t node, const Path& path, uint32_t first_value);
+    void add_sampled(uint32_t node, const Path& path);
+    void add_channel(uint32_t node, const char* path, const std::vector<double>& times,
+                     const std::vector<double>& numbers, uint32_t width, const char* interpolation);
+
+    // export_gltf_mesh.cpp
+    uint32_t mesh(const MeshUse& use);
+    Json primitive(const MeshUse& use, const PrimitiveGroup& group, const Mesh& built,
+                   uint32_t group_index);
+    void add_influences(const MeshUse& use, const std::vector<uint32_t>& positions,
+                        Json& attributes);
+    void add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
+                     const std::vector<uint32_t>& corners, Json& primitive);
+
+    // export_gltf_material.cpp, export_gltf_rsl.cpp
+    uint32_t material(const MeshUse& use, const PrimitiveGroup& group);
+    Json common_material(const MaterialDefinition& definition, const ShaderUse& shader,
+                         const MaterialUse& use, const PrimitiveGroup& group);
+    Json pbr_material(const MaterialDefinition& definition, const ShaderUse& shader,
+                      const MaterialUse& use, const PrimitiveGroup& group);
+    Json texture_info(const std::string& name, const ParamSource& source, const MaterialUse& use,
+                      const PrimitiveGroup& group);
+    uint32_t texcoord_index(const std::string& name, const MaterialUse& use,
+                            const PrimitiveGroup& group) const;
+    void tell_losses(const MaterialDefinition& definition, bool common, bool pbr, bool shaders);
+    Location material_place(const ShaderUse& use) const;
+    uint32_t texture(const std::string& name);
+    uint32_t image(const std::string& path);
+    Json rsl(const std::vector<ShaderUse>& uses);
+    Json rsl(const ShaderUse& use);
+    Json rsl_of(const MaterialDefinition& definition, const MaterialUse& bound,
+                const PrimitiveGroup& group);
+
+    // export_gltf_rsl.cpp: lights
+    uint32_t light(const LightDefinition& definition, const dmat4& world);
+
+    const SceneDescription& description_;
+    const GltfExportOptions& options_;
+    Diagnostics& diagnostics_;
+    Json json_;
+    Json channels_ = Json::array(), samplers_ = Json::array();
+    std::string buffer_;
+    std::vector<Placed> placed_;
+    uint32_t root_ = kNone;        // the node of axes and unit
+    std::vector<double> at_time_;  // values while a path is evaluated
+    std::map<std::string, uint32_t> meshes_, materials_, textures_, images_;
+    std::set<const MaterialDefinition*> told_materials_;
+    std::map<uint32_t, Mesh> built_;
+    std::map<uint32_t, uint32_t> cameras_, lights_;
+    std::map<std::vector<double>, uint32_t> key_accessors_;
+    std::vector<std::string> extensions_;
+    dmat4 axes_{1.0};  // from the scene's axes and unit to glTF's
+    double bounds_radius_ = 1;
+    dvec3 bounds_centre_{0.0};
+    double worst_error_ = 0;
+    uint32_t sampled_paths_ = 0;
+};
+
+// A parameter's source, or null; whether the use is that library shader.
+const ParamSource* find_source(const ShaderUse& use, std::string_view name);
+bool is_library_shader(const ShaderUse& use, std::string_view name);
+
+}  // namespace kinora

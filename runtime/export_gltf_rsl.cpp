@@ -1,0 +1,275 @@
+// runtime/export_gltf_rsl.cpp: shaders as extras, textures and lights.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+
+#include "runtime/export_gltf_p.h"
+#include "runtime/findings.h"
+#include "runtime/image_io.h"
+#include "runtime/texture_image.h"
+#include "runtime/texture_name.h"
+
+namespace kinora {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string read_bytes(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+const char* mime_type(const std::string& bytes) {
+    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
+    if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
+    return nullptr;
+}
+
+uint8_t encoded_byte(float x) {  // IEC 61966-2-1
+    x = std::clamp(std::isfinite(x) ? x : 0.0f, 0.0f, 1.0f);
+    float y = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+    return uint8_t(std::lround(255 * y));
+}
+
+// Other formats as PNG; what that cuts off is said in `loss`.
+std::string as_png(const std::string& path, std::string& error, std::string& loss) {
+    TextureImage image;
+    error = read_texture_image(path, image);
+    if (!error.empty()) return {};
+    Image8 out{image.width, image.height, image.bytes};
+    if (image.is_float()) {
+        loss = "values beyond 8 bits";
+        out.rgba.resize(image.floats.size());
+        for (size_t i = 0; i < image.floats.size(); ++i)
+            out.rgba[i] = i % 4 == 3 || image.encoded
+                              ? uint8_t(std::lround(255 * std::clamp(image.floats[i], 0.0f, 1.0f)))
+                              : encoded_byte(image.floats[i]);
+    }
+    fs::path temporary = fs::temp_directory_path() / fmt::format("kinora-{}.png", getpid());
+    error = write_png(temporary.string(), out, {});
+    std::string bytes = error.empty() ? read_bytes(temporary.string()) : "";
+    std::error_code code;
+    fs::remove(temporary, code);
+    return bytes;
+}
+
+// glTF 2.0, sampler.
+constexpr int kWraps[] = {10497, 33648, 33071, 33071};  // TextureWrap
+constexpr int kNearest = 9728, kLinear = 9729, kNearestMip = 9984, kLinearMip = 9987;
+
+constexpr const char* kLightShaders[] = {"collada_ambient", "collada_directional", "collada_point",
+                                         "collada_spot"};
+
+}  // namespace
+
+uint32_t GltfExport::image(const std::string& path) {
+    auto [found, fresh] = images_.try_emplace(path, kNone);
+    if (!fresh) return found->second;
+    std::string bytes = read_bytes(path), error, loss;
+    const char* type = mime_type(bytes);
+    if (!type) {
+        bytes = as_png(path, error, loss);
+        type = "image/png";
+    }
+    if (bytes.empty()) {
+        lost(fmt::format("image '{}'", path), error.empty() ? "it cannot be read" : error);
+        return kNone;
+    }
+    if (!loss.empty()) lost(fmt::format("image '{}'", path), loss);
+    json_["images"].push_back({{"name", fs::path(path).filename().string()},
+                               {"bufferView", buffer_view(bytes.data(), bytes.size(), 0)},
+                               {"mimeType", type}});
+    return found->second = uint32_t(json_["images"].size() - 1);
+}
+
+uint32_t GltfExport::texture(const std::string& name) {
+    TextureName look = parse_texture_name(name);
+    uint32_t source = image(look.path);
+    if (source == kNone) return kNone;
+    Json sampler = {{"magFilter", look.nearest ? kNearest : kLinear},
+                    {"minFilter", look.nearest ? kNearestMip : kLinearMip},
+                    {"wrapS", kWraps[size_t(look.wrap_s)]},
+                    {"wrapT", kWraps[size_t(look.wrap_t)]}};
+    std::string key = fmt::format("{} {}", source, sampler.dump());
+    auto [found, fresh] = textures_.try_emplace(key, uint32_t(textures_.size()));
+    if (!fresh) return found->second;
+    if (look.wrap_s == TextureWrap::Border || look.wrap_t == TextureWrap::Border)
+        lost(fmt::format("image '{}'", look.path), "its border color (edges are repeated)");
+    json_["samplers"].push_back(sampler);
+    json_["textures"].push_back({{"sampler", json_["samplers"].size() - 1}, {"source", source}});
+    return found->second;
+}
+
+// {"library": name} or {"code", "shader"}, and "params"; import_gltf_rsl reads it.
+Json GltfExport::rsl(const ShaderUse& use) {
+    if (!use.shader) return nullptr;
+    Json result;
+    if (is_library_shader(use, use.shader->name)) {
+        result["library"] = use.shader->name;
+    } else {
+        result["code"] = rsl::print_ast(*use.shader->ast);
+        result["shader"] = use.shader->name;
+    }
+    Json params = Json::object();
+    for (const ParamSource& p : use.params) {
+        if (!p.strings.empty()) {
+            std::error_code code;
+            std::string path = parse_texture_name(p.strings[0]).path;
+            uint32_t index = kNone;
+            if (p.strings.size() == 1 && fs::is_regular_file(path, code))
+                index = texture(p.strings[0]);
+            if (index != kNone)
+                params[p.name] = {{"texture", index}};
+            else if (p.strings.size() == 1)
+                params[p.name] = p.strings[0];
+            else
+                params[p.name] = p.strings;
+        } else if (std::span<const double> v = values(p.value); v.size() == 1) {
+            params[p.name] = v[0];
+        } else if (!v.empty()) {
+            params[p.name] = std::vector<double>(v.begin(), v.end());
+        }
+    }
+    if (!params.empty()) result["params"] = params;
+    return result;
+}
+
+Json GltfExport::rsl(const std::vector<ShaderUse>& uses) {
+    if (uses.size() == 1) return rsl(uses[0]);
+    Json list = Json::array();
+    for (const ShaderUse& use : uses) list.push_back(rsl(use));
+    return list;
+}
+
+Json GltfExport::rsl_of(const MaterialDefinition& m, const MaterialUse& bound,
+                        const PrimitiveGroup& group) {
+    Json result = Json::object();
+    auto add = [&](const char* stage, const std::vector<ShaderUse>& uses) {
+        if (uses.empty()) return;
+        result[stage] = rsl(uses);
+        if (uses.size() != 1) return;
+        Json sets = Json::object();
+        for (const ParamSource& p : uses[0].params)
+            if (uint32_t set = p.texcoord.empty() ? 0 : texcoord_index(p.texcoord, bound, group))
+                sets[p.name] = set;
+        if (!sets.empty()) result[stage]["texcoords"] = sets;
+        for (const auto& [name, slot] : bound.params) {  // <bind semantic target>
+            std::span<const double> v = values(slot);
+            if (v.size() == 1)
+                result[stage]["params"][name] = v[0];
+            else if (!v.empty())
+                result[stage]["params"][name] = std::vector<double>(v.begin(), v.end());
+        }
+    };
+    add("transformation", m.transformations);
+    add("displacement", m.displacements);
+    add("surface", m.surfaces);
+    add("volume", m.interior);
+    add("exterior", m.exterior);
+    add("light", m.lights);
+    if (result.contains("light") && m.light_samples) result["light_samples"] = m.light_samples;
+    // Vertex inputs of RSL parameters.
+    for (const VertexBinding& b : bound.vertex_bindings) {
+        uint32_t set = b.set == kNone ? 0 : b.set, index = 0;
+        for (const VertexAttribute& a : group.attributes)
+            if (a.semantic == b.semantic && a.set < set) ++index;
+        const char* prefix = b.semantic == "COLOR" ? "_" : "";
+        if (!result.empty() && (b.semantic == "COLOR" || b.semantic == "TEXCOORD"))
+            result["inputs"][b.param] = fmt::format("{}{}_{}", prefix, b.semantic, index);
+    }
+    return result;
+}
+
+// KHR_lights_punctual: lux and candela that give a Lambert surface what COLLADA's light gives it; a
+// light whose fall-off is not 1 / d^2 does so at the centre of the scene's bounds.
+uint32_t GltfExport::light(const LightDefinition& l, const dmat4& world) {
+    use_extension("KHR_lights_punctual");
+    const ShaderUse& use = l.shader;
+    auto number = [&](const char* name, double otherwise) {
+        const ParamSource* p = find_source(use, name);
+        return p && p->value.present() ? values(p->value)[0] : otherwise;
+    };
+    auto color_of = [&](const char* name) {
+        const ParamSource* p = find_source(use, name);
+        std::span<const double> v = p ? values(p->value) : std::span<const double>();
+        return v.size() >= 3 ? dvec3(v[0], v[1], v[2]) : dvec3(v.empty() ? 1.0 : v[0]);
+    };
+    size_t kind = 0;
+    while (kind < std::size(kLightShaders) && !is_library_shader(use, kLightShaders[kind])) ++kind;
+    Json result;
+    std::string name = fmt::format("light '{}'", l.id);
+    dvec3 color = color_of("lightcolor");
+    double most = std::max({color.x, color.y, color.z, 0.0});
+    double distance = glm::length(dvec3((axes_ * world)[3]) - bounds_centre_);
+    auto set = [&](const char* type, double intensity) {
+        result["type"] = type;
+        result["intensity"] = std::isfinite(intensity) ? std::max(intensity, 0.0) : 0.0;
+        if (most > 0)
+            result["color"] = {std::max(color.x, 0.0) / most, std::max(color.y, 0.0) / most,
+                               std::max(color.z, 0.0) / most};
+    };
+    bool shades = true;  // what glTF has is not all of it
+    if (kind == 1) {
+        set("directional", kPi * most);
+        shades = false;
+    } else if (kind == 2 || kind == 3) {
+        // Attenuations are per unit of the file, glTF's distance is metres.
+        double d = distance / description_.meter;
+        double a = number("constant_attenuation", 1) + d * number("linear_attenuation", 0) +
+                   d * d * number("quadratic_attenuation", 0);
+        set(kind == 2 ? "point" : "spot", a > 0 ? kPi * most * distance * distance / a : 0.0);
+        if (kind == 3) {
+            double half = std::clamp(radians(0.5 * number("falloff_angle", 180)), 1e-3, kPi / 2);
+            result["spot"] = {{"innerConeAngle", 0.0}, {"outerConeAngle", half}};
+            if (number("falloff_exponent", 0) <= 0)
+                result["spot"]["innerConeAngle"] = half * (1 - 1e-6);
+        }
+    } else if (is_library_shader(use, "gltf_directional")) {
+        set("directional", number("intensity", 1) * most);
+        shades = false;
+    } else if (is_library_shader(use, "gltf_point") || is_library_shader(use, "gltf_spot")) {
+        bool spot = use.shader->name == "gltf_spot";
+        set(spot ? "spot" : "point", number("intensity", 1) * most);
+        if (double range = number("range", 0); range > 0) result["range"] = range;
+        if (spot)
+            result["spot"] = {{"innerConeAngle", number("inner_angle", 0)},
+                              {"outerConeAngle", number("outer_angle", kPi / 4)}};
+        shades = false;
+    } else {
+        set("point", 0);  // ambient, or RSL: nothing of glTF's comes near
+    }
+    if (!l.id.empty()) result["name"] = l.id;
+    if (shades && use.shader) {
+        ShaderUse metres = use;
+        Json extras = rsl(metres);
+        Json& params = extras["params"];
+        if (kind == 2 || kind == 3) {
+            double m = description_.meter;
+            params["linear_attenuation"] = number("linear_attenuation", 0) / m;
+            params["quadratic_attenuation"] = number("quadratic_attenuation", 0) / (m * m);
+        }
+        result["extras"]["kinora_rsl"]["light"] = extras;
+        if (l.ambient) result["extras"]["kinora_rsl"]["ambient"] = true;
+        if (l.shadows) result["extras"]["kinora_rsl"]["shadows"] = *l.shadows;
+        in_extras(name,
+                  kind == 0                ? "ambient light"
+                  : kind == 2 || kind == 3 ? "its attenuation (1 / d^2 comes near it)"
+                                           : "its RSL shader",
+                  l.where);
+    }
+    for (const ParamSource& p : use.params)
+        if (is_animated(p.value)) {
+            lost(name, "its animated parameters", l.where);
+            break;
+        }
+    json_["extensions"]["KHR_lights_punctual"]["lights"].push_back(result);
+    return uint32_t(json_["extensions"]["KHR_lights_punctual"]["lights"].size() - 1);
+}
+
+}  // namespace kinora

@@ -1,0 +1,56 @@
+// runtime/programs/convert.h: kinora-convert: one scene file to another format.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+struct ConvertOptions {
+    std::string input, output;
+    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
+    std::vector<std::string> include_directories;
+    std::optional<UpAxis> up_axis;  // of the output; the picture stays
+    std::optional<double> meter;    // likewise
+    double animation_error = 1e-4;  // GltfExportOptions
+    bool allow_external = false;
+    bool strict = false;
+    bool quiet = false, verbose = false;
+    bool stats = false, stats_json = false;
+};
+
+// Reads the command line. Returns an exit code when there is nothing to do.
+std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& options);
+
+// Converts and returns the exit code; findings go to stderr.
+int convert(const ConvertOptions& options);
+
+// .dae to .dae: the document with the options worked into it, in canonical form. Nothing on an
+// error, which was reported.
+std::optional<std::string> convert_document(const ConvertOptions& options, Diagnostics& diag);
+
+// --- the steps of convert_document, each on the document's text ----------------------------------
+
+// The text with `code` as profile_RSL of the material's effect (its own copy of it where other
+// materials share it); stages and names from the shaders in the code.
+std::optional<std::string> embed_shader(const std::string& path, const std::string& text,
+                                        const std::string& material, const std::string& file,
+                                        const ConvertOptions& options, Diagnostics& diag);
+
+// The text of a document whose axes and unit are others and whose picture is the same: one node
+// with the change of axes around those of each visual scene; lengths of cameras and lights anew.
+std::string change_axes(const std::string& path, const std::string& text,
+                        std::optional<UpAxis> up_axis, std::optional<double> meter,
+                        Diagnostics& diag);
+
+// The text with relative links of files (images, other documents, shaders) as seen from another
+// folder.
+std::string move_links(const std::string& path, const std::string& text,
+                       const std::string& new_path, Diagnostics& diag);
+
+}  // namespace kinora

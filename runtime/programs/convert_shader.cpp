@@ -1,0 +1,162 @@
+// runtime/programs/convert_shader.cpp: --shader: RSL into the effect of a material.
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "collada/edit.h"
+#include "rsl/shader.h"
+#include "runtime/findings.h"
+#include "runtime/programs/convert.h"
+
+namespace kinora {
+
+using collada::Document;
+using collada::Edit;
+using collada::Element;
+
+namespace {
+
+constexpr const char* kStages[] = {"SURFACE", "DISPLACEMENT", "LIGHT",
+                                   "VOLUME",  "IMAGER",       "TRANSFORMATION"};  // ShaderKind
+
+std::string code_of(const std::string& file, const ConvertOptions& options, Diagnostics& diag) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    if (text.find("#include") == text.npos) return text;
+    // Included files may not be where the document is read: their text comes along.
+    rsl::ShaderSource source;
+    source.text = text;
+    source.map.file = diag.files.add(file, text);
+    source.map.segments = {{0, 0}};
+    rsl::CompileOptions compile;
+    compile.include_directories = options.include_directories;
+    return rsl::print_preprocessed(rsl::preprocess(source, compile, diag));
+}
+
+// profile_RSL with a <shader> for the first shader of each kind that a material can wear; what the
+// effect's parameters are called like is bound to them.
+std::string profile(const std::vector<std::unique_ptr<rsl::Shader>>& shaders,
+                    const std::string& code, const Element& effect, std::string_view old_params) {
+    std::string passes;
+    bool seen[6] = {};
+    for (const auto& shader : shaders) {
+        size_t kind = size_t(shader->kind);
+        bool worn =
+            shader->kind != rsl::ShaderKind::Light && shader->kind != rsl::ShaderKind::Imager;
+        if (!worn || seen[kind]) continue;
+        seen[kind] = true;
+        passes += fmt::format("<shader stage=\"{}\"><name>{}</name>", kStages[kind], shader->name);
+        auto bind = [&](const Element& scope) {
+            for (const Element& p : scope.children())
+                if (p.name == "newparam")
+                    for (const rsl::ShaderParameter& parameter : shader->parameters)
+                        if (parameter.name == p.value("sid"))
+                            passes += fmt::format(
+                                "<bind symbol=\"{0}\"><param ref=\"{0}\"/></bind>", parameter.name);
+        };
+        bind(effect);
+        if (const Element* old = effect.child("profile_RSL")) bind(*old);
+        passes += "</shader>";
+    }
+    return "<profile_RSL>" + std::string(old_params) + "<technique sid=\"rsl\"><code>" +
+           collada::cdata(code) + "</code><pass>" + passes + "</pass></technique></profile_RSL>";
+}
+
+// The effect's bytes with the profile in place of its old profile_RSL, or before its extras.
+std::string with_profile(std::string_view text, const Element& effect, const std::string& markup) {
+    std::vector<Edit> edits;
+    if (const Element* old = effect.child("profile_RSL")) {
+        edits.push_back({old->bytes, markup});
+    } else if (const Element* extra = effect.child("extra")) {
+        edits.push_back({{extra->bytes.begin, extra->bytes.begin}, markup});
+    } else {
+        edits.push_back(collada::append_child(text, effect, markup));
+    }
+    for (Edit& e : edits) {
+        e.bytes.begin -= effect.bytes.begin;
+        e.bytes.end -= effect.bytes.begin;
+    }
+    return collada::apply_edits(
+        text.substr(effect.bytes.begin, effect.bytes.end - effect.bytes.begin), edits);
+}
+
+}  // namespace
+
+std::optional<std::string> embed_shader(const std::string& path, const std::string& text,
+                                        const std::string& pattern, const std::string& file,
+                                        const ConvertOptions& options, Diagnostics& diag) {
+    rsl::CompileOptions compile;
+    compile.include_directories = options.include_directories;
+    auto shaders = rsl::compile_file(file, compile, diag);
+    if (shaders.empty()) {
+        if (!diag.has_errors())
+            diag.report(Code::CONVERT_SHADER, Location{}, fmt::format("'{}' has no shader", file));
+        return std::nullopt;
+    }
+    std::string code = code_of(file, options, diag);
+    Diagnostics quiet;
+    std::optional<Document> document = collada::read_document_text(path, text, quiet);
+    if (!document || !document->whole()) return text;
+    std::string_view own = quiet.files.text(document->file());
+
+    // Effects and the materials that wear them.
+    std::vector<const Element*> materials, all;
+    for (const Element& library : document->root().children())
+        if (library.name == "library_materials")
+            for (const Element& m : library.children())
+                if (m.name == "material" && m.child("instance_effect")) {
+                    all.push_back(&m);
+                    std::string id(m.value("id")), name(m.value("name"));
+                    if (fnmatch(pattern.c_str(), id.c_str(), 0) == 0 ||
+                        fnmatch(pattern.c_str(), name.c_str(), 0) == 0)
+                        materials.push_back(&m);
+                }
+    if (materials.empty()) {
+        diag.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
+        return std::nullopt;
+    }
+    auto url_of = [](const Element& m) { return m.child("instance_effect")->value("url"); };
+    std::vector<Edit> edits;
+    std::vector<const Element*> done;
+    for (const Element* m : materials) {
+        std::string_view url = url_of(*m);
+        const Element* effect = url.starts_with('#') ? document->find(url.substr(1)) : nullptr;
+        if (!effect || effect->name != "effect") {
+            diag.report(Code::CONVERT_SHADER, Location{},
+                        fmt::format("the effect '{}' of material '{}' is not in this file", url,
+                                    m->value("id")));
+            return std::nullopt;
+        }
+        if (std::find(done.begin(), done.end(), effect) != done.end()) continue;
+        std::string params;
+        if (const Element* old = effect->child("profile_RSL"))
+            for (const Element& p : old->children())
+                if (p.name == "newparam")
+                    params += own.substr(p.bytes.begin, p.bytes.end - p.bytes.begin);
+        std::string markup = with_profile(own, *effect, profile(shaders, code, *effect, params));
+        bool shared = false;  // with a material that keeps its look
+        for (const Element* other : all)
+            shared |= url_of(*other) == url &&
+                      std::find(materials.begin(), materials.end(), other) == materials.end();
+        done.push_back(effect);
+        if (!shared) {
+            edits.push_back({effect->bytes, markup});
+            continue;
+        }
+        std::string id = std::string(effect->value("id")) + "-rsl";
+        while (document->find(id)) id += "_";
+        collada::ByteRange at = effect->attribute("id")->value_bytes;
+        uint32_t begin = at.begin - effect->bytes.begin, length = at.end - at.begin;
+        markup.replace(begin, length, collada::escape_attribute(id));
+        edits.push_back({{effect->bytes.end, effect->bytes.end}, markup});
+        for (const Element* other : materials)
+            if (url_of(*other) == url)
+                edits.push_back(
+                    collada::set_attribute(own, *other->child("instance_effect"), "url", "#" + id));
+    }
+    return collada::apply_edits(own, std::move(edits));
+}
+
+}  // namespace kinora
