@@ -261,7 +261,7 @@ void GltfExport::add_sampled(uint32_t node, const Path& path) {
         times.push_back(k.time);
         numbers.insert(numbers.end(), k.value.begin(), k.value.end());
     }
-    if (worst > 1e-6 * path.tolerance) {
+    if (worst > 0.01 * path.tolerance) {  // less is rounding
         ++sampled_paths_;
         worst_error_ = std::max(worst_error_, worst * options_.animation_error / path.tolerance);
     }

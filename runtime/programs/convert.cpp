@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/stats.h"
-#include "runtime/export_collada.h"
 #include "runtime/export_gltf.h"
 #include "runtime/findings.h"
 #include "runtime/import_collada.h"
@@ -29,10 +28,6 @@ std::string extension(const std::string& path) {
     std::string e = fs::path(path).extension().string();
     for (char& c : e) c = char(std::tolower(c));
     return e;
-}
-
-bool is_gltf(const std::string& path) {
-    return extension(path) == ".gltf" || extension(path) == ".glb";
 }
 
 // Prints findings and says which exit code they call for.
@@ -89,8 +84,7 @@ class Conversion {
 
     int run() {
         Stopwatch watch;
-        bool to_dae = extension(options_.output) == ".dae";
-        if (to_dae && !is_gltf(options_.input)) {
+        if (extension(options_.output) == ".dae") {
             std::optional<std::string> text = convert_document(options_, diag_);
             int code = tell(diag_, options_);
             if (!text) return code == kExitShader ? code : kExitUnreadable;
@@ -105,7 +99,7 @@ class Conversion {
                 tell(diag_, options_);
                 return kExitShader;
             }
-        std::string bytes = to_dae ? to_collada() : export_glb(scene_, gltf_options(), diag_);
+        std::string bytes = export_glb(scene_, gltf_options(), diag_);
         int code = tell(diag_, options_);
         if (code == kExitShader) return code;
         if (extension(options_.output) != ".gltf") return finish(bytes, code, watch);
@@ -126,13 +120,6 @@ class Conversion {
         GltfExportOptions o;
         o.animation_error = options_.animation_error;
         return o;
-    }
-
-    std::string to_collada() {
-        std::string text = export_collada(scene_, options_.output, diag_);
-        if (options_.up_axis || options_.meter)
-            text = change_axes(options_.output, text, options_.up_axis, options_.meter, diag_);
-        return text;
     }
 
     // .gltf: the JSON with its buffer in a .bin beside it.

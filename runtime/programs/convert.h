@@ -18,7 +18,7 @@ struct ConvertOptions {
     std::optional<UpAxis> up_axis;  // of the output; the picture stays
     std::optional<double> meter;    // likewise
     double animation_error = 1e-4;  // GltfExportOptions
-    bool allow_external = false;
+    std::vector<std::string> allow_external;  // folders outside the scene's that it may read
     bool strict = false;
     bool quiet = false, verbose = false;
     bool stats = false, stats_json = false;

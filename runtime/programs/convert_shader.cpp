@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <fnmatch.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "collada/edit.h"
 #include "rsl/shader.h"
@@ -35,10 +37,10 @@ std::string code_of(const std::string& file, const ConvertOptions& options, Diag
     return rsl::print_preprocessed(rsl::preprocess(source, compile, diag));
 }
 
-// profile_RSL with a <shader> for the first shader of each kind that a material can wear; what the
-// effect's parameters are called like is bound to them.
+// profile_RSL with a <shader> for the first shader of each kind that a material can wear.
 std::string profile(const std::vector<std::unique_ptr<rsl::Shader>>& shaders,
-                    const std::string& code, const Element& effect, std::string_view old_params) {
+                    const std::string& code, std::string_view text, const Element& effect,
+                    std::string_view old_params) {
     std::string passes;
     bool seen[6] = {};
     for (const auto& shader : shaders) {
@@ -48,16 +50,29 @@ std::string profile(const std::vector<std::unique_ptr<rsl::Shader>>& shaders,
         if (!worn || seen[kind]) continue;
         seen[kind] = true;
         passes += fmt::format("<shader stage=\"{}\"><name>{}</name>", kStages[kind], shader->name);
-        auto bind = [&](const Element& scope) {
-            for (const Element& p : scope.children())
-                if (p.name == "newparam")
-                    for (const rsl::ShaderParameter& parameter : shader->parameters)
-                        if (parameter.name == p.value("sid"))
-                            passes += fmt::format(
-                                "<bind symbol=\"{0}\"><param ref=\"{0}\"/></bind>", parameter.name);
+        // Old binds of parameters that the new shader has too stay, then parameters named alike.
+        const Element* old = effect.child("profile_RSL");
+        std::set<std::string> bound;
+        auto has = [&](std::string_view name) {
+            for (const rsl::ShaderParameter& parameter : shader->parameters)
+                if (parameter.name == name) return bound.insert(std::string(name)).second;
+            return false;
         };
-        bind(effect);
-        if (const Element* old = effect.child("profile_RSL")) bind(*old);
+        if (const Element* technique = old ? old->child("technique") : nullptr)
+            for (const Element& pass : technique->children())
+                for (const Element& shading : pass.children())
+                    for (const Element& bind : shading.children())
+                        if (bind.name == "bind" && has(bind.value("symbol")))
+                            passes +=
+                                text.substr(bind.bytes.begin, bind.bytes.end - bind.bytes.begin);
+        auto bind_alike = [&](const Element& scope) {
+            for (const Element& p : scope.children())
+                if (p.name == "newparam" && has(p.value("sid")))
+                    passes += fmt::format("<bind symbol=\"{0}\"><param ref=\"{0}\"/></bind>",
+                                          p.value("sid"));
+        };
+        bind_alike(effect);
+        if (old) bind_alike(*old);
         passes += "</shader>";
     }
     return "<profile_RSL>" + std::string(old_params) + "<technique sid=\"rsl\"><code>" +
@@ -135,7 +150,8 @@ std::optional<std::string> embed_shader(const std::string& path, const std::stri
             for (const Element& p : old->children())
                 if (p.name == "newparam")
                     params += own.substr(p.bytes.begin, p.bytes.end - p.bytes.begin);
-        std::string markup = with_profile(own, *effect, profile(shaders, code, *effect, params));
+        std::string markup =
+            with_profile(own, *effect, profile(shaders, code, own, *effect, params));
         bool shared = false;  // with a material that keeps its look
         for (const Element* other : all)
             shared |= url_of(*other) == url &&

@@ -15,7 +15,7 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
         "Exit codes: 0 ok; 1 something was lost, under --strict; 2 usage; 3 scene "
         "unreadable;\n4 shader error; 6 output cannot be written; 75 retry may help.");
     app.set_version_flag("--version", "kinora-convert " KINORA_VERSION);
-    app.add_option("input", o.input, "the scene: .dae, .zae, .gltf or .glb")->required();
+    app.add_option("input", o.input, "the scene: .dae, .zae or .kmz")->required();
     app.add_option("output", o.output, "the file to write: .glb, .gltf or .dae")->required();
     std::vector<std::string> shaders;
     app.add_option("--shader", shaders,
@@ -31,7 +31,8 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
     app.add_option("--unit", o.meter, "metres per unit a .dae shall have");
     app.add_option("--animation-error", o.animation_error,
                    "how near sampled curves must come (1e-4 of the range they move over)");
-    app.add_flag("--allow-external", o.allow_external, "read files outside the scene's folder");
+    app.add_option("--allow-external", o.allow_external,
+                   "DIR: a folder outside the scene's that it may read files of");
     app.add_flag("--strict", o.strict, "exit 1 if the output cannot hold something");
     std::string stats;
     app.add_option("--stats", stats, "sizes and times: text or json")

@@ -1,0 +1,255 @@
+"""tests/programs/convert_test.py: kinora-convert as its users run it: pictures before and after,
+and the judgement of Khronos' glTF-Validator (scripts/npm_packages; skipped without)."""
+import json
+import os
+import struct
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import programs
+from programs import MATTE, SCENES, SHADERS, SOURCE, ProgramTest, render, run
+
+sys.path.insert(0, str(SOURCE / "scripts/sheet"))
+import png  # noqa: E402
+
+NPM = SOURCE / "build/npm"
+SHARED = next((p for p in (SOURCE.parent / "shared/scenes", Path("/work/shared/scenes")) if p.is_dir()), None)
+# Of a picture: the mean difference of its bytes (0..255).
+SAME = 0.02     # the same scene by other numbers: last bits of positions
+LIKE = 1.0      # other arithmetic: floats for doubles, keys for curves
+PICTURE = ("--size", "128x96", "--spp", "4", "--quality", "preview", "--threads", "2", "--progress", "none")
+
+
+def convert(*words, **options):
+    return run("kinora-convert", *words, **options)
+
+
+def mesh_scene(body="", effects="", asset="<asset><created>2026-01-01T00:00:00Z</created>"
+               "<modified>2026-01-01T00:00:00Z</modified><unit meter=\"1\"/></asset>"):
+    """A triangle, wearing `red`; `body` stands before the libraries' end."""
+    return f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">{asset}
+<library_effects><effect id="red-fx"><profile_COMMON><technique sid="c"><lambert>
+<diffuse><color>0.8 0.1 0.1 1</color></diffuse></lambert></technique></profile_COMMON></effect>{effects}</library_effects>
+<library_materials><material id="red" name="Red"><instance_effect url="#red-fx"/></material></library_materials>
+<library_geometries><geometry id="tri"><mesh><source id="p"><float_array id="pa" count="9">-1 0 0 1 0 0 0 1.5 0</float_array>
+<technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
+{body}
+<library_visual_scenes><visual_scene id="vs"><node id="n"><translate sid="t">0 0 0</translate><rotate sid="r">0 1 0 20</rotate>
+<instance_geometry url="#tri"><bind_material><technique_common><instance_material symbol="m" target="#red"/></technique_common>
+</bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#vs"/></scene></COLLADA>
+"""
+
+
+def glb_json(path):
+    data = Path(path).read_bytes()
+    magic, version, size, length, kind = struct.unpack("<IIIII", data[:20])
+    assert magic == 0x46546C67 and version == 2 and size == len(data) and kind == 0x4E4F534A
+    return json.loads(data[20:20 + length])
+
+
+def validated(files):
+    """glTF-Validator's reports, by file; None where it is not installed."""
+    if not (NPM / "node_modules/gltf-validator").is_dir():
+        return None
+    done = subprocess.run(["node", str(SOURCE / "tests/npm/validate_gltf.js"), *map(str, files)],
+                          capture_output=True, text=True, timeout=300,
+                          env={**os.environ, "NODE_PATH": str(NPM / "node_modules")})
+    assert done.returncode == 0, done.stderr
+    return {Path(r["file"]).name: r for r in map(json.loads, done.stdout.splitlines())}
+
+
+class Convert(ProgramTest):
+    def picture(self, scene, *words):
+        out = self.folder / f"{Path(scene).stem}-{len(list(self.folder.iterdir()))}.png"
+        self.expect(render(scene, "-o", out, *PICTURE, *words), 0)
+        return png.read(out)
+
+    def difference(self, a, b):
+        self.assertEqual(a[:2], b[:2])
+        total = sum(abs(x - y) for p, q in zip(a[2], b[2]) for x, y in zip(p, q))
+        return total / (3 * a[0] * a[1])
+
+    def converted(self, scene, name, *words, code=0):
+        out = self.folder / name
+        self.expect(convert(scene, out, *words), code)
+        return out
+
+
+class ToDae(Convert):
+    def test_canonical_text_is_a_fixed_point_and_shows_the_same(self):
+        for scene in ("matte", "rays"):
+            with self.subTest(scene):
+                once = self.converted(SCENES / f"{scene}.dae", f"{scene}.dae")
+                again = self.converted(once, f"{scene}2.dae")
+                self.assertEqual(once.read_bytes(), again.read_bytes())
+                self.assertEqual(self.picture(SCENES / f"{scene}.dae"), self.picture(once))
+
+    def test_axes_and_unit_change_and_the_picture_stays(self):
+        # RSL measures light in world units, which no matrix changes: those keep their unit.
+        scenes = [(SCENES / "matte.dae", "Z", "0.01", "0"), (SCENES / "walker.dae", "Y", "1", "0.7"),
+                  (SCENES / "court.dae", "X", "0.1", "1")]
+        if SHARED:
+            scenes += [(SHARED / name, up, unit, time) for name, up, unit, time in (
+                ("magnum_lights/light.dae", "X", "0.3", "0"),
+                ("thinmatrix_cowboy/model.dae", "Y", "0.01", "0.4"),
+                ("gltf_rigged_figure/RiggedFigure.dae", "X", "2", "0.6"),
+                ("cts_skin_2_influence/skin_2_influence.dae", "Z", "5", "0.5"))]
+        for scene, up, unit, time in scenes:
+            with self.subTest(scene.name):
+                if not scene.exists():
+                    continue
+                out = self.converted(scene, f"{scene.stem}.dae", "--up", up, "--unit", unit)
+                text = out.read_text()
+                self.assertIn(f"<up_axis>{up}_UP</up_axis>", text)
+                self.assertIn(f'meter="{unit}"', text)
+                before = self.picture(scene, "--time", time)
+                after = self.picture(out, "--time", time)
+                self.assertLess(self.difference(before, after), LIKE)
+
+    def test_lengths_of_cameras_and_lights_follow_the_unit(self):
+        body = """<library_cameras><camera id="c"><optics><technique_common><perspective><yfov>40</yfov>
+<znear sid="zn">0.5</znear><zfar>100</zfar></perspective></technique_common></optics></camera></library_cameras>
+<library_lights><light id="l"><technique_common><point><color>1 1 1</color><linear_attenuation>2</linear_attenuation>
+<quadratic_attenuation>4</quadratic_attenuation></point></technique_common></light></library_lights>"""
+        out = self.converted(self.write("a.dae", mesh_scene(body)), "b.dae", "--unit", "0.5")
+        text = out.read_text()
+        for part in ('<znear sid="zn">1</znear>', "<zfar>200</zfar>", "<linear_attenuation>1<",
+                     "<quadratic_attenuation>1<"):
+            self.assertIn(part, text)
+
+    def test_a_shader_is_embedded_and_shows_what_it_shows_as_an_option(self):
+        scene, shader = SCENES / "matte.dae", SHADERS / "plastic.sl"
+        out = self.converted(scene, "shaded.dae", "--shader", f"bright={shader}")
+        self.assertEqual(out.read_text().count("<profile_RSL>"), 2)  # `dim` shared the effect
+        self.assertLess(self.difference(self.picture(out),
+                                        self.picture(scene, "--shader", f"bright={shader}")), SAME)
+
+    def test_a_shader_with_the_end_of_cdata_in_it_survives(self):
+        code = 'surface odd(float a[2] = {0, 1};) {\n    float b[2] = {0, 0};\n    if (a[b[0]]>0 && 1 < 2)\n' \
+               '        Ci = 1;\n    Ci = color(0, 1, 0);\n    Oi = 1;\n}\n'
+        self.assertIn("]]>", code)
+        shader = self.write("odd.sl", code)
+        out = self.converted(self.write("a.dae", mesh_scene()), "b.dae", "--shader", f"Red={shader}")
+        self.assertIn("<code><![CDATA[surface odd", out.read_text())
+        self.expect(render("--list", "materials", out), 0)
+        again = self.converted(out, "c.dae")
+        self.assertEqual(out.read_bytes(), again.read_bytes())
+
+    def test_relative_links_are_moved_with_the_file(self):
+        body = '<library_images><image id="i"><init_from>pictures/a%20b.png</init_from></image></library_images>'
+        self.write("pictures/a b.png", "x")
+        scene = self.write("a.dae", mesh_scene(body))
+        out = self.converted(scene, "deep/er/b.dae")
+        self.assertIn("<init_from>../../pictures/a%20b.png</init_from>", out.read_text())
+
+    def test_comments_and_private_data_stay(self):
+        body = '<!-- keep me -->\n<library_nodes><node id="x"><extra><technique profile="v"><a b="1">&lt;2</a>' \
+               "</technique></extra></node></library_nodes>"
+        text = self.converted(self.write("a.dae", mesh_scene(body)), "b.dae").read_text()
+        self.assertIn("<!-- keep me -->", text)
+        self.assertIn('<a b="1">&lt;2</a>', text)
+
+
+class ExitCodes(Convert):
+    def test_they_say_what_went_wrong(self):
+        out = self.folder / "o.glb"
+        self.expect(convert("--help"), 0, "Exit codes", "--shader")
+        self.expect(convert("--version"), 0, "kinora-convert")
+        self.expect(convert(MATTE), 2)
+        self.expect(convert(MATTE, self.folder / "o.obj"), 2, ".glb")
+        self.expect(convert(MATTE, out, "--unit", "2"), 2, "metres")
+        self.expect(convert(MATTE, out, "--shader", "x"), 2, "MATERIAL=FILE.sl")
+        self.expect(convert(self.folder / "none.dae", out), 3)
+        self.expect(convert(self.write("cut.dae", "<COLLADA><asset>"), self.folder / "o.dae"), 3)
+        bad = self.write("bad.sl", "surface s( { Ci = ; }")
+        for target in ("o.glb", "o.dae"):
+            self.expect(convert(MATTE, self.folder / target, "--shader", f"*={bad}"), 4, "bad.sl")
+            self.expect(convert(MATTE, self.folder / target, "--shader", f"none={SHADERS / 'matte.sl'}"), 4)
+        self.expect(convert(MATTE, "/proc/none/o.glb"), 6)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["bad.sl", "cut.dae"])
+
+    def test_strict_fails_where_something_is_lost(self):
+        light = """<library_lights><light id="l"><technique_common><directional><color sid="c">1 1 1</color>
+</directional></technique_common></light></library_lights><library_animations><animation id="a">
+<source id="i"><float_array id="ia" count="2">0 1</float_array><technique_common><accessor source="#ia" count="2">
+<param name="TIME" type="float"/></accessor></technique_common></source><source id="o"><float_array id="oa" count="2">0 1</float_array>
+<technique_common><accessor source="#oa" count="2"><param name="R" type="float"/></accessor></technique_common></source>
+<sampler id="s"><input semantic="INPUT" source="#i"/><input semantic="OUTPUT" source="#o"/></sampler>
+<channel source="#s" target="l/c.R"/></animation></library_animations>"""
+        text = mesh_scene(light).replace("</instance_geometry>", '</instance_geometry><instance_light url="#l"/>')
+        scene = self.write("a.dae", text)
+        out = self.folder / "a.glb"
+        self.expect(convert(scene, out), 0, "CONVERT_LOST", "animated")
+        self.expect(convert(scene, out, "--strict"), 1, "CONVERT_LOST")
+        self.expect(convert(self.write("b.dae", mesh_scene()), out, "--strict"), 0)
+        self.assertTrue(out.exists())
+
+
+class ToGlb(Convert):
+    def test_vertices_are_shared_and_normals_written(self):
+        json_ = glb_json(self.converted(SCENES / "matte.dae", "m.glb"))
+        primitive = json_["meshes"][0]["primitives"][0]
+        accessor = json_["accessors"]
+        self.assertEqual(accessor[primitive["attributes"]["POSITION"]]["count"], 6)  # an octahedron
+        self.assertEqual(accessor[primitive["attributes"]["NORMAL"]]["count"], 6)
+        self.assertEqual(accessor[primitive["indices"]]["count"], 24)
+        self.assertIn("surface matte", json_["materials"][0]["extras"]["kinora_rsl"]["surface"]["code"])
+
+    def test_one_animated_axis_and_place_are_exact(self):
+        body = """<library_animations><animation id="a"><source id="i"><float_array id="ia" count="3">0 1 2.5</float_array>
+<technique_common><accessor source="#ia" count="3"><param name="TIME" type="float"/></accessor></technique_common></source>
+<source id="o"><float_array id="oa" count="3">0 720 -90</float_array><technique_common><accessor source="#oa" count="3">
+<param name="ANGLE" type="float"/></accessor></technique_common></source><sampler id="s"><input semantic="INPUT" source="#i"/>
+<input semantic="OUTPUT" source="#o"/></sampler><channel source="#s" target="n/r.ANGLE"/>
+<channel source="#s" target="n/t.X"/></animation></library_animations>"""
+        result = convert(self.write("a.dae", mesh_scene(body)), self.folder / "a.glb", "-v")
+        self.expect(result, 0)
+        self.assertNotIn("CONVERT_SAMPLED", result.err)
+        json_ = glb_json(self.folder / "a.glb")
+        paths = {c["target"]["path"]: json_["animations"][0]["samplers"][c["sampler"]]
+                 for c in json_["animations"][0]["channels"]}
+        self.assertEqual(set(paths), {"translation", "rotation"})
+        self.assertEqual(json_["accessors"][paths["translation"]["input"]]["count"], 3)
+        # Two turns in the first second, 810 degrees back in the next 1.5: keys 90 degrees apart.
+        self.assertEqual(json_["accessors"][paths["rotation"]["input"]]["count"], 1 + 8 + 9)
+
+    def test_gltf_is_the_same_in_two_files(self):
+        out = self.converted(SCENES / "matte.dae", "m.gltf")
+        json_ = json.loads(out.read_text())
+        self.assertEqual(json_["buffers"][0]["uri"], "m.bin")
+        self.assertEqual((self.folder / "m.bin").stat().st_size, json_["buffers"][0]["byteLength"])
+
+    def scenes(self):
+        scenes = sorted(SCENES.glob("*.dae"))
+        if SHARED:
+            scenes += sorted(p for p in SHARED.glob("*/*.dae"))
+        return scenes
+
+    def test_every_scene_converts_and_the_validator_finds_no_error(self):
+        made = []
+        for scene in self.scenes():
+            with self.subTest(str(scene)):
+                name = f"{scene.parent.name}-{scene.stem}"
+                result = convert(scene, self.folder / f"{name}.glb", "-q")
+                self.assertIn(result.code, (0, 3), result)  # 3: no scene in it
+                if result.code == 0:
+                    made.append(self.folder / f"{name}.glb")
+                self.assertIn(convert(scene, self.folder / f"{name}.dae", "-q").code, (0, 3))
+        self.assertGreaterEqual(len(made), 5)
+        reports = validated(made)
+        if reports is None:
+            self.skipTest("glTF-Validator is not installed (scripts/npm_packages)")
+        for name, report in reports.items():
+            with self.subTest(name):
+                self.assertEqual(report["errors"], 0,
+                                 [m for m in report["messages"] if m["severity"] == 0][:5])
+
+
+if __name__ == "__main__":
+    programs.main()
