@@ -218,7 +218,7 @@ void GltfExport::unroll(uint32_t index, uint32_t parent, const dmat4& conversion
     uint32_t place = uint32_t(placed_.size());
     dmat4 world = conversion * node_matrix(definition, description_.values);
     if (parent != kNone) world = placed_[parent].world * world;
-    placed_.push_back({index, parent, node, world});
+    placed_.push_back({index, parent, node, world, conversion});
     for (const ChildUse& child : definition.children) unroll(child.node, place, child.conversion);
 }
 
@@ -235,9 +235,32 @@ uint32_t GltfExport::nearest_occurrence(uint32_t definition, uint32_t from) cons
     return best;
 }
 
+// A placed node and those above it once more below the glTF node `above`, without their content.
+uint32_t GltfExport::stand_again(uint32_t place, uint32_t above,
+                                 std::map<uint32_t, uint32_t>& again) {
+    auto found = again.find(place);
+    if (found != again.end()) return found->second;
+    const Placed& p = placed_[place];
+    uint32_t parent = p.parent == kNone ? above : stand_again(p.parent, above, again);
+    return again[place] = stack_nodes(description_.nodes[p.definition], p.conversion, parent);
+}
+
 // COLLADA 1.4.1, skinning: a skin is in world space, joint * inverse bind * bind shape.
 uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
     const SkinDefinition& definition = description_.skins[use.skin];
+    // Without a bind shape the matrix of the node is applied, too (COLLADA.md): the joints stand
+    // once more below it.
+    uint32_t above = root_;
+    std::map<uint32_t, uint32_t> again;
+    dmat4 world = placed_[placed].world * use.conversion;
+    if (is_identity(definition.bind_shape, 1e-9) && !is_identity(world, 1e-9)) {
+        above = static_nodes(use.conversion, placed_[placed].node);
+        json_["nodes"][above]["name"] = definition.id + " space";
+        for (uint32_t joint : use.joint_nodes) {
+            uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
+            if (place != kNone) stand_again(place, above, again);
+        }
+    }
     std::vector<float> inverse_bind;
     Json joints = Json::array();
     uint32_t still = kNone;  // a node that never moves, for what follows no joint
@@ -251,7 +274,7 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
     };
     auto still_node = [&] {
         if (still == kNone)
-            still = add_node(Json::object({{"name", definition.id + " bind shape"}}), root_);
+            still = add_node(Json::object({{"name", definition.id + " bind shape"}}), above);
         return still;
     };
     for (size_t j = 0; j < definition.inverse_bind.size(); ++j) {
@@ -260,7 +283,8 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
         if (place == kNone)
             add(still_node(), definition.bind_shape);
         else
-            add(placed_[place].node, definition.inverse_bind[j] * definition.bind_shape);
+            add(again.empty() ? placed_[place].node : again.at(place),
+                definition.inverse_bind[j] * definition.bind_shape);
     }
     bool follows_none = std::any_of(definition.joints.begin(), definition.joints.end(),
                                     [](int32_t j) { return j < 0; });
@@ -292,12 +316,6 @@ void GltfExport::hang_content(uint32_t place) {
         json_["nodes"][at]["mesh"] = index;
         if (use.skin != kNone) {
             json_["nodes"][at]["skin"] = skin(use, place);
-            const SkinDefinition& s = description_.skins[use.skin];
-            if (is_identity(s.bind_shape, 1e-9) &&
-                !is_identity(placed_[place].world * use.conversion, 1e-9))
-                lost(fmt::format("skin '{}'", s.id),
-                     "the matrix of its node, which applies as its bind shape is the identity",
-                     s.where);
         }
         if (use.morph != kNone) {
             const MorphDefinition& m = description_.morphs[use.morph];

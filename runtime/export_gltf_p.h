@@ -38,9 +38,10 @@ class GltfExport {
     // An occurrence of a node definition in the unrolled tree.
     struct Placed {
         uint32_t definition;
-        uint32_t parent;  // kNone: a root
-        uint32_t node;    // the glTF node with its whole matrix: what children hang on
-        dmat4 world;      // at rest, in the scene's own axes and unit
+        uint32_t parent;   // kNone: a root
+        uint32_t node;     // the glTF node with its whole matrix: what children hang on
+        dmat4 world;       // at rest, in the scene's own axes and unit
+        dmat4 conversion;  // of its use, outside its own stack
     };
     struct Channel {  // one that moves some number of a stack of transforms
         const anim::Sampler* sampler;
@@ -80,6 +81,7 @@ class GltfExport {
     void set_bounds(const dmat4& axes);
     uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
     uint32_t skin(const MeshUse& use, uint32_t placed);
+    uint32_t stand_again(uint32_t place, uint32_t above, std::map<uint32_t, uint32_t>& again);
 
     // export_gltf_animation.cpp
     std::vector<Channel> channels_of(uint32_t first_value, uint32_t count) const;

@@ -124,12 +124,16 @@ Json GltfExport::rsl(const ShaderUse& use) {
             uint32_t index = kNone;
             if (p.strings.size() == 1 && fs::is_regular_file(path, code))
                 index = texture(p.strings[0]);
-            if (index != kNone)
-                params[p.name] = {{"texture", index}};
-            else if (p.strings.size() == 1)
+            if (index != kNone) {
+                TextureName look = parse_texture_name(p.strings[0]);
+                params[p.name]["texture"] = index;
+                if (look.data) params[p.name]["data"] = true;
+                if (look.uv != TextureName().uv) params[p.name]["uv"] = look.uv;
+            } else if (p.strings.size() == 1) {
                 params[p.name] = p.strings[0];
-            else
+            } else {
                 params[p.name] = p.strings;
+            }
         } else if (std::span<const double> v = values(p.value); v.size() == 1) {
             params[p.name] = v[0];
         } else if (!v.empty()) {

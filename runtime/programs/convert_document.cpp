@@ -168,6 +168,9 @@ class AxisChange {
         if (e.name == "visual_scene") return wrap_nodes(e);
         if (e.name == "instance_controller") return keep_skin(e);
         has_rsl_ |= e.name == "profile_RSL";
+        // An included file may say anything; code in the document says it here.
+        knows_world_ |= (e.name == "code" && e.text.find("\"world\"") != e.text.npos) ||
+                        (e.name == "include" && e.parent->name == "technique");
         if (std::string_view url = e.value("url"); url.find('#') != url.npos && url[0] != '#')
             external_ = external_ ? external_ : &e;
         // Lengths that no node's matrix reaches.
@@ -228,7 +231,10 @@ class AxisChange {
         if (external_) diag_.report(Code::CONVERT_EXTERNAL, Location{}, external_->value("url"));
         if (has_rsl_ && scale_ != 1)
             diag_.report(Code::CONVERT_LOST, Location{}, "profile_RSL",
-                         "a length in world units inside shader code");
+                         "lengths in world units inside shader code");
+        if (knows_world_)
+            diag_.report(Code::CONVERT_LOST, Location{}, "profile_RSL",
+                         "places and directions in \"world\" space inside shader code");
         for_each_element(document_.root(), [this](const Element& e) {
             if (e.name != "channel") return;
             std::string_view target = e.value("target");
@@ -248,7 +254,7 @@ class AxisChange {
     double old_meter_ = 1;
     double scale_ = 1;  // old units in new ones
     dmat4 matrix_{1.0};
-    bool has_rsl_ = false;
+    bool has_rsl_ = false, knows_world_ = false;
     std::set<std::string> length_sids_, made_ids_;
     std::vector<Edit> edits_;
 };
