@@ -15,6 +15,8 @@ class ElementIndex {
   public:
     explicit ElementIndex(const Document& document);
 
+    const std::vector<const Element*>& all() const { return elements_; }  // in document order
+
     // The innermost element that holds the byte; the root for one outside of it.
     const Element& at(uint32_t offset) const;
 

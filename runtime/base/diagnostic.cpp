@@ -88,8 +88,7 @@ Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string m
     Severity severity = info.severity;
     for (const auto& [code, forced] : overrides_)
         if (code == info.code) severity = forced;
-    findings_.push_back(
-        {&info, severity, where, shown_path(std::move(message)), {}, info.fix, {}});
+    findings_.push_back({&info, severity, where, shown_path(std::move(message)), {}, info.fix, {}});
     return findings_.back();
 }
 
@@ -126,10 +125,40 @@ namespace {
 
 constexpr size_t kWidestLine = 200;  // longer lines (number lists) are shown around the place only
 
+bool continues_character(char c) {
+    return (uint8_t(c) & 0xC0) == 0x80;
+}
+
+// Control characters (C0 but tabs, DEL, C1) as \xNN: a file cannot talk to the terminal.
+std::string printable(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (size_t i = 0; i < text.size(); ++i) {
+        uint8_t c = uint8_t(text[i]);
+        bool c1 = c == 0xC2 && i + 1 < text.size() && uint8_t(text[i + 1]) < 0xA0;
+        if (c1)
+            out += fmt::format("\\x{:02x}", uint8_t(text[++i]));
+        else if ((c < 0x20 && c != '\t') || c == 0x7F)
+            out += fmt::format("\\x{:02x}", c);
+        else
+            out += char(c);
+    }
+    return out;
+}
+
 std::string place_text(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return "kinora";
     LineColumn at = files.line_column(where.file, where.begin);
-    return fmt::format("{}:{}:{}", shown_path(files.name(where.file)), at.line, at.column);
+    return fmt::format("{}:{}:{}", printable(shown_path(files.name(where.file))), at.line,
+                       at.column);
+}
+
+// As wide as the text is when printed.
+std::string blanks(std::string_view text, char blank) {
+    std::string out;
+    for (char c : text)
+        if (!continues_character(c)) out += c == '\t' && blank == ' ' ? '\t' : blank;
+    return out;
 }
 
 std::string caret_text(Location where, const SourceFiles& files) {
@@ -139,27 +168,36 @@ std::string caret_text(Location where, const SourceFiles& files) {
     size_t column = std::min(size_t(at.column) - 1, line.size());
     size_t first =
         column > kWidestLine / 2 && line.size() > kWidestLine ? column - kWidestLine / 2 : 0;
-    std::string shown(line.substr(first, kWidestLine));
-    std::string carets;
-    for (size_t i = first; i < column; ++i) carets += line[i] == '\t' ? '\t' : ' ';
+    size_t last = std::min(line.size(), first + kWidestLine);
+    while (first < column && continues_character(line[first])) ++first;
+    while (last > column && last < line.size() && continues_character(line[last])) --last;
     size_t length = where.end > where.begin ? where.end - where.begin : 1;
-    length = std::clamp<size_t>(length, 1, std::max<size_t>(1, shown.size() - (column - first)));
-    return fmt::format("    {}\n    {}^{}\n", shown, carets, std::string(length - 1, '~'));
+    size_t end = std::min(column + length, last);
+    while (column > first && column < line.size() && continues_character(line[column])) --column;
+    while (end < last && continues_character(line[end])) ++end;
+    std::string before = printable(line.substr(first, column - first));
+    std::string marked = printable(line.substr(column, end - column));
+    std::string carets = blanks(marked, '~');
+    if (carets.empty()) carets = "~";
+    carets[0] = '^';
+    return fmt::format("    {}{}{}\n    {}{}\n", before, marked,
+                       printable(line.substr(end, last - end)), blanks(before, ' '), carets);
 }
 
 }  // namespace
 
 std::string format_finding(const Finding& finding, const SourceFiles& files) {
-    std::string text =
-        fmt::format("{}: {}: {} [{}]\n", place_text(finding.where, files),
-                    severity_name(finding.severity), finding.message, finding.info->code);
-    if (!finding.id_path.empty()) text += fmt::format("    in {}\n", finding.id_path);
+    std::string text = fmt::format("{}: {}: {} [{}]\n", place_text(finding.where, files),
+                                   severity_name(finding.severity), printable(finding.message),
+                                   finding.info->code);
+    if (!finding.id_path.empty()) text += fmt::format("    in {}\n", printable(finding.id_path));
     text += caret_text(finding.where, files);
     for (const Note& note : finding.notes) {
-        text += fmt::format("{}: note: {}\n", place_text(note.where, files), note.message);
+        text +=
+            fmt::format("{}: note: {}\n", place_text(note.where, files), printable(note.message));
         text += caret_text(note.where, files);
     }
-    if (!finding.help.empty()) text += fmt::format("    help: {}\n", finding.help);
+    if (!finding.help.empty()) text += fmt::format("    help: {}\n", printable(finding.help));
     return text;
 }
 

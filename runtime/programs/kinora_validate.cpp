@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
         kinora::ValidateSettings settings;
         if (auto code = kinora::parse_validate_options(argc, argv, settings)) return *code;
         std::vector<std::string> files = kinora::expand_inputs(settings);
-        return kinora::validate_batch(settings, files);
+        return settings.fix ? kinora::fix_batch(settings, files)
+                            : kinora::validate_batch(settings, files);
     } catch (const std::bad_alloc&) {
         std::fputs("kinora-validate: out of memory\n", stderr);
         return kinora::kExitRetry;

@@ -79,6 +79,10 @@ FileResult validate_text(const std::string& name, std::string bytes,
 // kinora_validate_batch.cpp: all files; prints the report. Returns an exit code.
 int validate_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
 
+// kinora_validate_fix.cpp: repairs files as --fix asks; what is left goes to stderr. Returns an
+// exit code.
+int fix_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
+
 // kinora_validate_budget.cpp: findings where `info` passes a budget.
 void check_budgets(const SceneInfo& info, const ValidateSettings& settings, Location where,
                    Diagnostics& diagnostics);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "collada/schema.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/kinora_validate.h"
 #include "runtime/programs/validate_report.h"
@@ -131,6 +132,9 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
     app.add_option("--budget", w.budgets, "NAME=NUMBER,...: " + budget_names())
         ->delimiter(',')
         ->allow_extra_args(false);
+    auto* fix = app.add_flag("--fix", s.fix, "repair: the text to -o or stdout");
+    auto* diff = app.add_flag("--diff", s.diff, "show the repairs as a unified diff")->needs(fix);
+    app.add_flag("--in-place", s.in_place, "write them into the files")->needs(fix)->excludes(diff);
     app.add_flag("--list-rules", w.list_rules, "every code, its severity and text");
     app.add_option("--explain", w.explain, "what a code means and what to do; all for all");
     app.add_option("--print-schema", w.schema, "an XSD with profile_RSL: 1.4.1 or 1.5");
@@ -177,6 +181,14 @@ std::optional<int> answer(const Words& w, const ValidateSettings& s) {
     }
     if (!w.explain.empty()) {
         std::fputs(explain_text(known_rule(upper(w.explain), "--explain")).c_str(), stdout);
+        return kExitOk;
+    }
+    if (!w.schema.empty()) {
+        bool is_15 = w.schema.starts_with("1.5");
+        if (!is_15 && !w.schema.starts_with("1.4"))
+            throw CLI::ValidationError("--print-schema", "knows 1.4.1 and 1.5");
+        auto version = is_15 ? collada::Version::V1_5_0 : collada::Version::V1_4_1;
+        std::fputs(collada::print_schema(version).c_str(), stdout);
         return kExitOk;
     }
     if (s.inputs.empty()) throw CLI::RequiredError("files");

@@ -1,7 +1,14 @@
 """tests/programs/validate_test.py: kinora-validate as its users run it."""
 import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import xml.etree.ElementTree as ET
+import zipfile
 
-from programs import BIN, MATTE, SCENES, ProgramTest, main, run
+from programs import MATTE, SCENES, ProgramTest, command, main, run
 
 HEAD = ('<?xml version="1.0" encoding="utf-8"?>\n<COLLADA xmlns="http://www.collada.org/2005/11/'
         'COLLADASchema" version="1.4.1">\n<asset><created>2020-01-01T00:00:00Z</created>'
@@ -106,13 +113,347 @@ class Options(ProgramTest):
         self.expect(validate("--explain", "NODE_SINGLAR"), 2)
 
     def test_any_number_of_threads_gives_the_same_bytes(self):
-        files = sorted(SCENES.glob("**/*.dae")) * 20 + [self.scene]
+        files = [MATTE, self.scene, self.folder / "none.dae"] * 30
         for report in ("text", "json", "sarif", "junit", "html"):
             one = validate(*files, "-j", "1", "--format", report).out
             self.assertEqual(one, validate(*files, "-j", "4", "--format", report).out)
 
-    def test_program_is_there(self):
-        self.assertTrue((BIN / "kinora-validate").exists())
+    def test_schemas_are_printed(self):
+        for version in ("1.4.1", "1.5"):
+            schema = ET.fromstring(validate("--print-schema", version).out)
+            self.assertTrue(schema.tag.endswith("}schema"))
+        self.assertEqual(validate("--print-schema", "2.0").code, 2)
+
+    def test_info_and_budgets(self):
+        found = json.loads(validate("--info", "--format", "json", MATTE).out)["files"][0]["info"]
+        self.assertEqual(found["up_axis"], "Y")
+        self.assertGreater(found["triangles"], 0)
+        for low, high in zip(found["bounds"]["min"], found["bounds"]["max"]):
+            self.assertLessEqual(low, high)
+        self.expect(validate("--info", MATTE), 0, f"triangles        {found['triangles']}\n", " m\n")
+        most = found["triangles"]
+        self.assertEqual(validate("--budget", f"triangles={most},joints=64", MATTE).code, 0)
+        self.expect(validate("--budget", f"triangles={most - 1}", MATTE), 1, "BUDGET_EXCEEDED")
+        self.expect(validate("--budget", "triangels=3", MATTE), 2, "triangles")
+
+    def test_bounds_are_metres_of_the_rest_pose(self):
+        scene = self.write("s.dae", HEAD.replace("</asset>", '<unit name="inch" meter="0.0254"/>'
+                           "</asset>") + """<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 2 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y"
+type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s">
+<node id="n"><translate>10 0 0</translate><rotate>0 0 1 90</rotate><scale>2 1 1</scale>
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+        info = json.loads(validate("--info", "--format", "json", scene).out)["files"][0]["info"]
+        # (x, y) becomes (10 - y, 2 x) inches.
+        for found, inches in zip(info["bounds"]["min"] + info["bounds"]["max"],
+                                 (8, 0, 0, 10, 2, 0)):
+            self.assertAlmostEqual(found, inches * 0.0254, places=9)
+
+    def test_quiet_and_verbose(self):
+        self.assertEqual(validate("-q", self.scene).out, "")
+        self.expect(validate("-v", self.scene), 0, "why: ", "s.dae: 2 warnings")
+
+    def test_a_report_goes_to_a_file_whole_or_not_at_all(self):
+        report = self.folder / "report.json"
+        self.expect(validate("--format", "json", "-o", report, self.scene), 0)
+        self.assertEqual(len(json.loads(report.read_text())["files"]), 1)
+        self.expect(validate("-o", self.folder / "none/report.txt", self.scene), 6, "cannot write")
+
+
+BAD = HEAD.replace("<created>2020-01-01T00:00:00Z</created>", "").replace(
+    "</asset>", "<!-- kept --><created>2020-01-01T00:00:00Z</created></asset>") + """<library_lights/>
+<library_images>
+  <image id="i"><init_from>tex\\my wood.png</init_from></image>
+  <image id="j"><init_from>file:///C:/a/b/Stone.png</init_from></image>
+</library_images>
+<library_geometries><geometry id="g"><mesh>
+  <source id="p">
+    <float_array id="pa" count="8">0 0 0  1,5 0 0  0 1 0</float_array>
+    <technique_common><accessor source="#pa" count="4" stride="3">
+      <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+    </accessor></technique_common>
+  </source>
+  <triangles count="2"><input semantic="VERTEX" source="v" offset="0"/><p>0 1 2</p></triangles>
+  <vertices id="v"><input semantic="POSITION" source="p"/></vertices>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">
+  <node id="n"><instance_geometry url="g"/></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>"""
+
+REPAIRED = {"SCHEMA_ORDER", "SCHEMA_EMPTY_LIBRARY", "SRC_COUNT", "SRC_ACCESSOR_COUNT", "PRIM_COUNT",
+            "SRC_COMMA_DECIMAL", "LINK_NO_HASH", "SRC_NO_HASH", "FILE_BACKSLASH", "FILE_ABSOLUTE",
+            "FILE_HOST", "FILE_SPACE", "FILE_CASE", "FILE_FALLBACK"}
+
+
+class Fix(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write("bad.dae", BAD)
+        (self.folder / "tex").mkdir()
+        for name in ("tex/my wood.png", "stone.png"):
+            (self.folder / name).write_bytes(b"\x89PNG\r\n\x1a\n" + b"\0" * 30)
+
+    def test_what_is_repaired_is_not_found_again(self):
+        before = set(codes(self.scene))
+        self.assertLessEqual({"SCHEMA_ORDER", "SRC_COUNT", "SRC_COMMA_DECIMAL", "PRIM_COUNT",
+                              "SRC_ACCESSOR_COUNT", "SCHEMA_EMPTY_LIBRARY", "FILE_FALLBACK",
+                              "LINK_NO_HASH"}, before)
+        self.expect(validate("--fix", "--in-place", self.scene), 0, "repaired")
+        self.assertEqual(set(codes(self.scene)) & REPAIRED, set())
+        text = self.scene.read_text()
+        for piece in ("<init_from>stone.png<", "1.5 0 0", 'count="9"', 'url="#g"', 'source="#v"',
+                      'source="#p"', '<accessor source="#pa" count="3"', "<!-- kept -->"):
+            self.assertIn(piece, text)
+        # Twice is as good as once.
+        self.expect(validate("--fix", "--in-place", self.scene), 0, "nothing to repair")
+        self.assertEqual(self.scene.read_text(), text)
+
+    def test_the_scene_means_the_same(self):
+        def info():
+            found = json.loads(validate("--info", "--format", "json", self.scene).out)
+            return found["files"][0]["info"]
+        before = info()
+        self.assertEqual(before["bounds"]["max"], [1.5, 1, 0])
+        validate("--fix", "--in-place", self.scene)
+        self.assertEqual(before, info())
+
+    def test_all_other_bytes_stay(self):
+        strange = BAD.replace("\n", "\r\n", 3).replace(
+            "<library_lights/>", "<!-- \t two  spaces --><library_lights/>")
+        path = self.folder / "crlf.dae"
+        path.write_bytes(b"\xef\xbb\xbf" + strange.encode())
+        validate("--fix", "--only", "SRC_COMMA_DECIMAL", "--in-place", path)
+        self.assertEqual(path.read_bytes(),
+                         b"\xef\xbb\xbf" + strange.replace("1,5", "1.5").encode())
+
+    def test_a_diff_is_what_in_place_does(self):
+        diff = validate("--fix", "--diff", self.scene).out
+        patch = self.write("d.patch", diff)
+        copy = self.write("copy.dae", BAD)
+        text = validate("--fix", self.scene).out
+        self.assertEqual(self.scene.read_text(), BAD)
+        if shutil.which("patch"):
+            subprocess.run(["patch", "-s", copy, patch], check=True)
+            self.assertEqual(copy.read_text(), text)
+        validate("--fix", "--in-place", self.scene)
+        self.assertEqual(self.scene.read_text(), text)
+        self.assertEqual(validate("--fix", "--diff", self.scene).out, "")
+
+    def test_what_cannot_be_repaired_is_reported(self):
+        broken = self.write("broken.dae", BAD[:-12])
+        self.expect(validate("--fix", "--in-place", broken), 1, "XML_SYNTAX")
+        self.assertEqual(broken.read_text(), BAD[:-12])
+        self.expect(validate("--fix", "--in-place", self.folder / "none.dae"), 3, "XML_OPEN")
+        self.expect(validate("--fix", self.scene, broken), 2, "--in-place")
+        self.assertEqual(validate("--diff", self.scene).code, 2)
+
+
+class Shaders(ProgramTest):
+    """profile_RSL through the real front end."""
+
+    def change(self, old, new, count=1):
+        text = MATTE.read_text()
+        self.assertIn(old, text)
+        return self.write("s.dae", text.replace(old, new, count))
+
+    def test_stages_without_a_shader(self):
+        self.assertIn("RSL_SHADER_MISSING", codes(self.change('stage="SURFACE"',
+                                                              'stage="DISPLACEMENT"')))
+
+    def test_errors_in_included_files_have_their_place_there(self):
+        text = MATTE.read_text()
+        begin, end = text.index("<code>"), text.index("</code>") + len("</code>")
+        self.write("m.sl", "surface matte(float Kd = 1;)\n{\n    Ci = Kd * diffus(N);\n}\n")
+        scene = self.write("s.dae", text[:begin] + '<include url="m.sl"/>' + text[end:])
+        self.expect(validate(scene), 1, "m.sl:3:15: error")
+
+    def test_scenes_without_rsl_know_no_rsl(self):
+        self.assertFalse([c for c in codes(self.write("s.dae", EMPTY)) if c.startswith("RSL_")])
+
+
+class Reports(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write("a b.dae", EMPTY.replace('url="#v"', 'url="#w<\x1fé"').replace(
+            "<asset>", "<asset><!-- é --><foo/>"))
+        self.broken = self.write("broken.dae", EMPTY[:-12])
+        self.files = [self.scene, MATTE, self.broken]
+
+    def report(self, name):
+        return validate("--format", name, *self.files)
+
+    def test_json(self):
+        report = json.loads(self.report("json").out)
+        self.assertEqual([f["file"] for f in report["files"]], [str(f) for f in self.files])
+        self.assertEqual(report["summary"]["exit_code"], 1)
+        self.assertTrue(report["files"][1]["valid"])
+        for f in (f for file in report["files"] for f in file["findings"]):
+            self.assertLessEqual({"code", "severity", "message", "line", "column", "path"}, set(f))
+
+    def check_sarif(self, value, schema, where="$"):
+        """The rules of SARIF 2.1.0 that concern us, from the OASIS standard."""
+        kinds = {"string": str, "array": list, "object": dict, "boolean": bool, "integer": int}
+        if "kind" in schema:
+            self.assertIsInstance(value, kinds[schema["kind"]], where)
+        if "enum" in schema:
+            self.assertIn(value, schema["enum"], where)
+        if "least" in schema:
+            self.assertGreaterEqual(value, schema["least"], where)
+        if "pattern" in schema:
+            self.assertRegex(value, schema["pattern"], where)
+        for name in schema.get("required", ()):
+            self.assertIn(name, value, where)
+        if "properties" in schema:
+            for name, item in value.items():
+                self.assertIn(name, schema["properties"], where)
+                self.check_sarif(item, schema["properties"][name], f"{where}.{name}")
+        for i, item in enumerate(value if "items" in schema else ()):
+            self.check_sarif(item, schema["items"], f"{where}[{i}]")
+
+    def test_sarif_follows_the_standard(self):
+        text = {"kind": "string"}
+        message = {"kind": "object", "required": ["text"], "properties": {"text": text}}
+        number = {"kind": "integer", "least": 1}
+        level = {"enum": ["none", "note", "warning", "error"]}
+        uri = {"kind": "string", "pattern": r"^[A-Za-z0-9\-._~:/?#\[\]@!$&'()*+,;=%]+$"}
+        location = {"kind": "object", "properties": {
+            "physicalLocation": {
+                "kind": "object", "required": ["artifactLocation"], "properties": {
+                    "artifactLocation": {"kind": "object", "properties": {"uri": uri}},
+                    "region": {"kind": "object", "properties": {
+                        k: number for k in ("startLine", "startColumn", "endLine", "endColumn")}}}},
+            "logicalLocations": {"kind": "array", "items": {"kind": "object", "properties": {
+                "fullyQualifiedName": text, "kind": text}}},
+            "message": message}}
+        rule = {"kind": "object", "required": ["id"], "properties": {
+            "id": text, "shortDescription": message, "fullDescription": message, "help": message,
+            "defaultConfiguration": {"kind": "object", "properties": {
+                "enabled": {"kind": "boolean"}, "level": level}}}}
+        result = {"kind": "object", "required": ["message"], "properties": {
+            "ruleId": text, "ruleIndex": {"kind": "integer", "least": 0}, "level": level,
+            "message": message, "locations": {"kind": "array", "items": location},
+            "relatedLocations": {"kind": "array", "items": location}}}
+        run_schema = {"kind": "object", "required": ["tool"], "properties": {
+            "tool": {"kind": "object", "required": ["driver"], "properties": {"driver": {
+                "kind": "object", "required": ["name"], "properties": {
+                    "name": text, "version": text,
+                    "semanticVersion": {"kind": "string", "pattern": r"^\d+\.\d+\.\d+"},
+                    "rules": {"kind": "array", "items": rule}}}}},
+            "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
+            "invocations": {"kind": "array", "items": {
+                "kind": "object", "required": ["executionSuccessful"], "properties": {
+                    "executionSuccessful": {"kind": "boolean"}, "exitCode": {"kind": "integer"}}}},
+            "results": {"kind": "array", "items": result}}}
+        report = json.loads(self.report("sarif").out)
+        self.check_sarif(report, {"required": ["version", "runs"], "properties": {
+            "$schema": uri, "version": {"enum": ["2.1.0"]},
+            "runs": {"kind": "array", "items": run_schema}}})
+        one = report["runs"][0]
+        ids = [rule["id"] for rule in one["tool"]["driver"]["rules"]]
+        self.assertEqual(len(ids), len(set(ids)))
+        self.assertTrue(one["results"])
+        for found in one["results"]:
+            self.assertEqual(ids[found["ruleIndex"]], found["ruleId"])
+            self.assertTrue(found["locations"][0]["logicalLocations"][0]["fullyQualifiedName"])
+
+    def test_sarif_counts_columns_in_characters(self):
+        found = next(r for r in json.loads(self.report("sarif").out)["runs"][0]["results"]
+                     if "foo" in r["message"]["text"])
+        region = found["locations"][0]["physicalLocation"]["region"]
+        line = self.scene.read_text().splitlines()[region["startLine"] - 1]
+        self.assertTrue(line[region["startColumn"] - 1:].startswith("<foo/>"))
+
+    def test_junit_is_xml_with_a_case_for_each_failure(self):
+        suites = ET.fromstring(self.report("junit").out)
+        self.assertEqual([s.get("name") for s in suites], [str(f) for f in self.files])
+        good, broken = suites[1], suites[2]
+        self.assertEqual(good.get("failures"), "0")
+        self.assertEqual(len(good.findall("testcase")), 1)
+        self.assertEqual(int(broken.get("failures")), len(broken.findall("testcase/failure")))
+        self.assertTrue(any(f.get("type") == "XML_SYNTAX" for f in broken.iter("failure")))
+
+    def test_html_needs_nothing_else(self):
+        page = self.report("html").out
+        self.assertNotRegex(page, r"(?i)(src|href)\s*=|@import|url\(|https?://(?!www\.collada)")
+        self.assertIn("&lt;foo/&gt;", page)
+        self.assertNotIn("<foo/>", page)
+
+    def test_html_filters_in_a_browser(self):
+        chromium = shutil.which("chromium")
+        if not chromium:
+            self.skipTest("chromium is not installed")
+        page = self.report("html").out
+        # What a user does, done by a script in the page.
+        page = page.replace("</body>", """<script>
+            boxes.warning.checked = false; update();
+            document.title = [items.length, items.filter(a => !a.hidden).length,
+              items.filter(a => !a.hidden && a.dataset.severity === 'warning').length].join(' ');
+            </script></body>""")
+        file = self.write("page.html", page)
+        with tempfile.TemporaryDirectory() as profile:
+            dom = subprocess.run(
+                [chromium, "--headless", "--no-sandbox", "--disable-gpu",
+                 f"--user-data-dir={profile}", "--dump-dom", f"file://{file}"],
+                capture_output=True, text=True, timeout=120).stdout
+        title = re.search(r"<title>(\d+) (\d+) (\d+)</title>", dom)
+        self.assertTrue(title, dom[:2000])
+        every, shown, warnings = map(int, title.groups())
+        self.assertEqual(every, page.count("<article "))
+        self.assertEqual(warnings, 0)
+        self.assertTrue(0 < shown < every)
+        self.assertRegex(dom, r'id="shown">\d+ of \d+ shown')
+
+
+class Batches(ProgramTest):
+    def test_archives(self):
+        archive = self.folder / "a.zae"
+        with zipfile.ZipFile(archive, "w") as z:
+            z.writestr("manifest.xml", '<?xml version="1.0"?><dae_root>m/s.dae</dae_root>')
+            z.writestr("m/s.dae", MATTE.read_text().replace("diffuse(", "difuse("))
+        self.expect(validate(archive), 1, "a.zae!m/s.dae:", "RSL_UNKNOWN_FUNCTION")
+
+    def test_bad_files_do_not_stop_the_others(self):
+        (self.folder / "d.dae").mkdir()
+        (self.folder / "link.dae").symlink_to(self.folder / "nowhere.dae")
+        (self.folder / "loop").symlink_to(self.folder)
+        self.write("empty.dae", "")
+        self.write("good.dae", EMPTY)
+        (self.folder / "bytes.dae").write_bytes(bytes(range(256)) * 10)
+        result = validate("-r", self.folder, "--format", "json")
+        report = {os.path.basename(f["file"]): f for f in json.loads(result.out)["files"]}
+        self.assertEqual(result.code, 3)
+        self.assertEqual(set(report), {"link.dae", "empty.dae", "good.dae", "bytes.dae"})
+        self.assertTrue(report["good.dae"]["valid"])
+        self.assertFalse(report["link.dae"]["readable"])
+        self.assertFalse(report["bytes.dae"]["valid"])
+
+    def test_devices_are_refused(self):
+        self.expect(validate("/dev/zero"), 3, "XML_OPEN")
+
+    def test_a_reader_that_goes_away_ends_the_run(self):
+        files = [str(self.write("s.dae", EMPTY.replace('url="#v"', 'url="#w"')))] * 5000
+        program = subprocess.Popen([*command("kinora-validate"), *files], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        program.stdout.read(10)
+        program.stdout.close()
+        self.assertEqual(program.wait(timeout=60), 6)
+        self.assertEqual(program.stderr.read(), b"")
+        program.stderr.close()
+
+    def test_memory_does_not_grow_with_the_number_of_files(self):
+        scene = self.write("s.dae", EMPTY.replace('url="#v"', 'url="#w"'))
+
+        def peak(count):
+            result = validate(*[scene] * count, "-q", "--stats", "json", "-j", "2")
+            return json.loads(result.err)["peak_bytes"]
+        self.assertLess(peak(4000), peak(200) + 16e6)
 
 
 if __name__ == "__main__":

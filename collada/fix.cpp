@@ -1,0 +1,114 @@
+// collada/fix.cpp: which code is repaired by what; rounds of repairs until none is left.
+#include "collada/fix.h"
+
+#include <algorithm>
+#include <set>
+
+#include "collada/fix_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+struct Fixer {
+    const FindingInfo* info;
+    void (*fix)(FixContext&);
+};
+
+// Those that change little come first: of two edits of the same bytes the first one is made, the
+// other in the next round.
+const std::vector<Fixer>& fixers() {
+    static const std::vector<Fixer> kFixers = {
+        {&Code::SRC_COMMA_DECIMAL, fix_comma_decimals},
+        {&Code::SRC_COUNT, fix_array_count},
+        {&Code::SRC_ACCESSOR_COUNT, fix_accessor_count},
+        {&Code::PRIM_COUNT, fix_primitive_count},
+        {&Code::LINK_NO_HASH, fix_missing_hash},
+        {&Code::SRC_NO_HASH, fix_missing_hash},
+        {&Code::SCHEMA_PATTERN, fix_missing_hash},
+        {&Code::FILE_BACKSLASH, fix_path},
+        {&Code::FILE_ABSOLUTE, fix_path},
+        {&Code::FILE_HOST, fix_path},
+        {&Code::FILE_SPACE, fix_path},
+        {&Code::FILE_CASE, fix_path},
+        {&Code::FILE_FALLBACK, fix_path},
+        {&Code::SCHEMA_EMPTY_LIBRARY, fix_empty_libraries},
+        {&Code::SCHEMA_ORDER, fix_order},
+    };
+    return kFixers;
+}
+
+// Elements nest, and an element that moves takes its own disorder along: a round a level.
+constexpr int kMostRounds = 64;
+
+struct Round {
+    std::vector<Edit> edits;
+    std::vector<FixCount> counts;
+    std::set<std::pair<uint32_t, uint32_t>> places;  // one place is repaired by one code
+};
+
+Round find_fixes(const Document& document, const Diagnostics& diagnostics, const SceneData* scene,
+                 const std::vector<const Fixer*>& wanted) {
+    ElementIndex elements(document);
+    Round round;
+    for (const Fixer* fixer : wanted) {
+        FixContext context{document, diagnostics.files.text(document.file()), scene, elements, {},
+                           {}};
+        for (const Finding& finding : diagnostics.findings())
+            if (finding.info == fixer->info && finding.where.file == document.file())
+                context.findings.push_back(&finding);
+        if (context.findings.empty()) continue;
+        fixer->fix(context);
+        size_t made = 0;
+        for (Edit& edit : context.edits) {
+            if (!round.places.emplace(edit.bytes.begin, edit.bytes.end).second) continue;
+            round.edits.push_back(std::move(edit));
+            ++made;
+        }
+        if (made) round.counts.push_back({fixer->info, made});
+    }
+    return round;
+}
+
+void add_counts(std::vector<FixCount>& sum, const std::vector<FixCount>& counts) {
+    for (const FixCount& one : counts) {
+        auto known = std::find_if(sum.begin(), sum.end(),
+                                  [&](const FixCount& c) { return c.info == one.info; });
+        if (known == sum.end())
+            sum.push_back(one);
+        else
+            known->count += one.count;
+    }
+}
+
+}  // namespace
+
+FixResult fix_text(const std::string& path, std::string text, const ValidateOptions& options,
+                   bool (*wanted)(const FindingInfo&, const void*), const void* context) {
+    FixResult result{std::move(text), {}};
+    std::vector<const Fixer*> chosen;
+    for (const Fixer& fixer : fixers())
+        if (wanted(*fixer.info, context)) chosen.push_back(&fixer);
+    for (int round = 0; round < kMostRounds; ++round) {
+        Diagnostics diagnostics;
+        std::optional<Document> document = read_document_text(path, result.text, diagnostics);
+        if (!document || !document->whole()) break;
+        if (diagnostics.files.text(document->file()) != result.text) break;  // recoded, or a BOM
+        std::optional<SceneData> scene = validate(*document, diagnostics, options);
+        Round fixes = find_fixes(*document, diagnostics, scene ? &*scene : nullptr, chosen);
+        if (fixes.edits.empty()) break;
+        std::string next = apply_edits(result.text, fixes.edits);
+        if (next == result.text) break;
+        result.text = std::move(next);
+        add_counts(result.fixes, fixes.counts);
+    }
+    return result;
+}
+
+std::vector<const FindingInfo*> fixable_findings() {
+    std::vector<const FindingInfo*> list;
+    for (const Fixer& fixer : fixers()) list.push_back(fixer.info);
+    return list;
+}
+
+}  // namespace kinora::collada

@@ -1,0 +1,127 @@
+// runtime/programs/kinora_validate_fix.cpp: files repaired, as text, as a diff or in place.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "collada/archive.h"
+#include "collada/fix.h"
+#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/kinora_validate.h"
+#include "runtime/programs/output_file.h"
+#include "runtime/programs/unified_diff.h"
+#include "runtime/programs/validate_report.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool is_wanted(const FindingInfo& info, const void* context) {
+    const auto& settings = *static_cast<const ValidateSettings*>(context);
+    return settings.only.empty() ||
+           std::any_of(settings.only.begin(), settings.only.end(), [&](const std::string& prefix) {
+               return std::string_view(info.code).starts_with(prefix);
+           });
+}
+
+std::optional<std::string> read_bytes(const std::string& file) {
+    if (file == "-") return read_stdin();
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream bytes;
+    if (!in || !(bytes << in.rdbuf())) return std::nullopt;
+    return std::move(bytes).str();
+}
+
+std::string fixes_text(const collada::FixResult& fixed) {
+    std::string text;
+    for (const collada::FixCount& fix : fixed.fixes)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", fix.count, fix.info->code);
+    return text.empty() ? "nothing to repair" : "repaired " + text;
+}
+
+// Repairs one file and writes what was asked for to `out` or the file itself.
+class FileFix {
+  public:
+    FileFix(const ValidateSettings& settings, OutputFile& out) : settings_(settings), out_(out) {}
+
+    int run(const std::string& file) {
+        name_ = file == "-" ? "<stdin>" : file;
+        // What cannot be repaired is reported as without --fix.
+        std::optional<std::string> bytes = read_bytes(file);
+        if (!bytes || bytes->empty() || collada::is_archive_bytes(*bytes))
+            return report(validate_file(file, settings_, bytes.value_or("")));
+        bool marked = bytes->starts_with(kByteOrderMark);
+        std::string text = marked ? bytes->substr(kByteOrderMark.size()) : *bytes;
+        collada::FixResult fixed =
+            collada::fix_text(name_, text, settings_.validate, is_wanted, &settings_);
+        std::string whole = (marked ? std::string(kByteOrderMark) : std::string()) + fixed.text;
+        if (int code = write(file, *bytes, whole)) return code;
+        say(fixes_text(fixed));
+        return report(validate_text(name_, std::move(fixed.text), settings_));
+    }
+
+  private:
+    int write(const std::string& file, const std::string& before, const std::string& after) {
+        if (settings_.diff) {
+            out_.write(unified_diff(before, after, name_, name_));
+        } else if (!settings_.in_place) {
+            out_.write(after);
+        } else if (before != after) {
+            if (int error = replace_file(file, after)) {
+                fmt::print(stderr, "kinora-validate: cannot write '{}': {}\n", file,
+                           std::strerror(error));
+                return kExitUnwritable;
+            }
+        }
+        return kExitOk;
+    }
+
+    void say(const std::string& what) const {
+        if (!settings_.quiet) fmt::print(stderr, "{}: {}\n", name_, what);
+    }
+
+    // What is left goes to stderr: stdout is the text or the diff.
+    int report(const FileResult& result) const {
+        bool shown = settings_.verbose || result.at_least(settings_.fail_on) > 0;
+        if (shown && !settings_.quiet)
+            std::fputs(kTextReport.file(result, settings_).c_str(), stderr);
+        ValidateTotals totals;
+        totals.add(result, settings_.fail_on);
+        return totals.exit_code();
+    }
+
+    const ValidateSettings& settings_;
+    OutputFile& out_;
+    std::string name_;
+};
+
+}  // namespace
+
+int fix_batch(const ValidateSettings& settings, const std::vector<std::string>& files) {
+    bool as_text = !settings.diff && !settings.in_place;
+    if (as_text && files.size() != 1) {
+        std::fputs(
+            "kinora-validate: --fix alone writes one text; add --diff or --in-place for several "
+            "files\n",
+            stderr);
+        return kExitUsage;
+    }
+    OutputFile out(settings.output);
+    int worst = kExitOk;
+    for (const std::string& file : files) {
+        if (file == "-" && settings.in_place) {
+            std::fputs("kinora-validate: --in-place cannot write to stdin\n", stderr);
+            return kExitUsage;
+        }
+        worst = std::max(worst, FileFix(settings, out).run(file));
+    }
+    if (!out.close()) return kExitUnwritable;
+    return worst;
+}
+
+}  // namespace kinora
