@@ -161,6 +161,8 @@ def main(source, shaders, target):
     add_channel(root, *ANIMATED)
     for stamp in ("created", "modified"):  # the same scene is the same file
         root.find(f"{tag('asset')}/{tag(stamp)}").text = "2026-11-21T00:00:00Z"
+    for library in [e for e in root if "library_" in e.tag and len(e) == 0]:
+        root.remove(library)  # the schema wants an item in each
     ET.indent(tree, " ")
     text = ET.tostring(root, encoding="unicode")
     with open(target, "w") as file:

@@ -77,7 +77,8 @@ def painted(name, rgb):
             f'({rgb}); float depth = 0; rayinfo("depth", depth); float n = depth > 0 ? 4 : samples;'
             ' Ci = paint * Kd * (diffuse(Nf) + indirectdiffuse(P, Nf, n)); }')
     return (f'<effect id="{name}-fx"><profile_RSL><technique sid="default"><code>'
-            f'<![CDATA[{code}]]></code><pass><shader stage="SURFACE"/></pass></technique>'
+            f'<![CDATA[{code}]]></code><pass><shader stage="SURFACE"><name>{name}</name></shader></pass>'
+            '</technique>'
             f'</profile_RSL></effect>\n',
             f'<material id="{name}"><instance_effect url="#{name}-fx"/></material>\n')
 
