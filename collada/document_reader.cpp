@@ -10,8 +10,12 @@ namespace kinora::collada {
 namespace {
 
 constexpr size_t kMaxDepth = 256;
-constexpr size_t kChunk = 32 << 20;  // expat copies what it is given
+constexpr size_t kChunk = 256 << 10;  // expat copies what it is given: keep that small
 constexpr uint32_t kMaxElements = 30'000'000;
+// The tree may take this much for each byte of the file. A triangle a <p> needs 10.
+constexpr uint64_t kBytesPerByte = 10, kFreeBytes = 16 << 20;
+// A tag must be whole before its attributes are seen, and they take much memory in expat.
+constexpr size_t kMaxTag = 1 << 20, kMaxComment = 64 << 20;
 
 bool is_space(char c) {
     return c == ' ' || c == '\n' || c == '\t' || c == '\r';
@@ -64,6 +68,8 @@ void DocumentReader::start_element(const XML_Char* name, const XML_Char** attrib
     if (open_.size() >= kMaxDepth) return stop(Code::XML_DEPTH, kMaxDepth);
     if (document_.element_count_ >= kMaxElements)
         return stop(Code::XML_LIMIT, std::string("more than 30 million elements"));
+    if (pool_.taken() > kFreeBytes + kBytesPerByte * text_.size())
+        return stop(Code::XML_LIMIT, std::string("elements without content"));
     uint32_t begin = offset();
     ByteRange tag{begin, begin + uint32_t(XML_GetCurrentByteCount(parser_))};
     Element* element = new (pool_.take(sizeof(Element))) Element;
@@ -141,11 +147,9 @@ void DocumentReader::finish_text(const OpenElement& open) {
 void DocumentReader::register_id(Element& element) {
     std::string_view id = element.value("id");
     if (id.empty()) return;
-    auto [at, fresh] = last_with_id_.emplace(id, &element);
-    if (fresh) {
-        document_.ids_.emplace(id, &element);
-        return;
-    }
+    auto [first, fresh] = document_.ids_.emplace(id, &element);
+    if (fresh) return;
+    auto at = last_with_id_.emplace(id, const_cast<Element*>(first->second)).first;
     Finding& finding = diag_.report(Code::ID_DUPLICATE, document_.location(element, "id"), id);
     finding.notes.push_back({document_.location(*at->second, "id"), "also used here"});
     at->second->next_same_id = &element;
@@ -227,6 +231,15 @@ void DocumentReader::check_root() {
                      row->text);
 }
 
+// What expat holds back until it is whole: false when that is too long.
+bool DocumentReader::check_token(size_t fed) {
+    size_t begin = here().begin;
+    bool comment = text_.substr(begin, 2) == "<!" || text_.substr(begin, 2) == "<?";
+    if (fed - begin <= (comment ? kMaxComment : kMaxTag)) return true;
+    stop(Code::XML_LIMIT, std::string("a tag of more than a megabyte"));
+    return false;
+}
+
 std::optional<Document> DocumentReader::read() {
     parser_ = XML_ParserCreate("UTF-8");
     if (!parser_) return std::nullopt;
@@ -239,6 +252,7 @@ std::optional<Document> DocumentReader::read() {
         size_t length = std::min(kChunk, text_.size() - at);
         bool last = at + length == text_.size();
         ok = XML_Parse(parser_, text_.data() + at, int(length), last) == XML_STATUS_OK;
+        if (ok && !last) ok = check_token(at + length);
     }
     if (!ok && !stopped_) report_syntax();
     if (!ok && root_) close_after_error();

@@ -62,6 +62,7 @@ class DocumentReader {
     void register_id(Element& element);
     void close_after_error();
     void report_syntax();
+    bool check_token(size_t fed);
     void check_root();
 
     template <class... Args>
@@ -85,7 +86,7 @@ class DocumentReader {
     std::vector<Piece> pieces_;
     std::string scratch_;
     std::vector<Attribute> attributes_;
-    std::unordered_map<std::string_view, Element*> last_with_id_;
+    std::unordered_map<std::string_view, Element*> last_with_id_;  // of those used more than once
     Element* root_ = nullptr;
     std::string_view prefix_;  // "collada:" when the root is written <collada:COLLADA>
     bool stopped_ = false;

@@ -31,11 +31,53 @@ Link find_visual_scene(Extraction& x) {
     return {};
 }
 
+// A list that grows by doubling holds three times its content at its worst moment. What the lists
+// of large structs may come to is known before.
+struct ListRow {
+    std::string_view element;
+    void (*reserve)(SceneData&, size_t count, uint64_t most_bytes);
+};
+
+template <auto List>
+void reserve(SceneData& scene, size_t count, uint64_t most_bytes) {
+    auto& list = scene.*List;
+    using Item = typename std::remove_reference_t<decltype(list)>::value_type;
+    list.reserve(std::min<size_t>(count, most_bytes / sizeof(Item)));
+}
+
+constexpr ListRow kLists[] = {
+    {"node", reserve<&SceneData::nodes>},       {"geometry", reserve<&SceneData::geometries>},
+    {"camera", reserve<&SceneData::cameras>},   {"light", reserve<&SceneData::lights>},
+    {"effect", reserve<&SceneData::effects>},   {"material", reserve<&SceneData::materials>},
+    {"controller", reserve<&SceneData::skins>}, {"image", reserve<&SceneData::images>},
+    {"sampler", reserve<&SceneData::samplers>}, {"channel", reserve<&SceneData::channels>},
+};
+
+void reserve_lists(Extraction& x, const Document& document) {
+    std::unordered_map<std::string_view, size_t> counts;
+    for (const Element* e = &document.root(); e;) {  // document order
+        ++counts[e->name];
+        if (e->first_child) {
+            e = e->first_child;
+            continue;
+        }
+        while (e && !e->next) e = e->parent;
+        if (e) e = e->next;
+    }
+    for (const ListRow& row : kLists) {
+        auto found = counts.find(row.element);
+        if (found != counts.end()) row.reserve(x.scene, found->second, most_made_bytes(x));
+    }
+}
+
 void read_visual_scene(Extraction& x, Link scene) {
     x.scene.scene_id = scene.element->value("id");
     x.scene.scene_name = scene.element->value("name");
     for (const Element& child : scene.element->children())
-        if (child.name == "node") x.scene.roots.push_back(node_index(x, {scene.doc, &child}));
+        if (child.name == "node") {
+            uint32_t root = node_index(x, {scene.doc, &child});
+            if (root != kNone) x.scene.roots.push_back(root);
+        }
     // The first root is read first, so that what it shows gets the first numbers.
     std::reverse(x.pending_nodes.begin(), x.pending_nodes.end());
     read_pending_nodes(x);
@@ -48,6 +90,7 @@ void read_visual_scene(Extraction& x, Link scene) {
 bool extract_into(Extraction& x, const Document& document) {
     add_document(x, document, real_path(document.path()));
     x.scene.asset = x.scene.documents[0].asset;
+    reserve_lists(x, document);
     Link scene = find_visual_scene(x);
     if (!scene && !x.options.everything) {
         x.diag.report(Code::SCENE_NONE, document.location(document.root()));

@@ -74,7 +74,10 @@ uint32_t AnimationReader::sampler_for(Raw& raw, Link link, Layout layout) {
         Diagnostics unheard;
         Extraction again{unheard, x_.options};
         again.docs = x_.docs;
-        read_sampler(again, link, sampler);
+        again.text_bytes = x_.text_bytes;
+        again.made_bytes = x_.made_bytes;
+        if (!read_sampler(again, link, sampler)) return kNone;
+        x_.made_bytes = again.made_bytes;
     }
     uint32_t dims = sampler.tangent_dims;
     lay_out(sampler.values, sampler.stride, 1, layout);
@@ -116,6 +119,7 @@ void AnimationReader::read_channel(Link link) {
     Layout layout;
     if (channel.ref.kind == Owner::None || !fit(raw, link, channel.ref, layout)) return;
     channel.sampler = sampler_for(raw, source, layout);
+    if (channel.sampler == kNone) return;
     x_.scene.channels.push_back(std::move(channel));
 }
 
@@ -162,6 +166,7 @@ void AnimationReader::read_clips(uint32_t doc) {
                 Link animation = resolve(x_, {doc, &child}, "url", {"animation"});
                 if (!animation) continue;
                 auto [first, end] = channels_of_[animation.element];
+                if (!afford(x_, (end - first) * sizeof(uint32_t), clip.where)) continue;
                 for (uint32_t c = first; c < end; ++c) {
                     clip.channels.push_back(c);
                     x_.scene.channels[c].in_clip = true;

@@ -45,19 +45,43 @@ void drop(Extraction& x, Camera& camera, CameraSlot slot, const char* what) {
     s.count = 0;
 }
 
+// Two of width, height and their ratio say all; a third may only repeat it.
+void check_aspect(Extraction& x, const Camera& camera) {
+    bool flat = camera.orthographic;
+    const Slot& width = camera[flat ? CameraSlot::Xmag : CameraSlot::Xfov];
+    const Slot& height = camera[flat ? CameraSlot::Ymag : CameraSlot::Yfov];
+    const Slot& aspect = camera[CameraSlot::AspectRatio];
+    if (!width.present() || !height.present() || !aspect.present()) return;
+    auto size = [&](const Slot& s) {
+        return flat ? s.values[0] : std::tan(s.values[0] * (3.14159265358979323846 / 360));
+    };
+    double ratio = size(width) / size(height);
+    if (!(std::abs(ratio / aspect.values[0] - 1) > 0.02)) return;
+    x.diag.report(Code::CAM_FOV, aspect.where, camera.id,
+                  fmt::format("aspect_ratio {} contradicts the ratio {:.4g} of the other two",
+                              aspect.values[0], ratio));
+}
+
 // Values that no picture can have; those that only look odd pass.
 void check_camera(Extraction& x, Camera& camera) {
-    for (CameraSlot slot : {CameraSlot::Xfov, CameraSlot::Yfov}) {
+    bool dropped = false;
+    auto check = [&](CameraSlot slot, const char* what, double below) {
         const Slot& s = camera[slot];
-        if (s.present() && !(s.values[0] > 0 && s.values[0] < 180))
-            drop(x, camera, slot, "the angle");
-    }
-    for (CameraSlot slot : {CameraSlot::Xmag, CameraSlot::Ymag, CameraSlot::AspectRatio}) {
-        const Slot& s = camera[slot];
-        if (s.present() && !(s.values[0] > 0)) drop(x, camera, slot, "the size");
-    }
+        if (!s.present() || (s.values[0] > 0 && s.values[0] < below)) return;
+        drop(x, camera, slot, what);
+        dropped = true;
+    };
+    for (CameraSlot slot : {CameraSlot::Xfov, CameraSlot::Yfov}) check(slot, "the angle", 180);
+    for (CameraSlot slot : {CameraSlot::Xmag, CameraSlot::Ymag, CameraSlot::AspectRatio})
+        check(slot, "the size", HUGE_VAL);
+    check_aspect(x, camera);
     const Slot& near = camera[CameraSlot::Znear];
     const Slot& far = camera[CameraSlot::Zfar];
+    if (near.present() && !camera.orthographic && !(near.values[0] > 0)) {
+        x.diag.report(Code::CAM_Z, near.where, camera.id, near.values[0],
+                      far.present() ? far.values[0] : 0);
+        camera.slots[size_t(CameraSlot::Znear)].count = 0;
+    }
     if (near.present() && far.present() && near.values[0] >= far.values[0]) {
         x.diag.report(Code::CAM_Z, near.where, camera.id, near.values[0], far.values[0]);
         camera.slots[size_t(CameraSlot::Znear)].count = 0;
@@ -65,7 +89,7 @@ void check_camera(Extraction& x, Camera& camera) {
     }
     CameraSlot a = camera.orthographic ? CameraSlot::Xmag : CameraSlot::Xfov;
     CameraSlot b = camera.orthographic ? CameraSlot::Ymag : CameraSlot::Yfov;
-    if (!camera[a].present() && !camera[b].present())
+    if (!dropped && !camera[a].present() && !camera[b].present())
         x.diag.report(Code::CAM_FOV, camera.where, camera.id,
                       std::string(camera.orthographic ? "neither xmag nor ymag is given"
                                                       : "neither xfov nor yfov is given"));
@@ -77,6 +101,7 @@ uint32_t camera_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
+    if (!afford(x, sizeof(Camera), x.where(link))) return kNone;
     uint32_t number = uint32_t(x.scene.cameras.size());
     at->second = number;
     Camera camera;

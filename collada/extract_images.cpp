@@ -94,6 +94,7 @@ uint32_t image_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
+    if (!afford(x, sizeof(Image), x.where(link))) return kNone;
     Image image;
     image.id = e.value("id");
     image.name = e.value("name");

@@ -1,6 +1,7 @@
 // collada/extract_joints.cpp: joint names lead to nodes: by sid, then id, then name; below the
 // skeleton roots, then in the whole scene.
 #include <algorithm>
+#include <map>
 
 #include "collada/extract_p.h"
 
@@ -18,6 +19,7 @@ const std::string& key_of(const Node& node, Key key) {
 // The nodes below some roots by each of their names; joints win over other nodes, then the first.
 struct NameIndex {
     std::unordered_map<std::string_view, uint32_t> by[KeyCount];
+    size_t nodes = 0;
 
     void build(const std::vector<Node>& nodes, const std::vector<uint32_t>& roots);
     uint32_t find(std::string_view name, Key key) const {
@@ -34,6 +36,7 @@ void NameIndex::build(const std::vector<Node>& nodes, const std::vector<uint32_t
         todo.pop_back();
         if (seen[at]) continue;
         seen[at] = true;
+        ++this->nodes;
         const Node& node = nodes[at];
         for (Key key : {Sid, Id, Name}) {
             const std::string& name = key_of(node, key);
@@ -66,19 +69,24 @@ class JointResolver {
     };
     Found find(const std::string& name, JointNames kind, const NameIndex* skeleton,
                bool reached) const;
-    const NameIndex& index_below(const std::vector<uint32_t>& roots);
+    const NameIndex* index_below(const std::vector<uint32_t>& roots, Location where);
 
     Extraction& x_;
     NameIndex scene_;
     NameIndex rest_;  // everything, for skins in nodes that <scene> does not reach
-    std::vector<std::pair<std::vector<uint32_t>, NameIndex>> skeletons_;
+    std::map<std::vector<uint32_t>, NameIndex> skeletons_;
 };
 
-const NameIndex& JointResolver::index_below(const std::vector<uint32_t>& roots) {
-    for (auto& [known, index] : skeletons_)
-        if (known == roots) return index;
-    skeletons_.emplace_back(roots, NameIndex{}).second.build(x_.scene.nodes, roots);
-    return skeletons_.back().second;
+// Null when there are too many large skeletons to look below each of them.
+const NameIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, Location where) {
+    constexpr uint64_t kBytesPerNode = 192;  // of the three maps
+    auto [at, fresh] = skeletons_.try_emplace(roots);
+    if (!fresh) return &at->second;
+    if (x_.over_limit) return nullptr;
+    at->second.build(x_.scene.nodes, roots);
+    if (afford(x_, at->second.nodes * kBytesPerNode, where)) return &at->second;
+    at->second = {};
+    return nullptr;
 }
 
 // IDREF names are ids; a SIDREF path ends in a sid.
@@ -106,7 +114,12 @@ void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
     if (mesh.skeleton_roots.empty())
         x_.diag.report(Code::SKIN_NO_SKELETON, where);
     else
-        skeleton = &index_below(mesh.skeleton_roots);
+        skeleton = index_below(mesh.skeleton_roots, where);
+    uint64_t bytes = skin.joints.size() * sizeof(uint32_t);
+    if (!afford(x_, bytes, where)) {
+        mesh.skin = kNone;
+        return;
+    }
     bool reached = pending.node < x_.reached_nodes;
     size_t by_key[KeyCount] = {}, outside = 0, lost = 0;
     for (const std::string& name : skin.joints) {

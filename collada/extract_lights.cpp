@@ -46,6 +46,15 @@ void check_light(Extraction& x, Light& light) {
         x.diag.report(Code::LIGHT_RANGE, slot.where, light.id, row.name, slot.values[0]);
         set_default(slot, row);
     }
+    bool dims = light.kind == LightKind::Point || light.kind == LightKind::Spot;
+    double sum = 0;  // what the light is divided by, at distance 1
+    for (LightSlot slot : {LightSlot::ConstantAttenuation, LightSlot::LinearAttenuation,
+                           LightSlot::QuadraticAttenuation})
+        sum += light[slot].values[0];
+    if (!dims || sum != 0) return;
+    Slot& constant = light.slots[size_t(LightSlot::ConstantAttenuation)];
+    x.diag.report(Code::LIGHT_RANGE, constant.where, light.id, "the whole attenuation", 0);
+    constant.values[0] = 1;
 }
 
 }  // namespace
@@ -62,6 +71,7 @@ uint32_t light_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
+    if (!afford(x, sizeof(Light), x.where(link))) return kNone;
     Light light;
     light.id = e.value("id");
     light.name = e.value("name");

@@ -126,10 +126,40 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
 uint32_t add_document(Extraction& x, const Document& document, const std::string& real) {
     uint32_t index = uint32_t(x.docs.size());
     x.docs.push_back(&document);
+    x.text_bytes += x.diag.files.text(document.file()).size();
     x.doc_by_path[real] = index;
     check_elements(document, x.diag);
     x.scene.documents.push_back({document.path(), read_asset(document, x.diag), document.file()});
     return index;
+}
+
+namespace {
+
+bool within(Extraction& x, uint64_t& used, uint64_t more, uint64_t limit, Location where) {
+    if (x.over_limit || used + more > limit) {
+        if (!x.over_limit)
+            x.diag.report(Code::LINK_TOO_MANY, where,
+                          std::string("what the links share unfolds to too much data"));
+        x.over_limit = true;
+        return false;
+    }
+    used += more;
+    return true;
+}
+
+}  // namespace
+
+uint64_t most_made_bytes(const Extraction& x) {
+    return (16 << 20) + 8 * x.text_bytes;
+}
+
+bool afford(Extraction& x, uint64_t bytes, Location where) {
+    return within(x, x.made_bytes, bytes, most_made_bytes(x), where);
+}
+
+bool afford_parsing(Extraction& x, Link array) {
+    return within(x, x.parsed_bytes, array.element->text.size(),
+                  (uint64_t(256) << 20) + 32 * x.text_bytes, x.where(array));
 }
 
 uint32_t conversion(Extraction& x, uint32_t from, uint32_t to) {

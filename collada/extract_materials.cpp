@@ -69,6 +69,7 @@ uint32_t make_material(Extraction& x, Link owner, const Element* instance) {
     auto [at, fresh] = x.made.emplace(owner.element, kNone);
     if (!fresh) return at->second;
     uint32_t& result = at->second;
+    if (!afford(x, sizeof(Material), x.where(owner))) return kNone;
     Material material;
     material.id = owner.element->value("id");
     material.name = owner.element->value("name");
@@ -104,7 +105,8 @@ std::vector<uint32_t> rsl_extra_materials(Extraction& x, Link owner) {
     for (const Element& child : technique->children()) {
         if (child.name != "instance_effect") continue;
         uint32_t material = instance_effect_index(x, {owner.doc, &child});
-        if (x.scene.materials[material].effect != kNone) materials.push_back(material);
+        if (material != kNone && x.scene.materials[material].effect != kNone)
+            materials.push_back(material);
     }
     return materials;
 }

@@ -11,6 +11,8 @@ uint32_t MeshReader::source_index(Link link) {
     if (!fresh) return at->second;
     DoubleSource data = read_double_source(x, link);
     if (data.values.empty()) return kNone;
+    bool fits = afford(x, sizeof(FloatSource) + data.values.size() * sizeof(float), x.where(link));
+    if (!fits) return kNone;
     FloatSource source{std::string(link.element->value("id")), data.stride, {}};
     source.values.reserve(data.values.size());
     // Beyond a float's range counts as not finite, too.
@@ -23,6 +25,7 @@ namespace {
 
 void read_positions(MeshReader& mesh, Link source) {
     DoubleSource data = read_double_source(mesh.x, source);
+    if (!afford(mesh.x, data.count * sizeof(dvec3), mesh.x.where(source))) return;
     mesh.geometry.positions.resize(data.count, dvec3(0.0));
     for (size_t i = 0; i < data.count; ++i) {
         dvec3& p = mesh.geometry.positions[i];
@@ -95,6 +98,7 @@ uint32_t geometry_index(Extraction& x, Link link) {
                       "vertices");
         return result;
     }
+    if (!afford(x, sizeof(Geometry), geometry.where)) return result;
     MeshReader mesh{x, geometry, {}, {}, {}, nullptr};
     if (!read_vertices(mesh, {link.doc, vertices})) return result;
     for (const Element& child : mesh_element->children())

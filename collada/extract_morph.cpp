@@ -23,7 +23,7 @@ MorphMethod read_method(Extraction& x, Link link) {
 }
 
 // The geometry of one target with as many positions as the base; kNone (reported) otherwise.
-uint32_t read_target(Extraction& x, Link source, const std::string& name, uint32_t base) {
+uint32_t read_target(Extraction& x, Link source, std::string_view name, uint32_t base) {
     std::string_view id = name;
     if (id.starts_with('#')) id.remove_prefix(1);
     const Element* element = find_kind(x.document(source.doc), id, {"geometry"});
@@ -42,7 +42,9 @@ uint32_t read_target(Extraction& x, Link source, const std::string& name, uint32
 void read_targets(Extraction& x, Link link, Morph& morph, std::vector<uint32_t>& remap) {
     Link source = morph_source(x, link, "MORPH_TARGET");
     if (!source) return;
-    for (const std::string& name : read_name_source(x, source).names) {
+    NameSource names = read_name_source(x, source);
+    if (!afford(x, names.names.size() * 16, x.where(source))) return;
+    for (std::string_view name : names.names) {
         uint32_t target = read_target(x, source, name, morph.geometry);
         remap.push_back(target == kNone ? kNone : uint32_t(morph.targets.size()));
         if (target != kNone) morph.targets.push_back(target);
@@ -82,7 +84,7 @@ uint32_t morph_index(Extraction& x, Link link) {
     morph.where = x.where(link);
     morph.method = read_method(x, element);
     Link base = resolve(x, element, "source", {"geometry", "controller"});
-    if (!base) return result;
+    if (!base || !afford(x, sizeof(Morph), morph.where)) return result;
     if (base.element->name == "geometry") morph.geometry = geometry_index(x, base);
     if (morph.geometry == kNone) {
         x.diag.report(Code::MORPH_SOURCE, x.where(element, "source"), morph.id);

@@ -8,7 +8,7 @@ namespace kinora::collada {
 
 uint32_t node_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
-    if (!fresh) return at->second;
+    if (!fresh || !afford(x, sizeof(Node) + kBookBytes, x.where(link))) return at->second;
     at->second = append(x.scene.nodes, Node{});
     x.node_filled.push_back(false);
     x.pending_nodes.push_back({at->second, link});
@@ -20,8 +20,9 @@ namespace {
 void read_node_instance(Extraction& x, Link link, Node& node) {
     Link target = resolve(x, link, "url", {"node"});
     if (!target) return;
-    node.instances.push_back(
-        {node_index(x, target), conversion(x, link.doc, target.doc), x.where(link, "url")});
+    uint32_t index = node_index(x, target);
+    if (index == kNone) return;
+    node.instances.push_back({index, conversion(x, link.doc, target.doc), x.where(link, "url")});
 }
 
 void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
@@ -39,9 +40,13 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
         for (const Element& item : technique->children())
             if (item.name == "attribute")
                 node.attributes.emplace_back(item.value("name"), trim(item.text));
+    size_t transforms = 0;
+    for (const Element& child : e.children()) transforms += is_transform(child.name);
+    if (afford(x, transforms * (sizeof(Transform) + kBookBytes), node.where)) node.transforms.reserve(transforms);
     for (const Element& child : e.children()) {
         Link part{link.doc, &child};
         if (is_transform(child.name)) {
+            if (node.transforms.size() == node.transforms.capacity()) continue;  // not affordable
             TargetRef ref{Owner::Transform, number, uint32_t(node.transforms.size())};
             node.transforms.push_back(read_transform(x, part));
             ref.count = node.transforms.back().slot.count;
@@ -57,6 +62,7 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
         } else if (child.name == "node") {
             // Depth is that of the document, which is limited.
             uint32_t index = node_index(x, part);
+            if (index == kNone) continue;
             node.children.push_back(index);
             if (x.node_filled[index]) continue;
             read_node(x, index, part, number);

@@ -30,6 +30,11 @@ struct Extraction {
     std::vector<std::unique_ptr<Document>> owned{};
     std::unordered_map<std::string, uint32_t> doc_by_path{};  // kNone: it cannot be read
     std::unordered_map<uint64_t, uint32_t> conversion_of{};   // doc pair -> index, kNone: identity
+    // What links may multiply (many elements may name one array) is counted: see afford().
+    uint64_t text_bytes = 0;    // of all documents
+    uint64_t made_bytes = 0;    // of structs and lists
+    uint64_t parsed_bytes = 0;  // of text, each time it is parsed
+    bool over_limit = false;
 
     // Definitions by element; kNone: tried and not usable (reported).
     std::unordered_map<const Element*, uint32_t> made{};
@@ -81,6 +86,14 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds);
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds);
 // Adds a document already read; its <asset> is read.
 uint32_t add_document(Extraction& x, const Document& document, const std::string& real);
+// About what `made` or `target_of` hold for an element.
+inline constexpr uint64_t kBookBytes = 64;
+// To be asked before memory is taken for what a link leads to. False, and reported once, when it
+// would pass 8 times the bytes of the documents' texts and some megabytes; leave the thing out.
+bool afford(Extraction& x, uint64_t bytes, Location where);
+uint64_t most_made_bytes(const Extraction& x);  // the limit
+// The same for the time of parsing a text that other elements may name, too.
+bool afford_parsing(Extraction& x, Link array);
 // Index into scene.conversions for things of `to` used in `from`; kNone if the same.
 uint32_t conversion(Extraction& x, uint32_t from, uint32_t to);
 
@@ -148,7 +161,7 @@ DoubleSource read_double_source(Extraction& x, Link source);
 struct NameSource {
     JointNames kind = JointNames::Name;
     uint64_t written_count = 0;  // the array's count attribute, 0 if none
-    std::vector<std::string> names;
+    std::vector<std::string_view> names;
     const Element* array = nullptr;
 };
 NameSource read_name_source(Extraction& x, Link source);

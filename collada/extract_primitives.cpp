@@ -107,11 +107,10 @@ Location number_place(Extraction& x, Link primitive, const PrimitiveIndices& p, 
                                   [](size_t v, const auto& part) { return v < part.first; });
     const PrimitiveIndices::Part& part = after[-1];
     size_t skip = n - size_t(part.first) * p.stride;
-    std::vector<std::string_view> words = split_words(part.element->text);
-    if (skip >= words.size()) return x.where({primitive.doc, part.element});
-    size_t begin = size_t(words[skip].data() - part.element->text.data());
-    return x.document(primitive.doc)
-        .text_location(*part.element, begin, begin + words[skip].size());
+    std::string_view word = word_number(part.element->text, skip);
+    if (word.empty()) return x.where({primitive.doc, part.element});
+    size_t begin = size_t(word.data() - part.element->text.data());
+    return x.document(primitive.doc).text_location(*part.element, begin, begin + word.size());
 }
 
 // Which vertices name only what exists; empty when all do. Reports the first bad one.

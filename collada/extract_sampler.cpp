@@ -41,6 +41,7 @@ struct SamplerReader {
     Link link;
     Sampler& sampler;
     Link input, output, interpolation, in_tangent, out_tangent;
+    size_t written_keys = 0;  // times in the file
 
     bool find_sources();
     bool read_keys();
@@ -81,7 +82,7 @@ bool SamplerReader::find_sources() {
 bool SamplerReader::read_keys() {
     DoubleSource times = read_double_source(x, input);
     DoubleSource values = read_double_source(x, output);
-    size_t keys = times.count;
+    size_t keys = written_keys = times.count;
     for (size_t k = 0; k < keys; ++k) sampler.times.push_back(times.values[k * times.stride]);
     bool flattened = keys > 0 && values.count != keys && values.stride == 1 &&
                      values.count % keys == 0 && values.count / keys <= 16;
@@ -97,6 +98,8 @@ bool SamplerReader::read_keys() {
         x.diag.report(Code::ANIM_EMPTY, x.where(link));
         return false;
     }
+    uint64_t numbers = keys + values.values.size() * 5;  // tangents of two numbers on both sides
+    if (!afford(x, sizeof(Sampler) + numbers * sizeof(double), x.where(link))) return false;
     sampler.stride = values.stride;
     sampler.times.resize(keys);
     sampler.values = std::move(values.values);
@@ -108,10 +111,10 @@ void SamplerReader::read_interpolation() {
     sampler.interpolation.assign(key_count(), Interpolation::Linear);
     if (!interpolation) return;
     NameSource names = read_name_source(x, interpolation);
-    if (names.names.size() < key_count())
+    if (names.names.size() != written_keys)
         x.diag.report(
             Code::ANIM_COUNT, x.where(interpolation),
-            fmt::format("{} interpolations for {} keys", names.names.size(), key_count()));
+            fmt::format("{} interpolations for {} keys", names.names.size(), written_keys));
     bool reported = false;
     for (size_t k = 0; k < std::min(key_count(), names.names.size()); ++k) {
         auto row = std::find_if(std::begin(kInterpolations), std::end(kInterpolations),
@@ -134,6 +137,9 @@ std::vector<double> SamplerReader::read_tangent(Link source, uint8_t& dims) {
         data.stride = uint32_t(data.count / keys);
         data.count = keys;
     }
+    if (data.count != written_keys)
+        x.diag.report(Code::ANIM_COUNT, x.where(source),
+                      fmt::format("{} tangents for {} keys", data.count, written_keys));
     bool shared_time = n > 1 && data.stride == n + 1;  // one time for all components
     if (data.stride == n)
         dims = 1;

@@ -1,6 +1,7 @@
 // collada/extract_skin.cpp: <skin>: joints, inverse bind matrices and influences.
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
@@ -31,12 +32,12 @@ bool singular(const dmat4& m) {
 }
 
 // All names that a node answers to and that hold a space.
-void collect_spaced_names(const Element& root, std::unordered_map<std::string_view, bool>& names) {
+void collect_spaced_names(const Element& root, std::unordered_set<std::string_view>& names) {
     const Element* e = &root;
     while (e) {  // document order without recursion
         if (e->name == "node")
             for (std::string_view key : {"sid", "name", "id"})
-                if (e->value(key).find(' ') != std::string_view::npos) names[e->value(key)] = true;
+                if (e->value(key).find(' ') != std::string_view::npos) names.insert(e->value(key));
         if (e->first_child) {
             e = e->first_child;
             continue;
@@ -49,17 +50,19 @@ void collect_spaced_names(const Element& root, std::unordered_map<std::string_vi
 // "Bone 01 Bone 02" split at its spaces becomes two names again, by the names nodes have.
 void join_spaced_names(Extraction& x, uint32_t doc, NameSource& source) {
     if (source.names.size() <= source.written_count || source.written_count == 0) return;
-    std::unordered_map<std::string_view, bool> known;
+    std::unordered_set<std::string_view> known;
     collect_spaced_names(x.document(doc).root(), known);
     if (known.empty()) return;
     constexpr size_t kLongest = 12;  // words in one name
-    std::vector<std::string> joined;
+    std::vector<std::string_view> joined;
     for (size_t i = 0; i < source.names.size();) {
         size_t best = 1;
-        std::string name = source.names[i], best_name = name;
+        std::string name(source.names[i]);
+        std::string_view best_name = source.names[i];
         for (size_t n = 2; n <= kLongest && i + n <= source.names.size(); ++n) {
-            name += " " + source.names[i + n - 1];
-            if (known.count(name)) best = n, best_name = name;
+            name.append(" ").append(source.names[i + n - 1]);
+            auto found = known.find(name);
+            if (found != known.end()) best = n, best_name = *found;
         }
         joined.push_back(best_name);
         i += best;
@@ -137,7 +140,9 @@ bool SkinReader::read_joints(const Element& element) {
     NameSource names = read_name_source(x, source);
     join_spaced_names(x, source.doc, names);
     skin.joint_kind = names.kind;
-    skin.joints = std::move(names.names);
+    constexpr uint64_t kJointBytes = sizeof(std::string) + sizeof(dmat4);
+    if (!afford(x, names.names.size() * kJointBytes, x.where(source))) return false;
+    skin.joints.assign(names.names.begin(), names.names.end());
     skin.inverse_bind.assign(skin.joints.size(), dmat4(1.0));
     if (skin.joints.empty()) return false;
     read_inverse_bind({doc, joints});
@@ -184,10 +189,11 @@ bool SkinReader::read_layout(Link link, Layout& layout) {
         for (size_t j = 0; j < skin.joints.size(); ++j) layout.joint_of.push_back(int32_t(j));
         return true;
     }
-    for (const std::string& name : read_name_source(x, names).names) {
-        auto found = std::find(skin.joints.begin(), skin.joints.end(), name);
-        layout.joint_of.push_back(
-            found == skin.joints.end() ? -2 : int32_t(found - skin.joints.begin()));
+    std::unordered_map<std::string_view, int32_t> numbers;
+    for (size_t j = 0; j < skin.joints.size(); ++j) numbers.emplace(skin.joints[j], int32_t(j));
+    for (std::string_view name : read_name_source(x, names).names) {
+        auto found = numbers.find(name);
+        layout.joint_of.push_back(found == numbers.end() ? -2 : found->second);
     }
     return true;
 }
@@ -199,6 +205,10 @@ void SkinReader::read_influences(Link link, const Layout& layout) {
     std::vector<int32_t> counts, v;
     if (vcount_element) counts = read_ints(x.document(doc), *vcount_element, x.diag);
     if (v_element) v = read_ints(x.document(doc), *v_element, x.diag);
+    uint64_t written = 0;
+    bool has_count = parse_count(link.element->value("count"), written);
+    if (has_count && written != counts.size())
+        x.diag.report(Code::SKIN_COUNT, x.where(link, "count"), written, counts.size());
     if (counts.size() != positions)
         x.diag.report(Code::SKIN_VCOUNT,
                       x.where({doc, vcount_element ? vcount_element : link.element}),
@@ -273,7 +283,9 @@ uint32_t skin_index(Extraction& x, Link link) {
     skin.where = x.where(link);
     SkinReader reader{x, link.doc, skin};
     if (!reader.read_base(element)) return result;
-    skin.offsets.assign(x.scene.geometries[skin.geometry].positions.size() + 1, 0);
+    size_t positions = x.scene.geometries[skin.geometry].positions.size();
+    if (!afford(x, sizeof(Skin) + positions * sizeof(uint32_t), skin.where)) return result;
+    skin.offsets.assign(positions + 1, 0);
     reader.read_bind_shape(element);
     if (reader.read_joints(element)) reader.read_weights(element);
     return result = append(x.scene.skins, std::move(skin));

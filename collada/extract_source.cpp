@@ -133,6 +133,7 @@ DoubleSource read_double_source(Extraction& x, Link source) {
         x.diag.report(Code::SRC_EMPTY, x.where(source), source.element->value("id"));
         return out;
     }
+    if (!afford_parsing(x, {source.doc, array})) return out;
     std::vector<double> values = read_doubles(x.document(source.doc), *array, x.diag);
     if (x.options.everything) x.read_arrays.insert(array);
     check_array_count(x, {source.doc, array}, values.size());
@@ -162,8 +163,9 @@ NameSource read_name_source(Extraction& x, Link source) {
     }
     if (out.array->name == "IDREF_array") out.kind = JointNames::Idref;
     if (out.array->name == "SIDREF_array") out.kind = JointNames::Sidref;
+    if (!afford_parsing(x, {source.doc, out.array})) return out;
     out.written_count = read_count(x, {source.doc, out.array}, "count", 0);
-    for (std::string_view word : split_words(out.array->text)) out.names.emplace_back(word);
+    out.names = split_words(out.array->text);
     return out;
 }
 

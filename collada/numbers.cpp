@@ -1,10 +1,13 @@
 // collada/numbers.cpp: the numbers of an element's text, whatever the locale.
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "collada/findings.h"
+#include "collada/number_reading_p.h"
 #include "collada/numbers_p.h"
 
 namespace kinora::collada {
@@ -14,50 +17,45 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-bool is_space(char c) {
-    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
-}
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
+// How many words a text has, so that lists are made in their size.
+size_t count_words(std::string_view text) {
+    size_t words = 0, i = 0;
+    bool inside = false;
+    constexpr uint64_t kHigh = 0x8080808080808080u;
+    for (; i + 8 <= text.size() && std::endian::native == std::endian::little; i += 8) {
+        uint64_t bytes;
+        std::memcpy(&bytes, text.data() + i, 8);
+        uint64_t solid = (((bytes & ~kHigh) + 0x5f5f5f5f5f5f5f5fu) | bytes) & kHigh;  // above ' '
+        uint64_t starts = solid & ~(solid << 8 | (inside ? 0x80u : 0u));
+        words += ((starts >> 7) * 0x0101010101010101u) >> 56;
+        inside = solid >> 63;
+    }
+    for (; i < text.size(); ++i) {
+        bool solid = uint8_t(text[i]) > ' ';
+        words += solid && !inside;
+        inside = solid;
+    }
+    return words;
 }
 
-constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-// Clinger's fast path: a mantissa below 2^53 and a power of ten that is exact give the correctly
-// rounded double with one operation. False: not of that form.
-bool fast_double(const char*& p, const char* end, double& value) {
-    const char* c = p;
-    bool negative = c < end && *c == '-';
-    if (negative) ++c;
-    uint64_t mantissa = 0;
-    int digits = 0, exponent = 0;
-    const char* first = c;
-    for (; c < end && is_digit(*c); ++c, ++digits) mantissa = mantissa * 10 + uint64_t(*c - '0');
-    if (c == first) return false;
-    if (c < end && *c == '.') {
-        const char* point = ++c;
-        for (; c < end && is_digit(*c); ++c, ++digits)
-            mantissa = mantissa * 10 + uint64_t(*c - '0');
-        exponent = -int(c - point);
+// Of a number beyond a double's range: whether it is too small rather than too large.
+bool below_one(std::string_view word) {
+    word.remove_prefix(word.starts_with('-'));
+    size_t e = std::min(word.find_first_of("eE"), word.size());
+    int64_t power = 0;
+    if (e + 1 < word.size()) {
+        bool sign = word[e + 1] == '-' || word[e + 1] == '+';
+        auto [stop, error] =
+            std::from_chars(word.data() + e + 1 + sign, word.data() + word.size(), power);
+        if (error != std::errc{}) power = std::numeric_limits<int32_t>::max();  // of either sign
+        if (word[e + 1] == '-') power = -power;
     }
-    if (digits > 18 || mantissa > (uint64_t(1) << 53)) return false;
-    if (c < end && (*c == 'e' || *c == 'E')) {
-        int e = 0;
-        const char* at = c + 1;
-        if (at < end && *at == '+') ++at;
-        auto [stop, error] = std::from_chars(at, end, e);
-        if (error != std::errc{} || std::abs(e) > 1000) return false;
-        exponent += e;
-        c = stop;
-    }
-    if (exponent < -22 || exponent > 22 || (c < end && !is_space(*c))) return false;
-    double m = double(mantissa);
-    value = exponent < 0 ? m / kPowersOfTen[-exponent] : m * kPowersOfTen[exponent];
-    if (negative) value = -value;
-    p = c;
-    return true;
+    word = word.substr(0, e);
+    word.remove_prefix(std::min(word.find_first_not_of('0'), word.size()));
+    size_t point = std::min(word.find('.'), word.size());
+    if (point > 0) return int64_t(point) + power <= 0;
+    size_t first = std::min(word.find_first_not_of('0', 1), word.size());
+    return power - int64_t(first) < 0;
 }
 
 // A word that from_chars reads whole.
@@ -66,8 +64,7 @@ bool exact_double(std::string_view word, double& value) {
     auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (stop != word.data() + word.size()) return false;
     if (error == std::errc::result_out_of_range) {
-        bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
-        value = (word.front() == '-' ? -1 : 1) * (tiny ? 0 : kInfinity);
+        value = (word.front() == '-' ? -1 : 1) * (below_one(word) ? 0 : kInfinity);
         return true;
     }
     return error == std::errc{};
@@ -94,61 +91,108 @@ bool comma_decimal(std::string_view word, double& value) {
     return exact_double(point, value);
 }
 
-// The first trouble of each kind in one text.
+// The first trouble of each kind in one text: words of it, length 0 for none.
 struct Trouble {
-    std::string_view number, comma, nonfinite;
+    struct Word {
+        size_t begin = 0, length = 0;
+    };
+    Word number, comma, nonfinite;
 };
 
-double slow_double(std::string_view word, Trouble& trouble) {
+double slow_double(std::string_view word, size_t at, Trouble& trouble) {
+    auto note = [&](Trouble::Word& first) {
+        if (first.length == 0) first = {at, word.size()};
+    };
     double value = 0;
     if (exact_double(word, value) || windows_nan(word, value)) {
-        if (!std::isfinite(value) && trouble.nonfinite.empty()) trouble.nonfinite = word;
-        return value;
+        if (!std::isfinite(value)) note(trouble.nonfinite);
+    } else if (comma_decimal(word, value)) {
+        note(trouble.comma);
+    } else {
+        note(trouble.number);
+        value = 0;
     }
-    if (comma_decimal(word, value)) {
-        if (trouble.comma.empty()) trouble.comma = word;
-        return value;
+    return value;
+}
+
+// Digits that do not fit are cut to the largest number, other nonsense is 0.
+int32_t slow_int(std::string_view word, size_t at, Trouble& trouble) {
+    bool negative = word.starts_with('-');
+    std::string_view digits = word.substr(negative || word.starts_with('+'));
+    const int64_t most = std::numeric_limits<int32_t>::max() + int64_t(negative);
+    int64_t value = 0;
+    for (char c : digits) {
+        if (c < '0' || c > '9') digits = {};
+        if (digits.empty()) break;
+        value = std::min(value * 10 + (c - '0'), most);
     }
-    if (trouble.number.empty()) trouble.number = word;
+    if (!digits.empty()) return int32_t(negative ? -value : value);
+    if (trouble.number.length == 0) trouble.number = {at, word.size()};
     return 0;
 }
 
 void report(const Trouble& trouble, const Document& document, const Element& element,
             Diagnostics& diag) {
-    auto say = [&](const FindingInfo& code, std::string_view word) {
-        if (word.empty()) return;
-        size_t begin = size_t(word.data() - element.text.data());
-        diag.report(code, document.text_location(element, begin, begin + word.size()), word);
+    auto say = [&](const FindingInfo& code, Trouble::Word word) {
+        if (word.length == 0) return;
+        diag.report(code, document.text_location(element, word.begin, word.begin + word.length),
+                    element.text.substr(word.begin, word.length));
     };
     say(Code::SRC_NUMBER, trouble.number);
     say(Code::SRC_COMMA_DECIMAL, trouble.comma);
     say(Code::SRC_NAN_INF, trouble.nonfinite);
 }
 
-std::string_view word_at(const char* p, const char* end) {
-    const char* stop = p;
-    while (stop < end && !is_space(*stop)) ++stop;
-    return {p, size_t(stop - p)};
+const char* word_end(const char* p, const char* end) {
+    while (p < end && !is_number_space(*p)) ++p;
+    return p;
 }
 
-template <class T>
-std::vector<T> read_reals(const Document& document, const Element& element, Diagnostics& diag) {
+// A text, word by word. Near its end the rest is copied, so that scanning may look ahead.
+struct Words {
+    explicit Words(std::string_view text)
+        : begin(text.data()), p(begin), end(begin + text.size()) {}
+    Words(const Words&) = delete;
+
+    // The next word is [p, stop); false at the end. Go on with p = stop.
+    bool next() {
+        while (p < end && is_number_space(*p)) ++p;
+        if (p == end) return false;
+        if (end - p < kScanReach) copy_tail();
+        int run;
+        stop = p;
+        do stop += run = solid_run(stop);
+        while (run == 16 && end - stop >= kScanReach);
+        if (run == 16) stop = word_end(stop, end);
+        return true;
+    }
+    void copy_tail() {
+        if (begin == tail) return;
+        size_t left = size_t(end - p);
+        offset = size_t(p - begin);
+        std::memcpy(tail, p, left);
+        std::memset(tail + left, 0, sizeof tail - left);
+        p = begin = tail;
+        end = tail + left;
+    }
+    std::string_view word() const { return {p, size_t(stop - p)}; }
+    size_t place() const { return offset + size_t(p - begin); }  // in the text
+
+    const char *begin, *p, *end, *stop = nullptr;
+    size_t offset = 0;  // of `begin` in the text
+    char tail[2 * kScanReach];
+};
+
+template <class T, bool (*Scan)(const char*, const char*, T&),
+          T (*Slow)(std::string_view, size_t, Trouble&)>
+std::vector<T> read_list(const Document& document, const Element& element, Diagnostics& diag) {
     std::vector<T> values;
-    // A guess that fits usual lists; a list of single digits grows once or twice.
-    values.reserve(element.text.size() / 8 + 4);
+    values.reserve(count_words(element.text));
     Trouble trouble;
-    const char* p = element.text.data();
-    const char* end = p + element.text.size();
-    while (true) {
-        while (p < end && is_space(*p)) ++p;
-        if (p == end) break;
-        double value = 0;
-        if (!fast_double(p, end, value)) {
-            std::string_view word = word_at(p, end);
-            value = slow_double(word, trouble);
-            p = word.data() + word.size();
-        }
-        values.push_back(T(value));
+    for (Words words(element.text); words.next(); words.p = words.stop) {
+        T value;
+        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.place(), trouble);
+        values.push_back(value);
     }
     report(trouble, document, element, diag);
     return values;
@@ -158,46 +202,17 @@ std::vector<T> read_reals(const Document& document, const Element& element, Diag
 
 std::vector<double> read_doubles(const Document& document, const Element& element,
                                  Diagnostics& diag) {
-    return read_reals<double>(document, element, diag);
-}
-
-std::vector<float> read_floats(const Document& document, const Element& element,
-                               Diagnostics& diag) {
-    return read_reals<float>(document, element, diag);
+    return read_list<double, scan_double, slow_double>(document, element, diag);
 }
 
 std::vector<int32_t> read_ints(const Document& document, const Element& element,
                                Diagnostics& diag) {
-    std::vector<int32_t> values;
-    values.reserve(element.text.size() / 4 + 4);
-    Trouble trouble;
-    const char* p = element.text.data();
-    const char* end = p + element.text.size();
-    while (true) {
-        while (p < end && is_space(*p)) ++p;
-        if (p == end) break;
-        const char* first = p;
-        bool negative = *p == '-';
-        if (negative || *p == '+') ++p;
-        const char* digits = p;
-        int64_t value = 0;
-        for (; p < end && is_digit(*p); ++p)
-            value = std::min<int64_t>(value * 10 + (*p - '0'), std::numeric_limits<int32_t>::max());
-        if (p == digits || (p < end && !is_space(*p))) {
-            std::string_view word = word_at(first, end);
-            if (trouble.number.empty()) trouble.number = word;
-            p = word.data() + word.size();
-            value = 0;
-        }
-        values.push_back(int32_t(negative ? -value : value));
-    }
-    report(trouble, document, element, diag);
-    return values;
+    return read_list<int32_t, scan_int, slow_int>(document, element, diag);
 }
 
 std::string_view trim(std::string_view text) {
-    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+    while (!text.empty() && is_number_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_number_space(text.back())) text.remove_suffix(1);
     return text;
 }
 
@@ -212,16 +227,24 @@ bool parse_count(std::string_view text, uint64_t& value) {
     return error == std::errc{} && !text.empty() && stop == text.data() + text.size();
 }
 
+std::string_view word_number(std::string_view text, size_t number) {
+    const char *p = text.data(), *end = p + text.size();
+    while (true) {
+        while (p < end && is_number_space(*p)) ++p;
+        const char* stop = word_end(p, end);
+        if (p == end || number-- == 0) return {p, size_t(stop - p)};
+        p = stop;
+    }
+}
+
 std::vector<std::string_view> split_words(std::string_view text) {
     std::vector<std::string_view> words;
+    words.reserve(count_words(text));
     const char* end = text.data() + text.size();
     for (const char* p = text.data(); p < end;) {
-        if (is_space(*p)) {
-            ++p;
-            continue;
-        }
-        words.push_back(word_at(p, end));
-        p += words.back().size();
+        const char* stop = word_end(p, end);
+        if (stop > p) words.emplace_back(p, size_t(stop - p));
+        p = stop < end ? stop + 1 : end;
     }
     return words;
 }

@@ -13,7 +13,6 @@ namespace kinora::collada {
 // with its place. Memory is taken by what the text can hold, never by a count attribute.
 std::vector<double> read_doubles(const Document& document, const Element& element,
                                  Diagnostics& diag);
-std::vector<float> read_floats(const Document& document, const Element& element, Diagnostics& diag);
 // Values beyond 32 bits are clamped, which puts them out of every range.
 std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag);
 
@@ -24,6 +23,8 @@ bool parse_count(std::string_view text, uint64_t& value);
 
 // Words of a text, split at white space.
 std::vector<std::string_view> split_words(std::string_view text);
+// The word that has `number` others before it; "" when there are fewer.
+std::string_view word_number(std::string_view text, size_t number);
 std::string_view trim(std::string_view text);
 
 }  // namespace kinora::collada

@@ -17,6 +17,7 @@ class Pool {
     void* take(size_t bytes) {
         bytes = (bytes + 7) & ~size_t(7);
         if (bytes > left_) {
+            taken_ += bytes > kBlock / 4 ? bytes : kBlock;
             if (bytes > kBlock / 4) return arena_.allocate(bytes);
             next_ = static_cast<char*>(arena_.allocate(kBlock));
             left_ = kBlock;
@@ -26,6 +27,8 @@ class Pool {
         left_ -= bytes;
         return taken;
     }
+
+    uint64_t taken() const { return taken_; }  // bytes of the arena
 
     template <class T>
     std::span<const T> copy(std::span<const T> items) {
@@ -45,6 +48,7 @@ class Pool {
     Arena& arena_;
     char* next_ = nullptr;
     size_t left_ = 0;
+    uint64_t taken_ = 0;
 };
 
 }  // namespace kinora::collada

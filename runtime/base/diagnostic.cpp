@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <tuple>
 
 #include "runtime/base/check.h"
@@ -83,11 +84,35 @@ std::string_view SourceFiles::line_text(FileId file, int line) const {
     return text;
 }
 
+namespace {
+
+// Beyond so many, findings are no help, and their memory would grow past that of the input. Errors
+// have some room more, so that none hides behind warnings.
+constexpr size_t kMostFindings = 50'000, kMostErrors = 51'000;
+constexpr FindingInfo kFindingsCut{
+    "FINDINGS_CUT", Severity::Warning, "more than {} findings; further ones are left out",
+    "A file that is wrong in so many places is wrong throughout, or not what it says it is.", ""};
+
+}  // namespace
+
 Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string message) {
     std::lock_guard lock(mutex_);
     Severity severity = info.severity;
     for (const auto& [code, forced] : overrides_)
         if (code == info.code) severity = forced;
+    if (findings_.size() == kMostFindings)
+        findings_.push_back({&kFindingsCut,
+                             kFindingsCut.severity,
+                             Location{},
+                             fmt::format(kFindingsCut.text, kMostFindings),
+                             {},
+                             {},
+                             {}});
+    size_t most = severity == Severity::Error ? kMostErrors : kMostFindings;
+    if (findings_.size() > most) {
+        static thread_local Finding unheard;
+        return unheard = {&info, severity, where, {}, {}, {}, {}};
+    }
     findings_.push_back({&info, severity, where, shown_path(std::move(message)), {}, info.fix, {}});
     return findings_.back();
 }
@@ -103,14 +128,10 @@ void Diagnostics::sort_unique() {
     std::stable_sort(findings_.begin(), findings_.end(),
                      [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
     std::vector<Finding> kept;
-    size_t same_place = 0;  // where those of this place begin in `kept`
+    std::set<std::pair<std::string_view, std::string>> here;  // of the place of kept.back()
     for (Finding& f : findings_) {
-        if (!kept.empty() && place(kept.back()) != place(f)) same_place = kept.size();
-        bool known = std::any_of(kept.begin() + std::ptrdiff_t(same_place), kept.end(),
-                                 [&](const Finding& k) {
-                                     return k.info->code == f.info->code && k.message == f.message;
-                                 });
-        if (!known) kept.push_back(std::move(f));
+        if (!kept.empty() && place(kept.back()) != place(f)) here.clear();
+        if (here.emplace(f.info->code, f.message).second) kept.push_back(std::move(f));
     }
     findings_ = std::move(kept);
 }

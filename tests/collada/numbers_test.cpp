@@ -1,6 +1,8 @@
 // tests/collada/numbers_test.cpp: numbers as exporters write them.
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <charconv>
 #include <clocale>
 #include <cmath>
 #include <cstdlib>
@@ -53,6 +55,113 @@ TEST(Numbers, AreCorrectlyRounded) {
     EXPECT_EQ(Numbers(text).values, expected);
 }
 
+// Every way of writing a number, in lists long enough for the scan of eight digits a step, against
+// std::from_chars.
+TEST(Numbers, MillionsOfThemAreWhatFromCharsSays) {
+    std::mt19937_64 random(29);
+    const char* const edges[] = {"9007199254740993",
+                                 "9007199254740992.5",
+                                 "0.1000000000000000055511151231257827021181583404541015625",
+                                 "9999999999999999999",
+                                 "18446744073709551615",
+                                 "18446744073709551616",
+                                 "1.7976931348623157e308",
+                                 "1.7976931348623159e308",
+                                 "2.2250738585072011e-308",
+                                 "4.9e-324",
+                                 "2.4703282292062327208e-324",
+                                 "1e22",
+                                 "1e23",
+                                 "8.5e-27",
+                                 "123456789012345678e-27",
+                                 "1234567890123456789e-27",
+                                 "1234567890123456789e-28",
+                                 "0.00000000000000000012345678",
+                                 "00000000000000000000000000012",
+                                 "-0.0",
+                                 "5.",
+                                 ".5",
+                                 "-.25e+3",
+                                 "1E0005",
+                                 "4503599627370497.5",
+                                 "0.500000000000000166533453693773481063544750213623046875"};
+    auto word = [&](char* to, size_t room) {
+        uint64_t bits = random();
+        double any = std::bit_cast<double>(bits);
+        double near = (double(bits >> 11) / double(uint64_t(1) << 53) - .5) *
+                      std::pow(10., double(random() % 12) - 4);
+        switch (random() % 8) {
+            case 0:
+                return std::snprintf(to, room, "%s", edges[random() % std::size(edges)]);
+            case 1:
+                return std::snprintf(to, room, "%.*g", 1 + int(random() % 19), any);
+            case 2:
+                return std::snprintf(to, room, "%.*g", 1 + int(random() % 19), near);
+            case 3:
+                return std::snprintf(to, room, "%.*f", int(random() % 20), near);
+            case 4:
+                return std::snprintf(to, room, "%.*e", int(random() % 19), near);
+            case 5:
+                return std::snprintf(to, room, "%d", int(random() % 2000) - 1000);
+            case 6:  // digits of any number around a point
+                return std::snprintf(to, room, "%llu.%llu",
+                                     (unsigned long long)(bits >> random() % 64),
+                                     (unsigned long long)(random() >> random() % 64));
+            default:
+                return std::snprintf(to, room, "%llue%d", (unsigned long long)bits,
+                                     -int(random() % 32));
+        }
+    };
+    const char* const spaces[] = {" ", "\n", "  ", "\t ", " \n  "};
+    for (int list = 0; list < 30; ++list) {
+        std::string text;
+        std::vector<double> expected;
+        for (int i = 0; i < 100000; ++i) {
+            char buffer[400];
+            int length = word(buffer, sizeof buffer);
+            double value = 0;
+            if (std::string_view(buffer).find_first_of("ni") != std::string_view::npos) continue;
+            auto [stop, error] = std::from_chars(buffer, buffer + length, value);
+            ASSERT_EQ(stop, buffer + length) << buffer;
+            if (error != std::errc{}) continue;  // ReadsNumbersBeyondRange
+            text.append(buffer, size_t(length)) += spaces[random() % 5];
+            expected.push_back(value);
+        }
+        Numbers n(text);
+        ASSERT_EQ(n.values.size(), expected.size());
+        for (size_t i = 0; i < expected.size(); ++i)
+            ASSERT_EQ(std::bit_cast<uint64_t>(n.values[i]), std::bit_cast<uint64_t>(expected[i]))
+                << expected[i];
+        ASSERT_TRUE(n.r.diag.findings().empty()) << n.r.all();
+    }
+}
+
+TEST(Numbers, BeyondRangeAreZeroOrInfinite) {
+    std::string zeros(400, '0');
+    Numbers n("0." + zeros + "1 1" + zeros + " -1e400 1e-99999999999999999999 " + "0." + zeros +
+              "1e500 1" + zeros + "e-500 -1e99999999999999999999");
+    std::vector<double> expected{0, INFINITY, -INFINITY, 0, 1e99, 1e-100, -INFINITY};
+    EXPECT_EQ(n.values, expected);
+}
+
+TEST(Numbers, WholeOnesAreReadWhereverTheyStandInTheList) {
+    std::mt19937 random(31);
+    for (size_t size = 0; size < 200; ++size) {
+        std::string text;
+        std::vector<int32_t> expected;
+        for (size_t i = 0; i < size; ++i) {
+            int32_t value = int32_t(random()) >> (random() % 32);
+            text += std::to_string(value) + (random() % 4 ? " " : "\n ");
+            expected.push_back(value);
+        }
+        Reading r;
+        r.document = read_document_text("t.dae", "<COLLADA><p>" + text + "</p></COLLADA>", r.diag);
+        r.diag.clear();
+        EXPECT_EQ(read_ints(*r.document, *r.document->root().child("p"), r.diag), expected);
+        EXPECT_TRUE(r.diag.findings().empty());
+    }
+}
+
 TEST(Numbers, NanAndInfinityAreKeptAndReported) {
     Numbers n("NaN -INF 1.#QNAN 1.#INF 1e999");
     ASSERT_EQ(n.values.size(), 5u);
@@ -79,10 +188,10 @@ TEST(Numbers, DecimalCommasAreUnderstoodInAnyLocale) {
 TEST(Numbers, IntegersClampAndNameNonsense) {
     Reading r;
     r.document = read_document_text(
-        "t.dae", "<COLLADA><p>1 -2 99999999999999999999 +4 5.5 x</p></COLLADA>", r.diag);
+        "t.dae", "<COLLADA><p>1 -2 99999999999999999999 +4 5.5 x -2147483648 -2147483649</p></COLLADA>", r.diag);
     r.diag.clear();
     auto values = read_ints(*r.document, *r.document->root().child("p"), r.diag);
-    EXPECT_EQ(values, (std::vector<int32_t>{1, -2, 2147483647, 4, 0, 0}));
+    EXPECT_EQ(values, (std::vector<int32_t>{1, -2, 2147483647, 4, 0, 0, INT32_MIN, INT32_MIN}));
     EXPECT_EQ(r.pointed("SRC_NUMBER"), "5.5");
 }
 
