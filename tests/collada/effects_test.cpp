@@ -242,7 +242,7 @@ TEST(CamerasAndLights, ImpossibleValuesAreReplaced) {
     ASSERT_TRUE(r.scene);
     EXPECT_FALSE(r.scene->cameras.at(0)[CameraSlot::Yfov].present());
     EXPECT_FALSE(r.scene->cameras[0][CameraSlot::Znear].present());
-    EXPECT_EQ(r.count("CAM_FOV"), 2u);
+    EXPECT_EQ(r.count("CAM_FOV"), 1u);
     EXPECT_EQ(r.count("CAM_Z"), 1u);
     EXPECT_EQ(r.scene->lights.at(0)[LightSlot::FalloffAngle].values[0], 180);
     EXPECT_EQ(r.count("LIGHT_RANGE"), 1u);
