@@ -273,7 +273,7 @@ TEST_P(Limits, MemoryIsBoundedByTheFile) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Hostile, Limits, testing::ValuesIn(kHostile),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(LimitFindings, NameWhatWasTooMuch) {
     auto text_of = [](std::string_view name) {
