@@ -1,4 +1,6 @@
 // collada/extract_instances.cpp: meshes, lights and cameras that a node shows.
+#include <set>
+
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
 
@@ -71,17 +73,26 @@ bool read_controller(Extraction& x, Link controller, MeshInstance& mesh) {
     return false;
 }
 
+// The symbols that primitives of a geometry use, each once; once a geometry.
+const std::vector<std::string>& symbols_of(Extraction& x, uint32_t geometry) {
+    auto [at, fresh] = x.symbols_of_geometry.try_emplace(geometry);
+    if (!fresh) return at->second;
+    std::set<std::string_view> seen;
+    for (const PrimitiveGroup& group : x.scene.geometries[geometry].groups)
+        if (!group.material.empty() && seen.insert(group.material).second)
+            at->second.push_back(group.material);
+    return at->second;
+}
+
 void report_unbound(Extraction& x, Link instance, const MeshInstance& mesh) {
     if (mesh.materials.empty()) {
         x.diag.report(Code::MAT_NO_BIND, x.where(instance));
         return;
     }
-    std::string last;
-    for (const PrimitiveGroup& group : x.scene.geometries[mesh.geometry].groups) {
-        bool bound = group.material.empty() || group.material == last;
-        for (const MaterialBinding& m : mesh.materials) bound = bound || m.symbol == group.material;
-        if (!bound) x.diag.report(Code::MAT_UNBOUND_SYMBOL, x.where(instance), group.material);
-        last = group.material;
+    for (const std::string& symbol : symbols_of(x, mesh.geometry)) {
+        bool bound = false;
+        for (const MaterialBinding& m : mesh.materials) bound = bound || m.symbol == symbol;
+        if (!bound) x.diag.report(Code::MAT_UNBOUND_SYMBOL, x.where(instance), symbol);
     }
 }
 

@@ -85,9 +85,11 @@ dmat4 transposed(const dmat4& m) {
 }  // namespace
 
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds) {
+    constexpr int kMostDoubles = 256;  // a file of nothing but one id stays linear
     const Element* element = document.find(id);
-    while (element && !is_kind(element->name, kinds)) element = element->next_same_id;
-    return element;
+    for (int i = 0; element && i < kMostDoubles; ++i, element = element->next_same_id)
+        if (is_kind(element->name, kinds)) return element;
+    return nullptr;
 }
 
 Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) {

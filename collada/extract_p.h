@@ -40,6 +40,7 @@ struct Extraction {
     std::unordered_map<const Element*, uint32_t> made{};
     // Elements (of a value, or around one) that a channel may name.
     std::unordered_map<const Element*, TargetRef> target_of{};
+    std::unordered_map<uint32_t, std::vector<std::string>> symbols_of_geometry{};
     std::unordered_set<const Element*> read_arrays{};  // whose numbers were parsed and checked
     // Nodes whose index is given out and whose content is still to be read.
     std::vector<std::pair<uint32_t, Link>> pending_nodes{};

@@ -1,5 +1,6 @@
 // collada/lint_unused.cpp: library items that nothing leads to from <scene>.
 #include <algorithm>
+#include <unordered_set>
 
 #include "collada/lint_p.h"
 #include "collada/numbers_p.h"
@@ -73,7 +74,9 @@ class Reachable {
         if (id.find('%') != id.npos) mark(percent_decode(id));
     }
     void mark(std::string_view id) {
-        for (const Element* e = lint_.document.find(id); e; e = e->next_same_id) {
+        const Element* first = lint_.document.find(id);
+        if (!first || !seen_.insert(first).second) return;
+        for (const Element* e = first; e; e = e->next_same_id) {
             const Element* item = e;
             while (item && !item_of_.count(item)) item = item->parent;
             if (!item) continue;
@@ -85,6 +88,7 @@ class Reachable {
 
     Lint& lint_;
     std::unordered_map<const Element*, bool> item_of_;  // whether it is used
+    std::unordered_set<const Element*> seen_;              // the first of each id that was named
     std::vector<const Element*> pending_;
 };
 

@@ -58,6 +58,7 @@ bool edges_cross(std::span<const dvec2> p, double tolerance) {
 }  // namespace
 
 PolygonShape polygon_shape(std::span<const dvec3> corners) {
+    constexpr size_t kAllPairs = 8;
     PolygonShape shape;
     const dvec3& origin = corners[0];  // differences keep far polygons exact
     size_t n = corners.size();
@@ -68,10 +69,12 @@ PolygonShape polygon_shape(std::span<const dvec3> corners) {
         diameter2 = std::max(diameter2, dot3(a, a));
         if (i + 1 < n) area += cross3(a, corners[i + 1] - origin);
     }
-    if (n == 3) {
-        dvec3 side = corners[2] - corners[1];
-        diameter2 = std::max(diameter2, dot3(side, side));
-    }
+    // Of larger polygons the distance from one corner says enough.
+    for (size_t i = 1; n <= kAllPairs && i < n; ++i)
+        for (size_t k = i + 1; k < n; ++k) {
+            dvec3 a = corners[k] - corners[i];
+            diameter2 = std::max(diameter2, dot3(a, a));
+        }
     double length2 = dot3(area, area);
     if (!(length2 > kFileDigits * kFileDigits * diameter2 * diameter2)) {
         shape.empty = true;

@@ -12,7 +12,7 @@ struct PolygonShape {
     bool empty = false;      // corners fall on one another or on one line
     bool concave = false;    // seen along its normal, a corner turns the other way
     bool crossing = false;   // two of its edges cross; asked of flat polygons of up to 256 corners
-    double deviation = 0.0;  // largest distance of a corner from its plane / its diameter
+    double deviation = 0.0;  // largest distance of a corner from its plane / its size
 };
 
 // Of one outline of at least three finite corners. Thresholds are relative: no unit matters.
