@@ -24,6 +24,7 @@ class ElementChecker {
     void check_attributes(const Element& element, const ElementType& type);
     void check_attribute(const Element& element, const ElementType& type, const Attribute& a,
                          const AttributeType& rule);
+    void check_id(const Element& element, const Attribute& id);
     void unknown_attribute(const Element& element, const ElementType& type, const Attribute& a);
     void check_text(const Element& element, const ElementType& type);
     void report_value(const Element& element, const ElementType& type, const Attribute* a,
@@ -58,6 +59,7 @@ class ElementChecker {
     const ElementTypes& other_version_;
     std::string_view name_space_;  // COLLADA's, as the root has it
     std::string_view xmlns_;       // the root's attribute that says so
+    std::unordered_map<std::string_view, const Element*> shared_ids_;  // of those used twice
     std::set<std::tuple<const FindingInfo*, const void*, std::string_view>> seen_;
 };
 

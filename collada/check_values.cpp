@@ -62,17 +62,25 @@ void ElementChecker::unknown_attribute(const Element& element, const ElementType
     if (!near.empty()) finding.help = fmt::format("did you mean '{}'?", near);
 }
 
+// Only attributes that the table calls an ID count: <extra> may hold what it likes.
+void ElementChecker::check_id(const Element& element, const Attribute& id) {
+    Location where{document_.file(), id.value_bytes.begin, id.value_bytes.end};
+    if (!is_ncname(trim(id.value))) diag_.report(Code::ID_NOT_NCNAME, where, id.value);
+    const Element* first_one = document_.find(id.value);
+    if (!first_one || (first_one == &element && !element.next_same_id)) return;
+    auto [at, fresh] = shared_ids_.emplace(id.value, &element);
+    if (fresh) return;
+    Finding& finding = diag_.report(Code::ID_DUPLICATE, where, id.value);
+    finding.notes.push_back({document_.location(*at->second, "id"), "also used here"});
+}
+
 void ElementChecker::check_attribute(const Element& element, const ElementType& type,
                                      const Attribute& a, const AttributeType& rule) {
     if (!element.parent && a.name == "version") return;  // DOC_VERSION speaks of it
+    if (rule.type.base->name == "ID") return check_id(element, a);
     ValueCheck check = check_value(rule.type, a.value);
     if (check.fault == ValueFault::None) return;
     Location where{document_.file(), a.value_bytes.begin, a.value_bytes.end};
-    if (rule.type.base->name == "ID") {
-        if (first(Code::ID_NOT_NCNAME, a.value.data(), a.value))
-            diag_.report(Code::ID_NOT_NCNAME, where, a.value);
-        return;
-    }
     report_value(element, type, &a, rule.type, check, a.value, where);
 }
 

@@ -109,7 +109,7 @@ class Document {
 
 // Reads the XML. Nothing is returned when there is no <COLLADA> root to speak of; otherwise an XML
 // error (XML_SYNTAX with its line and column) leaves the elements that were whole before it.
-// Also checks root, version, namespace and double ids. Reads .dae; UTF-8, UTF-16, Latin-1.
+// Also checks root, version and namespace. Reads .dae; UTF-8, UTF-16, Latin-1.
 std::optional<Document> read_document(const std::string& path, Diagnostics& diag);
 
 // The same from memory; `path` names it in findings and gives the folder for relative links.

@@ -150,8 +150,6 @@ void DocumentReader::register_id(Element& element) {
     auto [first, fresh] = document_.ids_.emplace(id, &element);
     if (fresh) return;
     auto at = last_with_id_.emplace(id, const_cast<Element*>(first->second)).first;
-    Finding& finding = diag_.report(Code::ID_DUPLICATE, document_.location(element, "id"), id);
-    finding.notes.push_back({document_.location(*at->second, "id"), "also used here"});
     at->second->next_same_id = &element;
     at->second = &element;
 }

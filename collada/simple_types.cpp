@@ -14,7 +14,8 @@ namespace {
 using Numbers = BaseType::Numbers;
 
 bool is_real(std::string_view word) {
-    return word != "+INF" && is_real_list(word) && !word.empty();
+    return !word.empty() && word != "+INF" && word.find_first_of(" \t\r\n") == word.npos &&
+           is_real_list(word);
 }
 
 // A whole number within [-below, above]; `plus`: "+1" may be written.

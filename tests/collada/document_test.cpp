@@ -146,6 +146,7 @@ TEST(Document, VersionsNamespacesAndDoubleIdsAreChecked) {
         r.diag);
     ASSERT_TRUE(r.document);
     EXPECT_EQ(r.pointed("DOC_NAMESPACE"), "http://www.collada.org/2008/03/COLLADASchema");
+    check_elements(*r.document, r.diag);
     EXPECT_EQ(r.count("ID_DUPLICATE"), 1u);
     EXPECT_NE(r.document->find("a")->next_same_id, nullptr);
     Reading v;

@@ -1,0 +1,209 @@
+"""tests/programs/schema_agreement_test.py: what the element table calls valid is what xmllint calls
+valid by the XSD the table prints, and by the official XSD but for what that one has wrong.
+
+KINORA_SCHEMA_MUTANTS sets how many damaged documents are compared per version (default 400)."""
+import os
+import random
+import shutil
+import subprocess
+import unittest
+from pathlib import Path
+
+import random_documents
+from programs import BIN, SOURCE, ProgramTest, main
+from random_documents import Writer, damaged, local, namespace_version, write
+
+VERDICTS = BIN.parent / "tests/schema_verdicts"
+SCENES = SOURCE.parent / "shared/scenes"
+if not SCENES.exists():
+    SCENES = Path("/work/shared/scenes")
+OFFICIAL = {"V14": Path("/usr/lib/opencollada/collada_schema_1_4_1.xsd"),
+            "V15": Path("/usr/lib/opencollada/collada_schema_1_5.xsd")}
+NAMES = {"V14": "1.4.1", "V15": "1.5"}
+MUTANTS = int(os.environ.get("KINORA_SCHEMA_MUTANTS", "400"))
+DOCUMENTS = 24
+
+# Of W3C's schema for xml: attributes and of MathML's, what the official XSDs refer to.
+XML_XSD = """<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema"
+ targetNamespace="http://www.w3.org/XML/1998/namespace"><xs:attribute name="base" type="xs:anyURI"/>
+</xs:schema>"""
+MATH_XSD = """<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema"
+ targetNamespace="http://www.w3.org/1998/Math/MathML"><xs:element name="math"/></xs:schema>"""
+CATALOG = """<catalog xmlns="urn:oasis:names:tc:entity:xmlns:xml:catalog">
+<system systemId="http://www.w3.org/2001/03/xml.xsd" uri="xml.xsd"/>
+<system systemId="http://www.w3.org/2001/xml.xsd" uri="xml.xsd"/>
+<system systemId="http://www.w3.org/Math/XMLSchema/mathml2/mathml2.xsd" uri="math.xsd"/>
+</catalog>"""
+
+# What our XSD allows and the official one does not, all that the tests below may meet.
+#   1.5: a restriction of a complex type that repeats none of its content forbids all of it, which
+#   leaves these without any child: the six samplers (COLLADA.md) and instances with their <extra>.
+EMPTIED_15 = {"sampler1D", "sampler2D", "sampler3D", "samplerCUBE", "samplerRECT", "samplerDEPTH",
+              "instance_camera", "instance_force_field", "instance_image", "instance_joint",
+              "instance_light", "instance_physics_material", "sampler_image", "instance_node"}
+#   Both: profile_RSL and values of its types.
+RSL_NAMES = {"profile_RSL", "point", "vector", "normal", "color", "matrix", "string", "array"}
+
+
+def emptied(path):
+    """Has a 1.5 document children where the official XSD has lost them?"""
+    root = random_documents.ET.parse(path).getroot()
+    return any(local(e) in EMPTIED_15 and len(e) for e in root.iter())
+
+
+@unittest.skipUnless(shutil.which("xmllint"), "xmllint is not installed")
+class Agreement(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        for name, text in (("xml.xsd", XML_XSD), ("math.xsd", MATH_XSD), ("catalog.xml", CATALOG)):
+            self.write(name, text)
+        self.ours = {}
+        for version, name in NAMES.items():
+            text = subprocess.run([VERDICTS, "print", name], capture_output=True, text=True,
+                                  check=True).stdout
+            self.ours[version] = self.write(f"kinora_{version}.xsd", text)
+
+    def table_says(self, paths):
+        """path -> (valid, codes)"""
+        done = subprocess.run([VERDICTS, "check"], input="".join(f"{p}\n" for p in paths),
+                              capture_output=True, text=True, check=True)
+        found = {}
+        for line in done.stdout.splitlines():
+            word, path, *codes = line.split(" ")
+            found[path] = (word == "valid", codes)
+        self.assertEqual(len(found), len(paths))
+        return found
+
+    def xmllint_says(self, schema, paths):
+        """path -> (valid, complaints)"""
+        environment = dict(os.environ, XML_CATALOG_FILES=str(self.folder / "catalog.xml"))
+        done = subprocess.run(["xmllint", "--noout", "--nonet", "--schema", schema, *paths],
+                              capture_output=True, text=True, errors="replace", env=environment)
+        self.assertNotIn("failed to compile", done.stderr)
+        lines = done.stderr.splitlines()
+        valid = {line[:-len(" validates")] for line in lines if line.endswith(" validates")}
+        return {str(p): (str(p) in valid, [l[:300] for l in lines if l.startswith(f"{p}:")])
+                for p in paths}
+
+    def compare(self, version, schema, paths, allowed=lambda path: False):
+        """The paths on which the verdicts differ, as text."""
+        table, other = self.table_says(paths), self.xmllint_says(schema, paths)
+        return [f"{p}: table {table[str(p)]}, xmllint {other[str(p)]}" for p in paths
+                if table[str(p)][0] != other[str(p)][0] and not allowed(p)]
+
+    def writer(self, version):
+        if not OFFICIAL[version].exists():
+            self.skipTest("opencollada-tools is not installed")
+        table = random_documents.load_table(SOURCE)
+        return Writer(table, version, random.Random(7))
+
+    def documents(self, version):
+        """Random valid documents; the types they use and those that exist."""
+        writer = self.writer(version)
+        roots = [writer.document() for _ in range(DOCUMENTS)]
+        paths = []
+        for i, root in enumerate(roots):
+            paths.append(self.folder / f"{version}_{i}.dae")
+            write(root, paths[-1])
+        reached = {k for k in writer.schema.types if k in writer.used}
+        return writer, roots, paths, reached
+
+    def test_real_files(self):
+        """The verdict is xmllint's on every .dae of the shared scenes, of the assets and tests."""
+        paths = [p for folder in (SCENES, SOURCE / "assets", SOURCE / "tests")
+                 if folder.exists() for p in sorted(folder.rglob("*.dae"))]
+        versions = {p: namespace_version(p.read_text(errors="replace")) for p in paths}
+        for version in NAMES:
+            mine = [p for p in paths if versions[p] == version and b"\0" not in p.read_bytes()]
+            self.assertEqual(self.compare(version, self.ours[version], mine), [])
+
+    def test_random_documents(self):
+        """Valid documents that use nearly every type: by the table, our XSD and the official one."""
+        for version in NAMES:
+            writer, _, paths, reached = self.documents(version)
+            unused = {k for k in writer.schema.types if k not in reached}
+            self.assertLess(len(unused), len(writer.schema.types) * 0.05,
+                            sorted(writer.schema.named[k] for k in unused))
+            table = self.table_says(paths)
+            self.assertEqual([(p, v) for p, v in table.items() if not v[0]], [])
+            self.assertEqual(self.compare(version, self.ours[version], paths), [])
+            official = self.compare(version, OFFICIAL[version], paths,
+                                    lambda p: version == "V15" and emptied(p))
+            self.assertEqual(official, [])
+
+    def test_damaged_documents(self):
+        """One random change each: the table, our XSD and the official one agree on all."""
+        for version in NAMES:
+            writer, roots, _, _ = self.documents(version)
+            chance = random.Random(11)
+            names = sorted({c[1] for c in elements(writer.schema)} - {"%any", "%math"})
+            names += ["bogus", "profile_RSL"]
+            paths, kinds = [], {}
+            for i in range(MUTANTS):
+                root, kind = damaged(chance.choice(roots), names, chance)
+                paths.append(self.folder / f"{version}_bad_{i}.dae")
+                kinds[paths[-1]] = kind
+                write(root, paths[-1])
+            self.assertEqual(self.compare(version, self.ours[version], paths), [])
+            official = self.compare(version, OFFICIAL[version], paths,
+                                    lambda p: (version == "V15" and emptied(p)) or rsl(p))
+            self.assertEqual(official, [])
+            invalid = [p for p, v in self.table_says(paths).items() if not v[0]]
+            self.assertGreater(len(invalid), MUTANTS // 3)
+
+    def test_the_official_schemas_lose_the_content_of_restricted_types(self):
+        """Each difference above is real: the official XSD refuses what the specification shows."""
+        writer = self.writer("V15")
+        root = writer.document()
+        uri = random_documents.URI["V15"]
+        library = random_documents.ET.SubElement(root, f"{{{uri}}}library_effects")
+        root.remove(library)
+        root.insert(1, library)
+        effect = random_documents.ET.fromstring(
+            f'<effect xmlns="{uri}" id="e"><newparam sid="s"><sampler2D><instance_image url="#i"/>'
+            '</sampler2D></newparam><profile_COMMON><technique sid="t"><constant/></technique>'
+            "</profile_COMMON></effect>")
+        library.append(effect)
+        path = self.folder / "sampler.dae"
+        for e in list(root)[2:]:
+            root.remove(e)
+        write(root, path)
+        self.assertTrue(self.table_says([path])[str(path)][0])
+        self.assertTrue(self.xmllint_says(self.ours["V15"], [path])[str(path)][0])
+        self.assertFalse(self.xmllint_says(OFFICIAL["V15"], [path])[str(path)][0])
+
+    def test_rsl_is_part_of_our_schemas(self):
+        matte = SOURCE / "assets/scenes/matte.dae"
+        self.assertTrue(self.table_says([matte])[str(matte)][0])
+        self.assertTrue(self.xmllint_says(self.ours["V14"], [matte])[str(matte)][0])
+
+    def test_the_tables_are_as_the_script_draws_them(self):
+        if not OFFICIAL["V14"].exists():
+            self.skipTest("opencollada-tools is not installed")
+        done = subprocess.run([SOURCE / "scripts/collada_table", "--check"], capture_output=True,
+                              text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+
+
+def elements(schema):
+    def walk(content):
+        if content and content[0] == "element":
+            yield content
+        elif content and content[0] != "group":
+            for part in content[1]:
+                yield from walk(part)
+    for content in [t.content for t in schema.types.values()] + list(schema.groups.values()):
+        yield from walk(content)
+
+
+def rsl(path):
+    """Has a document something that profile_RSL brings?"""
+    root = random_documents.ET.parse(path).getroot()
+    parents = {"newparam", "setparam"}
+    return any(local(e) == "profile_RSL" or (local(e) in parents and
+                                             any(local(c) in RSL_NAMES for c in e))
+               for e in root.iter())
+
+
+if __name__ == "__main__":
+    main()
