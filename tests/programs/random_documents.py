@@ -20,6 +20,7 @@ WORDS = {"string": "some text", "token": "a token", "NCName": "name", "Name": "a
          "unsignedByte": "255", "dateTime": "2008-02-29T23:59:59.5+02:00", "hexBinary": "0aFF",
          "IDREF": "some_id", "fragment": "#some_id", "sidref": "./a/b(1)(2)",
          "email": "a.b@c.org", "%anything": ""}
+ENOUGH = 400  # elements; then the rest of a document is as small as it may be
 
 
 def load_table(source):
@@ -31,7 +32,7 @@ def load_table(source):
 
 
 class Writer:
-    """Writes random documents of one version; what was chosen least comes first."""
+    """Writes random documents of one version, each led by types that none had before."""
 
     def __init__(self, table, version, random):
         self.random = random
@@ -58,12 +59,30 @@ class Writer:
         return max(costs) if content[0] == "sequence" else min(costs)
 
     def document(self):
-        self.ids = 0
-        root = self.element("COLLADA", self.schema.globals["COLLADA"], 0)
-        return root
+        self.ids = self.size = 0
+        unused = [key for key in self.schema.types if key not in self.used]
+        self.hope = set(unused[-1:] + self.random.sample(unused, min(len(unused), 8)))
+        size = -1
+        while size != len(self.hope):  # and what leads to them
+            size = len(self.hope)
+            self.hope |= {key for key, t in self.schema.types.items() if self.leads(t.content)}
+        return self.element("COLLADA", self.schema.globals["COLLADA"], 0)
+
+    def leads(self, content):
+        """Is there a type in it that was never used?"""
+        if not content:
+            return False
+        if content[0] == "element":
+            return content[2] in self.hope
+        if content[0] == "group":
+            return self.leads(self.schema.groups[content[1]])
+        return any(map(self.leads, content[1]))
 
     def element(self, name, key, depth):
         self.used[key] = self.used.get(key, 0) + 1
+        self.size += 1
+        if self.size > ENOUGH:
+            self.hope.clear()
         out = ET.Element(f"{{{URI[self.version]}}}{name}")
         if key[0] == "simple":
             out.text = self.value(key[1])
@@ -83,9 +102,13 @@ class Writer:
         if not content:
             return
         low, high = content[-2:]
-        more = 0 if depth > 11 else 6 if content[0] in ("choice", "group") else 2
-        most = low + more if high is None else min(high, low + more)
-        for _ in range(self.random.randint(low, most)):
+        most = low + 2 if high is None else high
+        free = depth < 12 and self.size < ENOUGH and self.random.random() < 0.3
+        count = self.random.randint(low, min(most, low + 2)) if free else low
+        if self.leads(content) and depth < 14:
+            repeats = high is None and content[0] in ("choice", "group")
+            count = max(count, min(most, 4 if repeats else 1))
+        for _ in range(count):
             self.fill_once(parent, content, depth)
 
     def fill_once(self, parent, content, depth):
@@ -104,14 +127,16 @@ class Writer:
             parent.append(self.element(content[1], content[2], depth + 1))
 
     def choose(self, parts, depth):
-        if depth > 10:
+        if depth > 10 or self.size > ENOUGH:
             return min(parts, key=self.least)
+        parts = [p for p in parts if self.leads(p)] or list(parts)
+
         def uses(part):
             if part[0] == "element":
                 return self.used.get(part[2], 0)
             inner = [self.schema.groups[part[1]]] if part[0] == "group" else part[1]
             return min(map(uses, inner)) if inner else 0
-        parts = list(parts)
+
         self.random.shuffle(parts)
         return min(parts, key=uses)
 
