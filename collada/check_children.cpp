@@ -13,10 +13,9 @@ std::string place_name(const ContentModel::Place& place) {
     return place.kind == Kind::Math ? "<math>" : "<" + std::string(place.name) + ">";
 }
 
-// "<a>", "one of <a>, <b>": what may follow.
-std::string expected(const ContentModel& model, uint16_t at) {
+// "<a>", "one of <a>, <b>"
+std::string one_of(const ContentModel& model, const std::vector<uint16_t>& next) {
     constexpr size_t kMost = 12;
-    const auto& next = model.places[at].next;
     std::string out = next.size() > 1 ? "one of " : "";
     for (size_t i = 0; i < next.size() && i < kMost; ++i)
         out += (i ? ", " : "") + place_name(model.places[next[i]]);
@@ -87,7 +86,8 @@ uint16_t ElementChecker::misplaced(const Element& element, const ElementType& ty
         later = later && has_child(child.next, model.places[way[i]].name);
     if (!later && first(Code::SCHEMA_MIN_OCCURS, &type, child.name))
         diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(child), element.name,
-                     expected(model, at) + " before <" + std::string(child.name) + ">");
+                     one_of(model, model.missing(at, child.name)) + " before <" +
+                         std::string(child.name) + ">");
     check(child, *model.places[way.back()].type, kept);
     return way.back();
 }
@@ -109,7 +109,9 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
         if (first(Code::SCHEMA_UNEXPECTED, &type, child.name))
             diag_.report(Code::SCHEMA_UNEXPECTED, document_.location(child), child.name,
                          element.name,
-                         model.places[at].next.empty() ? "" : ", expected " + expected(model, at));
+                         model.places[at].next.empty()
+                             ? ""
+                             : ", expected " + one_of(model, model.places[at].next));
         return;
     }
     if (!first(Code::SCHEMA_UNKNOWN_ELEMENT, &type, child.name)) return;
@@ -151,8 +153,9 @@ void ElementChecker::missing_children(const Element& element, const ElementType&
     if (library && first(Code::SCHEMA_EMPTY_LIBRARY, &type, element.name))
         diag_.report(Code::SCHEMA_EMPTY_LIBRARY, document_.location(element), element.name);
     if (library || !first(Code::SCHEMA_MIN_OCCURS, &type, {})) return;
-    std::string what = expected(model, at);
-    uint16_t only = model.places[at].next.size() == 1 ? model.places[at].next[0] : uint16_t(0);
+    std::vector<uint16_t> missing = model.missing(at, {});
+    std::string what = one_of(model, missing);
+    uint16_t only = missing.size() == 1 ? missing[0] : uint16_t(0);
     if (only && model.places[only].name == model.places[at].name) what = "another " + what;
     diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(element), element.name, what);
 }

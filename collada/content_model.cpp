@@ -113,21 +113,30 @@ class ModelBuilder {
         bool many = particle.high == Particle::kMany;
         uint32_t copies = std::max(many ? particle.low : particle.high, 1u);
         bool outer = one_rank_;
-        if (copies > 1 || many) share_rank(particle);
-        Ends all{true, {}, {}};
+        if (copies > 1 || many) share_rank();
+        Ends all, before;
         for (uint32_t i = 0; i < copies; ++i) {
             Ends one = once(particle);
             if (many && i + 1 == copies) connect(one.last, one.first);
-            one.nullable = one.nullable || i >= particle.low;
-            all = follow(all, one);
+            if (i == 0) {
+                all = one;
+            } else if (one.nullable) {
+                all = follow(all, one);
+            } else {  // only from the copy before: a (a (a)?)?, so that one place suffices
+                connect(before.last, one.first);
+                if (i < particle.low) all.last.clear();
+                add(all.last, one.last);
+            }
+            before = one;
         }
+        all.nullable = all.nullable || particle.low == 0;
         one_rank_ = outer;
         return all;
     }
 
   private:
     // What repeats as a whole has no order of its own: (a | b)*.
-    void share_rank(const Particle&) {
+    void share_rank() {
         if (!one_rank_) ++rank_;
         one_rank_ = true;
     }
@@ -214,6 +223,20 @@ uint16_t ContentModel::find(std::string_view name) const {
     for (size_t i = 1; i < places.size(); ++i)
         if (places[i].name == name) return uint16_t(i);
     return 0;
+}
+
+std::vector<uint16_t> ContentModel::missing(uint16_t at, std::string_view name) const {
+    std::vector<uint16_t> found;
+    size_t least = ~size_t(0);
+    for (uint16_t next : places[at].next) {
+        if (!name.empty() && places[next].name == name) continue;
+        bool there = name.empty() && places[next].last;
+        size_t steps = there ? 1 : way(next, name).size() + 1;
+        if (!there && steps == 1) continue;  // no way from here
+        if (steps < least) found.clear(), least = steps;
+        if (steps == least) found.push_back(next);
+    }
+    return found;
 }
 
 std::vector<uint16_t> ContentModel::way(uint16_t at, std::string_view name) const {

@@ -52,6 +52,9 @@ struct ContentModel {
         return 0;
     }
     uint16_t find(std::string_view name) const;  // the first place of this name, or 0
+    // What comes first on the shortest ways from `at` to a place of this name, or ("") to the end:
+    // what is missing there.
+    std::vector<uint16_t> missing(uint16_t at, std::string_view name) const;
     // The shortest way from `at` to a place of this name, or ("") to one where the element may end:
     // the places entered. Empty if there is none.
     std::vector<uint16_t> way(uint16_t at, std::string_view name) const;

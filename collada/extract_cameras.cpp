@@ -12,10 +12,7 @@ Slot read_slot(Extraction& x, Link link, uint32_t count, TargetRef ref) {
     slot.sid = e.value("sid");
     slot.where = x.where(link);
     std::vector<double> numbers = read_doubles(x.document(link.doc), e, x.diag);
-    if (numbers.size() < count) {
-        x.diag.report(Code::SCHEMA_LENGTH, slot.where, e.name, numbers.size(), count);
-        if (numbers.empty()) return slot;
-    }
+    if (numbers.empty()) return slot;
     slot.count = uint8_t(count);
     for (size_t i = 0; i < count && i < numbers.size(); ++i)
         slot.values[i] = std::isfinite(numbers[i]) ? numbers[i] : 0;

