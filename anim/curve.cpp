@@ -56,6 +56,17 @@ void evaluate_matrix(const Sampler& sampler, size_t segment, double s, uint32_t 
     std::copy_n(m.begin() + first, out.size(), out.data());
 }
 
+Quaternion quaternion_at(const double* xyzw) {
+    return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
+}
+
+void evaluate_slerp(const double* left, const double* right, double s, uint32_t first,
+                    std::span<double> out) {
+    Quaternion q = slerp(quaternion_at(left), quaternion_at(right), s);
+    const double xyzw[4] = {q.x, q.y, q.z, q.w};
+    std::copy_n(xyzw + first, out.size(), out.data());
+}
+
 void evaluate_linear(const Sampler& sampler, size_t segment, double offset, uint32_t first,
                      std::span<double> out) {
     double s = offset / (sampler.times[segment + 1] - sampler.times[segment]);
@@ -64,6 +75,8 @@ void evaluate_linear(const Sampler& sampler, size_t segment, double offset, uint
     // equal keys and the key itself give the document's own numbers
     bool moves = s > 0 && std::memcmp(left, right, sampler.stride * sizeof(double)) != 0;
     if (moves && !sampler.rigid.empty()) return evaluate_matrix(sampler, segment, s, first, out);
+    if (moves && sampler.kind == SampleKind::Quaternion)
+        return evaluate_slerp(left, right, s, first, out);
     for (size_t i = 0; i < out.size(); ++i) out[i] = mix(left[first + i], right[first + i], s);
 }
 

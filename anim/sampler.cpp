@@ -165,7 +165,10 @@ Sampler make_sampler(const SamplerSource& source, SamplerRepairs* repairs) {
     sampler.pre = source.pre;
     sampler.post = source.post;
     sampler.kind = source.kind;
-    if (sampler.kind == SampleKind::Matrix && sampler.stride != 16) {
+    bool fits = sampler.kind == SampleKind::Matrix       ? sampler.stride == 16
+                : sampler.kind == SampleKind::Quaternion ? sampler.stride == 4
+                                                         : true;
+    if (!fits) {
         sampler.kind = SampleKind::Numbers;
         counts.bad_stride = 1;
     }

@@ -35,7 +35,9 @@ std::optional<Behaviour> behaviour_from_name(std::string_view collada_name);  //
 
 // Numbers: every component by itself. Matrix: 16 numbers in document (row-major) order; LINEAR
 // segments interpolate translation, rotation (slerp) and stretch apart, others work on the numbers.
-enum class SampleKind : uint8_t { Numbers, Matrix };
+// Quaternion: a rotation as x y z w (glTF's order); LINEAR segments slerp the shorter way, others
+// work on the numbers; what comes out is unit (identity where the numbers vanish).
+enum class SampleKind : uint8_t { Numbers, Matrix, Quaternion };
 
 // The arrays of a <sampler> as they stand in the file; only viewed.
 struct SamplerSource {
@@ -63,8 +65,8 @@ struct SamplerRepairs {
     uint32_t missing_tangents = 0;  // segments that need tangents and have none: straight
     uint32_t bad_tangents = 0;      // tangent numbers that are not finite: straight
     uint32_t clamped_tangents = 0;  // control times outside their segment: moved to its end
-    uint32_t bad_stride = 0;        // 1: a tangent stride that fits no layout, or a matrix without
-                                    // 16 numbers (then treated as numbers)
+    uint32_t bad_stride = 0;        // 1: a tangent stride that fits no layout, a matrix without 16
+                                    // numbers or a quaternion without 4 (then treated as numbers)
     bool any() const {
         return missing_values | non_finite_keys | unsorted_keys | duplicate_times |
                missing_tangents | bad_tangents | clamped_tangents | bad_stride;

@@ -99,6 +99,27 @@ constexpr BehaviourRow kBehaviours[] = {
 };
 static_assert(std::size(kBehaviours) == static_cast<size_t>(Behaviour::Count));
 
+void evaluate_any(const Sampler& sampler, double time, uint32_t first, std::span<double> out) {
+    if (std::isnan(time)) time = sampler.first_time();
+    bool before = time < sampler.first_time(), after = time > sampler.last_time();
+    if (!before && !after) return evaluate_inside(sampler, time, first, out);
+    Behaviour behaviour = before ? sampler.pre : sampler.post;
+    // one moment has no slope and no period
+    if (!std::isfinite(time) || !(sampler.last_time() > sampler.first_time()))
+        behaviour = Behaviour::Constant;
+    kBehaviours[static_cast<int>(behaviour)].evaluate(sampler, time, first, out);
+}
+
+// All four numbers together: each depends on the length of all.
+void evaluate_unit_quaternion(const Sampler& sampler, double time, uint32_t first,
+                              std::span<double> out) {
+    double v[4];
+    evaluate_any(sampler, time, 0, v);
+    Quaternion q = normalized({v[3], v[0], v[1], v[2]});
+    const double xyzw[4] = {q.x, q.y, q.z, q.w};
+    std::copy_n(xyzw + first, out.size(), out.data());
+}
+
 }  // namespace
 
 std::optional<Behaviour> behaviour_from_name(std::string_view collada_name) {
@@ -110,14 +131,10 @@ std::optional<Behaviour> behaviour_from_name(std::string_view collada_name) {
 void evaluate(const Sampler& sampler, double time, uint32_t first, std::span<double> out) {
     CHECK(!sampler.empty());
     CHECK_LE(first + out.size(), sampler.stride);
-    if (std::isnan(time)) time = sampler.first_time();
-    bool before = time<sampler.first_time(), after = time> sampler.last_time();
-    if (!before && !after) return evaluate_inside(sampler, time, first, out);
-    Behaviour behaviour = before ? sampler.pre : sampler.post;
-    // one moment has no slope and no period
-    if (!std::isfinite(time) || !(sampler.last_time() > sampler.first_time()))
-        behaviour = Behaviour::Constant;
-    kBehaviours[static_cast<int>(behaviour)].evaluate(sampler, time, first, out);
+    if (sampler.kind == SampleKind::Quaternion)
+        evaluate_unit_quaternion(sampler, time, first, out);
+    else
+        evaluate_any(sampler, time, first, out);
 }
 
 }  // namespace kinora::anim

@@ -95,7 +95,8 @@ void SceneBuilder::place_lights() {
         for (const MaterialUse& use : uses_[s]->materials)
             if (use.symbol == symbol && use.material != kNone) {
                 const auto& surfaces = description_.materials[use.material].surfaces;
-                constant = surfaces.size() == 1 && surfaces[0].shader->name == "collada_constant";
+                constant = surfaces.size() == 1 && (surfaces[0].shader->name == "collada_constant" ||
+                                                    surfaces[0].shader->name == "gltf_unlit");
             }
         all_constant &= constant;
     }

@@ -42,6 +42,16 @@ const ClipDefinition* find_clip(const SceneDescription& description, std::string
     return nullptr;
 }
 
+void play_clip(SceneDescription& description, const ClipDefinition& clip) {
+    description.start_time = clip.start;
+    description.end_time = clip.end;
+    if (!clip.animation) return;
+    description.animation = *clip.animation;
+    description.animated.assign(description.values.size(), false);
+    for (const anim::Animation::Write& write : description.animation.writes)
+        description.animated[write.slot] = true;
+}
+
 SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
                            const SceneOptions& options, Diagnostics& diagnostics)
     : description_(*description), diagnostics_(diagnostics), scene_(std::make_unique<Scene>()) {

@@ -3,24 +3,17 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/import_options.h"
 #include "runtime/scene_description.h"
 
 namespace kinora {
 
-struct ImportOptions {
-    std::vector<std::string> allow_external;       // folders besides the scene's own tree
-    std::optional<UpAxis> up_axis;                 // instead of the file's
-    std::optional<double> meter;                   // instead of the file's
-    std::vector<std::string> include_directories;  // for #include in shaders
-};
-
-// Reads the document (a .dae, .zae or .kmz), extracts what <scene> reaches and compiles every shader bound there. Findings
-// have their places in the .dae, also those inside shader code. Nothing is returned when there is
-// no scene to show; errors that leave a scene (a shader that does not compile: its material becomes
-// the default one) are in `diagnostics`.
+// Reads the document (a .dae, .zae or .kmz), extracts what <scene> reaches and compiles every
+// shader bound there. Findings have their places in the .dae, also those inside shader code. Nothing
+// is returned when there is no scene to show; errors that leave a scene (a shader that does not
+// compile: its material becomes the default one) are in `diagnostics`.
 std::optional<SceneDescription> import_collada(const std::string& path,
                                                const ImportOptions& options,
                                                Diagnostics& diagnostics);

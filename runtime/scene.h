@@ -225,5 +225,8 @@ PlayRange play_range(const SceneDescription& description);
 
 // The range of the clip with that name (null: no such clip).
 const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name);
+// Makes the description play that clip: its range, and its own channels where it has them. Before
+// build_scene.
+void play_clip(SceneDescription& description, const ClipDefinition& clip);
 
 }  // namespace kinora

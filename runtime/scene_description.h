@@ -13,6 +13,7 @@
 #include "anim/animation.h"
 #include "rsl/shader.h"
 #include "runtime/base/math.h"
+#include "runtime/memory_file.h"
 #include "skin/morph.h"
 
 namespace kinora {
@@ -27,10 +28,11 @@ struct ValueSlot {
 };
 
 // Whose numbers a channel writes; the bit that a change sets. Node bits are per definition.
-enum class TransformKind : uint8_t { Translate, Rotate, Scale, Matrix, Lookat, Skew };
+enum class TransformKind : uint8_t { Translate, Rotate, Scale, Matrix, Lookat, Skew, Quaternion };
 
 // Values as in COLLADA: Translate xyz; Rotate axis xyz + degrees; Scale xyz; Matrix 16 in document
-// (row-major) order; Lookat eye, interest, up; Skew degrees, rotated axis, translated axis.
+// (row-major) order; Lookat eye, interest, up; Skew degrees, rotated axis, translated axis;
+// Quaternion x y z w, of any length (glTF's rotation).
 struct Transform {
     TransformKind kind;
     uint32_t value;  // offset into values
@@ -109,6 +111,7 @@ struct SkinDefinition {
     std::string id;
     dmat4 bind_shape{1.0};
     bool has_bind_shape = false;
+    bool in_world = false;  // the node's matrix never applies (glTF); else COLLADA's rule decides
     std::vector<std::string> joint_names;
     std::vector<dmat4> inverse_bind;
     std::vector<uint32_t> offsets;
@@ -177,6 +180,8 @@ struct CameraDefinition {
 struct ClipDefinition {
     std::string name;
     double start = 0, end = 0;
+    // What moves in the clip where that is not simply a range of the scene's animation (glTF).
+    std::shared_ptr<const anim::Animation> animation = nullptr;
 };
 
 enum class UpAxis : uint8_t { X, Y, Z };
@@ -201,6 +206,8 @@ struct SceneDescription {
     anim::Animation animation;
     std::vector<bool> animated;  // per value: some channel writes it
     std::optional<double> start_time, end_time, frame_rate;
+    std::vector<std::string> files;  // read besides the texts in Diagnostics, for fingerprints
+    std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file
 };
 
 // Calls f(ShaderUse&) for every shader of the scene with its parameters.

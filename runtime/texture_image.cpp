@@ -15,6 +15,7 @@
 
 #include "runtime/image_io.h"
 #include "runtime/images_module/images_module.h"
+#include "runtime/memory_file.h"
 
 namespace kinora {
 
@@ -168,8 +169,10 @@ std::string read_by_module(const std::string& path, TextureImage& image) {
 
 }  // namespace
 
-std::string read_texture_image(const std::string& path, TextureImage& image) {
+std::string read_texture_image(const std::string& name, TextureImage& image) {
     image = {};
+    FileToOpen file(name);
+    const std::string& path = file.path();
     Header header;
     if (std::string error = read_header(path, header); !error.empty()) return error;
     try {

@@ -9,6 +9,7 @@
 #include "rsl/renderer_services.h"
 #include "runtime/base/parallel.h"
 #include "runtime/findings.h"
+#include "runtime/memory_file.h"
 
 namespace kinora {
 
@@ -104,8 +105,9 @@ void TextureStore::preload(std::span<const std::string> names) {
         for (const std::string& name : names) {
             TextureName parsed = parse_texture_name(name);
             std::error_code code;
-            if (std::filesystem::is_regular_file(parsed.path, code) &&
-                !images_.count({parsed.path, parsed.data}))
+            bool there = std::filesystem::is_regular_file(parsed.path, code) ||
+                         is_memory_file(parsed.path);
+            if (there && !images_.count({parsed.path, parsed.data}))
                 wanted.emplace(parsed.path, parsed.data);
         }
     }

@@ -12,7 +12,8 @@ namespace {
 
 using MatrixOf = dmat4 (*)(const double*);
 constexpr MatrixOf kMatrixOf[] = {translation_matrix, rotation_matrix, scale_matrix,
-                                  rows_matrix,        lookat_matrix,   skew_matrix};  // TransformKind
+                                  rows_matrix,        lookat_matrix,   skew_matrix,
+                                  quaternion_matrix};  // TransformKind
 
 }  // namespace
 

@@ -23,6 +23,7 @@ PACKAGES = {
     r"expat\.h": r"collada/.*|tests/.*",
     r"OpenImageIO/": r"runtime/images_module/.*|tests/.*",
     r"CLI/": r"runtime/programs/.*",
+    r"tiny_gltf": r"runtime/(import_gltf_file\.h|tinygltf\.cpp)",
     r"SDL|imgui": r"runtime/programs/.*",
     r"llvm": r"(?!)",
 }

@@ -77,4 +77,15 @@ dmat4 skew_matrix(const double* v) {
     return m;
 }
 
+dmat4 quaternion_matrix(const double* v) {
+    double length = std::hypot(std::hypot(v[0], v[1]), std::hypot(v[2], v[3]));
+    if (!(length > 0) || !std::isfinite(length)) return dmat4(1.0);
+    double x = v[0] / length, y = v[1] / length, z = v[2] / length, w = v[3] / length;
+    dmat4 m(1.0);
+    m[0] = dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0);
+    m[1] = dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0);
+    m[2] = dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0);
+    return m;
+}
+
 }  // namespace kinora

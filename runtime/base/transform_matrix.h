@@ -14,5 +14,7 @@ dmat4 lookat_matrix(const double* v);       // eye, interest, up
 // Angle, rotated axis, translated axis: the rotated axis turns towards the translated one by the
 // angle, as RiSkew has it.
 dmat4 skew_matrix(const double* v);
+// x y z w of any length (glTF 2.0, 3.5.3); zero or not finite: the identity.
+dmat4 quaternion_matrix(const double* v);
 
 }  // namespace kinora

@@ -12,7 +12,7 @@
 #include "runtime/base/shown_path.h"
 #include "runtime/findings.h"
 #include "runtime/frame.h"
-#include "runtime/import_collada.h"
+#include "runtime/import_scene.h"
 #include "runtime/override_shader.h"
 #include "runtime/programs/contact_sheet.h"
 #include "runtime/programs/exit_codes.h"
@@ -152,7 +152,7 @@ int Render::load() {
     import.meter = options_.meter;
     import.include_directories = options_.include_directories;
     std::optional<SceneDescription> description =
-        import_collada(options_.scene, import, diagnostics_);
+        import_scene(options_.scene, import, diagnostics_);
     if (!description) {
         flush_findings();
         return kExitUnreadable;
@@ -175,6 +175,7 @@ int Render::load() {
         }
         range.start = clip->start;
         range.end = clip->end;
+        play_clip(*description, *clip);
     }
     scene_options.start_time = range.start;
     scene_options.end_time = range.end;
@@ -223,19 +224,21 @@ XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription&
         std::string_view text = diagnostics.files.text(f);
         hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);
     }
-    // Textures by name, size and time of change.
+    // Textures and buffers by name, size and time of change.
+    auto add_file = [&](const std::string& text) {
+        std::error_code code;
+        std::filesystem::path path(text.substr(0, text.find('\x1f')));
+        auto size = std::filesystem::file_size(path, code);
+        std::string stamp = shown_path(text) + (code ? "" : fmt::format("{}", size));
+        auto time = std::filesystem::last_write_time(path, code);
+        if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
+        hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
+    };
     for_each_shader_use(description, [&](const ShaderUse& use) {
         for (const ParamSource& source : use.params)
-            for (const std::string& text : source.strings) {
-                std::error_code code;
-                std::filesystem::path path(text.substr(0, text.find('\x1f')));
-                auto size = std::filesystem::file_size(path, code);
-                std::string stamp = shown_path(text) + (code ? "" : fmt::format("{}", size));
-                auto time = std::filesystem::last_write_time(path, code);
-                if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
-                hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
-            }
+            for (const std::string& text : source.strings) add_file(text);
     });
+    for (const std::string& file : description.files) add_file(file);
     return hash;
 }
 

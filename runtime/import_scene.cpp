@@ -1,0 +1,40 @@
+// runtime/import_scene.cpp: chooses the reader of a scene file.
+#include "runtime/import_scene.h"
+
+#include <cctype>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "runtime/import_collada.h"
+#include "runtime/import_gltf.h"
+
+namespace kinora {
+
+namespace {
+
+bool has_extension(const std::string& path, std::string_view extension) {
+    if (path.size() < extension.size()) return false;
+    for (size_t i = 0; i < extension.size(); ++i)
+        if (std::tolower(uint8_t(path[path.size() - extension.size() + i])) != extension[i])
+            return false;
+    return true;
+}
+
+}  // namespace
+
+bool is_gltf(const std::string& path) {
+    if (has_extension(path, ".gltf") || has_extension(path, ".glb")) return true;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                         std::fclose);
+    char magic[4] = {};
+    return file && std::fread(magic, 1, 4, file.get()) == 4 && std::memcmp(magic, "glTF", 4) == 0;
+}
+
+std::optional<SceneDescription> import_scene(const std::string& path, const ImportOptions& options,
+                                             Diagnostics& diagnostics) {
+    return is_gltf(path) ? import_gltf(path, options, diagnostics)
+                         : import_collada(path, options, diagnostics);
+}
+
+}  // namespace kinora
