@@ -29,7 +29,7 @@ std::optional<SceneDescription> import_gltf(const std::string& path, const Impor
     SceneDescription description;
     description.path = path;
     if (!GltfImport(*file, options, diagnostics, description).run()) return std::nullopt;
-    description.files = std::move(file->files);
+    description.inputs = std::move(file->files);
     return description;
 }
 

@@ -19,22 +19,6 @@ constexpr uint32_t kPoint[] = {3}, kTangent[] = {4}, kTexcoord[] = {2}, kColor[]
 constexpr const char* kModes[] = {"points",    "lines",           "line loops",   "line strips",
                                   "triangles", "triangle strips", "triangle fans"};
 
-// "TEXCOORD_2" as name and set; nothing for other names.
-struct Numbered {
-    std::string name;
-    uint32_t set = kNone;
-};
-Numbered numbered(const std::string& semantic) {
-    size_t bar = semantic.rfind('_');
-    if (bar == std::string::npos || bar == 0 || semantic.size() - bar > 4) return {};
-    uint32_t set = 0;
-    for (char c : semantic.substr(bar + 1)) {
-        if (c < '0' || c > '9') return {};
-        set = set * 10 + uint32_t(c - '0');
-    }
-    return {semantic.substr(0, bar), set};
-}
-
 // The corners of all triangles, three each, as places in the list of vertices (glTF 2.0, 3.7.2.1).
 std::array<size_t, 3> corners_of(int mode, size_t triangle) {
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
@@ -61,6 +45,19 @@ VertexAttribute flat_normals(const std::vector<dvec3>& positions,
 }
 
 }  // namespace
+
+GltfImport::Numbered GltfImport::numbered(const std::string& semantic) {
+    size_t bar = semantic.rfind('_');
+    bool short_enough = bar != std::string::npos && bar > 0 && semantic.size() - bar <= 4 &&
+                        bar + 1 < semantic.size();
+    if (!short_enough) return {};
+    uint32_t set = 0;
+    for (char c : semantic.substr(bar + 1)) {
+        if (c < '0' || c > '9') return {};
+        set = set * 10 + uint32_t(c - '0');
+    }
+    return {semantic.substr(0, bar), set};
+}
 
 void GltfImport::import_meshes() {
     out_.meshes.resize(model_.meshes.size());
@@ -206,7 +203,12 @@ void GltfImport::add_attributes(const tinygltf::Primitive& primitive,
             }
             add("COLOR", of_set.set, numbers.width, std::move(numbers.values));
         } else if (name.starts_with('_') && name.size() > 1) {  // the application's own
-            if (read(kAny)) add(name.substr(1), 0, numbers.width, std::move(numbers.values));
+            if (!read(kAny)) continue;
+            // Colours and coordinates that glTF's own would give a meaning: _COLOR_0, _TEXCOORD_1.
+            Numbered own = numbered(name.substr(1));
+            bool set = own.name == "COLOR" || own.name == "TEXCOORD";
+            add(set ? own.name : name.substr(1), set ? own.set : 0, numbers.width,
+                std::move(numbers.values));
         }
     }
 }
@@ -278,6 +280,9 @@ MeshUse GltfImport::mesh_use(uint32_t node) {
         material.material = uint32_t(std::stoul(group.symbol));
         for (uint32_t set = 0; set < 8; ++set)
             material.vertex_bindings.push_back({fmt::format("TEXCOORD_{}", set), "TEXCOORD", set});
+        if (auto inputs = inputs_.find(material.material); inputs != inputs_.end())
+            material.vertex_bindings.insert(material.vertex_bindings.end(), inputs->second.begin(),
+                                            inputs->second.end());
     }
     if (plans_[use.mesh].targets) use.morph = node_morphs_[node] = morph_of(use.mesh, node);
     if (from.skin < 0) return use;

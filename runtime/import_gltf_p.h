@@ -76,6 +76,12 @@ class GltfImport {
                        const std::string& pointer, Numbers& out);
 
     // import_gltf_mesh.cpp
+    struct Numbered {
+        std::string name;
+        uint32_t set = kNone;
+    };
+    // "TEXCOORD_2" as name and set; nothing for other names.
+    static Numbered numbered(const std::string& semantic);
     void import_meshes();
     void import_primitive(uint32_t mesh, uint32_t primitive);
     bool place_vertices(uint32_t mesh, uint32_t primitive, const std::string& pointer);
@@ -155,6 +161,7 @@ class GltfImport {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> morphs_;  // mesh, node or kNone
     std::vector<uint32_t> node_morphs_;                         // per node
     std::map<int, std::string> images_;
+    std::map<uint32_t, std::vector<VertexBinding>> inputs_;  // of materials with kinora_rsl
 };
 
 }  // namespace kinora

@@ -8,6 +8,7 @@
 #include "runtime/import_gltf_p.h"
 #include "runtime/json_text.h"
 #include "runtime/shader_library.h"
+#include "runtime/texture_name.h"
 
 namespace kinora {
 
@@ -80,6 +81,13 @@ void GltfImport::set_rsl_param(ShaderUse& use, const std::string& name,
             const tinygltf::Value* data = member(value, "data");
             bool is_data = data && data->IsBool() && data->Get<bool>();
             source.strings = {texture_string(texture->GetNumberAsInt(), is_data, pointer)};
+            std::vector<double> uv;
+            const tinygltf::Value* placed = member(value, "uv");  // TextureName::uv
+            if (placed && numbers_of(*placed, uv) && uv.size() == 4 && !source.strings[0].empty()) {
+                TextureName texture_name = parse_texture_name(source.strings[0]);
+                std::copy(uv.begin(), uv.end(), texture_name.uv.begin());
+                source.strings[0] = texture_name_string(texture_name);
+            }
         } else {
             return refuse("what is no string and no texture");
         }
@@ -222,6 +230,14 @@ void GltfImport::import_rsl(uint32_t index) {
         if (!uses.empty()) to.*row.stack = std::move(uses);
     }
     if (!any) report(Code::GLTF_RSL, pointer, "it names no shader of a stage");
+    if (const tinygltf::Value* inputs = member(rsl, "inputs"))
+        for (const std::string& param : keys_of(*inputs)) {
+            std::string semantic = text_of(*inputs, param.c_str());
+            if (semantic.starts_with('_')) semantic.erase(0, 1);
+            Numbered of_set = numbered(semantic);
+            inputs_[index].push_back({param, of_set.name.empty() ? semantic : of_set.name,
+                                      of_set.name.empty() ? kNone : of_set.set});
+        }
     const tinygltf::Value* params = member(rsl, "params");
     if (!params || shaders.empty()) return;
     for (const std::string& key : keys_of(*params))

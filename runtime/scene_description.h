@@ -206,7 +206,7 @@ struct SceneDescription {
     anim::Animation animation;
     std::vector<bool> animated;  // per value: some channel writes it
     std::optional<double> start_time, end_time, frame_rate;
-    std::vector<std::string> files;  // read besides the texts in Diagnostics, for fingerprints
+    std::vector<std::string> inputs;  // read besides the texts in Diagnostics, for fingerprints
     std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file
 };
 

@@ -238,7 +238,7 @@ XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription&
         for (const ParamSource& source : use.params)
             for (const std::string& text : source.strings) add_file(text);
     });
-    for (const std::string& file : description.files) add_file(file);
+    for (const std::string& file : description.inputs) add_file(file);
     return hash;
 }
 

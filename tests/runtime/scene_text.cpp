@@ -254,7 +254,7 @@ std::unique_ptr<Rendering> Rendering::of_file(const std::string& path,
 
 void Rendering::load(const std::string& path, const SceneOptions& options) {
     settings.width = settings.height = 16;
-    auto description = import_collada(path, {}, diagnostics);
+    auto description = import_scene(path, {}, diagnostics);
     if (!description) return;
     scene = build_scene(std::make_shared<SceneDescription>(std::move(*description)), options,
                         diagnostics);

@@ -8,6 +8,7 @@
 
 #include "runtime/frame.h"
 #include "runtime/import_collada.h"
+#include "runtime/import_scene.h"
 
 namespace kinora {
 

@@ -1,0 +1,327 @@
+// tests/runtime/import_gltf_hostile_test.cpp: glTF files that lie: findings with their places, no
+// crash, no memory beyond what a file's size allows.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "gltf_text.h"
+#include "runtime/import_gltf.h"
+#include "runtime/json_text.h"
+
+namespace kinora {
+namespace {
+
+using nlohmann::json;
+
+GltfText whole_scene() {
+    GltfText g;
+    int t = g.texture(1, 1, {255, 255, 255, 255}, json::object());
+    int m = g.material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", t}}}}}});
+    int mesh = g.square(m);
+    g.json["meshes"][size_t(mesh)]["primitives"][0]["targets"] = {
+        {{"POSITION", g.floats(std::vector<float>(12, 0.5f), "VEC3")}}};
+    std::vector<uint8_t> joints(16, 0);
+    std::vector<float> weights = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    auto& attributes = g.json["meshes"][size_t(mesh)]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = g.accessor(g.view(joints.data(), 16), 5121, 4, "VEC4");
+    attributes["WEIGHTS_0"] = g.floats(weights, "VEC4");
+    int joint = g.node({{"name", "joint"}});
+    g.json["skins"] = {{{"joints", {joint}},
+                        {"inverseBindMatrices",
+                         g.floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4")}}};
+    int node = g.node({{"mesh", mesh}, {"skin", 0}, {"children", json::array()}});
+    g.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    g.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
+    g.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    g.json["animations"].push_back({{"name", "move"}});
+    g.animate(0, joint, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 1, 0, 0, 0});
+    g.animate(0, node, "weights", "STEP", {0, 1}, {0, 1});
+    return g;
+}
+
+TEST(GltfHostile, TheWholeSceneIsSound) {
+    auto r = rendering_of(whole_scene());
+    r->frame();
+    EXPECT_EQ(r->findings(), "");
+}
+
+// One change of the sound scene, the code it must give and the JSON pointer it must name.
+struct Lie {
+    const char* name;
+    std::function<void(json&)> tell;
+    const char* code;
+    const char* pointer;
+};
+
+json& at(json& j, const char* pointer) {
+    return j[json::json_pointer(pointer)];
+}
+
+TEST(GltfHostile, EachLieHasItsFindingAndPlace) {
+    const Lie kLies[] = {
+        {"a mesh that is not there", [](json& j) { at(j, "/nodes/2/mesh") = 7; }, "GLTF_REFERENCE",
+         "/nodes/2/mesh"},
+        {"an accessor that is not there",
+         [](json& j) { at(j, "/meshes/0/primitives/0/attributes/NORMAL") = 99; }, "GLTF_REFERENCE",
+         "/meshes/0/primitives/0/attributes/NORMAL"},
+        {"an accessor beyond its view", [](json& j) { at(j, "/accessors/0/count") = 5; },
+         "GLTF_ACCESSOR", "/accessors/0"},
+        {"a huge accessor", [](json& j) { at(j, "/accessors/0/count") = 4000000000u; },
+         "GLTF_ACCESSOR", "/accessors/0"},
+        {"a huge accessor of zeros",
+         [](json& j) {
+             at(j, "/accessors/0/count") = 4000000000u;
+             at(j, "/accessors/0").erase("bufferView");
+         },
+         "GLTF_LIMIT", "/accessors/0"},
+        {"an offset that wraps around",
+         [](json& j) { at(j, "/accessors/0/byteOffset") = 18446744073709551600u; }, "GLTF_ACCESSOR",
+         "/accessors/0"},
+        {"a view beyond its buffer", [](json& j) { at(j, "/bufferViews/1/byteLength") = 1 << 30; },
+         "GLTF_ACCESSOR", "/bufferViews/1"},
+        {"a stride beyond its view", [](json& j) { at(j, "/bufferViews/1/byteStride") = 252; },
+         "GLTF_ACCESSOR", "/accessors/0"},
+        {"indices that are floats",
+         [](json& j) { at(j, "/meshes/0/primitives/0/indices") = 0; }, "GLTF_ACCESSOR",
+         "/accessors/0"},
+        {"positions of two numbers",
+         [](json& j) { at(j, "/meshes/0/primitives/0/attributes/POSITION") = 2; },
+         "GLTF_PRIMITIVE", "/meshes/0/primitives/0/attributes/POSITION"},
+        {"no positions",
+         [](json& j) { at(j, "/meshes/0/primitives/0/attributes").erase("POSITION"); },
+         "GLTF_PRIMITIVE", "/meshes/0/primitives/0"},
+        {"a mode of none", [](json& j) { at(j, "/meshes/0/primitives/0/mode") = 9; },
+         "GLTF_PRIMITIVE", "/meshes/0/primitives/0/mode"},
+        {"a node below itself", [](json& j) { at(j, "/nodes/2/children") = {2}; }, "GLTF_NODE",
+         "/nodes/2/children/0"},
+        {"a node with two parents", [](json& j) { at(j, "/nodes/3/children") = {1}; }, "GLTF_NODE",
+         "/nodes/3/children/0"},
+        {"a scene that is not there", [](json& j) { j["scene"] = 3; }, "GLTF_REFERENCE", "/scene"},
+        {"a material that is not there",
+         [](json& j) { at(j, "/meshes/0/primitives/0/material") = 3; }, "GLTF_REFERENCE",
+         "/meshes/0/primitives/0/material"},
+        {"a texture that is not there",
+         [](json& j) {
+             at(j, "/materials/0/pbrMetallicRoughness/baseColorTexture/index") = 3;
+         },
+         "GLTF_REFERENCE", "/materials/0/pbrMetallicRoughness/baseColorTexture/index"},
+        {"a rotation of three numbers", [](json& j) { at(j, "/nodes/1/rotation") = {1, 0, 0}; },
+         "GLTF_VALUE", "/nodes/1/rotation"},
+        {"a joint that is not there", [](json& j) { at(j, "/skins/0/joints") = {44}; },
+         "GLTF_REFERENCE", "/skins/0/joints/0"},
+        {"an interpolation of none",
+         [](json& j) { at(j, "/animations/0/samplers/0/interpolation") = "MAGIC"; },
+         "GLTF_ANIMATION", "/animations/0/samplers/0/interpolation"},
+        {"a channel of a node that is not there",
+         [](json& j) { at(j, "/animations/0/channels/0/target/node") = 40; }, "GLTF_REFERENCE",
+         "/animations/0/channels/0/target/node"},
+        {"an extension of the future",
+         [](json& j) { j["extensionsUsed"].push_back("EXT_tomorrow"); }, "GLTF_EXTENSION",
+         nullptr},
+    };
+    for (const Lie& lie : kLies) {
+        GltfText g = whole_scene();
+        lie.tell(g.json);
+        std::string text = g.gltf();
+        auto d = described(text, ".gltf");
+        EXPECT_TRUE(d->scene) << lie.name;
+        const Finding* found = nullptr;
+        for (const Finding& f : d->diagnostics.findings())
+            if (f.info->code == std::string_view(lie.code) &&
+                (!lie.pointer || f.id_path == lie.pointer))
+                found = &f;
+        ASSERT_TRUE(found) << lie.name << "\n" << d->findings();
+        ASSERT_LT(found->where.begin, text.size());
+        if (!lie.pointer) continue;
+        // The place is that of the value (or of the nearest value around one that is not there).
+        std::optional<JsonRange> place = json_place(text, lie.pointer);
+        EXPECT_EQ(found->where.begin, place->begin) << lie.name;
+    }
+}
+
+TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
+    auto refused = [](const std::string& content, const char* extension, const char* code,
+                      const char* word) {
+        auto d = described(content, extension);
+        EXPECT_FALSE(d->scene) << word;
+        EXPECT_EQ(d->count(code), 1) << d->findings();
+        EXPECT_NE(d->findings().find(word), std::string::npos) << d->findings();
+    };
+    refused("", ".glb", "GLTF_INVALID", "empty");
+    refused("glTF\2", ".glb", "GLTF_INVALID", "header");
+    std::string glb = whole_scene().glb();
+    refused(glb.substr(0, glb.size() / 2), ".glb", "GLTF_INVALID", "says it has");
+    refused("{\n \"asset\": {\"version\": \"2.0\",}\n}", ".gltf", "GLTF_INVALID", "gltf:2:");
+    refused("{\"asset\": 1}", ".gltf", "GLTF_INVALID", "asset");
+    refused(std::string(100000, '['), ".gltf", "GLTF_INVALID", "nested");
+    std::string many = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}";
+    for (int i = 0; i < 1100000; ++i) many += ",{}";
+    refused(many + "]}", ".gltf", "GLTF_INVALID", "arrays and objects");
+    GltfText draco = whole_scene();
+    draco.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    refused(draco.glb(), ".glb", "GLTF_EXTENSION_REQUIRED", "KHR_draco_mesh_compression");
+    GltfText image = whole_scene();
+    image.json["bufferViews"][0]["byteOffset"] = 1u << 30;
+    refused(image.glb(), ".glb", "GLTF_INVALID", "image 0");
+    GltfText twice = whole_scene();
+    std::string copies = twice.glb();
+    json two = twice.json;
+    two["buffers"] = {{{"byteLength", 4}}, {{"byteLength", 4}}};
+    refused(two.dump(), ".gltf", "GLTF_INVALID", "no uri");
+}
+
+TEST(GltfHostile, FilesOutsideTheFolderAreNotRead) {
+    namespace fs = std::filesystem;
+    fs::path root = fs::temp_directory_path() / ("kinora_gltf_outside_" + std::to_string(getpid()));
+    fs::create_directories(root / "scene");
+    GltfText g;
+    g.node({{"mesh", g.square()}});
+    std::ofstream(root / "data.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(g.bytes.data()), std::streamsize(g.bytes.size()));
+    fs::copy_file(root / "data.bin", root / "scene" / "own data.bin");
+    auto read = [&](const std::string& uri, bool allow) {
+        json whole = g.json;
+        whole["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", uri}}};
+        std::string path = (root / "scene" / "s.gltf").string();
+        std::ofstream(path) << whole.dump();
+        ImportOptions options;
+        if (allow) options.allow_external.push_back(root.string());
+        Diagnostics diagnostics;
+        return import_gltf(path, options, diagnostics).has_value();
+    };
+    EXPECT_TRUE(read("own%20data.bin", false));
+    EXPECT_FALSE(read("../data.bin", false));
+    EXPECT_TRUE(read("../data.bin", true));
+    EXPECT_FALSE(read((root / "data.bin").string(), false));
+    fs::create_symlink(root / "data.bin", root / "scene" / "link.bin");
+    EXPECT_FALSE(read("link.bin", false));
+    EXPECT_FALSE(read("/etc/passwd", false));
+    fs::remove_all(root);
+}
+
+TEST(GltfHostile, NumbersThatAreNotFiniteLeaveTheirTrianglesOut) {
+    float bad = std::numeric_limits<float>::quiet_NaN();
+    GltfText g;
+    g.node({{"mesh", g.mesh({{"POSITION", g.floats({0, 0, 0, 1, 0, 0, bad, 1, 0,  //
+                                                    0, 0, 0, 1, 0, 0, 1, 1, 0},
+                                                   "VEC3")}})}});
+    auto r = rendering_of(g);
+    r->frame();
+    EXPECT_EQ(r->count("GLTF_TRIANGLES"), 1) << r->findings();
+    EXPECT_EQ(r->scene->meshes[0].groups[0].triangles.size(), 3u);
+}
+
+TEST(GltfHostile, IndicesBeyondTheVerticesLeaveTheirTrianglesOut) {
+    GltfText g;
+    g.node({{"mesh", g.mesh({{"POSITION", g.floats({0, 0, 0, 1, 0, 0, 1, 1, 0}, "VEC3")}},
+                            g.shorts({0, 1, 2, 0, 1, 65535}))}});
+    auto d = described(g.glb());
+    EXPECT_EQ(d->count("GLTF_TRIANGLES"), 1);
+    EXPECT_EQ(d->scene->meshes[0].groups[0].triangles.size(), 3u);
+}
+
+TEST(GltfHostile, ManyFindingsAreCounted) {
+    GltfText g;
+    for (int i = 0; i < 500; ++i) g.node({{"mesh", i}});
+    auto d = described(g.glb());
+    EXPECT_EQ(d->diagnostics.findings().size(), 101u);
+    EXPECT_EQ(d->count("GLTF_MORE"), 1);
+}
+
+// ---- mutations: bytes and values changed at random; nothing may crash or hang
+
+json mutated(json j, std::mt19937& random) {
+    json flat = j.flatten();
+    auto it = flat.begin();
+    std::advance(it, int(random() % flat.size()));
+    const json kValues[] = {-1, 0, 1, 3, 255, 65536, 4294967295u, 1e300, -1e-300, "", "VEC3", "\xc3\xa9",
+                            true, nullptr, json::array(), json::object(), 9007199254740993};
+    *it = kValues[random() % std::size(kValues)];
+    try {
+        return flat.unflatten();
+    } catch (const json::exception&) {
+        return j;
+    }
+}
+
+void survive(const std::string& content, const char* extension) {
+    auto d = described(content, extension);
+    if (!d->scene) {
+        EXPECT_TRUE(d->diagnostics.has_errors());
+        return;
+    }
+    auto scene =
+        build_scene(std::make_shared<SceneDescription>(std::move(*d->scene)), {}, d->diagnostics);
+    if (!scene) return;
+    FrameSettings settings;
+    settings.width = settings.height = 4;
+    raytrace::Film film;
+    FrameStats stats;
+    render_frame(*scene, 0.5, settings, film, stats, d->diagnostics);
+}
+
+int rounds() {
+    const char* wanted = std::getenv("KINORA_FUZZ_GLTF");
+    return wanted ? std::atoi(wanted) : 150;
+}
+
+TEST(GltfHostile, ChangedValuesNeverCrash) {
+    std::mt19937 random(7);
+    GltfText g = whole_scene();
+    for (int i = 0; i < rounds(); ++i) {
+        GltfText changed = g;
+        for (uint32_t n = 0; n <= random() % 3; ++n) changed.json = mutated(changed.json, random);
+        SCOPED_TRACE(changed.json.dump());
+        survive(changed.glb(), ".glb");
+    }
+}
+
+TEST(GltfHostile, ChangedBytesNeverCrash) {
+    std::mt19937 random(8);
+    std::string glb = whole_scene().glb();
+    for (int i = 0; i < rounds(); ++i) {
+        std::string changed = glb;
+        for (uint32_t n = 0; n <= random() % 8; ++n)
+            changed[random() % changed.size()] = char(random() % 4 ? random() : '9');
+        if (random() % 4 == 0) changed.resize(random() % changed.size());
+        survive(changed, ".glb");
+    }
+}
+
+// ---- places in JSON
+
+TEST(JsonText, PointersFindTheirValues) {
+    std::string text = R"({ "a" : [1, {"b/c": "x\"}]", "é": [[], 5e3]}], "d": true })";
+    auto value = [&](const char* pointer) -> std::string {
+        auto range = json_find(text, pointer);
+        return range ? text.substr(range->begin, range->end - range->begin) : "none";
+    };
+    EXPECT_EQ(value("/a/0"), "1");
+    EXPECT_EQ(value("/a/1/b~1c"), R"("x\"}]")");
+    EXPECT_EQ(value("/a/1/é/1"), "5e3");
+    EXPECT_EQ(value("/d"), "true");
+    EXPECT_EQ(value("/a/2"), "none");
+    EXPECT_EQ(value("/e"), "none");
+    EXPECT_EQ(json_place(text, "/a/7/x")->begin, text.find('['));
+    EXPECT_EQ(json_elements(text, "/a").size(), 2u);
+    EXPECT_EQ(json_number(text, "/a/1/é/1", 0), 5000);
+}
+
+TEST(JsonText, StringsKnowWhereEachOfTheirBytesStands) {
+    std::string text = R"(["ab\nc\u00e9d\ud83d\ude00e"])";
+    SourceMap map;
+    std::string got = json_string(text, *json_find(text, "/0"), 3, map);
+    EXPECT_EQ(got, "ab\nc\xc3\xa9" "d\xf0\x9f\x98\x80" "e");
+    EXPECT_EQ(map.file, 3u);
+    EXPECT_EQ(map.file_offset(0), 2u);
+    EXPECT_EQ(map.file_offset(3), text.find("c\\u"));
+    EXPECT_EQ(map.file_offset(6), text.find("d\\u"));
+    EXPECT_EQ(map.file_offset(11), text.find("e\"]"));
+}
+
+}  // namespace
+}  // namespace kinora
