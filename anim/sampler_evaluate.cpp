@@ -101,7 +101,7 @@ static_assert(std::size(kBehaviours) == static_cast<size_t>(Behaviour::Count));
 
 void evaluate_any(const Sampler& sampler, double time, uint32_t first, std::span<double> out) {
     if (std::isnan(time)) time = sampler.first_time();
-    bool before = time < sampler.first_time(), after = time > sampler.last_time();
+    bool before = time<sampler.first_time(), after = time> sampler.last_time();
     if (!before && !after) return evaluate_inside(sampler, time, first, out);
     Behaviour behaviour = before ? sampler.pre : sampler.post;
     // one moment has no slope and no period

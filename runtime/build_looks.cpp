@@ -11,12 +11,18 @@
 
 namespace kinora {
 
+// What was added has values too.
+void SceneBuilder::extend_values() {
+    description_.animated.resize(description_.values.size(), false);
+    size_t known = scene_->values.size();
+    scene_->values.insert(scene_->values.end(), description_.values.begin() + ptrdiff_t(known),
+                          description_.values.end());
+}
+
 // A node that no file wrote.
 uint32_t SceneBuilder::add_node(NodeDefinition definition, uint32_t parent) {
     Scene& scene = *scene_;
-    description_.animated.resize(description_.values.size(), false);
-    scene.values.resize(description_.values.size());
-    std::copy(description_.values.begin(), description_.values.end(), scene.values.begin());
+    extend_values();
     uint32_t index = uint32_t(description_.nodes.size());
     // Node bits come first among the owners: those behind move up by one word-safe step.
     description_.nodes.push_back(std::move(definition));
@@ -71,7 +77,7 @@ bool SceneBuilder::choose_camera() {
 }
 
 void SceneBuilder::add_light(LightDefinition definition, uint32_t node) {
-    description_.animated.resize(description_.values.size(), false);
+    extend_values();
     description_.lights.push_back(std::move(definition));
     scene_->lights.push_back({uint32_t(description_.lights.size() - 1), node, kNone, kNone});
     scene_->added.push_back(description_.lights.back().name);
@@ -95,8 +101,9 @@ void SceneBuilder::place_lights() {
         for (const MaterialUse& use : uses_[s]->materials)
             if (use.symbol == symbol && use.material != kNone) {
                 const auto& surfaces = description_.materials[use.material].surfaces;
-                constant = surfaces.size() == 1 && (surfaces[0].shader->name == "collada_constant" ||
-                                                    surfaces[0].shader->name == "gltf_unlit");
+                constant =
+                    surfaces.size() == 1 && (surfaces[0].shader->name == "collada_constant" ||
+                                             surfaces[0].shader->name == "gltf_unlit");
             }
         all_constant &= constant;
     }

@@ -46,6 +46,7 @@ class SceneBuilder {
     void place_cameras();
     bool choose_camera();
     void place_lights();
+    void extend_values();
     uint32_t add_node(NodeDefinition definition, uint32_t parent);
     void add_light(LightDefinition definition, uint32_t node);
     bool make_looks();

@@ -161,8 +161,8 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         }
         shape.joint_world.resize(joints, dmat4(1.0));
         dmat4 world = scene.nodes[node].world * shape.conversion;
-        shape.in_world = definition.in_world || !is_identity(definition.bind_shape) ||
-                         is_identity(world);
+        shape.in_world =
+            definition.in_world || !is_identity(definition.bind_shape) || is_identity(world);
         if (!shape.in_world) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
     }
     skin::SkinRepairs repairs;

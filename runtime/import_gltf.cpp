@@ -13,7 +13,7 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kRoom = 16;           // values that a transform has to itself
+constexpr size_t kRoom = 16;            // values that a transform has to itself
 constexpr size_t kMaxNodeDepth = 1024;  // the builder recurses into children
 
 bool all_finite(std::span<const double> numbers) {

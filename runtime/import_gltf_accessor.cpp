@@ -53,8 +53,10 @@ struct WidthRow {
     int type;
     uint32_t width;
 };
-constexpr WidthRow kWidths[] = {{TINYGLTF_TYPE_SCALAR, 1}, {TINYGLTF_TYPE_VEC2, 2},
-                                {TINYGLTF_TYPE_VEC3, 3},   {TINYGLTF_TYPE_VEC4, 4},
+constexpr WidthRow kWidths[] = {{TINYGLTF_TYPE_SCALAR, 1},
+                                {TINYGLTF_TYPE_VEC2, 2},
+                                {TINYGLTF_TYPE_VEC3, 3},
+                                {TINYGLTF_TYPE_VEC4, 4},
                                 {TINYGLTF_TYPE_MAT4, 16}};
 
 uint32_t width_of(int type) {
@@ -80,9 +82,9 @@ GltfImport::View GltfImport::view_bytes(int view, const std::string& pointer, in
     if (!exists(from.buffer, model_.buffers.size(), "buffer", place + "/buffer")) return {};
     const std::vector<unsigned char>& data = model_.buffers[size_t(from.buffer)].data;
     if (from.byteOffset > data.size() || from.byteLength > data.size() - from.byteOffset) {
-        report(Code::GLTF_ACCESSOR, place, accessor,
-               fmt::format("its buffer view {} reaches past the end of buffer {}", view,
-                           from.buffer));
+        report(
+            Code::GLTF_ACCESSOR, place, accessor,
+            fmt::format("its buffer view {} reaches past the end of buffer {}", view, from.buffer));
         return {};
     }
     return {data.data() + from.byteOffset, from.byteLength, from.byteStride};
@@ -184,8 +186,7 @@ bool GltfImport::read_indices(int accessor, const std::string& pointer,
     if (!charge(from.count * sizeof(uint32_t), place)) return false;
     out.resize(from.count);
     for (size_t i = 0; i < from.count; ++i)
-        out[i] = uint32_t(
-            component->number(view.data + from.byteOffset + i * view.stride, false));
+        out[i] = uint32_t(component->number(view.data + from.byteOffset + i * view.stride, false));
     return true;
 }
 

@@ -24,9 +24,8 @@ namespace fs = std::filesystem;
 
 // What is understood of extensions; others in extensionsRequired are refused.
 constexpr std::string_view kExtensions[] = {
-    "KHR_lights_punctual",    "KHR_materials_unlit",
-    "KHR_texture_transform",  "KHR_mesh_quantization",
-    "KHR_materials_ior",      "KHR_materials_emissive_strength",
+    "KHR_lights_punctual",   "KHR_materials_unlit", "KHR_texture_transform",
+    "KHR_mesh_quantization", "KHR_materials_ior",   "KHR_materials_emissive_strength",
 };
 
 bool is_understood(const std::string& extension) {
@@ -86,7 +85,8 @@ std::string json_chunk(const std::vector<unsigned char>& bytes, std::string_view
     if (length > bytes.size())
         return fmt::format("the .glb says it has {} bytes and has {}", length, bytes.size());
     uint32_t size = little_endian_32(&bytes[12]);
-    if (little_endian_32(&bytes[16]) != kJsonChunk) return "the first chunk of the .glb is not JSON";
+    if (little_endian_32(&bytes[16]) != kJsonChunk)
+        return "the first chunk of the .glb is not JSON";
     if (size > length - 20) return "the JSON chunk reaches past the end of the .glb";
     json = {reinterpret_cast<const char*>(&bytes[20]), size};
     return "";
@@ -228,8 +228,8 @@ bool may_read_gltf(const GltfFile& file, const ImportOptions& options, const std
         fs::path relative = real(path).lexically_relative(real(folder));
         return !code && !relative.empty() && *relative.begin() != "..";
     };
-    return inside(file.directory) || std::any_of(options.allow_external.begin(),
-                                                 options.allow_external.end(), inside);
+    return inside(file.directory) ||
+           std::any_of(options.allow_external.begin(), options.allow_external.end(), inside);
 }
 
 Location gltf_location(const GltfFile& file, const std::string& pointer) {

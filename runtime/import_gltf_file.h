@@ -18,10 +18,11 @@
 namespace kinora {
 
 // The limits of what is read; hostile files say anything.
-inline constexpr size_t kMaxGltfBytes = size_t(1) << 31;  // a file or buffer; tinygltf counts in int
-inline constexpr size_t kMaxGltfDepth = 128;              // of JSON: tinygltf recurses into extras
-inline constexpr size_t kMaxGltfContainers = 1'000'000;   // of JSON: as many nodes
-inline constexpr size_t kMaxGltfFindings = 100;           // the rest is counted
+inline constexpr size_t kMaxGltfBytes = size_t(1)
+                                        << 31;           // a file or buffer; tinygltf counts in int
+inline constexpr size_t kMaxGltfDepth = 128;             // of JSON: tinygltf recurses into extras
+inline constexpr size_t kMaxGltfContainers = 1'000'000;  // of JSON: as many nodes
+inline constexpr size_t kMaxGltfFindings = 100;          // the rest is counted
 
 struct GltfFile {
     std::string path;
@@ -34,7 +35,8 @@ struct GltfFile {
 };
 
 // Reads the container, its JSON and buffers. Files outside the scene's folder are read only
-// in the folders of options.allow_external. Nothing where there is no model; what is wrong is in `diagnostics`.
+// in the folders of options.allow_external. Nothing where there is no model; what is wrong is in
+// `diagnostics`.
 std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOptions& options,
                                        Diagnostics& diagnostics);
 

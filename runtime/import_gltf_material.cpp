@@ -18,12 +18,12 @@ double extension_number(const tinygltf::ExtensionMap& extensions, const char* ex
     auto found = extensions.find(extension);
     if (found == extensions.end() || !found->second.Has(name)) return otherwise;
     const tinygltf::Value& value = found->second.Get(name);
-    return value.IsNumber() && std::isfinite(value.GetNumberAsDouble())
-               ? value.GetNumberAsDouble()
-               : otherwise;
+    return value.IsNumber() && std::isfinite(value.GetNumberAsDouble()) ? value.GetNumberAsDouble()
+                                                                        : otherwise;
 }
 
-// The first `count` of a factor, each within [0, most]; missing and not finite ones are `otherwise`.
+// The first `count` of a factor, each within [0, most]; missing and not finite ones are
+// `otherwise`.
 std::vector<double> factor(const std::vector<double>& numbers, size_t count, double otherwise) {
     std::vector<double> result(count, otherwise);
     for (size_t k = 0; k < count && k < numbers.size(); ++k)

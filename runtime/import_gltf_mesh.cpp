@@ -160,9 +160,8 @@ std::vector<uint32_t> GltfImport::triangles_of(const tinygltf::Primitive& primit
     return triangles;
 }
 
-void GltfImport::add_attributes(const tinygltf::Primitive& primitive,
-                                const PlacedPrimitive& placed, const std::string& pointer,
-                                PrimitiveGroup& group) {
+void GltfImport::add_attributes(const tinygltf::Primitive& primitive, const PlacedPrimitive& placed,
+                                const std::string& pointer, PrimitiveGroup& group) {
     std::vector<uint32_t> corners = group.triangles;
     for (uint32_t& c : corners) c -= placed.first;
     auto add = [&](std::string semantic, uint32_t set, uint32_t stride, std::vector<float> values) {

@@ -72,9 +72,8 @@ void GltfImport::import_targets(uint32_t mesh) {
             const PlacedPrimitive& placed = plan.primitives[p];
             if (!placed.usable || !read(p, "POSITION")) continue;
             for (size_t i = 0; i < placed.count; ++i)
-                target.positions[placed.first + i] =
-                    dvec3(numbers.values[3 * i], numbers.values[3 * i + 1],
-                          numbers.values[3 * i + 2]);
+                target.positions[placed.first + i] = dvec3(
+                    numbers.values[3 * i], numbers.values[3 * i + 1], numbers.values[3 * i + 2]);
         }
         for (uint32_t p = 0; p < from.primitives.size(); ++p) {
             const PlacedPrimitive& placed = plan.primitives[p];
@@ -91,9 +90,8 @@ void GltfImport::import_targets(uint32_t mesh) {
             else if (read(p, "NORMAL"))
                 group.attributes.push_back({"NORMAL", 0, 3, numbers.values, rest->corners});
             else
-                group.attributes.push_back({"NORMAL", 0, 3,
-                                            std::vector<float>(rest->values.size(), 0.0f),
-                                            rest->corners});
+                group.attributes.push_back(
+                    {"NORMAL", 0, 3, std::vector<float>(rest->values.size(), 0.0f), rest->corners});
         }
         target_meshes_[mesh].push_back(uint32_t(out_.meshes.size()));
         out_.meshes.push_back(std::move(target));
@@ -112,8 +110,7 @@ uint32_t GltfImport::morph_of(uint32_t mesh, uint32_t node) {
     to.relative = true;
     to.targets = target_meshes_[mesh];
     to.where = gltf_location(file_, fmt::format("/meshes/{}", mesh));
-    std::vector<double> weights =
-        from.weights.empty() ? model_.meshes[mesh].weights : from.weights;
+    std::vector<double> weights = from.weights.empty() ? model_.meshes[mesh].weights : from.weights;
     if (weights.size() > to.targets.size() && !to.targets.empty())
         report(Code::GLTF_MORPH, fmt::format("/meshes/{}", mesh), mesh,
                fmt::format("{} weights for {} targets", weights.size(), to.targets.size()));

@@ -150,10 +150,15 @@ class GltfImport {
     size_t findings_ = 0;
 
     std::map<std::string, uint32_t> ids_;
-    std::vector<bool> shown_;                     // per node: the scene reaches it
+    std::vector<bool> shown_;                      // per node: the scene reaches it
     std::vector<std::vector<uint32_t>> children_;  // per node, each with one parent
     std::vector<NodeSlots> slots_;
-    enum : uint8_t { kMovesTranslation = 1, kMovesRotation = 2, kMovesScale = 4, kMovesWeights = 8 };
+    enum : uint8_t {
+        kMovesTranslation = 1,
+        kMovesRotation = 2,
+        kMovesScale = 4,
+        kMovesWeights = 8
+    };
     std::vector<uint8_t> moves_;  // per node: what channels write
     std::vector<MeshPlan> plans_;
     std::vector<std::vector<uint32_t>> target_meshes_;  // per mesh: definitions of its targets

@@ -120,7 +120,8 @@ std::vector<std::shared_ptr<const rsl::Shader>> GltfImport::rsl_shaders(
         if (auto shader = library_shader(library, diagnostics_))
             shaders.push_back(std::move(shader));
         else
-            report(Code::GLTF_RSL, pointer, fmt::format("there is no library shader '{}'", library));
+            report(Code::GLTF_RSL, pointer,
+                   fmt::format("there is no library shader '{}'", library));
     } else if (!file.empty()) {
         std::string path = gltf_path(file_, file);
         if (may_read_gltf(file_, options_, path))
@@ -211,7 +212,7 @@ void GltfImport::import_rsl(uint32_t index) {
     struct Row {
         const char* name;
         rsl::ShaderKind kind;
-        std::vector<ShaderUse> MaterialDefinition::* stack;
+        std::vector<ShaderUse> MaterialDefinition::*stack;
     };
     constexpr Row kRows[] = {
         {"surface", rsl::ShaderKind::Surface, &MaterialDefinition::surfaces},

@@ -85,8 +85,7 @@ void GltfImport::add_influences(uint32_t mesh, const std::string& pointer, SkinD
                 bool known = j.values[i] < float(skin.inverse_bind.size()) && w.values[i] > 0.0f;
                 strange += !known;
                 if (known)
-                    influences[placed.first + i / 4].push_back(
-                        {int32_t(j.values[i]), w.values[i]});
+                    influences[placed.first + i / 4].push_back({int32_t(j.values[i]), w.values[i]});
             }
         }
     }

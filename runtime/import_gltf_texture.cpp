@@ -1,4 +1,5 @@
-// runtime/import_gltf_texture.cpp: glTF's textures, samplers and images as names that shaders look up.
+// runtime/import_gltf_texture.cpp: glTF's textures, samplers and images as names that shaders look
+// up.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -211,8 +211,7 @@ std::vector<JsonRange> json_elements(std::string_view text, std::string_view poi
     while (scanner.peek() != ']' && scanner.peek() != '\0') {
         size_t begin = scanner.at();
         if (!scanner.skip_value()) break;
-        elements.push_back(
-            {range->begin + uint32_t(begin), range->begin + uint32_t(scanner.at())});
+        elements.push_back({range->begin + uint32_t(begin), range->begin + uint32_t(scanner.at())});
         if (!scanner.take(',')) break;
     }
     return elements;

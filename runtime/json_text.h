@@ -1,4 +1,5 @@
-// runtime/json_text.h: places in a JSON text, and its shape, before and without making values of it.
+// runtime/json_text.h: places in a JSON text, and its shape, before and without making values of
+// it.
 #pragma once
 
 #include <cstdint>

@@ -35,8 +35,8 @@ struct TextureImage {
 inline constexpr uint64_t kMaxTexturePixels = uint64_t(1) << 27;
 inline constexpr uint64_t kMaxTextureSide = 65536;
 
-// Decodes a file, or a MemoryFile: plain PNG by libpng, all else by the OpenImageIO module, which is opened when it
-// is first needed. Returns "" or why it failed. Thread-safe.
+// Decodes a file, or a MemoryFile: plain PNG by libpng, all else by the OpenImageIO module, which
+// is opened when it is first needed. Returns "" or why it failed. Thread-safe.
 std::string read_texture_image(const std::string& name, TextureImage& image);
 
 // The part of the image that begins `from` rows below its top.

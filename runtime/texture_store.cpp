@@ -105,8 +105,8 @@ void TextureStore::preload(std::span<const std::string> names) {
         for (const std::string& name : names) {
             TextureName parsed = parse_texture_name(name);
             std::error_code code;
-            bool there = std::filesystem::is_regular_file(parsed.path, code) ||
-                         is_memory_file(parsed.path);
+            bool there =
+                std::filesystem::is_regular_file(parsed.path, code) || is_memory_file(parsed.path);
             if (there && !images_.count({parsed.path, parsed.data}))
                 wanted.emplace(parsed.path, parsed.data);
         }

@@ -27,7 +27,8 @@ struct GltfText {
     int mesh(nlohmann::json attributes, int indices = -1, int material = -1, int mode = 4);
     int node(nlohmann::json node);
     int material(nlohmann::json material);
-    // [-size, size] squared in the plane z = 0, two triangles, normals +z, uv 0,0 in the upper left.
+    // [-size, size] squared in the plane z = 0, two triangles, normals +z, uv 0,0 in the upper
+    // left.
     int square(int material = -1, float size = 1);
     // A PNG of RGBA texels, row by row from the top, inside the buffer; the texture.
     int texture(int width, int height, const std::vector<uint8_t>& rgba, nlohmann::json sampler);

@@ -35,7 +35,8 @@ GltfText whole_scene() {
                          g.floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4")}}};
     int node = g.node({{"mesh", mesh}, {"skin", 0}, {"children", json::array()}});
     g.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    g.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
+    g.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
     g.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     g.json["animations"].push_back({{"name", "move"}});
     g.animate(0, joint, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 1, 0, 0, 0});
@@ -85,12 +86,11 @@ TEST(GltfHostile, EachLieHasItsFindingAndPlace) {
          "GLTF_ACCESSOR", "/bufferViews/1"},
         {"a stride beyond its view", [](json& j) { at(j, "/bufferViews/1/byteStride") = 252; },
          "GLTF_ACCESSOR", "/accessors/0"},
-        {"indices that are floats",
-         [](json& j) { at(j, "/meshes/0/primitives/0/indices") = 0; }, "GLTF_ACCESSOR",
-         "/accessors/0"},
+        {"indices that are floats", [](json& j) { at(j, "/meshes/0/primitives/0/indices") = 0; },
+         "GLTF_ACCESSOR", "/accessors/0"},
         {"positions of two numbers",
-         [](json& j) { at(j, "/meshes/0/primitives/0/attributes/POSITION") = 2; },
-         "GLTF_PRIMITIVE", "/meshes/0/primitives/0/attributes/POSITION"},
+         [](json& j) { at(j, "/meshes/0/primitives/0/attributes/POSITION") = 2; }, "GLTF_PRIMITIVE",
+         "/meshes/0/primitives/0/attributes/POSITION"},
         {"no positions",
          [](json& j) { at(j, "/meshes/0/primitives/0/attributes").erase("POSITION"); },
          "GLTF_PRIMITIVE", "/meshes/0/primitives/0"},
@@ -105,11 +105,12 @@ TEST(GltfHostile, EachLieHasItsFindingAndPlace) {
          [](json& j) { at(j, "/meshes/0/primitives/0/material") = 3; }, "GLTF_REFERENCE",
          "/meshes/0/primitives/0/material"},
         {"a texture that is not there",
-         [](json& j) {
-             at(j, "/materials/0/pbrMetallicRoughness/baseColorTexture/index") = 3;
-         },
+         [](json& j) { at(j, "/materials/0/pbrMetallicRoughness/baseColorTexture/index") = 3; },
          "GLTF_REFERENCE", "/materials/0/pbrMetallicRoughness/baseColorTexture/index"},
-        {"a rotation of three numbers", [](json& j) { at(j, "/nodes/1/rotation") = {1, 0, 0}; },
+        {"a rotation of three numbers",
+         [](json& j) {
+             at(j, "/nodes/1/rotation") = {1, 0, 0};
+         },
          "GLTF_VALUE", "/nodes/1/rotation"},
         {"a joint that is not there", [](json& j) { at(j, "/skins/0/joints") = {44}; },
          "GLTF_REFERENCE", "/skins/0/joints/0"},
@@ -120,8 +121,7 @@ TEST(GltfHostile, EachLieHasItsFindingAndPlace) {
          [](json& j) { at(j, "/animations/0/channels/0/target/node") = 40; }, "GLTF_REFERENCE",
          "/animations/0/channels/0/target/node"},
         {"an extension of the future",
-         [](json& j) { j["extensionsUsed"].push_back("EXT_tomorrow"); }, "GLTF_EXTENSION",
-         nullptr},
+         [](json& j) { j["extensionsUsed"].push_back("EXT_tomorrow"); }, "GLTF_EXTENSION", nullptr},
     };
     for (const Lie& lie : kLies) {
         GltfText g = whole_scene();
@@ -238,8 +238,23 @@ json mutated(json j, std::mt19937& random) {
     json flat = j.flatten();
     auto it = flat.begin();
     std::advance(it, int(random() % flat.size()));
-    const json kValues[] = {-1, 0, 1, 3, 255, 65536, 4294967295u, 1e300, -1e-300, "", "VEC3", "\xc3\xa9",
-                            true, nullptr, json::array(), json::object(), 9007199254740993};
+    const json kValues[] = {-1,
+                            0,
+                            1,
+                            3,
+                            255,
+                            65536,
+                            4294967295u,
+                            1e300,
+                            -1e-300,
+                            "",
+                            "VEC3",
+                            "\xc3\xa9",
+                            true,
+                            nullptr,
+                            json::array(),
+                            json::object(),
+                            9007199254740993};
     *it = kValues[random() % std::size(kValues)];
     try {
         return flat.unflatten();
@@ -315,7 +330,10 @@ TEST(JsonText, StringsKnowWhereEachOfTheirBytesStands) {
     std::string text = R"(["ab\nc\u00e9d\ud83d\ude00e"])";
     SourceMap map;
     std::string got = json_string(text, *json_find(text, "/0"), 3, map);
-    EXPECT_EQ(got, "ab\nc\xc3\xa9" "d\xf0\x9f\x98\x80" "e");
+    EXPECT_EQ(got,
+              "ab\nc\xc3\xa9"
+              "d\xf0\x9f\x98\x80"
+              "e");
     EXPECT_EQ(map.file, 3u);
     EXPECT_EQ(map.file_offset(0), 2u);
     EXPECT_EQ(map.file_offset(3), text.find("c\\u"));

@@ -1,5 +1,5 @@
-// tests/runtime/import_gltf_motion_test.cpp: glTF's animations, skins and morphs against formulas of
-// the specification in double.
+// tests/runtime/import_gltf_motion_test.cpp: glTF's animations, skins and morphs against formulas
+// of the specification in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +18,8 @@ using Four = std::array<double, 4>;  // x y z w
 
 std::vector<double> values_at(const SceneDescription& scene, double time) {
     std::vector<double> values = scene.values;
-    std::vector<uint64_t> changed(
-        anim::changed_words(scene.nodes.size() + scene.morphs.size() + 1), 0);
+    std::vector<uint64_t> changed(anim::changed_words(scene.nodes.size() + scene.morphs.size() + 1),
+                                  0);
     anim::evaluate(scene.animation, time, values, changed);
     return values;
 }
@@ -74,7 +74,8 @@ TEST(GltfAnimation, CubicsplineIsTheSpecificationsPolynomial) {
         double s = (time - double(times[k])) / duration;
         for (size_t c = 0; c < 3; ++c) {
             auto part = [&](size_t key, size_t p) { return double(keys[key * 9 + p * 3 + c]); };
-            double expected = cubic(part(k, 1), part(k, 2), part(k + 1, 0), part(k + 1, 1), duration, s);
+            double expected =
+                cubic(part(k, 1), part(k, 2), part(k + 1, 0), part(k + 1, 1), duration, s);
             EXPECT_NEAR(got[c], expected, 1e-12) << time;
         }
     }
@@ -150,7 +151,8 @@ TEST(GltfAnimation, CubicRotationsAreNormalised) {
 TEST(GltfAnimation, EachIsAClipAndAllPlayAtOnceUnlessTheyMeet) {
     GltfText g;
     int a = g.node({{"name", "a"}}), b = g.node({{"name", "b"}});
-    for (const char* name : {"walk", "wave", "run"}) g.json["animations"].push_back({{"name", name}});
+    for (const char* name : {"walk", "wave", "run"})
+        g.json["animations"].push_back({{"name", name}});
     g.animate(0, a, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0});
     g.animate(1, b, "translation", "LINEAR", {0.5, 3}, {0, 0, 0, 0, 5, 0});
     g.animate(2, a, "translation", "LINEAR", {0, 2}, {0, 0, 0, 0, 0, 7});
@@ -182,8 +184,7 @@ std::vector<dvec3> posed(Rendering& r, double time) {
     r.frame(time);
     if (!r.scene || r.scene->shapes.empty()) return {};
     std::vector<dvec3> places;
-    for (const vec4& p : r.scene->shapes[0].positions)
-        places.push_back(dvec3(p) + r.scene->origin);
+    for (const vec4& p : r.scene->shapes[0].positions) places.push_back(dvec3(p) + r.scene->origin);
     return places;
 }
 
@@ -200,10 +201,10 @@ struct Skinned {
     int upper, mesh_node;
 
     explicit Skinned(bool inverse_bind = true) {
-        int m = g.mesh(
-            {{"POSITION", g.floats({0, 0, 0, 0.5, 0, 0, 0.5, 0.5, 0}, "VEC3")},
-             {"JOINTS_0", bytes({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0})},
-             {"WEIGHTS_0", g.floats({1, 0, 0, 0, 0.25, 0.75, 0, 0, 1, 0, 0, 0}, "VEC4")}});
+        int m =
+            g.mesh({{"POSITION", g.floats({0, 0, 0, 0.5, 0, 0, 0.5, 0.5, 0}, "VEC3")},
+                    {"JOINTS_0", bytes({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0})},
+                    {"WEIGHTS_0", g.floats({1, 0, 0, 0, 0.25, 0.75, 0, 0, 1, 0, 0, 0}, "VEC4")}});
         mesh_node = g.node({{"mesh", m}, {"skin", 0}, {"translation", {100, 0, 0}}});
         int lower = g.node({{"name", "lower"}, {"translation", {-0.25, 0, 0}}});
         g.json["nodes"].push_back({{"name", "upper"}, {"translation", {0.5, 0, 0}}});
@@ -236,9 +237,9 @@ TEST(GltfSkin, VerticesFollowTheirJointsAndNotTheirNode) {
             return dvec3(std::cos(angle) * q.x - std::sin(angle) * q.y + 0.25,
                          std::sin(angle) * q.x + std::cos(angle) * q.y, q.z);
         };
-        expect_places(posed(*r, time), {lower(s.rest[0]),
-                                        0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]),
-                                        upper(s.rest[2])});
+        expect_places(posed(*r, time),
+                      {lower(s.rest[0]), 0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]),
+                       upper(s.rest[2])});
     }
 }
 
@@ -247,9 +248,9 @@ TEST(GltfSkin, WithoutInverseBindMatricesTheyAreTheIdentity) {
     auto r = rendering_of(s.g);
     auto lower = [](dvec3 p) { return p + dvec3(-0.25, 0, 0); };
     auto upper = [](dvec3 p) { return p + dvec3(0.25, 0, 0); };
-    expect_places(posed(*r, 0), {lower(s.rest[0]),
-                                 0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]),
-                                 upper(s.rest[2])});
+    expect_places(
+        posed(*r, 0),
+        {lower(s.rest[0]), 0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]), upper(s.rest[2])});
 }
 
 TEST(GltfSkin, ASecondSetOfJointsCounts) {
@@ -293,8 +294,7 @@ TEST(GltfMorph, AFrameAloneIsTheFrameInASequence) {
     auto sequence = rendering_of(s.g, options), alone = rendering_of(s.g, options);
     for (double time : {0.0, 0.25, 0.75}) sequence->frame(time);
     alone->frame(0.75);
-    EXPECT_TRUE(same_bytes(sequence->film, alone->film))
-        << difference(sequence->film, alone->film);
+    EXPECT_TRUE(same_bytes(sequence->film, alone->film)) << difference(sequence->film, alone->film);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// tests/runtime/import_gltf_picture_test.cpp: glTF's materials, textures and lights as pixels, against
-// formulas of the specification in double.
+// tests/runtime/import_gltf_picture_test.cpp: glTF's materials, textures and lights as pixels,
+// against formulas of the specification in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,8 @@ GltfText& lit(GltfText& g, json light, json node = json::object()) {
 }
 
 json unlit(json base) {
-    return {{"pbrMetallicRoughness", base}, {"extensions", {{"KHR_materials_unlit", json::object()}}}};
+    return {{"pbrMetallicRoughness", base},
+            {"extensions", {{"KHR_materials_unlit", json::object()}}}};
 }
 
 vec3 middle(const GltfText& g) {
@@ -101,17 +102,18 @@ TEST(GltfMaterial, ReflectsAsTheSpecificationsFormula) {
         double light = c.light_angle - c.view_angle;
         lit(g, {{"type", "directional"}, {"intensity", 2.5}},
             {{"rotation", {0, std::sin(light / 2), 0, std::cos(light / 2)}}});
-        expect_near(middle(g),
-                    brdf_radiance({0.9, 0.6, 0.2}, c.metal, c.rough, c.light_angle, c.view_angle,
-                                  2.5),
-                    2e-3);
+        expect_near(
+            middle(g),
+            brdf_radiance({0.9, 0.6, 0.2}, c.metal, c.rough, c.light_angle, c.view_angle, 2.5),
+            2e-3);
     }
 }
 
 TEST(GltfMaterial, EmissionIsInCandelaPerSquareMetreWithItsStrength) {
-    GltfText g = wall({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
-                       {"emissiveFactor", {0.5, 0.25, 1}},
-                       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}});
+    GltfText g =
+        wall({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
+              {"emissiveFactor", {0.5, 0.25, 1}},
+              {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}});
     lit(g, {{"type", "directional"}, {"intensity", 0}});
     expect_near(middle(g), dvec3(2, 1, 4), 1e-5);
 }
@@ -270,7 +272,8 @@ TEST(GltfTexture, NormalMapsLeanTowardsGrowingUAndUpwards) {
                             {"extensions", {{"KHR_materials_ior", {{"ior", 1.0}}}}},
                             {"normalTexture", {{"index", t}}}});
         g.node({{"mesh", g.square(m)}});
-        // From +x, or from above, at the angle of the lean: full light; without the map, its cosine.
+        // From +x, or from above, at the angle of the lean: full light; without the map, its
+        // cosine.
         json turn = upwards ? json{-std::sin(lean / 2), 0, 0, std::cos(lean / 2)}
                             : json{0, std::sin(lean / 2), 0, std::cos(lean / 2)};
         lit(g, {{"type", "directional"}}, {{"rotation", turn}});
@@ -301,7 +304,8 @@ TEST(GltfLight, SpotsFadeFromTheInnerToTheOuterCone) {
     GltfText g = wall({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
                        {"extensions", {{"KHR_materials_ior", {{"ior", 1.0}}}}}});
     lit(g,
-        {{"type", "spot"}, {"intensity", 40},
+        {{"type", "spot"},
+         {"intensity", 40},
          {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}},
         {{"translation", {0, 0, height}}});
     auto r = rendering_of(g);
@@ -333,9 +337,11 @@ TEST(GltfLight, BlendersLumensAWattAreTakenBack) {
 TEST(GltfRsl, CodeInAMaterialsExtrasReplacesItsSurface) {
     GltfText g = wall({{"name", "m"}});
     g.json["materials"][0]["extras"]["kinora_rsl"] = {
-        {"surface", {{"code", "surface show(float a = 0; color c = 0; float k[2] = {0, 0};)\n"
-                              "{ Oi = 1; Ci = a * c + k[1]; }\n"},
-                     {"params", {{"a", 0.5}}}}},
+        {"surface",
+         {{"code",
+           "surface show(float a = 0; color c = 0; float k[2] = {0, 0};)\n"
+           "{ Oi = 1; Ci = a * c + k[1]; }\n"},
+          {"params", {{"a", 0.5}}}}},
         {"params", {{"c", {1, 0.5, 0}}, {"k", {7, 0.25}}}}};
     expect_near(middle(g), dvec3(0.75, 0.5, 0.25), 1e-6);
 }

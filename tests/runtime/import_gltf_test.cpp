@@ -62,13 +62,14 @@ TEST(Gltf, IndicesOfEveryWidthAndNoneGiveTheSameTriangles) {
     EXPECT_EQ(group(*described(none.glb())).triangles, (std::vector<uint32_t>{0, 1, 2}));
 }
 
-// glTF 2.0, 3.7.2.1: strip triangle i = {i, i + (1 + i % 2), i + (2 - i % 2)}, fan {i + 1, i + 2, 0}.
+// glTF 2.0, 3.7.2.1: strip triangle i = {i, i + (1 + i % 2), i + (2 - i % 2)}, fan {i + 1, i + 2,
+// 0}.
 TEST(Gltf, StripsAndFansBecomeTriangles) {
     auto triangles = [&](int mode) {
         GltfText g = with_mesh([&](GltfText& s) {
-            return s.mesh({{"POSITION", s.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0},
-                                                 "VEC3")}},
-                          -1, -1, mode);
+            return s.mesh(
+                {{"POSITION", s.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}, "VEC3")}}, -1,
+                -1, mode);
         });
         return group(*described(g.glb())).triangles;
     };
@@ -98,7 +99,8 @@ TEST(Gltf, InterleavedVerticesAreReadByTheirStride) {
     });
     auto d = described(g.glb());
     EXPECT_EQ(mesh(*d).positions[2], dvec3(2, 4, 0));
-    EXPECT_EQ(attribute(group(*d), "NORMAL")->values, (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
+    EXPECT_EQ(attribute(group(*d), "NORMAL")->values,
+              (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}));
 }
 
 // glTF 2.0, 3.11: f = c / 127, floored at -1; c / 255; c / 32767; c / 65535.
@@ -207,10 +209,11 @@ TEST(Gltf, AMatrixAndItsTranslationRotationScaleAreOneNode) {
     // A turn of 90 degrees about z after a scale of 2, 3, 4: x -> 2y, y -> -3x.
     GltfText g;
     double half = std::sqrt(0.5);
-    g.node({{"name", "trs"}, {"translation", {5, 6, 7}}, {"rotation", {0, 0, half, half}},
+    g.node({{"name", "trs"},
+            {"translation", {5, 6, 7}},
+            {"rotation", {0, 0, half, half}},
             {"scale", {2, 3, 4}}});
-    g.node({{"name", "matrix"},
-            {"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
+    g.node({{"name", "matrix"}, {"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
     auto d = described(g.glb());
     ASSERT_TRUE(d->scene) << d->findings();
     dmat4 a = local(*d, "trs"), b = local(*d, "matrix");
@@ -258,19 +261,19 @@ TEST(Gltf, NamesThatStandForSeveralNodesBecomeIdsOfOne) {
 
 TEST(Gltf, CamerasKeepTheirVerticalFieldOfViewAndMayEndNowhere) {
     GltfText g;
-    g.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.2}}}},
-                         {{"type", "perspective"},
-                          {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 50},
-                                           {"aspectRatio", 1.5}}}},
-                         {{"type", "orthographic"},
-                          {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0.5},
-                                            {"zfar", 9}}}}};
+    g.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.2}}}},
+        {{"type", "perspective"},
+         {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 50}, {"aspectRatio", 1.5}}}},
+        {{"type", "orthographic"},
+         {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0.5}, {"zfar", 9}}}}};
     auto d = described(g.glb());
     ASSERT_TRUE(d->scene) << d->findings();
     auto value = [&](ValueSlot slot) { return d->scene->values.at(slot.offset); };
     const auto& cameras = d->scene->cameras;
     EXPECT_NEAR(value(cameras[0].y), 0.5 * 180 / M_PI, 1e-12);
-    EXPECT_FALSE(cameras[0].zfar.present() || cameras[0].aspect.present() || cameras[0].x.present());
+    EXPECT_FALSE(cameras[0].zfar.present() || cameras[0].aspect.present() ||
+                 cameras[0].x.present());
     EXPECT_EQ(value(cameras[1].aspect), 1.5);
     EXPECT_EQ(value(cameras[1].zfar), 50);
     EXPECT_TRUE(cameras[2].orthographic);
