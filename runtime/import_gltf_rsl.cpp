@@ -7,6 +7,7 @@
 #include "runtime/findings.h"
 #include "runtime/import_gltf_p.h"
 #include "runtime/json_text.h"
+#include "runtime/profile_rsl/findings.h"
 #include "runtime/shader_library.h"
 #include "runtime/texture_name.h"
 
