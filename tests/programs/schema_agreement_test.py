@@ -2,6 +2,7 @@
 valid by the XSD the table prints, and by the official XSD but for what that one has wrong.
 
 KINORA_SCHEMA_MUTANTS sets how many damaged documents are compared per version (default 400)."""
+import json
 import os
 import random
 import shutil
@@ -11,7 +12,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import random_documents
-from programs import BIN, SOURCE, ProgramTest, main
+from programs import BIN, SOURCE, ProgramTest, main, run
 from random_documents import Writer, damaged, local, namespace_version, write
 
 VERDICTS = BIN.parent / "tests/schema_verdicts"
@@ -102,6 +103,17 @@ class Agreement(ProgramTest):
         self.assertEqual(len(found), len(paths))
         return found
 
+    def program_says(self, paths):
+        """path -> (valid, codes), by kinora-validate."""
+        done = run("kinora-validate", "--profile", "strict", "--only", "XML_,DOC_,SCHEMA_,ID_",
+                   "--format", "json", *paths)
+        found = {}
+        for f in json.loads(done.out)["files"]:  # what it says of other documents is theirs
+            codes = {x["code"] for x in f["findings"]
+                     if x["severity"] == "error" and x.get("file") == f["file"]}
+            found[f["file"]] = (not codes, sorted(codes))
+        return found
+
     def xmllint_says(self, schema, paths):
         """path -> (valid, complaints)"""
         environment = dict(os.environ, XML_CATALOG_FILES=str(self.folder / "catalog.xml"))
@@ -113,9 +125,9 @@ class Agreement(ProgramTest):
         return {str(p): (str(p) in valid, [l[:300] for l in lines if l.startswith(f"{p}:")])
                 for p in paths}
 
-    def compare(self, version, schema, paths, allowed=lambda path: False):
+    def compare(self, version, schema, paths, allowed=lambda path: False, says=None):
         """The paths on which the verdicts differ, as text."""
-        table, other = self.table_says(paths), self.xmllint_says(schema, paths)
+        table, other = (says or self.table_says)(paths), self.xmllint_says(schema, paths)
         return [f"{p}: table {table[str(p)]}, xmllint {other[str(p)]}" for p in paths
                 if table[str(p)][0] != other[str(p)][0] and not allowed(p)]
 
@@ -144,7 +156,8 @@ class Agreement(ProgramTest):
         versions = {p: namespace_version(p.read_text(errors="replace")) for p in paths}
         for version in NAMES:
             mine = [p for p in paths if versions[p] == version and b"\0" not in p.read_bytes()]
-            self.assertEqual(self.compare(version, self.ours[version], mine), [])
+            for says in (self.table_says, self.program_says):
+                self.assertEqual(self.compare(version, self.ours[version], mine, says=says), [])
 
     def test_random_documents(self):
         """Valid documents that use nearly every type: by the table, our XSD and the official one."""
@@ -204,6 +217,11 @@ class Agreement(ProgramTest):
         self.assertTrue(self.table_says([path])[str(path)][0])
         self.assertTrue(self.xmllint_says(self.ours["V15"], [path])[str(path)][0])
         self.assertFalse(self.xmllint_says(OFFICIAL["V15"], [path])[str(path)][0])
+
+    def test_the_program_prints_the_schemas(self):
+        for version, name in NAMES.items():
+            self.assertEqual(run("kinora-validate", "--print-schema", name).out,
+                             self.ours[version].read_text())
 
     def test_rsl_is_part_of_our_schemas(self):
         matte = SOURCE / "assets/scenes/matte.dae"
