@@ -82,6 +82,8 @@ class Planner {
             case Op::Du:  // the derivative of a derivative is 0
             case Op::Dv:
                 return 0;
+            case Op::WithSlope:
+                return of(inst.b);
             default:
                 return of(inst.a) | of(inst.b) | of(inst.c);
         }
@@ -118,6 +120,8 @@ class Planner {
                 return ask(inst.a, kAlongU);
             case Op::Dv:
                 return ask(inst.a, kAlongV);
+            case Op::WithSlope:
+                return ask(inst.b, bits);
             case Op::Return:
                 for (Value result : f_.args_of(inst)) ask(result, params_);
                 return;

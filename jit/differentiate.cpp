@@ -2,6 +2,7 @@
 //
 // Each planned value is followed by its derivatives: loop variables, merges and arrays get a second
 // of their kind, calls of functions without a rule go to a copy that takes and gives derivatives.
+#include <algorithm>
 #include <map>
 
 #include "jit/compiler.h"
@@ -124,6 +125,11 @@ class Differentiator {
                 return v + 1;
             case Op::Dv:
                 renamed_[v] = dual_or_zero(1, inst.a);
+                return v + 1;
+            case Op::WithSlope:
+                renamed_[v] = renamed(inst.a);
+                for (int d = 0; d < kDirections; ++d)
+                    if (has(plan_.values[v], d)) set_dual(d, v, dual_or_zero(d, inst.b));
                 return v + 1;
             case Op::Call:
                 return step_call(v);
@@ -312,15 +318,15 @@ size_t Copies::get(size_t index, uint8_t directions) {
     return copy;
 }
 
-bool holds_derivative(const Function& function) {
+bool holds(const Function& function, std::initializer_list<Op> ops) {
     for (const Inst& inst : function.insts)
-        if (inst.op == Op::Du || inst.op == Op::Dv) return true;
+        if (std::find(ops.begin(), ops.end(), inst.op) != ops.end()) return true;
     return false;
 }
 
 std::vector<bool> who_asks(const Module& module) {
     std::vector<bool> asks;
-    for (const Function& function : module.functions) asks.push_back(holds_derivative(function));
+    for (const Function& function : module.functions) asks.push_back(holds(function, {Op::Du, Op::Dv}));
     for (bool changed = true; changed;) {
         changed = false;
         for (size_t k = 0; k < asks.size(); ++k) {
@@ -337,11 +343,11 @@ std::vector<bool> who_asks(const Module& module) {
 
 void differentiate(Module& module) {
     Copies copies{module, who_asks(module), {}};
-    if (!copies.asks[0]) return;
-    Differentiator(copies, 0, 0).run();
+    if (copies.asks[0]) Differentiator(copies, 0, 0).run();
     // Originals that ask for derivatives have lost their callers to their copies.
-    for (size_t k = 1; k < module.functions.size(); ++k)
-        if (holds_derivative(module.functions[k])) Differentiator(copies, k, 0).run();
+    for (size_t k = 0; k < module.functions.size(); ++k)
+        if (holds(module.functions[k], {Op::Du, Op::Dv, Op::WithSlope}))
+            Differentiator(copies, k, 0).run();
 }
 
 }  // namespace kinora::jit

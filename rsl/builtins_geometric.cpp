@@ -170,7 +170,9 @@ void calculatenormal(LowerCall& c) {
     V3 normal = e.cross(e.du(c.v3(0)), e.dv(c.v3(0)));
     V3 own = e.cross(e.global_input(Global::dPdu).v3(), e.global_input(Global::dPdv).v3());
     Value against = c.b.lt(e.dot(own, e.global_input(Global::Ng).v3()), e.f(0));
-    c.set(e.select(against, e.neg(normal), normal));
+    V3 value = e.select(against, e.neg(normal), normal), N = e.global_input(Global::N).v3();
+    for (size_t k = 0; k < 3; ++k) value[k] = c.b.op(jit::Op::WithSlope, value[k], N[k]);
+    c.set(value);
 }
 
 }  // namespace lower_geometric

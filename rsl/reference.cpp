@@ -178,9 +178,7 @@ template <class Real>
 auto Reference<Real>::jittered(Item x) -> Item {
     bool number = is_numeric(x.type);
     for (size_t k = 0; in.jitter != 0 && number && k < x.size(); ++k) {
-        uint64_t h = (in.jitter + ++jitter_) * 0x9e3779b97f4a7c15u;
-        h = (h ^ h >> 32) * 0xff51afd7ed558ccdu;
-        Real move = Real(double(int64_t(h ^ h >> 33)) * 0x1p-85);
+        Real move = next_move();
         if (x.c[k].x == 0) x.c[k].x = std::copysign(Real(0), move);  // x * 0 is 0 or -0
         if (x.c[k].x != std::floor(x.c[k].x)) x.c[k].x *= 1 + move;
         x.c[k].u *= 1 + move, x.c[k].v *= 1 + move;

@@ -78,8 +78,10 @@ RefFlow Reference<Real>::loop(const Stmt& stmt, const Expr* condition, const Stm
                               std::span<Expr* const> step) {
     RefFlow flow;
     bool leave = false;
+    auto again = [&] { return !condition || decide(expr(*condition).truth()); };
+    if (!again()) return flow;  // before the first turn, so outside of all turns to random()
     loop_counters.push_back(0);
-    for (int turn = 0; !condition || decide(expr(*condition).truth()); ++turn) {
+    for (int turn = 0; turn == 0 || again(); ++turn) {
         if (turn >= in.loop_budget) {
             ++result.faults;
             break;

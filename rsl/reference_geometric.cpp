@@ -80,9 +80,10 @@ void reflect(RefCall<Real>& c) {
 template <class Real>
 void ptlined(RefCall<Real>& c) {
     using Number = Dual<Real>;
-    Vec<Real> q = c.v(0), a = c.v(1), ab = c.v(2) - a;
-    Number t = rsl::clamp(dot(q - a, ab) / dot(ab, ab), Number(0), Number(1));
-    c.set(rsl::length(q - (a + t * ab)));
+    Vec<Real> aq = c.v(0) - c.v(1), ab = c.v(2) - c.v(1);
+    Number t = c.eval.rounded(dot(aq, ab) / dot(ab, ab));
+    t = rsl::clamp(t, Number(0), Number(1));
+    c.set(rsl::length(aq - t * ab));  // 0 at both ends
 }
 
 template <class Real>

@@ -35,6 +35,8 @@ template <class Real>
 Dual<Real> modulo(RefCall<Real>& c, const Dual<Real>& x, const Dual<Real>& y) {
     if (std::fabs(y.x) < Real(FLT_MIN)) return {};
     Real turns = c.eval.decide(std::floor(x.x / y.x));
+    // Row 54: beyond 2^24 turns only the range is promised, so float and double are no judges.
+    if (!(std::fabs(turns) < Real(1 << 24))) c.eval.decide(int(sizeof(Real)));
     Real r = std::fmod(x.x, y.x);
     if (r != 0 && (r < 0) != (y.x < 0)) r += y.x;
     if (c.eval.decide(float(r) == float(y.x))) return {};  // stays below y when rounded
@@ -110,7 +112,10 @@ void clamp(RefCall<Real>& c) {
 }
 template <class Real>
 void mix(RefCall<Real>& c) {
-    each(c, [&](size_t k) { return at(c, 0, k) + (at(c, 1, k) - at(c, 0, k)) * at(c, 2, k); });
+    Dual<Real> one(1);  // not a + (b - a) alpha, which loses all of b beside a huge a
+    each(c, [&](size_t k) {
+        return at(c, 0, k) * (one - at(c, 2, k)) + at(c, 1, k) * at(c, 2, k);
+    });
 }
 template <class Real>
 void smoothstep(RefCall<Real>& c) {

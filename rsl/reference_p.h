@@ -2,6 +2,8 @@
 // built-ins.
 #pragma once
 
+#include <bit>
+#include <type_traits>
 #include <unordered_map>
 
 #include "rsl/reference.h"
@@ -129,9 +131,19 @@ class Reference {
     // Notes a decision that rounding may turn, and gives it back.
     template <class T>
     T decide(T value) {
-        result.decisions = (result.decisions ^ uint64_t(int64_t(value))) * 0x9e3779b97f4a7c15u;
+        uint64_t bits = 0;  // of any NaN; -0 is 0
+        if constexpr (!std::is_floating_point_v<T>)
+            bits = uint64_t(int64_t(value));
+        else if (value == value)
+            bits = std::bit_cast<uint64_t>(double(value) + 0.0);
+        result.decisions = (result.decisions ^ bits) * 0x9e3779b97f4a7c15u;
         result.decisions ^= result.decisions >> 29;
         return value;
+    }
+    // A value inside a built-in that rounding moves even where exact arithmetic gives a whole number.
+    Number rounded(Number x) {
+        if (in.jitter != 0) x.x *= 1 + next_move();
+        return x;
     }
     // reference_inputs.cpp
     Item input(const std::string& name, BaseType type, const std::string& du = "",
@@ -144,9 +156,9 @@ class Reference {
 
     // reference_spaces.cpp; matrices on row vectors
     Matrix space(const std::string& name, const char* direction) const;
-    Item to_space(const Item& x, const std::string& from, const std::string& to) const;
-    Item by_matrix(const Item& x, const Matrix& m) const;
-    Matrix inverse(const Matrix& m) const;
+    Item to_space(const Item& x, const std::string& from, const std::string& to);
+    Item by_matrix(const Item& x, const Matrix& m);
+    Matrix inverse(const Matrix& m);
     // reference_color.cpp
     Vec<Real> color_space(const Vec<Real>& color, const std::string& from, const std::string& to);
 
@@ -168,6 +180,11 @@ class Reference {
     size_t index(const Expr& e, size_t length);
     Item binary(Op op, const Item& a, const Item& b);
     Item operate(Op op, const Item& a, const Item& b);
+    Real next_move() {  // at random in +-2^-22
+        uint64_t h = (in.jitter + ++jitter_) * 0x9e3779b97f4a7c15u;
+        h = (h ^ h >> 32) * 0xff51afd7ed558ccdu;
+        return Real(double(int64_t(h ^ h >> 33)) * 0x1p-85);
+    }
     Item jittered(Item x);
     bool compare(Op op, const Item& a, const Item& b);
     Item cast(const CastExpr& e);

@@ -106,7 +106,7 @@ auto Reference<Real>::space(const std::string& name, const char* direction) cons
 
 // A point, vector, normal or matrix by a matrix, as its type asks.
 template <class Real>
-auto Reference<Real>::by_matrix(const Item& x, const Matrix& m) const -> Item {
+auto Reference<Real>::by_matrix(const Item& x, const Matrix& m) -> Item {
     if (x.type == BaseType::Matrix) return moved(product(x.c, m));
     Matrix n = m;
     if (x.type == BaseType::Normal) {  // by the transpose of the inverse
@@ -125,12 +125,15 @@ auto Reference<Real>::by_matrix(const Item& x, const Matrix& m) const -> Item {
 }
 
 template <class Real>
-auto Reference<Real>::inverse(const Matrix& m) const -> Matrix {
-    return inverse_of(m);
+auto Reference<Real>::inverse(const Matrix& m) -> Matrix {
+    Matrix r = inverse_of(m);
+    for (Number& x : r)
+        if (x.x != std::floor(x.x)) x = rounded(x);
+    return r;
 }
 
 template <class Real>
-auto Reference<Real>::to_space(const Item& x, const std::string& from, const std::string& to) const
+auto Reference<Real>::to_space(const Item& x, const std::string& from, const std::string& to)
     -> Item {
     return by_matrix(by_matrix(x, space(from, "to_current")), space(to, "from_current"));
 }
@@ -218,10 +221,10 @@ KINORA_RSL_DEFINE_REF(determinant)
 
 #define KINORA_SPACE_METHODS(Real)                                                               \
     template auto Reference<Real>::space(const std::string&, const char*) const->Matrix;         \
-    template auto Reference<Real>::by_matrix(const Item&, const Matrix&) const->Item;            \
-    template auto Reference<Real>::inverse(const Matrix&) const->Matrix;                         \
+    template auto Reference<Real>::by_matrix(const Item&, const Matrix&)->Item;                  \
+    template auto Reference<Real>::inverse(const Matrix&)->Matrix;                               \
     template auto Reference<Real>::to_space(const Item&, const std::string&, const std::string&) \
-        const->Item;
+        ->Item;
 KINORA_SPACE_METHODS(float)
 KINORA_SPACE_METHODS(double)
 

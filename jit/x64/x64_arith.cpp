@@ -243,5 +243,6 @@ void Emit::op_LoopOut() {}
 // The derivatives pass leaves none.
 void Emit::op_Du() {}
 void Emit::op_Dv() {}
+void Emit::op_WithSlope() {}
 
 }  // namespace kinora::jit::x64

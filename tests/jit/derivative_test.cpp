@@ -59,6 +59,30 @@ Derivatives derive(const std::function<Value(Builder&, Value, Value)>& body, flo
             float_of(result_bits.out[2][0])};
 }
 
+TEST(Derivatives, WithSlopeIsTheFirstValueWithTheSecondsDerivatives) {
+    auto got = derive(
+        [](Builder& b, Value x, Value y) {
+            Value r = b.op(Op::WithSlope, b.mul(x, x), b.mul(y, b.f(3)));
+            return b.mul(r, x);  // x^3, whose slope is 3 y' x + x^2 x'
+        },
+        2, 5);
+    EXPECT_EQ(got.value, 8);
+    EXPECT_EQ(got.du, 3 * kYu * 2 + 4);
+    EXPECT_EQ(got.dv, 3 * kYv * 2);
+}
+
+TEST(Derivatives, WithSlopeLeavesNothingWhereNoDerivativeIsAsked) {
+    Module module;
+    add_function(module, "kernel", {});
+    Builder b(module, 0);
+    b.output({"value", Type::F}, b.op(Op::WithSlope, input_x(b), input_y(b)));
+    b.finish();
+    Module frame;
+    optimize(module, &frame);
+    ASSERT_EQ(module.inputs.size(), 1u) << print(module);
+    EXPECT_EQ(module.inputs[0].name, "x");
+}
+
 // One function, as IR and in double.
 struct Row {
     const char* name;

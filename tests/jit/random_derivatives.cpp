@@ -14,6 +14,7 @@ Module with_derivatives(const Module& module, uint64_t seed) {
     for (size_t k = 0; k < kArrayInputs; ++k) m.inputs[kPointArray + k].dv = "p1";
     for (Function& function : m.functions) {
         std::vector<Value> top;  // derivatives outside of regions
+        Value outside = kNone;  // the last value outside of regions
         int depth = 0;
         Rewrite r(function);
         for (Value v = 0; v < r.old.size(); ++v) {
@@ -27,7 +28,12 @@ Module with_derivatives(const Module& module, uint64_t seed) {
                                                       .a = r.renamed[r.old_args_of(inst)[1 + k]]}));
             }
             r.copy(v);
-            if (!is_pure(inst.op) || inst.type != Type::F || rng() % 4 != 0) continue;
+            if (!is_pure(inst.op) || inst.type != Type::F) continue;
+            if (outside != kNone && rng() % 8 == 0)
+                r.renamed[v] = r.append(
+                    {.op = Op::WithSlope, .type = Type::F, .a = r.renamed[v], .b = outside});
+            if (depth == 0) outside = r.renamed[v];
+            if (rng() % 4 != 0) continue;
             Op op = rng() % 2 == 0 ? Op::Du : Op::Dv;
             Value d = r.append({.op = op, .type = Type::F, .a = r.renamed[v]});
             if (depth == 0) top.push_back(d);

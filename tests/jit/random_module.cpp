@@ -59,8 +59,8 @@ struct PureOps {
             Op op = static_cast<Op>(k);
             const OpInfo& info = op_info(op);
             bool plain = (info.flags & kPure) && info.operand_count > 0 && op != Op::Du &&
-                         op != Op::Dv && op != Op::InputGather && op != Op::FrameGather &&
-                         op != Op::BitsFI;
+                         op != Op::Dv && op != Op::WithSlope && op != Op::InputGather &&
+                         op != Op::FrameGather && op != Op::BitsFI;
             if (!plain) continue;
             all.push_back(op);
             if (info.result == 'M' || info.operands[0] == 'M') masky.push_back(op);

@@ -63,6 +63,20 @@ TEST(LowerDerivative, CalculatednormalTakesItsSideFromNg) {
     EXPECT_EQ(shader.value("Ci.r"), -1);
 }
 
+// DESIGN.md decision 8: the slope of a normal is that of the N that came in.
+TEST(LowerDerivative, CalculatednormalCarriesTheSlopeOfN) {
+    OnPlane shader(
+        "surface t() { normal n = 2 * calculatenormal(P + u * N); Ci = color(Du(n)); "
+        "Oi = color(Dv(n)); N = 0; }");
+    shader.set3("dNdu", 0.25f, 0.5f, 0.75f);
+    shader.set3("dNdv", -1, -2, -3);
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 0.5f);
+    EXPECT_EQ(out["Ci.b"][0], 1.5f);
+    EXPECT_EQ(out["Oi.r"][0], -2);
+    EXPECT_EQ(out["Oi.g"][0], -4);
+}
+
 TEST(LowerDerivative, FilterstepSpansThePixel) {
     OnPlane shader(
         "surface t() { Ci = color(filterstep(3, s), filterstep(2, s), "

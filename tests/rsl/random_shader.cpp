@@ -33,9 +33,6 @@ void ShaderWriter::find_rows(bool all_rows) {
     for (std::span<const Builtin> group : builtin_groups())
         for (const Builtin& row : group) {
             bool usable = row.lower && (row.legal >> int(kind_) & 1) != 0;
-            // Derivatives of what calculatenormal gives are decision 8's exception: not lowered
-            // yet.
-            if (std::string_view(row.name) == "calculatenormal") continue;
             if (!usable || (!row.ref.single && !all_rows)) continue;
             if (row.effects & kChannelPairs) continue;  // their arguments follow a list of names
             // Maps give their coordinates' slopes, which the reference does not know: a shader has

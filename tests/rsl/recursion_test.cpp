@@ -144,6 +144,30 @@ TEST(Recursion, DrawsRandomNumbersByThePathOfCalls) {
     EXPECT_NE(got[0], got[1]);
 }
 
+TEST(Recursion, DrawsOtherNumbersAtEachLevel) {
+    auto got = values_of(
+        "float differ(float n) { float r = random(); return n < 1 ? r : r - differ(n - 1); }"
+        "surface t() { Ci = differ(1); }");
+    for (float x : got) EXPECT_NE(x, 0);
+}
+
+// Rays' seeds go through the same path of calls.
+TEST(Recursion, SendsOtherRaysAtEachLevel) {
+    RunShader run(
+        "color see(float n) { color c = trace(P, vector (0, 0, 1)); if (n < 1) return c; "
+        "return c - see(n - 1); } surface t() { Ci = see(2); }");
+    ASSERT_TRUE(run.ok()) << run.findings();
+    static std::set<std::pair<int32_t, int32_t>> seeds;
+    seeds.clear();
+    run.services["trace"] = [](const jit::ServiceCall& call) {
+        seeds.insert({std::bit_cast<int32_t>(call.args[0]),
+                      std::bit_cast<int32_t>(call.args[jit::kMaxLanes])});
+        std::fill_n(call.results, 4 * jit::kMaxLanes, 0.0f);
+    };
+    run.run();
+    EXPECT_EQ(seeds.size(), 3u);
+}
+
 TEST(Recursion, KeepsStringsAndUniformVariables) {
     auto got = values_of(
         "string pick(uniform float n; string a, b) { if (n <= 0) return a;"

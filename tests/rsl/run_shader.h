@@ -102,7 +102,7 @@ class RunShader {
 
   private:
     static constexpr size_t kPad = jit::kMaxLanes;
-    static constexpr size_t kMessages = 8;
+    static constexpr size_t kMessages = 64;  // numbers that lightsource() may ask for
 
     float* column(float value, int count) {
         size_t padded = (size_t(count) + kPad - 1) / kPad * kPad;
