@@ -47,7 +47,7 @@ void bake3d(LowerCall& c) {
                                N[0],
                                N[1],
                                N[2],
-                               c.pair("radius", 0)};
+                               c.b.max(c.pair("radius", 0), c.b.f(0))};
     channels.numbers.resize(size_t(kPointFloats), c.b.f(0));
     args.insert(args.end(), channels.numbers.begin(), channels.numbers.end());
     e.service("bake3d", args);

@@ -75,20 +75,16 @@ bool bends_normals(LowerCall& c) {
 }
 
 // The value here, with the differences to the lookups beside it as its derivatives: what a grid of
-// small faces sees. The bits of u have no derivative, so u - u of its bits is 0 but has that of u;
-// the bits of du, in and out again, keep that from being folded.
+// small faces sees. Answers of services have no slope, so slope * u has this one along u.
 Value with_differences(LowerCall& c, Value here, Value along_u, Value along_v) {
     auto& b = c.b;
     auto term = [&](Value beside, Global parameter, Global width) {
         Value x = c.low.global_input(parameter).c[0], w = c.low.global_input(width).c[0];
         Value slope = b.op(jit::Op::Div, b.sub(beside, here), b.op(jit::Op::Max, w, b.f(1e-12f)));
-        Value mask = b.op(jit::Op::BitsFI, w);
-        Value mixed = b.op(jit::Op::IXor, b.op(jit::Op::BitsFI, x), mask);
-        Value still = b.op(jit::Op::BitsIF, b.op(jit::Op::IXor, mixed, mask));
-        return b.mul(slope, b.sub(x, still));
+        return b.mul(slope, x);
     };
-    return b.add(here,
-                 b.add(term(along_u, Global::u, Global::du), term(along_v, Global::v, Global::dv)));
+    return b.op(jit::Op::WithSlope, here,
+                b.add(term(along_u, Global::u, Global::du), term(along_v, Global::v, Global::dv)));
 }
 
 std::vector<Value> look_up(LowerCall& c, const Lookup& at, Value blur, Value swidth, Value twidth) {
@@ -159,8 +155,27 @@ Footprint footprint(LowerCall& c) {
             e.scale(e.dv(at), e.read_global(Global::dv).c[0])};
 }
 
+// The customary names of a map that is no file but the scene itself, asked by rays.
+bool is_scene(LowerCall& c) {
+    const std::string* name = c.low.constant_text(c.f(0));
+    return name && (*name == "raytrace" || *name == "reflection");
+}
+
+// What a ray from P sees in the direction; "blur" opens its cone.
+void trace_environment(LowerCall& c) {
+    auto& e = c.low;
+    if (!e.options.want_Ci) return;
+    V3 P = e.read_global(Global::P).v3(), R = footprint(c).at;
+    auto seed = e.sample_seed(c.call.site);
+    set_texels(c,
+               e.service("trace", std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
+                                             c.pair("maxdist", 1e30f), c.pair("bias", -1),
+                                             c.pair("samples", 1), c.pair("blur", 0), c.b.i(0)}));
+}
+
 void environment(LowerCall& c) {
     auto& e = c.low;
+    if (is_scene(c)) return trace_environment(c);
     Footprint f = footprint(c);
     Value width = c.pair("width", 1);
     V3 R = f.at, dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
@@ -169,10 +184,42 @@ void environment(LowerCall& c) {
                                        dy[0], dy[1], dy[2], c.pair("blur", 0), c.pair("fill", 0)}));
 }
 
+// Where the light is that the point is asked about: the light shader's own, inside illuminate or
+// solar, or that of the turn of illuminance. Outside of both there is none.
+bool place_of_light(LowerCall& c, const V3& P, V3& place) {
+    auto& e = c.low;
+    auto& b = c.b;
+    constexpr float kFarAway = 1e15f;  // lengths of a direction that comes from no place
+    V3 L = e.read_global(Global::L).v3();
+    if (e.kind() == ShaderKind::Light) {
+        V3 Ps = e.read_global(Global::Ps).v3();
+        place = e.in_solar ? e.fma(e.normalize(L), e.f(-kFarAway), Ps) : e.sub(Ps, L);
+        return true;
+    }
+    if (e.current_record == jit::kNone) return false;
+    Value kind = e.record_uniform(e.current_set, e.current_record, kLightKind, jit::Type::I);
+    Value solar = b.op(jit::Op::IEq, kind, b.i(kLightSolar));
+    place = e.fma(L, b.select(solar, e.f(kFarAway), e.f(1)), P);
+    return true;
+}
+
+void trace_shadow(LowerCall& c) {
+    auto& e = c.low;
+    V3 P = footprint(c).at, to;
+    if (!place_of_light(c, P, to)) return;
+    auto seed = e.sample_seed(c.call.site);
+    std::vector<Value> through = e.service(
+        "transmission", std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
+                                   c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
+    for (Value& x : through) x = c.b.sub(e.f(1), x);
+    set_texels(c, through);
+}
+
 // 0 lit, 1 in shadow.
 void shadow(LowerCall& c) {
     auto& e = c.low;
     if (!e.options.want_Ci && e.kind() != ShaderKind::Light) return;
+    if (is_scene(c)) return trace_shadow(c);
     Footprint f = footprint(c);
     V3 P = f.at;
     Value width = c.pair("width", 1);
@@ -205,6 +252,26 @@ void bump(LowerCall& c) {
     bent = e.select(b.lt(e.dot(flat, N), e.f(0)), e.neg(bent), bent);
     V3 result = e.scale(e.normalize(bent), e.length(N));
     c.set(e.select(b.eq(e.dot(bent, bent), e.f(0)), N, result));
+}
+
+// bake(file, s, t, value): a point file of points (s, t, 0), with one channel. A negative radius
+// says that they are no places of the scene.
+void bake(LowerCall& c) {
+    auto& e = c.low;
+    auto& b = c.b;
+    if (!e.options.want_Ci) return;
+    e.out.uses_rng = true;
+    const Lowered& value = c.args[3];
+    Lookup at = with_derivatives(c, c.f(1), c.f(2));
+    Value across =
+        b.max(b.add(b.abs(at.dsdx), b.abs(at.dsdy)), b.add(b.abs(at.dtdx), b.abs(at.dtdy)));
+    Value radius = b.max(b.mul(across, e.f(0.5f)), e.f(1e-6f));
+    std::vector<Value> args = {c.f(0), b.i(intern(std::string(type_name(value.type)) + " value")),
+                               e.scalar_input("rng", jit::Type::I, jit::Rate::Point)};
+    args.insert(args.end(), {at.s, at.t, e.f(0), e.f(0), e.f(0), e.f(0), b.neg(radius)});
+    args.insert(args.end(), value.c.begin(), value.c.begin() + value.size());
+    args.resize(10 + size_t(kPointFloats), e.f(0));
+    e.service("bake3d", args);
 }
 
 // textureinfo(name, field, variable): 1, and the variable set, if the fact is known and fits.
@@ -258,36 +325,22 @@ const Builtin kRows[] = {
      "Filtered texture at s, t or over a quadrilateral; texture(name[channel], s, t)."},
     {"environment", "f=sv~ c=sv~ f=svvvv~ c=svvvv~", lower::environment,
      KINORA_RSL_REF(ref::environment), kService | kDerivative, 0,
-     "Environment map (latitude-longitude or six faces) in a direction; \"blur\" \"width\" "
-     "\"fill\"."},
+     "Environment map (latitude-longitude or six faces) in a direction, or by a ray from P where "
+     "the map is \"raytrace\"; \"blur\" \"width\" \"fill\"."},
     {"shadow", "f=sp~ c=sp~ f=spppp~ c=spppp~", lower::shadow, KINORA_RSL_REF(ref::shadow),
      kService | kShadows | kVaryingResult, 0,
-     "Share of shadow at a point, by a depth map; \"bias\" \"blur\" \"samples\" \"width\".",
+     "Share of shadow at a point, by a depth map, or by rays to the light where the map is "
+     "\"raytrace\"; \"bias\" \"blur\" \"samples\" \"width\".",
      kSurface | kLight},
-    {"bump",
-     "n=snvv~ n=snvvff~",
-     lower::bump,
-     {},
-     kService | kDerivative,
-     0,
-     "N bent by a map of heights: bump(name, N, dPds, dPdt [, s, t]).",
-     kSurface | kDisplacement,
+    {"bump", "n=snvv~ n=snvvff~", lower::bump, KINORA_RSL_REF(ref::bump), kService | kDerivative, 0,
+     "N bent by a map of heights: bump(name, N, dPds, dPdt [, s, t]).", kSurface | kDisplacement,
      "s t"},
-    {"textureinfo",
-     kAnyVariable,
-     lower::textureinfo,
-     {},
-     kService,
-     0,
+    {"textureinfo", kAnyVariable, lower::textureinfo, KINORA_RSL_REF(ref::textureinfo), kService, 0,
      "A fact about a texture, 1 if known: resolution channels type exists viewingmatrix "
      "projectionmatrix."},
-    {"bake",
-     "x=sfff x=sffc x=sffp x=sffv x=sffn",
-     nullptr,
-     {},
-     kService | kPrints,
-     0,
-     "Puts a value at s, t into a point file, at (s, t, 0) as channel \"value\".",
+    {"bake", "x=sfff x=sffc x=sffp x=sffv x=sffn", lower::bake, KINORA_RSL_REF(ref::bake),
+     kService | kPrints | kDerivative, 0,
+     "Puts a value at s, t into a point file, as channel \"value\" of the world's (s, t, 0).",
      kSurface | kDisplacement},
 };
 

@@ -315,7 +315,9 @@ auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
     else
         result.missing = e.builtin->name;
     for (size_t k = 0; k < plain && k < e.signature->arguments.size(); ++k)
-        if (e.signature->arguments[k].output && !e.args[k]->type.is_array())
+        if (e.signature->arguments[k].output && e.args[k]->type.is_array())
+            storage(*as<VariableExpr>(*e.args[k]).symbol) = call.arrays[k];
+        else if (e.signature->arguments[k].output)
             store(*e.args[k], call.args[k]);
     for (size_t k = plain, p = 0; k + 1 < e.args.size(); k += 2) {
         if (e.args[k + 1]->type.is_array()) continue;

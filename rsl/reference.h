@@ -23,7 +23,8 @@ struct ReferenceLight {
     double nonspecular = 0;
     std::array<double, 3> L{}, Cl{}, Ol{};
     bool lit = true;
-    std::map<std::string, std::vector<double>> messages;  // what lightsource() finds
+    // What lightsource() finds: numbers by name; it asks for so many.
+    std::vector<std::pair<std::string, std::vector<double>>> messages;
 };
 
 // What a renderer answers; the defaults are a world without textures and other objects. Names,

@@ -21,7 +21,7 @@
     F(surface_message) F(displacement_message) F(atmosphere) F(incident) F(opposite)          \
     F(attribute) F(option) F(rendererinfo) F(rayinfo)                                         \
     F(raydepth) F(raylabel) F(rayorigin) F(raydirection) F(raylength)                         \
-    F(texture) F(environment) F(shadow)                \
+    F(texture) F(environment) F(shadow) F(bump) F(textureinfo) F(bake)                        \
     F(concat) F(format) F(match) F(printf) F(lightsource) F(shadername)
 // clang-format on
 

@@ -160,8 +160,10 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
         for (size_t p = 1; p < stmt.pairs.size(); p += 2) {
             std::string_view name = pair_name(stmt.pairs, p);
             if (!is_light_output(name)) continue;
-            std::vector<Item> found = messages(name.substr(6));
-            if (!found.empty()) store(*stmt.pairs[p], found[0]);
+            Item value(stmt.pairs[p]->type.base);
+            std::vector<double> found = messages(name.substr(6), value.size());
+            for (size_t i = 0; i < found.size(); ++i) value.c[i] = Real(found[i]);
+            if (!found.empty()) store(*stmt.pairs[p], value);
         }
         flow = statement(*stmt.body);
         light = outer;
@@ -228,7 +230,9 @@ RefFlow Reference<Real>::illuminate(const Stmt& stmt, const Expr* position, cons
         if (!in_cone(L, &a, expr(*angle).c[0])) return {};
     }
     global(Global::L) = {BaseType::Vector, L[0], L[1], L[2]};
+    bool outer_solar = std::exchange(in_solar, position == nullptr);
     RefFlow flow = statement(body);
+    in_solar = outer_solar;
     for (Source& source : sources_)
         if (source.stmt == &stmt)
             source = {&stmt, global(Global::L), global(Global::Cl), global(Global::Ol), true};

@@ -91,7 +91,7 @@ void area(RefCall<Real>& c) {
     Vec<Real> p = c.v(0);
     Dual<Real> du = constant(c.eval.global(Global::du).c[0]);
     Dual<Real> dv = constant(c.eval.global(Global::dv).c[0]);
-    c.set(constant(rsl::length(cross(du * along_u(p), dv * along_v(p)))));
+    c.set(constant(rsl::length(c.eval.cross(du * along_u(p), dv * along_v(p)))));
 }
 
 // Row 64: N where I . Nref = 0.
@@ -114,6 +114,8 @@ void fresnel(RefCall<Real>& c) {
     using Number = Dual<Real>;
     Vec<Real> I = c.v(0), N = c.v(1);
     Number eta = c.f(2);
+    auto unit = [](const Vec<Real>& a) { return std::fabs(dot(a, a).x - 1) < Real(1e-3); };
+    if (!unit(I) || !unit(N)) c.eval.no_promise();
     Bent<Real> t = bend(c, I, N, eta);
     Number kr(1);
     bool passes = !t.total && eta.x > 0 && dot(I, N).x != 0;
@@ -141,7 +143,7 @@ void depth(RefCall<Real>& c) {
 template <class Real>
 void calculatenormal(RefCall<Real>& c) {
     Vec<Real> p = c.v(0);
-    Vec<Real> n = cross(along_u(p), along_v(p));
+    Vec<Real> n = c.eval.cross(along_u(p), along_v(p));
     Vec<Real> u = vec(c.eval.first_value(Global::dPdu)), v = vec(c.eval.first_value(Global::dPdv));
     Vec<Real> Ng = vec(c.eval.global(Global::Ng)), N = vec(c.eval.first_value(Global::N));
     if (c.eval.decide(dot(cross(u, v), Ng).x < 0)) n = Dual<Real>(-1) * n;

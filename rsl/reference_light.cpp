@@ -7,20 +7,18 @@
 
 namespace kinora::rsl {
 
-// A parameter of the light of this turn of illuminance; empty if it has none of that name.
+// A parameter of the light of this turn of illuminance.
 template <class Real>
-auto Reference<Real>::messages(std::string_view name) -> std::vector<Item> {
+std::vector<double> Reference<Real>::messages(std::string_view name, size_t count) const {
     if (!light) return {};
-    if (name == "__nondiffuse") return {{BaseType::Float, Number(Real(light->nondiffuse))}};
-    if (name == "__nonspecular") return {{BaseType::Float, Number(Real(light->nonspecular))}};
-    auto found = light->messages.find(std::string(name));
-    if (found == light->messages.end()) return {};
-    Item value(found->second.size() == 3 ? BaseType::Color : BaseType::Float);
-    for (size_t k = 0; k < value.size(); ++k) value.c[k] = Real(found->second[k]);
-    return {value};
+    if (count == 1 && name == "__nondiffuse") return {light->nondiffuse};
+    if (count == 1 && name == "__nonspecular") return {light->nonspecular};
+    for (auto& [known, numbers] : light->messages)
+        if (known == name && numbers.size() == count) return numbers;
+    return {};
 }
-template std::vector<RefValue<float>> Reference<float>::messages(std::string_view);
-template std::vector<RefValue<double>> Reference<double>::messages(std::string_view);
+template std::vector<double> Reference<float>::messages(std::string_view, size_t) const;
+template std::vector<double> Reference<double>::messages(std::string_view, size_t) const;
 
 namespace ref {
 
@@ -59,12 +57,6 @@ void from_service(RefCall<Real>& c, const std::vector<double>& answer) {
     for (size_t k = 0; k < c.result.size(); ++k)
         c.result.c[k] = Real(k < answer.size() ? answer[k] : 0);
 }
-template <class Real>
-void find_message(RefCall<Real>& c, const std::vector<RefValue<Real>>& found) {
-    c.set(Dual<Real>(Real(found.empty() ? 0 : 1)));
-    if (!found.empty()) c.args[1].c = found[0].c;
-}
-
 }  // namespace
 
 template <class Real>
@@ -128,22 +120,121 @@ Vec<Real> middle(RefCall<Real>& c) {
     return Dual<Real>(Real(0.25)) * ((c.v(1) + c.v(2)) + (c.v(3) + c.v(4)));
 }
 template <class Real>
+bool is_scene(RefCall<Real>& c) {
+    return c.text(0) == "raytrace" || c.text(0) == "reflection";
+}
+template <class Real>
+void add_triple(std::vector<double>& args, const Vec<Real>& v) {
+    for (auto& x : v) args.push_back(double(x.x));
+}
+template <class Real>
 void environment(RefCall<Real>& c) {
+    if (is_scene(c)) {  // the seed is not the reference's to know
+        std::vector<double> args = {0, 0};
+        add_triple(args, vec(c.eval.global(Global::P)));
+        add_triple(args, middle(c));
+        for (double x : {double(c.pair("maxdist", Real(1e30)).x), double(c.pair("bias", -1).x),
+                         double(c.pair("samples", 1).x), double(c.pair("blur", 0).x), 0.0})
+            args.push_back(x);
+        return from_service(c, c.eval.service("trace", args));
+    }
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
     Vec<Real> R = middle(c);
     from_service(c, c.eval.service("environment", {double(c.f(0).x), channel, double(R[0].x),
                                                    double(R[1].x), double(R[2].x)}));
 }
+// By rays to the light of this turn of illuminance, or of this light shader.
+template <class Real>
+void trace_shadow(RefCall<Real>& c) {
+    Vec<Real> p = middle(c), L = vec(c.eval.global(Global::L)), to;
+    Dual<Real> far(Real(1e15));
+    if (c.eval.layer->shader->kind == ShaderKind::Light) {
+        Vec<Real> Ps = vec(c.eval.global(Global::Ps));
+        to = c.eval.in_solar ? Ps - far * rsl::normalize(L) : Ps - L;
+    } else {
+        if (!c.eval.light) return;
+        to = c.eval.light->kind == kLightSolar ? p + far * L : p + L;
+    }
+    std::vector<double> args = {0, 0};
+    add_triple(args, p);
+    add_triple(args, to);
+    args.push_back(double(c.pair("samples", 1).x));
+    args.push_back(double(c.pair("blur", 0).x));
+    args.push_back(double(c.pair("bias", -1).x));
+    std::vector<double> through = c.eval.service("transmission", args);
+    for (double& x : through) x = 1 - x;
+    from_service(c, through);
+}
 template <class Real>
 void shadow(RefCall<Real>& c) {
+    if (is_scene(c)) return trace_shadow(c);
     Vec<Real> p = middle(c);
     from_service(c, c.eval.service("shadow", {double(c.f(0).x), double(p[0].x), double(p[1].x),
                                               double(p[2].x)}));
 }
 
+// The normal of P + h n for heights h of a map, whose slopes are differences over the footprint (J.
+// F. Blinn, Simulation of Wrinkled Surfaces, 1978).
+template <class Real>
+void bump(RefCall<Real>& c) {
+    using Number = Dual<Real>;
+    bool placed = c.args.size() == 6;
+    Number s = placed ? c.f(4) : c.eval.global(Global::s).c[0];
+    Number t = placed ? c.f(5) : c.eval.global(Global::t).c[0];
+    Real du = c.eval.global(Global::du).c[0].x, dv = c.eval.global(Global::dv).c[0].x;
+    auto width = [&](const Number& x) {
+        return std::max(std::fabs(x.u * du) + std::fabs(x.v * dv), Real(1.0 / 1024));
+    };
+    Real ds = width(s), dt = width(t);
+    double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
+    auto height = [&](Real by_s, Real by_t) {
+        std::vector<double> texels = c.eval.service(
+            "texture",
+            {double(c.f(0).x), channel, double(s.x + by_s * ds), double(t.x + by_t * dt)});
+        return texels.empty() ? Real(0) : Real(texels[0]);
+    };
+    Number slope_s = (height(Real(0.5), 0) - height(Real(-0.5), 0)) / ds;
+    Number slope_t = (height(0, Real(0.5)) - height(0, Real(-0.5))) / dt;
+    Vec<Real> N = c.v(1), n = rsl::normalize(N), along_s = c.v(2), along_t = c.v(3);
+    Vec<Real> flat = c.eval.cross(along_s, along_t);
+    Vec<Real> bent = flat + slope_s * cross(n, along_t) + slope_t * cross(along_s, n);
+    if (c.eval.decide(dot(flat, N).x < 0)) bent = Number(-1) * bent;
+    bool none = c.eval.decide(dot(bent, bent).x == 0);
+    c.set(none ? N : rsl::length(N) * rsl::normalize(bent));
+}
+
+// The variable is set if the fact is known and fits: so many numbers, or one text (-1).
+template <class Real>
+void textureinfo(RefCall<Real>& c) {
+    const Type type = c.call.args[2]->type;
+    size_t each = size_t(component_count(type.base));
+    std::vector<double> answer =
+        c.eval.service("textureinfo", {double(c.f(0).x), double(c.f(1).x)});
+    bool text = type.base == BaseType::String;
+    double count = answer.empty() ? 0 : answer[0];
+    bool known = text ? count == -1 : count >= double(each);
+    c.set(Dual<Real>(Real(known)));
+    size_t numbers = text ? size_t(known) : count > 0 ? size_t(count) / each * each : 0;
+    for (size_t k = 0; k < numbers && k + 1 < answer.size(); ++k) {
+        if (type.is_array() && k / each >= c.arrays[2].size()) break;
+        RefValue<Real>& item = type.is_array() ? c.arrays[2][k / each] : c.args[2];
+        item.c[k % each] = Real(answer[1 + k]);
+    }
+}
+template <class Real>
+void bake(RefCall<Real>&) {}  // what is written is no value of the point
+
 template <class Real>
 void lightsource(RefCall<Real>& c) {
-    find_message(c, c.eval.messages(c.text(0)));
+    const Type type = c.call.args[1]->type;
+    size_t each = size_t(component_count(type.base)),
+           length = std::max(c.arrays[1].size(), size_t(1));
+    std::vector<double> found = c.eval.messages(c.text(0), each * length);
+    c.set(Dual<Real>(Real(found.empty() ? 0 : 1)));
+    for (size_t k = 0; k < found.size(); ++k) {
+        RefValue<Real>& item = type.is_array() ? c.arrays[1][k / each] : c.args[1];
+        item.c[k % each] = Real(found[k]);
+    }
 }
 template <class Real>
 void shadername(RefCall<Real>& c) {
@@ -183,6 +274,9 @@ KINORA_RSL_DEFINE_REF(specularbrdf)
 KINORA_RSL_DEFINE_REF(texture)
 KINORA_RSL_DEFINE_REF(environment)
 KINORA_RSL_DEFINE_REF(shadow)
+KINORA_RSL_DEFINE_REF(bump)
+KINORA_RSL_DEFINE_REF(textureinfo)
+KINORA_RSL_DEFINE_REF(bake)
 KINORA_RSL_DEFINE_REF(lightsource)
 KINORA_RSL_DEFINE_REF(shadername)
 KINORA_RSL_DEFINE_REF(concat)

@@ -35,8 +35,8 @@ template <class Real>
 Dual<Real> modulo(RefCall<Real>& c, const Dual<Real>& x, const Dual<Real>& y) {
     if (std::fabs(y.x) < Real(FLT_MIN)) return {};
     Real turns = c.eval.decide(std::floor(x.x / y.x));
-    // Row 54: beyond 2^24 turns only the range is promised, so float and double are no judges.
-    if (!(std::fabs(turns) < Real(1 << 24))) c.eval.decide(int(sizeof(Real)));
+    // Row 54: beyond 2^24 turns only the range is promised.
+    if (!(std::fabs(turns) < Real(1 << 24))) c.eval.no_promise();
     Real r = std::fmod(x.x, y.x);
     if (r != 0 && (r < 0) != (y.x < 0)) r += y.x;
     if (c.eval.decide(float(r) == float(y.x))) return {};  // stays below y when rounded

@@ -124,6 +124,7 @@ class Reference {
     const Layer* layer = nullptr;
     size_t layer_index = 0;
     const ReferenceLight* light = nullptr;  // inside illuminance
+    bool in_solar = false;                  // inside a light's solar
     std::vector<int32_t> loop_counters;
     uint32_t inline_path = 0;
 
@@ -140,11 +141,21 @@ class Reference {
         result.decisions ^= result.decisions >> 29;
         return value;
     }
-    // A value inside a built-in that rounding moves even where exact arithmetic gives a whole number.
+    // A value inside a built-in that rounding moves even where exact arithmetic gives a whole
+    // number.
     Number rounded(Number x) {
-        if (in.jitter != 0) x.x *= 1 + next_move();
+        if (in.jitter != 0) x.x *= 1 + next_move(), x.u *= 1 + next_move(), x.v *= 1 + next_move();
         return x;
     }
+    Vec<Real> rounded(const Vec<Real>& a) { return {rounded(a[0]), rounded(a[1]), rounded(a[2])}; }
+    // a ^ b; what cancels in exact arithmetic need not when it is rounded.
+    Vec<Real> cross(const Vec<Real>& a, const Vec<Real>& b) {
+        Vec<Real> moved = rounded(b);
+        return {a[1] * moved[2] - a[2] * b[1], a[2] * moved[0] - a[0] * b[2],
+                a[0] * moved[1] - a[1] * b[0]};
+    }
+    // Beyond what a built-in promises float and double are no judges: the point is undecided.
+    void no_promise() { decide(int(sizeof(Real))); }
     // reference_inputs.cpp
     Item input(const std::string& name, BaseType type, const std::string& du = "",
                const std::string& dv = "") const;
@@ -166,7 +177,7 @@ class Reference {
     template <class F>
     void for_each_light(const Vec<Real>* axis, const Number& angle, F&& f);
     bool in_cone(const Vec<Real>& L, const Vec<Real>* axis, const Number& angle);
-    std::vector<Item> messages(std::string_view name);
+    std::vector<double> messages(std::string_view name, size_t count) const;  // empty: none
 
     // reference.cpp
     Item expr(const Expr& e);

@@ -82,8 +82,8 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //   query         (int QueryKind, int name, int type letter as in rsl/builtin.h, int element of an
 //                  array or -1, int length, int rng or 0) -> int known, up to 16 numbers (ids of
 //                  strings bit for bit)
-//   bake3d        (int file, int channels "float a,color b", int rng, P xyz, N xyz, radius,
-//                  kPointFloats numbers) -> nothing
+//   bake3d        (int file, int channels "float a,color b", int rng, P xyz, N xyz, radius (0: not
+//                  given; < 0: P and N stay as they are), kPointFloats numbers) -> nothing
 //   texture3d     (int file, int channels, P xyz, N xyz) -> int bits of the channels found,
 //                  kPointFloats numbers
 //   photons       (int file, int PhotonKind, int number of photons, P xyz, N xyz) -> r g b

@@ -170,9 +170,11 @@ void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
         point.pixel_x = grid.hits.pixel_x[hit];
         point.layer = grid.hits.layer[hit];
         point.order = uint32_t(own.bakes.size());
-        vec3 place = to_world.place(rows.triple(P, lane));
-        vec3 normal = to_world.direction(rows.triple(N, lane));
         float radius = rows.number(Radius, lane);
+        bool as_is = radius < 0;
+        vec3 place = as_is ? rows.triple(P, lane) : to_world.place(rows.triple(P, lane));
+        vec3 normal = as_is ? rows.triple(N, lane) : to_world.direction(rows.triple(N, lane));
+        if (as_is) radius = -radius;
         // Half the diagonal of the pixel's footprint, so that neighbours touch.
         if (!(radius > 0))
             radius = 0.70710678f * std::max(glm::length(kinora::triple(grid.hits.dPdx, hit)),

@@ -110,12 +110,14 @@ inline void add_lights(RunShader& run, ReferenceInputs& inputs) {
                 same.categories.push_back(run.lowered.categories[j]);
             }
         for (size_t j = 0; j < run.lowered.light_messages.size(); ++j) {
+            bool text = run.lowered.light_message_types[j].base == BaseType::String;
             std::vector<double> value;
             for (int c = 0; c < run.lowered.light_message_components[j]; ++c) {
-                light.messages.push_back(0.25f * float(k + c));
-                value.push_back(double(light.messages.back()));
+                value.push_back(text ? double(intern("world")) : 0.25 * (k + c));
+                light.messages.push_back(text ? std::bit_cast<float>(int32_t(value.back()))
+                                              : float(value.back()));
             }
-            same.messages[run.lowered.light_messages[j]] = value;
+            same.messages.emplace_back(run.lowered.light_messages[j], value);
         }
         run.lights.push_back(light);
         inputs.lights.push_back(same);
