@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
-# Builds and runs all tests. --all adds the sanitizers (.ci/run calls it so), --more also the long
-# fuzz runs and AArch64 under qemu.
+# Builds and runs all tests. --all (.ci/run calls it so) adds the sanitizers, the long fuzz runs and
+# AArch64 under qemu.
 set -euo pipefail
 cd "$(dirname "$0")"
-all=0 more=0
-[[ ${1:-} == --all || ${1:-} == --more ]] && all=1
-[[ ${1:-} == --more ]] && more=1
+all=0
+[[ ${1:-} == --all ]] && all=1
 
 stage() {  # stage NAME COMMAND...: runs it and prints how long it took
     local name=$1 start=$SECONDS
@@ -21,13 +20,12 @@ stage "release tests" ctest --preset release
 if ((all)); then
     stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
     stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
-fi
-# Stages that have not been seen whole at one commit yet; they move up to --all when they have.
-if ((more)); then
     stage "fuzzing of code" scripts/fuzz build/release code
     stage "fuzzing of shaders" scripts/fuzz build/release shaders
+    stage "fuzzing of sources" scripts/fuzz build/asan text
     stage "AArch64 build" scripts/cross-arm64 -DKINORA_WERROR=ON
     # Emulated code is ten times slower: a tenth of the random programs.
-    stage "neon under qemu" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
-    stage "fuzzing of sources" scripts/fuzz build/asan text
+    stage "AArch64 tests" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
+    stage "AArch64 fuzzing of code" scripts/fuzz build/arm64 code 10
+    stage "AArch64 fuzzing of shaders" scripts/fuzz build/arm64 shaders 10
 fi

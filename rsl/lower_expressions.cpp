@@ -225,13 +225,9 @@ Lowered Lowering::assign(const AssignExpr& e) {
         return result;
     }
     Target t = target(*e.target);
+    Lowered before = load(t);  // a += b is a = a + b, from left to right
     bool sums = e.op == Op::Add || e.op == Op::Subtract;
-    if (sums) {
-        result = sum_of(e.op, load(t), *e.value);
-    } else {
-        Lowered right = expr(*e.value);
-        result = binary(e.op, load(t), right);
-    }
+    result = sums ? sum_of(e.op, before, *e.value) : binary(e.op, before, expr(*e.value));
     store(t, result);
     return result;
 }

@@ -218,8 +218,9 @@ auto Reference<Real>::assign(const AssignExpr& e) -> Item {
         storage(*as<VariableExpr>(*e.target).symbol) = storage(*as<VariableExpr>(*e.value).symbol);
         return Item(e.target->type.base);
     }
+    Item before = e.op == Op::None ? Item() : expr(*e.target);  // a += b is a = a + b
     Item value = expr(*e.value);
-    if (e.op != Op::None) value = binary(e.op, expr(*e.target), value);
+    if (e.op != Op::None) value = binary(e.op, before, value);
     store(*e.target, value);
     return value;
 }
@@ -293,6 +294,23 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
     return value;
 }
 
+// What a row computes from arguments of some size may be off by their rounding, even where it gives
+// 0 or another whole number: fresnel() between equal media.
+template <class Real>
+void Reference<Real>::move_results(RefCall<Real>& call, size_t plain) {
+    Real size = 0;
+    for (const Item& x : call.args)
+        for (size_t k = 0; is_numeric(x.type) && k < x.size(); ++k)
+            size = std::max(size, std::fabs(x.c[k].x));
+    size = std::min(size, Real(1));
+    auto move = [&](Item& x) {
+        for (size_t k = 0; is_numeric(x.type) && k < x.size(); ++k) x.c[k].x += size * next_move();
+    };
+    move(call.result);
+    for (size_t k = 0; k < plain && k < call.call.signature->arguments.size(); ++k)
+        if (call.call.signature->arguments[k].output) move(call.args[k]);
+}
+
 template <class Real>
 auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
     RefCall<Real> call{*this, e, {}, {}, {}, Item(e.type.base)};
@@ -314,6 +332,7 @@ auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
         meaning(call);
     else
         result.missing = e.builtin->name;
+    if (in.jitter != 0 && e.builtin->tolerance_ulp > 0) move_results(call, plain);
     for (size_t k = 0; k < plain && k < e.signature->arguments.size(); ++k)
         if (e.signature->arguments[k].output && e.args[k]->type.is_array())
             storage(*as<VariableExpr>(*e.args[k]).symbol) = call.arrays[k];

@@ -197,6 +197,7 @@ class Reference {
         return Real(double(int64_t(h ^ h >> 33)) * 0x1p-85);
     }
     Item jittered(Item x);
+    void move_results(RefCall<Real>& call, size_t plain);
     bool compare(Op op, const Item& a, const Item& b);
     Item cast(const CastExpr& e);
     Item assign(const AssignExpr& e);

@@ -3,6 +3,11 @@
 // is compiled, that are uniform and that differ between points, and in the reference.
 #include <gtest/gtest.h>
 
+#include <optional>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 #include "tests/rsl/differential.h"
 
 namespace kinora::rsl {
@@ -10,6 +15,35 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 const float kNan = std::nanf("");
+
+// Denormals are 0, going in and coming out, for its scope.
+class FlushDenormals {
+  public:
+    FlushDenormals() : saved_(mode()) { set_mode(saved_ | kFlush); }
+    ~FlushDenormals() { set_mode(saved_); }
+
+  private:
+#if defined(__x86_64__)
+    static constexpr uint64_t kFlush = 0x8040;  // FTZ, DAZ
+    static uint64_t mode() {
+        return _mm_getcsr();
+    }
+    static void set_mode(uint64_t bits) {
+        _mm_setcsr(uint32_t(bits));
+    }
+#else
+    static constexpr uint64_t kFlush = 1 << 24;  // FPCR.FZ
+    static uint64_t mode() {
+        uint64_t bits;
+        asm volatile("mrs %0, fpcr" : "=r"(bits));
+        return bits;
+    }
+    static void set_mode(uint64_t bits) {
+        asm volatile("msr fpcr, %0" : : "r"(bits));
+    }
+#endif
+    uint64_t saved_;
+};
 
 struct Operands {
     float x = 0, y = 0, z = 0;
@@ -252,6 +286,22 @@ TEST(Filterstep, HasTheFiltersOfTheInterface) {
             for (float value : got) EXPECT_NEAR(value, got.back(), 1e-3f) << filter << " " << edge;
         }
 }
+// In the mode that fast kernels run in (DESIGN.md decision 13); precise ones keep denormals.
+TEST(Extremes, Row77DenormalsAre0InTheFastTierOnly) {
+    for (bool fast : {true, false})
+        for (const char* body :
+             {"Ci = x * 1e30;", "Ci = (x + x) * 1e30;", "Ci = 1e-30 * z * 1e30;"})
+            for (const jit::Target& target : jit::targets()) {
+                if (!target.supported()) continue;
+                Operands o{1e-40f, 0, 1e-10f};
+                RunShader run = shader_of(body, o, Kind::Varying, target.name, fast);
+                ASSERT_TRUE(run.ok()) << run.findings();
+                set_operands(run.inputs, o);
+                std::optional<FlushDenormals> flush;
+                if (fast) flush.emplace();
+                EXPECT_EQ(run.value("Ci.r") == 0, fast) << body << " " << target.name;
+            }
+}
 TEST(Extremes, Row79GreyHasHue0) {
     for (const char* space : {"hsv", "hsl"}) {
         std::string call = "comp(ctransform(\"" + std::string(space) + "\", color(x, x, x)), ";
@@ -265,6 +315,37 @@ TEST(Extremes, Row80DerivativesOfConstantsAndStepsAre0) {
     expect("Du(x) + Dv(3)", {2}, 0);
     expect("Du(step(x, u))", {0}, 0);
     expect("Du(floor(u * x))", {5}, 0);
+}
+
+// A light where it shines: RSL's division gives 0 for 1 / 0. A cone of angle 0 is its axis alone,
+// one of PI or more is all directions.
+TEST(Extremes, Row83LightsAtTheirPlaceAndConesAtTheirLimitsAreFinite) {
+    const char* lit = "light l(varying float x = 0, y = 0, z = 0;) { ";
+    struct Case {
+        const char* body;
+        Operands at;
+        float wanted;
+    };
+    const Case kCases[] = {
+        {"illuminate(point(x, y, 0)) Cl = 1 / (L . L);", {0, 0}, 0},
+        {"illuminate(point(x, y, 0)) Cl = 1 / (L . L);", {0, 2}, 0.25f},
+        {"illuminate(point(x, y, 0), vector(0, -1, 0), z) Cl = 1;", {0, 2, 0}, 1},
+        {"illuminate(point(x, y, 0), vector(0, -1, 0), z) Cl = 1;", {1, 2, 0}, 0},
+        {"illuminate(point(x, y, 0), vector(0, 1, 0), z) Cl = 1;", {0, 2, 0}, 0},
+        {"illuminate(point(x, y, 0), vector(0, 1, 0), z) Cl = 1;", {0, 2, kPi}, 1},
+        {"illuminate(point(x, y, 0), vector(0, 1, 0), z) Cl = 1;", {1, 2, 7}, 1},
+    };
+    for (const Case& c : kCases)
+        for (const jit::Target& target : jit::targets()) {
+            if (!target.supported()) continue;
+            std::vector<ParamBinding> params;
+            for (const char* name : {"x", "y", "z"})
+                params.push_back({name, Kind::Varying, {0}, {}});
+            RunShader run(lit + std::string(c.body) + " }", {}, params, false, target.name);
+            ASSERT_TRUE(run.ok()) << run.findings();
+            set_operands(run.inputs, c.at);
+            EXPECT_EQ(run.value("light:0:Cl.r"), c.wanted) << c.body << " " << target.name;
+        }
 }
 
 }  // namespace

@@ -118,6 +118,43 @@ TEST_F(Points, ComeBackWhereTheyWereBaked) {
     for (int x = 2; x < 29; ++x) EXPECT_NEAR(r.color(x, 15).x, r.place(x, 15).x, 0.07) << x;
 }
 
+// bake() puts its value at s, t, wherever the surface and the camera are.
+TEST_F(Points, OfBakeLieAtTheirCoordinates) {
+    std::string file = path("a.pts");
+    Rendering r(floor_scene(fmt::format("surface s() {{ Oi = 1; Ci = 0; bake(\"{}\", s, 2 * t, "
+                                        "color(s, t, 0.5)); }}",
+                                        file))
+                    .text());
+    r.frame(8, 8);
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    PointFile points = read(file);
+    ASSERT_EQ(points.channels.size(), 1u);
+    EXPECT_EQ(points.channels[0], (PointChannel{"value", 'c', 7}));
+    ASSERT_EQ(points.count(), 64u);
+    for (size_t i = 0; i < 64; ++i) {
+        const float* p = points.point(i);
+        dvec2 pixel = r.place(int(i % 8), int(i / 8));
+        EXPECT_NEAR(p[0], (pixel.x + 1.5) / 3, 0.05) << i;
+        EXPECT_EQ(p[0], p[7]);
+        EXPECT_EQ(p[1], 2 * p[8]);
+        EXPECT_EQ(p[2], 0);
+        EXPECT_EQ(p[9], 0.5f);
+        EXPECT_NEAR(p[6], 0.5 / 12, 0.5 / 12 + 1e-4);  // about half of what a pixel spans
+    }
+    // Read at the same coordinates, from a camera elsewhere.
+    SceneText reader = floor_scene(
+        fmt::format("surface s() {{ Oi = 1; color c = 7; float ok = texture3d(\"{}\", point "
+                    "\"world\" (s, 2 * t, 0), normal(0), \"value\", c); Ci = c * ok; }}",
+                    file));
+    reader.camera_node =
+        "<node id=\"eye-node\"><translate>0 0 7</translate><instance_camera url=\"#eye\"/></node>";
+    Rendering back(reader.text());
+    back.frame(8, 8);
+    ASSERT_FALSE(back.diagnostics.has_errors()) << back.findings();
+    for (int k = 1; k < 7; ++k)
+        EXPECT_NEAR(back.color(k, k).x, (back.place(k, k).x + 1.5) / 3, 0.05) << k;
+}
+
 TEST_F(Points, OfAMissingOrBrokenFileAreAFindingAndNothing) {
     std::string missing = path("missing.pts"), broken = path("broken.pts");
     Rendering(floor_scene(bakes(broken)).text()).frame();

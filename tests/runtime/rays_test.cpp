@@ -204,6 +204,55 @@ TEST(Transmission, IsTheProductOfWhatLiesBetween) {
     EXPECT_EQ(r.color(1, 8), vec3(1.0f));
 }
 
+TEST(RaytracedMaps, EnvironmentSeesWhatTraceSees) {
+    SceneText scene =
+        floor_and_wall(floor_code("Ci = environment(\"raytrace\", right + up);"
+                                  " if (s < 0.5) Ci = float environment(\"raytrace\", right, "
+                                  "\"maxdist\", 0.01);"),
+                       "surface lamp() { Oi = 1; Ci = color(0.25, 0.5, 1); }", 30);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    EXPECT_EQ(r.color(12, 8), vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_EQ(r.color(2, 8), vec3(0.0f));
+}
+
+// A light that asks the map of the scene has the shadows that a light without shadows of its own is
+// given.
+TEST(RaytracedMaps, ShadowInALightIsThatOfTheRenderer) {
+    std::vector<std::unique_ptr<Rendering>> pictures;
+    for (const char* own : {"Cl = 1", "Cl = 1 - shadow(\"raytrace\", Ps)"})
+        for (const char* where : {"illuminate(point \"shader\" (0, 0, 0))",
+                                  "solar(vector \"world\" (0.6, 0, -0.8), 0)"}) {
+            SceneText scene =
+                floor_and_wall(floor_code("Ci = diffuse(n);"),
+                               "surface pane() { Oi = color(1, 0.5, 0); Ci = 0; }", 0.8);
+            scene.rsl_light("lamp", std::string("light l() { ") + where + " { " + own + "; } }",
+                            "<translate>4 0 2</translate>");
+            pictures.push_back(std::make_unique<Rendering>(scene.text()));
+            pictures.back()->frame();
+            EXPECT_FALSE(pictures.back()->diagnostics.has_errors()) << pictures.back()->findings();
+        }
+    for (size_t k = 0; k < 2; ++k) {
+        EXPECT_LT(difference(pictures[k]->film, pictures[k + 2]->film), 1e-6f) << k;
+        EXPECT_GT(pictures[k]->color(15, 8).z, 0.1f);
+    }
+    EXPECT_EQ(pictures[0]->color(15, 8).x, 0);  // behind the wall, seen from the lamp
+}
+
+TEST(RaytracedMaps, ShadowInIlluminanceAsksTheLightOfThisTurn) {
+    SceneText scene = floor_and_wall(
+        floor_code("illuminance(P, n, PI/2) Ci += color shadow(\"raytrace\", P);"), kBlack, 0.8);
+    scene.rsl_light("lamp", "light l() { illuminate(point \"shader\" (0, 0, 0)) Cl = 1; }",
+                    "<translate>4 0 2</translate>");
+    scene.rsl_light("sun", "light s() { solar(vector \"world\" (0, 0, -1), 0) Cl = 1; }");
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    EXPECT_EQ(r.color(15, 8), vec3(1.0f));  // hidden from the lamp, not from the sun
+    EXPECT_EQ(r.color(0, 8), vec3(0.0f));
+}
+
 TEST(Transmission, OfAConeOfSamplesIsTheirMean) {
     // The cone's axis grazes the wall's top edge: half the samples are blocked.
     SceneText scene = floor_and_wall(
