@@ -33,18 +33,26 @@ Location SourceMap::location(uint32_t text_begin, uint32_t text_end) const {
     return {file, begin, std::max(begin, end)};
 }
 
-FileId SourceFiles::add(std::string name, std::string text) {
-    auto file = std::make_unique<File>(File{std::move(name), std::move(text), {0}});
-    const char* begin = file->text.data();
-    const char* end = begin + file->text.size();
+namespace {
+
+std::vector<uint32_t> find_line_starts(std::string_view text) {
+    std::vector<uint32_t> starts = {0};
+    const char* begin = text.data();
+    const char* end = begin + text.size();
     for (const char* p = begin; p < end;) {
         const char* newline = static_cast<const char*>(std::memchr(p, '\n', size_t(end - p)));
         if (!newline) break;
         p = newline + 1;
-        file->line_starts.push_back(uint32_t(p - begin));
+        starts.push_back(uint32_t(p - begin));
     }
+    return starts;
+}
+
+}  // namespace
+
+FileId SourceFiles::add(std::string name, std::string text) {
     std::lock_guard lock(mutex_);
-    files_.push_back(std::move(file));
+    files_.push_back(std::make_unique<File>(File{std::move(name), std::move(text), {}}));
     return FileId(files_.size() - 1);
 }
 
@@ -68,12 +76,18 @@ std::string_view SourceFiles::text(FileId file) const {
 
 LineColumn SourceFiles::line_column(FileId file, uint32_t offset) const {
     const File& f = at(file);
+    {  // lines are looked for when the first finding of a file is printed: most files have none
+        std::lock_guard lock(mutex_);
+        std::vector<uint32_t>& starts = files_[file]->line_starts;
+        if (starts.empty()) starts = find_line_starts(f.text);
+    }
     auto after = std::upper_bound(f.line_starts.begin(), f.line_starts.end(), offset);
     uint32_t start = after[-1];
     return {int(after - f.line_starts.begin()), int(offset - start) + 1};
 }
 
 std::string_view SourceFiles::line_text(FileId file, int line) const {
+    line_column(file, 0);  // finds the lines
     const File& f = at(file);
     if (line < 1 || size_t(line) > f.line_starts.size()) return {};
     uint32_t begin = f.line_starts[size_t(line) - 1];

@@ -46,13 +46,13 @@ class Queue {
         piece.done = true;
         std::lock_guard lock(mutex_);
         pieces_[index] = std::move(piece);
-        changed_.notify_all();
+        if (index == printed_) changed_.notify_all();  // the printer waits for this one
     }
     Piece wait_for(size_t index) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return pieces_[index].done; });
+        if (taken_ == printed_ + window_) changed_.notify_all();  // threads wait for room
         printed_ = index + 1;
-        changed_.notify_all();
         return std::move(pieces_[index]);
     }
     void stop() {
