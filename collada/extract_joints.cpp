@@ -19,7 +19,7 @@ const std::string& key_of(const Node& node, Key key) {
 // The nodes below some roots by each of their names; joints win over other nodes, then the first.
 struct NameIndex {
     std::unordered_map<std::string_view, uint32_t> by[KeyCount];
-    size_t nodes = 0;
+    size_t count = 0;  // of nodes
 
     void build(const std::vector<Node>& nodes, const std::vector<uint32_t>& roots);
     uint32_t find(std::string_view name, Key key) const {
@@ -36,7 +36,7 @@ void NameIndex::build(const std::vector<Node>& nodes, const std::vector<uint32_t
         todo.pop_back();
         if (seen[at]) continue;
         seen[at] = true;
-        ++this->nodes;
+        ++count;
         const Node& node = nodes[at];
         for (Key key : {Sid, Id, Name}) {
             const std::string& name = key_of(node, key);
@@ -84,7 +84,7 @@ const NameIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, 
     if (!fresh) return &at->second;
     if (x_.over_limit) return nullptr;
     at->second.build(x_.scene.nodes, roots);
-    if (afford(x_, at->second.nodes * kBytesPerNode, where)) return &at->second;
+    if (afford(x_, at->second.count * kBytesPerNode, where)) return &at->second;
     at->second = {};
     return nullptr;
 }

@@ -85,9 +85,8 @@ dmat4 transposed(const dmat4& m) {
 }  // namespace
 
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds) {
-    constexpr int kMostDoubles = 256;  // a file of nothing but one id stays linear
     const Element* element = document.find(id);
-    for (int i = 0; element && i < kMostDoubles; ++i, element = element->next_same_id)
+    for (size_t i = 0; element && i < kMostSameId; ++i, element = element->next_same_id)
         if (is_kind(element->name, kinds)) return element;
     return nullptr;
 }

@@ -83,6 +83,8 @@ using Kinds = std::initializer_list<std::string_view>;
 // The element that `url` of attribute `attribute` (or of the text, when that is "") names: "#id",
 // "other.dae#id", or a bare id with a warning. Reported, and null, unless its name is in `kinds`.
 Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds);
+// Of elements that share an id, so many are looked at; else links and ids multiply.
+inline constexpr size_t kMostSameId = 256;
 // The element with this id in one document whose name is in `kinds`, or null; reports nothing.
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds);
 // Adds a document already read; its <asset> is read.

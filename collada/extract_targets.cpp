@@ -61,13 +61,16 @@ const Element* TargetResolver::find_named(const Element& scope, std::string_view
     bool small_scope = scope.name == "effect" || scope.name == "light" || scope.name == "camera" ||
                        scope.name == "technique" || scope.name == "node";
     if (!small_scope) return nullptr;
-    std::vector<const Element*> queue{&scope};
+    auto [at, fresh] = named_.try_emplace(&scope);
+    std::vector<const Element*> queue;
+    if (fresh) queue.push_back(&scope);
     for (size_t i = 0; i < queue.size(); ++i)
         for (const Element& child : queue[i]->children()) {
-            if (child.name == name && x_.target_of.count(&child)) return &child;
+            if (x_.target_of.count(&child)) at->second.emplace(child.name, &child);
             if (scope.name != "node") queue.push_back(&child);
         }
-    return nullptr;
+    auto found = at->second.find(name);
+    return found == at->second.end() ? nullptr : found->second;
 }
 
 // material-id/ref: the setparam of that ref; made from the effect's value when there is none.
@@ -229,7 +232,8 @@ TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Locatio
         root = x_.document(doc).find(id);
     }
     Found found;
-    for (const Element* e = root; e; e = e->next_same_id) {
+    size_t tried = 0;
+    for (const Element* e = root; e && tried < kMostSameId; e = e->next_same_id, ++tried) {
         Found here = find(*e, path);
         if (!here.element) continue;
         if (!found.element) found = here;

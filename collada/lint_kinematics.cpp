@@ -18,7 +18,10 @@ struct Reach {
 
 class SidPaths {
   public:
-    explicit SidPaths(const Document& document) : document_(document) {}
+    explicit SidPaths(Lint& lint) : document_(lint.document) {
+        for (const Element* param : lint.named("newparam")) declared_.insert(param->value("sid"));
+    }
+    bool declares(std::string_view param) const { return declared_.count(param) > 0; }
     Reach find(const Element& from, std::string_view path, int depth = 0);
 
   private:
@@ -30,6 +33,8 @@ class SidPaths {
 
     const Document& document_;
     std::unordered_map<const Element*, Sids> sids_;
+    std::unordered_set<std::string_view> declared_;  // sids of <newparam>s
+    int steps_ = 1'000'000;  // instances may lead to one another in very many ways
 };
 
 const SidPaths::Sids& SidPaths::sids_below(const Element& scope) {
@@ -71,6 +76,7 @@ Reach SidPaths::step(const Element& scope, std::string_view sid, int depth) {
     auto found = sids_below(scope).find(sid);
     if (found != sids_below(scope).end()) return {found->second};
     if (depth > 16) return {};
+    if (--steps_ < 0) return {nullptr, true};  // nothing is said then
     Reach next = follow(scope, depth);
     if (next.element && next.element != &scope) return step(*next.element, sid, depth + 1);
     if (next.elsewhere) return next;
@@ -171,9 +177,7 @@ void check_reference(Lint& lint, SidPaths& paths, const Element& owner, const El
                              trim(sidref->text), bind.name);
     const Element* param = owner.child("param");
     std::string_view name = param ? trim(param->text) : std::string_view{};
-    if (name.empty()) return;
-    for (const Element* declared : lint.named("newparam"))
-        if (declared->value("sid") == name) return;
+    if (name.empty() || paths.declares(name)) return;
     if (leads_nowhere(paths, *param, name))
         lint.diag.report(Code::KIN_TARGET, lint.document.text_location(*param), "param", name,
                          bind.name);
@@ -197,7 +201,7 @@ void check_binds(Lint& lint, SidPaths& paths) {
 }  // namespace
 
 void lint_kinematics(Lint& lint) {
-    SidPaths paths(lint.document);
+    SidPaths paths(lint);
     check_attachments(lint, paths);
     check_axes(lint, paths);
     check_limits(lint);

@@ -1,5 +1,7 @@
 // collada/lint_physics.cpp: rigid bodies, constraints and shapes of physics models and scenes.
 #include <cmath>
+#include <set>
+#include <unordered_set>
 
 #include "collada/lint_p.h"
 #include "collada/numbers_p.h"
@@ -13,31 +15,59 @@ std::vector<double> numbers_of(Lint& lint, const Element& element) {
     return read_doubles(lint.document, element, unheard);
 }
 
-bool answers_to(const Element& element, std::string_view name) {
-    return element.value("sid") == name || element.value("id") == name;
-}
+// What a model holds under each kind of element and each sid (exporters: or id), or a model
+// instanced in it.
+class Models {
+  public:
+    explicit Models(Lint& lint) : lint_(lint) {}
 
-// A child of the model, or of a model instanced in it, by sid (exporters: or id).
-bool model_has(Lint& lint, Link model, std::string_view kind, std::string_view name,
-               int depth = 0) {
-    if (!model || depth > 16) return false;
-    for (const Element& child : model.element->children()) {
-        if (child.name == kind && answers_to(child, name)) return true;
-        if (child.name != "instance_physics_model") continue;
-        Link nested = resolve(lint.x, {model.doc, &child}, "url", {"physics_model"});
-        if (model_has(lint, nested, kind, name, depth + 1)) return true;
+    bool has(Link model, std::string_view kind, std::string_view name) {
+        std::vector<const Model*> todo{&read(model)};
+        std::unordered_set<const Model*> seen{todo[0]};
+        while (!todo.empty()) {
+            const Model& at = *todo.back();
+            todo.pop_back();
+            // Models may lead to one another in very many ways: then nothing is said.
+            if (--steps_ < 0 || at.members.count({kind, name})) return true;
+            for (Link nested : at.nested)
+                if (const Model* next = &read(nested); seen.insert(next).second)
+                    todo.push_back(next);
+        }
+        return false;
     }
-    return false;
-}
+
+  private:
+    struct Model {
+        std::set<std::pair<std::string_view, std::string_view>> members;
+        std::vector<Link> nested;
+    };
+    const Model& read(Link link) {
+        auto [at, fresh] = models_.try_emplace(link.element);
+        Model& model = at->second;
+        if (!fresh) return model;
+        for (const Element& child : link.element->children()) {
+            for (std::string_view key : {"sid", "id"})
+                if (child.attribute(key)) model.members.insert({child.name, child.value(key)});
+            if (child.name != "instance_physics_model") continue;
+            if (Link nested = resolve(lint_.x, {link.doc, &child}, "url", {"physics_model"}))
+                model.nested.push_back(nested);
+        }
+        return model;
+    }
+
+    Lint& lint_;
+    std::unordered_map<const Element*, Model> models_;
+    int steps_ = 1'000'000;
+};
 
 // body= and constraint= name parts of the model that the parent instances.
-void check_member(Lint& lint, const Element& instance, std::string_view attribute,
+void check_member(Lint& lint, Models& models, const Element& instance, std::string_view attribute,
                   std::string_view kind, const FindingInfo& code) {
     const Element* parent = instance.parent;
     const Attribute* name = instance.attribute(attribute);
     if (!name || !parent || parent->name != "instance_physics_model") return;
     Link model = resolve(lint.x, {0, parent}, "url", {"physics_model"});
-    if (model && !model_has(lint, model, kind, trim(name->value)))
+    if (model && !models.has(model, kind, trim(name->value)))
         lint.diag.report(code, lint.where(instance, attribute), name->value,
                          model.element->value("id"));
 }
@@ -57,7 +87,7 @@ void check_target(Lint& lint, const Element& instance) {
 }
 
 // rigid_body= is a URI by the specification; sids within the model are written as well.
-void check_attachment(Lint& lint, const Element& attachment) {
+void check_attachment(Lint& lint, Models& models, const Element& attachment) {
     const Attribute* body = attachment.attribute("rigid_body");
     std::string_view name = body ? trim(body->value) : std::string_view{};
     if (name.empty() || in_other_file(name)) return;
@@ -66,7 +96,7 @@ void check_attachment(Lint& lint, const Element& attachment) {
     std::string_view last = name.substr(name.find_last_of('/') + 1);
     const Element* model = attachment.parent;
     while (model && model->name != "physics_model") model = model->parent;
-    if (model && model_has(lint, {0, model}, "rigid_body", last)) return;
+    if (model && models.has({0, model}, "rigid_body", last)) return;
     lint.diag.report(Code::PHYS_ATTACHMENT, lint.where(attachment, "rigid_body"), attachment.name,
                      body->value);
 }
@@ -155,14 +185,17 @@ void check_limits(Lint& lint) {
 }  // namespace
 
 void lint_physics(Lint& lint) {
+    Models models(lint);
     for (const Element* instance : lint.named("instance_rigid_body")) {
-        check_member(lint, *instance, "body", "rigid_body", Code::PHYS_RIGID_BODY);
+        check_member(lint, models, *instance, "body", "rigid_body", Code::PHYS_RIGID_BODY);
         check_target(lint, *instance);
     }
     for (const Element* instance : lint.named("instance_rigid_constraint"))
-        check_member(lint, *instance, "constraint", "rigid_constraint", Code::PHYS_CONSTRAINT);
+        check_member(lint, models, *instance, "constraint", "rigid_constraint",
+                     Code::PHYS_CONSTRAINT);
     for (std::string_view name : {"ref_attachment", "attachment"})
-        for (const Element* attachment : lint.named(name)) check_attachment(lint, *attachment);
+        for (const Element* attachment : lint.named(name))
+            check_attachment(lint, models, *attachment);
     check_sizes(lint);
     check_materials(lint);
     check_masses(lint);

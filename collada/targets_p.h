@@ -34,7 +34,9 @@ class TargetResolver {
     void apply_whole(uint32_t stride, TargetRef& ref) const;
 
     Extraction& x_;
-    std::unordered_map<const Element*, std::unordered_map<std::string_view, const Element*>> sids_;
+    using Names = std::unordered_map<std::string_view, const Element*>;
+    std::unordered_map<const Element*, Names> sids_;   // below a scope
+    std::unordered_map<const Element*, Names> named_;  // targets below a scope, by element name
 };
 
 }  // namespace kinora::collada
