@@ -6,6 +6,8 @@ import os
 import sys
 import xml.etree.ElementTree as ET
 
+from split_concave import split_concave
+
 NS = "http://www.collada.org/2005/11/COLLADASchema"
 FPS = 24.0
 
@@ -166,7 +168,7 @@ def main(source, shaders, target):
     ET.indent(tree, " ")
     text = ET.tostring(root, encoding="unicode")
     with open(target, "w") as file:
-        file.write('<?xml version="1.0" encoding="utf-8"?>\n' + embed_code(text, shaders) + "\n")
+        file.write('<?xml version="1.0" encoding="utf-8"?>\n' + split_concave(embed_code(text, shaders)) + "\n")
 
 
 main(*sys.argv[1:])
