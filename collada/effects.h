@@ -68,8 +68,10 @@ struct TextureSampler {
     Wrap wrap_s = Wrap::Wrap, wrap_t = Wrap::Wrap;
     Filter min = Filter::Linear, mag = Filter::Linear, mip = Filter::Linear;
     vec4 border_color{0, 0, 0, 0};
-    // uv' = uv * repeat + offset, from MAYA/MAX3D/OKINO extras.
+    // uv' = turned(uv) * repeat + offset, from MAYA/MAX3D/OKINO extras; turned anticlockwise about
+    // (1/2, 1/2) by degrees.
     vec2 repeat{1, 1}, offset{0, 0};
+    double turn_degrees = 0;
     Location where;
 };
 
@@ -106,6 +108,8 @@ struct CommonShading {
     std::array<CommonValue, size_t(CommonSlot::Count)> slots;
     Opaque opaque = Opaque::AOne;  // of <transparent>
     bool double_sided = true;
+    bool bump_is_normals = false;  // the Bump slot holds normals, not heights
+    double bump_amount = 1;
     Location where;
     const CommonValue& operator[](CommonSlot s) const { return slots[size_t(s)]; }
 };
@@ -165,6 +169,7 @@ struct Material {
     uint32_t samples = 0;         // <extra> RSL <samples> of an area light; 0 if silent
     std::optional<bool> shadows;  // and its <shadows>
     std::string volume_target;    // <extra> RSL "interior" or "exterior"; "" if silent
+    bool invisible = false;       // profile_COMMON's formula gives opacity 0 everywhere, always
     Location where;
 };
 

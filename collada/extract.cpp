@@ -70,6 +70,21 @@ void reserve_lists(Extraction& x, const Document& document) {
     }
 }
 
+// The node whose camera the scene says to look through: of the first <render> that names one in an
+// <evaluate_scene> that is not switched off (1.5).
+void read_evaluated_camera(Extraction& x, Link scene) {
+    for (const Element& evaluate : scene.element->children()) {
+        if (evaluate.name != "evaluate_scene" || evaluate.value("enable") == "false") continue;
+        for (const Element& render : evaluate.children()) {
+            if (render.name != "render" || render.value("camera_node").empty()) continue;
+            Link node = resolve(x, {scene.doc, &render}, "camera_node", {"node"});
+            auto at = node ? x.made.find(node.element) : x.made.end();
+            if (at == x.made.end() || x.scene.camera_node != kNone) continue;
+            x.scene.camera_node = at->second;
+        }
+    }
+}
+
 void read_visual_scene(Extraction& x, Link scene) {
     x.scene.scene_id = scene.element->value("id");
     x.scene.scene_name = scene.element->value("name");
@@ -81,6 +96,7 @@ void read_visual_scene(Extraction& x, Link scene) {
     // The first root is read first, so that what it shows gets the first numbers.
     std::reverse(x.pending_nodes.begin(), x.pending_nodes.end());
     read_pending_nodes(x);
+    read_evaluated_camera(x, scene);
     x.scene.rsl_materials = rsl_extra_materials(x, scene);
     read_time_range(x, scene);
 }
@@ -89,7 +105,10 @@ void read_visual_scene(Extraction& x, Link scene) {
 
 bool extract_into(Extraction& x, const Document& document) {
     add_document(x, document, real_path(document.path()));
-    x.scene.asset = x.scene.documents[0].asset;
+    Asset& asset = x.scene.documents[0].asset;
+    asset.meter = x.options.meter.value_or(asset.meter);
+    asset.up_axis = x.options.up_axis.value_or(asset.up_axis);
+    x.scene.asset = asset;
     reserve_lists(x, document);
     Link scene = find_visual_scene(x);
     if (!scene && !x.options.everything) {
@@ -104,6 +123,7 @@ bool extract_into(Extraction& x, const Document& document) {
     check_node_graph(x);
     resolve_joints(x);
     read_animations(x);
+    check_transparency(x);
     return true;
 }
 

@@ -90,17 +90,37 @@ CommonValue read_slot_value(Extraction& x, Link link, TargetRef ref, Effect& eff
     return value;
 }
 
-// <double_sided> and <bump> of the extras of an element, whatever the vendor.
+// How much a map bends: <amount> in the texture's own extra (MAX3D), or beside it.
+double read_bump_amount(const Element& bump) {
+    double amount = 1;
+    const Element* texture = bump.child("texture");
+    for (const Element* owner : {texture, &bump})
+        if (owner)
+            for (const Element& extra : owner->children())
+                for (const Element& technique : extra.children())
+                    if (const Element* e = technique.child("amount")) parse_double(e->text, amount);
+    return std::isfinite(amount) ? amount : 1;
+}
+
+void read_bump(Extraction& x, Link bump, CommonShading& common, Effect& effect) {
+    CommonValue& slot = common.slots[size_t(CommonSlot::Bump)];
+    if (slot.source != SlotSource::Absent) return;
+    slot = read_slot_value(x, bump, {}, effect);
+    std::string_view kind = bump.element->value("bumptype");
+    common.bump_is_normals = kind == "NORMALMAP" || bump.element->name != "bump";
+    common.bump_amount = read_bump_amount(*bump.element);
+}
+
+// <double_sided>, <bump> and maps of normals in the extras of an element, whatever the vendor.
 void read_extras(Extraction& x, Link owner, CommonShading& common, Effect& effect) {
     for (const Element& extra : owner.element->children()) {
         if (extra.name != "extra") continue;
         for (const Element& technique : extra.children()) {
             if (const Element* flag = technique.child("double_sided"))
                 common.double_sided = trim(flag->text) != "0" && trim(flag->text) != "false";
-            const Element* bump = technique.child("bump");
-            CommonValue& slot = common.slots[size_t(CommonSlot::Bump)];
-            if (bump && slot.source == SlotSource::Absent)
-                slot = read_slot_value(x, {owner.doc, bump}, {}, effect);
+            for (std::string_view name : {"bump", "normalmap", "normal"})
+                if (const Element* bump = technique.child(name))
+                    if (bump->child("texture")) read_bump(x, {owner.doc, bump}, common, effect);
         }
     }
 }

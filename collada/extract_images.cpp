@@ -69,7 +69,7 @@ std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std
     std::string found;
     if (inside) found = search_folder(path.substr(0, path.size() - name.size()), name);
     if (found.empty()) found = search_folder(beside, name);
-    if (!found.empty()) {
+    if (!found.empty() && inside_tree(x, found)) {  // it may be a link that leads out
         bool case_only = lower(found) == lower(path);
         x.diag.report(case_only ? Code::FILE_CASE : Code::FILE_FALLBACK, where, uri, found);
         return found;
@@ -100,6 +100,11 @@ uint32_t image_index(Extraction& x, Link link) {
     image.name = e.value("name");
     image.where = x.where(link);
     const Element* from = e.child("init_from");
+    for (std::string_view create : {"create_2d", "create_3d", "create_cube"})  // 1.5
+        if (const Element* made = e.child(create); made && !from) from = made->child("init_from");
+    const Element* embedded = e.child("data") ? e.child("data")
+                              : from          ? from->child("hex")
+                                              : nullptr;
     if (from && from->child("ref")) from = from->child("ref");
     if (from && !trim(from->text).empty()) {
         image.uri = trim(from->text);
@@ -107,8 +112,10 @@ uint32_t image_index(Extraction& x, Link link) {
         check_file_uri(x, image.uri, where);
         std::string path = path_of_uri(x.document(link.doc), image.uri);
         image.path = find_image(x, link.doc, path, image.uri, where);
-    } else if (e.child("data") || (from && from->child("hex"))) {
-        x.diag.report(Code::IMAGE_EMBEDDED, image.where, image.id);
+    } else if (embedded) {
+        std::string_view format = embedded->name == "hex" ? embedded->value("format") : "";
+        image.path = unpack_image(x, {link.doc, embedded},
+                                  format.empty() ? e.value("format") : format, image.id);
     } else if (from) {
         x.diag.report(Code::FILE_EMPTY_URI, x.where({link.doc, from}), from->name);
     } else if (!is_created(e)) {

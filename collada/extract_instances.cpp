@@ -115,6 +115,8 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     uint32_t mesh_number = uint32_t(node.meshes.size());
     read_bind_material(x, link, mesh, node_number, mesh_number);
     report_unbound(x, link, mesh);
+    for (MaterialBinding& binding : mesh.materials)
+        bind_texcoords(x, x.scene.geometries[mesh.geometry], binding);
     if (mesh.skin != kNone) {
         for (const Element& child : link.element->children())
             if (child.name == "skeleton")

@@ -116,6 +116,17 @@ std::string real_path(const std::string& path);
 // True when `path` (existing or not) lies in the folder tree of the root document, or all may.
 bool inside_tree(const Extraction& x, const std::string& path);
 
+// extract_transparency.cpp: marks materials that the formula makes invisible; reports them.
+void check_transparency(Extraction& x);
+
+// extract_texcoords.cpp: how the texture coordinates that a material names are found on the mesh;
+// says what was assumed. Adds bindings for names that no <bind_vertex_input> binds.
+void bind_texcoords(Extraction& x, const Geometry& geometry, MaterialBinding& binding);
+
+// embedded_image.cpp: writes the bytes that `data` spells in hexadecimal into a file that lasts as
+// long as scene.files; "" (reported) when they are no image.
+std::string unpack_image(Extraction& x, Link data, std::string_view format, std::string_view id);
+
 // extract_images.cpp: index into scene.images, or kNone.
 uint32_t image_index(Extraction& x, Link image);
 

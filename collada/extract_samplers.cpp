@@ -84,6 +84,9 @@ void read_placement(const Element& texture, TextureSampler& sampler) {
             number("repeatV", sampler.repeat.y);
             number("offsetU", sampler.offset.x);
             number("offsetV", sampler.offset.y);
+            float turn = 0;
+            number("rotateUV", turn);
+            if (turn != 0) sampler.turn_degrees = double(turn);
             bool wrap = true, mirror = false;
             if (flag("wrapU", wrap)) sampler.wrap_s = wrap ? Wrap::Wrap : Wrap::Clamp;
             if (flag("wrapV", wrap)) sampler.wrap_t = wrap ? Wrap::Wrap : Wrap::Clamp;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -196,6 +197,8 @@ struct SceneData {
     std::string scene_id, scene_name;
     std::vector<uint32_t> roots;          // nodes of the visual scene
     std::vector<uint32_t> rsl_materials;  // the visual scene's <extra> RSL effects
+    uint32_t camera_node = kNone;         // of <evaluate_scene><render camera_node>
+    std::vector<std::shared_ptr<const void>> files;  // embedded images live as long as these
 
     std::vector<Node> nodes;
     std::vector<Geometry> geometries;
@@ -220,6 +223,8 @@ struct ExtractOptions {
     std::string folder;
     std::vector<std::string> allow_external;  // further trees, allowed by the user
     std::string scene_id;  // of the visual scene instead of <scene>'s; ignored if there is none
+    std::optional<double> meter;    // instead of the root document's own
+    std::optional<UpAxis> up_axis;  // likewise
     uint32_t max_documents = 256;
     uint64_t max_node_instances = 1'000'000;  // nodes after unrolling instance_node
     // For findings: reads what <scene> does not reach too, of the root document. Those items stand

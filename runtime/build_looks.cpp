@@ -55,7 +55,19 @@ void SceneBuilder::place_cameras() {
 bool SceneBuilder::choose_camera() {
     Scene& scene = *scene_;
     const std::string& wanted = scene.options.camera;
-    if (wanted.empty()) return true;
+    if (wanted.empty()) {
+        auto below = [&](uint32_t n) {
+            while (n != kNone && scene.nodes[n].definition != description_.camera_node)
+                n = scene.nodes[n].parent;
+            return n != kNone;
+        };
+        for (uint32_t c = 0; description_.camera_node != kNone && c < scene.cameras.size(); ++c)
+            if (below(scene.cameras[c].node)) {
+                scene.camera = c;
+                break;
+            }
+        return true;
+    }
     for (int pass = 0; pass < 2; ++pass)  // node path or id first, then camera id
         for (uint32_t c = 0; c < scene.cameras.size(); ++c) {
             const CameraDefinition& camera = description_.cameras[scene.cameras[c].definition];

@@ -62,9 +62,16 @@ const char* status_text(raytrace::CameraStatus status) {
 }  // namespace
 
 raytrace::CameraStatus place_camera(Scene& scene, int width, int height) {
-    return raytrace::make_camera(optics_of(scene),
-                                 scene.nodes[scene.cameras[scene.camera].node].world, width, height,
-                                 scene.origin, scene.size, scene.view);
+    const CameraSource& source = scene.cameras[scene.camera];
+    const CameraDefinition& camera = scene.description->cameras[source.definition];
+    raytrace::CameraStatus status =
+        raytrace::make_camera(optics_of(scene), scene.nodes[source.node].world, width, height,
+                              scene.origin, scene.size, scene.view);
+    // What a file's camera says it sees from and to; a range that had to be repaired says nothing.
+    bool both = camera.znear.present() && camera.zfar.present();
+    bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;
+    scene.view.clip = camera.clips && !(both && repaired);
+    return status;
 }
 
 namespace {

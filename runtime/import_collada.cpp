@@ -15,26 +15,30 @@ std::optional<SceneDescription> import_collada(const std::string& path,
                                                Diagnostics& diagnostics) {
     std::optional<collada::SceneFile> file = collada::open_scene(path, diagnostics);
     if (!file) return std::nullopt;
-    std::optional<collada::Document> document =
-        collada::read_document(file->document, diagnostics);
+    std::optional<collada::Document> document = collada::read_document(file->document, diagnostics);
     if (!document) return std::nullopt;
     collada::ExtractOptions extract_options;
     extract_options.folder = file->folder;
     extract_options.scene_id = file->scene_id;
     extract_options.allow_external = options.allow_external;
+    extract_options.meter = options.meter;
+    if (options.up_axis) extract_options.up_axis = collada::UpAxis(*options.up_axis);
     std::optional<collada::SceneData> data =
         collada::extract(*document, diagnostics, extract_options);
     if (!data) return std::nullopt;
     SceneDescription description;
     description.path = path;
-    description.files = file->keep;
+    auto files = std::make_shared<std::vector<std::shared_ptr<const void>>>(data->files);
+    files->push_back(file->keep);
+    description.files = std::move(files);
     ColladaImport(*data, options, diagnostics, description).run();
     return description;
 }
 
 void ColladaImport::run() {
-    out_.meter = options_.meter.value_or(data_.asset.meter);
-    out_.up_axis = options_.up_axis.value_or(UpAxis(data_.asset.up_axis));
+    out_.meter = data_.asset.meter;
+    out_.up_axis = UpAxis(data_.asset.up_axis);
+    out_.camera_node = data_.camera_node;
     out_.start_time = data_.start_time;
     out_.end_time = data_.end_time;
     out_.frame_rate = data_.frame_rate;
@@ -208,6 +212,7 @@ void ColladaImport::import_cameras() {
         to.aspect = slot_of(CameraSlot::AspectRatio);
         to.znear = slot_of(CameraSlot::Znear);
         to.zfar = slot_of(CameraSlot::Zfar);
+        to.clips = to.znear.present() || to.zfar.present();
         to.picture = picture_shaders(from.rsl_materials);
     }
 }

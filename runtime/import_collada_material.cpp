@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/findings.h"
 #include "runtime/import_collada_p.h"
@@ -126,7 +127,13 @@ void ColladaImport::set_texture(const collada::Effect& effect, const collada::Co
     };
     texture.wrap_s = wrap(sampler.wrap_s);
     texture.wrap_t = wrap(sampler.wrap_t);
-    texture.nearest = sampler.mag == collada::Filter::Nearest;
+    texture.nearest_magnified = sampler.mag == collada::Filter::Nearest;
+    texture.nearest_minified = sampler.min == collada::Filter::Nearest;
+    double turn = std::fmod(sampler.turn_degrees, 360.0);
+    bool quarters = std::fmod(turn, 90.0) == 0;  // exact, whatever the library's cosine
+    texture.turn = {
+        float(quarters ? std::round(std::cos(radians(turn))) : std::cos(radians(turn))),
+        float(quarters ? std::round(std::sin(radians(turn))) : std::sin(radians(turn)))};
     texture.data = data;
     texture.border = {sampler.border_color.x, sampler.border_color.y, sampler.border_color.z,
                       sampler.border_color.w};
@@ -191,10 +198,21 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
     }
     bool transparent = common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||
                        common[CommonSlot::Transparency].source != collada::SlotSource::Absent;
+    if (data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto)
+        transparent = false;
     ParamSource opaque;
     opaque.name = "opaque";
     opaque.strings = {transparent ? kOpaque[size_t(common.opaque)] : "NONE"};
     use.params.push_back(std::move(opaque));
+    if (common[CommonSlot::Bump].source == collada::SlotSource::Texture &&
+        find_parameter(*use.shader, "bump_map")) {
+        set_texture(effect, common[CommonSlot::Bump], "bump", true, use);
+        ParamSource kind;
+        kind.name = "bump_kind";
+        kind.strings = {common.bump_is_normals ? "NORMALMAP" : "HEIGHTFIELD"};
+        use.params.push_back(std::move(kind));
+        add("bump_amount", {append(&common.bump_amount, 1), 1});
+    }
     result.hide_backfaces = !common.double_sided;
     result.surfaces.push_back(std::move(use));
 }

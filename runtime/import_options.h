@@ -1,6 +1,7 @@
 // runtime/import_options.h: what the readers of scenes are asked for.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,12 @@
 
 namespace kinora {
 
+// Spec: opacity by the specification's formula. Auto: a material that the formula makes invisible
+// everywhere is shown opaque (FX_TRANSPARENT_ALL is reported either way).
+enum class TransparencyMode : uint8_t { Spec, Auto };
+
 struct ImportOptions {
+    TransparencyMode transparency = TransparencyMode::Spec;
     std::vector<std::string> allow_external;       // folders besides the scene's own tree
     std::optional<UpAxis> up_axis;                 // instead of the file's
     std::optional<double> meter;                   // instead of the file's

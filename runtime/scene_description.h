@@ -172,6 +172,7 @@ struct PictureShaders {
 struct CameraDefinition {
     std::string id, name;
     bool orthographic = false;
+    bool clips = false;  // what lies before znear or behind zfar is not seen
     ValueSlot x, y, aspect, znear, zfar;  // fov in degrees, or magnifications; absent = not given
     PictureShaders picture;
     Location where;
@@ -194,6 +195,7 @@ struct SceneDescription {
     std::vector<double> values;
     std::vector<NodeDefinition> nodes;
     std::vector<uint32_t> roots;
+    uint32_t camera_node = kNone;  // the first camera at or below it is the default one
     std::vector<MeshDefinition> meshes;
     std::vector<SkinDefinition> skins;
     std::vector<MorphDefinition> morphs;

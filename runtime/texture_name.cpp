@@ -1,4 +1,4 @@
-// runtime/texture_name.cpp: texture names to strings and back: "path\x1fst nd b b b b u u u u".
+// runtime/texture_name.cpp: texture names to strings and back: "path\x1fst nd b b b b c s u u u u".
 #include "runtime/texture_name.h"
 
 #include <fmt/format.h>
@@ -10,17 +10,23 @@ namespace kinora {
 namespace {
 constexpr char kSeparator = '\x1f';
 constexpr std::string_view kWrapLetters = "wmcb";
+
+char filter_letter(const TextureName& name) {
+    if (name.nearest || (name.nearest_magnified && name.nearest_minified)) return 'n';
+    return name.nearest_magnified ? 'g' : name.nearest_minified ? 's' : 'l';
+}
 }  // namespace
 
 std::string texture_name_string(const TextureName& name) {
     TextureName plain;
-    bool is_plain = name.wrap_s == plain.wrap_s && name.wrap_t == plain.wrap_t && !name.nearest &&
-                    !name.data && name.border == plain.border && name.uv == plain.uv;
+    bool is_plain = name.wrap_s == plain.wrap_s && name.wrap_t == plain.wrap_t &&
+                    filter_letter(name) == 'l' && !name.data && name.border == plain.border &&
+                    name.turn == plain.turn && name.uv == plain.uv;
     if (is_plain) return name.path;
-    return fmt::format("{}{}{}{}{}{} {} {}", name.path, kSeparator,
+    return fmt::format("{}{}{}{}{}{} {} {} {}", name.path, kSeparator,
                        kWrapLetters[size_t(name.wrap_s)], kWrapLetters[size_t(name.wrap_t)],
-                       name.nearest ? 'n' : 'l', name.data ? 'd' : 'c', fmt::join(name.border, " "),
-                       fmt::join(name.uv, " "));
+                       filter_letter(name), name.data ? 'd' : 'c', fmt::join(name.border, " "),
+                       fmt::join(name.turn, " "), fmt::join(name.uv, " "));
 }
 
 TextureName parse_texture_name(std::string_view text) {
@@ -32,11 +38,14 @@ TextureName parse_texture_name(std::string_view text) {
     name.wrap_s = TextureWrap(kWrapLetters.find(rest[0]) & 3);
     name.wrap_t = TextureWrap(kWrapLetters.find(rest[1]) & 3);
     name.nearest = rest[2] == 'n';
+    name.nearest_magnified = rest[2] == 'g';
+    name.nearest_minified = rest[2] == 's';
     name.data = rest[3] == 'd';
     const char* at = rest.c_str() + 4;
     char* end = nullptr;
-    for (float* value : {&name.border[0], &name.border[1], &name.border[2], &name.border[3],
-                         &name.uv[0], &name.uv[1], &name.uv[2], &name.uv[3]}) {
+    for (float* value :
+         {&name.border[0], &name.border[1], &name.border[2], &name.border[3], &name.turn[0],
+          &name.turn[1], &name.uv[0], &name.uv[1], &name.uv[2], &name.uv[3]}) {
         *value = std::strtof(at, &end);
         at = end;
     }

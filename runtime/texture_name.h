@@ -18,10 +18,13 @@ struct TextureName {
     std::string path;
     TextureWrap wrap_s = TextureWrap::Wrap;
     TextureWrap wrap_t = TextureWrap::Wrap;
-    bool nearest = false;  // no filtering at all
-    bool data = false;     // bump, masks: never decoded from sRGB
+    bool nearest = false;            // no filtering at all
+    bool nearest_magnified = false;  // none where texels are larger than pixels
+    bool nearest_minified = false;   // none where they are smaller
+    bool data = false;               // bump, masks: never decoded from sRGB
     std::array<float, 4> border{0, 0, 0, 0};
-    std::array<float, 4> uv{1, 1, 0, 0};  // s' = s * uv[0] + uv[2], t' = t * uv[1] + uv[3]
+    std::array<float, 2> turn{1, 0};      // cosine, sine: s, t turn about (1/2, 1/2) first
+    std::array<float, 4> uv{1, 1, 0, 0};  // then s' = s * uv[0] + uv[2], t' = t * uv[1] + uv[3]
 };
 
 std::string texture_name_string(const TextureName& name);  // the bare path when all is default

@@ -145,12 +145,27 @@ void find_footprints(const TexturePyramid& pyramid, const TextureName& modes, Te
         length = length > 0.0f ? length : 0.0f;
         return std::min(length, 0x1p17f);
     };
+    bool turned = modes.turn[0] != 1.0f || modes.turn[1] != 0.0f;
+    auto turn = [&](float& s, float& t) {
+        float s0 = s;
+        s = modes.turn[0] * s0 - modes.turn[1] * t;
+        t = modes.turn[1] * s0 + modes.turn[0] * t;
+    };
     for (int i = 0; i < kLanes; ++i) {
-        float ws = in.swidth[i] * modes.uv[0], wt = in.twidth[i] * modes.uv[1];
-        out.s[i] = in.s[i] * modes.uv[0] + modes.uv[2];
-        out.t[i] = in.t[i] * modes.uv[1] + modes.uv[3];
-        float dsdx = in.dsdx[i] * ws, dtdx = in.dtdx[i] * wt;
-        float dsdy = in.dsdy[i] * ws, dtdy = in.dtdy[i] * wt;
+        float s = in.s[i], t = in.t[i];
+        float dsdx = in.dsdx[i] * in.swidth[i], dtdx = in.dtdx[i] * in.twidth[i];
+        float dsdy = in.dsdy[i] * in.swidth[i], dtdy = in.dtdy[i] * in.twidth[i];
+        if (turned) {
+            s -= 0.5f, t -= 0.5f;
+            turn(s, t);
+            s += 0.5f, t += 0.5f;
+            turn(dsdx, dtdx);
+            turn(dsdy, dtdy);
+        }
+        out.s[i] = s * modes.uv[0] + modes.uv[2];
+        out.t[i] = t * modes.uv[1] + modes.uv[3];
+        dsdx *= modes.uv[0], dsdy *= modes.uv[0];
+        dtdx *= modes.uv[1], dtdy *= modes.uv[1];
         float x = side(dsdx, dtdx), y = side(dsdy, dtdy);
         float blur = in.blur[i] > 0.0f ? std::min(in.blur[i], 1.0f) * larger : 0.0f;
         float major = std::max(x, y) + blur;
@@ -170,7 +185,9 @@ void find_footprints(const TexturePyramid& pyramid, const TextureName& modes, Te
 template <class Texel>
 float4 sample_lane(const Sampler<Texel>& sampler, TextureFilter filter, const Footprints& at,
                    int i) {
-    if (filter == TextureFilter::Nearest) return sampler.nearest(at.s[i], at.t[i]);
+    bool magnified = at.lod[i] == 0.0f && at.taps[i] == 1.0f;
+    bool nearest = magnified ? sampler.modes.nearest_magnified : sampler.modes.nearest_minified;
+    if (nearest || filter == TextureFilter::Nearest) return sampler.nearest(at.s[i], at.t[i]);
     if (filter == TextureFilter::Bilinear) return sampler.trilinear(0, at.s[i], at.t[i]);
     if (at.taps[i] == 1.0f) return sampler.trilinear(at.lod[i], at.s[i], at.t[i]);
     float4 sum{};

@@ -41,6 +41,29 @@ color mirrored(color reflective; float reflectivity; normal Nf; vector In;) {
     return c;
 }
 
+/* The normal under a bump map: as if the surface stood out by amount / 20 of the image's side where
+   the map is white. A map of kind NORMALMAP holds normals in the frame of dPdu, dPdv and N. */
+normal bumped(string map, kind; float ss, tt, amount;) {
+    normal Nn = normalize(N);
+    if (map != "" && kind == "NORMALMAP") {
+        color c = 2 * color texture(map, ss, tt) - 1;
+        vector T = normalize(dPdu - (dPdu . Nn) * Nn);
+        vector B = dPdv - (dPdv . Nn) * Nn;
+        B = normalize(B - (B . T) * T);
+        Nn = normalize(amount * (comp(c, 0) * T + comp(c, 1) * B) + comp(c, 2) * Nn);
+    } else if (map != "") {
+        float height = amount / 20 * sqrt(length(dPdu ^ dPdv)) * float texture(map, ss, tt);
+        normal flat = normalize(calculatenormal(P));
+        normal bent = normalize(calculatenormal(P + height * Nn));
+        if (flat . Nn < 0) {
+            flat = -flat;
+            bent = -bent;
+        }
+        Nn = normalize(Nn + bent - flat);
+    }
+    return Nn;
+}
+
 surface collada_blinn(
     SLOT(emission, 0);
     SLOT(ambient_color, 0);
@@ -53,8 +76,11 @@ surface collada_blinn(
     float transparent_alpha = 1;
     float transparency = 1;
     float index_of_refraction = 1;
-    string opaque = "A_ONE";) {
-    normal Nf = faceforward(normalize(N), I);
+    string opaque = "A_ONE";
+    SLOT(bump, 0);
+    string bump_kind = "";
+    float bump_amount = 1;) {
+    normal Nf = faceforward(bumped(bump_map, bump_kind, bump_s, bump_t, bump_amount), I);
     vector In = normalize(I);
     color C = COLOR_OF(emission) + COLOR_OF(ambient_color) * ambient() + COLOR_OF(diffuse) * diffuse(Nf) +
               COLOR_OF(specular) * specular(Nf, -In, 1 / shininess);

@@ -150,6 +150,7 @@ int Render::load() {
     import.allow_external = options_.allow_external;
     import.up_axis = options_.up_axis;
     import.meter = options_.meter;
+    import.transparency = options_.transparency;
     import.include_directories = options_.include_directories;
     std::optional<SceneDescription> description =
         import_scene(options_.scene, import, diagnostics_);
@@ -212,8 +213,8 @@ std::string Render::fingerprint(double time) const {
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
-    text += fmt::format(" imager {} aovs {} light samples {}", o.imager, fmt::join(o.aovs, ","),
-                        o.light_samples);
+    text += fmt::format(" imager {} aovs {} light samples {} transparency {}", o.imager,
+                        fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
     for (const auto& [material, file] : o.shaders) text += fmt::format(" {}={}", material, file);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }

@@ -94,7 +94,7 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     CLI::App app("kinora-render: COLLADA scenes with RSL shaders to pictures", "kinora-render");
     app.footer(kExitCodeHelp);
     app.set_version_flag("--version", "kinora-render " KINORA_VERSION);
-    app.add_option("scene", o.scene, "the scene: .dae")->required();
+    app.add_option("scene", o.scene, "the scene: .dae, .zae or .kmz")->required();
     app.add_option("-o,--output", o.output,
                    "file; with a frame token (#### or %04d) for several frames; .png or .exr");
     std::string frames, fps, size, threads = "all", target, quality{kDefaultQuality}, background;
@@ -161,6 +161,10 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     app.add_option("--up", o.up_axis, "X, Y or Z instead of the file's up axis")
         ->transform(names<UpAxis>({{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}}));
     app.add_option("--unit", o.meter, "metres per unit instead of the file's");
+    app.add_option("--transparency", o.transparency,
+                   "spec, or auto: what the formula makes invisible everywhere is shown opaque")
+        ->transform(names<TransparencyMode>(
+            {{"spec", TransparencyMode::Spec}, {"auto", TransparencyMode::Auto}}));
     app.add_option("--allow-external", o.allow_external,
                    "a folder that the scene may read besides its own (repeatable)")
         ->check(CLI::ExistingDirectory)

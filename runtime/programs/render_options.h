@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/image_io.h"
+#include "runtime/import_collada.h"
 #include "runtime/programs/frame_list.h"
 #include "runtime/programs/progress.h"
 #include "runtime/quality.h"
@@ -44,6 +45,7 @@ struct RenderOptions {
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;
+    TransparencyMode transparency = TransparencyMode::Spec;
     std::vector<std::string> allow_external;  // folders
     bool skip_existing = false;
     bool keep_going = false;

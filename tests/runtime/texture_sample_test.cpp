@@ -37,6 +37,9 @@ double reference_texel(const TextureImage& image, const TextureName& modes, long
 
 double reference_bilinear(const TextureImage& image, const TextureName& modes, double s, double t,
                           int c) {
+    double a = s - 0.5, b = t - 0.5, cosine = modes.turn[0], sine = modes.turn[1];
+    s = cosine * a - sine * b + 0.5;
+    t = sine * a + cosine * b + 0.5;
     double x = (s * modes.uv[0] + modes.uv[2]) * image.width - 0.5;
     double y = (t * modes.uv[1] + modes.uv[3]) * image.height - 0.5;
     double i = std::floor(x), j = std::floor(y), fx = x - i, fy = y - j;
@@ -81,6 +84,41 @@ TEST(TextureSampler, BilinearFollowsEveryWrapModeAtEverySize) {
                 }
             }
     }
+}
+
+TEST(TextureSampler, TurnsAboutTheMiddleOfTheImageBeforeItRepeats) {
+    TextureImage image = float_image(9, 6);
+    TexturePyramid pyramid(image, false);
+    TextureName modes;
+    modes.turn = {0.6f, 0.8f};
+    modes.uv = {1.25f, 0.75f, 0.125f, -0.25f};
+    for (int k = 0; k < 100; ++k) {
+        TextureQuery q = at(float(k) * 0.017f, 1 - float(k) * 0.011f);
+        Rgba got = look_up(pyramid, modes, TextureFilter::Bilinear, q);
+        for (int c = 0; c < 4; ++c)
+            ASSERT_NEAR(got[size_t(c)], reference_bilinear(image, modes, q.s, q.t, c), 1e-4);
+    }
+    TextureName back = parse_texture_name(texture_name_string(modes));
+    EXPECT_EQ(back.turn, modes.turn);
+    EXPECT_EQ(back.uv, modes.uv);
+}
+
+TEST(TextureSampler, NearestMayHoldForLargeOrSmallTexelsOnly) {
+    TexturePyramid pyramid(byte_image(64, 64, [](int x, int) { return 4 * x; }), false);
+    auto value = [&](TextureName modes, float texels) {
+        TextureQuery q = at(20.25f / 64, 0.5f);
+        q.dsdx = q.dtdy = texels / 64;
+        modes = parse_texture_name(texture_name_string(modes));
+        return 255 * look_up(pyramid, modes, TextureFilter::Anisotropic, q)[0];
+    };
+    TextureName magnified, minified;
+    magnified.path = minified.path = "x";
+    magnified.nearest_magnified = true;
+    minified.nearest_minified = true;
+    EXPECT_NEAR(value(magnified, 0.5f), 80, 1e-3);  // texel 20
+    EXPECT_NEAR(value(minified, 0.5f), 79, 0.1);    // a quarter of texel 19 beside it
+    EXPECT_NEAR(value(minified, 8), 80, 1e-3);
+    EXPECT_GT(std::abs(value(magnified, 8) - 80), 0.5);
 }
 
 TEST(TextureSampler, NearestTakesTheTexelThatHoldsThePoint) {

@@ -1,0 +1,75 @@
+// collada/embedded_image.cpp: image files that stand in a document as hexadecimal digits.
+#include <fstream>
+
+#include "collada/archive.h"
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+#include "runtime/base/shown_path.h"
+
+namespace kinora::collada {
+
+namespace {
+
+struct ImageMagic {
+    std::string_view bytes;
+    const char* extension;
+};
+constexpr ImageMagic kImages[] = {{"\x89PNG", "png"},
+                                  {"\xff\xd8\xff", "jpg"},
+                                  {"DDS ", "dds"},
+                                  {"BM", "bmp"},
+                                  {std::string_view("II*\0", 4), "tif"},
+                                  {std::string_view("MM\0*", 4), "tif"},
+                                  {"GIF8", "gif"},
+                                  {"v/1\x01", "exr"},
+                                  {"#?", "hdr"}};
+
+// By what the bytes are, else a format that has no mark of its own.
+std::string extension_of(std::string_view bytes, std::string_view format) {
+    for (const ImageMagic& row : kImages)
+        if (bytes.starts_with(row.bytes)) return row.extension;
+    return format == "TGA" || format == "tga" ? "tga" : "";
+}
+
+int digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+// White space between digits does not count; anything else ends it.
+std::string bytes_of_hex(std::string_view text) {
+    std::string bytes;
+    bytes.reserve(text.size() / 2);
+    int high = -1;
+    for (char c : text) {
+        int value = digit(c);
+        if (value < 0 && !std::isspace(uint8_t(c))) return {};
+        if (value < 0) continue;
+        if (high >= 0) bytes += char(high * 16 + value);
+        high = high >= 0 ? -1 : value;
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::string unpack_image(Extraction& x, Link data, std::string_view format, std::string_view id) {
+    std::string bytes = bytes_of_hex(data.element->text);
+    std::string extension = extension_of(bytes, format);
+    std::string error;
+    auto folder = extension.empty() ? nullptr : PrivateFolder::make(error);
+    if (!folder) {
+        x.diag.report(Code::IMAGE_EMBEDDED, x.where(data), id);
+        return {};
+    }
+    show_folder_as(folder->path(), x.document(data.doc).path() + "#");
+    std::string path = folder->path() + "/image." + extension;
+    std::ofstream(path, std::ios::binary) << bytes;
+    x.scene.files.push_back(std::move(folder));
+    x.diag.report(Code::IMAGE_UNPACKED, x.where(data), id, bytes.size(), extension);
+    return path;
+}
+
+}  // namespace kinora::collada

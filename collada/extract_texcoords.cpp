@@ -1,0 +1,73 @@
+// collada/extract_texcoords.cpp: from the names by which textures are looked up to sets of the
+// mesh.
+#include <algorithm>
+
+#include "collada/extract_p.h"
+#include "collada/numbers_p.h"
+
+namespace kinora::collada {
+
+namespace {
+
+// The number at the end of "UVSET0" or "CHANNEL1"; kNone if there is none.
+uint32_t number_in(std::string_view name) {
+    size_t digits = 0;
+    while (digits < name.size() && std::isdigit(uint8_t(name[name.size() - 1 - digits]))) ++digits;
+    uint64_t number = 0;
+    bool good = digits > 0 && digits < 9 && parse_count(name.substr(name.size() - digits), number);
+    return good ? uint32_t(number) : kNone;
+}
+
+std::vector<uint32_t> sets_of(const PrimitiveGroup& group, std::string_view semantic) {
+    std::vector<uint32_t> sets;
+    for (const VertexInput& input : group.inputs)
+        if (input.semantic == semantic) sets.push_back(input.set);
+    std::sort(sets.begin(), sets.end());
+    return sets;
+}
+
+// Names of texture coordinates that the effect's textures ask for, each once.
+std::vector<std::string_view> texcoords_of(const Effect& effect) {
+    std::vector<std::string_view> names;
+    for (const CommonValue& value : effect.common->slots) {
+        if (value.source != SlotSource::Texture || value.texcoord.empty()) continue;
+        if (std::find(names.begin(), names.end(), value.texcoord) == names.end())
+            names.push_back(value.texcoord);
+    }
+    return names;
+}
+
+}  // namespace
+
+void bind_texcoords(Extraction& x, const Geometry& geometry, MaterialBinding& binding) {
+    if (binding.material == kNone) return;
+    const Material& material = x.scene.materials[binding.material];
+    if (material.effect == kNone) return;
+    const Effect& effect = x.scene.effects[material.effect];
+    if (!effect.common || effect.rsl) return;
+    auto group =
+        std::find_if(geometry.groups.begin(), geometry.groups.end(),
+                     [&](const PrimitiveGroup& g) { return g.material == binding.symbol; });
+    if (group == geometry.groups.end()) return;
+    for (std::string_view name : texcoords_of(effect)) {
+        auto bound = std::find_if(binding.vertex_inputs.begin(), binding.vertex_inputs.end(),
+                                  [&](const VertexInputBinding& b) { return b.semantic == name; });
+        bool is_bound = bound != binding.vertex_inputs.end();
+        std::string semantic = is_bound ? bound->input_semantic : "TEXCOORD";
+        std::vector<uint32_t> sets = sets_of(*group, semantic);
+        uint32_t wanted = is_bound ? bound->input_set : number_in(name);
+        bool has = std::find(sets.begin(), sets.end(), wanted) != sets.end();
+        if (sets.empty() || (is_bound && wanted != kNone && !has)) {
+            std::string text = semantic;
+            if (!sets.empty()) text += fmt::format(" of set {}", wanted);
+            x.diag.report(Code::TEX_SET_MISSING, is_bound ? bound->where : binding.where, text,
+                          material.id);
+        } else if (!is_bound) {
+            x.diag.report(Code::TEX_NO_BVI, binding.where, material.id, name);
+            binding.vertex_inputs.push_back(
+                {std::string(name), semantic, has ? wanted : sets.front(), binding.where});
+        }
+    }
+}
+
+}  // namespace kinora::collada

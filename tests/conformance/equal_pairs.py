@@ -1,0 +1,387 @@
+"""tests/conformance/equal_pairs.py: families of files that are different ways to say one thing."""
+import math
+
+from dae import *  # noqa: F403
+from dae import EYE, EYE_NODE, IDENTITY, INPUTS, LAMBERT, OUTLINE, POINTS, SUN, UV
+
+
+def primitives():
+    faces = corners()
+    count = len(faces)
+    everything = " ".join(indices(f) for f in faces)
+    vcount = numbers(len(f) for f in faces)
+    strip = lambda f: [f[0], f[1], f[-1], f[2]] + ([f[3]] if len(f) > 4 else [])  # noqa: E731
+    # A strip turns every second triangle; 0 1 4 | 1 2 4 is 0 1 4 2, then 3 closes the pentagon.
+    rows = {
+        "triangles": triangles(),
+        "polylist": f'<polylist count="{count}" material="m">{INPUTS.format("house")}<vcount>{vcount}'
+                    f'</vcount><p>{everything}</p></polylist>',
+        "polygons": f'<polygons count="{count}" material="m">{INPUTS.format("house")}'
+                    + "".join(f"<p>{indices(f)}</p>" for f in faces) + "</polygons>",
+        "trifans": f'<trifans count="{count}" material="m">{INPUTS.format("house")}'
+                   + "".join(f"<p>{indices(f)}</p>" for f in faces) + "</trifans>",
+        "tristrips": f'<tristrips count="{count}" material="m">{INPUTS.format("house")}'
+                     + "".join(f"<p>{indices(strip(f))}</p>" for f in faces) + "</tristrips>",
+        "several_elements": "".join(
+            f'<triangles count="{len(f) - 2}" material="m">{INPUTS.format("house")}<p>'
+            f'{" ".join(indices(t) for t in triangulated([f]))}</p></triangles>' for f in faces),
+        "with_lines": triangles() + '<lines count="1"><input semantic="VERTEX" source="#house-v" '
+                                    'offset="0"/><p>0 6</p></lines>',
+    }
+    return {name: plain(geometries=geometry(text)) for name, text in rows.items()}
+
+
+def inputs():
+    """The same triangles with their numbers stored in other ways."""
+    plain_rows = triangulated()
+    one_each = [c for t in plain_rows for c in t]
+    points = [POINTS[p] for p, _, _ in one_each]
+    count = len(points)
+    shared = (source("house-p", points, "XYZ") + source("house-n", [NORMALS[n] for _, n, _ in one_each], "XYZ"))
+    order = numbers(range(count))
+    in_vertices = (shared + '<vertices id="house-v"><input semantic="POSITION" source="#house-p"/><input '
+                   'semantic="NORMAL" source="#house-n"/></vertices>'
+                   f'<triangles count="{count // 3}" material="m"><input semantic="VERTEX" '
+                   f'source="#house-v" offset="0"/><p>{order}</p></triangles>')
+    one_offset = (shared + '<vertices id="house-v"><input semantic="POSITION" source="#house-p"/></vertices>'
+                  f'<triangles count="{count // 3}" material="m"><input semantic="VERTEX" '
+                  'source="#house-v" offset="0"/><input semantic="NORMAL" source="#house-n" offset="0"/>'
+                  f'<p>{order}</p></triangles>')
+    # Interleaved: x y z nx ny nz, by offset and unnamed params.
+    values = numbers(flat(p + NORMALS[n] for p, (_, n, _) in zip(points, one_each)))
+    array = f'<float_array id="all" count="{6 * count}">{values}</float_array>'
+
+    def accessor(offset, names):
+        params = "".join(f'<param {n} type="float"/>' for n in names)
+        return (f'<technique_common><accessor source="#all" count="{count}" offset="{offset}" stride="6">'
+                f'{params}</accessor></technique_common></source>')
+    xyz = ['name="X"', 'name="Y"', 'name="Z"']
+    interleaved = (f'<source id="house-p">{array}{accessor(0, xyz)}<source id="house-n">'
+                   f'{accessor(0, [""] * 3 + xyz)}'
+                   + in_vertices[in_vertices.index("<vertices"):])
+    wrap = lambda mesh: f'<geometry id="house"><mesh>{mesh}</mesh></geometry>'  # noqa: E731
+    return {"separate": plain(), "in_vertices": plain(geometries=wrap(in_vertices)),
+            "one_offset": plain(geometries=wrap(one_offset)),
+            "interleaved": plain(geometries=wrap(interleaved))}
+
+
+def polygons_with_holes():
+    """A square frame, seen from the front."""
+    outer, inner = [(-1, -1), (1, -1), (1, 1), (-1, 1)], [(-.5, -.5), (.5, -.5), (.5, .5), (-.5, .5)]
+    points = [(x, y, 0) for x, y in outer + inner]
+    start = (source("house-p", points, "XYZ")
+             + '<vertices id="house-v"><input semantic="POSITION" source="#house-p"/></vertices>')
+    one = '<input semantic="VERTEX" source="#house-v" offset="0"/>'
+    quads = " ".join(numbers((k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4)) for k in range(4))
+    rows = {
+        "hole": f'<polygons count="1" material="m">{one}<ph><p>0 1 2 3</p><h>7 6 5 4</h></ph></polygons>',
+        "hole_same_winding": f'<polygons count="1" material="m">{one}<ph><p>0 1 2 3</p><h>4 5 6 7</h></ph>'
+                             '</polygons>',
+        "quads": f'<polylist count="4" material="m">{one}<vcount>4 4 4 4</vcount><p>{quads}</p></polylist>',
+        "concave": f'<polylist count="1" material="m">{one}<vcount>10</vcount><p>0 1 2 3 0 4 7 6 5 4</p>'
+                   '</polylist>',
+    }
+    flat_eye = EYE_NODE.replace(EYE, "<translate>0 0 4</translate>")
+    return {name: plain(eye=flat_eye, geometries=f'<geometry id="house"><mesh>{start}{text}</mesh></geometry>')
+            for name, text in rows.items()}
+
+
+def product(a, b):
+    return tuple(sum(a[r * 4 + k] * b[k * 4 + c] for k in range(4)) for r in range(4) for c in range(4))
+
+
+def transforms():
+    c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
+    move = (1, 0, 0, .2, 0, 1, 0, -.1, 0, 0, 1, .1, 0, 0, 0, 1)
+    turn = (c, -s, 0, 0, s, c, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    scale = (.8, 0, 0, 0, 0, 1.1, 0, 0, 0, 0, .9, 0, 0, 0, 0, 1)
+    whole = product(product(move, turn), scale)
+    stack = "<translate>.2 -.1 .1</translate><rotate>0 0 1 30</rotate><scale>.8 1.1 .9</scale>"
+    nested = (f'<node id="a"><translate>.2 -.1 .1</translate><node id="b"><rotate>0 0 2 390</rotate>'
+              f'<node id="c"><scale>.8 1.1 .9</scale>{shown()}</node></node></node>')
+    return {"stack": document(node(transforms=stack)),
+            "matrix": document(node(transforms=f"<matrix>{numbers(whole)}</matrix>")),
+            "matrices": document(node(transforms="".join(f"<matrix>{numbers(m)}</matrix>"
+                                                         for m in (move, turn, scale)))),
+            "nested": document(nested)}
+
+
+def cameras_by_lookat():
+    """The eye's lookat, its matrix, and the same looked up through a moved parent."""
+    eye, at, up = (1.3, .9, 3), (0, .1, 0), (0, 1, 0)
+    unit = lambda v: tuple(x / math.sqrt(sum(y * y for y in v)) for x in v)  # noqa: E731
+    cross = lambda a, b: (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])  # noqa: E731
+    back = unit([e - a for e, a in zip(eye, at)])
+    right = unit(cross(up, back))
+    top = cross(back, right)
+    m = [v for k in range(3) for v in (right[k], top[k], back[k], eye[k])] + [0, 0, 0, 1]
+    parent = (f'<node id="rig"><translate>0 0 1</translate><node id="eye-node"><lookat>1.3 .9 2  0 .1 -1  '
+              '0 1 0</lookat><instance_camera url="#eye"/></node></node>')
+    return {"lookat": plain(), "matrix": plain(eye=EYE_NODE.replace(EYE, f"<matrix>{numbers(m)}</matrix>")),
+            "in_a_parent": plain(eye=parent)}
+
+
+def skews():
+    """Turning the y axis towards x by 30 degrees shears x by y tan 30."""
+    t = math.tan(math.radians(30))
+    matrix = (1, t, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    return {"skew": document(node(transforms="<skew>30 0 1 0 1 0 0</skew>")),
+            "matrix": document(node(transforms=f"<matrix>{numbers(matrix)}</matrix>"))}
+
+
+def references():
+    """Inline, in a library, in other files and folders, percent-encoded, in other units and axes."""
+    holds = dict(scene=False, lights="", cameras="", materials="", effects="")
+    part = document("", **holds)
+    far = 1 / .0254
+    inches = document("", geometries=geometry(points=[tuple(v * far for v in p) for p in POINTS]),
+                      unit='name="inch" meter="0.0254"', **holds)
+    # Z up: their (x, y, z) is our (x, z, -y); normals turn along.
+    text = geometry(points=[(x, -z, y) for x, y, z in POINTS])
+    own = source("house-n", NORMALS, "XYZ")
+    turned = source("house-n", [(x, -z, y) for x, y, z in NORMALS], "XYZ")
+    z_up = document("", geometries=text.replace(own, turned), up="Z_UP", **holds)
+    nodes = document("", library_nodes=f'<node id="whole">{shown()}</node>', scene=False, lights="",
+                     cameras="")
+    mats = document("", geometries=" ", scene=False, lights="", cameras="")
+    lamps = document("", geometries=" ", materials="", effects="", scene=False)
+    at = lambda url: document(node(shown(url)), geometries=" ")  # noqa: E731
+    instance = '<node id="n"><instance_node url="{}"/></node>'
+    return {
+        "inline": plain(),
+        "library_node": document(instance.format("#whole"), library_nodes=f'<node id="whole">{shown()}</node>'),
+        "external_geometry": at("parts/house.dae#house"),
+        "external_encoded": at("parts/a%20house%231.dae#house"),
+        "external_inches": at("parts/inches.dae#house"),
+        "external_z_up": at("parts/z_up.dae#house"),
+        "external_node": document(instance.format("parts/nodes.dae#whole"), geometries=" ", effects=" ",
+                                  materials=" "),
+        "external_material": document(node(shown(inside=bind().replace("#mat", "parts/materials.dae#mat"))),
+                                      effects=" ", materials=" "),
+        "external_lights": document(node(), lights=" ", cameras=" ").replace(
+            'url="#sun"', 'url="parts/lamps.dae#sun"').replace('url="#air"', 'url="parts/lamps.dae#air"').replace(
+            'url="#eye"', 'url="parts/lamps.dae#eye"'),
+        "external_scene": document("", scene=False, lights="", cameras="", geometries=" ", effects=" ",
+                                   materials=" ").replace(
+            "</COLLADA>", '<scene><instance_visual_scene url="parts/scene.dae#scene"/></scene></COLLADA>'),
+        "parts/house": part, "parts/a house#1": part, "parts/inches": inches, "parts/z_up": z_up,
+        "parts/nodes": nodes, "parts/materials": mats, "parts/lamps": lamps, "parts/scene": plain(),
+    }
+
+
+def versions():
+    """1.4.0, 1.4.1 and 1.5.0 spell images, samplers and joints in their own ways."""
+    return {"v141": textured(), "v150": textured(version="1.5.0"),
+            "v140": textured().replace('version="1.4.1"', 'version="1.4.0"'), "map.png": png(picture())}
+
+
+def units():
+    """World space is the file's own: without other documents its tags move nothing."""
+    return {"metre": plain(), "inch": plain(unit='name="inch" meter="0.0254"'), "z_up": plain(up="Z_UP"),
+            "x_up": plain(up="X_UP")}
+
+
+def archives():
+    """main.dae alone and packed (the test's maker zips what FILES names)."""
+    return {"plain": textured(path="images/map.png"), "images/map.png": png(picture()),
+            "packed.zae": {"manifest.xml": "<dae_root>./scenes/a%20scene.dae</dae_root>",
+                           "scenes/a scene.dae": textured(path="../images/map.png"),
+                           "images/map.png": png(picture())},
+            "packed.kmz": {"doc.kml": '<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark><Model><Link>'
+                                      "<href>models/scene.dae</href></Link></Model></Placemark></kml>",
+                           "models/scene.dae": textured(), "models/map.png": png(picture())}}
+
+
+def fields_of_view():
+    """A square picture of 40 degrees, said in every way."""
+    def seen(inside):
+        return plain(cameras=camera(f"<perspective>{inside}<znear>.1</znear><zfar>100</zfar></perspective>"))
+    return {"yfov": seen("<yfov>40</yfov>"), "xfov": seen("<xfov>40</xfov>"),
+            "both": seen("<xfov>40</xfov><yfov>40</yfov>"),
+            "yfov_aspect": seen("<yfov>40</yfov><aspect_ratio>1</aspect_ratio>"),
+            "xfov_aspect": seen("<xfov>40</xfov><aspect_ratio>1</aspect_ratio>")}
+
+
+def magnifications():
+    def seen(inside):
+        return plain(cameras=camera(f"<orthographic>{inside}<znear>.1</znear><zfar>100</zfar></orthographic>"))
+    return {"ymag": seen("<ymag>1.2</ymag>"), "xmag": seen("<xmag>1.2</xmag>"),
+            "both": seen("<xmag>1.2</xmag><ymag>1.2</ymag>"),
+            "xmag_aspect": seen("<xmag>1.2</xmag><aspect_ratio>1</aspect_ratio>")}
+
+
+def instances():
+    """Two houses: two nodes, two instances of one, and a tree of instances."""
+    small = "<scale>.5 .5 .5</scale>"
+    left, right = f"<translate>-.5 0 0</translate>{small}", f"<translate>.5 0 0</translate>{small}"
+    use = '<instance_node url="#one"/>'
+    one = f'<node id="one">{shown()}</node>'
+    two = f'<node id="two">{node(use, left, "l")}{node(use, right, "r")}</node>'
+    return {"nodes": document(node(transforms=left) + node(transforms=right, id="n2")),
+            "instances": document(node(use, left) + node(use, right, "n2"), library_nodes=one),
+            "tree": document('<node id="n"><instance_node url="#two"/></node>', library_nodes=two + one)}
+
+
+def skins():
+    """The upper half turned by 25 degrees: joints found in every way, and the mesh baked so."""
+    roots = "<skeleton>#bone-low</skeleton>"
+
+    def skinned(words, tree, *, skeleton=roots, **kinds):
+        use = shown("#skin", kind="controller", skeleton=skeleton)
+        return document(tree + node(use), controllers=skin(words, **kinds))
+    tree = joints()
+    both = ["low", "high"]
+    by_id = ["bone-low", "bone-high"]
+    turned = []
+    c, s = math.cos(math.radians(25)), math.sin(math.radians(25))
+    for x, y, z in POINTS:
+        turned.append((x, y, z) if y < 0 else (c * x - s * y, s * x + c * y, z))
+    bare = geometry().replace('<input semantic="NORMAL" source="#house-n" offset="1"/>', "")
+    baked = geometry(points=turned).replace('<input semantic="NORMAL" source="#house-n" offset="1"/>', "")
+    documents = {
+        "sids": skinned(both, tree),
+        "no_skeleton": skinned(both, tree, skeleton=""),
+        "ids": skinned(by_id, tree, array="IDREF_array", kind="IDREF"),
+        "names": skinned(both, tree.replace("sid=\"low\"", "name=\"low\"").replace("sid=\"high\"", "name=\"high\"")),
+        "sidrefs": skinned(["bone-low", "bone-low/high"], tree, array="SIDREF_array", kind="SIDREF").replace(
+            SPACES["1.4.1"], SPACES["1.5.0"]).replace('version="1.4.1"', 'version="1.5.0"'),
+        "baked": document(node(), geometries=baked),
+    }
+    lit = effect("<constant><emission><color>.8 .5 .2 1</color></emission></constant>")  # normals do not tell
+    return {name: text.replace(geometry(), bare).replace(effect(), lit) for name, text in documents.items()}
+
+
+def morphs():
+    """A tall house at weight 0.5, as the difference, as the target, and baked."""
+    tall = [(x, y * 1.6, z) for x, y, z in POINTS]
+    step = [(0, y * .6, 0) for x, y, z in POINTS]
+    half = [(x, y * 1.3, z) for x, y, z in POINTS]
+    lit = effect("<constant><emission><color>.8 .5 .2 1</color></emission></constant>")  # normals do not tell
+    use = node(shown("#morph", kind="controller"))
+
+    def morphed(points, weights, method, names=("target",)):
+        extra = "".join(geometry(id=n, points=points) for n in names)
+        return document(use, geometries=geometry() + extra, effects=lit,
+                        controllers=morph(list(names), weights, method=method))
+    on_skin = document(joints(0) + node(shown("#skin", kind="controller",
+                                              skeleton="<skeleton>#bone-low</skeleton>")),
+                       geometries=geometry() + geometry(id="target", points=tall), effects=lit,
+                       controllers=morph(["target"], [.5]) + skin(["low", "high"], mesh="morph"))
+    moved = document(use, geometries=geometry() + geometry(id="target", points=tall), effects=lit,
+                     controllers=morph(["target"], [0]),
+                     animations=animated("morph-w(0)", [0, 1], [(.5,), (.5,)]))
+    return {"normalized": morphed(tall, [.5], "NORMALIZED"), "relative": morphed(step, [.5], "RELATIVE"),
+            "two_targets": morphed(tall, [.2, .3], "NORMALIZED", ("target", "other")),
+            "skin_on_morph": on_skin, "animated_weight": moved,
+            "baked": document(node(), geometries=geometry(points=half), effects=lit)}
+
+
+def targets():
+    """The same turn and shift at 0.5 s, named in every way that a channel can."""
+    turn = '<translate sid="t">0 0 0</translate><rotate sid="r">0 0 1 0</rotate>'
+    matrix = f'<matrix sid="m">{numbers(IDENTITY)}</matrix>'
+    keys, angle, shift = [0, 1], [(0,), (60,)], [(0,), (.4,)]
+
+    def stack(*channels):
+        return document(node(transforms=turn), animations="".join(channels))
+    c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
+    still = (c, -s, 0, .2, s, c, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    end = (math.cos(math.pi / 3), -math.sin(math.pi / 3), 0, .4, math.sin(math.pi / 3), math.cos(math.pi / 3),
+           0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    moved = lambda first, second: animated("n/t" + first, keys, shift) + animated(  # noqa: E731
+        "n/r" + second, keys, angle, id="b")
+    return {
+        "members": stack(moved(".X", ".ANGLE")),
+        "indices": stack(moved("(0)", "(3)")),
+        "whole": stack(animated("n/t", keys, [(0, 0, 0), (.4, 0, 0)], params="XYZ"),
+                       animated("n/r", keys, [(0, 0, 1, 0), (0, 0, 1, 60)], params=["X", "Y", "Z", "ANGLE"], id="b")),
+        "matrix_linear": document(node(transforms=matrix),
+                                  animations=animated("n/m", keys, [IDENTITY, end], params=["TRANSFORM"])
+                                  .replace('type="float"/></accessor></technique_common></source>\n<source id="a-k"',
+                                           'type="float4x4"/></accessor></technique_common></source>\n<source id="a-k"')),
+        "matrix_elements": document(node(transforms=f'<matrix sid="m">{numbers(still[:3])} 0 {numbers(still[4:])}'
+                                                    "</matrix>"),
+                                    animations=animated("n/m(3)(0)", keys, shift)),
+        "still": document(node(transforms=f"<matrix>{numbers(still)}</matrix>")),
+    }
+
+
+def curves():
+    """A straight line from 0 to 60 degrees, drawn by every interpolation that can."""
+    turn = '<rotate sid="r">0 0 1 0</rotate>'
+    keys, values = [0, 1], [(0,), (60,)]
+
+    def drawn(**words):
+        return document(node(transforms=turn), animations=animated("n/r.ANGLE", keys, values, **words))
+    two = ([(-1 / 3, -20), (2 / 3, 40)], [(1 / 3, 20), (4 / 3, 80)])
+    return {"linear": drawn(),
+            "bezier_2d": drawn(interpolation="BEZIER", tangents=two),
+            "bezier_1d": drawn(interpolation="BEZIER", tangents=([(20,), (20,)], [(20,), (20,)])),
+            "hermite_1d": drawn(interpolation="HERMITE", tangents=([(60,), (60,)], [(60,), (60,)])),
+            "mixed": document(node(transforms=turn), animations=animated(
+                "n/r.ANGLE", [0, .25, 1], [(0,), (15,), (60,)], interpolation=["STEP", "LINEAR", "STEP"]))}
+
+
+def colours():
+    """One colour as a literal, a parameter, a material's parameter, a texture of nothing else."""
+    param = '<newparam sid="c"><float4>1 0 1 1</float4></newparam>'
+    other = param.replace("1 0 1 1", "0 1 0 1")
+    ref = '<lambert><diffuse><param ref="c"/></diffuse></lambert>'
+    one = [[(255, 0, 255)] * 2] * 2
+    return {"color": plain(effects=effect(LAMBERT.replace(".8 .5 .2 1", "1 0 1 1"))),
+            "param": plain(effects=effect(ref, params=param)),
+            "setparam": plain(effects=effect(ref, params=other), materials=material(
+                setparams='<setparam ref="c"><float4>1 0 1 1</float4></setparam>')),
+            "texture": textured(path="one.png"), "one.png": png(one)}
+
+
+def opacities():
+    """A quarter opaque by each of the four modes."""
+    def seen(mode, color):
+        return plain(effects=effect('<lambert><diffuse><color>.8 .5 .2 1</color></diffuse><transparent '
+                                    f'opaque="{mode}"><color>{color}</color></transparent><transparency>'
+                                    '<float>.5</float></transparency></lambert>'))
+    return {"a_one": seen("A_ONE", "0 0 0 .5"), "a_zero": seen("A_ZERO", "0 0 0 1.5"),
+            "rgb_one": seen("RGB_ONE", ".5 .5 .5 0"), "rgb_zero": seen("RGB_ZERO", "1.5 1.5 1.5 0")}
+
+
+def image_files():
+    """One picture in formats that keep it exactly, and embedded."""
+    rows = picture()
+    hex_text = "".join(f"{b:02x}" for b in png(rows))
+    embedded = textured(version="1.5.0").replace("<ref>map.png</ref>", f'<hex format="PNG">{hex_text}</hex>')
+    found = {"png": textured(), "tga": textured(path="map.tga"), "bmp": textured(path="map.bmp"),
+             "tiff": textured(path="map.tif"), "dds": textured(path="map.dds"), "embedded": embedded}
+    return found | {"map.png": png(rows), "map.tga": tga(rows), "map.bmp": bmp(rows), "map.tif": tiff(rows),
+                    "map.dds": dds(rows)}
+
+
+def texture_coordinates():
+    """The set that bind_vertex_input names, by number or silence; without it, the one there is."""
+    return {"bound": textured(), "no_set": textured(inside=UV.replace(' input_set="0"', "")),
+            "unbound": textured(inside=""),
+            "direct_image": textured(texture='<texture texture="map" texcoord="UV"/>'),
+            "no_texcoord": textured(texture='<texture texture="map-sampler"/>'),
+            "map.png": png(picture())}
+
+
+def kept():
+    """What a picture is not made of changes none: layers, physics, names, extras of others."""
+    whole = plain()
+    layered = document(node().replace('id="n"', 'id="n" layer="a b" name="the house"'),
+                       evaluate='<evaluate_scene><render camera_node="#eye-node"><layer>other</layer></render>'
+                                "</evaluate_scene>\n")
+    extra = whole.replace('<node id="n">', '<node id="n">').replace(
+        "</visual_scene>", '<extra type="x"><technique profile="NOBODY"><y z="1">2</y></technique></extra>'
+        "</visual_scene>")
+    physics = whole.replace('<library_visual_scenes>', '<library_physics_materials><physics_material id="pm">'
+                            "<technique_common><dynamic_friction>1</dynamic_friction></technique_common>"
+                            "</physics_material></library_physics_materials>\n<library_visual_scenes>")
+    return {"plain": whole, "layers": layered, "extra": extra, "physics": physics}
+
+
+FAMILIES = {f.__name__: f for f in (
+    primitives, inputs, polygons_with_holes, transforms, cameras_by_lookat, skews, references, versions, units,
+    archives, fields_of_view, magnifications, instances, skins, morphs, targets, curves, colours, opacities,
+    image_files, texture_coordinates, kept)}
+OPTIONS = {"targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"]}
