@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 
 #include "collada/findings.h"
 #include "runtime/base/shown_path.h"
@@ -57,7 +58,8 @@ std::shared_ptr<const PrivateFolder> PrivateFolder::make(std::string& error) {
         error = "no folder for temporary files: " + code.message();
         return nullptr;
     }
-    remove_stale(parent);
+    static std::once_flag cleaned;
+    std::call_once(cleaned, [&] { remove_stale(parent); });
     std::string path = (parent / kFolderPrefix).string() + "XXXXXX";
     if (!mkdtemp(path.data())) {
         error =

@@ -1,4 +1,5 @@
 // collada/embedded_image.cpp: image files that stand in a document as hexadecimal digits.
+#include <filesystem>
 #include <fstream>
 
 #include "collada/archive.h"
@@ -53,21 +54,33 @@ std::string bytes_of_hex(std::string_view text) {
     return bytes;
 }
 
+// One folder for all images of a scene: the only thing that scene.files holds.
+std::shared_ptr<const PrivateFolder> image_folder(Extraction& x, uint32_t doc) {
+    if (!x.scene.files.empty())
+        return std::static_pointer_cast<const PrivateFolder>(x.scene.files.front());
+    std::string error;
+    auto folder = PrivateFolder::make(error);
+    if (!folder) return nullptr;
+    show_folder_as(folder->path(), x.document(doc).path() + "#");
+    x.scene.files.push_back(folder);
+    return folder;
+}
+
 }  // namespace
 
 std::string unpack_image(Extraction& x, Link data, std::string_view format, std::string_view id) {
     std::string bytes = bytes_of_hex(data.element->text);
     std::string extension = extension_of(bytes, format);
-    std::string error;
-    auto folder = extension.empty() ? nullptr : PrivateFolder::make(error);
+    auto folder = extension.empty() ? nullptr : image_folder(x, data.doc);
     if (!folder) {
         x.diag.report(Code::IMAGE_EMBEDDED, x.where(data), id);
         return {};
     }
-    show_folder_as(folder->path(), x.document(data.doc).path() + "#");
-    std::string path = folder->path() + "/image." + extension;
+    std::string path =
+        fmt::format("{}/image{}.{}", folder->path(), x.scene.images.size(), extension);
     std::ofstream(path, std::ios::binary) << bytes;
-    x.scene.files.push_back(std::move(folder));
+    std::error_code ignored;  // no time of its own: a picture's fingerprint is the document's
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type(), ignored);
     x.diag.report(Code::IMAGE_UNPACKED, x.where(data), id, bytes.size(), extension);
     return path;
 }

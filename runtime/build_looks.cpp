@@ -121,10 +121,12 @@ void SceneBuilder::place_lights() {
     }
     if (all_constant) return;
     bool ambient = !scene.lights.empty();
+    // Before add_node, which takes the description's values over into the scene.
+    LightDefinition air = default_ambient_light(description_.values, diagnostics_);
     uint32_t node =
         add_node(default_light_node(description_.values), scene.cameras[scene.camera].node);
     add_light(default_distant_light(diagnostics_), node);
-    if (!ambient) add_light(default_ambient_light(description_.values, diagnostics_), node);
+    if (!ambient) add_light(std::move(air), node);
 }
 
 // ---- looks

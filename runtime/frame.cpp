@@ -64,9 +64,15 @@ const char* status_text(raytrace::CameraStatus status) {
 raytrace::CameraStatus place_camera(Scene& scene, int width, int height) {
     const CameraSource& source = scene.cameras[scene.camera];
     const CameraDefinition& camera = scene.description->cameras[source.definition];
-    raytrace::CameraStatus status =
-        raytrace::make_camera(optics_of(scene), scene.nodes[source.node].world, width, height,
-                              scene.origin, scene.size, scene.view);
+    const dmat4& world = scene.nodes[source.node].world;
+    raytrace::CameraOptics optics = optics_of(scene);
+    double scale = glm::length(dvec3(world[2]));  // the clip range is in units of the node
+    if (scale > 0 && std::isfinite(scale)) {
+        optics.znear *= scale;
+        optics.zfar *= scale;
+    }
+    raytrace::CameraStatus status = raytrace::make_camera(optics, world, width, height,
+                                                          scene.origin, scene.size, scene.view);
     // What a file's camera says it sees from and to; a range that had to be repaired says nothing.
     bool both = camera.znear.present() && camera.zfar.present();
     bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;

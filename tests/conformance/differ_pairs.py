@@ -67,13 +67,12 @@ def shading_models():
     inside = ('<diffuse><color>.4 .5 .2 1</color></diffuse><specular><color>1 1 1 1</color></specular><shininess>'
               '<float>6</float></shininess>')
     glow = '<emission><color>.4 .5 .2 1</color></emission>'
-    sun = SUN.replace('<directional>', '<directional>')
-    face_on = dict(lights=sun, light_nodes='<node id="sun-node"><translate>0 0 3</translate><rotate>0 1 0 20</rotate>'
+    face_on = dict(light_nodes='<node id="sun-node"><translate>0 0 3</translate><rotate>0 1 0 20</rotate>'
                    '<instance_light url="#sun"/></node>')
     models = {"constant": f"<constant>{glow}</constant>",
               "lambert": "<lambert><diffuse><color>.4 .5 .2 1</color></diffuse></lambert>",
               "phong": f"<phong>{inside}</phong>", "blinn": f"<blinn>{inside}</blinn>",
-              "sharp_phong": f"<phong>{inside.replace('>6<', '>15<')}</phong>",
+              "dull_phong": f"<phong>{inside.replace('>6<', '>2<')}</phong>",
               "emission": f"<lambert>{glow}<diffuse><color>.4 .5 .2 1</color></diffuse></lambert>"}
     return {name: plain(effects=effect(text), **face_on) for name, text in models.items()}
 

@@ -95,6 +95,17 @@ TEST(DefaultLights, ComeWhereThereIsNoneOrAmbientAlone) {
     EXPECT_FALSE(added(lit, "default light"));
 }
 
+TEST(DefaultLights, AmbientLightIsThreeTwentieths) {
+    SceneText scene = bare_scene("Y_UP");
+    scene.effects.clear();
+    scene.materials.clear();
+    scene.look("l", "surface s() { Oi = 1; Ci = ambient(); }");
+    Rendering r(scene.text());
+    r.frame();
+    vec3 seen = r.color(8, 8);
+    for (int k = 0; k < 3; ++k) EXPECT_FLOAT_EQ(seen[k], 0.15f);
+}
+
 TEST(DefaultLights, AreLeftOutWhereEverySurfaceIsConstant) {
     SceneText scene = bare_scene("Y_UP");
     scene.effects =
