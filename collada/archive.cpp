@@ -75,7 +75,6 @@ PrivateFolder::~PrivateFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
     if (lock_ >= 0) close(lock_);
-    forget_folder(path_);
 }
 
 bool is_archive_bytes(std::string_view bytes) {

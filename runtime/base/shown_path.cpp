@@ -2,9 +2,8 @@
 #include "runtime/base/shown_path.h"
 
 #include <atomic>
+#include <map>
 #include <mutex>
-#include <utility>
-#include <vector>
 
 namespace kinora {
 
@@ -12,7 +11,8 @@ namespace {
 
 struct ShownFolders {
     std::mutex mutex;
-    std::vector<std::pair<std::string, std::string>> rows;  // "folder/", "name"
+    // "/tmp/" -> "kinora-x1y2" -> "scene.zae!": parents are few, their folders may be many.
+    std::map<std::string, std::map<std::string, std::string>> parents;
     std::atomic<bool> any = false;  // read first: most processes unpack nothing
 };
 
@@ -26,25 +26,26 @@ ShownFolders& folders() {
 void show_folder_as(const std::string& folder, const std::string& name) {
     ShownFolders& all = folders();
     std::lock_guard lock(all.mutex);
-    all.rows.emplace_back(folder + '/', name);
+    size_t slash = folder.rfind('/') + 1;
+    all.parents[folder.substr(0, slash)][folder.substr(slash)] = name;
     all.any = true;
-}
-
-void forget_folder(const std::string& folder) {
-    ShownFolders& all = folders();
-    std::lock_guard lock(all.mutex);
-    std::erase_if(all.rows, [&](const auto& row) { return row.first == folder + '/'; });
-    all.any = !all.rows.empty();
 }
 
 std::string shown_path(std::string text) {
     ShownFolders& all = folders();
     if (!all.any) return text;
     std::lock_guard lock(all.mutex);
-    for (const auto& [folder, name] : all.rows)
-        for (size_t at = text.find(folder); at != text.npos; at = text.find(folder, at)) {
-            text.replace(at, folder.size(), name);
-            at += name.size();
+    for (const auto& [parent, names] : all.parents)
+        for (size_t at = text.find(parent); at != text.npos; at = text.find(parent, at)) {
+            size_t begin = at + parent.size(), end = text.find('/', begin);
+            if (end == text.npos) break;
+            auto found = names.find(text.substr(begin, end - begin));
+            if (found == names.end()) {
+                at = begin;
+                continue;
+            }
+            text.replace(at, end + 1 - at, found->second);
+            at += found->second.size();
         }
     return text;
 }

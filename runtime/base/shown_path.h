@@ -6,10 +6,9 @@
 
 namespace kinora {
 
-// From now on findings write `name` where a path begins with `folder` and a '/'. Process wide,
-// thread-safe.
+// From now on findings write `name` where a path begins with `folder` and a '/', also when the
+// folder is gone: its name is never used again. Process wide, thread-safe.
 void show_folder_as(const std::string& folder, const std::string& name);
-void forget_folder(const std::string& folder);
 
 // `text` with every such beginning replaced, anywhere in it.
 std::string shown_path(std::string text);

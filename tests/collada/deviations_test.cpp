@@ -121,8 +121,8 @@ const std::vector<Deviation> kDeviations = {
          EXPECT_FALSE(r.scene->channels[1].in_clip);
      }},
     {"11_up_axis",
-     {"UPAXIS_MISSING"},
      {},
+     {"UPAXIS_MISSING"},
      [](const Reading& r) { EXPECT_EQ(r.scene->asset.up_axis, UpAxis::Y); }},
     {"12_units",
      {"UNIT_CONFLICT"},

@@ -1,0 +1,26 @@
+#!/usr/bin/env python3
+"""tests/collada/rules/archives.py: writes the ARCHIVE_ files, which no editor can."""
+import zipfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SCENE = (HERE / "LINK_UNRESOLVED.ok.dae").read_text()  # any that is whole
+MANIFEST = "<dae_root>scene.dae</dae_root>"
+WHOLE = {"manifest.xml": MANIFEST, "scene.dae": SCENE}
+
+
+def write(name, members):
+    with zipfile.ZipFile(HERE / name, "w", zipfile.ZIP_DEFLATED) as archive:
+        for member, content in members.items():
+            archive.writestr(zipfile.ZipInfo(member, (2026, 11, 21, 0, 0, 0)), content,
+                             zipfile.ZIP_DEFLATED, 9)
+
+
+write("ARCHIVE_ROOT.zae", {"scene.dae": SCENE})
+write("ARCHIVE_ROOT.gone.zae", {"manifest.xml": "<dae_root>gone.dae</dae_root>", "scene.dae": SCENE})
+write("ARCHIVE_NO_SCENE.zae", {"readme.txt": "no scene"})
+write("ARCHIVE_MEMBER.zae", WHOLE | {"../../outside.txt": "x"})
+write("ARCHIVE_LIMIT.zae", WHOLE | {"zeros": bytes(80 << 20)})
+for code in ("OPEN", "LIMIT", "MEMBER", "NO_SCENE", "ROOT"):
+    write(f"ARCHIVE_{code}.ok.zae", WHOLE)
+(HERE / "ARCHIVE_OPEN.zae").write_bytes((HERE / "ARCHIVE_OPEN.ok.zae").read_bytes()[:200])
