@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 
 // What is understood of extensions; others in extensionsRequired are refused.
 constexpr std::string_view kExtensions[] = {
-    "KHR_lights_punctual",   "KHR_materials_unlit", "KHR_texture_transform",
-    "KHR_mesh_quantization", "KHR_materials_ior",   "KHR_materials_emissive_strength",
+    "KHR_lights_punctual",    "KHR_materials_unlit", "KHR_texture_transform",
+    "KHR_mesh_quantization",  "KHR_materials_ior",   "KHR_materials_emissive_strength",
+    "KHR_materials_specular",
 };
 
 bool is_understood(const std::string& extension) {

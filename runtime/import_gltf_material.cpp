@@ -22,6 +22,18 @@ double extension_number(const tinygltf::ExtensionMap& extensions, const char* ex
                                                                         : otherwise;
 }
 
+std::vector<double> extension_color(const tinygltf::ExtensionMap& extensions, const char* extension,
+                                    const char* name) {
+    std::vector<double> color(3, 1.0);
+    auto found = extensions.find(extension);
+    if (found == extensions.end() || !found->second.Has(name)) return color;
+    const tinygltf::Value& value = found->second.Get(name);
+    for (size_t k = 0; k < 3 && value.IsArray() && k < value.ArrayLen(); ++k)
+        if (value.Get(int(k)).IsNumber() && std::isfinite(value.Get(int(k)).GetNumberAsDouble()))
+            color[k] = std::max(value.Get(int(k)).GetNumberAsDouble(), 0.0);
+    return color;
+}
+
 // The first `count` of a factor, each within [0, most]; missing and not finite ones are
 // `otherwise`.
 std::vector<double> factor(const std::vector<double>& numbers, size_t count, double otherwise) {
@@ -96,6 +108,18 @@ void GltfImport::import_material(uint32_t index) {
         double ior = extension_number(from.extensions, "KHR_materials_ior", "ior", 1.5);
         double r = (ior - 1) / (ior + 1);  // KHR_materials_ior; an ior of 0 reflects all
         one("dielectric_F0", r * r);
+        constexpr const char* kSpecular = "KHR_materials_specular";
+        one("specular", extension_number(from.extensions, kSpecular, "specularFactor", 1.0));
+        set_number(use, "specular_color",
+                   extension_color(from.extensions, kSpecular, "specularColorFactor"));
+        if (auto found = from.extensions.find(kSpecular);
+            found != from.extensions.end() &&
+            (found->second.Has("specularTexture") || found->second.Has("specularColorTexture")))
+            report(Code::GLTF_VALUE, pointer + "/extensions/" + kSpecular,
+                   "the textures of KHR_materials_specular are left out");
+        // A flag, not the roughness itself: what decides the control flow makes a kernel of its
+        // own.
+        one("mirrors", pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0);
     }
     to.surfaces.push_back(std::move(use));
     if (from.extras.IsObject() && from.extras.Has("kinora_rsl")) import_rsl(index);

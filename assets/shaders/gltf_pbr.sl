@@ -1,6 +1,7 @@
 /* gltf_pbr.sl: glTF 2.0's metallic-roughness material (specification, appendix B): a Lambert base
    under a GGX microfacet layer, lit by the scene's lights; metals have no base. Cl is taken as the
-   irradiance over PI, RenderMan's custom, so the PI of both lobes is gone. */
+   irradiance over PI, RenderMan's custom, so the PI of both lobes is gone. With `mirrors` smooth
+   surfaces show what stands around them, and the ambient light where nothing does. */
 
 /* A texture with its coordinates: another set's where X_s and X_t are bound, then
    KHR_texture_transform in RSL's t upwards: s' = (X_ss X_st X_so) . (s, t, 1), t' likewise. */
@@ -42,11 +43,11 @@ normal mapped_normal(normal Nn; float ss, tt; color texel; float amount;) {
 
 /* What a microfacet layer reflects of light from everywhere: F0 x + y (Karis 2014, Physically based
    shading on mobile, his fit to the integral). */
-color reflected_everywhere(color F0; float roughness, NV;) {
+color reflected_everywhere(color F0; float F90, roughness, NV;) {
     float rx = 1 - roughness, ry = 0.0425 - 0.0275 * roughness;
     float rz = 1.04 - 0.572 * roughness, rw = 0.022 * roughness - 0.04;
     float a = min(rx * rx, pow(2, -9.28 * NV)) * rx + ry;
-    return F0 * (rz - 1.04 * a) + (rw + 1.04 * a);
+    return F0 * (rz - 1.04 * a) + F90 * (rw + 1.04 * a);
 }
 
 surface gltf_pbr(
@@ -63,6 +64,9 @@ surface gltf_pbr(
     color emissive = 0;
     MAP(emissive);
     float dielectric_F0 = 0.04;
+    float specular = 1;
+    color specular_color = 1;
+    float mirrors = 0;
     string alpha_mode = "OPAQUE";
     float alpha_cutoff = 0.5;
     varying float vertex_alpha = 1;) {
@@ -99,7 +103,9 @@ surface gltf_pbr(
     vector V = -normalize(I);
     float NV = max(abs(Nf . V), 0.0001);
 
-    color F0 = mix(color(dielectric_F0), base, metal);
+    /* KHR_materials_specular */
+    color F0 = mix(specular * min(dielectric_F0 * specular_color, color(1)), base, metal);
+    float F90 = mix(specular, 1, metal);
     color under = base * (1 - metal);
     color light = 0;
     illuminance(P, Nf, PI / 2) {
@@ -108,7 +114,7 @@ surface gltf_pbr(
         float NL = Nf . Ln, NH = clamp(Nf . H, 0, 1), VH = clamp(V . H, 0, 1);
         if (NL > 0) {
             float miss = pow(1 - VH, 5);
-            color F = F0 + (1 - F0) * miss;
+            color F = F0 + (F90 - F0) * miss;
             float d = NH * NH * (alpha2 - 1) + 1;
             float D = alpha2 / (d * d);
             /* Smith's shadowing of both ways over 4 NL NV (Heitz 2014). */
@@ -122,7 +128,21 @@ surface gltf_pbr(
     if (occlusion_map != "")
         open = mix(1, float texture(occlusion_map[0], S_OF(occlusion), T_OF(occlusion)),
                    occlusion_strength);
-    light += open * around * (under + reflected_everywhere(F0, rough, NV));
+    light += open * around * under;
+    color seen = open * around;
+    if (mirrors != 0) {
+        /* A cone about as wide as the lobe; the rougher, the more the ambient light will do. */
+        float clear = 1 - smoothstep(0.25, 0.5, rough);
+        if (clear > 0) {
+            color hit = 0, mirrored = 0;
+            gather("illuminance", P, reflect(-V, Nf), rough * rough, 1, "surface:Ci", hit)
+                mirrored += hit;
+            else
+                mirrored += around;
+            seen = mix(seen, mirrored, clear);
+        }
+    }
+    light += seen * reflected_everywhere(F0, F90, rough, NV);
     color glow = emissive;
     if (emissive_map != "")
         glow *= color texture(emissive_map, S_OF(emissive), T_OF(emissive));
