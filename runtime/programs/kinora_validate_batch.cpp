@@ -5,9 +5,11 @@
 #include <cerrno>
 #include <condition_variable>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include "runtime/base/stats.h"
@@ -69,13 +71,17 @@ class Queue {
     bool stopped_ = false;
 };
 
+// On any thread: nothing below it could pass the exception on.
 Piece make_piece(const std::string& file, const ValidateSettings& settings,
-                 const std::string& stdin_bytes) {
+                 const std::string& stdin_bytes) try {
     FileResult result = validate_file(file, settings, stdin_bytes);
     Piece piece;
     piece.totals.add(result, settings.fail_on);
     piece.text = settings.format->file(result, settings);
     return piece;
+} catch (const std::bad_alloc&) {
+    fmt::print(stderr, "kinora-validate: out of memory at '{}'\n", file);
+    std::_Exit(kExitRetry);
 }
 
 void add(ValidateTotals& sum, const ValidateTotals& one) {
@@ -102,15 +108,16 @@ void print_stats(const ValidateTotals& totals, double ms, const ValidateSettings
                    counted(size_t(settings.threads), "thread"), double(peak_memory_bytes()) * 1e-6);
 }
 
-// Prints pieces in order, until the reader goes away.
-ValidateTotals print_report(Queue& queue, size_t count, const ValidateSettings& settings,
+// Prints pieces in order, until the reader goes away. `piece_of` gives them by their number.
+template <class PieceOf>
+ValidateTotals print_report(PieceOf piece_of, size_t count, const ValidateSettings& settings,
                             OutputFile& out) {
     const ReportFormat& format = *settings.format;
     ValidateTotals totals;
     bool any = false;
     out.write(format.head(settings));
     for (size_t i = 0; i < count && out.good(); ++i) {
-        Piece piece = queue.wait_for(i);
+        Piece piece = piece_of(i);
         add(totals, piece.totals);
         if (piece.text.empty()) continue;
         if (any) out.write(format.separator);
@@ -118,6 +125,23 @@ ValidateTotals print_report(Queue& queue, size_t count, const ValidateSettings& 
         any = true;
     }
     out.write(format.tail(totals, settings));
+    return totals;
+}
+
+// Threads make the pieces, this one prints them.
+template <class PieceOf>
+ValidateTotals print_threaded(PieceOf piece_of, size_t threads, size_t count,
+                              const ValidateSettings& settings, OutputFile& out) {
+    Queue queue(count, kReadAhead * threads);
+    auto work = [&] {
+        while (auto index = queue.take()) queue.finish(*index, piece_of(*index));
+    };
+    std::vector<std::thread> workers;
+    for (size_t t = 0; t < threads; ++t) workers.emplace_back(work);
+    ValidateTotals totals =
+        print_report([&](size_t i) { return queue.wait_for(i); }, count, settings, out);
+    queue.stop();
+    for (std::thread& worker : workers) worker.join();
     return totals;
 }
 
@@ -130,16 +154,10 @@ int validate_batch(const ValidateSettings& settings, const std::vector<std::stri
     for (const std::string& file : files)
         if (file == "-" && stdin_bytes.empty()) stdin_bytes = read_stdin();
     size_t threads = std::min(size_t(settings.threads), files.size());
-    Queue queue(files.size(), kReadAhead * std::max<size_t>(threads, 1));
-    auto work = [&] {
-        while (auto index = queue.take())
-            queue.finish(*index, make_piece(files[*index], settings, stdin_bytes));
-    };
-    std::vector<std::thread> workers;
-    for (size_t t = 0; t < threads; ++t) workers.emplace_back(work);
-    ValidateTotals totals = print_report(queue, files.size(), settings, out);
-    queue.stop();
-    for (std::thread& worker : workers) worker.join();
+    auto piece_of = [&](size_t i) { return make_piece(files[i], settings, stdin_bytes); };
+    ValidateTotals totals = threads > 1
+                                ? print_threaded(piece_of, threads, files.size(), settings, out)
+                                : print_report(piece_of, files.size(), settings, out);
     if (settings.stats) print_stats(totals, watch.ms(), settings);
     if (!out.close()) return kExitUnwritable;
     return totals.exit_code();
