@@ -29,7 +29,7 @@ constexpr FilterWord kFilters[] = {{"NONE", Filter::None, Filter::None},
                                    {"NEAREST_MIPMAP_LINEAR", Filter::Nearest, Filter::Linear},
                                    {"LINEAR_MIPMAP_LINEAR", Filter::Linear, Filter::Linear}};
 
-void read_wrap(Extraction& x, Link sampler, std::string_view name, Wrap& wrap) {
+void read_wrap(Link sampler, std::string_view name, Wrap& wrap) {
     const Element* e = sampler.element->child(name);
     if (!e) return;
     for (const Word<Wrap>& row : kWraps)
@@ -39,7 +39,7 @@ void read_wrap(Extraction& x, Link sampler, std::string_view name, Wrap& wrap) {
         }
 }
 
-const FilterWord* read_filter(Extraction& x, Link sampler, std::string_view name) {
+const FilterWord* read_filter(Link sampler, std::string_view name) {
     const Element* e = sampler.element->child(name);
     if (!e) return nullptr;
     for (const FilterWord& row : kFilters)
@@ -48,15 +48,15 @@ const FilterWord* read_filter(Extraction& x, Link sampler, std::string_view name
 }
 
 void read_sampler_state(Extraction& x, Link link, TextureSampler& sampler) {
-    read_wrap(x, link, "wrap_s", sampler.wrap_s);
-    read_wrap(x, link, "wrap_t", sampler.wrap_t);
-    if (const FilterWord* row = read_filter(x, link, "minfilter")) {
+    read_wrap(link, "wrap_s", sampler.wrap_s);
+    read_wrap(link, "wrap_t", sampler.wrap_t);
+    if (const FilterWord* row = read_filter(link, "minfilter")) {
         sampler.min = row->filter == Filter::None ? Filter::Linear : row->filter;
         if (row->mip != Filter::None) sampler.mip = row->mip;
     }
-    if (const FilterWord* row = read_filter(x, link, "magfilter"))
+    if (const FilterWord* row = read_filter(link, "magfilter"))
         if (row->filter != Filter::None) sampler.mag = row->filter;
-    if (const FilterWord* row = read_filter(x, link, "mipfilter")) sampler.mip = row->filter;
+    if (const FilterWord* row = read_filter(link, "mipfilter")) sampler.mip = row->filter;
     if (const Element* border = link.element->child("border_color")) {
         std::vector<double> c = read_doubles(x.document(link.doc), *border, x.diag);
         for (size_t i = 0; i < c.size() && i < 4; ++i) sampler.border_color[int(i)] = float(c[i]);
