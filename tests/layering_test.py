@@ -3,7 +3,7 @@
 
 Each source file belongs to the longest target folder above it. A target may include its own folder
 and those of the targets it links, directly or through them, and that of a module it opens
-(add_dependencies). Private headers (*_p.h) stay in their folder, its tests and the benchmarks;
+(add_dependencies). Private headers (*_p.h) stay in their folder, its tests, the fuzzers and the benchmarks;
 packages that stand behind one file are included there alone.
 """
 import os
@@ -131,7 +131,7 @@ def check_includes(path, text, rules):
         folder = folder_of(header, rules)
         if header.startswith("tests/") and not is_test:
             faults.append(where + f"{header}: a test's header")
-        mirrored = path.startswith((f"tests/{folder}/", "tests/bench/"))
+        mirrored = path.startswith((f"tests/{folder}/", "tests/bench/", "tests/fuzzers/"))
         if header.endswith("_p.h") and folder != own and not mirrored:
             faults.append(where + f"{header} is private to {folder}")
         if not is_test and folder and own and folder not in rules[own]:
