@@ -11,230 +11,16 @@
 // JIT and hand-written code take turns within one row, both in CPU time. `jit` and `hand` are
 // Mpoints/s in the best iteration of each (others share their caches with whatever else runs),
 // `ratio` is jit / hand. `differs` is the largest difference of Ci between the two.
-// compile/* rows: IR to code, and source text to code, caches cleared. compile/TARGET/median:
-// source text to code of every shader in assets (median, largest), and the largest kernel's bytes.
 // divergent/*: a shader that takes one of four ways at random by point, against the sum of the four
 // shaders that take one way each.
 #include <benchmark/benchmark.h>
-#include <time.h>
 #include <xmmintrin.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include "jit/compiler.h"
-#include "rsl/lower.h"
-#include "runtime/base/arena.h"
-#include "runtime/base/check.h"
 #include "tests/bench/hand_shaders.h"
+#include "tests/bench/shade_kernels.h"
 
 namespace kinora {
 namespace {
-
-constexpr size_t kLanes = jit::kMaxLanes;
-const float kAxis[3] = {0.35f, -0.5f, 0.79f};  // of the distant light, in current space
-const float kAmbient = 0.15f;
-
-double cpu_seconds() {
-    timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
-}
-
-std::string shader_text(const std::string& name) {
-    std::stringstream text;
-    for (const char* folder : {"/assets/shaders/", "/tests/bench/"}) {
-        std::ifstream file(std::string(KINORA_SOURCE_DIR) + folder + name + ".sl");
-        if (file) text << file.rdbuf();
-    }
-    CHECK(!text.str().empty());
-    return text.str();
-}
-
-// ---- points -------------------------------------------------------------------------------------
-
-// A bumpy sheet seen from the origin of current space, in the columns that a grid has.
-struct Points {
-    Arena arena;
-    size_t count;
-    float *P[3], *N[3], *Ng[3], *I[3], *object[3][4];
-
-    explicit Points(size_t n) : count(n) {
-        for (auto* triple : {P, N, Ng, I})
-            for (int k = 0; k < 3; ++k) triple[k] = arena.allocate_span<float>(n).data();
-        const float rows[3][4] = {{0.8f, 0, 0.6f, 0.5f}, {0, 1, 0, -0.25f}, {-0.6f, 0, 0.8f, 0.1f}};
-        for (size_t r = 0; r < 3; ++r)
-            for (size_t c = 0; c < 4; ++c) {
-                object[r][c] = arena.allocate_span<float>(n).data();
-                std::fill_n(object[r][c], n, rows[r][c]);
-            }
-        for (size_t i = 0; i < n; ++i) place(i);
-    }
-    void place(size_t i) {
-        size_t width = size_t(std::sqrt(double(count)));
-        float x = float(i % width) / float(width) * 4 - 2;
-        float y = float(i / width) / float(width) * 4 - 2;
-        float at[3] = {x, y, 5 + 0.3f * std::sin(3 * x) * std::cos(2 * y)};
-        float normal[3] = {0.9f * std::cos(3 * x), -0.6f * std::sin(2 * y), -1};
-        for (int k = 0; k < 3; ++k) {
-            P[k][i] = I[k][i] = at[k];
-            N[k][i] = normal[k];
-            Ng[k][i] = k == 2 ? -1.0f : 0.0f;
-        }
-    }
-    const float* column(const std::string& name) const {
-        auto part = [](char c) { return size_t(c - 'x'); };
-        if (name.starts_with("P.")) return P[part(name.back())];
-        if (name.starts_with("N.")) return N[part(name.back())];
-        if (name.starts_with("Ng.")) return Ng[part(name.back())];
-        if (name.starts_with("I.")) return I[part(name.back())];
-        const std::string object_space = "space:object:from_current:";
-        CHECK(name.starts_with(object_space));
-        return object[size_t(name[name.size() - 2] - '0')][size_t(name.back() - '0')];
-    }
-};
-
-// ---- the JIT's side -----------------------------------------------------------------------------
-
-struct Compiled {
-    Diagnostics diagnostics;
-    std::unique_ptr<rsl::Shader> shader;
-    rsl::Layer layer;
-    rsl::LoweredShader lowered;
-    jit::KernelPair kernels;
-    std::vector<float> frame;
-};
-
-std::unique_ptr<rsl::Shader> front_end(const std::string& text, Diagnostics& diagnostics) {
-    rsl::ShaderSource source{text, {}};
-    source.map.file = diagnostics.files.add("bench.sl", text);
-    source.map.segments = {{0, 0}};
-    auto shaders = rsl::compile(source, {}, diagnostics);
-    CHECK_EQ(shaders.size(), size_t(1));
-    return std::move(shaders[0]);
-}
-
-rsl::LoweredShader lower_fast(const rsl::Layer& layer, Diagnostics& diagnostics) {
-    rsl::LowerOptions options;
-    options.math = jit::math::Tier::Fast;
-    auto lowered = rsl::lower(std::span(&layer, 1), options, diagnostics);
-    CHECK(lowered.has_value());
-    return std::move(*lowered);
-}
-
-// What runtime/look.cpp gives a parameter that the scene sets: 0 and 1 belong to the shape.
-std::vector<rsl::ParamBinding> bound_parameters(const rsl::Shader& shader) {
-    std::vector<rsl::ParamBinding> bindings;
-    for (const rsl::ShaderParameter& p : shader.parameters) {
-        rsl::ParamBinding binding{std::string(p.name), rsl::ParamBinding::Kind::Frame, {}, {}};
-        float first = p.constant->numbers[0];
-        if (p.type == rsl::Type{rsl::BaseType::Float, -1} && (first == 0 || first == 1)) {
-            binding.kind = rsl::ParamBinding::Kind::Constant;
-            binding.constant = {first};
-        }
-        bindings.push_back(binding);
-    }
-    return bindings;
-}
-
-// "param:0:NAME[.c]" and the light's own space, whose z axis is the light's backwards.
-float frame_value(const rsl::Shader& shader, const std::string& name) {
-    if (name.starts_with("space:shader:to_current:"))
-        return name.back() == '2' ? -kAxis[name[name.size() - 2] - '0'] : 0.0f;
-    for (const rsl::ShaderParameter& p : shader.parameters) {
-        std::string prefix = "param:0:" + std::string(p.name);
-        if (!name.starts_with(prefix)) continue;
-        if (name.size() == prefix.size()) return p.constant->numbers[0];
-        size_t component = std::string("rgbxyz").find(name.back()) % 3;
-        return p.constant->numbers[component];
-    }
-    CHECK_EQ(name, "a known frame input");
-    return 0;
-}
-
-std::vector<float> frame_block(const Compiled& compiled) {
-    if (!compiled.kernels.frame) return {};
-    const jit::Kernel& kernel = *compiled.kernels.frame;
-    Arena arena;
-    auto row = [&](float value) {
-        std::span<float> lanes = arena.allocate_span<float>(kLanes);
-        std::fill(lanes.begin(), lanes.end(), value);
-        return lanes.data();
-    };
-    std::vector<const float*> in;
-    for (const jit::InputInfo& info : kernel.inputs)
-        in.push_back(row(frame_value(*compiled.shader, info.name)));
-    std::vector<float*> out;
-    for (size_t k = 0; k < kernel.outputs.size(); ++k) out.push_back(row(0));
-    std::vector<uint8_t> faults(kernel.fault_sites.size() + 1);
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes + 64));
-    args.fault = faults.data();
-    args.count = 1;
-    kernel.run(args);
-    std::vector<float> frame;
-    for (float* lanes : out) frame.push_back(lanes[0]);
-    return frame;
-}
-
-std::unique_ptr<Compiled> compile(const std::string& name, const jit::Target& target, bool bound) {
-    auto result = std::make_unique<Compiled>();
-    result->shader = front_end(shader_text(name), result->diagnostics);
-    result->layer.shader = result->shader.get();
-    if (bound) result->layer.params = bound_parameters(*result->shader);
-    result->lowered = lower_fast(result->layer, result->diagnostics);
-    result->kernels = jit::compile(result->lowered.module, {&target, nullptr});
-    CHECK(result->kernels.point->target == std::string(target.name));
-    result->frame = frame_block(*result);
-    return result;
-}
-
-// A kernel over all grids: the arguments of each are made ready, as a renderer's are when it has
-// gathered a grid.
-class Run {
-  public:
-    Run(const Compiled& compiled, const Points& points, size_t grid)
-        : kernel_(*compiled.kernels.point) {
-        size_t grids = points.count / grid;
-        for (const jit::OutputInfo& info : kernel_.outputs) {
-            out[info.name] = arena_.allocate_span<float>(points.count).data();
-        }
-        faults_.resize(kernel_.fault_sites.size() + 1);
-        auto* scratch = static_cast<std::byte*>(arena_.allocate(kernel_.scratch_bytes + 64));
-        for (size_t g = 0; g < grids; ++g) {
-            auto in = arena_.allocate_span<const float*>(kernel_.inputs.size() + 1);
-            for (size_t k = 0; k < kernel_.inputs.size(); ++k)
-                in[k] = points.column(kernel_.inputs[k].name) + g * grid;
-            auto outs = arena_.allocate_span<float*>(kernel_.outputs.size() + 1);
-            for (size_t k = 0; k < kernel_.outputs.size(); ++k)
-                outs[k] = out[kernel_.outputs[k].name] + g * grid;
-            jit::KernelArgs args;
-            args.in = in.data();
-            args.out = outs.data();
-            args.frame = compiled.frame.data();
-            args.scratch = scratch;
-            args.fault = faults_.data();
-            args.count = int32_t(grid);
-            grids_.push_back(args);
-        }
-    }
-    void set_records(size_t g, const jit::RecordSet* set) { grids_[g].record_sets = set; }
-    void run(size_t g) const { kernel_.run(grids_[g]); }
-    size_t grids() const { return grids_.size(); }
-
-    std::map<std::string, float*> out;
-
-  private:
-    const jit::Kernel& kernel_;
-    Arena arena_;
-    std::vector<uint8_t> faults_;
-    std::vector<jit::KernelArgs> grids_;
-};
 
 // The light kernels and the records over their outputs.
 class JitLights {
@@ -417,72 +203,6 @@ void shade_row(benchmark::State& state, const WidthRow& width, const ShaderRow& 
     state.counters["differs"] = largest_difference(run, by_hand, count);
 }
 
-void ir_to_code(benchmark::State& state, const std::string& name, const jit::Target& target) {
-    auto compiled = compile(name, target, false);
-    double emit_ms = 0;
-    for (auto _ : state) {
-        jit::clear_cache();
-        jit::KernelPair pair = jit::compile(compiled->lowered.module, {&target, nullptr});
-        emit_ms += pair.emit_ms;
-    }
-    state.counters["emit_ms"] = emit_ms / double(state.iterations());
-    state.counters["code_bytes"] = double(compiled->kernels.point->code_bytes);
-}
-
-void source_to_code(benchmark::State& state, const std::string& name, const jit::Target& target) {
-    std::string text = shader_text(name);
-    for (auto _ : state) {
-        jit::clear_cache();
-        Diagnostics diagnostics;
-        auto shader = front_end(text, diagnostics);
-        rsl::Layer layer{shader.get(), {}};
-        jit::compile(lower_fast(layer, diagnostics).module, {&target, nullptr});
-    }
-}
-
-// ---- all of assets ------------------------------------------------------------------------------
-
-// What the front end, the passes and the emitter take for each shader of assets; the largest
-// kernel.
-void assets_to_code(benchmark::State& state, const jit::Target& target) {
-    std::vector<std::string> texts;
-    namespace fs = std::filesystem;
-    for (auto& entry : fs::recursive_directory_iterator(KINORA_SOURCE_DIR "/assets/shaders")) {
-        if (entry.path().extension() != ".sl") continue;
-        std::stringstream text;
-        text << std::ifstream(entry.path()).rdbuf();
-        texts.push_back(text.str());
-    }
-    std::vector<double> best(texts.size(), 1e30);
-    double largest_code = 0, largest_scratch = 0;
-    for (auto _ : state)
-        for (size_t k = 0; k < texts.size(); ++k) {
-            jit::clear_cache();
-            double start = cpu_seconds();
-            Diagnostics diagnostics;
-            rsl::ShaderSource source{texts[k], {}};
-            source.map.file = diagnostics.files.add("bench.sl", texts[k]);
-            source.map.segments = {{0, 0}};
-            for (auto& shader : rsl::compile(source, {}, diagnostics)) {
-                rsl::Layer layer{shader.get(), {}};
-                rsl::LowerOptions options;
-                options.math = jit::math::Tier::Fast;
-                auto lowered = rsl::lower(std::span(&layer, 1), options, diagnostics);
-                if (!lowered) continue;
-                auto kernels = jit::compile(lowered->module, {&target, nullptr});
-                largest_code = std::max(largest_code, double(kernels.point->code_bytes));
-                largest_scratch = std::max(largest_scratch, double(kernels.point->scratch_bytes));
-            }
-            best[k] = std::min(best[k], (cpu_seconds() - start) * 1e3);
-        }
-    std::sort(best.begin(), best.end());
-    state.counters["shaders"] = double(best.size());
-    state.counters["median_ms"] = best[best.size() / 2];
-    state.counters["largest_ms"] = best.back();
-    state.counters["largest_code_bytes"] = largest_code;
-    state.counters["largest_scratch_bytes"] = largest_scratch;
-}
-
 // ---- divergence ---------------------------------------------------------------------------------
 
 // Four ways of about equal work; WAY says which one a point takes. The uniform version reads it
@@ -543,22 +263,12 @@ void register_rows() {
     for (const WidthRow& width : kWidths) {
         const jit::Target& target = *jit::find_target(width.target);
         if (!target.supported() || !width.shaders()) continue;
-        auto per_target = [&](const char* name, auto run) {
-            benchmark::RegisterBenchmark((std::string(name) + width.target).c_str(), run, target)
-                ->Unit(benchmark::kMillisecond);
-        };
-        per_target("compile/assets/", assets_to_code);
-        per_target("divergent/", divergent_row);
+        benchmark::RegisterBenchmark((std::string("divergent/") + width.target).c_str(),
+                                     divergent_row, target)
+            ->Unit(benchmark::kMillisecond);
         for (const ShaderRow& shader : kShaders) {
             std::string name = shader.name;
-            std::string compile_name = std::string("compile/") + width.target + "/" + name;
             auto unit = benchmark::kMicrosecond;
-            benchmark::RegisterBenchmark((compile_name + "/ir_to_code").c_str(), ir_to_code, name,
-                                         target)
-                ->Unit(unit);
-            benchmark::RegisterBenchmark((compile_name + "/source_to_code").c_str(), source_to_code,
-                                         name, target)
-                ->Unit(unit);
             for (const KindRow& kind : kKinds) {
                 std::string label = std::string(width.target) + "/" + name + "/" + kind.name;
                 benchmark::RegisterBenchmark(label.c_str(), shade_row, width, shader, kind.kind)

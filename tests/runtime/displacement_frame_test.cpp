@@ -1,0 +1,273 @@
+// tests/runtime/displacement_frame_test.cpp: displacement over the frames of a scene: what runs
+// once and what at each frame, after the skin, in which space; what surfaces see.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "allocations_of_ours.h"
+#include "displacement_scenes.h"
+#include "runtime/base/parallel.h"
+#include "runtime/vertex_work.h"
+
+namespace kinora {
+namespace {
+
+// ---- when it runs
+
+struct Decision {
+    const char* name;
+    std::string code;
+    bool moving_node;
+    bool each_frame;
+};
+
+TEST(TrueDisplacement, RunsOnceUnlessItReadsWhatChanges) {
+    const Decision rows[] = {
+        {"plain", "displacement d() { P += 0.1 * sin(9 * s) * N; }\n", false, false},
+        {"plain on a moving node", "displacement d() { P += 0.1 * noise(P) * N; }\n", true, false},
+        {"time", "displacement d() { P += 0.1 * sin(9 * s + time) * N; }\n", false, true},
+        {"I", "displacement d() { P += 0.01 * length(I) * N; }\n", false, true},
+        {"E", "displacement d() { P += 0.01 * zcomp(E) * N; }\n", false, true},
+        {"du", "displacement d() { P += 0.01 * du * N; }\n", false, true},
+        {"area", "displacement d() { P += 0.01 * area(P) * N; }\n", false, true},
+        {"camera space", "displacement d() { P += 0.01 * zcomp(transform(\"NDC\", P)) * N; }\n",
+         false, true},
+        {"world space, still",
+         "displacement d() { P += 0.1 * noise(transform(\"world\", P)) * N; }\n", false, false},
+        {"world space, moving",
+         "displacement d() { P += 0.1 * noise(transform(\"world\", P)) * N; }\n", true, true},
+        {"object space", "displacement d() { P += 0.1 * noise(transform(\"object\", P)) * N; }\n",
+         true, false},
+        {"I without effect", "displacement d() { vector V = I; P += 0.1 * N; }\n", true, false},
+    };
+    for (const Decision& row : rows) {
+        SCOPED_TRACE(row.name);
+        SceneText scene =
+            square_scene(row.code, kDisplaced, "<translate sid=\"move\">0 0 0</translate>");
+        if (row.moving_node) scene.animate("floor-node/move.X", {0, 1}, {0, 0.1});
+        Rendering r(scene.text(), dice_of(8));
+        ASSERT_TRUE(r.scene) << r.findings();
+        const Shape& shape = r.scene->shapes[0];
+        EXPECT_EQ(shape.vertex_work != nullptr, row.each_frame);
+        auto still =
+            row.moving_node ? raytrace::GeometryKind::Instanced : raytrace::GeometryKind::Static;
+        EXPECT_EQ(shape.kind, row.each_frame ? raytrace::GeometryKind::Deforming : still);
+        EXPECT_GT(mesh_of(r).positions.size(), 50u);
+        r.frame(0.5);
+    }
+}
+
+TEST(TrueDisplacement, AnimatedParametersRunItAtEachFrame) {
+    SceneText scene;
+    scene.square("floor").look(
+        "look", std::string("displacement d(float h = 0;) { P += h * N; }\n") + kPlain,
+        "<shader stage=\"DISPLACEMENT\"><bind symbol=\"h\"><param ref=\"h\"/></bind></shader>"
+        "<shader stage=\"SURFACE\"/>",
+        "<newparam sid=\"h\"><float>0.25</float></newparam>");
+    scene.place("floor", "look").animate("look-fx/h", {0, 1}, {0, 1});
+    Rendering r(scene.text(), dice_of(8));
+    ASSERT_TRUE(r.scene) << r.findings();
+    ASSERT_TRUE(r.scene->shapes[0].vertex_work);
+    for (double time : {0.75, 0.0, 0.5}) {
+        r.frame(time);
+        for (dvec3 p : world_positions(r)) EXPECT_NEAR(p.z, time, 1e-6);
+    }
+}
+
+TEST(TrueDisplacement, ThatOnlyBendsNStaysAKernelOfTheSurface) {
+    SceneText scene = square_scene(
+        "displacement bumps() { point Q = P; P += 0.1 * sin(9 * s) * N; N = calculatenormal(P);"
+        " P = Q; }\n");
+    Rendering r(scene.text(), dice_of(2));
+    ASSERT_TRUE(r.scene) << r.findings();
+    EXPECT_EQ(mesh_of(r).positions.size(), 4u);
+    EXPECT_EQ(r.scene->looks[0]->done_layers, 0u);
+    EXPECT_EQ(r.scene->dice.triangles, 0u);
+}
+
+TEST(TrueDisplacement, IsLeftOutByTheBumpKnob) {
+    SceneOptions options = dice_of(2);
+    options.displacement = DisplacementMode::Bump;
+    Rendering r(square_scene("displacement d() { P += 0.5 * N; }\n").text(), options);
+    r.frame();
+    EXPECT_EQ(mesh_of(r).positions.size(), 4u);
+    for (dvec3 p : world_positions(r)) EXPECT_EQ(p.z, 0.0);
+}
+
+// ---- in space, in time
+
+TEST(TrueDisplacement, IsInObjectSpaceWhereverTheNodeStands) {
+    SceneText scene =
+        square_scene("displacement d() { P += vector(0, 0, 0.1 * xcomp(P)); }\n", kDisplaced,
+                     "<translate>0.25 0 0</translate><rotate>0 0 1 90</rotate>"
+                     "<scale>0.5 0.5 2</scale>");
+    Rendering r(scene.text(), dice_of(4));
+    ASSERT_TRUE(r.scene) << r.findings();
+    for (dvec3 p : world_positions(r))  // object x = 2 world y; z is doubled
+        EXPECT_NEAR(p.z, 2 * 0.1 * 2 * p.y, 1e-6);
+}
+
+TEST(TrueDisplacement, ATimesVerticesDependOnThatTimeAlone) {
+    SceneText scene = square_scene(
+        "displacement d() { P += 0.2 * sin(9 * s + 3 * time) * N; N = calculatenormal(P); }\n");
+    scene.light("sun", "<directional><color>1 1 1</color></directional>",
+                "<rotate>0 1 0 40</rotate>");
+    SceneOptions options = dice_of(2);
+    options.accel.background = false;
+    Rendering r(scene.text(), options);
+    r.frame(32, 32, 0.0);
+    r.frame(32, 32, 0.4);
+    EXPECT_EQ(r.stats.refits, 1);
+    options.accel.always_rebuild = true;
+    Rendering fresh(scene.text(), options);
+    fresh.frame(32, 32, 0.4);
+    EXPECT_EQ(fresh.stats.refits, 0);
+    EXPECT_TRUE(same_bytes(r.film, fresh.film));
+    for (dvec3 p : world_positions(r))
+        EXPECT_NEAR(p.z, 0.2 * std::sin(9 * (p.x + 1) / 2 + 1.2), 1e-6);
+}
+
+TEST(TrueDisplacement, GivesTheSameBytesOnAnyThreadsAndTargets) {
+    std::string text =
+        square_scene(
+            "displacement d() { P += 0.2 * noise(9 * P + time) * N + 0.01 * random() * N;"
+            " N = calculatenormal(P); }\n")
+            .text();
+    std::vector<vec4> first, first_normals;
+    for (const jit::Target& target : jit::targets())
+        for (int threads : {1, 2}) {
+            if (!target.supported()) continue;
+            SCOPED_TRACE(fmt::format("{} {}", target.name, threads));
+            Threads scope(threads);
+            SceneOptions options = dice_of(1);
+            options.target = &target;
+            Rendering r(text, options);
+            r.frame(0.25);
+            const Shape& shape = r.scene->shapes[0];
+            if (first.empty()) {
+                first = shape.positions;
+                first_normals = shape.normals;
+                continue;
+            }
+            ASSERT_EQ(shape.positions.size(), first.size());
+            EXPECT_EQ(std::memcmp(shape.positions.data(), first.data(), first.size() * 16), 0);
+            EXPECT_EQ(
+                std::memcmp(shape.normals.data(), first_normals.data(), first_normals.size() * 16),
+                0);
+        }
+    EXPECT_GT(first.size(), 1000u);
+}
+
+TEST(TrueDisplacement, ComesAfterTheSkin) {
+    SceneText plain, displaced;
+    plain.look("skin", kPlain).bending_strip("strip", "skin", 8);
+    displaced.look(
+        "skin",
+        std::string("displacement d() { P += 0.25 * vector \"world\" (0, 0, s); }\n") + kPlain,
+        kDisplaced);
+    displaced.bending_strip("strip", "skin", 8);
+    Rendering a(plain.text()), b(displaced.text(), dice_of(2));
+    a.frame(1.0);
+    b.frame(1.0);
+    std::vector<dvec3> bent = world_positions(a), moved = world_positions(b);
+    ASSERT_GT(moved.size(), 4 * bent.size());
+    // The file's vertices come first; their s is 0 and 1 in turn.
+    for (size_t p = 0; p < bent.size(); ++p)
+        EXPECT_LT(glm::length(moved[p] - bent[p] - dvec3(0, 0, p % 2 ? 0.25 : 0)), 1e-5);
+    // Those between are skinned by weights between: in the plane they stay near the bent strip.
+    double off = 0;
+    for (const dvec3& p : moved) {
+        double nearest = 1e9;
+        for (const dvec3& q : bent) nearest = std::min(nearest, glm::length(dvec2(p) - dvec2(q)));
+        off = std::max(off, nearest);
+    }
+    EXPECT_LT(off, 0.36);
+    b.frame(0.0);
+    EXPECT_EQ(b.stats.rebuilds + b.stats.refits, 1);
+}
+
+TEST(TrueDisplacement, AllocatesNothingAfterTheFirstFrames) {
+    Threads one(1);
+    SceneText scene = square_scene(
+        "displacement d() { P += 0.1 * noise(9 * P + time) * N; N = calculatenormal(P); }\n");
+    scene.look("skin", std::string("displacement d() { P += 0.1 * noise(9 * P) * N; }\n") + kPlain,
+               kDisplaced);
+    scene.bending_strip("strip", "skin", 8);
+    SceneOptions options = dice_of(4);
+    options.accel.refit_limit = options.accel.low_limit = 1e9f;
+    Rendering r(scene.text(), options);
+    for (int frame = 0; frame < 6; ++frame) r.frame(32, 32, frame / 24.0);
+    watch_allocations();
+    for (int frame = 0; frame < 6; ++frame)
+        render_frame(*r.scene, frame / 24.0, r.settings, r.film, r.stats, r.diagnostics);
+    size_t count = allocations_of_ours();
+    EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours() << r.findings();
+}
+
+// ---- what surfaces see
+
+TEST(TrueDisplacement, SurfacesSeeTheMovedPointAndTheShadersN) {
+    SceneText scene;
+    scene.square("floor").look(
+        "look",
+        "displacement d() { P += 0.25 * s * N; N = calculatenormal(P); }\n"
+        "surface show() { Oi = 1; normal n = ntransform(\"world\", normalize(N));"
+        " Ci = color(zcomp(transform(\"world\", P)), xcomp(n), zcomp(n)); }",
+        kDisplaced);
+    scene.place("floor", "look");
+    Rendering r(scene.text(), dice_of(2));
+    r.frame();
+    double slope = 0.125, length = std::sqrt(1 + slope * slope);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            double s = (r.place(x, y).x + 1) / 2;
+            EXPECT_NEAR(r.color(x, y).x, 0.25 * s, 1e-5);
+            EXPECT_NEAR(r.color(x, y).y, -slope / length, 1e-4);
+            EXPECT_NEAR(r.color(x, y).z, 1 / length, 1e-4);
+        }
+}
+
+TEST(TrueDisplacement, LeavesItsParametersToDisplacementOfTheSurface) {
+    SceneText scene;
+    scene.square("floor").look(
+        "look",
+        "displacement d(float k = 0.5; output varying float h = 0; output varying color c = 0;) {"
+        " h = s * t; c = color(s, 0, t); P += 1e-3 * h * N; }\n"
+        "surface show() { float h = -1, k = -1; color c = 0; Oi = 1;"
+        " float a = displacement(\"h\", h), b = displacement(\"k\", k), d = displacement(\"c\", c);"
+        " Ci = color(h, k, a + b + d) + 10 * c; }",
+        kDisplaced);
+    scene.place("floor", "look");
+    Rendering r(scene.text(), dice_of(1, 256));
+    r.frame();
+    EXPECT_EQ(r.scene->looks[0]->done_layers, 1u);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            dvec2 p = r.place(x, y);
+            double s = (p.x + 1) / 2, t = (p.y + 1) / 2;
+            EXPECT_NEAR(r.color(x, y).x, s * t + 10 * s, 1e-4);
+            EXPECT_NEAR(r.color(x, y).y, 0.5, 1e-6);
+            EXPECT_NEAR(r.color(x, y).z, 3 + 10 * t, 1e-4);
+        }
+}
+
+TEST(TrueDisplacement, KeepsStOfMeshesWithoutTextureCoordinates) {
+    SceneText plain, displaced;
+    std::string show = "surface show() { Oi = 1; Ci = color(s, t, u); }\n";
+    plain.octahedron("ball").look("look", show).place("ball", "look");
+    displaced.octahedron("ball")
+        .look("look", "displacement d() { P += 1e-6 * N; }\n" + show, kDisplaced)
+        .place("ball", "look");
+    Rendering a(plain.text()), b(displaced.text(), dice_of(4));
+    a.frame();
+    b.frame();
+    EXPECT_GT(mesh_of(b).positions.size(), 100u);
+    EXPECT_LT(difference(a.film, b.film), 1e-4);
+}
+
+}  // namespace
+}  // namespace kinora
