@@ -20,11 +20,12 @@ struct GltfExportOptions {
 // LINEAR and STEP curves of translations, scales, weights and turns about one axis come out exact,
 // so do cubics with times at the thirds (CUBICSPLINE) of all but rotations.
 //
-// Materials: base color = diffuse (emission for <constant>, with KHR_materials_unlit), emissive =
-// emission, metallic 0, roughness = sqrt(2 / (shininess + 2)) for phong and its square root from
-// blinn's width (1 for lambert), KHR_materials_specular with the specular color; opaque modes
-// become alpha. What that leaves out, and RSL, goes into extras (kinora_common, kinora_rsl,
-// kinora_light) with a finding CONVERT_EXTRAS; what no extra keeps gives CONVERT_LOST.
+// Materials: base color = diffuse (<constant>: emission, with KHR_materials_unlit), emissive =
+// emission, metallic 0; roughness^4 = 2 / (n + 2), which makes GGX as wide as a Blinn highlight of
+// exponent n (Walter 2007), n = shininess for <blinn>, 4 shininess for <phong>; 1 for <lambert>,
+// which reflects nothing else; KHR_materials_specular with the specular color; opaque modes become
+// alpha. The shading model itself, lights' attenuation and RSL go into extras.kinora_rsl, which
+// import_gltf reads, with a finding CONVERT_EXTRAS; what nothing keeps gives CONVERT_LOST.
 std::string export_glb(const SceneDescription& description, const GltfExportOptions& options,
                        Diagnostics& diagnostics);
 

@@ -40,7 +40,7 @@ struct CommonParams {
     }
 };
 
-// Blinn's exponent is 1 / roughness, Phong's the shininess; sqrt(2 / (n + 2)) is GGX's width.
+// GGX as wide as a Blinn highlight of this exponent (export_gltf.h).
 double roughness(double exponent) {
     return clamp01(std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))));
 }
@@ -123,7 +123,8 @@ Json GltfExport::common_material(const MaterialDefinition& definition, const Sha
     dvec3 specular = p.color("specular", 0);
     bool shines = model == kModels[2] || model == kModels[3];
     double most = std::max({specular.x, specular.y, specular.z});
-    double exponent = p.number("shininess", 20);
+    // Phong's lobe around R is a Blinn lobe around the half vector of four times the exponent.
+    double exponent = (model == kModels[2] ? 4 : 1) * p.number("shininess", 20);
     pbr["roughnessFactor"] = shines && most > 0 ? roughness(exponent) : 1.0;
     material["pbrMetallicRoughness"] = pbr;
     if (unlit) {

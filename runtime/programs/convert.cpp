@@ -11,10 +11,12 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "collada/write.h"
 #include "runtime/base/stats.h"
+#include "runtime/export_collada.h"
 #include "runtime/export_gltf.h"
 #include "runtime/findings.h"
-#include "runtime/import_collada.h"
+#include "runtime/import_scene.h"
 #include "runtime/override_shader.h"
 #include "runtime/programs/exit_codes.h"
 
@@ -84,7 +86,8 @@ class Conversion {
 
     int run() {
         Stopwatch watch;
-        if (extension(options_.output) == ".dae") {
+        bool to_dae = extension(options_.output) == ".dae";
+        if (to_dae && !is_gltf(options_.input)) {
             std::optional<std::string> text = convert_document(options_, diag_);
             int code = tell(diag_, options_);
             if (!text) return code == kExitShader ? code : kExitUnreadable;
@@ -99,9 +102,15 @@ class Conversion {
                 tell(diag_, options_);
                 return kExitShader;
             }
-        std::string bytes = export_glb(scene_, gltf_options(), diag_);
+        ColladaExport document;
+        std::string bytes;
+        if (to_dae)
+            document = export_collada(scene_, options_.output, diag_);
+        else
+            bytes = export_glb(scene_, gltf_options(), diag_);
         int code = tell(diag_, options_);
         if (code == kExitShader) return code;
+        if (to_dae) return finish_collada(code, watch, std::move(document));
         if (extension(options_.output) != ".gltf") return finish(bytes, code, watch);
         return finish_gltf(bytes, code, watch);
     }
@@ -111,7 +120,7 @@ class Conversion {
         ImportOptions import;
         import.allow_external = options_.allow_external;
         import.include_directories = options_.include_directories;
-        std::optional<SceneDescription> scene = import_collada(options_.input, import, diag_);
+        std::optional<SceneDescription> scene = import_scene(options_.input, import, diag_);
         if (scene) scene_ = std::move(*scene);
         return scene.has_value();
     }
@@ -120,6 +129,23 @@ class Conversion {
         GltfExportOptions o;
         o.animation_error = options_.animation_error;
         return o;
+    }
+
+    int finish_collada(int code, const Stopwatch& watch, ColladaExport result) {
+        if (options_.up_axis || options_.meter)
+            result.text = canonical(
+                change_axes(options_.output, result.text, options_.up_axis, options_.meter, diag_));
+        for (const auto& [name, bytes] : result.files)
+            if (int failed =
+                    write_whole((fs::path(options_.output).parent_path() / name).string(), bytes))
+                return failed;
+        return finish(result.text, code, watch);
+    }
+
+    static std::string canonical(const std::string& text) {
+        Diagnostics quiet;
+        auto document = collada::read_document_text("", text, quiet);
+        return document && document->whole() ? collada::write(*document, quiet.files) : text;
     }
 
     // .gltf: the JSON with its buffer in a .bin beside it.

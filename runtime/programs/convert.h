@@ -49,8 +49,9 @@ std::string change_axes(const std::string& path, const std::string& text,
                         Diagnostics& diag);
 
 // The text with relative links of files (images, other documents, shaders) as seen from another
-// folder.
+// folder. `archive` is the folder that a .zae was unpacked to ("" for none): its files are copied
+// into NAME_files beside NAME.dae, where the links then lead.
 std::string move_links(const std::string& path, const std::string& text,
-                       const std::string& new_path, Diagnostics& diag);
+                       const std::string& new_path, const std::string& archive);
 
 }  // namespace kinora

@@ -272,7 +272,7 @@ std::string change_axes(const std::string& path, const std::string& text,
 }
 
 std::string move_links(const std::string& path, const std::string& text,
-                       const std::string& new_path, Diagnostics& diag) {
+                       const std::string& new_path, const std::string& archive) {
     Diagnostics quiet;
     std::optional<Document> document = collada::read_document_text(path, text, quiet);
     if (!document || !document->whole()) return text;
@@ -281,15 +281,23 @@ std::string move_links(const std::string& path, const std::string& text,
     fs::path from = fs::weakly_canonical(fs::absolute(path), code).parent_path();
     fs::path to = fs::weakly_canonical(fs::absolute(new_path), code).parent_path();
     if (from == to) return text;
+    // Out of an archive everything comes along, into a folder beside the new document.
+    fs::path unpacked = fs::path(new_path).stem().string() + "_files";
+    if (!archive.empty()) {
+        unpacked /= from.lexically_relative(fs::weakly_canonical(archive, code));
+        fs::copy(archive, to / (fs::path(new_path).stem().string() + "_files"),
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
+    }
     std::vector<Edit> edits;
     auto moved = [&](std::string_view link) -> std::optional<std::string> {
         std::optional<std::string> file = relative_file(link);
         if (!file) return std::nullopt;
-        std::string name = encoded((from / *file).lexically_relative(to).generic_string());
+        fs::path moved_file = archive.empty() ? (from / *file).lexically_relative(to)
+                                              : (unpacked / *file).lexically_normal();
+        std::string name = encoded(moved_file.generic_string());
         size_t hash = link.find('#');
         return name + (hash == link.npos ? "" : std::string(link.substr(hash)));
     };
-    (void)diag;
     for_each_element(document->root(), [&](const Element& e) {
         // 1.4 writes the name into <init_from>, 1.5 into its <ref>.
         bool names_file = e.name == "init_from" || e.name == "ref";

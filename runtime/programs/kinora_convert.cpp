@@ -15,7 +15,7 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
         "Exit codes: 0 ok; 1 something was lost, under --strict; 2 usage; 3 scene "
         "unreadable;\n4 shader error; 6 output cannot be written; 75 retry may help.");
     app.set_version_flag("--version", "kinora-convert " KINORA_VERSION);
-    app.add_option("input", o.input, "the scene: .dae, .zae or .kmz")->required();
+    app.add_option("input", o.input, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
     app.add_option("output", o.output, "the file to write: .glb, .gltf or .dae")->required();
     std::vector<std::string> shaders;
     app.add_option("--shader", shaders,

@@ -1,11 +1,14 @@
 """tests/programs/convert_test.py: kinora-convert as its users run it: pictures before and after,
 and the judgement of Khronos' glTF-Validator (scripts/npm_packages; skipped without)."""
 import json
+import math
 import os
+import shutil
 import struct
 import subprocess
 import sys
 import unittest
+import zlib
 from pathlib import Path
 
 import programs
@@ -51,6 +54,20 @@ def glb_json(path):
     magic, version, size, length, kind = struct.unpack("<IIIII", data[:20])
     assert magic == 0x46546C67 and version == 2 and size == len(data) and kind == 0x4E4F534A
     return json.loads(data[20:20 + length])
+
+
+def outline(path):
+    """Whether each pixel is covered."""
+    parts = list(png.chunks(Path(path).read_bytes()))
+    width, height, depth, color = struct.unpack(">IIBB", parts[0][1][:10])
+    assert depth == 8 and color == 6
+    data = zlib.decompress(b"".join(body for kind, body in parts if kind == b"IDAT"))
+    covered, above = [], bytes(width * 4)
+    for y in range(height):
+        at = y * (width * 4 + 1)
+        above = png.unfilter(data[at], bytearray(data[at + 1:at + 1 + width * 4]), above, 4)
+        covered += [alpha > 127 for alpha in above[3::4]]
+    return covered
 
 
 def validated(files):
@@ -224,11 +241,96 @@ class ToGlb(Convert):
         # Two turns in the first second, 810 degrees back in the next 1.5: keys 90 degrees apart.
         self.assertEqual(json_["accessors"][paths["rotation"]["input"]]["count"], 1 + 8 + 9)
 
+    def test_cubics_at_the_thirds_are_cubic_splines(self):
+        # HERMITE from 0 to 1 in two seconds, leaving with 2 a segment, arriving level: 3/4 midway.
+        source = """<source id="{0}"><float_array id="{0}a" count="2">{1}</float_array><technique_common>
+<accessor source="#{0}a" count="2"><param name="{2}" type="float"/></accessor></technique_common></source>"""
+        body = "<library_animations><animation id='a'>" + "".join(
+            source.format(*row) for row in (("i", "0 2", "TIME"), ("o", "0 1", "X"), ("it", "0 0", "X"),
+                                            ("ot", "2 0", "X"))) + """
+<source id="k"><Name_array id="ka" count="2">HERMITE HERMITE</Name_array><technique_common><accessor source="#ka" count="2">
+<param name="INTERPOLATION" type="name"/></accessor></technique_common></source><sampler id="s"><input semantic="INPUT" source="#i"/>
+<input semantic="OUTPUT" source="#o"/><input semantic="INTERPOLATION" source="#k"/><input semantic="IN_TANGENT" source="#it"/>
+<input semantic="OUT_TANGENT" source="#ot"/></sampler><channel source="#s" target="n/t.X"/>
+<channel source="#s" target="n/r.ANGLE"/></animation></library_animations>"""
+        out = self.converted(self.write("a.dae", mesh_scene(body)), "a.glb")
+        json_ = glb_json(out)
+        channels = {c["target"]["path"]: json_["animations"][0]["samplers"][c["sampler"]]
+                    for c in json_["animations"][0]["channels"]}
+        self.assertEqual(channels["translation"]["interpolation"], "CUBICSPLINE")
+        self.assertEqual(channels["rotation"]["interpolation"], "LINEAR")  # sampled
+        x = self.floats(out, json_, channels["translation"]["output"])[0::3]
+        # glTF 2.0, appendix C: in tangent, value, out tangent; tangents times the duration.
+        midway = 0.5 * x[1] + 0.125 * 2 * x[2] + 0.5 * x[4] - 0.125 * 2 * x[3]
+        self.assertAlmostEqual(midway, 0.75, 6)
+        angles = self.floats(out, json_, channels["rotation"]["output"])
+        times = self.floats(out, json_, channels["rotation"]["input"])
+        turned = lambda q: 2 * math.degrees(math.atan2(q[1], q[3]))
+        for k, time in enumerate(times):
+            s = time / 2
+            angle = 2 * (s**3 - 2 * s**2 + s) + 3 * s**2 - 2 * s**3
+            self.assertAlmostEqual(turned(angles[4 * k:4 * k + 4]), angle, 4)
+
+    def floats(self, path, json_, index):
+        data = path.read_bytes()
+        start = 20 + struct.unpack("<I", data[12:16])[0] + 8
+        accessor = json_["accessors"][index]
+        view = json_["bufferViews"][accessor["bufferView"]]
+        count = accessor["count"] * {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+        return struct.unpack_from(f"<{count}f", data, start + view["byteOffset"])
+
     def test_gltf_is_the_same_in_two_files(self):
         out = self.converted(SCENES / "matte.dae", "m.gltf")
         json_ = json.loads(out.read_text())
         self.assertEqual(json_["buffers"][0]["uri"], "m.bin")
         self.assertEqual((self.folder / "m.bin").stat().st_size, json_["buffers"][0]["byteLength"])
+
+    # The pictures are those of the .dae: what pbrMetallicRoughness cannot say is read from extras.
+    PICTURES = [("court.dae", 1), ("tintoy.dae", 0.8), ("walker.dae", 0.7)]
+    SHARED_PICTURES = [
+        ("cts_skin_2_influence/skin_2_influence.dae", 0.5), ("cts_skin_on_morph/skin_on_morph.dae", 0),
+        ("gltf_rigged_figure/RiggedFigure.dae", 0.6), ("thinmatrix_cowboy/model.dae", 0.4),
+        ("webglue_cat/cat.dae", 0), ("torque_grenade_bezier/*.dae", 0.5), ("cts_anim_1anim_bezier/*.dae", 1.3),
+        ("cts_transparent_rgb_zero/*.dae", 0), ("cts_x_up/*.dae", 0), ("cts_transform_stack/*.dae", 0.5),
+        ("cts_morph_two_targets_relative/*.dae", 0), ("cts_bind_vertex_input_texture_set/*.dae", 0),
+        ("cts_instances_of_same_node/*.dae", 0), ("cts_anim_target_matrix_30/*.dae", 1),
+        ("magnum_trs_animation/*.dae", 1), ("cts_spot_falloff/*.dae", 0)]
+
+    def test_pictures_are_those_of_the_original(self):
+        scenes = [(SCENES / name, time) for name, time in self.PICTURES]
+        for pattern, time in self.SHARED_PICTURES if SHARED else []:
+            scenes += [(path, time) for path in sorted(SHARED.glob(pattern))]
+        for scene, time in scenes:
+            with self.subTest(scene.name):
+                out = self.converted(scene, f"{scene.stem}.glb")
+                before = self.picture(scene, "--time", time)
+                after = self.picture(out, "--time", time)
+                self.assertLess(self.difference(before, after), LIKE)
+
+    def test_blender_sees_the_same_outlines(self):
+        if not shutil.which("blender") or not SHARED:
+            self.skipTest("no blender, or no shared scenes")
+        words, originals = [], []
+        for scene, time in (("cts_skin_2_influence/skin_2_influence.dae", 0.5),
+                            ("cts_instances_of_same_node/*.dae", 0), ("cts_lookat/*.dae", 0)):
+            scene = next(SHARED.glob(scene))
+            out = self.converted(scene, f"{scene.stem}.glb")
+            words += [out, str(time), self.folder / f"{scene.stem}-blender.png"]
+            originals.append((scene, time))
+        done = subprocess.run(["blender", "-b", "-P", SOURCE / "tests/programs/blender_glb.py", "--",
+                               "192", "192", *map(str, words)], capture_output=True, text=True, timeout=240)
+        for scene, time in originals:
+            with self.subTest(scene.name):
+                ours = self.folder / f"{scene.stem}-ours.png"
+                self.expect(render(scene, "-o", ours, "--size", "192x192", "--spp", "16", "--time", time,
+                                   "--progress", "none"), 0)
+                theirs = self.folder / f"{scene.stem}-blender.png"
+                self.assertTrue(theirs.exists(), done.stdout[-2000:] + done.stderr[-2000:])
+                a, b = outline(ours), outline(theirs)
+                both = sum(x and y for x, y in zip(a, b))
+                either = sum(x or y for x, y in zip(a, b))
+                self.assertGreater(both, 100)
+                self.assertGreater(both / either, 0.97)
 
     def scenes(self):
         scenes = sorted(SCENES.glob("*.dae"))

@@ -1,0 +1,287 @@
+// runtime/export_collada.cpp: the COLLADA document and its nodes.
+#include "runtime/export_collada.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+#include "collada/document.h"
+#include "collada/edit.h"
+#include "collada/write.h"
+#include "runtime/export_collada_p.h"
+#include "runtime/findings.h"
+#include "runtime/transforms.h"
+
+namespace kinora {
+
+std::string xml(const std::string& name, const std::string& attributes,
+                const std::string& content) {
+    return fmt::format("<{0}{1}>{2}</{0}>", name, attributes, content);
+}
+
+std::string attribute(const std::string& name, const std::string& value) {
+    return " " + collada::attribute_text(name, value);
+}
+
+std::string number_text(std::span<const double> numbers) {
+    std::string text;
+    for (double x : numbers) (text += text.empty() ? "" : " ") += collada::shortest_number(x);
+    return text;
+}
+
+std::string number_text(std::span<const float> numbers) {
+    std::string text;
+    for (float x : numbers) text += fmt::format("{}{}", text.empty() ? "" : " ", x);
+    return text;
+}
+
+std::string float_source(const std::string& id, const std::string& numbers, size_t count,
+                         const std::vector<std::string>& params, const char* type) {
+    std::string list;
+    for (const std::string& p : params)
+        list += fmt::format("<param name=\"{}\" type=\"{}\"/>", p, type);
+    bool matrix = std::string_view(type) == "float4x4";
+    size_t width = matrix ? 16 : params.size();
+    return fmt::format(
+        "<source id=\"{0}\"><float_array id=\"{0}-array\" count=\"{1}\">{2}</float_array>"
+        "<technique_common><accessor source=\"#{0}-array\" count=\"{3}\" stride=\"{4}\">{5}"
+        "</accessor></technique_common></source>",
+        id, count * width, numbers, count, width, list);
+}
+
+namespace {
+
+bool is_identity(const dmat4& m) {
+    return m == dmat4(1.0);
+}
+
+std::string matrix_text(const dmat4& m) {
+    std::vector<double> rows;
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) rows.push_back(m[c][r]);
+    return number_text(rows);
+}
+
+constexpr const char* kXyz[] = {".X", ".Y", ".Z"};
+constexpr const char* kRotate[] = {".X", ".Y", ".Z", ".ANGLE"};
+
+}  // namespace
+
+// An XML name that no other element has.
+std::string ColladaExporter::id(const std::string& wanted, const char* kind) {
+    std::string name;
+    for (char c : wanted)
+        name += std::isalnum(uint8_t(c)) || c == '_' || c == '-' || uint8_t(c) >= 0x80 ? c : '_';
+    if (name.empty()) name = kind;
+    if (std::isdigit(uint8_t(name[0])) || name[0] == '-') name = std::string(kind) + "_" + name;
+    std::string unique = name;
+    for (int n = 2; !taken_.insert(unique).second; ++n) unique = fmt::format("{}_{}", name, n);
+    return unique;
+}
+
+void ColladaExporter::lost(const std::string& what, const std::string& why, Location where) {
+    diagnostics_.report(Code::CONVERT_LOST, where, what, why);
+}
+
+std::span<const double> ColladaExporter::values(ValueSlot slot) const {
+    if (!slot.present()) return {};
+    return std::span(description_.values).subspan(slot.offset, slot.count);
+}
+
+void ColladaExporter::name_all() {
+    auto names = [&](const auto& list, const char* kind, std::vector<std::string>& ids) {
+        for (const auto& item : list)
+            ids.push_back(id(item.id.empty() ? item.name : item.id, kind));
+    };
+    names(description_.nodes, "node", node_ids_);
+    names(description_.meshes, "mesh", mesh_ids_);
+    names(description_.materials, "material", material_ids_);
+    names(description_.lights, "light", light_ids_);
+    names(description_.cameras, "camera", camera_ids_);
+    size_t count = description_.nodes.size();
+    uses_.assign(count, 0);
+    parents_.assign(count, kNone);
+    joint_.assign(count, false);
+    for (uint32_t root : description_.roots) ++uses_[root];
+    for (uint32_t n = 0; n < count; ++n) {
+        for (const ChildUse& c : description_.nodes[n].children) {
+            ++uses_[c.node];
+            parents_[c.node] = n;
+        }
+        for (const MeshUse& use : description_.nodes[n].meshes)
+            for (uint32_t joint : use.joint_nodes)
+                if (joint != kNone) joint_[joint] = true;
+    }
+}
+
+std::string ColladaExporter::asset() const {
+    // The schema asks for dates; none keeps the bytes the same for the same input.
+    static constexpr const char* kAxes[] = {"X_UP", "Y_UP", "Z_UP"};
+    return fmt::format(
+        "<asset><contributor><authoring_tool>kinora-convert</authoring_tool></contributor>"
+        "<created>1970-01-01T00:00:00Z</created><modified>1970-01-01T00:00:00Z</modified>"
+        "<unit meter=\"{}\" name=\"{}\"/><up_axis>{}</up_axis></asset>",
+        collada::shortest_number(description_.meter), description_.meter == 1 ? "meter" : "unit",
+        kAxes[size_t(description_.up_axis)]);
+}
+
+std::string ColladaExporter::transform(const Transform& t, const std::string& node, size_t number) {
+    struct Row {
+        const char* name;
+        uint32_t count;
+        const char* const* members;
+    };
+    static constexpr Row kRows[] = {{"translate", 3, kXyz}, {"rotate", 4, kRotate},
+                                    {"scale", 3, kXyz},     {"matrix", 16, nullptr},
+                                    {"lookat", 9, nullptr}, {"skew", 7, nullptr}};
+    std::string sid = fmt::format(
+        "{}{}", size_t(t.kind) < std::size(kRows) ? kRows[size_t(t.kind)].name : "rotation",
+        number);
+    std::string target = node + "/" + sid, where = attribute("sid", sid);
+    if (size_t(t.kind) < std::size(kRows)) {
+        const Row& row = kRows[size_t(t.kind)];
+        address({t.value, row.count}, target, row.members);
+        return xml(row.name, where, number_text(values({t.value, row.count})));
+    }
+    // A quaternion: its four numbers together are the matrix.
+    for (int k = 0; k < 4; ++k) targets_[t.value + uint32_t(k)] = {target, false, k};
+    dmat4 m = transform_matrix(t.kind, &description_.values[t.value]);
+    bool moves = false;
+    for (uint32_t k = 0; k < 4; ++k) moves |= description_.animated[t.value + k];
+    if (!moves && is_identity(m)) return "";
+    return xml("matrix", where, matrix_text(m));
+}
+
+std::string ColladaExporter::mesh_instance(const MeshUse& use) {
+    const MeshDefinition& mesh = description_.meshes[use.mesh];
+    bool controlled = use.skin != kNone || use.morph != kNone;
+    std::string url = controlled ? controller(use) : mesh_ids_[use.mesh];
+    std::string content, materials;
+    if (use.skin != kNone) {
+        std::set<std::string> roots;
+        for (uint32_t joint : use.joint_nodes) {
+            if (joint == kNone) continue;
+            uint32_t top = joint;
+            while (parents_[top] != kNone) top = parents_[top];
+            if (roots.insert(node_ids_[top]).second)
+                content += xml("skeleton", "", "#" + node_ids_[top]);
+        }
+    }
+    std::set<std::string> symbols;
+    for (const PrimitiveGroup& group : mesh.groups) symbols.insert(group.symbol);
+    for (const MaterialUse& m : use.materials) {
+        if (m.material == kNone || !symbols.count(m.symbol)) continue;
+        std::string binds;
+        for (const VertexBinding& b : m.vertex_bindings)
+            binds +=
+                fmt::format("<bind_vertex_input{}{}{}/>", attribute("semantic", b.param),
+                            attribute("input_semantic", b.semantic),
+                            b.set == kNone ? "" : attribute("input_set", std::to_string(b.set)));
+        materials += xml("instance_material",
+                         attribute("symbol", m.symbol.empty() ? "material" : m.symbol) +
+                             attribute("target", "#" + material_ids_[m.material]),
+                         binds);
+    }
+    if (!materials.empty())
+        content += xml("bind_material", "", xml("technique_common", "", materials));
+    return xml(controlled ? "instance_controller" : "instance_geometry",
+               attribute("url", "#" + url), content);
+}
+
+std::string ColladaExporter::child(const ChildUse& use) {
+    std::string text = uses_[use.node] > 1
+                           ? xml("instance_node", attribute("url", "#" + node_ids_[use.node]), "")
+                           : node(use.node);
+    if (is_identity(use.conversion) && uses_[use.node] <= 1) return text;
+    std::string matrix =
+        is_identity(use.conversion) ? "" : xml("matrix", "", matrix_text(use.conversion));
+    return xml("node", "", matrix + text);
+}
+
+std::string ColladaExporter::node(uint32_t index) {
+    const NodeDefinition& definition = description_.nodes[index];
+    const std::string& own = node_ids_[index];
+    std::string attributes = attribute("id", own);
+    if (!definition.name.empty()) attributes += attribute("name", definition.name);
+    if (joint_[index]) attributes += attribute("sid", own) + attribute("type", "JOINT");
+    std::string cameras, controllers, geometries, lights, nodes, content, extra;
+    for (size_t t = 0; t < definition.transforms.size(); ++t)
+        content += transform(definition.transforms[t], own, t);
+    for (uint32_t c : definition.cameras)
+        cameras += xml("instance_camera", attribute("url", "#" + camera_ids_[c]), "");
+    for (const MeshUse& use : definition.meshes) {
+        std::string instance = mesh_instance(use);
+        // A skin without bind shape would follow its node, too (COLLADA.md): it stands alone.
+        if (use.skin != kNone)
+            skinned_ += xml("node", attribute("id", id(own + "-skin", "skin")), instance);
+        else if (!is_identity(use.conversion))
+            nodes += xml("node", "", xml("matrix", "", matrix_text(use.conversion)) + instance);
+        else
+            (use.morph != kNone ? controllers : geometries) += instance;
+    }
+    for (uint32_t l : definition.lights)
+        lights += xml("instance_light", attribute("url", "#" + light_ids_[l]), "");
+    for (const ChildUse& c : definition.children) nodes += child(c);
+    for (const UserAttribute& a : definition.attributes)
+        extra += xml("attribute", attribute("name", a.name),
+                     a.numbers.empty() ? collada::escape_text(a.text) : number_text(a.numbers));
+    if (!extra.empty())
+        extra = xml("extra", "", xml("technique", attribute("profile", "RSL"), extra));
+    return xml("node", attributes,
+               content + cameras + controllers + geometries + lights + nodes + extra);
+}
+
+std::string ColladaExporter::library(const char* name, const std::string& content) const {
+    return content.empty() ? "" : xml(std::string("library_") + name, "", content);
+}
+
+ColladaExport ColladaExporter::run() {
+    name_all();
+    std::string shared, tops, geometries, lights, cameras, scene_extra;
+    for (uint32_t n = 0; n < description_.nodes.size(); ++n)
+        if (uses_[n] > 1) shared += node(n);
+    for (uint32_t root : description_.roots) tops += child({root, dmat4(1.0)});
+    tops += skinned_;
+    for (uint32_t m = 0; m < description_.meshes.size(); ++m) geometries += geometry(m);
+    for (uint32_t m = 0; m < description_.materials.size(); ++m) {
+        std::string name = effect(m);
+        materials_ += xml("material",
+                          attribute("id", material_ids_[m]) +
+                              (description_.materials[m].name.empty()
+                                   ? ""
+                                   : attribute("name", description_.materials[m].name)),
+                          xml("instance_effect", attribute("url", "#" + name), ""));
+    }
+    for (uint32_t l = 0; l < description_.lights.size(); ++l) lights += light(l);
+    for (uint32_t c = 0; c < description_.cameras.size(); ++c) cameras += camera(c);
+    std::vector<ShaderUse> picture = description_.picture.atmosphere;
+    picture.insert(picture.end(), description_.picture.imagers.begin(),
+                   description_.picture.imagers.end());
+    if (tops.empty()) tops = "<node/>";
+    std::string scene = xml("visual_scene", attribute("id", id("scene", "scene")),
+                            tops + rsl_extra(picture, "scene"));
+    std::string scene_id = scene.substr(scene.find('"') + 1);
+    scene_id = scene_id.substr(0, scene_id.find('"'));
+    std::string text =
+        "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">" +
+        asset() + animations() + library("cameras", cameras) + library("lights", lights) +
+        library("images", images_) + library("materials", materials_) +
+        library("effects", effects_) + library("geometries", geometries) +
+        library("controllers", controllers_) + library("nodes", shared) +
+        library("visual_scenes", scene) +
+        xml("scene", "", xml("instance_visual_scene", attribute("url", "#" + scene_id), "")) +
+        "</COLLADA>";
+    Diagnostics quiet;
+    std::optional<collada::Document> document =
+        collada::read_document_text(path_, std::move(text), quiet);
+    if (document && document->whole()) result_.text = collada::write(*document, quiet.files);
+    return std::move(result_);
+}
+
+ColladaExport export_collada(const SceneDescription& description, const std::string& path,
+                             Diagnostics& diagnostics) {
+    return ColladaExporter(description, path, diagnostics).run();
+}
+
+}  // namespace kinora

@@ -1,0 +1,28 @@
+// runtime/export_collada.h: a SceneDescription (one that import_gltf made) as a COLLADA document.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/scene_description.h"
+
+namespace kinora {
+
+struct ColladaExport {
+    std::string text;  // COLLADA 1.4.1, canonical (collada/write.h)
+    // Images that were inside the scene's file: names relative to the document, and bytes.
+    std::vector<std::pair<std::string, std::string>> files;
+};
+
+// `path` is where the document will stand: image links are relative to it.
+//
+// Nodes keep their stacks; a quaternion becomes a <matrix>, whose LINEAR keys turn as glTF's do.
+// Curves become LINEAR, STEP or BEZIER with the same values at all times. COLLADA's own shading
+// models and lights are written as such, all others as profile_RSL with their code, beside a
+// profile_COMMON that comes near. What cannot be said gives CONVERT_LOST.
+ColladaExport export_collada(const SceneDescription& description, const std::string& path,
+                             Diagnostics& diagnostics);
+
+}  // namespace kinora

@@ -1,0 +1,324 @@
+// runtime/export_collada_material.cpp: images, effects, lights and cameras.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "collada/edit.h"
+#include "runtime/export_collada_p.h"
+#include "runtime/shader_library.h"
+
+namespace kinora {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_library(const ShaderUse& use, std::string_view name) {
+    Diagnostics quiet;
+    return use.shader && use.shader->name == name &&
+           library_shader(name, quiet).get() == use.shader.get();
+}
+
+const ParamSource* source_of(const ShaderUse& use, std::string_view name) {
+    for (const ParamSource& p : use.params)
+        if (p.name == name) return &p;
+    return nullptr;
+}
+
+const rsl::ShaderParameter* parameter_of(const ShaderUse& use, std::string_view name) {
+    for (const rsl::ShaderParameter& p : use.shader->parameters)
+        if (p.name == name) return &p;
+    return nullptr;
+}
+
+// profile_COMMON's slots in the order of the schema, and what collada_*.sl calls them.
+struct SlotRow {
+    const char *element, *param;
+    bool is_color;
+};
+constexpr SlotRow kSlots[] = {{"emission", "emission", true},
+                              {"ambient", "ambient_color", true},
+                              {"diffuse", "diffuse", true},
+                              {"specular", "specular", true},
+                              {"shininess", "shininess", false},
+                              {"reflective", "reflective", true},
+                              {"reflectivity", "reflectivity", false},
+                              {"transparent", "transparent", true},
+                              {"transparency", "transparency", false},
+                              {"index_of_refraction", "index_of_refraction", false}};
+struct ModelRow {
+    const char *shader, *element;
+    const char* slots;  // those it has, by number
+};
+constexpr ModelRow kModels[] = {{"collada_constant", "constant", "056789"},
+                                {"collada_lambert", "lambert", "01256789"},
+                                {"collada_phong", "phong", "0123456789"},
+                                {"collada_blinn", "blinn", "0123456789"}};
+
+// rsl::ShaderKind
+constexpr const char* kStages[] = {"SURFACE", "DISPLACEMENT", "LIGHT",
+                                   "VOLUME",  "IMAGER",       "TRANSFORMATION"};
+// rsl::BaseType: what profile_RSL calls them.
+constexpr const char* kTypes[] = {"float",  "color",  "point", "vector",
+                                  "normal", "matrix", "string"};
+
+constexpr const char* kWraps[] = {"WRAP", "MIRROR", "CLAMP", "BORDER"};
+
+}  // namespace
+
+// The id of the <image> of a texture's file; files inside the scene's file go beside the document.
+std::string ColladaExporter::image(const std::string& texture_name) {
+    std::string path = parse_texture_name(texture_name).path;
+    auto [found, fresh] = image_ids_.try_emplace(path);
+    if (!fresh) return found->second;
+    std::string own = found->second = id(fs::path(path).stem().string(), "image");
+    std::error_code code;
+    std::string link;
+    if (fs::is_regular_file(path, code)) {
+        fs::path folder = fs::absolute(path_, code).lexically_normal().parent_path();
+        link = fs::absolute(path, code).lexically_normal().lexically_relative(folder).string();
+    } else if (std::string bytes = inner_file(path); !bytes.empty()) {
+        const char* type = bytes.starts_with("\x89PNG") ? ".png" : ".jpg";
+        link = fmt::format("{}_{}{}", fs::path(path_).stem().string(), own, type);
+        result_.files.emplace_back(link, std::move(bytes));
+    } else {
+        lost(fmt::format("image '{}'", path), "it cannot be read");
+        link = path;
+    }
+    std::string escaped;
+    for (char c : link)
+        escaped += c == ' ' ? "%20" : c == '%' ? "%25" : c == '#' ? "%23" : std::string(1, c);
+    images_ +=
+        xml("image", attribute("id", own), xml("init_from", "", collada::escape_text(escaped)));
+    return own;
+}
+
+std::string ColladaExporter::inner_file(const std::string& name) const {
+    for (const auto& file : description_.memory_files)
+        if (file->name() == name) return {file->bytes().begin(), file->bytes().end()};
+    return {};
+}
+
+// profile_COMMON: COLLADA's own model as it is; of others the colors that any viewer understands.
+std::string ColladaExporter::common(const MaterialDefinition& definition, const ShaderUse* use,
+                                    const std::string& effect) {
+    const ModelRow* model = nullptr;
+    for (const ModelRow& row : kModels)
+        if (use && is_library(*use, row.shader)) model = &row;
+    std::string params, slots;
+    auto value = [&](const SlotRow& row, const char* param) -> std::string {
+        const ParamSource* p = use ? source_of(*use, param) : nullptr;
+        const ParamSource* map = use ? source_of(*use, std::string(param) + "_map") : nullptr;
+        if (map && !map->strings.empty() && !map->strings[0].empty() && row.is_color) {
+            TextureName look = parse_texture_name(map->strings[0]);
+            std::string sid = fmt::format("{}-{}", effect, row.element);
+            params += fmt::format(
+                "<newparam sid=\"{0}-surface\"><surface type=\"2D\"><init_from>{1}</init_from>"
+                "</surface></newparam><newparam sid=\"{0}-sampler\"><sampler2D><source>{0}-surface"
+                "</source><wrap_s>{2}</wrap_s><wrap_t>{3}</wrap_t><minfilter>{4}</minfilter>"
+                "<magfilter>{4}</magfilter></sampler2D></newparam>",
+                sid, image(map->strings[0]), kWraps[size_t(look.wrap_s)],
+                kWraps[size_t(look.wrap_t)], look.nearest ? "NEAREST" : "LINEAR");
+            std::string name = map->texcoord.empty() ? "TEXCOORD0" : map->texcoord;
+            return fmt::format("<texture texture=\"{}-sampler\" texcoord=\"{}\"/>", sid, name);
+        }
+        if (!p || !p->value.present()) return "";
+        std::vector<double> v(values(p->value).begin(), values(p->value).end());
+        if (row.is_color) {
+            v.resize(3, v.empty() ? 0.0 : v[0]);
+            const ParamSource* alpha = source_of(*use, "transparent_alpha");
+            bool with_alpha = alpha && std::string_view(row.element) == "transparent";
+            v.push_back(with_alpha ? values(alpha->value)[0] : 1.0);
+        }
+        std::string sid = row.element;
+        if (model) address({p->value.offset, p->value.count}, effect + "/common/" + sid, nullptr);
+        return xml(row.is_color ? "color" : "float", attribute("sid", sid), number_text(v));
+    };
+    auto add = [&](const SlotRow& row, const char* param) {
+        std::string content = value(row, param);
+        std::string opaque;
+        const ParamSource* mode = use ? source_of(*use, "opaque") : nullptr;
+        if (mode && !mode->strings.empty() && std::string_view(row.element) == "transparent" &&
+            mode->strings[0] != "NONE")
+            opaque = attribute("opaque", mode->strings[0]);
+        if (!content.empty()) slots += xml(row.element, opaque, content);
+    };
+    if (model) {
+        for (const char* s = model->slots; *s; ++s) add(kSlots[*s - '0'], kSlots[*s - '0'].param);
+    } else {
+        add(kSlots[0], "emissive");
+        add(kSlots[2], use && source_of(*use, "base_color") ? "base_color" : "surfacecolor");
+    }
+    std::string shading = xml(model ? model->element : "lambert", "", slots);
+    std::string extra;
+    if (definition.hide_backfaces)
+        extra =
+            "<extra><technique profile=\"GOOGLEEARTH\"><double_sided>0</double_sided>"
+            "</technique></extra>";
+    return xml("profile_COMMON", "",
+               params + xml("technique", attribute("sid", "common"), shading + extra));
+}
+
+// profile_RSL: one technique with the code of all shaders, each once.
+std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
+                                 const std::string& effect) {
+    std::string params, codes, shaders;
+    std::set<const rsl::Ast*> written;
+    for (const ShaderUse* use : uses) {
+        if (!use->shader) continue;
+        if (written.insert(use->shader->ast.get()).second)
+            codes += xml("code", "", collada::cdata(rsl::print_ast(*use->shader->ast)));
+        std::string binds;
+        for (const ParamSource& p : use->params) {
+            const rsl::ShaderParameter* parameter = parameter_of(*use, p.name);
+            if (!parameter || size_t(parameter->type.base) >= std::size(kTypes)) continue;
+            std::string value;
+            if (!p.strings.empty()) {
+                if (p.strings[0].empty()) continue;
+                bool file = p.name.ends_with("_map") ||
+                            fs::is_regular_file(parse_texture_name(p.strings[0]).path);
+                value = file ? image(p.strings[0]) : p.strings[0];
+                if (file && p.strings[0].find('\x1f') != std::string::npos)
+                    lost(fmt::format("effect '{}'", effect),
+                         fmt::format("how '{}' repeats, is filtered or decoded", p.name));
+                value = collada::escape_text(value);
+            } else {
+                value = number_text(values(p.value));
+            }
+            if (value.empty()) continue;
+            std::string sid = use->shader->name + "-" + p.name;
+            params += xml("newparam", attribute("sid", sid),
+                          xml(kTypes[size_t(parameter->type.base)], "", value));
+            if (p.value.present()) address(p.value, effect + "/" + sid, nullptr);
+            binds += xml("bind", attribute("symbol", p.name),
+                         fmt::format("<param{}/>", attribute("ref", sid)));
+        }
+        shaders += xml("shader", attribute("stage", kStages[size_t(use->shader->kind)]),
+                       xml("name", "", use->shader->name) + binds);
+    }
+    return xml(
+        "profile_RSL", "",
+        params + xml("technique", attribute("sid", "rsl"), codes + xml("pass", "", shaders)));
+}
+
+std::string ColladaExporter::effect(uint32_t index) {
+    const MaterialDefinition& m = description_.materials[index];
+    std::string own = id(material_ids_[index] + "-effect", "effect");
+    std::vector<const ShaderUse*> uses;
+    for (const auto* list :
+         {&m.transformations, &m.displacements, &m.surfaces, &m.interior, &m.lights})
+        for (const ShaderUse& use : *list) uses.push_back(&use);
+    if (!m.exterior.empty()) lost(fmt::format("material '{}'", m.id), "its exterior volume");
+    const ShaderUse* top = m.surfaces.empty() ? nullptr : &m.surfaces.back();
+    bool common_only = uses.size() == 1 && top;
+    if (common_only)
+        common_only = std::any_of(std::begin(kModels), std::end(kModels), [&](const ModelRow& row) {
+            return is_library(*top, row.shader);
+        });
+    std::string profiles = common(m, top, own);
+    if (!uses.empty() && !common_only) profiles += rsl(uses, own);
+    if (m.hide_backfaces && !common_only)
+        lost(fmt::format("material '{}'", m.id), "that back faces are hidden");
+    effects_ += xml("effect", attribute("id", own), profiles);
+    return own;
+}
+
+// <extra><technique profile="RSL"> with an <instance_effect> of these shaders.
+std::string ColladaExporter::rsl_extra(const std::vector<ShaderUse>& uses,
+                                       const std::string& owner) {
+    std::string instances;
+    for (const ShaderUse& use : uses) {
+        std::string own = id(owner + "-rsl", "effect");
+        effects_ +=
+            xml("effect", attribute("id", own), common({}, nullptr, own) + rsl({&use}, own));
+        instances += xml("instance_effect", attribute("url", "#" + own), "");
+    }
+    return instances.empty()
+               ? ""
+               : xml("extra", "", xml("technique", attribute("profile", "RSL"), instances));
+}
+
+std::string ColladaExporter::light(uint32_t index) {
+    struct Row {
+        const char *shader, *element;
+        bool falls_off, cone;
+    };
+    static constexpr Row kRows[] = {{"collada_ambient", "ambient", false, false},
+                                    {"collada_directional", "directional", false, false},
+                                    {"collada_point", "point", true, false},
+                                    {"collada_spot", "spot", true, true},
+                                    {"gltf_directional", "directional", false, false},
+                                    {"gltf_point", "point", true, false},
+                                    {"gltf_spot", "spot", true, true}};
+    const LightDefinition& l = description_.lights[index];
+    const Row* row = nullptr;
+    for (const Row& r : kRows)
+        if (is_library(l.shader, r.shader)) row = &r;
+    const std::string& own = light_ids_[index];
+    bool theirs = row && std::string_view(row->shader).starts_with("gltf");
+    auto number = [&](const char* name, double otherwise) {
+        const ParamSource* p = source_of(l.shader, name);
+        return p && p->value.present() ? values(p->value)[0] : otherwise;
+    };
+    // gltf_*.sl: Cl = color * intensity / PI, point and spot lights over d^2.
+    double factor = theirs ? number("intensity", 1) / kPi : 1.0;
+    std::vector<double> color{1, 1, 1};
+    if (const ParamSource* p = source_of(l.shader, "lightcolor")) {
+        color.assign(values(p->value).begin(), values(p->value).end());
+        color.resize(3, color.empty() ? 1.0 : color[0]);
+        if (!theirs) address(p->value, own + "/color", nullptr);
+    }
+    for (double& c : color) c *= factor;
+    std::string content = xml("color", attribute("sid", "color"), number_text(color));
+    auto add = [&](const char* name, double value) {
+        const ParamSource* p = source_of(l.shader, name);
+        if (p && p->value.present() && !theirs) address(p->value, own + "/" + name, nullptr);
+        content +=
+            xml(name, attribute("sid", name), number_text(std::span<const double>(&value, 1)));
+    };
+    if (row && row->falls_off) {
+        add("constant_attenuation", theirs ? 0 : number("constant_attenuation", 1));
+        add("linear_attenuation", theirs ? 0 : number("linear_attenuation", 0));
+        add("quadratic_attenuation", theirs ? 1 : number("quadratic_attenuation", 0));
+    }
+    if (row && row->cone) {
+        add("falloff_angle",
+            theirs ? number("outer_angle", kPi / 4) * 360 / kPi : number("falloff_angle", 180));
+        add("falloff_exponent", theirs ? 0 : number("falloff_exponent", 0));
+    }
+    // What COLLADA's light does not do just so is written as RSL, which wins.
+    bool exact = row && (!theirs || (!row->cone && !(number("range", 0) > 0)));
+    std::string extra = exact ? "" : rsl_extra({l.shader}, own);
+    return xml("light", attribute("id", own) + (l.name.empty() ? "" : attribute("name", l.name)),
+               xml("technique_common", "", xml(row ? row->element : "point", "", content)) + extra);
+}
+
+std::string ColladaExporter::camera(uint32_t index) {
+    const CameraDefinition& c = description_.cameras[index];
+    const std::string& own = camera_ids_[index];
+    std::string content;
+    auto add = [&](const char* name, ValueSlot slot, double otherwise = 0) {
+        double value = slot.present() ? values(slot)[0] : otherwise;
+        if (!slot.present() && otherwise == 0) return;
+        if (slot.present()) address(slot, own + "/" + name, nullptr);
+        content +=
+            xml(name, attribute("sid", name), number_text(std::span<const double>(&value, 1)));
+    };
+    add(c.orthographic ? "xmag" : "xfov", c.x);
+    add(c.orthographic ? "ymag" : "yfov", c.y);
+    if (!(c.x.present() && c.y.present())) add("aspect_ratio", c.aspect);
+    add("znear", c.znear, 0.01);
+    add("zfar", c.zfar, 1e6);  // the schema wants both
+    std::vector<ShaderUse> picture = c.picture.atmosphere;
+    picture.insert(picture.end(), c.picture.imagers.begin(), c.picture.imagers.end());
+    std::string kind = c.orthographic ? "orthographic" : "perspective";
+    return xml("camera", attribute("id", own) + (c.name.empty() ? "" : attribute("name", c.name)),
+               xml("optics", "", xml("technique_common", "", xml(kind, "", content))) +
+                   rsl_extra(picture, own));
+}
+
+}  // namespace kinora

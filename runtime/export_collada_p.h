@@ -1,0 +1,86 @@
+// runtime/export_collada_p.h: the parts of the COLLADA exporter; for export_collada*.cpp only.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/export_collada.h"
+#include "runtime/texture_name.h"
+
+namespace kinora {
+
+class ColladaExporter {
+  public:
+    ColladaExporter(const SceneDescription& description, const std::string& path,
+                    Diagnostics& diagnostics)
+        : description_(description), path_(path), diagnostics_(diagnostics) {}
+    ColladaExport run();
+
+  private:
+    // export_collada.cpp: the document, nodes
+    std::string id(const std::string& wanted, const char* kind);
+    void lost(const std::string& what, const std::string& why, Location where = {});
+    std::span<const double> values(ValueSlot slot) const;
+    void name_all();
+    std::string asset() const;
+    std::string transform(const Transform& t, const std::string& node, size_t number);
+    std::string node(uint32_t index);
+    std::string child(const ChildUse& use);
+    std::string mesh_instance(const MeshUse& use);
+    std::string skinned_instances();
+    std::string library(const char* name, const std::string& content) const;
+
+    // export_collada_mesh.cpp: geometries and controllers
+    std::string geometry(uint32_t index);
+    std::string skin(const MeshUse& use, const std::string& controller);
+    std::string morph(uint32_t index, uint32_t mesh);
+    std::string controller(const MeshUse& use);
+
+    // export_collada_material.cpp: images, effects, lights, cameras
+    std::string image(const std::string& texture_name);
+    std::string inner_file(const std::string& name) const;
+    std::string effect(uint32_t material);
+    std::string common(const MaterialDefinition& definition, const ShaderUse* use,
+                       const std::string& effect);
+    std::string rsl(const std::vector<const ShaderUse*>& uses, const std::string& effect);
+    std::string rsl_extra(const std::vector<ShaderUse>& uses, const std::string& owner);
+    std::string light(uint32_t index);
+    std::string camera(uint32_t index);
+
+    // export_collada_animation.cpp
+    void address(ValueSlot slot, const std::string& target, const char* const* members);
+    std::string animations();
+
+    const SceneDescription& description_;
+    std::string path_;
+    Diagnostics& diagnostics_;
+    ColladaExport result_;
+    std::set<std::string> taken_;
+    std::vector<std::string> node_ids_, mesh_ids_, material_ids_, light_ids_, camera_ids_;
+    std::vector<uint32_t> uses_, parents_;  // of node definitions
+    std::vector<bool> joint_;
+    std::string images_, effects_, materials_, controllers_;
+    std::map<std::string, std::string> image_ids_, controller_ids_;
+    std::map<uint32_t, std::string> morph_ids_;
+    struct Target {
+        std::string path;
+        bool matrix = false;  // all 16 by one channel
+        int quaternion = -1;  // component of one that stands as a matrix
+    };
+    std::map<uint32_t, Target> targets_;  // by place in values
+    std::string skinned_;                 // nodes of skinned meshes, at the top
+};
+
+// "<name a="b">text</name>" with `attributes` as they stand (" a=\"b\"").
+std::string xml(const std::string& name, const std::string& attributes, const std::string& content);
+std::string attribute(const std::string& name, const std::string& value);
+std::string number_text(std::span<const double> numbers);
+std::string number_text(std::span<const float> numbers);
+// A <source> of floats with an accessor of these params ("XYZ", or "" for one without names).
+std::string float_source(const std::string& id, const std::string& numbers, size_t count,
+                         const std::vector<std::string>& params, const char* type = "float");
+
+}  // namespace kinora
