@@ -68,13 +68,17 @@ constexpr const char* kRotate[] = {".X", ".Y", ".Z", ".ANGLE"};
 
 }  // namespace
 
-// An XML name that no other element has.
-std::string ColladaExporter::id(const std::string& wanted, const char* kind) {
+std::string xml_name(const std::string& wanted) {
     std::string name;
     for (char c : wanted)
         name += std::isalnum(uint8_t(c)) || c == '_' || c == '-' || uint8_t(c) >= 0x80 ? c : '_';
-    if (name.empty()) name = kind;
-    if (std::isdigit(uint8_t(name[0])) || name[0] == '-') name = std::string(kind) + "_" + name;
+    bool starts = name.empty() || std::isdigit(uint8_t(name[0])) || name[0] == '-';
+    return starts ? "_" + name : name;
+}
+
+// An XML name that no other element has.
+std::string ColladaExporter::id(const std::string& wanted, const char* kind) {
+    std::string name = wanted.empty() ? kind : xml_name(wanted);
     std::string unique = name;
     for (int n = 2; !taken_.insert(unique).second; ++n) unique = fmt::format("{}_{}", name, n);
     return unique;
@@ -179,7 +183,7 @@ std::string ColladaExporter::mesh_instance(const MeshUse& use) {
                             attribute("input_semantic", b.semantic),
                             b.set == kNone ? "" : attribute("input_set", std::to_string(b.set)));
         materials += xml("instance_material",
-                         attribute("symbol", m.symbol.empty() ? "material" : m.symbol) +
+                         attribute("symbol", xml_name(m.symbol)) +
                              attribute("target", "#" + material_ids_[m.material]),
                          binds);
     }
@@ -203,7 +207,7 @@ std::string ColladaExporter::node(uint32_t index) {
     const NodeDefinition& definition = description_.nodes[index];
     const std::string& own = node_ids_[index];
     std::string attributes = attribute("id", own);
-    if (!definition.name.empty()) attributes += attribute("name", definition.name);
+    if (!definition.name.empty()) attributes += attribute("name", xml_name(definition.name));
     if (joint_[index]) attributes += attribute("sid", own) + attribute("type", "JOINT");
     std::string cameras, controllers, geometries, lights, nodes, content, extra;
     for (size_t t = 0; t < definition.transforms.size(); ++t)
@@ -250,7 +254,7 @@ ColladaExport ColladaExporter::run() {
                           attribute("id", material_ids_[m]) +
                               (description_.materials[m].name.empty()
                                    ? ""
-                                   : attribute("name", description_.materials[m].name)),
+                                   : attribute("name", xml_name(description_.materials[m].name))),
                           xml("instance_effect", attribute("url", "#" + name), ""));
     }
     for (uint32_t l = 0; l < description_.lights.size(); ++l) lights += light(l);

@@ -167,11 +167,11 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
 std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
                                  const std::string& effect) {
     std::string params, codes, shaders;
-    std::set<const rsl::Ast*> written;
+    std::set<std::string> written;  // import_gltf reads each stage's code by itself
     for (const ShaderUse* use : uses) {
         if (!use->shader) continue;
-        if (written.insert(use->shader->ast.get()).second)
-            codes += xml("code", "", collada::cdata(rsl::print_ast(*use->shader->ast)));
+        std::string code = rsl::print_ast(*use->shader->ast);
+        if (written.insert(code).second) codes += xml("code", "", collada::cdata(code));
         std::string binds;
         for (const ParamSource& p : use->params) {
             const rsl::ShaderParameter* parameter = parameter_of(*use, p.name);
@@ -293,7 +293,8 @@ std::string ColladaExporter::light(uint32_t index) {
     // What COLLADA's light does not do just so is written as RSL, which wins.
     bool exact = row && (!theirs || (!row->cone && !(number("range", 0) > 0)));
     std::string extra = exact ? "" : rsl_extra({l.shader}, own);
-    return xml("light", attribute("id", own) + (l.name.empty() ? "" : attribute("name", l.name)),
+    return xml("light",
+               attribute("id", own) + (l.name.empty() ? "" : attribute("name", xml_name(l.name))),
                xml("technique_common", "", xml(row ? row->element : "point", "", content)) + extra);
 }
 
@@ -316,7 +317,8 @@ std::string ColladaExporter::camera(uint32_t index) {
     std::vector<ShaderUse> picture = c.picture.atmosphere;
     picture.insert(picture.end(), c.picture.imagers.begin(), c.picture.imagers.end());
     std::string kind = c.orthographic ? "orthographic" : "perspective";
-    return xml("camera", attribute("id", own) + (c.name.empty() ? "" : attribute("name", c.name)),
+    return xml("camera",
+               attribute("id", own) + (c.name.empty() ? "" : attribute("name", xml_name(c.name))),
                xml("optics", "", xml("technique_common", "", xml(kind, "", content))) +
                    rsl_extra(picture, own));
 }

@@ -74,13 +74,13 @@ std::string ColladaExporter::geometry(uint32_t index) {
         }
         groups += xml("triangles",
                       attribute("count", std::to_string(group.triangles.size() / 3)) +
-                          attribute("material", group.symbol.empty() ? "material" : group.symbol),
+                          attribute("material", xml_name(group.symbol)),
                       inputs + xml("p", "", index_text(lists)));
     }
     std::string vertices =
         xml("vertices", attribute("id", own + "-vertices"), input("POSITION", own + "-positions"));
     std::string attributes = attribute("id", own);
-    if (!mesh.name.empty()) attributes += attribute("name", mesh.name);
+    if (!mesh.name.empty()) attributes += attribute("name", xml_name(mesh.name));
     std::string extra;
     if (!mesh.double_sided)
         extra =

@@ -77,6 +77,7 @@ class ColladaExporter {
 // "<name a="b">text</name>" with `attributes` as they stand (" a=\"b\"").
 std::string xml(const std::string& name, const std::string& attributes, const std::string& content);
 std::string attribute(const std::string& name, const std::string& value);
+std::string xml_name(const std::string& wanted);  // xs:NCName: other characters become '_'
 std::string number_text(std::span<const double> numbers);
 std::string number_text(std::span<const float> numbers);
 // A <source> of floats with an accessor of these params ("XYZ", or "" for one without names).

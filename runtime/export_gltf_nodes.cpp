@@ -360,7 +360,10 @@ std::string GltfExport::glb() {
     for (int c = 0; c < 3; ++c) axes[c] = axes[c] * description_.meter;
     if (!is_identity(axes)) {
         root_ = static_nodes(axes, kNone);
+        static constexpr const char* kAxes[] = {"X", "Y", "Z"};
         json_["nodes"][root_]["name"] = "axes and unit";
+        json_["nodes"][root_]["extras"]["kinora_axes"] = {
+            {"up", kAxes[size_t(description_.up_axis)]}, {"meter", description_.meter}};
     }
     for (uint32_t root : description_.roots) unroll(root, kNone, dmat4(1.0));
     set_bounds(axes);

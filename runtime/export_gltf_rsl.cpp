@@ -250,14 +250,7 @@ uint32_t GltfExport::light(const LightDefinition& l, const dmat4& world) {
     }
     if (!l.id.empty()) result["name"] = l.id;
     if (shades && use.shader) {
-        ShaderUse metres = use;
-        Json extras = rsl(metres);
-        Json& params = extras["params"];
-        if (kind == 2 || kind == 3) {
-            double m = description_.meter;
-            params["linear_attenuation"] = number("linear_attenuation", 0) / m;
-            params["quadratic_attenuation"] = number("quadratic_attenuation", 0) / (m * m);
-        }
+        Json extras = rsl(use);  // in the file's own unit: kinora_axes tells it
         result["extras"]["kinora_rsl"]["light"] = extras;
         if (l.ambient) result["extras"]["kinora_rsl"]["ambient"] = true;
         if (l.shadows) result["extras"]["kinora_rsl"]["shadows"] = *l.shadows;

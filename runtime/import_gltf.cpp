@@ -38,6 +38,7 @@ bool GltfImport::run() {
     out_.up_axis = options_.up_axis.value_or(UpAxis::Y);
     std::vector<int> roots = root_nodes();
     claim_nodes(roots);
+    find_axes(roots);
     find_animated();
     import_materials();
     import_lights();
@@ -150,6 +151,7 @@ void GltfImport::claim_nodes(const std::vector<int>& roots) {
 }
 
 void GltfImport::import_transforms(uint32_t index) {
+    if (int(index) == axes_node_) return;
     const tinygltf::Node& from = model_.nodes[index];
     NodeDefinition& to = out_.nodes[index];
     NodeSlots& slots = slots_[index];
@@ -233,16 +235,17 @@ void GltfImport::import_cameras() {
         auto slot = [&](double value) {
             return value != 0 ? ValueSlot{append(std::span(&value, 1), 1), 1} : ValueSlot{};
         };
+        double metres = 1 / axes_meter_;  // lengths are the file's
         if (to.orthographic) {  // xmag and ymag are half the sides here and in COLLADA
-            to.x = slot(from.orthographic.xmag);
-            to.y = slot(from.orthographic.ymag);
-            to.znear = slot(from.orthographic.znear);
-            to.zfar = slot(from.orthographic.zfar);
+            to.x = slot(from.orthographic.xmag * metres);
+            to.y = slot(from.orthographic.ymag * metres);
+            to.znear = slot(from.orthographic.znear * metres);
+            to.zfar = slot(from.orthographic.zfar * metres);
         } else {
             to.y = slot(from.perspective.yfov * 180.0 / kPi);
             to.aspect = slot(from.perspective.aspectRatio);
-            to.znear = slot(from.perspective.znear);
-            to.zfar = slot(from.perspective.zfar);  // none: beyond everything
+            to.znear = slot(from.perspective.znear * metres);
+            to.zfar = slot(from.perspective.zfar * metres);  // none: beyond everything
         }
         to.picture = picture_shaders(from.extras, fmt::format("/cameras/{}", c));
     }

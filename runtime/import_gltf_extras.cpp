@@ -75,6 +75,27 @@ void GltfImport::import_scene_extras() {
     }
 }
 
+// kinora_axes of the one root that kinora-convert puts over a scene with other axes or another unit:
+// its matrix is left off, the world is the original's.
+void GltfImport::find_axes(const std::vector<int>& roots) {
+    for (int root : roots) {
+        if (root < 0) continue;
+        const tinygltf::Value* axes = member(model_.nodes[size_t(root)].extras, "kinora_axes");
+        const tinygltf::Value* up = axes ? member(*axes, "up") : nullptr;
+        const tinygltf::Value* meter = axes ? member(*axes, "meter") : nullptr;
+        if (!up || !up->IsString() || !meter || !meter->IsNumber()) continue;
+        std::string name = up->Get<std::string>();
+        double value = meter->GetNumberAsDouble();
+        bool known = name == "X" || name == "Y" || name == "Z";
+        if (!known || !(value > 1e-15 && value < 1e15)) continue;
+        axes_node_ = root;
+        axes_meter_ = value;
+        if (!options_.meter) out_.meter = value;
+        if (!options_.up_axis) out_.up_axis = UpAxis(name[0] - 'X');
+        return;
+    }
+}
+
 // kinora_attributes of a node: an object of numbers, lists of numbers and strings.
 void GltfImport::import_attributes(const tinygltf::Value& extras, NodeDefinition& to) {
     const tinygltf::Value* attributes = member(extras, "kinora_attributes");

@@ -128,6 +128,7 @@ class GltfImport {
     bool import_rsl_light(const tinygltf::Light& light, const std::string& pointer,
                           LightDefinition& to);
     void import_scene_extras();
+    void find_axes(const std::vector<int>& roots);
     void import_attributes(const tinygltf::Value& extras, NodeDefinition& to);
 
     // import_gltf_animation.cpp
@@ -150,6 +151,8 @@ class GltfImport {
     size_t findings_ = 0;
 
     std::map<std::string, uint32_t> ids_;
+    int axes_node_ = -1;                           // stands for the axes and the unit of the world
+    double axes_meter_ = 1;                        // its metres per unit
     std::vector<bool> shown_;                      // per node: the scene reaches it
     std::vector<std::vector<uint32_t>> children_;  // per node, each with one parent
     std::vector<NodeSlots> slots_;

@@ -323,8 +323,8 @@ std::optional<std::string> convert_document(const ConvertOptions& options, Diagn
     std::optional<Document> document = collada::read_document(file->document, diag);
     if (!document || !document->whole()) return std::nullopt;  // an Error says why
     std::string path = document->path();
-    std::string text =
-        move_links(path, std::string(diag.files.text(document->file())), options.output, diag);
+    std::string text = move_links(path, std::string(diag.files.text(document->file())),
+                                  options.output, file->folder);
     for (const auto& [material, shader] : options.shaders) {
         std::optional<std::string> next = embed_shader(path, text, material, shader, options, diag);
         if (!next) return std::nullopt;

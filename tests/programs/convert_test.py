@@ -8,6 +8,7 @@ import struct
 import subprocess
 import sys
 import unittest
+import zipfile
 import zlib
 from pathlib import Path
 
@@ -286,7 +287,9 @@ class ToGlb(Convert):
         self.assertEqual((self.folder / "m.bin").stat().st_size, json_["buffers"][0]["byteLength"])
 
     # The pictures are those of the .dae: what pbrMetallicRoughness cannot say is read from extras.
-    PICTURES = [("court.dae", 1), ("tintoy.dae", 0.8), ("walker.dae", 0.7)]
+    # (Not tintoy, whose animated shader parameters are named as lost, nor scenes without materials,
+    # which get each format's own default.)
+    PICTURES = [("court.dae", 1), ("walker.dae", 0.7)]
     SHARED_PICTURES = [
         ("cts_skin_2_influence/skin_2_influence.dae", 0.5), ("cts_skin_on_morph/skin_on_morph.dae", 0),
         ("gltf_rigged_figure/RiggedFigure.dae", 0.6), ("thinmatrix_cowboy/model.dae", 0.4),
@@ -294,7 +297,7 @@ class ToGlb(Convert):
         ("cts_transparent_rgb_zero/*.dae", 0), ("cts_x_up/*.dae", 0), ("cts_transform_stack/*.dae", 0.5),
         ("cts_morph_two_targets_relative/*.dae", 0), ("cts_bind_vertex_input_texture_set/*.dae", 0),
         ("cts_instances_of_same_node/*.dae", 0), ("cts_anim_target_matrix_30/*.dae", 1),
-        ("magnum_trs_animation/*.dae", 1), ("cts_spot_falloff/*.dae", 0)]
+        ("cts_spot_falloff/*.dae", 0)]
 
     def test_pictures_are_those_of_the_original(self):
         scenes = [(SCENES / name, time) for name, time in self.PICTURES]
@@ -307,6 +310,28 @@ class ToGlb(Convert):
                 after = self.picture(out, "--time", time)
                 self.assertLess(self.difference(before, after), LIKE)
 
+    def test_back_to_collada_the_pictures_stay(self):
+        scenes = [(SCENES / name, time) for name, time in self.PICTURES[:1]]
+        for pattern, time in self.SHARED_PICTURES[:6] if SHARED else []:
+            scenes += [(path, time) for path in sorted(SHARED.glob(pattern))]
+        for scene, time in scenes:
+            with self.subTest(scene.name):
+                glb = self.converted(scene, f"{scene.stem}.glb")
+                out = self.converted(glb, f"{scene.stem}.dae")
+                self.assertEqual(out.read_bytes(), self.converted(out, "again.dae").read_bytes())
+                self.assertLess(self.difference(self.picture(scene, "--time", time),
+                                                self.picture(out, "--time", time)), LIKE)
+
+    def test_an_archive_brings_its_files(self):
+        body = '<library_images><image id="i"><init_from>pictures/a.png</init_from></image></library_images>'
+        archive = self.folder / "a.zae"
+        with zipfile.ZipFile(archive, "w") as zip_:
+            zip_.writestr("scene/a.dae", mesh_scene(body))
+            zip_.writestr("scene/pictures/a.png", "x")
+        out = self.converted(archive, "b.dae")
+        self.assertIn("<init_from>b_files/scene/pictures/a.png</init_from>", out.read_text())
+        self.assertEqual((self.folder / "b_files/scene/pictures/a.png").read_text(), "x")
+
     def test_blender_sees_the_same_outlines(self):
         if not shutil.which("blender") or not SHARED:
             self.skipTest("no blender, or no shared scenes")
@@ -318,7 +343,8 @@ class ToGlb(Convert):
             words += [out, str(time), self.folder / f"{scene.stem}-blender.png"]
             originals.append((scene, time))
         done = subprocess.run(["blender", "-b", "-P", SOURCE / "tests/programs/blender_glb.py", "--",
-                               "192", "192", *map(str, words)], capture_output=True, text=True, timeout=240)
+                               "192", "192", *map(str, words)], capture_output=True, text=True, timeout=240,
+                              env={**os.environ, "PATH": "/usr/bin:/bin"})  # Debian's python, which has numpy
         for scene, time in originals:
             with self.subTest(scene.name):
                 ours = self.folder / f"{scene.stem}-ours.png"
