@@ -125,7 +125,7 @@ void read_extras(Extraction& x, Link owner, CommonShading& common, Effect& effec
     }
 }
 
-void read_opaque(Extraction& x, Link transparent, CommonShading& common) {
+void read_opaque(Link transparent, CommonShading& common) {
     const Attribute* a = transparent.element->attribute("opaque");
     if (!a) return;
     for (const OpaqueRow& row : kOpaque)
@@ -161,7 +161,7 @@ void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& ef
         if (!slot) continue;
         TargetRef ref{Owner::EffectCommon, effect_number, uint32_t(row.slot)};
         common.slots[size_t(row.slot)] = read_slot_value(x, {profile.doc, slot}, ref, effect);
-        if (row.slot == CommonSlot::Transparent) read_opaque(x, {profile.doc, slot}, common);
+        if (row.slot == CommonSlot::Transparent) read_opaque({profile.doc, slot}, common);
     }
     for (const Element* owner : {profile.element->parent, profile.element, technique, model})
         if (owner) read_extras(x, {profile.doc, owner}, common, effect);

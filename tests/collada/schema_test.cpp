@@ -194,7 +194,9 @@ TEST(SimpleType, ListsAreCheckedAsTheirWordsAre) {
         }
         ValueCheck check = check_value(reals, text);
         EXPECT_EQ(check.fault == ValueFault::None, round % 2 == 0) << text;
-        if (round % 2) EXPECT_EQ(std::make_pair(check.begin, check.end), place);
+        if (round % 2) {
+            EXPECT_EQ(std::make_pair(check.begin, check.end), place);
+        }
     }
 }
 

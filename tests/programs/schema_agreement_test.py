@@ -97,9 +97,10 @@ class Agreement(ProgramTest):
         done = subprocess.run([VERDICTS, "check"], input="".join(f"{p}\n" for p in paths),
                               capture_output=True, text=True, check=True)
         found = {}
-        for line in done.stdout.splitlines():
-            word, path, *codes = line.split(" ")
-            found[path] = (word == "valid", codes)
+        for path, line in zip(paths, done.stdout.splitlines()):  # names may hold spaces
+            word, rest = line.split(" ", 1)
+            self.assertTrue(rest.startswith(str(path)), line)
+            found[str(path)] = (word == "valid", rest[len(str(path)):].split())
         self.assertEqual(len(found), len(paths))
         return found
 
