@@ -100,7 +100,7 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
     if (place) {
         if (first(Code::SCHEMA_VERSION, &type, child.name))
             diag_.report(Code::SCHEMA_VERSION, document_.location(child), child.name,
-                         is_15(document_.version()) ? "1.5" : "1.4");
+                         is_15(types_.version()) ? "1.5" : "1.4");
         return check(child, *other->rules().content.places[place].type, kept);
     }
     const ContentModel& model = type.rules().content;

@@ -1,5 +1,6 @@
 // collada/check_elements.cpp: a document against the table of elements.
 #include "collada/check_elements_p.h"
+#include "collada/schema.h"
 
 namespace kinora::collada {
 
@@ -25,11 +26,11 @@ std::string_view schema_location(const Element& root, std::string_view name_spac
 
 }  // namespace
 
-ElementChecker::ElementChecker(const Document& document, Diagnostics& diag)
+ElementChecker::ElementChecker(const Document& document, Diagnostics& diag, Version version)
     : document_(document),
       diag_(diag),
-      types_(ElementTypes::of(document.version())),
-      other_version_(ElementTypes::of(other(document.version()))) {
+      types_(ElementTypes::of(version)),
+      other_version_(ElementTypes::of(other(version))) {
     const Element& root = document.root();
     for (const Attribute& a : root.attributes) {
         bool declares = a.name == "xmlns" || a.name.starts_with("xmlns:");
@@ -95,8 +96,12 @@ void ElementChecker::report_foreign(const Element& child) {
         file.empty() ? std::string() : ": their schema '" + std::string(file) + "' is not read");
 }
 
+void check_elements(const Document& document, Diagnostics& diag, Version version) {
+    ElementChecker(document, diag, version).run();
+}
+
 void check_elements(const Document& document, Diagnostics& diag) {
-    ElementChecker(document, diag).run();
+    check_elements(document, diag, document.version());
 }
 
 }  // namespace kinora::collada

@@ -12,7 +12,7 @@ namespace kinora::collada {
 // Each kind of finding once per element type and name: a file repeats its habits.
 class ElementChecker {
   public:
-    ElementChecker(const Document& document, Diagnostics& diag);
+    ElementChecker(const Document& document, Diagnostics& diag, Version version);
     void run();
 
   private:

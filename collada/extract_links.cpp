@@ -3,6 +3,7 @@
 
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
+#include "collada/schema.h"
 
 namespace kinora::collada {
 
@@ -129,7 +130,7 @@ uint32_t add_document(Extraction& x, const Document& document, const std::string
     x.docs.push_back(&document);
     x.text_bytes += x.diag.files.text(document.file()).size();
     x.doc_by_path[real] = index;
-    check_elements(document, x.diag);
+    check_elements(document, x.diag, x.schema.value_or(document.version()));
     x.scene.documents.push_back({document.path(), read_asset(document, x.diag), document.file()});
     return index;
 }

@@ -25,6 +25,7 @@ struct Extraction {
     Diagnostics& diag;
     const ExtractOptions& options;
     SceneData scene{};
+    std::optional<Version> schema{};  // whose rules documents are held to; none: their own
 
     std::vector<const Document*> docs{};  // same order as scene.documents
     std::vector<std::unique_ptr<Document>> owned{};

@@ -13,6 +13,9 @@ namespace kinora::collada {
 // MathML are let through unseen.
 std::string print_schema(Version version);
 
+// check_elements (document.h) by the rules of a version that need not be the document's own.
+void check_elements(const Document& document, Diagnostics& diag, Version version);
+
 // The children of an element in the order its content model asks for; those that may alternate, and
 // those the table does not know there, keep their order.
 std::vector<const Element*> schema_order(const Document& document, const Element& parent);

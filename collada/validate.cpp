@@ -34,6 +34,8 @@ std::optional<SceneData> validate(const Document& document, Diagnostics& diag,
     ExtractOptions everything = options.extract;
     everything.everything = true;
     Extraction x{diag, everything};
+    if (options.profile == Profile::V1_4_1) x.schema = Version::V1_4_1;
+    if (options.profile == Profile::V1_5) x.schema = Version::V1_5_0;
     bool shown = extract_into(x, document);
     Lint lint{x, document, x.scene, options, diag, {}, {}};
     lint.elements.reserve(document.element_count());

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "collada/element_types_p.h"
+#include "collada/validate.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {
@@ -75,7 +76,7 @@ bool matches(const Particle& p, std::string_view word, const std::vector<Particl
 }
 
 TEST(ContentModel, AcceptsWhatItsCellSays) {
-    const char* cells[] = {"a? b c*",       "(a | b)* c?",          "a{2,} b{0,2}", "(a b)+ c",
+    const char* cells[] = {"a? b c*",       "(a | b)* c?",    "a{2,} b{0,2}", "(a b)+ c",
                            "a (b | (c a))", "(a? b) a* b? c", "a{3,3}",       "",
                            "(a | (b c?))+", "b (a b)* c?"};
     for (std::string_view cell : cells) {
@@ -246,6 +247,26 @@ TEST(CheckElements, KnowsTheOtherVersion) {
               "INFO_UNSUPPORTED: <instance_kinematics_scene> is read but not rendered");
     EXPECT_EQ(said(kAsset + "<library_nodes><node name=\"a name\"/></library_nodes>", "1.5.0"), "");
     EXPECT_NE(said(kAsset + "<library_nodes><node name=\"a name\"/></library_nodes>"), "");
+}
+
+TEST(CheckElements, AProfileHoldsADocumentToItsVersion) {
+    auto codes = [](Profile profile) {
+        Reading r;
+        read_text(r,
+                  with_scene("<library_nodes><node id=\"spare\" name=\"a name\"/></library_nodes>",
+                             "<node id=\"n\"/>"));
+        r.diag.clear();
+        ValidateOptions options;
+        options.profile = profile;
+        validate(*r.document, r.diag, options);
+        std::string out;
+        for (const Finding& f : r.diag.findings())
+            if (std::string_view(f.info->code).starts_with("SCHEMA_")) out += f.message;
+        return out;
+    };
+    EXPECT_EQ(codes(Profile::V1_5), "");
+    EXPECT_EQ(codes(Profile::V1_4_1), codes(Profile::Default));
+    EXPECT_NE(codes(Profile::V1_4_1).find("'a name'"), std::string::npos);
 }
 
 TEST(CheckElements, NamespacesAreTheirOwn) {

@@ -97,10 +97,9 @@ class Agreement(ProgramTest):
         done = subprocess.run([VERDICTS, "check"], input="".join(f"{p}\n" for p in paths),
                               capture_output=True, text=True, check=True)
         found = {}
-        for path, line in zip(paths, done.stdout.splitlines()):  # names may hold spaces
-            word, rest = line.split(" ", 1)
-            self.assertTrue(rest.startswith(str(path)), line)
-            found[str(path)] = (word == "valid", rest[len(str(path)):].split())
+        for line in done.stdout.splitlines():
+            word, path, *codes = line.split("\t")
+            found[path] = (word == "valid", codes)
         self.assertEqual(len(found), len(paths))
         return found
 

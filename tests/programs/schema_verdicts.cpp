@@ -1,7 +1,7 @@
 // tests/programs/schema_verdicts.cpp: for schema_agreement_test.py: the XSD that the element table
 // prints, and what the table says of each file named on standard input.
 //   schema_verdicts print 1.4.1|1.5     the XSD
-//   schema_verdicts check               "valid PATH" or "invalid PATH CODE..."
+//   schema_verdicts check               "valid PATH" or "invalid PATH CODE...", tabs between
 //   schema_verdicts time N FILE...      seconds of read_document and of check_elements, N times
 #include <chrono>
 #include <cstdio>
@@ -31,8 +31,8 @@ void check(const std::string& path) {
         check_elements(*document, diag);
     std::string codes;
     for (const Finding& f : diag.findings())
-        if (is_departure(f.info->code)) codes += std::string(" ") + f.info->code;
-    std::printf("%s %s%s\n", codes.empty() ? "valid" : "invalid", path.c_str(), codes.c_str());
+        if (is_departure(f.info->code)) codes += std::string("\t") + f.info->code;
+    std::printf("%s\t%s%s\n", codes.empty() ? "valid" : "invalid", path.c_str(), codes.c_str());
 }
 
 int measure(int times, std::vector<std::string> files) {
