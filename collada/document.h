@@ -79,6 +79,7 @@ class Document {
     const std::string& path() const { return path_; }            // as given to read_document
     const std::string& directory() const { return directory_; }  // of path, "" for the current one
     Version version() const { return version_; }
+    void judge_as(Version version) { version_ = version; }  // by other rules than its own
     bool whole() const { return whole_; }  // false: an XML error cut it; an Error says so
     uint32_t element_count() const { return element_count_; }
 

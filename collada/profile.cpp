@@ -1,6 +1,8 @@
 // collada/profile.cpp: which codes are departures from the schema.
 #include "collada/profile.h"
 
+#include "collada/findings.h"
+
 namespace kinora::collada {
 
 namespace {
@@ -36,6 +38,15 @@ Severity profile_severity(const FindingInfo& info, Severity severity, Profile pr
     if (profile == Profile::Strict) return strict_severity(code, severity);
     bool quiet = severity == Severity::Hint || code.starts_with("PORT_");
     return profile == Profile::Lenient && quiet ? Severity::Off : severity;
+}
+
+void judge_by_profile(Document& document, Profile profile, Diagnostics& diag) {
+    if (profile != Profile::V1_4_1 && profile != Profile::V1_5) return;
+    bool wants_15 = profile == Profile::V1_5, is_15 = document.version() == Version::V1_5_0;
+    if (wants_15 == is_15) return;
+    document.judge_as(wants_15 ? Version::V1_5_0 : Version::V1_4_1);
+    diag.report(Code::DOC_NAMESPACE, document.location(document.root(), "xmlns"),
+                document.root().value("xmlns"), wants_15 ? "1.5.0" : "1.4.1");
 }
 
 }  // namespace kinora::collada

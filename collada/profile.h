@@ -9,4 +9,8 @@ namespace kinora::collada {
 // Error, and so is each deviation that reading tolerates. Lenient: hints and portability are Off.
 Severity profile_severity(const FindingInfo& info, Severity severity, Profile profile);
 
+// For V1_4_1 and V1_5: the document is judged by that version's rules from now on. Reports
+// DOC_NAMESPACE where it says it is of the other one.
+void judge_by_profile(Document& document, Profile profile, Diagnostics& diag);
+
 }  // namespace kinora::collada

@@ -61,10 +61,11 @@ void finish(FileResult& result, const collada::Document* document,
         result.bytes += result.files().text(file).size();
 }
 
-void check(FileResult& result, const std::optional<collada::Document>& document,
+void check(FileResult& result, std::optional<collada::Document> document,
            const collada::SceneFile& file, const ValidateSettings& settings) {
     Diagnostics& diagnostics = *result.diagnostics;
     if (document) {
+        collada::judge_by_profile(*document, settings.validate.profile, diagnostics);
         collada::ValidateOptions options = settings.validate;
         options.extract.folder = file.folder;
         options.extract.scene_id = file.scene_id;
@@ -87,7 +88,7 @@ void check_scene_file(FileResult& result, const std::optional<collada::SceneFile
     if (!file) return finish(result, nullptr, settings);
     result.keep = file->keep;
     auto document = collada::read_document(file->document, *result.diagnostics);
-    check(result, document, *file, settings);
+    check(result, std::move(document), *file, settings);
 }
 
 FileResult new_result(const std::string& name) {
@@ -133,7 +134,7 @@ FileResult validate_text(const std::string& name, std::string bytes,
         return result;
     }
     auto document = collada::read_document_text(name, std::move(bytes), *result.diagnostics);
-    check(result, document, {}, settings);
+    check(result, std::move(document), {}, settings);
     return result;
 }
 

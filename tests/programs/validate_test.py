@@ -95,6 +95,17 @@ class Options(ProgramTest):
         self.expect(validate(self.scene, "--severity", "LINK_UNRESOLVD=off"), 2,
                     "did you mean LINK_UNRESOLVED")
 
+    def test_profiles_choose_the_version(self):
+        for profile, wrong in (("1.4.1", False), ("1.5", True)):
+            found = codes(self.write("v.dae", EMPTY), "--profile", profile)
+            self.assertEqual("DOC_NAMESPACE" in found, wrong, found)
+        image = self.write("i.dae", EMPTY.replace(
+            "<library_visual", '<library_images><image id="i"><init_from><ref>a.png</ref></init_from>'
+            "</image></library_images><library_visual", 1))
+        self.assertTrue(any(c.startswith("SCHEMA_") for c in codes(image, "--profile", "1.4.1")))
+        self.assertFalse(any(c.startswith("SCHEMA_") for c in codes(image, "--profile", "1.5")))
+        self.assertEqual(validate("--profile", "1.6", image).code, 2)
+
     def test_only_and_max_issues(self):
         self.assertTrue(all(c.startswith("LINK_") for c in codes(self.scene, "--only", "LINK_")))
         self.assertNotIn("LINK_UNRESOLVED", codes(self.scene, "--only", "XML_,DOC_"))
