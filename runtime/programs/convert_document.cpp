@@ -173,14 +173,12 @@ class AxisChange {
                         (e.name == "include" && e.parent->name == "technique");
         if (std::string_view url = e.value("url"); url.find('#') != url.npos && url[0] != '#')
             external_ = external_ ? external_ : &e;
-        // Lengths that no node's matrix reaches.
+        // Lengths that no node's matrix reaches (it does reach the range a camera clips to).
         struct Row {
             std::string_view name;
             double power;
         };
-        static constexpr Row kLengths[] = {{"znear", 1},
-                                           {"zfar", 1},
-                                           {"xmag", 1},
+        static constexpr Row kLengths[] = {{"xmag", 1},
                                            {"ymag", 1},
                                            {"linear_attenuation", -1},
                                            {"quadratic_attenuation", -2}};

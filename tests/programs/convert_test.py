@@ -142,7 +142,8 @@ class ToDae(Convert):
 <quadratic_attenuation>4</quadratic_attenuation></point></technique_common></light></library_lights>"""
         out = self.converted(self.write("a.dae", mesh_scene(body)), "b.dae", "--unit", "0.5")
         text = out.read_text()
-        for part in ('<znear sid="zn">1</znear>', "<zfar>200</zfar>", "<linear_attenuation>1<",
+        # A camera clips in units of its node, which the wrapping matrix scales.
+        for part in ('<znear sid="zn">0.5</znear>', "<zfar>100</zfar>", "<linear_attenuation>1<",
                      "<quadratic_attenuation>1<"):
             self.assertIn(part, text)
 
