@@ -16,6 +16,7 @@ stage() {  # stage NAME COMMAND...: runs it and prints how long it took
 
 # CI takes no warnings; a user's newer compiler may have some.
 stage "release build" scripts/build release -DKINORA_TESTS=ON -DKINORA_WERROR=$([[ $all == 1 ]] && echo ON || echo OFF)
+if ((all)); then stage "npm validators" scripts/npm_packages; fi
 stage "release tests" ctest --preset release
 if ((all)); then
     stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
@@ -23,6 +24,8 @@ if ((all)); then
     stage "fuzzing of code" scripts/fuzz build/release code
     stage "fuzzing of shaders" scripts/fuzz build/release shaders
     stage "fuzzing of sources" scripts/fuzz build/asan text
+    stage "libFuzzer build" scripts/build fuzzers
+    stage "fuzzing of readers" scripts/fuzz_readers 60
     stage "AArch64 build" scripts/cross-arm64 -DKINORA_WERROR=ON
     # Emulated code is ten times slower: a tenth of the random programs.
     stage "AArch64 tests" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"

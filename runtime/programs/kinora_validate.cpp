@@ -1,13 +1,29 @@
 // runtime/programs/kinora_validate.cpp: checks COLLADA files: a command line to a batch of files.
 #include "runtime/programs/kinora_validate.h"
 
+#include <malloc.h>
+
 #include <csignal>
 #include <cstdio>
 #include <new>
 
 #include "runtime/programs/exit_codes.h"
 
+namespace {
+
+// A file's memory serves the next one: giving it back to the kernel in between costs a tenth of a
+// batch's time.
+void keep_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 64 << 20);
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+    keep_memory();
     std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away ends the report, not the process
     try {
         kinora::ValidateSettings settings;
