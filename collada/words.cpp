@@ -1,4 +1,5 @@
 // collada/words.cpp: the forms of one word: names, URIs, dates.
+#include <algorithm>
 #include <cstring>
 
 #include "collada/simple_types_p.h"
@@ -62,7 +63,7 @@ class Uri {
         } else if (!has_scheme) {
             const char* segment = p_;
             run("");
-            if (std::memchr(segment, ':', size_t(p_ - segment))) return false;
+            if (std::find(segment, p_, ':') != p_) return false;
         }
         run("/");
         return true;
