@@ -51,9 +51,11 @@ class Rewrite {
         return static_cast<Value>(function.insts.size() - 1);
     }
 
-    // Copies the instruction, arguments and all.
+    // Copies the instruction, arguments and all. One without any points at the list's begin: where
+    // it pointed before, the list may end earlier now.
     Value copy(Value v) {
         Inst inst = translate(v);
+        inst.args = 0;
         if (inst.arg_count > 0) set_renamed_args(inst, old_args_of(old[v]));
         return renamed[v] = append(inst);
     }
