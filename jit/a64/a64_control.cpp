@@ -130,30 +130,16 @@ void Emit::op_EndLoop() {
     loops_.pop_back();
 }
 
-// All variables change at once, and the mask with them: a variable is written when no other still
-// reads it, and a cycle is broken by keeping one old value in memory.
 void Emit::update_variables(Value loop) {
-    std::span<const Value> next = f_.args_of(now());
-    Value next_mask = root(now().a);
-    updates_.clear();
-    for (size_t k = 0; k < next.size(); ++k) {
-        Value variable = loop + 1 + static_cast<Value>(k);
-        if (root(next[k]) == variable || plan_.values[next[k]].alias == variable) continue;
-        updates_.push_back({variable, root(next[k])});
-        // The next mask is read last, after the variable it may be.
-        if (variable == next_mask) save(1, variable);
-    }
-    while (!updates_.empty()) {
-        size_t k = 0;
-        while (k < updates_.size() && is_read_later(updates_[k].variable, k)) ++k;
-        if (k == updates_.size()) save(0, updates_[k = 0].variable);
-        if (plan_.values[loop].masked)
-            merge_into(updates_[k].variable, updates_[k].next, loop);
+    for (const LoopUpdate& step : loop_updates(loop)) {
+        if (step.next == kNone)
+            save(step.swap_row, step.variable);
+        else if (plan_.values[loop].masked)
+            merge_into(step.variable, step.next, loop);
         else
-            copy(updates_[k].variable, updates_[k].next);
-        updates_.erase(updates_.begin() + static_cast<std::ptrdiff_t>(k));
+            copy(step.variable, step.next);
     }
-    update_mask(loop, next_mask);
+    update_mask(loop, root(now().a));
     saved_[0] = saved_[1] = kNone;
 }
 
@@ -162,13 +148,6 @@ void Emit::save(int k, Value variable) {
     Vec old = reg(variable, 0);
     a_.str(old, row(layout_.swap + kRow * k));
     saved_[k] = variable;
-}
-
-bool Emit::is_read_later(Value variable, size_t except) const {
-    if (saved_[0] == variable || saved_[1] == variable) return false;
-    for (size_t k = 0; k < updates_.size(); ++k)
-        if (k != except && updates_[k].next == variable) return true;
-    return false;
 }
 
 // Leaves kAny for the branch back.

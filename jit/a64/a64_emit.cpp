@@ -1,5 +1,4 @@
 // jit/a64/a64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
-#include <algorithm>
 #include <cstddef>
 
 #include "jit/a64/a64_emit_p.h"
@@ -10,7 +9,8 @@ namespace kinora::jit::a64 {
 namespace {
 
 // AVX-512's freedoms are missing: masks are vectors, and no compare is true on NaN.
-constexpr PlanRules kRules = {false, false, false};
+constexpr CodeRules kRules = {
+    .plan = {false, false, false}, .limits = {.registers = {kVectorRegisters}}, .lanes = kLanes};
 
 // An instruction of the IR becomes at most this many bytes, an argument of its list included; tests
 // over every op hold it (a conditional branch must reach over a whole function or be made far).
@@ -19,13 +19,6 @@ constexpr size_t kBranchReach = 1u << 20;
 
 // Bytes that emit_kernel keeps on the machine stack: x29, x30, x19..x25, then d8..d15.
 constexpr int kSavedGp = 80, kSavedVectors = 64;
-
-AllocationLimits limits(const FunctionPlan& plan, bool is_kernel) {
-    AllocationLimits limits;
-    limits.registers[0] = kVectorRegisters;
-    limits.hoist_function = is_kernel && !plan.calls;
-    return limits;
-}
 
 }  // namespace
 
@@ -36,62 +29,15 @@ const Emit::Member Emit::kMembers[] = {
 };
 
 Emit::Emit(ModuleState& state, size_t function_index)
-    : state_(state),
-      module_(state.module),
-      f_(state.module.functions[function_index]),
-      is_kernel_(function_index == 0),
-      index_(function_index),
+    : FunctionCode(state.module, function_index, kRules),
+      state_(state),
       a_(state.a),
-      structure_(f_),
-      plan_(plan_function(module_, f_, structure_, kRules)),
-      allocation_(allocate_registers(f_, structure_, plan_.values, limits(plan_, is_kernel_))),
-      far_branches_((f_.insts.size() + f_.args.size()) * kMostBytes > kBranchReach) {
-    lay_out();
-}
-
-bool Emit::uses_valid_lanes() const {
-    for (Value v = 0; v < f_.insts.size(); ++v) {
-        Op op = inst(v).op;
-        if (op == Op::Service || op == Op::Fault) return true;
-        if (op == Op::Loop && plan_.values[v].masked) return true;
-    }
-    return false;
-}
+      far_branches_((f_.insts.size() + f_.args.size()) * kMostBytes > kBranchReach) {}
 
 bool Emit::uses_saved_registers() const {
     for (const Place& p : allocation_.places)
         if (p.reg >= kFirstSavedRegister) return true;
     return false;
-}
-
-void Emit::lay_out() {
-    auto take = [&](size_t bytes) {
-        int32_t at = layout_.bytes;
-        layout_.bytes += static_cast<int32_t>((bytes + kRow - 1) / kRow * kRow);
-        return at;
-    };
-    // The caller fills in parameters at the frame's start and finds the results behind them.
-    layout_.params = take(is_kernel_ ? 0 : f_.params.size() * kRow);
-    layout_.results = take(is_kernel_ ? 0 : f_.results.size() * kRow);
-    layout_.vectors = take(static_cast<size_t>(allocation_.slots[0] * kVector));
-    layout_.swap = take(2 * kRow);
-    layout_.lanes = take(kRow);
-    size_t args = 0, results = 0, depth = 0, deepest = 0;
-    for (const Inst& i : f_.insts) {
-        if (i.op == Op::Loop) deepest = std::max(deepest, ++depth);
-        if (i.op == Op::EndLoop) --depth;
-        if (i.op != Op::Service) continue;
-        args = std::max<size_t>(args, i.arg_count);
-        results = std::max(results, module_.services[static_cast<size_t>(i.imm)].results.size());
-    }
-    layout_.counters = take(4 * deepest);
-    layout_.service_args = take(args * kRow);
-    layout_.service_results = take(results * kRow);
-    for (const ArrayInfo& array : f_.arrays) {
-        layout_.arrays.push_back(layout_.bytes);
-        layout_.bytes += array.length * kVector;
-    }
-    layout_.bytes = (layout_.bytes + kRow - 1) / kRow * kRow;
 }
 
 void Emit::emit_function(bool listing) {

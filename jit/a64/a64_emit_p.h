@@ -13,8 +13,7 @@
 
 #include "jit/a64/a64_asmjit_p.h"
 #include "jit/a64/a64_pool_p.h"
-#include "jit/code_plan_p.h"
-#include "jit/target.h"
+#include "jit/function_code_p.h"
 
 namespace kinora::jit::a64 {
 
@@ -24,7 +23,6 @@ using Gp = arm::Gp;
 using Vec = arm::Vec;
 
 inline constexpr int kLanes = 4;
-inline constexpr int kRow = 4 * kMaxLanes;      // bytes of a row of lanes in memory shared with C++
 inline constexpr int kVector = 4 * kLanes;      // bytes of the lanes of a group
 inline constexpr int kVectorRegisters = 29;     // three more are scratch
 inline constexpr int kFirstSavedRegister = 21;  // of those: v8..v15 are given out last
@@ -50,31 +48,12 @@ struct ModuleState {
     std::vector<CodePlace> places = {};
 };
 
-// Where things lie in a function's frame.
-struct FrameLayout {
-    int32_t params = 0, results = 0;  // rows
-    int32_t vectors = 0;              // spill slots
-    int32_t swap = 0;                 // two rows for old values of loop variables
-    int32_t lanes = 0;                // a row for per-lane work
-    int32_t counters = 0;             // loop counters by depth
-    int32_t service_args = 0, service_results = 0;
-    std::vector<int32_t> arrays;
-    int32_t bytes = 0;
-};
-
-class Emit {
+class Emit : public FunctionCode {
   public:
     Emit(ModuleState& state, size_t function_index);
 
-    // Frame size is known before code is written.
-    int32_t frame_bytes() const { return layout_.bytes; }
     void emit_function(bool listing);
-    bool uses_valid_lanes() const;
     bool uses_saved_registers() const;
-    // For tests: "" if the register allocation is proven right.
-    std::string check() const {
-        return check_allocation(f_, structure_, plan_.values, allocation_);
-    }
 
   private:
     struct OpenLoop {
@@ -91,30 +70,12 @@ class Emit {
     static const Member kMembers[static_cast<size_t>(Op::Count)];
 
     // a64_emit.cpp
-    void lay_out();
     void emit_kernel(bool listing);
     void emit_local(bool listing);
     void emit_body(bool listing);
     void find_valid_lanes();
 
     // a64_operands.cpp: places of values
-    const Inst& inst(Value v) const {
-        return f_.insts[v];
-    }
-    const Inst& now() const {
-        return f_.insts[at_];
-    }
-    Value root(Value v) const {
-        return inst(v).op == Op::LoopOut ? inst(v).a : v;
-    }
-    const Place& place(Value v) const {
-        return allocation_.places[v];
-    }
-    bool is_zero(Value v) const;
-    bool in_register(Value v) const {
-        v = root(v);
-        return place(v).in_reg(at_) && v != saved_[0] && v != saved_[1];
-    }
     bool lies_in(const Vec& r, Value v) const;
     Vec vec(int index) const;
     Vec scratch(int k) const {
@@ -165,9 +126,6 @@ class Emit {
     void mask_bits(const Gp& to, Value mask);
 
     // a64_control.cpp
-    struct Update {
-        Value variable, next;
-    };
     void branch_if_zero(const Gp& condition, const Label& to);
     void branch_if_not_zero(const Gp& condition, const Label& to);
     void fill_slot(Value v);
@@ -178,7 +136,6 @@ class Emit {
     void update_variables(Value loop);
     void update_mask(Value loop, Value next_mask);
     void save(int k, Value variable);
-    bool is_read_later(Value variable, size_t except) const;
 
     // a64_memory.cpp
     void zero_arrays();
@@ -187,8 +144,6 @@ class Emit {
     template <class LaneAddress>
     void gather_by_lane(int32_t length, LaneAddress&& lane_address);
     void scatter_by_lane(Value value, Value mask);
-    int32_t array_length() const;
-    int32_t array_offset() const;
     void find_element(Value index);
 
     // a64_records.cpp
@@ -201,15 +156,7 @@ class Emit {
     void pass_arguments(int32_t to);
 
     ModuleState& state_;
-    const Module& module_;
-    const Function& f_;
-    const bool is_kernel_;
-    const size_t index_;
     arm::Assembler& a_;
-    Structure structure_;
-    FunctionPlan plan_;
-    Allocation allocation_;
-    FrameLayout layout_;
     bool far_branches_ = false;  // a conditional branch reaches 1 MiB only
     std::vector<OpenLoop> loops_;
     struct OpenIf {
@@ -217,9 +164,6 @@ class Emit {
         Value record_set, record;  // what kRecord pointed at when it was entered
     };
     std::vector<OpenIf> ifs_;
-    std::vector<Update> updates_;
-    Value saved_[2] = {kNone, kNone};  // variables whose old value lies in the swap rows
-    Value at_ = 0;
     Value record_set_ = kNone, record_ = kNone;  // kRecord points at this record
 };
 

@@ -91,13 +91,6 @@ void Emit::zero_arrays() {
     a_.cbnz(arm::w1, again);
 }
 
-int32_t Emit::array_length() const {
-    return f_.arrays[static_cast<size_t>(now().imm)].length;
-}
-int32_t Emit::array_offset() const {
-    return layout_.arrays[static_cast<size_t>(now().imm)];
-}
-
 // x3 = the vector of an element whose index agrees in all lanes.
 void Emit::find_element(Value index) {
     if (inst(index).op == Op::ConstI) {

@@ -14,11 +14,6 @@ bool Emit::lies_in(const Vec& r, Value v) const {
     return in_register(v) && vec(place(root(v)).reg).id() == r.id();
 }
 
-bool Emit::is_zero(Value v) const {
-    Op op = inst(v).op;
-    return (op == Op::ConstF || op == Op::ConstI || op == Op::ConstM) && inst(v).imm == 0;
-}
-
 // The immediate of a load or store counts its own size, 0..4095 times.
 arm::Mem Emit::at(const Gp& base, int64_t offset, int bytes) {
     if (offset >= 0 && offset % bytes == 0 && offset / bytes < 4096)

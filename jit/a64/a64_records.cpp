@@ -20,11 +20,11 @@ void Emit::lane_to(const Gp& to, Value index) {
         a_.mov(to, static_cast<uint32_t>(inst(index).imm));
     } else if (!plan_.agree[index] && loop != kNone && plan_.values[loop].masked) {
         Vec lanes = reg(index, 0);
-        a_.str(lanes, row(layout_.lanes));
+        a_.str(lanes, row(layout_.lanes_a));
         mask_bits(to, loop);
         a_.rbit(to, to);
         a_.clz(to, to);
-        add_offset(arm::x16, kStack, layout_.lanes);
+        add_offset(arm::x16, kStack, layout_.lanes_a);
         a_.ldr(to, arm::ptr(arm::x16, to.x(), Shift(ShiftOp::kLSL, 2)));
     } else {
         a_.umov(to, reg(index, 1).s(0));

@@ -151,32 +151,16 @@ void Emit::index_in(const x86::Gp& to, const OpenLoop& loop, int32_t ahead) {
     a_.sub(to, loop.counter);
 }
 
-// All variables change at once, and the mask with them: a variable is written when no other still
-// reads it, and a cycle is broken by keeping one old value in memory.
 void Emit::update_variables(Value loop) {
-    bool masked = plan_.values[loop].masked;
-    std::span<const Value> next = f_.args_of(now());
-    Value next_mask = root(now().a);
-    updates_.clear();
-    for (size_t k = 0; k < next.size(); ++k) {
-        Value variable = loop + 1 + static_cast<Value>(k);
-        if (variable == plan_.counted[loop]) continue;
-        if (root(next[k]) == variable || plan_.values[next[k]].alias == variable) continue;
-        updates_.push_back({variable, root(next[k])});
-        // The next mask is read last, after the variable it may be.
-        if (variable == next_mask) save(1, variable);
-    }
-    while (!updates_.empty()) {
-        size_t k = 0;
-        while (k < updates_.size() && is_read_later(updates_[k].variable, k)) ++k;
-        if (k == updates_.size()) save(0, updates_[k = 0].variable);
-        if (masked)
-            merge_into(updates_[k].variable, updates_[k].next, loop);
+    for (const LoopUpdate& step : loop_updates(loop)) {
+        if (step.next == kNone)
+            save(step.swap_row, step.variable);
+        else if (plan_.values[loop].masked)
+            merge_into(step.variable, step.next, loop);
         else
-            copy(updates_[k].variable, updates_[k].next);
-        updates_.erase(updates_.begin() + static_cast<std::ptrdiff_t>(k));
+            copy(step.variable, step.next);
     }
-    if (plan_.counted[loop] == kNone) update_mask(loop, next_mask);
+    if (plan_.counted[loop] == kNone) update_mask(loop, root(now().a));
     saved_[0] = saved_[1] = kNone;
 }
 
@@ -187,14 +171,6 @@ void Emit::save(int k, Value variable) {
     else
         a_.emit(Id::kIdVmovaps, row(layout_.swap + kRow * k), reg(variable, 0));
     saved_[k] = variable;
-}
-
-bool Emit::is_read_later(Value variable, size_t except) const {
-    if (saved_[0] == variable || saved_[1] == variable) return false;
-    if (planted(PlantedFault::LoopVariablesInTurn)) return false;
-    for (size_t k = 0; k < updates_.size(); ++k)
-        if (k != except && updates_[k].next == variable) return true;
-    return false;
 }
 
 // Leaves the flags for the branch back: not zero if a lane runs on.

@@ -1,8 +1,6 @@
 // jit/x64/x64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
 #include "jit/x64/x64_emit_p.h"
 
-#include <algorithm>
-
 #include "jit/module_code_p.h"
 #include "runtime/base/check.h"
 
@@ -15,61 +13,10 @@ const Emit::Member Emit::kMembers[] = {
 };
 
 Emit::Emit(ModuleState& state, size_t function_index)
-    : state_(state),
-      module_(state.module),
-      f_(state.module.functions[function_index]),
+    : FunctionCode(state.module, function_index, state.isa.rules()),
+      state_(state),
       isa_(state.isa),
-      is_kernel_(function_index == 0),
-      index_(function_index),
-      a_(state.a),
-      structure_(f_),
-      plan_(plan_function(module_, f_, structure_, isa_.rules())),
-      allocation_(
-          allocate_registers(f_, structure_, plan_.values, isa_.limits(plan_, is_kernel_))) {
-    lay_out();
-}
-
-bool Emit::uses_valid_lanes() const {
-    for (Value v = 0; v < f_.insts.size(); ++v) {
-        Op op = inst(v).op;
-        if (op == Op::Service || op == Op::Fault) return true;
-        if (op == Op::Loop && plan_.values[v].masked) return true;
-    }
-    return false;
-}
-
-void Emit::lay_out() {
-    auto take = [&](size_t bytes) {
-        int32_t at = layout_.bytes;
-        layout_.bytes += static_cast<int32_t>((bytes + kRow - 1) / kRow * kRow);
-        return at;
-    };
-    // The caller fills in parameters at the frame's start and finds the results behind them.
-    layout_.params = take(is_kernel_ ? 0 : f_.params.size() * kRow);
-    layout_.results = take(is_kernel_ ? 0 : f_.results.size() * kRow);
-    layout_.vectors = take(static_cast<size_t>(allocation_.slots[0] * 4 * isa_.lanes));
-    layout_.masks = take(static_cast<size_t>(allocation_.slots[1] * 8));
-    layout_.swap = take(2 * kRow);
-    layout_.lanes_a = take(kRow);
-    layout_.lanes_b = take(kRow);
-    size_t args = 0, results = 0, depth = 0, deepest = 0;
-    for (const Inst& i : f_.insts) {
-        if (i.op == Op::Loop) deepest = std::max(deepest, ++depth);
-        if (i.op == Op::EndLoop) --depth;
-        if (i.op != Op::Service) continue;
-        args = std::max<size_t>(args, i.arg_count);
-        results = std::max(results, module_.services[static_cast<size_t>(i.imm)].results.size());
-    }
-    layout_.counters = take(4 * deepest);
-    layout_.service_args = take(args * kRow);
-    layout_.service_results = take(results * kRow);
-    for (const ArrayInfo& array : f_.arrays) {
-        layout_.arrays.push_back(layout_.bytes);
-        layout_.bytes += array.length * 4 * isa_.lanes;
-    }
-    take(static_cast<size_t>((kRow - layout_.bytes % kRow) % kRow));
-    layout_.bytes = (layout_.bytes + kRow - 1) / kRow * kRow;
-}
+      a_(state.a) {}
 
 void Emit::emit_function(bool listing) {
     if (is_kernel_)

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "jit/planted_fault.h"
-#include "jit/target.h"
 #include "jit/x64/x64_isa_p.h"
 #include "jit/x64/x64_pool_p.h"
 
@@ -25,8 +24,6 @@ using Id = x86::Inst::Id;
 using asmjit::InstId;
 using asmjit::Label;
 using asmjit::Operand;
-
-inline constexpr int kRow = 4 * kMaxLanes;  // bytes of a row of lanes in memory shared with C++
 
 // The kernel's globals, at the start of scratch (r13).
 inline constexpr int kValidBits = 0;     // uint32: lanes of this group that hold points
@@ -47,30 +44,11 @@ struct ModuleState {
     std::vector<CodePlace> places = {};
 };
 
-// Where things lie in a function's frame (offsets from r15).
-struct FrameLayout {
-    int32_t params = 0, results = 0;   // rows
-    int32_t vectors = 0, masks = 0;    // spill slots
-    int32_t swap = 0;                  // two rows for old values of loop variables
-    int32_t lanes_a = 0, lanes_b = 0;  // rows for per-lane work
-    int32_t counters = 0;              // loop counters by depth
-    int32_t service_args = 0, service_results = 0;
-    std::vector<int32_t> arrays;
-    int32_t bytes = 0;
-};
-
-class Emit {
+class Emit : public FunctionCode {
   public:
     Emit(ModuleState& state, size_t function_index);
 
-    // Frame size is known before code is written.
-    int32_t frame_bytes() const { return layout_.bytes; }
     void emit_function(bool listing);
-    bool uses_valid_lanes() const;
-    // For tests: "" if the register allocation is proven right.
-    std::string check() const {
-        return check_allocation(f_, structure_, plan_.values, allocation_);
-    }
 
   private:
     struct OpenLoop {
@@ -87,37 +65,15 @@ class Emit {
     static const Member kMembers[static_cast<size_t>(Op::Count)];
 
     // x64_emit.cpp
-    void lay_out();
-    void lay_out_calls();
     void emit_kernel(bool listing);
     void emit_local(bool listing);
     void emit_body(bool listing);
     void find_valid_lanes();
     void broadcast_frame();
 
-    // x64_memory.cpp
-    void zero_arrays();
-
     // x64_operands.cpp: places of values
-    const Inst& inst(Value v) const {
-        return f_.insts[v];
-    }
-    const Inst& now() const {
-        return f_.insts[at_];
-    }
-    Value root(Value v) const {
-        return inst(v).op == Op::LoopOut ? inst(v).a : v;
-    }
-    const Place& place(Value v) const {
-        return allocation_.places[v];
-    }
     bool is_mask(Value v) const {
         return isa_.wide && inst(v).type == Type::M;
-    }
-    bool is_zero(Value v) const;
-    bool in_register(Value v) const {
-        v = root(v);
-        return place(v).in_reg(at_) && v != saved_[0] && v != saved_[1];
     }
     x86::Vec vec(int index) const;
     x86::Xmm xmm(const x86::Vec& v) const {
@@ -185,9 +141,6 @@ class Emit {
     void mask_bits(const x86::Gp& to, Value mask);
 
     // x64_control.cpp
-    struct Update {
-        Value variable, next;
-    };
     void fill_slot(Value v);
     void begin_body(Value loop);
     void test_kind(Value condition);
@@ -197,9 +150,9 @@ class Emit {
     void update_variables(Value loop);
     void update_mask(Value loop, Value next_mask);
     void save(int k, Value variable);
-    bool is_read_later(Value variable, size_t except) const;
 
-    // In memory shared with C++ a mask lane is all ones or zero
+    // x64_memory.cpp: in memory shared with C++ a mask lane is all ones or zero
+    void zero_arrays();
     void finish_typed(const x86::Vec& lanes);
     void load_result(const x86::Mem& from);
     void store_typed(const x86::Mem& to, Value v);
@@ -208,8 +161,6 @@ class Emit {
     template <class ReadLane>
     void gather_by_lane(int32_t length, ReadLane&& read_lane);
     void gather_words(const x86::Gp& base, int32_t offset);
-    int32_t array_length() const;
-    int32_t array_offset() const;
     x86::Mem array_element(Value index);
     void element_words(Value index);
     void store_under(const x86::Mem& to, Value value, Value mask);
@@ -226,25 +177,14 @@ class Emit {
     void pass_arguments(int32_t to, bool to_service);
 
     ModuleState& state_;
-    const Module& module_;
-    const Function& f_;
     const Isa& isa_;
-    const bool is_kernel_;
-    const size_t index_;
     x86::Assembler& a_;
-    Structure structure_;
-    FunctionPlan plan_;
-    Allocation allocation_;
-    FrameLayout layout_;
     std::vector<OpenLoop> loops_;
     struct OpenIf {
         Label end;
         Value record_set, record;  // what r10 and r11 belonged to when it was entered
     };
     std::vector<OpenIf> ifs_;
-    std::vector<Update> updates_;
-    Value saved_[2] = {kNone, kNone};  // variables whose old value lies in the swap rows
-    Value at_ = 0;
     unsigned gp_turn_ = 0;
     Value record_set_ = kNone, record_ = kNone;  // r10, r11 belong to this record
 };

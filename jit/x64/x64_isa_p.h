@@ -1,7 +1,7 @@
 // jit/x64/x64_isa_p.h: the two instruction sets.
 #pragma once
 
-#include "jit/code_plan_p.h"
+#include "jit/function_code_p.h"
 
 namespace kinora::jit::x64 {
 
@@ -14,14 +14,10 @@ struct Isa {
     int vector_registers;  // the two after these are scratch
     int mask_registers;    // k1..k(n-1); k0 and k7 are scratch
 
-    PlanRules rules() const { return {wide, true, true}; }
-    AllocationLimits limits(const FunctionPlan& plan, bool is_kernel) const {
-        AllocationLimits limits;
-        limits.registers[0] = vector_registers;
-        limits.registers[1] = mask_registers;
-        limits.first[1] = wide ? 1 : 0;
-        limits.hoist_function = is_kernel && !plan.calls;
-        return limits;
+    CodeRules rules() const {
+        return {.plan = {wide, true, true},
+                .limits = {.registers = {vector_registers, mask_registers}, .first = {0, wide}},
+                .lanes = lanes};
     }
 };
 

@@ -122,13 +122,6 @@ void Emit::zero_arrays() {
     a_.jnz(again);
 }
 
-int32_t Emit::array_length() const {
-    return f_.arrays[static_cast<size_t>(now().imm)].length;
-}
-int32_t Emit::array_offset() const {
-    return layout_.arrays[static_cast<size_t>(now().imm)];
-}
-
 // The row of an element whose index agrees in all lanes.
 x86::Mem Emit::array_element(Value index) {
     int32_t row_bytes = 4 * isa_.lanes;

@@ -15,11 +15,6 @@ x86::Gp Emit::next_gp() {
     return kTurn[gp_turn_++ & 3];
 }
 
-bool Emit::is_zero(Value v) const {
-    Op op = inst(v).op;
-    return (op == Op::ConstF || op == Op::ConstI || op == Op::ConstM) && inst(v).imm == 0;
-}
-
 x86::Mem Emit::constant(uint32_t bits) const {
     x86::Mem mem = state_.pool.word(bits);
     return isa_.wide ? mem._1to16() : mem;
