@@ -95,7 +95,7 @@ class Document {
     SourceMap source_map(const Element& element) const;  // of element.text
 
   private:
-    friend class DocumentReader;
+    friend class DocumentBuilder;
     Document() = default;
     Arena arena_;
     const Element* root_ = nullptr;

@@ -141,4 +141,10 @@ inline bool scan_int(const char* p, const char* stop, int32_t& value) {
     return true;
 }
 
+// Read words from p on while they are of the usual short forms and far from the end, where
+// kScanReach bytes are readable: [-]digits[.digits] with up to 16 bytes (and from the 16th byte of
+// [begin, end) on), or up to eight digits. Return where they stop, which may be before white space.
+const char* read_short_doubles(const char* begin, const char* p, const char* end, double*& out);
+const char* read_short_ints(const char* p, const char* end, int32_t*& out);
+
 }  // namespace kinora::collada

@@ -1,8 +1,14 @@
-// collada/number_scan.cpp: is a text a list of numbers as XML Schema writes them? One table look-up
-// a byte; four parts of the text at once, since each waits for its last look-up.
+// collada/number_scan.cpp: is a text a list of numbers as XML Schema writes them? 64 bytes at a
+// time become bit masks of digits, points, signs and white space, and rules of which may follow
+// which are a few operations on those. What they do not accept a table decides, one look-up a byte:
+// four parts of the text at once, since each waits for its last look-up.
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "collada/simple_types_p.h"
 
@@ -111,13 +117,144 @@ bool run(const Table& t, std::string_view text) {
     return true;
 }
 
+#ifdef __SSE2__
+
+// A bit for each of 64 bytes.
+struct Masks {
+    uint64_t digit, point, sign, e, space;
+};
+
+// Which bytes of 16 are what; `reals`: points and e's are looked for.
+template <bool reals>
+void classify(__m128i b, int shift, Masks& m) {
+    auto is = [&](char c) { return _mm_cmpeq_epi8(b, _mm_set1_epi8(c)); };
+    auto add = [&](uint64_t& mask, __m128i bytes) {
+        mask |= uint64_t(uint32_t(_mm_movemask_epi8(bytes))) << shift;
+    };
+    __m128i value = _mm_sub_epi8(b, _mm_set1_epi8('0'));
+    add(m.digit, _mm_cmpeq_epi8(_mm_min_epu8(value, _mm_set1_epi8(9)), value));
+    add(m.sign, _mm_or_si128(is('+'), is('-')));
+    add(m.space, _mm_or_si128(_mm_or_si128(is(' '), is('\n')), _mm_or_si128(is('\t'), is('\r'))));
+    if constexpr (!reals) return;
+    add(m.point, is('.'));
+    add(m.e, _mm_cmpeq_epi8(_mm_or_si128(b, _mm_set1_epi8(32)), _mm_set1_epi8('e')));
+}
+
+template <bool reals>
+Masks masks_of(const char* p) {
+    Masks m{};
+    for (int k = 0; k < 4; ++k)
+        classify<reals>(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p) + k), 16 * k, m);
+    return m;
+}
+
+// The masks moved up by one byte: of each byte what stands before it. Before a text stands a space.
+Masks before(const Masks& m, const Masks& last) {
+    auto up = [](uint64_t now, uint64_t then) { return now << 1 | then >> 63; };
+    return {up(m.digit, last.digit), up(m.point, last.point), up(m.sign, last.sign),
+            up(m.e, last.e), up(m.space, last.space)};
+}
+
+// From each of `from` to the next of `marks` behind it; `open` says that one of the block before
+// has not met its mark yet. A carry runs through what is no mark.
+uint64_t next_mark(uint64_t from, uint64_t marks, bool& open) {
+    uint64_t sum;
+    bool carry = __builtin_add_overflow(from << 1 | uint64_t(open), ~marks, &sum);
+    open = carry || from >> 63;
+    return sum & marks;
+}
+
+class RealRules {
+  public:
+    // The rules of real_table() without INF and NaN.
+    bool holds(const char* p) {
+        const Masks m = masks_of<true>(p), b = before(m, last_);
+        uint64_t digit_twice_before = b.digit << 1 | last_before_.digit >> 63;
+        uint64_t e_twice_before = b.e << 1 | last_before_.e >> 63;
+        uint64_t ended = b.digit | (b.point & digit_twice_before);  // a mantissa, before this byte
+        uint64_t marks = m.point | m.e | m.space;
+        uint64_t bad = ~(m.digit | m.sign | marks);
+        bad |= m.sign & ~(b.space | b.e);
+        bad |= m.point & ~(b.space | b.digit | (b.sign & ~e_twice_before));
+        bad |= m.e & ~ended;
+        bad |= m.space & ~(b.space | ended);
+        bad |= next_mark(m.point, marks, after_point_) & m.point;
+        bad |= next_mark(m.e, marks, after_e_) & (m.point | m.e);
+        last_ = m;
+        last_before_ = b;
+        return bad == 0;
+    }
+
+  private:
+    Masks last_{0, 0, 0, 0, ~uint64_t(0)}, last_before_{0, 0, 0, 0, ~uint64_t(0)};
+    bool after_point_ = false, after_e_ = false;
+};
+
+template <bool signs>
+class WholeRules {
+  public:
+    bool holds(const char* p) {
+        const Masks m = masks_of<false>(p), b = before(m, last_);
+        uint64_t bad = ~(m.digit | m.space | (signs ? m.sign : 0));
+        bad |= m.sign & ~b.space;
+        bad |= m.space & b.sign;
+        // 19 digits in a row fill one of the aligned groups of eight: the table counts them.
+        uint64_t others = ~m.digit;
+        bad |= (others - 0x0101010101010101u) & m.digit & 0x8080808080808080u;
+        last_ = m;
+        return bad == 0;
+    }
+
+  private:
+    Masks last_{0, 0, 0, 0, ~uint64_t(0)};
+};
+
+// False may be wrong.
+template <class Rules>
+bool holds_for_all(std::string_view text) {
+    Rules rules;
+    const char *p = text.data(), *end = p + text.size();
+    for (; end - p >= 64; p += 64)
+        if (!rules.holds(p)) return false;
+    char rest[64];  // with a space at least, so that the last number ends
+    std::memset(rest, ' ', sizeof rest);
+    std::memcpy(rest, p, size_t(end - p));
+    return rules.holds(rest);
+}
+
+bool regular_reals(std::string_view text) {
+    return holds_for_all<RealRules>(text);
+}
+bool regular_wholes(std::string_view text, bool signs) {
+    return signs ? holds_for_all<WholeRules<true>>(text) : holds_for_all<WholeRules<false>>(text);
+}
+
+#else
+
+bool regular_reals(std::string_view) {
+    return false;
+}
+bool regular_wholes(std::string_view, bool) {
+    return false;
+}
+
+#endif
+
 }  // namespace
 
 bool is_real_list(std::string_view text) {
-    return run(kReal, text);
+    return regular_reals(text) || run(kReal, text);
 }
 
 bool is_whole_list(std::string_view text, bool signs) {
+    return regular_wholes(text, signs) || run(signs ? kWhole : kNatural, text);
+}
+
+bool is_real_list_by_table(std::string_view text) {
+    return run(kReal, text);
+}
+
+bool is_whole_list_by_table(std::string_view text, bool signs) {
     return run(signs ? kWhole : kNatural, text);
 }
 

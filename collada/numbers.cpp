@@ -21,19 +21,29 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 size_t count_words(std::string_view text) {
     size_t words = 0, i = 0;
     bool inside = false;
-    constexpr uint64_t kHigh = 0x8080808080808080u;
-    for (; i + 8 <= text.size() && std::endian::native == std::endian::little; i += 8) {
-        uint64_t bytes;
-        std::memcpy(&bytes, text.data() + i, 8);
-        uint64_t solid = (((bytes & ~kHigh) + 0x5f5f5f5f5f5f5f5fu) | bytes) & kHigh;  // above ' '
-        uint64_t starts = solid & ~(solid << 8 | (inside ? 0x80u : 0u));
-        words += ((starts >> 7) * 0x0101010101010101u) >> 56;
-        inside = solid >> 63;
+#ifdef __SSE2__
+    // A word begins where a byte above ' ' stands behind one that is not.
+    auto solid = [&](size_t at) {
+        auto* p = reinterpret_cast<const __m128i*>(text.data() + at);
+        return _mm_xor_si128(_mm_loadu_si128(p), _mm_set1_epi8(-128));  // ordered as if signed
+    };
+    const __m128i space = _mm_set1_epi8(char(' ' ^ 0x80)), one = _mm_set1_epi8(1);
+    for (i = 1; i + 16 <= text.size(); i += 16) {
+        __m128i begins =
+            _mm_andnot_si128(_mm_cmpgt_epi8(solid(i - 1), space), _mm_cmpgt_epi8(solid(i), space));
+        __m128i sums = _mm_sad_epu8(_mm_and_si128(begins, one), _mm_setzero_si128());
+        words += size_t(_mm_cvtsi128_si64(sums) + _mm_cvtsi128_si64(_mm_srli_si128(sums, 8)));
     }
+    i = std::min(i, text.size());
+    if (i > 0) {
+        words += uint8_t(text[0]) > ' ';
+        inside = uint8_t(text[i - 1]) > ' ';
+    }
+#endif
     for (; i < text.size(); ++i) {
-        bool solid = uint8_t(text[i]) > ' ';
-        words += solid && !inside;
-        inside = solid;
+        bool solid_byte = uint8_t(text[i]) > ' ';
+        words += solid_byte && !inside;
+        inside = solid_byte;
     }
     return words;
 }
@@ -183,16 +193,26 @@ struct Words {
     char tail[2 * kScanReach];
 };
 
+const char* read_short(const char* begin, const char* p, const char* end, double*& out) {
+    return read_short_doubles(begin, p, end, out);
+}
+const char* read_short(const char*, const char* p, const char* end, int32_t*& out) {
+    return read_short_ints(p, end, out);
+}
+
 template <class T, bool (*Scan)(const char*, const char*, T&),
           T (*Slow)(std::string_view, size_t, Trouble&)>
 std::vector<T> read_list(const Document& document, const Element& element, Diagnostics& diag) {
-    std::vector<T> values;
-    values.reserve(count_words(element.text));
+    std::vector<T> values(count_words(element.text));
+    T* out = values.data();
     Trouble trouble;
-    for (Words words(element.text); words.next(); words.p = words.stop) {
-        T value;
-        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.place(), trouble);
-        values.push_back(value);
+    Words words(element.text);
+    while (true) {
+        words.p = read_short(words.begin, words.p, words.end, out);
+        if (!words.next()) break;
+        if (!Scan(words.p, words.stop, *out)) *out = Slow(words.word(), words.place(), trouble);
+        ++out;
+        words.p = words.stop;
     }
     report(trouble, document, element, diag);
     return values;

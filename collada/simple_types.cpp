@@ -169,7 +169,7 @@ bool is_number_list(const SimpleType& type, std::string_view text) {
         case Numbers::No:
             return false;
         case Numbers::Real:
-            return text.find("+I") == text.npos && is_real_list(text);
+            return is_real_list(text) && text.find("+I") == text.npos;
         case Numbers::Whole:
             return is_whole_list(text, true);
         case Numbers::Natural:

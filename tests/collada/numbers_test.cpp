@@ -9,6 +9,7 @@
 #include <random>
 
 #include "collada/numbers_p.h"
+#include "collada/simple_types_p.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {
@@ -188,11 +189,125 @@ TEST(Numbers, DecimalCommasAreUnderstoodInAnyLocale) {
 TEST(Numbers, IntegersClampAndNameNonsense) {
     Reading r;
     r.document = read_document_text(
-        "t.dae", "<COLLADA><p>1 -2 99999999999999999999 +4 5.5 x -2147483648 -2147483649</p></COLLADA>", r.diag);
+        "t.dae",
+        "<COLLADA><p>1 -2 99999999999999999999 +4 5.5 x -2147483648 -2147483649</p></COLLADA>",
+        r.diag);
     r.diag.clear();
     auto values = read_ints(*r.document, *r.document->root().child("p"), r.diag);
     EXPECT_EQ(values, (std::vector<int32_t>{1, -2, 2147483647, 4, 0, 0, INT32_MIN, INT32_MIN}));
     EXPECT_EQ(r.pointed("SRC_NUMBER"), "5.5");
+}
+
+// One word in a list of its kind: from_chars says what it is.
+std::string random_short_word(std::mt19937& random) {
+    auto digits = [&](size_t most) {
+        std::string run;
+        for (size_t n = random() % (most + 1); n > 0; --n) run += char('0' + random() % 10);
+        return run;
+    };
+    std::string word = random() % 3 ? "" : "-", before = digits(9);
+    bool point = random() % 4 > 0;
+    std::string behind = point ? digits(11) : "";
+    if (before.empty() && behind.empty()) before = "0";
+    return word + before + (point ? "." : "") + behind;
+}
+
+TEST(Numbers, ShortWordsInLongListsAreTheNearestDoubles) {
+    std::mt19937 random(29);
+    for (int list = 0; list < 300; ++list) {
+        std::string text;
+        std::vector<double> expected;
+        for (int n = 0; n < 100; ++n) {
+            std::string word = random_short_word(random);
+            double value = 0;
+            std::from_chars(word.data(), word.data() + word.size(), value);
+            expected.push_back(value);
+            text += word + std::string(1 + random() % 3, " \n"[random() % 2]);
+        }
+        Numbers n(text);
+        ASSERT_EQ(n.values.size(), expected.size());
+        for (size_t i = 0; i < expected.size(); ++i)
+            ASSERT_EQ(std::bit_cast<uint64_t>(n.values[i]), std::bit_cast<uint64_t>(expected[i]))
+                << i << " in " << text;
+        EXPECT_TRUE(n.r.diag.findings().empty());
+    }
+}
+
+TEST(Numbers, ShortWholeNumbersInLongLists) {
+    std::mt19937 random(31);
+    std::string text;
+    std::vector<int32_t> expected;
+    for (int i = 0; i < 20000; ++i) {
+        int32_t value = int32_t(random() >> random() % 32);
+        if (value < 0) value = -(value & 0x7fffffff);
+        expected.push_back(value);
+        text += std::to_string(value) + (random() % 9 ? " " : "\n\n");
+    }
+    Reading r;
+    r.document =
+        read_document_text("t.dae", "<COLLADA><extra>" + text + "</extra></COLLADA>", r.diag);
+    EXPECT_EQ(read_ints(*r.document, *r.document->root().child("extra"), r.diag), expected);
+}
+
+// All texts of up to five of these, at three places of a longer text.
+TEST(NumberLists, AreTheSameToBitMasksAndTable) {
+    const std::string letters = "0+.e -I\n7";
+    size_t accepted = 0;
+    for (size_t length = 0; length <= 5; ++length) {
+        size_t count = 1;
+        for (size_t i = 0; i < length; ++i) count *= letters.size();
+        for (size_t n = 0; n < count; ++n) {
+            std::string text;
+            for (size_t i = 0, rest = n; i < length; ++i, rest /= letters.size())
+                text += letters[rest % letters.size()];
+            for (size_t at : {0, 61, 63}) {
+                std::string full = std::string(at, ' ') + text;
+                ASSERT_EQ(is_real_list(full), is_real_list_by_table(full)) << full;
+                for (bool signs : {false, true})
+                    ASSERT_EQ(is_whole_list(full, signs), is_whole_list_by_table(full, signs))
+                        << full;
+                accepted += is_real_list(full);
+            }
+        }
+    }
+    EXPECT_GT(accepted, 1000u);
+}
+
+TEST(NumberLists, LongOnesAreTheSameToBitMasksAndTable) {
+    const char* const words[] = {"1",
+                                 "-2.5",
+                                 "3e5",
+                                 "+.5e-10",
+                                 "7.",
+                                 "12345678",
+                                 "123456789012345678",
+                                 "1234567890123456789",
+                                 "0.000000000000000000000000000000001",
+                                 "NaN",
+                                 "INF",
+                                 "-INF",
+                                 "1.5.2",
+                                 "1e5e",
+                                 "--1",
+                                 "1-",
+                                 "1e",
+                                 ".",
+                                 "a"};
+    std::mt19937 random(3);
+    size_t accepted = 0;
+    for (int i = 0; i < 30000; ++i) {
+        std::string text;
+        size_t good = random() % 3 ? 9 : std::size(words);
+        for (size_t n = random() % 40; n > 0; --n)
+            text += std::string(words[random() % good]) + (random() % 50 ? ' ' : '\n');
+        if (random() % 4 == 0 && !text.empty())
+            text[random() % text.size()] = "0.e- +"[random() % 6];
+        ASSERT_EQ(is_real_list(text), is_real_list_by_table(text)) << text;
+        for (bool signs : {false, true})
+            ASSERT_EQ(is_whole_list(text, signs), is_whole_list_by_table(text, signs)) << text;
+        accepted += is_real_list(text);
+    }
+    EXPECT_GT(accepted, 10000u);
 }
 
 }  // namespace
