@@ -125,6 +125,7 @@ class Checker {
     void check(Expr*&, UnaryExpr& e, BaseType wanted);
     void check(Expr*&, BinaryExpr& e, BaseType wanted);
     void check_arithmetic(BinaryExpr& e, BaseType wanted);
+    bool component_by_name(BinaryExpr& e);
     void check_product(BinaryExpr& e);
     void check_comparison(BinaryExpr& e);
     template <class Hint>

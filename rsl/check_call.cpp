@@ -38,6 +38,14 @@ constexpr HintRow kHints[] = {
     {"powf", "use pow(x, y)"},
     {"atan2", "use atan(y, x)"},
     {"tex2D", "use texture(name, s, t)"},
+    {"texture2D", "use texture(name, s, t)"},
+    {"power", "use pow(x, y)"},
+    {"int", "use floor(x)"},
+    {"trunc", "use floor(x)"},
+    {"unit", "use normalize(v)"},
+    {"vec3", "write 'vector(x, y, z)'"},
+    {"rgb", "write 'color(r, g, b)'"},
+    {"print", "use printf(\"...\", x)"},
 };
 
 }  // namespace
@@ -326,6 +334,8 @@ void Checker::unknown_function(CallExpr& e) {
     Finding& finding = report(Code::RSL_UNKNOWN_FUNCTION, e.place, e.name);
     for (const HintRow& row : kHints)
         if (row.name == e.name) finding.help = row.help;
+    for (const ShaderDefinition* shader : ast_.shaders)
+        if (shader->name == e.name) finding.help = "it is a shader, which cannot be called";
     if (!finding.help.empty()) return;
     if (std::string_view header = header_that_defines(e.name); !header.empty()) {
         finding.help = fmt::format("write '#include \"{}\"' at the beginning", header);

@@ -108,8 +108,25 @@ void Checker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
     e.type = {difference ? BaseType::Vector : common, -1};
 }
 
+// "P.x" as in other languages; reported.
+bool Checker::component_by_name(BinaryExpr& e) {
+    constexpr std::string_view kPositions = "xyz", kColors = "rgb";
+    const auto* name = e.op == Op::Dot ? as_if<VariableExpr>(e.right) : nullptr;
+    if (!name || name->name.size() != 1 || find_variable(name->name, false)) return false;
+    size_t position = kPositions.find(name->name[0]), color = kColors.find(name->name[0]);
+    if (position == kPositions.npos && color == kColors.npos) return false;
+    value(e.left, BaseType::Invalid);
+    size_t k = position == kPositions.npos ? color : position;
+    report(Code::RSL_NOT_RSL, name->place, fmt::format("the component '.{}'", name->name)).help =
+        position == kPositions.npos ? fmt::format("write comp(c, {})", k)
+                                    : fmt::format("write {}comp(p)", kPositions[k]);
+    e.type = {BaseType::Float, -1};
+    return true;
+}
+
 // a . b and a ^ b.
 void Checker::check_product(BinaryExpr& e) {
+    if (component_by_name(e)) return;
     both_sides(e.left, e.right, BaseType::Vector, [](BaseType other, const Expr&) {
         return is_triple(other) ? other : BaseType::Vector;
     });

@@ -2,6 +2,7 @@
 #include "rsl/lexer.h"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <utility>
 
@@ -41,6 +42,20 @@ constexpr char kDosEnd = '\x1a', kNoBreak = '\xa0', kNoBreakLead = '\xc2';
 constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
+constexpr bool is_hex_digit(char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+}
+
+// What word processors and web pages make of plain characters, in UTF-8 and Windows-1252.
+constexpr struct {
+    std::string_view text;
+    const char* plain;
+} kTypographic[] = {
+    {"\xe2\x80\x9c", "\""}, {"\xe2\x80\x9d", "\""}, {"\xe2\x80\x9e", "\""}, {"\xe2\x80\x98", "\""},
+    {"\xe2\x80\x99", "\""}, {"\xe2\x80\x93", "-"},  {"\xe2\x80\x94", "-"},  {"\xe2\x88\x92", "-"},
+    {"\xc3\x97", "*"},      {"\x93", "\""},         {"\x94", "\""},         {"\x91", "\""},
+    {"\x92", "\""},         {"\x96", "-"},          {"\x97", "-"},
+};
 
 }  // namespace
 
@@ -51,10 +66,34 @@ Word find_word(std::string_view text) {
     return Word::None;
 }
 
+std::string_view word_text(Word word) {
+    for (const WordRow& row : kWords)
+        if (row.word == word) return row.text;
+    return "";
+}
+
 const char* punct_text(Punct punct) {
     for (const PunctRow& row : kPuncts)
         if (row.punct == punct) return row.text.data();
     return "";
+}
+
+const char* plain_character(std::string_view text) {
+    for (const auto& row : kTypographic)
+        if (row.text == text) return row.plain;
+    return "";
+}
+
+double number_value(std::string_view text, bool& too_large) {
+    double value = 0;
+    bool hex = text.size() > 2 && (text[1] == 'x' || text[1] == 'X');
+    const char* begin = text.data() + (hex ? 2 : 0);
+    auto format = hex ? std::chars_format::hex : std::chars_format::general;
+    auto result = std::from_chars(begin, text.data() + text.size(), value, format);
+    // 1e400 leaves no value and 1e-400 is 0: the sign of the exponent tells them apart.
+    bool beyond = result.ec == std::errc::result_out_of_range;
+    too_large = beyond && text.find('-') == std::string_view::npos;
+    return beyond ? 0 : value;
 }
 
 Lexer::Lexer(std::string_view text, const SourceMap& map) : text_(text), map_(&map) {
@@ -85,6 +124,16 @@ size_t Lexer::continuation_length(size_t i) const {
     while (is_blank(at(after))) ++after;
     size_t newline = newline_length(after);
     return newline ? after + newline - i : 0;
+}
+
+// A single byte is one of Windows-1252 only where no character of UTF-8 goes on.
+size_t Lexer::typographic_length(size_t i) const {
+    if (!(at(i) & 0x80)) return 0;
+    for (const auto& row : kTypographic) {
+        bool alone = row.text.size() > 1 || i == 0 || !(at(i - 1) & 0x80);
+        if (alone && text_.substr(i).starts_with(row.text)) return row.text.size();
+    }
+    return 0;
 }
 
 bool Lexer::skip_comment() {
@@ -143,12 +192,17 @@ Token Lexer::next() {
 
 TokenKind Lexer::scan(size_t begin) {
     char c = text_[begin];
+    if (size_t length = typographic_length(begin)) {
+        position_ += length;
+        punct_ = Punct::Other;
+        return TokenKind::Other;
+    }
     if (is_letter(c)) {
         while (is_letter(at(position_)) || is_digit(at(position_))) {
             bool blank = at(position_) == kNoBreakLead && at(position_ + 1) == kNoBreak;
             bool latin =
                 at(position_) == kNoBreak && position_ > begin && !(at(position_ - 1) & 0x80);
-            if (blank || latin) break;
+            if (blank || latin || typographic_length(position_)) break;
             ++position_;
         }
         return TokenKind::Identifier;
@@ -176,6 +230,11 @@ void Lexer::scan_number() {
     auto digits = [&] {
         while (is_digit(at(position_))) ++position_;
     };
+    bool hex = at(position_) == '0' && (at(position_ + 1) == 'x' || at(position_ + 1) == 'X');
+    if (hex && is_hex_digit(at(position_ + 2))) {
+        for (position_ += 2; is_hex_digit(at(position_));) ++position_;
+        return;
+    }
     digits();
     if (at(position_) == '.') {
         ++position_;
@@ -190,10 +249,10 @@ void Lexer::scan_number() {
             digits();
         }
     }
-    // C's suffix, tolerated: 0.5f
-    if ((at(position_) == 'f' || at(position_) == 'F') && !is_letter(at(position_ + 1)) &&
-        !is_digit(at(position_ + 1)))
-        ++position_;
+    // C's suffixes, tolerated: 0.5f, 16u, 10L
+    constexpr std::string_view kSuffixes = "fFuUlL";
+    bool suffix = position_ < text_.size() && kSuffixes.find(at(position_)) != kSuffixes.npos;
+    if (suffix && !is_letter(at(position_ + 1)) && !is_digit(at(position_ + 1))) ++position_;
 }
 
 void Lexer::scan_string() {
@@ -206,6 +265,7 @@ void Lexer::scan_string() {
         if (size_t continued = continuation_length(position_)) {
             position_ += continued - 1;
         } else if (newline_length(position_)) {
+            if (size_t end = string_end_below(position_)) position_ = end;
             break;
         } else if (text_[position_] == '\\') {
             ++position_;
@@ -214,6 +274,21 @@ void Lexer::scan_string() {
     position_ = std::min(position_, text_.size());
     trouble_ = Trouble::UnterminatedString;
     trouble_begin_ = begin;
+}
+
+// A string that goes on over lines, which is an error: behind its closing quote, the first one
+// below `i` if that line has an odd number of them; else 0.
+size_t Lexer::string_end_below(size_t i) const {
+    constexpr int kMostLines = 20;
+    size_t quote = text_.find('"', i);
+    if (quote == std::string_view::npos) return 0;
+    int lines = 0, quotes = 0;
+    for (size_t k = i; k < quote; ++k) {
+        lines += newline_length(k) != 0;
+        if (newline_length(k) && at(k + 1) == '#') return 0;  // a directive must not be lost
+    }
+    for (size_t k = quote; k < text_.size() && !newline_length(k); ++k) quotes += text_[k] == '"';
+    return quotes % 2 == 1 && lines <= kMostLines ? quote + 1 : 0;
 }
 
 std::string_view Lexer::rest_of_line() {

@@ -31,6 +31,8 @@ class Lexer {
     bool skip_comment();
     size_t newline_length(size_t at) const;
     size_t continuation_length(size_t at) const;
+    size_t typographic_length(size_t at) const;
+    size_t string_end_below(size_t at) const;
     TokenKind scan(size_t begin);
     void scan_number();
     void scan_string();
@@ -48,7 +50,14 @@ class Lexer {
 
 // The meaning of an identifier.
 Word find_word(std::string_view text);
+std::string_view word_text(Word word);
 const char* punct_text(Punct punct);
+
+// The character that a typographic one (a curly quote, a dash) stands for; "" for all others.
+const char* plain_character(std::string_view text);
+
+// The value of a Number token, which may be hexadecimal and have a suffix of C.
+double number_value(std::string_view text, bool& too_large);
 
 // The value of a String token: quotes off, escapes (\n \t \\ \" \nnn ...) decoded, continued lines
 // joined.

@@ -11,11 +11,18 @@ bool is_shader_word(Word word) {
     return word >= Word::Surface && word <= Word::Deformation;
 }
 
+std::string_view nearest_type(std::string_view word) {
+    std::vector<std::string_view> types;
+    for (int k = 0; k < int(BaseType::Void); ++k) types.push_back(type_name(BaseType(k)));
+    return nearest_name(word, types);
+}
+
 }  // namespace
 
 // ---- definitions --------------------------------------------------------------------------------
 
 void Parser::definition() {
+    unclosed_ = false;
     if (accept(Punct::Semicolon) || newer_definition() || shader_definition()) return;
     if (!file_variable()) function_definition();
 }
@@ -24,6 +31,10 @@ bool Parser::newer_definition() {
     if (token(1).kind != TokenKind::Identifier) return false;
     if (token().text == "class") return newer_language(token(), "'class' (shader objects)");
     if (token().text == "struct") return newer_language(token(), "'struct'");
+    if (token().text == "shader" && is(Punct::LeftParen, 2)) {
+        error(Code::RSL_NOT_RSL, token(), "'shader' (Open Shading Language)");
+        return true;
+    }
     if (token().text == "public") return newer_language(token(), "'public' (shader objects)");
     return false;
 }
@@ -35,6 +46,7 @@ bool Parser::file_variable() {
                 is(Punct::Comma, type + 2) || is(Punct::LeftBracket, type + 2);
     if (!is_type(type) || token(type + 1).kind != TokenKind::Identifier || !ends) return false;
     reporter_.report(Code::RSL_FILE_VARIABLE, token(type + 1), token(type + 1).text);
+    broken_ = true;
     while (!at_end() && !is(Punct::Semicolon) && !is_shader_word(token().word)) advance();
     return true;
 }
@@ -58,6 +70,10 @@ bool Parser::shader_definition() {
     }
     shader->parameters = parameters(SymbolKind::Parameter);
     if (panic_) return true;
+    if (is(Punct::Semicolon) && is(Punct::LeftBrace, 1)) {
+        reporter_.report(Code::RSL_SYNTAX, token(), "'{'", "';'").help = "leave the ';' out";
+        advance();
+    }
     shader->body = shader_body(*shader);
     shader->place.token = at;
     ast_.shaders.push_back(shader);
@@ -101,29 +117,53 @@ BlockStmt* Parser::body_as_function(BlockStmt* body) {
 // "sruface x()": perhaps a misspelt kind of shader.
 void Parser::unknown_definition() {
     const Token& at = token();
+    if (is_type() && is(Punct::LeftBracket, 1)) {
+        Finding* finding = error(Code::RSL_NOT_RSL, at, "a function that returns an array");
+        if (finding) finding->help = "hand the array out through an output parameter";
+        return;
+    }
     bool two_names = at.kind == TokenKind::Identifier && token(1).kind == TokenKind::Identifier;
     std::vector<std::string_view> kinds;
     for (int k = 0; k <= int(ShaderKind::Transformation); ++k)
         kinds.push_back(shader_kind_name(ShaderKind(k)));
     std::string_view near = two_names ? nearest_name(at.text, kinds) : std::string_view();
-    if (near.empty()) return syntax_error("a shader or function definition");
+    bool behind = next_ > 0 && ast_.tokens.tokens[next_ - 1].punct == Punct::RightBrace;
+    if (near.empty() && !(behind && at.kind == TokenKind::Identifier))
+        return syntax_error("a shader or function definition");
     Finding* finding = error(Code::RSL_SYNTAX, at, "a shader or function definition",
                              fmt::format("'{}'", at.text));
-    if (finding) finding->help = fmt::format("did you mean '{}'?", near);
+    if (!finding) return;
+    finding->help = near.empty() ? "a '}' before it may be one too many"
+                                 : fmt::format("did you mean '{}'?", near);
+}
+
+// Words of C before a function that say nothing here.
+bool Parser::idle_word() {
+    const Token& at = token();
+    bool idle = at.text == "inline" || at.text == "static" || at.text == "export";
+    if (!idle || token(1).kind != TokenKind::Identifier) return false;
+    reporter_.report(Code::RSL_WORD_LEFT_OUT, at, at.text);
+    advance();
+    return true;
 }
 
 // "[uniform] [type] name (": the detail of a result is inferred.
 void Parser::function_definition() {
-    while (is(Word::Uniform) || is(Word::Varying) || is(Word::Extern)) advance();
-    int name = is_type() && !is(Punct::LeftParen, 1);
+    while (true) {
+        if (is(Word::Uniform) || is(Word::Varying) || is(Word::Extern))
+            advance();
+        else if (!idle_word())
+            break;
+    }
+    int name = (is_type() && !is(Punct::LeftParen, 1)) || at_foreign_type();
     bool named = token(name).kind == TokenKind::Identifier && is(Punct::LeftParen, name + 1);
     if (!named) {
         unknown_definition();
         return;
     }
-    const Token& after = ast_.tokens.tokens[after_parens(next_ + uint32_t(name) + 1)];
-    if (after.punct == Punct::Semicolon) {  // a prototype: functions need none
-        while (!accept(Punct::Semicolon)) advance();
+    uint32_t behind = after_parens(next_ + uint32_t(name) + 1);
+    if (ast_.tokens.tokens[behind].punct == Punct::Semicolon) {  // a prototype: functions need none
+        next_ = behind + 1;
         return;
     }
     if (Function* f = function()) ast_.functions.push_back(f);
@@ -133,8 +173,11 @@ void Parser::function_definition() {
 Function* Parser::function() {
     auto* f = ast_.arena.make<Function>();
     f->result = {BaseType::Float, -1};
-    f->typed = is_type() && !is(Punct::LeftParen, 1);
-    if (f->typed) {
+    bool foreign = at_foreign_type();
+    f->typed = foreign || (is_type() && !is(Punct::LeftParen, 1));
+    if (foreign) {
+        foreign_type(f->result.base);
+    } else if (f->typed) {
         f->result.base = type_from_name(token().text);
         advance();
     }
@@ -164,67 +207,134 @@ std::span<Symbol*> Parser::parameters(SymbolKind kind) {
     }
     Declaration head{{BaseType::Float, -1}, Detail::Unspecified, false};
     bool have_type = false;
-    while (!panic_ && !is(Punct::RightParen)) {
-        if ((is_type() || is_detail()) && !(have_type && word_as_name())) {
-            if (!declaration_head(head)) break;
+    while (!panic_ && !is(Punct::RightParen) && !is(Punct::LeftBrace)) {
+        if (((is_type() || is_detail()) && !(have_type && word_as_name())) || at_foreign_type() ||
+            shader_handle()) {
+            if (!declaration_head(head)) {
+                if (stopped_ || !resume_parameters()) break;
+                continue;
+            }
             have_type = true;
-        } else if (foreign_declaration()) {
-            break;
         } else if (!have_type && token().kind == TokenKind::Identifier) {
             reporter_.report(Code::RSL_MISSING_TYPE, token(), token().text,
                              type_name(head.type.base));
             have_type = true;
         }
         Symbol* symbol = declarator(head, kind);
-        if (panic_) break;
-        symbols.push_back(symbol);
+        if (symbol) symbols.push_back(symbol);
+        if (panic_ && !resume_parameters()) break;
         bool separated = false;
         while (is(Punct::Comma) || is(Punct::Semicolon)) {
             have_type = have_type && !is(Punct::Semicolon);
             advance();
             separated = true;
         }
-        if (!separated && !is(Punct::RightParen)) syntax_error("',' or ')'");
+        if (separated || is(Punct::RightParen) || is(Punct::LeftBrace)) continue;
+        if (is_type() || is_detail())
+            missing_behind("';'");
+        else
+            syntax_error("',' or ')'");
+        if (panic_ && !resume_parameters()) break;
     }
-    if (!panic_) expect(Punct::RightParen, "')'");
+    if (!panic_) end_of_parameters();
     return ast_.arena.copy(symbols);
+}
+
+void Parser::end_of_parameters() {
+    if (is(Punct::LeftBrace))
+        missing_behind("')'");
+    else
+        expect(Punct::RightParen, "')'");
+}
+
+// After an error among parameters: to the next ',' or ';' between them, or to the ')' before the
+// body. False where the body comes first.
+bool Parser::resume_parameters() {
+    if (after_reported()) return false;
+    const auto& tokens = ast_.tokens.tokens;
+    int depth = 0;
+    for (uint32_t i = next_; i + 1 < tokens.size(); ++i) {
+        Punct punct = tokens[i].punct, behind = tokens[i + 1].punct;
+        bool list = punct == Punct::LeftBrace && i > 0 && tokens[i - 1].punct == Punct::Assign;
+        bool in_list = behind == Punct::Comma || behind == Punct::Semicolon;
+        if ((punct == Punct::LeftBrace && !list) ||
+            (punct == Punct::RightBrace && depth == 0 && !in_list))
+            return false;
+        bool last = punct == Punct::RightParen && behind == Punct::LeftBrace;
+        bool between = depth == 0 && (punct == Punct::Comma || punct == Punct::Semicolon);
+        if (last || between) {
+            next_ = i;
+            panic_ = false;
+            return true;
+        }
+        depth += punct == Punct::LeftParen || list;
+        depth -= depth > 0 && (punct == Punct::RightParen || punct == Punct::RightBrace);
+    }
+    return false;
 }
 
 // ---- declarations -------------------------------------------------------------------------------
 
-// "int i", "shader lights[]": two names where a declaration could stand.
-bool Parser::foreign_declaration() {
-    const Token& at = token();
+// "int i", "pont p": two names where a declaration could stand, or "const float a".
+bool Parser::at_foreign_type(int ahead) const {
+    const Token& at = token(ahead);
     if (at.kind != TokenKind::Identifier || at.word != Word::None) return false;
+    bool known = *foreign_type_help(at.text) != '\0';
+    bool qualifier = known && (is_type(ahead + 1) || is_detail(ahead + 1));
+    if (token(ahead + 1).kind != TokenKind::Identifier || (!qualifier && is_reserved(ahead + 1)))
+        return false;
+    return known || !nearest_type(at.text).empty();
+}
+
+// Reports it and takes it as the type that is meant; Invalid for a qualifier alone.
+bool Parser::foreign_type(BaseType& base) {
+    if (!at_foreign_type()) return false;
+    const Token& at = token();
     const char* help = foreign_type_help(at.text);
-    bool qualifier = *help && is_type(1);  // "const float a"
-    bool two = token(1).kind == TokenKind::Identifier && (qualifier || !is_reserved(1));
-    if (!two) return false;
-    if (at.text == "shader") return newer_language(at, "'shader' (handles of co-shaders)");
-    std::vector<std::string_view> types;
-    for (int k = 0; k < int(BaseType::Void); ++k) types.push_back(type_name(BaseType(k)));
-    std::string_view near = nearest_name(at.text, types);
-    if (!*help && near.empty()) return false;
-    Finding* finding = error(Code::RSL_UNKNOWN_TYPE, at, at.text);
-    if (finding) finding->help = *help ? help : fmt::format("did you mean '{}'?", near);
+    std::string_view near = nearest_type(at.text);
+    reporter_.report(Code::RSL_UNKNOWN_TYPE, at, at.text).help =
+        *help ? help : fmt::format("did you mean '{}'?", near);
+    base = *help ? foreign_type_base(at.text) : type_from_name(near);
+    advance();
+    while (*foreign_type_help(token().text) && token(1).kind == TokenKind::Identifier) {
+        base = foreign_type_base(token().text);  // "unsigned int"
+        advance();
+    }
     return true;
+}
+
+// "shader lights[]".
+bool Parser::shader_handle() {
+    bool two = token(1).kind == TokenKind::Identifier && !is_reserved(1);
+    return two && token().text == "shader" &&
+           newer_language(token(), "'shader' (handles of co-shaders)");
 }
 
 // "output uniform float" in any order, the type last.
 bool Parser::declaration_head(Declaration& head) {
     head = Declaration{};
-    while (is_detail()) {
+    while (true) {
         if (is(Word::Output)) head.output = true;
         if (is(Word::Uniform)) head.detail = Detail::Uniform;
         if (is(Word::Varying)) head.detail = Detail::Varying;
-        advance();
+        if (is_detail())
+            advance();
+        else if (!foreign_type(head.type.base))
+            break;
+        else if (head.type.base != BaseType::Invalid)
+            return true;
     }
     if (!is_type()) {
-        if (!foreign_declaration()) syntax_error("a type");
+        if (!shader_handle()) syntax_error("a type");
         return false;
     }
     head.type.base = type_from_name(token().text);
     advance();
+    if (token().kind == TokenKind::String && token(1).kind == TokenKind::Identifier) {
+        reporter_.report(Code::RSL_NOT_RSL, token(), "a space in a declaration").help =
+            "write it before the value, as in point p = point \"world\" (0, 0, 1)";
+        advance();
+    }
     return true;
 }
 
@@ -256,6 +366,11 @@ void Parser::array_suffix(Symbol& symbol) {
     const Token& at = token();
     Expr* length = expression();
     if (panic_ || !expect(Punct::RightBracket, "']'")) return;
+    if (is(Punct::LeftBracket)) {
+        Finding* finding = error(Code::RSL_NOT_RSL, token(), "an array of arrays");
+        if (finding) finding->help = "use one index, as in a[i * n + j]";
+        return;
+    }
     long value = constant_length(*length);
     if (value < 1) reporter_.report(Code::RSL_BAD_ARRAY_LENGTH, at);
     symbol.type.array_length = int(std::max(value, 1l));
@@ -285,14 +400,22 @@ Expr* Parser::initialiser(Symbol& symbol) {
 bool Parser::at_declaration() const {
     if (is(Word::Uniform) || is(Word::Varying)) return !word_as_name();
     if (is(Word::Output)) return is_type(1) || is_detail(1);
+    bool space =
+        is_type() && token(1).kind == TokenKind::String && token(2).kind == TokenKind::Identifier;
+    if (space) {  // written before the name instead of the value
+        Punct behind = token(3).punct;
+        return behind == Punct::Assign || behind == Punct::Semicolon ||
+               behind == Punct::LeftBracket;
+    }
     if (!is_type() || token(1).kind != TokenKind::Identifier || is(Punct::LeftParen, 2))
-        return false;
+        return at_foreign_type() && !is(Punct::LeftParen, 2);
     return !is_reserved(1);
 }
 
 // "[type] name (...) {" inside a block.
 bool Parser::at_function() const {
-    uint32_t name = next_ + (is_type() && !is(Punct::LeftParen, 1));
+    bool typed = (is_type() && !is(Punct::LeftParen, 1)) || at_foreign_type();
+    uint32_t name = next_ + typed;
     const auto& tokens = ast_.tokens.tokens;
     if (name + 1 >= tokens.size() || tokens[name].kind != TokenKind::Identifier) return false;
     if (tokens[name + 1].punct != Punct::LeftParen) return false;

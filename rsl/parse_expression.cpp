@@ -1,5 +1,4 @@
 // rsl/parse_expression.cpp: expressions, by precedence climbing.
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -150,9 +149,21 @@ Expr* Parser::unary() {
         return node;
     }
     if (is_type() && !word_as_name()) return cast();
-    bool c_style = is(Punct::LeftParen) && is_type(1) && is(Punct::RightParen, 2) &&
-                   !continues(token(3).punct);
-    return c_style ? c_cast() : postfix();
+    bool c_style = is(Punct::LeftParen) && is(Punct::RightParen, 2) && !continues(token(3).punct);
+    if (c_style && is_type(1)) return c_cast();
+    return c_style && foreign_cast() ? unary() : postfix();
+}
+
+// "(int) x", as in C: reported, and the value taken as it is.
+bool Parser::foreign_cast() {
+    const Token& type = token(1);
+    bool operand = token(3).kind != TokenKind::Punctuator || is(Punct::LeftParen, 3);
+    if (!operand || foreign_type_base(type.text) == BaseType::Invalid) return false;
+    bool whole = type.text == "int" || type.text == "long" || type.text == "unsigned";
+    reporter_.report(Code::RSL_UNKNOWN_TYPE, type, type.text).help =
+        whole ? "use floor(x)" : foreign_type_help(type.text);
+    next_ += 3;
+    return true;
 }
 
 // "color x", "vector "world" x", "float noise(P)".
@@ -218,12 +229,10 @@ Expr* Parser::number() {
     const Token& at = token();
     auto* node = make<NumberExpr>(Place{at.where, next_});
     std::string_view text = at.text;
-    double value = 0;
-    auto result = std::from_chars(text.data(), text.data() + text.size(), value);
     constexpr double kLargest = std::numeric_limits<float>::max();
-    bool beyond = result.ec == std::errc::result_out_of_range;
-    // 1e400 leaves no value and 1e-400 is 0: the sign of the exponent tells them apart.
-    if (beyond) value = text.find('-') == std::string_view::npos ? kLargest * 2 : 0;
+    bool too_large = false;
+    double value = number_value(text, too_large);
+    if (too_large) value = kLargest * 2;
     if (value > kLargest) reporter_.report(Code::RSL_BAD_NUMBER, at, text);
     node->value = std::min(value, kLargest);
     advance();
@@ -244,7 +253,7 @@ Expr* Parser::string() {
 Expr* Parser::parenthesised() {
     uint32_t at = next_;
     advance();
-    std::span<Expr*> items = expression_list(Punct::RightParen);
+    std::span<Expr*> items = expression_list(Punct::RightParen, "')'");
     if (panic_) return bad_expression();
     if (items.size() == 1) {
         // A sum's place has its parentheses; a name or call stands for itself.
@@ -286,18 +295,20 @@ std::span<Expr*> Parser::arguments() {
     if (!expect(Punct::LeftParen, "'('")) return {};
     height_ = 0;
     if (accept(Punct::RightParen)) return {};
-    return expression_list(Punct::RightParen);
+    return expression_list(Punct::RightParen, nullptr);
 }
 
-// "a, b, c" and the closing token.
-std::span<Expr*> Parser::expression_list(Punct end) {
+// "a, b, c" and the closing token; without `expected`, of arguments.
+std::span<Expr*> Parser::expression_list(Punct end, const char* expected) {
     std::vector<Expr*> items;
     int height = 0;
     do {
         items.push_back(expression());
         height = std::max(height, height_);
     } while (!panic_ && accept(Punct::Comma));
-    if (!panic_) expect(end, end == Punct::RightParen ? "')'" : "';'");
+    bool statement_ends = is(Punct::Semicolon) || is(Punct::LeftBrace) || is(Punct::RightBrace);
+    if (!expected) expected = statement_ends ? "')'" : "',' or ')'";
+    if (!panic_) expect(end, expected);
     height_ = height;
     return ast_.arena.copy(items);
 }

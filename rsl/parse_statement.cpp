@@ -1,6 +1,7 @@
 // rsl/parse_statement.cpp: statements.
 #include <utility>
 
+#include "rsl/lexer.h"
 #include "rsl/parser.h"
 
 namespace kinora::rsl {
@@ -10,15 +11,18 @@ BlockStmt* Parser::block() {
     auto* node = make<BlockStmt>(Place{token().where, at});
     if (!expect(Punct::LeftBrace, "'{'")) return node;
     std::vector<Stmt*> body;
-    while (!is(Punct::RightBrace) && !at_end() && !reporter_.full()) {
+    while (!is(Punct::RightBrace) && !at_end() && !begins_shader() && !reporter_.full()) {
         uint32_t before = next_;
         Stmt* stmt = statement();
         if (panic_) skip_statement();
         if (stmt) body.push_back(stmt);
         if (next_ == before && !is(Punct::RightBrace)) advance();
     }
-    if (!accept(Punct::RightBrace) && !std::exchange(unclosed_, true))
-        error(Code::RSL_UNCLOSED, ast_.tokens.tokens[at], '{');
+    if (!accept(Punct::RightBrace) && !std::exchange(unclosed_, true)) {
+        Finding& finding = reporter_.report(Code::RSL_UNCLOSED, ast_.tokens.tokens[at], '{');
+        if (!at_end()) finding.help = fmt::format("before {} '{}'", token().text, token(1).text);
+        broken_ = true;
+    }
     node->body = ast_.arena.copy(body);
     node->place = place_from(at);
     return node;
@@ -43,6 +47,8 @@ Stmt* Parser::statement_unguarded() {
     switch (token().word) {
         case Word::If:
             return if_statement();
+        case Word::Else:
+            return lonely_else();
         case Word::While:
             return while_statement();
         case Word::For:
@@ -66,13 +72,14 @@ Stmt* Parser::statement_unguarded() {
             break;
     }
     if (foreign_statement()) return nullptr;
+    if (misspelt_statement()) return statement_unguarded();
     if (at_function()) {
         auto* node = make<FunctionStmt>(Place{token().where, next_});
         node->function = function();
         return node->function ? node : nullptr;
     }
     if (at_declaration()) return declaration_statement();
-    return foreign_declaration() ? nullptr : expression_statement();
+    return shader_handle() ? nullptr : expression_statement();
 }
 
 // Statements of C that RSL does not have.
@@ -81,10 +88,38 @@ bool Parser::foreign_statement() {
     bool is_do = at.text == "do" && is(Punct::LeftBrace, 1);
     bool is_switch = at.text == "switch" && is(Punct::LeftParen, 1) &&
                      ast_.tokens.tokens[after_parens(next_ + 1)].punct == Punct::LeftBrace;
-    if (!is_do && !is_switch) return false;
+    bool is_goto = at.text == "goto" && token(1).kind == TokenKind::Identifier;
+    if (!is_do && !is_switch && !is_goto) return false;
     Finding* finding = error(Code::RSL_NOT_RSL, at, fmt::format("'{}'", at.text));
-    if (finding)
+    if (finding && !is_goto)
         finding->help = is_do ? "write 'while (...) { ... }'" : "write 'if ... else if ...'";
+    return true;
+}
+
+// The control word that a name of no meaning is probably meant to be; "" if none.
+std::string_view Parser::resembled_word() const {
+    constexpr Word kWords[] = {Word::If,    Word::Else,   Word::While,       Word::For,
+                               Word::Break, Word::Return, Word::Illuminance, Word::Illuminate,
+                               Word::Solar, Word::Gather};
+    if (token().kind != TokenKind::Identifier || token().word != Word::None) return {};
+    std::vector<std::string_view> words;
+    for (Word word : kWords) words.push_back(word_text(word));
+    return nearest_name(token().text, words);
+}
+
+// "whlie (...) {": a name, parentheses and a statement, which are no function of untyped
+// parameters. Reported, and the name taken for the word.
+bool Parser::misspelt_statement() {
+    if (!is(Punct::LeftParen, 1) || is_type(2) || is_detail(2) || is(Punct::RightParen, 2))
+        return false;
+    const Token& behind = ast_.tokens.tokens[after_parens(next_ + 1)];
+    if (behind.punct != Punct::LeftBrace && behind.kind != TokenKind::Identifier) return false;
+    std::string_view word = resembled_word();
+    if (word.empty() || find_word(word) == Word::Else) return false;
+    Token& at = ast_.tokens.tokens[next_];
+    reporter_.report(Code::RSL_SYNTAX, at, "a statement", fmt::format("'{}'", at.text)).help =
+        fmt::format("did you mean '{}'?", word);
+    at.word = find_word(word);
     return true;
 }
 
@@ -126,16 +161,21 @@ std::span<Symbol*> Parser::declared_symbols(const Declaration& head, SymbolKind 
 
 Stmt* Parser::expression_statement() {
     uint32_t at = next_;
+    bool two_names = token(1).kind == TokenKind::Identifier;  // "retrun x;"
+    meant_ = two_names ? resembled_word() : std::string_view();
     std::vector<Stmt*> parts;
     do {
         auto* node = make<ExpressionStmt>({});
         uint32_t begin = next_;
         node->expression = effect();
-        if (panic_) return nullptr;
+        if (panic_) break;
         node->place = place_from(begin);
-        parts.push_back(node);
+        bool lost = next_ == begin + 1 && ast_.tokens.tokens[begin].lost;
+        if (!lost) parts.push_back(node);
     } while (accept(Punct::Comma));
     expect_semicolon();
+    meant_ = {};
+    if (parts.empty()) return nullptr;
     if (panic_ || parts.size() == 1) return panic_ ? nullptr : parts[0];
     auto* all = make<BlockStmt>(place_from(at));  // "a = 1, b = 2;" as in C
     all->body = ast_.arena.copy(parts);
@@ -188,13 +228,37 @@ Stmt* Parser::if_statement() {
     advance();
     node->condition = condition();
     if (panic_) return nullptr;
+    bool then = token().text == "then" &&
+                (token(1).kind == TokenKind::Identifier || is(Punct::LeftBrace, 1));
+    if (then) {
+        reporter_.report(Code::RSL_NOT_RSL, token(), "'then'").help = "leave it out";
+        advance();
+    }
     node->yes = statement();
     if (!node->yes) node->yes = empty_statement();
-    if (!panic_ && accept(Word::Else)) {
+    if (!panic_ && else_if_word()) {
+        reporter_.report(Code::RSL_NOT_RSL, token(), fmt::format("'{}'", token().text)).help =
+            "write 'else if'";
+        node->no = if_statement();
+    } else if (!panic_ && accept(Word::Else)) {
         node->no = statement();
         if (!node->no) node->no = empty_statement();
     }
     return node;
+}
+
+// "elseif" and its kin of other languages, behind the statement of an if.
+bool Parser::else_if_word() const {
+    std::string_view word = token().text;
+    return (word == "elseif" || word == "elsif" || word == "elif") && is(Punct::LeftParen, 1);
+}
+
+// An else that no if stands before: reported, and its statement read.
+Stmt* Parser::lonely_else() {
+    reporter_.report(Code::RSL_SYNTAX, token(), "a statement", "'else'").help =
+        "an else stands behind the one statement of its if; a ';' or a missing brace parts them";
+    advance();
+    return statement();
 }
 
 Stmt* Parser::while_statement() {
@@ -216,7 +280,7 @@ Stmt* Parser::for_statement() {
         init.push_back(declaration_statement());
         if (!init.back()) return nullptr;
     } else if (!accept(Punct::Semicolon)) {
-        for (Expr* item : expression_list(Punct::Semicolon)) {
+        for (Expr* item : expression_list(Punct::Semicolon, "';'")) {
             auto* stmt = make<ExpressionStmt>(item->place);
             stmt->expression = item;
             init.push_back(stmt);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rsl/lexer.h"
+
 namespace kinora::rsl {
 
 const Token& Parser::token(int ahead) const {
@@ -46,13 +48,19 @@ constexpr ForeignPunct kForeign[] = {
     {Punct::ShiftRight, ""},
 };
 
+std::string character_help(std::string_view text) {
+    if (text == "'") return "write strings between \" and \"";
+    const char* plain = plain_character(text);
+    return *plain ? fmt::format("write a plain {}", plain) : "";
+}
+
 }  // namespace
 
 void Parser::syntax_error(const char* expected) {
     if (panic_) return;
     const Token& at = token();
-    if (after_cut_string()) {  // reported, and it has swallowed what is missed here
-        panic_ = true;
+    if (after_reported()) {  // and it has swallowed what is missed here
+        panic_ = broken_ = true;
         return;
     }
     if (at.punct == Punct::Arrow) {
@@ -65,10 +73,28 @@ void Parser::syntax_error(const char* expected) {
         if (finding && *row.help) finding->help = row.help;
         return;
     }
-    if (at.kind == TokenKind::Other)
-        error(Code::RSL_BAD_CHARACTER, at, describe(at));
-    else
-        error(Code::RSL_SYNTAX, at, expected, describe(at));
+    bool other = at.kind == TokenKind::Other;
+    Finding* finding = other ? error(Code::RSL_BAD_CHARACTER, at, describe(at))
+                             : error(Code::RSL_SYNTAX, at, expected, describe(at));
+    if (finding && other) finding->help = character_help(at.text);
+    if (!finding) return;
+    if (behind_nested_comment()) finding->help = "comments do not nest: the first */ ends them";
+    bool triple = at.punct == Punct::LeftBrace || at.punct == Punct::LeftBracket;
+    if (triple && std::string_view(expected) == "an expression")
+        finding->help = "a triple is written (a, b, c); only the first values of an array {a, b}";
+    if (!meant_.empty()) finding->help = fmt::format("did you mean '{}'?", meant_);
+}
+
+// A "*/" near by, before the next ';' or brace.
+bool Parser::behind_nested_comment() const {
+    constexpr int kNear = 40;
+    for (int k = 0; k < kNear && token(k).kind != TokenKind::End; ++k) {
+        Punct punct = token(k).punct;
+        if (punct == Punct::Multiply && is(Punct::Divide, k + 1) && !token(k + 1).space_before)
+            return true;
+        if (punct == Punct::LeftBrace || punct == Punct::RightBrace) return false;
+    }
+    return false;
 }
 
 bool Parser::expect(Punct punct, const char* what) {
@@ -77,11 +103,12 @@ bool Parser::expect(Punct punct, const char* what) {
     return false;
 }
 
-// Whether the last token is a string without its end, which the lexer has reported.
-bool Parser::after_cut_string() const {
+// Whether the last token is a string without its end or a macro's lost use: both are reported.
+bool Parser::after_reported() const {
     if (next_ == 0) return false;
     const Token& last = ast_.tokens.tokens[next_ - 1];
-    return last.kind == TokenKind::String && (last.text.size() < 2 || last.text.back() != '"');
+    bool string = last.kind == TokenKind::String;
+    return last.lost || (string && (last.text.size() < 2 || last.text.back() != '"'));
 }
 
 // A missing semicolon is reported behind the last token. Where the next token begins a line or ends
@@ -89,14 +116,18 @@ bool Parser::after_cut_string() const {
 void Parser::expect_semicolon() {
     if (panic_ || accept(Punct::Semicolon)) return;
     bool whole = token().line_start || is(Punct::RightBrace) || at_end();
-    if (!whole || next_ == 0) {
-        syntax_error("';'");
-        return;
-    }
-    if (after_cut_string()) return;  // it has swallowed the semicolon
+    if (next_ > 0 && whole) return missing_behind("';'");
+    if (next_ > 0 && ast_.tokens.tokens[next_ - 1].lost) return;
+    syntax_error("';'");
+}
+
+// What is missing between the last token and this one, where both are whole.
+void Parser::missing_behind(const char* expected) {
+    if (after_reported()) return;  // it has swallowed what is missing
     const Token& last = ast_.tokens.tokens[next_ - 1];
     Location behind{last.where.file, last.where.end, last.where.end};
-    reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, "';'", describe(token()));
+    reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, expected,
+                     describe(token()));
 }
 
 std::string_view Parser::expect_name(const char* what) {
@@ -155,7 +186,7 @@ bool Parser::word_as_name(int ahead) const {
 bool Parser::newer_language(const Token& at, const char* feature) {
     if (stopped_) return true;
     error(Code::RSL_2, at, feature);
-    panic_ = stopped_ = true;
+    panic_ = broken_ = stopped_ = true;
     next_ = uint32_t(ast_.tokens.tokens.size() - 1);
     reporter_.stop();
     return true;
@@ -163,17 +194,33 @@ bool Parser::newer_language(const Token& at, const char* feature) {
 
 namespace {
 
+// Types of other languages and what they are taken as after the error; qualifiers as Invalid.
 constexpr struct {
     std::string_view word;
+    BaseType base;
     const char* help;
 } kForeignTypes[] = {
-    {"int", "write 'float'"},    {"double", "write 'float'"}, {"bool", "write 'float'"},
-    {"half", "write 'float'"},   {"long", "write 'float'"},   {"unsigned", "write 'float'"},
-    {"float2", "write 'point'"}, {"vec2", "write 'point'"},   {"float3", "write 'vector'"},
-    {"vec3", "write 'vector'"},  {"float4", "write 'color'"}, {"vec4", "write 'color'"},
-    {"mat4", "write 'matrix'"},  {"char", "write 'string'"},  {"const", "write 'uniform'"},
-    {"static", "leave it out"},  {"inline", "leave it out"},  {"boolean", "write 'float'"},
-    {"scalar", "write 'float'"}, {"colour", "write 'color'"}, {"sampler2D", "write 'string'"},
+    {"int", BaseType::Float, "write 'float'"},
+    {"double", BaseType::Float, "write 'float'"},
+    {"bool", BaseType::Float, "write 'float'"},
+    {"boolean", BaseType::Float, "write 'float'"},
+    {"half", BaseType::Float, "write 'float'"},
+    {"long", BaseType::Float, "write 'float'"},
+    {"unsigned", BaseType::Float, "write 'float'"},
+    {"scalar", BaseType::Float, "write 'float'"},
+    {"float2", BaseType::Point, "write 'point'"},
+    {"vec2", BaseType::Point, "write 'point'"},
+    {"float3", BaseType::Vector, "write 'vector'"},
+    {"vec3", BaseType::Vector, "write 'vector'"},
+    {"float4", BaseType::Color, "write 'color'"},
+    {"vec4", BaseType::Color, "write 'color'"},
+    {"colour", BaseType::Color, "write 'color'"},
+    {"mat4", BaseType::Matrix, "write 'matrix'"},
+    {"char", BaseType::String, "write 'string'"},
+    {"sampler2D", BaseType::String, "write 'string'"},
+    {"const", BaseType::Invalid, "write 'uniform'"},
+    {"static", BaseType::Invalid, "leave it out"},
+    {"inline", BaseType::Invalid, "leave it out"},
 };
 
 }  // namespace
@@ -182,6 +229,12 @@ const char* foreign_type_help(std::string_view word) {
     for (const auto& row : kForeignTypes)
         if (row.word == word) return row.help;
     return "";
+}
+
+BaseType foreign_type_base(std::string_view word) {
+    for (const auto& row : kForeignTypes)
+        if (row.word == word) return row.base;
+    return BaseType::Invalid;
 }
 
 Place Parser::place_from(uint32_t first) const {
@@ -224,6 +277,7 @@ void Parser::skip_statement() {
     for (bool first = true; !at_end() && !is(Punct::RightBrace); first = false) {
         if (accept(Punct::Semicolon)) return;
         if (!first && token().line_start && begins_statement(token())) return;
+        if (begins_shader()) return;
         if (is(Punct::LeftBrace)) {
             skip_balanced(Punct::LeftBrace, Punct::RightBrace);
             return;
@@ -232,11 +286,17 @@ void Parser::skip_statement() {
     }
 }
 
+// A line that surely begins another shader.
+bool Parser::begins_shader() const {
+    bool shader = token().word >= Word::Surface && token().word <= Word::Deformation;
+    return shader && token().line_start && token(1).kind == TokenKind::Identifier &&
+           is(Punct::LeftParen, 2);
+}
+
 // A line that surely begins another shader or function.
 bool Parser::begins_definition() const {
     if (!token().line_start || token(1).kind != TokenKind::Identifier) return false;
-    bool shader = token().word >= Word::Surface && token().word <= Word::Deformation;
-    return (shader || is_type()) && is(Punct::LeftParen, 2);
+    return begins_shader() || (is_type() && is(Punct::LeftParen, 2));
 }
 
 void Parser::skip_definition() {

@@ -16,11 +16,15 @@ inline constexpr int kMostArrayLength = 1 << 20;
 
 // Types of other languages and what to write instead of them; "" for other words.
 const char* foreign_type_help(std::string_view word);
+// The type that is meant; Invalid for qualifiers such as "const" and for other words.
+BaseType foreign_type_base(std::string_view word);
 
 class Parser {
   public:
     Parser(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
     void run();
+    // Whether the tree lacks parts of the source, so that unknown names are no news.
+    bool broken() const { return broken_; }
 
   private:
     // parser.cpp: tokens, errors, recovery
@@ -33,8 +37,11 @@ class Parser {
     bool accept(Word word);
     bool expect(Punct punct, const char* what);
     void expect_semicolon();
-    bool after_cut_string() const;
+    void missing_behind(const char* expected);
+    bool after_reported() const;
+    bool behind_nested_comment() const;
     bool begins_definition() const;
+    bool begins_shader() const;
     std::string_view expect_name(const char* what);
     bool is_reserved(int ahead = 0) const;
     bool word_as_name(int ahead = 0) const;
@@ -49,7 +56,7 @@ class Parser {
     template <class... Args>
     Finding* error(const FindingInfo& info, const Token& at, const Args&... args) {
         if (panic_) return nullptr;
-        panic_ = true;
+        panic_ = broken_ = true;
         return &reporter_.report(info, at, args...);
     }
     Place place_from(uint32_t first) const;
@@ -62,15 +69,20 @@ class Parser {
     // parse_definition.cpp: shaders, functions, parameters, declarations
     void definition();
     bool newer_definition();
-    bool foreign_declaration();
+    bool at_foreign_type(int ahead = 0) const;
+    bool foreign_type(BaseType& base);
+    bool shader_handle();
     bool file_variable();
     bool shader_definition();
     BlockStmt* shader_body(ShaderDefinition& shader);
     BlockStmt* body_as_function(BlockStmt* body);
+    bool idle_word();
     void function_definition();
     void unknown_definition();
     Function* function();
     std::span<Symbol*> parameters(SymbolKind kind);
+    void end_of_parameters();
+    bool resume_parameters();
     struct Declaration {
         Type type;
         Detail detail = Detail::Unspecified;
@@ -87,6 +99,8 @@ class Parser {
     Stmt* statement();
     Stmt* statement_unguarded();
     bool foreign_statement();
+    std::string_view resembled_word() const;
+    bool misspelt_statement();
     BlockStmt* block();
     Stmt* declaration_statement();
     Stmt* extern_statement();
@@ -94,6 +108,8 @@ class Parser {
     Expr* effect();
     Expr* step(Expr* target, uint32_t at);
     Stmt* if_statement();
+    bool else_if_word() const;
+    Stmt* lonely_else();
     Stmt* while_statement();
     Stmt* for_statement();
     Stmt* jump_statement(Word word);
@@ -113,6 +129,7 @@ class Parser {
     Expr* unary();
     Expr* cast();
     Expr* c_cast();
+    bool foreign_cast();
     Expr* postfix();
     Expr* primary();
     Expr* number();
@@ -122,7 +139,7 @@ class Parser {
     Expr* bad_expression();
     void grow(int part_height);
     std::span<Expr*> arguments();
-    std::span<Expr*> expression_list(Punct end);
+    std::span<Expr*> expression_list(Punct end, const char* expected);
 
     template <class Node>
     Node* make(Place place) {
@@ -132,9 +149,11 @@ class Parser {
     Ast& ast_;
     Reporter& reporter_;
     uint32_t next_ = 0;
-    bool panic_ = false;     // an error was reported and nothing has been skipped to yet
-    bool unclosed_ = false;  // the file's end was met inside a block, and said
-    bool stopped_ = false;   // a construct of RSL 2.0 was met: nothing more is read
+    bool broken_ = false;     // some text was skipped: names may be missing
+    bool panic_ = false;      // an error was reported and nothing has been skipped to yet
+    bool unclosed_ = false;   // the end of the file or shader was met inside a block, and said
+    bool stopped_ = false;    // a construct of RSL 2.0 was met: nothing more is read
+    std::string_view meant_;  // the control word that the statement's first name resembles
     int depth_ = 0;
     int height_ = 0;                           // of the expression parsed last
     Function* function_ = nullptr;             // being parsed

@@ -37,6 +37,9 @@ void Preprocessor::define_from_options() {
         macros_.emplace(macro.name, std::move(macro));
     }
     define_text("KINORA", "1");
+    // What C gives where it does not know the time: the same source gives the same code.
+    define_text("__DATE__", "\"??? ?? ????\"");
+    define_text("__TIME__", "\"??:??:??\"");
     for (const auto& [name, value] : options_.defines) define_text(name, value);
     for (const std::string& name : options_.undefines) macros_.erase(std::string_view(name));
 }

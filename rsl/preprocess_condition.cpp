@@ -1,6 +1,4 @@
 // rsl/preprocess_condition.cpp: the constant expressions of #if and #elif.
-#include <charconv>
-
 #include "rsl/preprocess.h"
 
 namespace kinora::rsl {
@@ -142,9 +140,9 @@ class ConditionParser {
         const Token& token = tokens_[next_++];
         if (token.kind == TokenKind::Identifier) return 0;
         if (token.kind != TokenKind::Number) return fail();
-        double value = 0;
-        std::from_chars(token.text.data(), token.text.data() + token.text.size(), value);
-        return value < 9e18 ? static_cast<long long>(value) : 0;
+        bool too_large = false;
+        double value = number_value(token.text, too_large);
+        return !too_large && value < 9e18 ? static_cast<long long>(value) : 0;
     }
 
     const std::vector<Token>& tokens_;

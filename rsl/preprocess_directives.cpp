@@ -148,6 +148,25 @@ void Preprocessor::run_include(const Token& name, Line line) {
 
 namespace {
 
+bool same_letters(std::string_view a, std::string_view b) {
+    auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+// The file of that name in whatever letter case, as systems find it whose names have none.
+std::filesystem::path in_any_case(const std::filesystem::path& path) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error)) return path;
+    std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    std::filesystem::path best;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        bool same = same_letters(entry.path().filename().string(), path.filename().string());
+        if (same && (best.empty() || entry.path() < best)) best = entry.path();
+    }
+    return best.empty() ? path : best;
+}
+
 bool read_whole_file(const std::filesystem::path& path, std::string& text) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return false;
@@ -170,7 +189,7 @@ bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) 
     for (const std::string& directory : options_.include_directories) places.push_back(directory);
     if (!quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
     for (const std::filesystem::path& place : places) {
-        std::filesystem::path path = place / file;
+        std::filesystem::path path = in_any_case(place / file);
         std::string text;
         if (!read_whole_file(path, text)) continue;
         std::string key = path.lexically_normal().string();

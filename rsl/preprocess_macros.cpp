@@ -75,6 +75,7 @@ bool Preprocessor::try_expand(Token& token) {
         if (!read_arguments(token, macro, arguments)) {
             token.kind = TokenKind::Number;  // so that the parser has nothing more to say
             token.text = "0";
+            token.lost = true;
             return false;
         }
     }

@@ -68,10 +68,14 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     Reporter reporter(diagnostics, ast->tokens, options.max_errors);
     Preprocessor(options, diagnostics, ast->tokens, reporter).run(source);
     if (ast->tokens.truncated) return {};
-    Parser(*ast, reporter).run();
-    Checker(*ast, reporter, options, reporter.errors() > 0).run();
-    if (ast->shaders.empty() && reporter.errors() == 0)
-        reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
+    bool lacks_text = reporter.errors() > 0;
+    Parser parser(*ast, reporter);
+    parser.run();
+    Checker(*ast, reporter, options, lacks_text || parser.broken()).run();
+    if (ast->shaders.empty() && reporter.errors() == 0) {
+        Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
+        if (!ast->functions.empty()) finding.help = "write its kind, as 'surface', before its name";
+    }
     if (reporter.errors() > 0) return {};
     auto shaders = make_shaders(ast, reporter);
     infer_rates(*ast, reporter);

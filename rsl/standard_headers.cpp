@@ -14,10 +14,14 @@ struct StandardHeader {
 extern const StandardHeader kStandardHeaders[];
 extern const size_t kStandardHeaderCount;
 
+// Names that differ by letter case are the same, as on the systems where shaders were written.
 std::string_view standard_header(std::string_view name) {
     name.remove_prefix(name.find_last_of('/') + 1);  // npos + 1 is 0
+    std::string lower(name);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     for (size_t i = 0; i < kStandardHeaderCount; ++i)
-        if (name == kStandardHeaders[i].name) return kStandardHeaders[i].text;
+        if (lower == kStandardHeaders[i].name) return kStandardHeaders[i].text;
     return {};
 }
 

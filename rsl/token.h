@@ -38,6 +38,7 @@ struct Token {
     bool space_before = false;  // white space or a comment stands before it
     bool line_start = false;    // first of its line
     bool painted = false;       // preprocessor: names a macro inside its own expansion
+    bool lost = false;          // stands for a macro use that was reported and dropped
     std::string_view text;      // spelling; of a String with its quotes
     Location where;             // in the user's file: for a token out of a macro, the macro's use
     Location spelling;          // where its letters stand: differs from `where` for macro tokens

@@ -102,9 +102,21 @@ class UsageWalk {
     void at(const UnaryExpr& e) { walk(e.operand); }
     void at(const BinaryExpr& e) { walk(e.left), walk(e.right); }
     void at(const SelectExpr& e) { walk(e.condition), walk(e.yes), walk(e.no); }
+    // A light without direction says "L = 0", which is what L is.
     void at(const AssignExpr& e) {
         walk(e.value);
+        const auto* v = as_if<VariableExpr>(e.target);
+        bool is_l = v && v->symbol && v->symbol->global && v->symbol->global->id == Global::L;
+        if (is_l && e.op == Op::None && shader_.kind == ShaderKind::Light && is_zero(*e.value))
+            reported_.insert(v);
         write(e.target, e.op != Op::None);
+    }
+    static bool is_zero(const Expr& e) {
+        if (const auto* number = as_if<NumberExpr>(&e)) return number->value == 0;
+        if (const auto* cast = as_if<CastExpr>(&e)) return !cast->space && is_zero(*cast->operand);
+        const auto* triple = as_if<TripleExpr>(&e);
+        return triple && is_zero(*triple->items[0]) && is_zero(*triple->items[1]) &&
+               is_zero(*triple->items[2]);
     }
     void at(const CastExpr& e) { walk(e.space), walk(e.operand); }
     void at(const TripleExpr& e) { walk_all(e.items); }

@@ -108,6 +108,7 @@ TEST(NearestName, FindsWhatWasMeantOrNothing) {
     EXPECT_EQ(nearest_name("rougness", names), "roughness");
     EXPECT_EQ(nearest_name("Ks", names), "Kd");
     EXPECT_EQ(nearest_name("elephant", names), "");
+    EXPECT_EQ(nearest_name("flaot", {"color", "float"}), "float");
     EXPECT_EQ(nearest_name("x", {}), "");
 }
 

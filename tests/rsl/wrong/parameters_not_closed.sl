@@ -1,4 +1,4 @@
 surface x(float a = 1; {
     Ci = a;
 }
-//! 1:24 error RSL_SYNTAX before '{'
+//! 1:23 error RSL_SYNTAX expected ')' before '{'

@@ -1,0 +1,6 @@
+surface x() {
+    printf("one
+            two\n");
+    Ci = nowhere;
+}
+//! 2:12 error RSL_UNTERMINATED_STRING closing quote
