@@ -3,21 +3,30 @@
 
 namespace kinora::collada {
 
+namespace {
+
+// Most names that differ do so in their length or first letter.
+bool same(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && (a.empty() || a[0] == b[0]) && a == b;
+}
+
+}  // namespace
+
 const Element* Element::child(std::string_view child_name) const {
     const Element* e = first_child;
-    while (e && e->name != child_name) e = e->next;
+    while (e && !same(e->name, child_name)) e = e->next;
     return e;
 }
 
 const Element* Element::next_named(std::string_view sibling_name) const {
     const Element* e = next;
-    while (e && e->name != sibling_name) e = e->next;
+    while (e && !same(e->name, sibling_name)) e = e->next;
     return e;
 }
 
 const Attribute* Element::attribute(std::string_view attribute_name) const {
     for (const Attribute& a : attributes)
-        if (a.name == attribute_name) return &a;
+        if (same(a.name, attribute_name)) return &a;
     return nullptr;
 }
 

@@ -62,6 +62,9 @@ class Reachable {
         constexpr size_t kLongestLink = 1024;
         bool ids = element.name.ends_with("_array") && element.name != "float_array";
         if (element.text.size() > kLongestLink && !ids) return;
+        // Most texts are numbers, which no id begins like.
+        auto may_name = [](char c) { return c > '9' || c == '#' || c < 0; };
+        if (std::none_of(element.text.begin(), element.text.end(), may_name)) return;
         for (std::string_view word : split_words(element.text)) {
             if (word[0] <= '9' && word[0] != '#') continue;  // a number
             name(word.substr(word.find('#') == word.npos ? 0 : word.find('#') + 1));
@@ -88,7 +91,7 @@ class Reachable {
 
     Lint& lint_;
     std::unordered_map<const Element*, bool> item_of_;  // whether it is used
-    std::unordered_set<const Element*> seen_;              // the first of each id that was named
+    std::unordered_set<const Element*> seen_;           // the first of each id that was named
     std::vector<const Element*> pending_;
 };
 

@@ -75,7 +75,7 @@ const char* read_short_doubles(const char* begin, const char* p, const char* end
         double magnitude = double(int64_t(mantissa)) / kExactPowersOfTen[fraction];
         *out++ =
             std::bit_cast<double>(std::bit_cast<uint64_t>(magnitude) | uint64_t(negative) << 63);
-        p = stop;
+        p = stop + 1;  // white space stands at `stop`
     }
     return p;
 }
@@ -98,7 +98,7 @@ const char* read_short_ints(const char* p, const char* end, int32_t*& out) {
         int count = scan::digit_run(digits);
         if (count == 0 || !is_number_space(p[count])) break;
         *out++ = int32_t(scan::digits_value(digits, count));
-        p += count;
+        p += count + 1;
     }
     return p;
 }

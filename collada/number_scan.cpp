@@ -126,7 +126,7 @@ struct Masks {
 
 // Which bytes of 16 are what; `reals`: points and e's are looked for.
 template <bool reals>
-void classify(__m128i b, int shift, Masks& m) {
+[[gnu::always_inline]] inline void classify(__m128i b, int shift, Masks& m) {
     auto is = [&](char c) { return _mm_cmpeq_epi8(b, _mm_set1_epi8(c)); };
     auto add = [&](uint64_t& mask, __m128i bytes) {
         mask |= uint64_t(uint32_t(_mm_movemask_epi8(bytes))) << shift;
@@ -141,7 +141,7 @@ void classify(__m128i b, int shift, Masks& m) {
 }
 
 template <bool reals>
-Masks masks_of(const char* p) {
+[[gnu::always_inline]] inline Masks masks_of(const char* p) {
     Masks m{};
     for (int k = 0; k < 4; ++k)
         classify<reals>(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p) + k), 16 * k, m);

@@ -17,37 +17,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// How many words a text has, so that lists are made in their size.
-size_t count_words(std::string_view text) {
-    size_t words = 0, i = 0;
-    bool inside = false;
-#ifdef __SSE2__
-    // A word begins where a byte above ' ' stands behind one that is not.
-    auto solid = [&](size_t at) {
-        auto* p = reinterpret_cast<const __m128i*>(text.data() + at);
-        return _mm_xor_si128(_mm_loadu_si128(p), _mm_set1_epi8(-128));  // ordered as if signed
-    };
-    const __m128i space = _mm_set1_epi8(char(' ' ^ 0x80)), one = _mm_set1_epi8(1);
-    for (i = 1; i + 16 <= text.size(); i += 16) {
-        __m128i begins =
-            _mm_andnot_si128(_mm_cmpgt_epi8(solid(i - 1), space), _mm_cmpgt_epi8(solid(i), space));
-        __m128i sums = _mm_sad_epu8(_mm_and_si128(begins, one), _mm_setzero_si128());
-        words += size_t(_mm_cvtsi128_si64(sums) + _mm_cvtsi128_si64(_mm_srli_si128(sums, 8)));
-    }
-    i = std::min(i, text.size());
-    if (i > 0) {
-        words += uint8_t(text[0]) > ' ';
-        inside = uint8_t(text[i - 1]) > ' ';
-    }
-#endif
-    for (; i < text.size(); ++i) {
-        bool solid_byte = uint8_t(text[i]) > ' ';
-        words += solid_byte && !inside;
-        inside = solid_byte;
-    }
-    return words;
-}
-
 // Of a number beyond a double's range: whether it is too small rather than too large.
 bool below_one(std::string_view word) {
     word.remove_prefix(word.starts_with('-'));
@@ -219,6 +188,36 @@ std::vector<T> read_list(const Document& document, const Element& element, Diagn
 }
 
 }  // namespace
+
+size_t count_words(std::string_view text) {
+    size_t words = 0, i = 0;
+    bool inside = false;
+#ifdef __SSE2__
+    // A word begins where a byte above ' ' stands behind one that is not.
+    auto solid = [&](size_t at) {
+        auto* p = reinterpret_cast<const __m128i*>(text.data() + at);
+        return _mm_xor_si128(_mm_loadu_si128(p), _mm_set1_epi8(-128));  // ordered as if signed
+    };
+    const __m128i space = _mm_set1_epi8(char(' ' ^ 0x80)), one = _mm_set1_epi8(1);
+    for (i = 1; i + 16 <= text.size(); i += 16) {
+        __m128i begins =
+            _mm_andnot_si128(_mm_cmpgt_epi8(solid(i - 1), space), _mm_cmpgt_epi8(solid(i), space));
+        __m128i sums = _mm_sad_epu8(_mm_and_si128(begins, one), _mm_setzero_si128());
+        words += size_t(_mm_cvtsi128_si64(sums) + _mm_cvtsi128_si64(_mm_srli_si128(sums, 8)));
+    }
+    i = std::min(i, text.size());
+    if (i > 0) {
+        words += uint8_t(text[0]) > ' ';
+        inside = uint8_t(text[i - 1]) > ' ';
+    }
+#endif
+    for (; i < text.size(); ++i) {
+        bool solid_byte = uint8_t(text[i]) > ' ';
+        words += solid_byte && !inside;
+        inside = solid_byte;
+    }
+    return words;
+}
 
 std::vector<double> read_doubles(const Document& document, const Element& element,
                                  Diagnostics& diag) {

@@ -22,6 +22,7 @@ bool parse_double(std::string_view text, double& value);
 bool parse_count(std::string_view text, uint64_t& value);
 
 // Words of a text, split at white space.
+size_t count_words(std::string_view text);
 std::vector<std::string_view> split_words(std::string_view text);
 // The word that has `number` others before it; "" when there are fewer.
 std::string_view word_number(std::string_view text, size_t number);

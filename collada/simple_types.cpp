@@ -179,8 +179,11 @@ bool is_number_list(const SimpleType& type, std::string_view text) {
 }
 
 ValueCheck check_list(const SimpleType& type, std::string_view text) {
-    if (!type.length && !type.ranged && type.values.empty() && is_number_list(type, text))
-        return {};
+    if (!type.ranged && type.values.empty() && is_number_list(type, text)) {
+        size_t words = type.length ? count_words(text) : 0;
+        if (words == type.length) return {ValueFault::None, 0, 0, words};
+        return {ValueFault::Length, 0, text.size(), words};
+    }
     constexpr std::string_view kSpace = " \t\r\n";
     ValueCheck out;
     for (size_t at = text.find_first_not_of(kSpace); at < text.size(); ++out.words) {

@@ -1,5 +1,6 @@
 // collada/words.cpp: the forms of one word: names, URIs, dates.
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "collada/simple_types_p.h"
@@ -8,10 +9,10 @@ namespace kinora::collada {
 
 namespace {
 
-bool is_digit(char c) {
+constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
-bool is_letter(char c) {
+constexpr bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 bool is_hex(char c) {
@@ -24,6 +25,16 @@ bool starts_name(char c) {
 bool is_name_char(char c) {
     return starts_name(c) || is_digit(c) || c == '-' || c == '.';
 }
+
+// What a segment of a path may hold, what an IRI may hold besides, and what anyURI lets be written
+// unescaped.
+constexpr auto kPathBytes = [] {
+    std::array<bool, 256> t{};
+    for (int c = 0; c < 256; ++c)
+        t[size_t(c)] = c < 32 || c >= 128 || is_letter(char(c)) || is_digit(char(c));
+    for (char c : std::string_view("-._~!$&'()*+,;=:@ <>\"{}|\\^`")) t[uint8_t(c)] = true;
+    return t;
+}();
 
 // Reads a URI reference by the grammar of RFC 3986.
 class Uri {
@@ -99,10 +110,7 @@ class Uri {
                 p_ += 3;
                 continue;
             }
-            // What an IRI may hold besides, and what anyURI lets be written unescaped.
-            bool free = (c & 0x80) || (c && std::strchr(" <>\"{}|\\^`", c)) || uint8_t(c) < 32;
-            bool known = is_letter(c) || is_digit(c) || (c && std::strchr("-._~!$&'()*+,;=:@", c));
-            if (!free && !known && !(c && std::strchr(more, c))) return;
+            if (!kPathBytes[uint8_t(c)] && !(c && std::strchr(more, c))) return;
             ++p_;
         }
     }

@@ -28,6 +28,7 @@ void add_given_normals(const PrimitiveGroup& group, const VertexAttribute& norma
     out.normal_corners.resize(group.triangles.size());
     uint32_t first = uint32_t(mesh.normals.size());
     if (!deforms) {
+        mesh.normals.reserve(first + normals.values.size() / normals.stride);
         for (size_t i = 0; i < normals.values.size() / normals.stride; ++i)
             mesh.normals.push_back(entry(normals, uint32_t(i)));
         for (size_t c = 0; c < normals.corners.size(); ++c)
@@ -70,6 +71,8 @@ void add_smooth_normals(const MeshDefinition& definition, const std::vector<size
         }
     }
     uint32_t first = uint32_t(mesh.normals.size());
+    mesh.normals.reserve(first + sums.size());
+    mesh.normal_positions.reserve(first + sums.size());
     for (size_t i = 0; i < sums.size(); ++i) {
         double length = glm::length(sums[i]);
         mesh.normals.push_back(vec4(length > 0 ? vec3(sums[i] / length) : vec3(0.0f), 0.0f));
@@ -91,6 +94,7 @@ Mesh build_mesh(const MeshDefinition& definition, bool deforms) {
         mesh.high = glm::max(mesh.high, p);
     }
     mesh.anchor = 0.5 * (mesh.low + mesh.high);
+    mesh.positions.reserve(definition.positions.size());
     for (const dvec3& p : definition.positions)
         mesh.positions.push_back(vec4(vec3(p - mesh.anchor), 0.0f));
     std::vector<size_t> without;

@@ -26,6 +26,7 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     std::optional<collada::SceneData> data =
         collada::extract(*document, diagnostics, extract_options);
     if (!data) return std::nullopt;
+    document.reset();  // the scene's data stand alone
     SceneDescription description;
     description.path = path;
     auto files = std::make_shared<std::vector<std::shared_ptr<const void>>>(data->files);

@@ -5,44 +5,49 @@ namespace kinora {
 
 namespace {
 
-PrimitiveGroup primitive_group(const collada::Geometry& geometry,
-                               const collada::PrimitiveGroup& from) {
+// Takes the indices of `from`.
+PrimitiveGroup primitive_group(const collada::Geometry& geometry, collada::PrimitiveGroup& from) {
     PrimitiveGroup group;
     group.symbol = from.material;
-    group.triangles = from.indices[0];
     for (const collada::VertexInput& input : from.inputs) {
         const collada::FloatSource& source = geometry.sources[input.source];
         group.attributes.push_back(
             {input.semantic, input.set, source.stride, source.values, from.indices[input.list]});
     }
+    group.triangles = std::move(from.indices[0]);
+    from = {};
     return group;
 }
 
 }  // namespace
 
 void ColladaImport::import_meshes() {
-    for (const collada::Geometry& from : data_.geometries) {
+    out_.meshes.reserve(out_.meshes.size() + data_.geometries.size());
+    // Each is let go as soon as it is copied, so that all of them never stand in memory twice.
+    for (collada::Geometry& from : data_.geometries) {
         MeshDefinition& to = out_.meshes.emplace_back();
         to.id = from.id;
         to.name = from.name;
-        to.positions = from.positions;
+        to.positions = std::move(from.positions);
         to.double_sided = from.double_sided;
-        for (const collada::PrimitiveGroup& group : from.groups)
+        to.groups.reserve(from.groups.size());
+        for (collada::PrimitiveGroup& group : from.groups)
             to.groups.push_back(primitive_group(from, group));
+        from = {};
     }
 }
 
 void ColladaImport::import_skins() {
-    for (const collada::Skin& from : data_.skins) {
+    for (collada::Skin& from : data_.skins) {
         SkinDefinition& to = out_.skins.emplace_back();
         to.id = from.id;
         to.bind_shape = from.bind_shape_matrix;
         to.has_bind_shape = from.has_bind_shape_matrix;
         to.joint_names = from.joints;
         to.inverse_bind = from.inverse_bind;
-        to.offsets = from.offsets;
-        to.joints = from.influence_joints;
-        to.weights = from.influence_weights;
+        to.offsets = std::move(from.offsets);
+        to.joints = std::move(from.influence_joints);
+        to.weights = std::move(from.influence_weights);
         to.where = from.where;
     }
 }

@@ -14,8 +14,9 @@ namespace kinora {
 
 class ColladaImport {
   public:
-    ColladaImport(const collada::SceneData& data, const ImportOptions& options,
-                  Diagnostics& diagnostics, SceneDescription& out)
+    // What is large in `data` is moved out of it: meshes and skins.
+    ColladaImport(collada::SceneData& data, const ImportOptions& options, Diagnostics& diagnostics,
+                  SceneDescription& out)
         : data_(data), options_(options), diagnostics_(diagnostics), out_(out) {}
 
     void run();
@@ -56,7 +57,7 @@ class ColladaImport {
     // import_collada_animation.cpp
     void import_animation();
 
-    const collada::SceneData& data_;
+    collada::SceneData& data_;
     const ImportOptions& options_;
     Diagnostics& diagnostics_;
     SceneDescription& out_;
