@@ -11,12 +11,6 @@ bool is_shader_word(Word word) {
     return word >= Word::Surface && word <= Word::Deformation;
 }
 
-std::string_view nearest_type(std::string_view word) {
-    std::vector<std::string_view> types;
-    for (int k = 0; k < int(BaseType::Void); ++k) types.push_back(type_name(BaseType(k)));
-    return nearest_name(word, types);
-}
-
 }  // namespace
 
 // ---- definitions --------------------------------------------------------------------------------
@@ -135,16 +129,6 @@ void Parser::unknown_definition() {
     if (!finding) return;
     finding->help = near.empty() ? "a '}' before it may be one too many"
                                  : fmt::format("did you mean '{}'?", near);
-}
-
-// Words of C before a function that say nothing here.
-bool Parser::idle_word() {
-    const Token& at = token();
-    bool idle = at.text == "inline" || at.text == "static" || at.text == "export";
-    if (!idle || token(1).kind != TokenKind::Identifier) return false;
-    reporter_.report(Code::RSL_WORD_LEFT_OUT, at, at.text);
-    advance();
-    return true;
 }
 
 // "[uniform] [type] name (": the detail of a result is inferred.
@@ -274,41 +258,6 @@ bool Parser::resume_parameters() {
 }
 
 // ---- declarations -------------------------------------------------------------------------------
-
-// "int i", "pont p": two names where a declaration could stand, or "const float a".
-bool Parser::at_foreign_type(int ahead) const {
-    const Token& at = token(ahead);
-    if (at.kind != TokenKind::Identifier || at.word != Word::None) return false;
-    bool known = *foreign_type_help(at.text) != '\0';
-    bool qualifier = known && (is_type(ahead + 1) || is_detail(ahead + 1));
-    if (token(ahead + 1).kind != TokenKind::Identifier || (!qualifier && is_reserved(ahead + 1)))
-        return false;
-    return known || !nearest_type(at.text).empty();
-}
-
-// Reports it and takes it as the type that is meant; Invalid for a qualifier alone.
-bool Parser::foreign_type(BaseType& base) {
-    if (!at_foreign_type()) return false;
-    const Token& at = token();
-    const char* help = foreign_type_help(at.text);
-    std::string_view near = nearest_type(at.text);
-    reporter_.report(Code::RSL_UNKNOWN_TYPE, at, at.text).help =
-        *help ? help : fmt::format("did you mean '{}'?", near);
-    base = *help ? foreign_type_base(at.text) : type_from_name(near);
-    advance();
-    while (*foreign_type_help(token().text) && token(1).kind == TokenKind::Identifier) {
-        base = foreign_type_base(token().text);  // "unsigned int"
-        advance();
-    }
-    return true;
-}
-
-// "shader lights[]".
-bool Parser::shader_handle() {
-    bool two = token(1).kind == TokenKind::Identifier && !is_reserved(1);
-    return two && token().text == "shader" &&
-           newer_language(token(), "'shader' (handles of co-shaders)");
-}
 
 // "output uniform float" in any order, the type last.
 bool Parser::declaration_head(Declaration& head) {

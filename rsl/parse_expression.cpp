@@ -154,18 +154,6 @@ Expr* Parser::unary() {
     return c_style && foreign_cast() ? unary() : postfix();
 }
 
-// "(int) x", as in C: reported, and the value taken as it is.
-bool Parser::foreign_cast() {
-    const Token& type = token(1);
-    bool operand = token(3).kind != TokenKind::Punctuator || is(Punct::LeftParen, 3);
-    if (!operand || foreign_type_base(type.text) == BaseType::Invalid) return false;
-    bool whole = type.text == "int" || type.text == "long" || type.text == "unsigned";
-    reporter_.report(Code::RSL_UNKNOWN_TYPE, type, type.text).help =
-        whole ? "use floor(x)" : foreign_type_help(type.text);
-    next_ += 3;
-    return true;
-}
-
 // "color x", "vector "world" x", "float noise(P)".
 Expr* Parser::cast() {
     uint32_t at = next_;

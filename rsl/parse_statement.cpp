@@ -82,47 +82,6 @@ Stmt* Parser::statement_unguarded() {
     return shader_handle() ? nullptr : expression_statement();
 }
 
-// Statements of C that RSL does not have.
-bool Parser::foreign_statement() {
-    const Token& at = token();
-    bool is_do = at.text == "do" && is(Punct::LeftBrace, 1);
-    bool is_switch = at.text == "switch" && is(Punct::LeftParen, 1) &&
-                     ast_.tokens.tokens[after_parens(next_ + 1)].punct == Punct::LeftBrace;
-    bool is_goto = at.text == "goto" && token(1).kind == TokenKind::Identifier;
-    if (!is_do && !is_switch && !is_goto) return false;
-    Finding* finding = error(Code::RSL_NOT_RSL, at, fmt::format("'{}'", at.text));
-    if (finding && !is_goto)
-        finding->help = is_do ? "write 'while (...) { ... }'" : "write 'if ... else if ...'";
-    return true;
-}
-
-// The control word that a name of no meaning is probably meant to be; "" if none.
-std::string_view Parser::resembled_word() const {
-    constexpr Word kWords[] = {Word::If,    Word::Else,   Word::While,       Word::For,
-                               Word::Break, Word::Return, Word::Illuminance, Word::Illuminate,
-                               Word::Solar, Word::Gather};
-    if (token().kind != TokenKind::Identifier || token().word != Word::None) return {};
-    std::vector<std::string_view> words;
-    for (Word word : kWords) words.push_back(word_text(word));
-    return nearest_name(token().text, words);
-}
-
-// "whlie (...) {": a name, parentheses and a statement, which are no function of untyped
-// parameters. Reported, and the name taken for the word.
-bool Parser::misspelt_statement() {
-    if (!is(Punct::LeftParen, 1) || is_type(2) || is_detail(2) || is(Punct::RightParen, 2))
-        return false;
-    const Token& behind = ast_.tokens.tokens[after_parens(next_ + 1)];
-    if (behind.punct != Punct::LeftBrace && behind.kind != TokenKind::Identifier) return false;
-    std::string_view word = resembled_word();
-    if (word.empty() || find_word(word) == Word::Else) return false;
-    Token& at = ast_.tokens.tokens[next_];
-    reporter_.report(Code::RSL_SYNTAX, at, "a statement", fmt::format("'{}'", at.text)).help =
-        fmt::format("did you mean '{}'?", word);
-    at.word = find_word(word);
-    return true;
-}
-
 Stmt* Parser::empty_statement() {
     return make<BlockStmt>(Place{token().where, next_});
 }
@@ -162,7 +121,7 @@ std::span<Symbol*> Parser::declared_symbols(const Declaration& head, SymbolKind 
 Stmt* Parser::expression_statement() {
     uint32_t at = next_;
     bool two_names = token(1).kind == TokenKind::Identifier;  // "retrun x;"
-    meant_ = two_names ? resembled_word() : std::string_view();
+    meant_ = two_names ? resembled_word() : "";
     std::vector<Stmt*> parts;
     do {
         auto* node = make<ExpressionStmt>({});
@@ -174,7 +133,7 @@ Stmt* Parser::expression_statement() {
         if (!lost) parts.push_back(node);
     } while (accept(Punct::Comma));
     expect_semicolon();
-    meant_ = {};
+    meant_.clear();
     if (parts.empty()) return nullptr;
     if (panic_ || parts.size() == 1) return panic_ ? nullptr : parts[0];
     auto* all = make<BlockStmt>(place_from(at));  // "a = 1, b = 2;" as in C
@@ -245,20 +204,6 @@ Stmt* Parser::if_statement() {
         if (!node->no) node->no = empty_statement();
     }
     return node;
-}
-
-// "elseif" and its kin of other languages, behind the statement of an if.
-bool Parser::else_if_word() const {
-    std::string_view word = token().text;
-    return (word == "elseif" || word == "elsif" || word == "elif") && is(Punct::LeftParen, 1);
-}
-
-// An else that no if stands before: reported, and its statement read.
-Stmt* Parser::lonely_else() {
-    reporter_.report(Code::RSL_SYNTAX, token(), "a statement", "'else'").help =
-        "an else stands behind the one statement of its if; a ';' or a missing brace parts them";
-    advance();
-    return statement();
 }
 
 Stmt* Parser::while_statement() {

@@ -133,7 +133,9 @@ void Parser::missing_behind(const char* expected) {
 std::string_view Parser::expect_name(const char* what) {
     const Token& at = token();
     if (at.kind != TokenKind::Identifier || is_reserved()) {
+        meant_ = decimal_comma();
         syntax_error(what);
+        meant_.clear();
         return {};
     }
     advance();
@@ -180,61 +182,6 @@ bool Parser::word_as_name(int ahead) const {
         default:
             return false;
     }
-}
-
-// RSL 2.0 is another language: it is named once, and nothing more is said of the source.
-bool Parser::newer_language(const Token& at, const char* feature) {
-    if (stopped_) return true;
-    error(Code::RSL_2, at, feature);
-    panic_ = broken_ = stopped_ = true;
-    next_ = uint32_t(ast_.tokens.tokens.size() - 1);
-    reporter_.stop();
-    return true;
-}
-
-namespace {
-
-// Types of other languages and what they are taken as after the error; qualifiers as Invalid.
-constexpr struct {
-    std::string_view word;
-    BaseType base;
-    const char* help;
-} kForeignTypes[] = {
-    {"int", BaseType::Float, "write 'float'"},
-    {"double", BaseType::Float, "write 'float'"},
-    {"bool", BaseType::Float, "write 'float'"},
-    {"boolean", BaseType::Float, "write 'float'"},
-    {"half", BaseType::Float, "write 'float'"},
-    {"long", BaseType::Float, "write 'float'"},
-    {"unsigned", BaseType::Float, "write 'float'"},
-    {"scalar", BaseType::Float, "write 'float'"},
-    {"float2", BaseType::Point, "write 'point'"},
-    {"vec2", BaseType::Point, "write 'point'"},
-    {"float3", BaseType::Vector, "write 'vector'"},
-    {"vec3", BaseType::Vector, "write 'vector'"},
-    {"float4", BaseType::Color, "write 'color'"},
-    {"vec4", BaseType::Color, "write 'color'"},
-    {"colour", BaseType::Color, "write 'color'"},
-    {"mat4", BaseType::Matrix, "write 'matrix'"},
-    {"char", BaseType::String, "write 'string'"},
-    {"sampler2D", BaseType::String, "write 'string'"},
-    {"const", BaseType::Invalid, "write 'uniform'"},
-    {"static", BaseType::Invalid, "leave it out"},
-    {"inline", BaseType::Invalid, "leave it out"},
-};
-
-}  // namespace
-
-const char* foreign_type_help(std::string_view word) {
-    for (const auto& row : kForeignTypes)
-        if (row.word == word) return row.help;
-    return "";
-}
-
-BaseType foreign_type_base(std::string_view word) {
-    for (const auto& row : kForeignTypes)
-        if (row.word == word) return row.base;
-    return BaseType::Invalid;
 }
 
 Place Parser::place_from(uint32_t first) const {

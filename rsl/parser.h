@@ -14,11 +14,6 @@ inline constexpr int kMostNesting = 400;  // of expressions and statements
 inline constexpr int kMostHeight = 400;   // of an expression's tree, which later passes walk
 inline constexpr int kMostArrayLength = 1 << 20;
 
-// Types of other languages and what to write instead of them; "" for other words.
-const char* foreign_type_help(std::string_view word);
-// The type that is meant; Invalid for qualifiers such as "const" and for other words.
-BaseType foreign_type_base(std::string_view word);
-
 class Parser {
   public:
     Parser(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
@@ -51,7 +46,6 @@ class Parser {
     bool is_detail(int ahead = 0) const {
         return token(ahead).word >= Word::Uniform && token(ahead).word <= Word::Output;
     }
-    bool newer_language(const Token& at, const char* feature);
     void syntax_error(const char* expected);
     template <class... Args>
     Finding* error(const FindingInfo& info, const Token& at, const Args&... args) {
@@ -69,14 +63,10 @@ class Parser {
     // parse_definition.cpp: shaders, functions, parameters, declarations
     void definition();
     bool newer_definition();
-    bool at_foreign_type(int ahead = 0) const;
-    bool foreign_type(BaseType& base);
-    bool shader_handle();
     bool file_variable();
     bool shader_definition();
     BlockStmt* shader_body(ShaderDefinition& shader);
     BlockStmt* body_as_function(BlockStmt* body);
-    bool idle_word();
     void function_definition();
     void unknown_definition();
     Function* function();
@@ -98,9 +88,6 @@ class Parser {
     // parse_statement.cpp
     Stmt* statement();
     Stmt* statement_unguarded();
-    bool foreign_statement();
-    std::string_view resembled_word() const;
-    bool misspelt_statement();
     BlockStmt* block();
     Stmt* declaration_statement();
     Stmt* extern_statement();
@@ -108,8 +95,6 @@ class Parser {
     Expr* effect();
     Expr* step(Expr* target, uint32_t at);
     Stmt* if_statement();
-    bool else_if_word() const;
-    Stmt* lonely_else();
     Stmt* while_statement();
     Stmt* for_statement();
     Stmt* jump_statement(Word word);
@@ -129,7 +114,6 @@ class Parser {
     Expr* unary();
     Expr* cast();
     Expr* c_cast();
-    bool foreign_cast();
     Expr* postfix();
     Expr* primary();
     Expr* number();
@@ -141,6 +125,20 @@ class Parser {
     std::span<Expr*> arguments();
     std::span<Expr*> expression_list(Punct end, const char* expected);
 
+    // parse_foreign.cpp: other languages, misspelt words
+    bool newer_language(const Token& at, const char* feature);
+    bool at_foreign_type(int ahead = 0) const;
+    bool foreign_type(BaseType& base);
+    bool shader_handle();
+    bool foreign_cast();
+    bool idle_word();
+    bool foreign_statement();
+    std::string_view resembled_word() const;
+    std::string decimal_comma() const;
+    bool misspelt_statement();
+    bool else_if_word() const;
+    Stmt* lonely_else();
+
     template <class Node>
     Node* make(Place place) {
         return ast_.make<Node>(place);
@@ -149,11 +147,11 @@ class Parser {
     Ast& ast_;
     Reporter& reporter_;
     uint32_t next_ = 0;
-    bool broken_ = false;     // some text was skipped: names may be missing
-    bool panic_ = false;      // an error was reported and nothing has been skipped to yet
-    bool unclosed_ = false;   // the end of the file or shader was met inside a block, and said
-    bool stopped_ = false;    // a construct of RSL 2.0 was met: nothing more is read
-    std::string_view meant_;  // the control word that the statement's first name resembles
+    bool broken_ = false;    // some text was skipped: names may be missing
+    bool panic_ = false;     // an error was reported and nothing has been skipped to yet
+    bool unclosed_ = false;  // the end of the file or shader was met inside a block, and said
+    bool stopped_ = false;   // a construct of RSL 2.0 was met: nothing more is read
+    std::string meant_;      // what a syntax error here most likely was to be
     int depth_ = 0;
     int height_ = 0;                           // of the expression parsed last
     Function* function_ = nullptr;             // being parsed
