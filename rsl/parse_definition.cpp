@@ -231,28 +231,32 @@ void Parser::end_of_parameters() {
         expect(Punct::RightParen, "')'");
 }
 
-// After an error among parameters: to the next ',' or ';' between them, or to the ')' before the
+// Whether the token behind a ',' goes on with parameters, not with the arguments of a broken value.
+bool Parser::is_parameter(uint32_t index) const {
+    int ahead = int(index) - int(next_);
+    return is_type(ahead) || is_detail(ahead) ||
+           (token(ahead).kind == TokenKind::Identifier && is(Punct::Assign, ahead + 1));
+}
+
+// After an error among parameters: to the next ';' or ',' between them, or to the ')' before the
 // body. False where the body comes first.
 bool Parser::resume_parameters() {
     if (after_reported()) return false;
     const auto& tokens = ast_.tokens.tokens;
-    int depth = 0;
+    bool in_list = false;
     for (uint32_t i = next_; i + 1 < tokens.size(); ++i) {
         Punct punct = tokens[i].punct, behind = tokens[i + 1].punct;
         bool list = punct == Punct::LeftBrace && i > 0 && tokens[i - 1].punct == Punct::Assign;
-        bool in_list = behind == Punct::Comma || behind == Punct::Semicolon;
-        if ((punct == Punct::LeftBrace && !list) ||
-            (punct == Punct::RightBrace && depth == 0 && !in_list))
-            return false;
+        if (punct == Punct::LeftBrace && !list) return false;
+        bool ends = behind == Punct::Comma || behind == Punct::Semicolon;
+        if (punct == Punct::RightBrace && !in_list && !ends) return false;
+        in_list = list || (in_list && punct != Punct::RightBrace);
         bool last = punct == Punct::RightParen && behind == Punct::LeftBrace;
-        bool between = depth == 0 && (punct == Punct::Comma || punct == Punct::Semicolon);
-        if (last || between) {
-            next_ = i;
-            panic_ = false;
-            return true;
-        }
-        depth += punct == Punct::LeftParen || list;
-        depth -= depth > 0 && (punct == Punct::RightParen || punct == Punct::RightBrace);
+        bool between = punct == Punct::Semicolon || (punct == Punct::Comma && is_parameter(i + 1));
+        if (!last && !between) continue;
+        next_ = i;
+        panic_ = false;
+        return true;
     }
     return false;
 }

@@ -173,10 +173,12 @@ bool Parser::misspelt_statement() {
 
 // "float a = 0,5": the number that is meant; "" elsewhere.
 std::string Parser::decimal_comma() const {
-    if (token().kind != TokenKind::Number || next_ < 2) return "";
+    if (token().kind != TokenKind::Number || token().space_before || next_ < 2) return "";
     const Token& comma = ast_.tokens.tokens[next_ - 1];
     const Token& whole = ast_.tokens.tokens[next_ - 2];
-    if (comma.punct != Punct::Comma || whole.kind != TokenKind::Number) return "";
+    bool whole_numbers =
+        whole.text.find('.') == whole.text.npos && token().text.find('.') == token().text.npos;
+    if (comma.punct != Punct::Comma || whole.kind != TokenKind::Number || !whole_numbers) return "";
     return fmt::format("{}.{}", whole.text, token().text);
 }
 

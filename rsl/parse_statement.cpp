@@ -9,7 +9,12 @@ namespace kinora::rsl {
 BlockStmt* Parser::block() {
     uint32_t at = next_;
     auto* node = make<BlockStmt>(Place{token().where, at});
-    if (!expect(Punct::LeftBrace, "'{'")) return node;
+    // A body whose '{' is left out goes on with a declaration or statement.
+    bool whole = token().kind == TokenKind::Identifier && next_ > 0 && !begins_definition();
+    if (!is(Punct::LeftBrace) && whole)
+        missing_behind("'{'");
+    else if (!expect(Punct::LeftBrace, "'{'"))
+        return node;
     std::vector<Stmt*> body;
     while (!is(Punct::RightBrace) && !at_end() && !begins_shader() && !reporter_.full()) {
         uint32_t before = next_;

@@ -72,6 +72,7 @@ class Parser {
     Function* function();
     std::span<Symbol*> parameters(SymbolKind kind);
     void end_of_parameters();
+    bool is_parameter(uint32_t index) const;
     bool resume_parameters();
     struct Declaration {
         Type type;
