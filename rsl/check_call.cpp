@@ -175,9 +175,10 @@ void Checker::call_function(CallExpr& e, std::span<Function* const> functions, B
     if (functions.size() > 1) return no_overload(e);
     Function& only = *functions[0];
     if (only.parameters.size() == e.args.size()) return bind_function(e, only);
+    e.type = only.result;
+    if (broken_) return;  // its parameters may be among what is missing
     report(Code::RSL_ARGUMENT_COUNT, e.place, e.name, only.parameters.size(), e.args.size())
         .notes.push_back({only.place.where, "defined here"});
-    e.type = only.result;
 }
 
 // A user's function of the name does not fit, the built-in one does.

@@ -49,7 +49,7 @@ void Checker::check(ExpressionStmt& s) {
     expression(s.expression, BaseType::Invalid);
     ExprKind kind = written->kind;
     if (kind != ExprKind::Assign && kind != ExprKind::Call && kind != ExprKind::Cast &&
-        s.expression->type.base != BaseType::Invalid)
+        s.expression->type.base != BaseType::Invalid && !broken_)
         report(Code::RSL_NO_EFFECT, s.place);
 }
 

@@ -187,11 +187,14 @@ std::span<Symbol*> Parser::parameters(SymbolKind kind) {
     }
     if (!expect(Punct::LeftParen, "'('")) return {};
     if (is(Word::Void) && is(Punct::RightParen, 1)) advance();  // as in C
-    while (accept(Punct::Semicolon)) {
-    }
     Declaration head{{BaseType::Float, -1}, Detail::Unspecified, false};
     bool have_type = false;
     while (!panic_ && !is(Punct::RightParen) && !is(Punct::LeftBrace)) {
+        if (is(Punct::Comma) || is(Punct::Semicolon)) {
+            have_type = have_type && !is(Punct::Semicolon);
+            advance();
+            continue;
+        }
         if (((is_type() || is_detail()) && !(have_type && word_as_name())) || at_foreign_type() ||
             shader_handle()) {
             if (!declaration_head(head)) {
@@ -207,12 +210,7 @@ std::span<Symbol*> Parser::parameters(SymbolKind kind) {
         Symbol* symbol = declarator(head, kind);
         if (symbol) symbols.push_back(symbol);
         if (panic_ && !resume_parameters()) break;
-        bool separated = false;
-        while (is(Punct::Comma) || is(Punct::Semicolon)) {
-            have_type = have_type && !is(Punct::Semicolon);
-            advance();
-            separated = true;
-        }
+        bool separated = is(Punct::Comma) || is(Punct::Semicolon);
         if (separated || is(Punct::RightParen) || is(Punct::LeftBrace)) continue;
         if (is_type() || is_detail())
             missing_behind("';'");

@@ -190,8 +190,10 @@ bool Parser::else_if_word() const {
 
 // An else that no if stands before: reported, and its statement read.
 Stmt* Parser::lonely_else() {
-    reporter_.report(Code::RSL_SYNTAX, token(), "a statement", "'else'").help =
-        "an else stands behind the one statement of its if; a ';' or a missing brace parts them";
+    if (!skipped_)
+        reporter_.report(Code::RSL_SYNTAX, token(), "a statement", "'else'").help =
+            "an else stands behind the one statement of its if; a ';' or a missing brace parts "
+            "them";
     advance();
     return statement();
 }

@@ -19,6 +19,7 @@ BlockStmt* Parser::block() {
     while (!is(Punct::RightBrace) && !at_end() && !begins_shader() && !reporter_.full()) {
         uint32_t before = next_;
         Stmt* stmt = statement();
+        skipped_ = panic_;
         if (panic_) skip_statement();
         if (stmt) body.push_back(stmt);
         if (next_ == before && !is(Punct::RightBrace)) advance();
@@ -85,6 +86,23 @@ Stmt* Parser::statement_unguarded() {
     }
     if (at_declaration()) return declaration_statement();
     return shader_handle() ? nullptr : expression_statement();
+}
+
+// What an if or a loop does; nothing where that is broken.
+Stmt* Parser::body_statement() {
+    Stmt* stmt = statement();
+    if (panic_) skip_statement();
+    return stmt ? stmt : empty_statement();
+}
+
+// After an error between the parentheses of a statement: on behind them, if they are closed.
+void Parser::leave_header(uint32_t open) {
+    const auto& tokens = ast_.tokens.tokens;
+    if (!panic_ || stopped_ || after_reported() || tokens[open].punct != Punct::LeftParen) return;
+    uint32_t behind = after_parens(open);
+    if (behind + 1 >= tokens.size() || behind < next_) return;
+    next_ = behind;
+    panic_ = false;
 }
 
 Stmt* Parser::empty_statement() {
@@ -177,6 +195,7 @@ Expr* Parser::step(Expr* target, uint32_t at) {
 
 // "( expression )" of if and while. A bare '=' in it is probably a mistake.
 Expr* Parser::condition() {
+    uint32_t open = next_;
     expect(Punct::LeftParen, "'('");
     bool wrapped = is(Punct::LeftParen);
     Expr* value = expression();
@@ -184,6 +203,7 @@ Expr* Parser::condition() {
     const auto* assign = as_if<AssignExpr>(value);
     if (!panic_ && assign && assign->op == Op::None && !wrapped)
         reporter_.report(Code::RSL_ASSIGN_IN_CONDITION, ast_.tokens.tokens[assign->place.token]);
+    leave_header(open);
     return value;
 }
 
@@ -198,15 +218,13 @@ Stmt* Parser::if_statement() {
         reporter_.report(Code::RSL_NOT_RSL, token(), "'then'").help = "leave it out";
         advance();
     }
-    node->yes = statement();
-    if (!node->yes) node->yes = empty_statement();
+    node->yes = body_statement();
     if (!panic_ && else_if_word()) {
         reporter_.report(Code::RSL_NOT_RSL, token(), fmt::format("'{}'", token().text)).help =
             "write 'else if'";
         node->no = if_statement();
     } else if (!panic_ && accept(Word::Else)) {
-        node->no = statement();
-        if (!node->no) node->no = empty_statement();
+        node->no = body_statement();
     }
     return node;
 }
@@ -216,20 +234,19 @@ Stmt* Parser::while_statement() {
     advance();
     node->condition = condition();
     if (panic_) return nullptr;
-    node->body = statement();
-    if (!node->body) node->body = empty_statement();
+    node->body = body_statement();
     return node;
 }
 
 Stmt* Parser::for_statement() {
     auto* node = make<ForStmt>(Place{token().where, next_});
     advance();
+    uint32_t open = next_;
     expect(Punct::LeftParen, "'('");
     std::vector<Stmt*> init;
     if (!panic_ && at_declaration()) {
-        init.push_back(declaration_statement());
-        if (!init.back()) return nullptr;
-    } else if (!accept(Punct::Semicolon)) {
+        if (Stmt* declared = declaration_statement()) init.push_back(declared);
+    } else if (!panic_ && !accept(Punct::Semicolon)) {
         for (Expr* item : expression_list(Punct::Semicolon, "';'")) {
             auto* stmt = make<ExpressionStmt>(item->place);
             stmt->expression = item;
@@ -246,9 +263,9 @@ Stmt* Parser::for_statement() {
         if (!panic_) expect(Punct::RightParen, "')'");
         node->step = ast_.arena.copy(steps);
     }
+    leave_header(open);
     if (panic_) return nullptr;
-    node->body = statement();
-    if (!node->body) node->body = empty_statement();
+    node->body = body_statement();
     return node;
 }
 
@@ -298,8 +315,7 @@ Stmt* Parser::illuminance_statement() {
     node->args = arguments();
     if (panic_) return nullptr;
     node->place = place_from(at);
-    node->body = statement();
-    if (!node->body) node->body = empty_statement();
+    node->body = body_statement();
     return node;
 }
 
@@ -320,8 +336,7 @@ Stmt* Parser::illuminate_statement() {
         node->axis = args[1];
         node->angle = args[2];
     }
-    node->body = statement();
-    if (!node->body) node->body = empty_statement();
+    node->body = body_statement();
     return node;
 }
 
@@ -339,8 +354,7 @@ Stmt* Parser::solar_statement() {
     }
     if (!args.empty()) node->axis = args[0];
     if (args.size() == 2) node->angle = args[1];
-    node->body = statement();
-    if (!node->body) node->body = empty_statement();
+    node->body = body_statement();
     return node;
 }
 
@@ -351,11 +365,9 @@ Stmt* Parser::gather_statement() {
     node->args = arguments();
     if (panic_) return nullptr;
     node->place = place_from(at);
-    node->body = statement();
-    if (!node->body) node->body = empty_statement();
+    node->body = body_statement();
     if (!panic_ && accept(Word::Else)) {
-        node->missed = statement();
-        if (!node->missed) node->missed = empty_statement();
+        node->missed = body_statement();
     }
     return node;
 }

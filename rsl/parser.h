@@ -105,6 +105,8 @@ class Parser {
     Stmt* solar_statement();
     Stmt* gather_statement();
     Stmt* empty_statement();
+    Stmt* body_statement();
+    void leave_header(uint32_t open);
     Expr* condition();
     std::span<Symbol*> declared_symbols(const Declaration& head, SymbolKind kind);
 
@@ -151,6 +153,7 @@ class Parser {
     bool broken_ = false;    // some text was skipped: names may be missing
     bool panic_ = false;     // an error was reported and nothing has been skipped to yet
     bool unclosed_ = false;  // the end of the file or shader was met inside a block, and said
+    bool skipped_ = false;   // the statement before was broken: it may have been an if
     bool stopped_ = false;   // a construct of RSL 2.0 was met: nothing more is read
     std::string meant_;      // what a syntax error here most likely was to be
     int depth_ = 0;
