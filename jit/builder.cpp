@@ -1,6 +1,7 @@
 // jit/builder.cpp: appends instructions, folding on the way.
 #include "jit/builder.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "jit/fold_inst.h"
@@ -118,6 +119,21 @@ Value Builder::input_gather(int first, int count, Value index) {
 }
 
 // The type of a 'T' result: that of the operands, or what the immediates say.
+Value Builder::lookup(std::span<const float> values, Value index) {
+    CHECK_LE(values.size(), size_t{16});
+    std::vector<float> row(values.begin(), values.end());
+    row.resize(values.size() <= 8 ? 8 : 16, values.back());
+    auto mask = static_cast<int32_t>(row.size()) - 1;
+    int32_t known = 0;
+    if (constant_i(index, &known)) return f(row[static_cast<size_t>(known & mask)]);
+    std::vector<float>& table = module_->table;
+    auto same = [](float a, float b) { return bits_of(a) == bits_of(b); };
+    auto at = std::search(table.begin(), table.end(), row.begin(), row.end(), same);
+    auto first = static_cast<int32_t>(at - table.begin());
+    if (at == table.end()) table.insert(table.end(), row.begin(), row.end());
+    return op(Op::Lookup, index, kNone, kNone, first, mask);
+}
+
 Type Builder::any_type(const Inst& inst) {
     switch (inst.op) {
         case Op::ArrayLoad:

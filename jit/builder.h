@@ -40,6 +40,10 @@ class Builder {
     int declare_input(const InputInfo& info);  // index in Module::inputs
     Value input_gather(int first, int count, Value index);
 
+    // values[index & (n - 1)], n = 8 or 16: the smallest that holds the values, at most 16 (the
+    // rest is free). Constants stand in the module's table, each list once.
+    Value lookup(std::span<const float> values, Value index);
+
     // Any op of ops.def without control or extra operands. RecordField and RecordUniform give
     // floats, or ints when imm2 is int(Type::I).
     Value op(Op op, Value a = kNone, Value b = kNone, Value c = kNone, int32_t imm = 0,

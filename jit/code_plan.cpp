@@ -2,6 +2,8 @@
 #include "jit/code_plan_p.h"
 
 #include "jit/analysis.h"
+#include "jit/fold_inst.h"
+#include "jit/ieee_scope_p.h"
 #include "jit/planted_fault.h"
 
 namespace kinora::jit {
@@ -23,12 +25,16 @@ class Planner {
         plan_.branch.assign(n, 0);
         plan_.in_range.assign(n, false);
         plan_.counted.assign(n, kNone);
+        plan_.rounds.assign(n, 0);
         plan_.agree = lanes_agree(m_, f_);
         count_uses();
         for (Value v = 0; v < n; ++v) plan_value(v);
         for (Value v = 0; v < n; ++v) fuse_operands(v);
         for (Value v = 0; v < n; ++v) plan_.in_range[v] = reads_in_range(f_.insts[v]);
-        if (rules_.counted_loops) plan_record_loops();
+        if (rules_.counted_loops) {
+            plan_record_loops();
+            plan_known_loops();
+        }
         alias_variables();
         return std::move(plan_);
     }
@@ -181,6 +187,60 @@ class Planner {
         if (inst.op == Op::MNot) return f_.insts[inst.a].op == Op::IEq && tests_kind(inst.a);
         return inst.op == Op::IEq && f_.insts[inst.a].op == Op::RecordUniform &&
                plan_.in_range[inst.a] && f_.insts[inst.b].op == Op::ConstI && uses_[inst.a] == 1;
+    }
+
+    // Loops that go from one constant to another in constant steps.
+    void plan_known_loops() {
+        IeeeScope ieee;  // counts as precise kernels do
+        for (Value v = 0; v < f_.insts.size(); ++v) {
+            if (f_.insts[v].op != Op::Loop || value(v).masked || plan_.counted[v] != kNone)
+                continue;
+            const Inst& end = f_.insts[s_.end_of[v]];
+            if (!is_compare(f_.insts[end.a].op) || uses_[end.a] != 1 || value(end.a).fused)
+                continue;
+            plan_.rounds[v] = rounds_of(v, end);
+            if (plan_.rounds[v] > 0) drop_condition(v, end);
+        }
+    }
+
+    // The condition after k rounds, for k = 1, 2, ... until it is false; 0 if that is not known.
+    int32_t rounds_of(Value loop, const Inst& end) const {
+        constexpr int32_t kMostRounds = 1024;
+        const Inst& condition = f_.insts[end.a];
+        Value next = is_constant(f_.insts[condition.a]) ? condition.b : condition.a;
+        Value limit = next == condition.a ? condition.b : condition.a;
+        const Inst& step = f_.insts[next];
+        bool plain = step.op == Op::Add || step.op == Op::Sub || step.op == Op::IAdd ||
+                     step.op == Op::ISub || step.op == Op::Mul;
+        if (!plain || !is_constant(f_.insts[limit])) return 0;
+        Value variable = is_constant(f_.insts[step.a]) ? step.b : step.a;
+        const Inst& stepped = f_.insts[variable];
+        bool ours = stepped.op == Op::LoopVar && static_cast<Value>(stepped.imm) == loop &&
+                    f_.args_of(end)[variable - loop - 1] == next;
+        Value by = variable == step.a ? step.b : step.a;
+        if (!ours || !is_constant(f_.insts[by]) || !is_constant(f_.insts[stepped.a])) return 0;
+        int32_t at = f_.insts[stepped.a].imm;
+        auto bits = [&](Value v) { return v == variable || v == next ? at : f_.insts[v].imm; };
+        for (int32_t k = 1; k <= std::min(kMostRounds, m_.loop_budget); ++k) {
+            int32_t again = 0;
+            evaluate(step, bits(step.a), bits(step.b), 0, &at);
+            evaluate(condition, bits(condition.a), bits(condition.b), 0, &again);
+            if (again == 0) return k;
+        }
+        return 0;
+    }
+
+    // Nothing asks for the comparison any more, and perhaps nothing for what it compares.
+    void drop_condition(Value loop, const Inst& end) {
+        value(end.a).fused = value(end.a).gone = true;
+        const Inst& condition = f_.insts[end.a];
+        Value next = is_constant(f_.insts[condition.a]) ? condition.b : condition.a;
+        const Inst& step = f_.insts[next];
+        Value variable = is_constant(f_.insts[step.a]) ? step.b : step.a;
+        if (uses_[next] != 2 || uses_[variable] != 1) return;
+        plan_.counted[loop] = variable;
+        value(variable).cls = RegClass::None;
+        value(next).fused = value(next).gone = true;
     }
 
     // An input read once is an operand in memory where it is used.

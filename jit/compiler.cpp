@@ -37,7 +37,7 @@ constexpr Pass kBeforeHoist[] = {
     {"fold", fold},
     {"cse", cse},
 };
-constexpr Pass kAfterHoist[] = {{"dce", dce}};
+constexpr Pass kAfterHoist[] = {{"dce", dce}, {"schedule", schedule}};
 
 // Fused loops show that Ifs in them have one mask, fused Ifs that they compute the same.
 constexpr int kFuseRounds = 2;
@@ -81,6 +81,8 @@ class Key {
         add(module.frame_slots);
         add(module.loop_budget);
         add(module.call_depth);
+        for (float value : module.table) add(value);
+        add('|');
         for (const InputInfo& input : module.inputs) add(input.name), add(input.type);
         add('|');
         for (const OutputInfo& output : module.outputs) add(output.name), add(output.type);

@@ -18,6 +18,7 @@ void fold(Module& module);           // constants and exact identities
 void cse(Module& module);            // equal pure values once; loop-invariant ones before loops
 bool fuse(Module& module);           // loops over the same records, Ifs of one mask; true if any
 void dce(Module& module);            // what nothing needs
+void schedule(Module& module);       // what a loop's next round begins with, as soon as it can be
 // Splits frame-rate work off: returns the frame kernel (all its outputs are frame block slots, all
 // its inputs frame inputs), leaving `module` with FrameLoads and point inputs only.
 Module hoist(Module& module);

@@ -11,7 +11,8 @@ namespace {
 
 class Folder {
   public:
-    explicit Folder(Function& function) : match_(match_regions(function)), r_(function) {
+    Folder(const Module& module, Function& function)
+        : m_(module), match_(match_regions(function)), r_(function) {
         kept_.assign(r_.old.size(), true);
     }
 
@@ -70,7 +71,8 @@ class Folder {
 
     Value fold_pure(Value v) {
         Inst inst = r_.translate(v);
-        Folded folded = fold_inst(inst, r_.function.insts);
+        Folded folded =
+            inst.op == Op::Lookup ? fold_lookup(inst) : fold_inst(inst, r_.function.insts);
         if (folded.kind == Folded::Same) {
             r_.renamed[v] = folded.same;
         } else if (folded.kind == Folded::Constant) {
@@ -82,6 +84,13 @@ class Folder {
             r_.renamed[v] = r_.append(inst);
         }
         return v + 1;
+    }
+
+    Folded fold_lookup(const Inst& inst) const {
+        const Inst& index = made(inst.a);
+        if (index.op != Op::ConstI) return {};
+        auto at = static_cast<size_t>(inst.imm + (index.imm & inst.imm2));
+        return {Folded::Constant, kNone, bits_of(m_.table[at])};
     }
 
     const Inst& made(Value v) const { return r_.function.insts[v]; }
@@ -178,6 +187,7 @@ class Folder {
         return v + 1;
     }
 
+    const Module& m_;
     std::vector<Value> match_;
     Rewrite r_;
     std::vector<bool> kept_;  // regions and loop variables that stand in the new function
@@ -186,7 +196,7 @@ class Folder {
 }  // namespace
 
 void fold(Module& module) {
-    for (Function& function : module.functions) Folder(function).run();
+    for (Function& function : module.functions) Folder(module, function).run();
 }
 
 }  // namespace kinora::jit

@@ -96,6 +96,14 @@ Value step_frame_gather(const Frame& frame, const Inst& inst, Value at) {
     return at + 1;
 }
 
+Value step_lookup(const Frame& frame, const Inst& inst, Value at) {
+    const Row& index = frame.row(inst.a);
+    Row& out = frame.row(at);
+    const float* table = frame.program.module.table.data() + inst.imm;
+    for (int k = 0; k < kLanes; ++k) out.lane[k] = bits_of(table[index.lane[k] & inst.imm2]);
+    return at + 1;
+}
+
 // The set's number agrees in all lanes; lane 0 always holds a point.
 const RecordSet& record_set(const Frame& frame, const Inst& inst) {
     return frame.args.record_sets[frame.row(inst.a).lane[0]];
@@ -304,6 +312,7 @@ StepTable make_steps() {
     row(Op::InputGather, step_input_gather);
     row(Op::FrameLoad, step_frame_load);
     row(Op::FrameGather, step_frame_gather);
+    row(Op::Lookup, step_lookup);
     row(Op::RecordCount, step_record_count);
     row(Op::RecordField, step_record_field);
     row(Op::RecordUniform, step_record_uniform);

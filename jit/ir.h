@@ -125,6 +125,7 @@ struct Module {
     std::vector<ServiceInfo> services;
     std::vector<FaultSite> fault_sites;
     std::vector<Location> locations = {Location{}};
+    std::vector<float> table;         // constants that Lookup reads
     int32_t frame_slots = 0;          // size of the frame block that FrameLoad reads
     int32_t loop_budget = 1'000'000;  // iterations per entry of a loop before it ends with a fault
     // Scratch memory holds this many activations at once of functions that call each other in a

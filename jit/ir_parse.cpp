@@ -151,6 +151,7 @@ class Parser {
     void parse_declaration() {
         std::string_view kind = word();
         if (kind == "module") return parse_head();
+        if (kind == "table") return parse_table();
         if (kind == "input") return parse_input();
         if (kind == "output") {
             std::string name = string();
@@ -167,6 +168,10 @@ class Parser {
         if (expect("budget")) m_.loop_budget = number<int32_t>();
         if (expect("slots")) m_.frame_slots = number<int32_t>();
         if (accept("depth")) m_.call_depth = number<int32_t>();
+    }
+
+    void parse_table() {
+        while (ok_ && !line_ended()) m_.table.push_back(float_of(float_bits()));
     }
 
     void parse_input() {

@@ -1,6 +1,7 @@
 // jit/ir_print.cpp: the IR as text, one instruction a line. ir_parse.cpp reads it back.
 //
 //   module "marble" budget 1000000 slots 0
+//   table 0.5 0.25 1 1 1 1 1 1
 //   input "P.x" f point du "dPdu.x" dv "dPdv.x"
 //   output "Ci.r" f
 //   service "texture" (i f f) -> (f f f) pure
@@ -123,6 +124,11 @@ std::string print(const Module& module) {
                    module.frame_slots);
     if (module.call_depth != 0) fmt::format_to(out, " depth {}", module.call_depth);
     fmt::format_to(out, "\n");
+    if (!module.table.empty()) {
+        fmt::format_to(out, "table");
+        for (float value : module.table) fmt::format_to(out, " {}", float_text(value));
+        fmt::format_to(out, "\n");
+    }
     for (const InputInfo& input : module.inputs) {
         fmt::format_to(out, "input {} {} {}", quoted(input.name), type_name(input.type),
                        kRateNames[static_cast<int>(input.rate)]);

@@ -42,67 +42,75 @@ std::array<Int, 2> periodic_planes(Num cell, Num period) {
     return {lower, select((next - whole) < 0, next, integer(next, 0))};
 }
 
-Axis axis(Num coordinate, const Num* period, size_t dimension) {
-    Num x = clamped(coordinate);
-    Num cell = floor(x);
-    Num t = x - cell;
-    auto multiplier = int32_t(kLattice[dimension]);
-    Axis out{{}, {t, t - 1.0f}, fade(t)};
-    if (period == nullptr) {
-        out.key[0] = truncate(cell) * multiplier;
-        out.key[1] = out.key[0] + multiplier;
-    } else {
-        std::array<Int, 2> planes = periodic_planes(cell, *period);
-        out.key[0] = planes[0] * multiplier;
-        out.key[1] = planes[1] * multiplier;
+// Values are made in an order that keeps machines busy with few registers: the lattice of all axes
+// first, since everything waits for it, weights and corners when they are asked for.
+std::vector<Axis> make_axes(std::span<const Num> coordinates, std::span<const Num> periods) {
+    std::vector<Num> x, cell;
+    for (Num coordinate : coordinates) x.push_back(clamped(coordinate));
+    for (Num at : x) cell.push_back(floor(at));
+    std::vector<Axis> axes;
+    for (size_t d = 0; d < x.size(); ++d) {
+        auto multiplier = int32_t(kLattice[d]);
+        Num t = x[d] - cell[d];
+        Axis axis{{}, {t, t}, {nullptr, kNone}};
+        if (periods.empty()) {
+            axis.key[0] = truncate(cell[d]) * multiplier;
+            axis.key[1] = axis.key[0] + multiplier;
+        } else {
+            std::array<Int, 2> planes = periodic_planes(cell[d], periods[d]);
+            axis.key[0] = planes[0] * multiplier;
+            axis.key[1] = planes[1] * multiplier;
+        }
+        axes.push_back(axis);
     }
-    return out;
+    for (Axis& axis : axes) axis.distance[1] = axis.distance[0] - 1.0f;
+    for (Axis& axis : axes) axis.weight = fade(axis.distance[0]);
+    for (Int& key : axes.back().key) key = key ^ int32_t(kLatticeSeed);
+    return axes;
 }
 
-// The hashes of the 2^n corners; bit d of the index is the plane along dimension d.
-std::vector<Int> corner_hashes(std::span<const Axis> axes) {
-    const Axis& last = axes.back();
-    std::vector<Int> hashes = {last.key[0] ^ int32_t(kLatticeSeed),
-                               last.key[1] ^ int32_t(kLatticeSeed)};
-    for (size_t d = axes.size() - 1; d-- > 0;) {
-        std::vector<Int> wider;
-        for (Int h : hashes)
-            for (Int key : axes[d].key) wider.push_back(h ^ key);
-        hashes = wider;
-    }
-    return hashes;
-}
-
-// gradient . (p - corner), times 2^31
-Num corner_value(std::span<const Axis> axes, size_t corner, Int hash, size_t component) {
-    Int g = hash * (hash ^ int32_t(kGradient[component]));
-    Num sum = to_float(g) * axes[0].distance[corner & 1];
+// gradient . (p - corner), times 2^31, at the two corners of an edge along dimension 0: side by
+// side, so that neither waits for its own last step.
+std::array<Num, 2> edge_values(std::span<const Axis> axes, size_t corner,
+                               const std::array<Int, 2>& hash, size_t component) {
+    auto C = int32_t(kGradient[component]);
+    Int g[2] = {hash[0] * (hash[0] ^ C), hash[1] * (hash[1] ^ C)};
+    std::array<Num, 2> sum = {to_float(g[0]) * axes[0].distance[0],
+                              to_float(g[1]) * axes[0].distance[1]};
     for (size_t d = 1; d < axes.size(); ++d)
-        sum = fma(to_float(g << kGradientShift[d]), axes[d].distance[corner >> d & 1], sum);
+        for (size_t end = 0; end < 2; ++end)
+            sum[end] = fma(to_float(g[end] << kGradientShift[d]), axes[d].distance[corner >> d & 1],
+                           sum[end]);
     return sum;
 }
 
-Num interpolated(std::span<const Axis> axes, std::vector<Num> corners) {
-    for (const Axis& a : axes) {
-        for (size_t i = 0; i < corners.size() / 2; ++i)
-            corners[i] = fma(a.weight, corners[2 * i + 1] - corners[2 * i], corners[2 * i]);
-        corners.resize(corners.size() / 2);
+// The components between the corners that lie on the planes chosen so far: bit d of `corner` is the
+// plane along dimension d, `hash` the keys of those >= dimensions (none: the last axis begins it).
+std::vector<Num> interpolated(std::span<const Axis> axes, size_t dimensions, size_t corner,
+                              Int hash, size_t components) {
+    const Axis& axis = axes[dimensions - 1];
+    std::array<Int, 2> hashes = {axis.key[0], axis.key[1]};
+    if (dimensions < axes.size()) hashes = {hash ^ hashes[0], hash ^ hashes[1]};
+    std::vector<Num> values[2];
+    if (dimensions == 1) {
+        for (size_t k = 0; k < components; ++k) {
+            std::array<Num, 2> ends = edge_values(axes, corner, hashes, k);
+            for (size_t end = 0; end < 2; ++end) values[end].push_back(ends[end]);
+        }
+    } else {
+        for (size_t plane = 0; plane < 2; ++plane)
+            values[plane] = interpolated(axes, dimensions - 1, corner | plane << (dimensions - 1),
+                                         hashes[plane], components);
     }
-    return corners[0];
+    for (size_t k = 0; k < components; ++k)
+        values[0][k] = fma(axis.weight, values[1][k] - values[0][k], values[0][k]);
+    return values[0];
 }
 
 std::vector<Value> noise_body(std::span<const Num> params, size_t dimensions, size_t components) {
-    std::vector<Axis> axes;
-    bool periodic = params.size() > dimensions;
-    for (size_t d = 0; d < dimensions; ++d)
-        axes.push_back(axis(params[d], periodic ? &params[dimensions + d] : nullptr, d));
-    std::vector<Int> hashes = corner_hashes(axes);
+    std::vector<Axis> axes = make_axes(params.first(dimensions), params.subspan(dimensions));
     std::vector<Value> results;
-    for (size_t k = 0; k < components; ++k) {
-        std::vector<Num> corners;
-        for (size_t i = 0; i < hashes.size(); ++i)
-            corners.push_back(corner_value(axes, i, hashes[i], k));
-        Num sum = interpolated(axes, corners);
+    for (Num sum : interpolated(axes, dimensions, 0, {}, components)) {
         Num value = fma(sum, kNoiseScale[dimensions - 1] * 0x1p-32f, 0.5f);
         if (dimensions > 1) value = at_most(at_least(value, num(value, 0)), num(value, 1));
         results.push_back(value.v);

@@ -24,6 +24,7 @@ struct ValuePlan {
     RegClass cls = RegClass::None;  // None: needs no register
     Value alias = kNone;            // lies where this LoopVar lies: it is the next value of it
     bool fused = false;             // computed inside its only user, which then uses its operands
+    bool gone = false;     // fused, and its user does not ask for it: a loop's known condition
     bool home = false;     // lies in memory anyway (an input): needs no store, may be loaded late
     bool hoist = false;    // a constant operand in memory: a register if one is free over a region
     bool masked = false;   // of If and Loop: values are blended under the mask at the end
@@ -85,6 +86,7 @@ void for_each_use(const Function& f, const Structure& s, std::span<const ValuePl
     auto operand = [&](auto&& self, Value v) -> void {
         if (f.insts[v].op == Op::LoopOut) v = f.insts[v].a;
         if (!plan[v].fused) return use(v);
+        if (plan[v].gone) return;
         const Inst& inst = f.insts[v];
         const Value operands[] = {inst.a, inst.b, inst.c};
         for (int k = 0; k < op_info(inst.op).operand_count; ++k) self(self, operands[k]);

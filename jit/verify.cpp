@@ -132,6 +132,10 @@ class Verifier {
                 return check_slots(inst, 1);
             case Op::FrameGather:
                 return check_slots(inst, inst.imm2);
+            case Op::Lookup:
+                if (inst.imm2 != 7 && inst.imm2 != 15) return fail("looks at {} bits", inst.imm2);
+                range(inst.imm, m_.table.size(), "constant");
+                return range(int64_t{inst.imm} + inst.imm2, m_.table.size(), "last constant");
             case Op::IShl:
             case Op::IShr:
             case Op::ISar:

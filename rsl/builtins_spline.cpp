@@ -69,15 +69,19 @@ struct Curve {
     int pieces;
 };
 
-// The knot that piece `piece` begins `offset` knots from, chosen by comparisons.
-Lowered knot_of(LowerCall& c, const Curve& curve, Value piece, int offset) {
-    Lowered r = curve.knots[size_t(offset)];
-    for (int k = 1; k < curve.pieces; ++k) {
-        const Lowered& other = curve.knots[size_t(k * curve.basis.step + offset)];
-        Value later = c.b.le(c.b.f(float(k)), piece);
-        for (size_t j = 0; j < size_t(r.size()); ++j)
-            r.c[j] = c.b.select(later, other.c[j], r.c[j]);
-    }
+// Component j of the knot that piece `piece` begins `offset` knots from: constants are looked up,
+// others chosen by comparisons.
+Value knot_of(LowerCall& c, const Curve& curve, Value piece, int offset, size_t j) {
+    constexpr int kFewPieces = 3, kMostPieces = 16;
+    auto knot = [&](int k) { return curve.knots[size_t(k * curve.basis.step + offset)].c[j]; };
+    std::vector<float> constants(size_t(curve.pieces));
+    bool constant = curve.pieces >= kFewPieces && curve.pieces <= kMostPieces;
+    for (int k = 0; k < curve.pieces; ++k)
+        constant = constant && c.b.constant_f(knot(k), &constants[size_t(k)]);
+    if (constant) return c.b.lookup(constants, c.b.ftoi(piece));
+    Value r = knot(0);
+    for (int k = 1; k < curve.pieces; ++k)
+        r = c.b.select(c.b.le(c.b.f(float(k)), piece), knot(k), r);
     return r;
 }
 
@@ -87,8 +91,6 @@ Lowered point_at(LowerCall& c, const Curve& curve, Value x) {
     Value scaled = b.mul(c.low.clamp(x, b.f(0), b.f(1)), b.f(float(curve.pieces)));
     Value piece = b.min(b.floor(scaled), b.f(float(curve.pieces - 1)));
     Value t = b.sub(scaled, piece);
-    std::array<Lowered, 4> knot;
-    for (int k = 0; k < 4; ++k) knot[size_t(k)] = knot_of(c, curve, piece, k);
     // Weights first: at t = 0 and 1 they are exact, so the curve meets its knots exactly.
     std::array<Value, 4> weight;
     for (size_t k = 0; k < 4; ++k) {
@@ -99,7 +101,8 @@ Lowered point_at(LowerCall& c, const Curve& curve, Value x) {
     Lowered result{curve.knots[0].type, {}};
     for (size_t j = 0; j < size_t(result.size()); ++j) {
         Value sum = b.f(0);
-        for (size_t k = 4; k-- > 0;) sum = c.low.fma(weight[k], knot[k].c[j], sum);
+        for (size_t k = 4; k-- > 0;)
+            sum = c.low.fma(weight[k], knot_of(c, curve, piece, int(k), j), sum);
         result.c[j] = sum;
     }
     return result;

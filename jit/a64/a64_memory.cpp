@@ -54,6 +54,21 @@ void Emit::op_FrameGather() {
     gather_by_lane(now().imm2, [&](uint32_t) { a_.add(arm::x0, arm::x1, arm::x0, words); });
 }
 
+void Emit::op_Lookup() {
+    auto words = std::span(module_.table)
+                     .subspan(static_cast<size_t>(now().imm), static_cast<size_t>(now().imm2) + 1);
+    Vec index = reg(now().a, 0);
+    add_offset(arm::x1, kPool, state_.pool.row(words));
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+        a_.umov(arm::w0, index.s(lane));
+        a_.and_(arm::w0, arm::w0, now().imm2);
+        a_.add(arm::x0, arm::x1, arm::x0, Shift(ShiftOp::kLSL, 2));
+        a_.ld1(scratch(1).s(lane), arm::ptr(arm::x0));
+    }
+    move(target(), scratch(1));
+    finish(target());
+}
+
 void Emit::op_InputGather() {
     int64_t offset = int64_t{8} * now().imm;
     const Shift pointers(ShiftOp::kLSL, 3);

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -21,6 +23,14 @@ class Pool {
         auto [at, is_new] = known_.try_emplace(bits, static_cast<int32_t>(16 * rows_.size()));
         if (is_new) rows_.push_back({bits, bits, bits, bits});
         return at->second;
+    }
+
+    // Where 8 or 16 words lie behind each other. Lists are few and each is asked for by one op.
+    int32_t row(std::span<const float> words) {
+        auto first = static_cast<int32_t>(16 * rows_.size());
+        for (size_t k = 0; k < words.size(); k += 4)
+            std::memcpy(rows_.emplace_back().data(), &words[k], 16);
+        return first;
     }
 
     void place(asmjit::a64::Assembler& a) const { a.embed(rows_.data(), rows_.size() * 16); }

@@ -101,7 +101,9 @@ void Emit::begin_body(Value begin) {
     auto& hoists = allocation_.loop_hoists;
     for (size_t k = 0; k < hoists.size(); ++k)
         if (hoists[k].first == begin) load_constant(hoists[k].second);
-    int32_t budget = module_.loop_budget + planted(PlantedFault::LoopBudgetOffByOne);
+    int32_t rounds = plan_.rounds[begin];
+    int32_t budget =
+        (rounds > 0 ? rounds : module_.loop_budget) + planted(PlantedFault::LoopBudgetOffByOne);
     if (loop.counter.isValid())
         a_.mov(loop.counter, budget);
     else
@@ -117,25 +119,26 @@ void Emit::op_EndLoop() {
     auto begin = static_cast<Value>(now().imm);
     const OpenLoop& loop = loops_.back();
     update_variables(begin);
-    if (plan_.counted[begin] == kNone)
-        a_.jz(loop.exit);
-    else
-        leave_when_counted(loop);
+    bool known = plan_.rounds[begin] > 0;
+    if (!known) leave(loop);
     if (loop.counter.isValid())
         a_.dec(loop.counter);
     else
         a_.dec(counter());
     a_.jnz(loop.header);
-    a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, fault)));
-    a_.mov(x86::byte_ptr(x86::rax, inst(begin).imm), 1);
+    if (!known) {
+        a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, fault)));
+        a_.mov(x86::byte_ptr(x86::rax, inst(begin).imm), 1);
+    }
     a_.bind(loop.exit);
     record_ = kNone;
     for (Value v = begin + 1; v <= structure_.header_of[begin]; ++v) fill_slot(v);
     loops_.pop_back();
 }
 
-// The next index against the count of the set.
-void Emit::leave_when_counted(const OpenLoop& loop) {
+// If no lane runs on, as flags say; records are counted: the next index against the set's count.
+void Emit::leave(const OpenLoop& loop) {
+    if (plan_.counted[loop.begin] == kNone) return void(a_.jz(loop.exit));
     const Inst& count = inst(inst(now().a).b);
     int32_t set = inst(count.a).imm * static_cast<int32_t>(sizeof(RecordSet));
     index_in(x86::eax, loop, 1);
@@ -160,7 +163,8 @@ void Emit::update_variables(Value loop) {
         else
             copy(step.variable, step.next);
     }
-    if (plan_.counted[loop] == kNone) update_mask(loop, root(now().a));
+    if (plan_.counted[loop] == kNone && plan_.rounds[loop] == 0)
+        update_mask(loop, root(now().a));
     saved_[0] = saved_[1] = kNone;
 }
 

@@ -144,7 +144,7 @@ class Emit : public FunctionCode {
     void fill_slot(Value v);
     void begin_body(Value loop);
     void test_kind(Value condition);
-    void leave_when_counted(const OpenLoop& loop);
+    void leave(const OpenLoop& loop);
     void index_in(const x86::Gp& to, const OpenLoop& loop, int32_t ahead);
     x86::Mem counter() const;
     void update_variables(Value loop);

@@ -79,6 +79,26 @@ void Emit::op_FrameGather() {
     }
 }
 
+// A permutation of constants that stand behind the code.
+void Emit::op_Lookup() {
+    auto words = std::span(module_.table)
+                     .subspan(static_cast<size_t>(now().imm), static_cast<size_t>(now().imm2) + 1);
+    x86::Mem first = state_.pool.row(words);
+    x86::Vec index = reg(now().a, 1), to = target();
+    if (isa_.wide || words.size() == 8) {
+        a_.emit(Id::kIdVpermps, to, index, first);
+        return finish(to);
+    }
+    // AVX2 sees 8 words at once: bit 3 of the index, as a sign, chooses between two such rows.
+    x86::Vec lower = scratch(0), sign = scratch(1);
+    a_.emit(Id::kIdVpermps, lower, index, first.cloneAdjusted(32));
+    a_.emit(Id::kIdVmovaps, row(layout_.lanes_a), lower);
+    a_.emit(Id::kIdVpermps, lower, index, first);
+    a_.emit(Id::kIdVpslld, sign, index, asmjit::Imm(28));
+    a_.emit(Id::kIdVblendvps, to, lower, row(layout_.lanes_a), sign);
+    finish(to);
+}
+
 // AVX-512: clamped indices in scratch 1, the gather's own mask in k7.
 void Emit::gather_words(const x86::Gp& base, int32_t offset) {
     if (now().op == Op::FrameGather) clamp_lanes(scratch(1), now().a, now().imm2);

@@ -1,6 +1,9 @@
 // jit/x64/x64_pool.cpp: constants that stand behind the code, each once.
 #include "jit/x64/x64_pool_p.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace kinora::jit::x64 {
 
 namespace {
@@ -25,6 +28,15 @@ size_t Pool::find(uint32_t bits) {
     }
 }
 
+asmjit::x86::Mem Pool::row(std::span<const float> values) {
+    std::array<uint32_t, 16> words;
+    for (size_t k = 0; k < words.size(); ++k)
+        words[k] = std::bit_cast<uint32_t>(values[k % values.size()]);
+    auto at = std::find(rows_.begin(), rows_.end(), words) - rows_.begin();
+    if (static_cast<size_t>(at) == rows_.size()) rows_.push_back(words);
+    return asmjit::x86::ptr(rows_label_, static_cast<int32_t>(at) * 64);
+}
+
 void Pool::grow() {
     table_.assign(table_.size() * 2, -1);
     size_t mask = table_.size() - 1;
@@ -41,6 +53,8 @@ void Pool::place(asmjit::x86::Assembler& a) {
     uint32_t iota[16];
     for (uint32_t k = 0; k < 16; ++k) iota[k] = k;
     a.embed(iota, sizeof iota);
+    a.bind(rows_label_);
+    if (!rows_.empty()) a.embed(rows_.data(), rows_.size() * sizeof rows_[0]);
     a.bind(label_);
     std::vector<uint32_t> bytes;
     for (uint32_t word : words_) bytes.insert(bytes.end(), static_cast<size_t>(copies_), word);

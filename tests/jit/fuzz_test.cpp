@@ -69,10 +69,8 @@ struct PassRow {
     void (*run)(Module&);
 };
 const PassRow kPasses[] = {
-    {"inline_calls", inline_calls},
-    {"fold", fold},
-    {"cse", cse},
-    {"dce", dce},
+    {"inline_calls", inline_calls}, {"fold", fold}, {"cse", cse}, {"dce", dce},
+    {"schedule", schedule},
 };
 
 std::string same_after(const Module& module, uint64_t seed, void (*pass)(Module&)) {

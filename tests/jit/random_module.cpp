@@ -60,7 +60,7 @@ struct PureOps {
             const OpInfo& info = op_info(op);
             bool plain = (info.flags & kPure) && info.operand_count > 0 && op != Op::Du &&
                          op != Op::Dv && op != Op::WithSlope && op != Op::InputGather &&
-                         op != Op::FrameGather && op != Op::BitsFI;
+                         op != Op::FrameGather && op != Op::Lookup && op != Op::BitsFI;
             if (!plain) continue;
             all.push_back(op);
             if (info.result == 'M' || info.operands[0] == 'M') masky.push_back(op);
@@ -213,8 +213,18 @@ class Grower {
     }
     void grow_bits() { bits_of_value(any(Type::F)); }
 
+    void grow_lookup() {
+        int32_t mask = chance(50) ? 7 : 15;
+        append({.op = Op::Lookup,
+                .type = Type::F,
+                .a = any(Type::I),
+                .imm = below(static_cast<int>(m_.table.size()) - mask),
+                .imm2 = mask});
+    }
+
     void grow_input() {
         if (index_ > 0) return grow_pure();
+        if (chance(15)) return grow_lookup();
         int k = below(static_cast<int>(m_.inputs.size()));
         Type type = m_.inputs[static_cast<size_t>(k)].type;
         if (chance(70)) {

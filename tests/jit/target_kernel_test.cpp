@@ -77,7 +77,7 @@ TEST(TargetOps, EveryPureOpOnEdgeValues) {
         bool floats = operands.find('F') != std::string::npos;
         if ((info.flags & kPure) == 0 || operands.empty() || op == Op::Du || op == Op::Dv ||
             op == Op::WithSlope || op == Op::InputGather || op == Op::FrameGather ||
-            operands.find('M') == 0)
+            op == Op::Lookup || operands.find('M') == 0)
             continue;
         SCOPED_TRACE(info.name);
         Module m = one_function();
@@ -207,6 +207,52 @@ TEST(TargetKernel, AnEndlessLoopEndsWithItsFault) {
     expect_same(m, in);
     in.inputs[0].assign(20, bits_of(-1));
     expect_same(m, in);
+}
+
+// Every index, negative ones too; the value is also needed afterwards, or dies.
+TEST(TargetKernel, LooksUpConstants) {
+    for (size_t size : {1, 3, 8, 9, 13, 16}) {
+        std::vector<float> values;
+        for (size_t k = 0; k < size; ++k) values.push_back(1.5f * static_cast<float>(k) - 4);
+        values[size / 2] = -0.0f;
+        Module m = one_function();
+        Builder b(m, 0);
+        Value index = b.ftoi(b.mul(b.input(point("x")), b.f(7)));
+        Value here = b.lookup(values, index);
+        Value next = b.lookup(values, b.iadd(index, b.i(1)));
+        b.output({"both", Type::F}, b.fma(here, b.f(100), next));
+        b.output({"index", Type::I}, index);
+        b.finish();
+        for (int32_t count : {1, 23, 64}) expect_same(m, wave(count, 1));
+        EXPECT_EQ(m.table.size(), size <= 8 ? 8u : 16u);
+    }
+}
+
+// Loops whose rounds are known: up and down, floats and ints, the counter read or not, nested, cut
+// short by the budget.
+TEST(TargetKernel, CountsKnownRounds) {
+    for (int32_t budget : {3, 1000})
+        for (bool read : {false, true}) {
+            Module m = one_function();
+            m.loop_budget = budget;
+            Builder b(m, 0);
+            Value x = b.input(point("x"));
+            b.begin_loop(b.m(true), b.fault_site({}, "outer"));
+            Value k = b.loop_var(b.f(8)), sum = b.loop_var(x);
+            b.begin_loop(b.m(true), b.fault_site({}, "inner"));
+            Value j = b.loop_var(b.i(2)), inner = b.loop_var(sum);
+            Value next_j = b.iadd(j, b.i(3));
+            Value term = read ? b.mul(b.itof(j), k) : b.f(0.25f);
+            Value inner_next[] = {next_j, b.fma(inner, b.f(0.5f), term)};
+            b.end_loop(b.op(Op::ILt, next_j, b.i(9)), inner_next);
+            Value next_k = b.sub(k, b.f(1.5f));
+            Value next[] = {next_k, b.loop_out(inner)};
+            b.end_loop(b.lt(b.f(0), next_k), next);
+            b.output({"sum", Type::F}, b.loop_out(sum));
+            if (read) b.output({"k", Type::F}, b.loop_out(k));
+            b.finish();
+            for (int32_t count : {1, 16, 23}) expect_same(m, wave(count, 1));
+        }
 }
 
 // A conditional branch of AArch64 reaches 1 MiB: an If and a Loop here are longer.

@@ -188,7 +188,13 @@ class RandomCode {
 
     void memory() {
         Value set = b_.i(static_cast<int>(pick(2)));
-        switch (pick(6)) {
+        switch (pick(7)) {
+            case 6: {
+                std::vector<float> values;
+                for (size_t k = 1 + pick(16); k-- > 0;) values.push_back(static_cast<float>(k) - 3);
+                add(b_.lookup(values, i()));
+                break;
+            }
             case 0:
                 add(b_.op(Op::FrameLoad, kNone, kNone, kNone, static_cast<int>(pick(kFrameSlots))));
                 break;

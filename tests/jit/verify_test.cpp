@@ -41,13 +41,17 @@ const Case kCases[] = {
     {"%0 = constm #1\n%1 = constf 0\ncall %0\n%3 = result.f %2\nreturn [%1]\n", "calls itself"},
     {"%0 = input.i\n%1 = constf 0\nreturn [%1]\n", "input 0 is of another type"},
     {"%0 = constf 0\n%1 = frameload.f #3\nreturn [%0]\n", "frame slot 3 is not in 0..1"},
+    {"%0 = consti\n%1 = lookup %0, #0, #7\nreturn [%1]\n", ""},
+    {"%0 = consti\n%1 = lookup %0, #0, #3\nreturn [%1]\n", "looks at 3 bits"},
+    {"%0 = consti\n%1 = lookup %0, #1, #7\nreturn [%1]\n", "last constant 8 is not in 0..7"},
     {"%0 = consti\n%1 = arrayload.f %0\n%2 = constf 0\nreturn [%2]\n", "array 0 is not in 0..-1"},
 };
 
 TEST(Verify, NamesTheBrokenRule) {
     for (const Case& c : kCases) {
         std::string text =
-            "module \"m\" budget 10 slots 2\ninput \"x\" f point\noutput \"y\" f\n"
+            "module \"m\" budget 10 slots 2\ntable 1 2 3 4 5 6 7 8\ninput \"x\" f point\noutput "
+            "\"y\" f\n"
             "service \"s\" (f) -> (f)\nfault \"loop\"\nfunction \"kernel\" () -> (f)\n";
         text += std::string(c.body) + "end\n";
         Diagnostics diagnostics;

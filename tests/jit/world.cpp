@@ -79,6 +79,7 @@ void declare_world(Module& module) {
     add("n0", Type::I, Rate::Frame);
     for (const char* name : {"pa0", "pa1", "pa2"}) add(name, Type::F, Rate::Point);
     for (const char* name : {"fa0", "fa1", "fa2"}) add(name, Type::I, Rate::Frame);
+    for (int k = 0; k < 24; ++k) module.table.push_back(kEdgeFloats[k % kEdgeFloatCount]);
     module.services.assign(std::begin(kServices), std::end(kServices));
 }
 
