@@ -30,9 +30,23 @@ void report_unread(Extraction& x, const std::string& path, std::string_view file
         x.diag.report(Code::LINK_EXTERNAL_MISSING, where, file);
 }
 
+// The file that a link means: where its URI says, else one of that name beside the document.
+std::string linked_path(Extraction& x, Link from, std::string_view file, Location where) {
+    std::string path = path_of_uri(x.document(from.doc), file);
+    std::error_code error;
+    bool found = inside_tree(x, path) && std::filesystem::is_regular_file(path, error);
+    std::string beside =
+        x.document(from.doc).directory() + path.substr(path.find_last_of('/') + 1);
+    if (found || beside == path || !inside_tree(x, beside) ||
+        !std::filesystem::is_regular_file(beside, error))
+        return path;
+    x.diag.report(Code::FILE_FALLBACK, where, file, beside);
+    return beside;
+}
+
 // The document that the part before '#' names; kNone and a finding if there is none.
 uint32_t linked_document(Extraction& x, Link from, std::string_view file, Location where) {
-    std::string path = path_of_uri(x.document(from.doc), file);
+    std::string path = linked_path(x, from, file, where);
     if (!inside_tree(x, path)) {
         x.diag.report(Code::LINK_OUTSIDE, where, file);
         return kNone;

@@ -22,6 +22,7 @@ void read_setparams(Extraction& x, Link instance, uint32_t material_number, Mate
         if (child.name != "setparam") continue;
         const Element* value = value_child(child);
         Link link{instance.doc, &child};
+        if (!value && effect && set_sampler(x, link, *effect, material)) continue;
         if (!value) {
             const Element* other = child.first_child;
             x.diag.report(Code::FX_VALUE, x.where(link), other ? other->name : child.name);

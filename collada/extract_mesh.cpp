@@ -80,6 +80,17 @@ uint32_t geometry_index(Extraction& x, Link link) {
     if (!fresh) return at->second;
     uint32_t& result = at->second;
     const Element* mesh_element = link.element->child("mesh");
+    if (const Element* convex = mesh_element ? nullptr : link.element->child("convex_mesh")) {
+        if (convex->attribute("convex_hull_of")) {
+            Link whole = resolve(x, {link.doc, convex}, "convex_hull_of", {"geometry"});
+            if (!whole) return kNone;
+            x.diag.report(Code::GEOM_HULL, x.where({link.doc, convex}, "convex_hull_of"),
+                          whole.element->value("id"));
+            uint32_t index = geometry_index(x, whole);  // a loop of hulls ends at kNone
+            return x.made[link.element] = index;
+        }
+        mesh_element = convex;
+    }
     if (!mesh_element) {
         const Element* other = link.element->first_child;
         while (other && (other->name == "asset" || other->name == "extra")) other = other->next;

@@ -219,6 +219,8 @@ void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_nu
 const Element* find_newparam(const Element& from, std::string_view sid);
 // Index into effect.samplers of the texture `name`, or kNone (reported).
 uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect);
+// A <setparam> of a surface or sampler: the material's own image. False if it sets something else.
+bool set_sampler(Extraction& x, Link setparam, const Effect& effect, Material& material);
 
 // extract_animation.cpp, extract_sampler.cpp; targets_p.h resolves targets
 // ---------------------------------

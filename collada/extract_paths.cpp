@@ -43,7 +43,10 @@ std::string percent_decode(std::string_view text) {
     return out;
 }
 
-std::string path_of_uri(const Document& document, std::string_view uri) {
+namespace {
+
+// A URI without its host as a path, '/' between its parts; relative unless it says otherwise.
+std::string written_path(std::string_view uri) {
     std::string path = percent_decode(trim(uri));
     for (char& c : path)
         if (c == '\\') c = '/';
@@ -58,10 +61,34 @@ std::string path_of_uri(const Document& document, std::string_view uri) {
             path.starts_with('/'))
             path.erase(0, 1);
     }
+    return path;
+}
+
+bool is_absolute(std::string_view path) {
+    return path.starts_with('/') || starts_with_drive(path);
+}
+
+// The folder that relative URIs start from: the document's, or what its xml:base makes of it (RFC
+// 3986, 5.1: up to the last '/'). An xml:base of the network is left aside.
+std::string base_folder(const Document& document) {
+    std::string_view base = trim(document.root().value("xml:base"));
+    if (base.empty() || (base.find("://") != base.npos && !base.starts_with("file:")))
+        return document.directory();
+    std::string path = written_path(base);
+    path.resize(path.find_last_of('/') + 1);  // npos + 1 is 0
+    return is_absolute(path) ? path : document.directory() + path;
+}
+
+}  // namespace
+
+std::string path_of_uri(const Document& document, std::string_view uri) {
+    std::string path = written_path(uri);
     if (path.empty()) return {};
-    bool absolute = path.front() == '/' || starts_with_drive(path);
-    if (!absolute) path = document.directory() + path;
-    return std::filesystem::path(path).lexically_normal().string();
+    if (is_absolute(path)) return std::filesystem::path(path).lexically_normal().string();
+    std::string based = base_folder(document) + path, beside = document.directory() + path;
+    std::error_code error;
+    if (based != beside && !std::filesystem::is_regular_file(based, error)) based = beside;
+    return std::filesystem::path(based).lexically_normal().string();
 }
 
 void check_file_uri(Extraction& x, std::string_view uri, Location where) {

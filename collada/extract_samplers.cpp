@@ -1,4 +1,6 @@
 // collada/extract_samplers.cpp: from a <texture> through sampler and surface to an image.
+#include <cmath>
+
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
 
@@ -50,13 +52,27 @@ const FilterWord* read_filter(Link sampler, std::string_view name) {
 void read_sampler_state(Extraction& x, Link link, TextureSampler& sampler) {
     read_wrap(link, "wrap_s", sampler.wrap_s);
     read_wrap(link, "wrap_t", sampler.wrap_t);
+    bool mips_apart = x.document(link.doc).version() == Version::V1_5_0;
     if (const FilterWord* row = read_filter(link, "minfilter")) {
         sampler.min = row->filter == Filter::None ? Filter::Linear : row->filter;
-        if (row->mip != Filter::None) sampler.mip = row->mip;
+        if (row->filter != Filter::None && !mips_apart) sampler.mip = row->mip;
     }
     if (const FilterWord* row = read_filter(link, "magfilter"))
         if (row->filter != Filter::None) sampler.mag = row->filter;
-    if (const FilterWord* row = read_filter(link, "mipfilter")) sampler.mip = row->filter;
+    // 1.4 has it for mip maps made elsewhere: there NONE, its default, says nothing.
+    if (const FilterWord* row = read_filter(link, "mipfilter"))
+        if (row->filter != Filter::None || mips_apart) sampler.mip = row->filter;
+    for (std::string_view name : {"mipmap_bias", "mip_bias"}) {
+        double bias = 0;
+        const Element* e = link.element->child(name);
+        if (e && parse_double(e->text, bias) && std::abs(bias) <= 64) sampler.mip_bias = float(bias);
+    }
+    for (std::string_view name : {"mipmap_maxlevel", "mip_max_level"}) {
+        uint64_t level = 0;
+        const Element* e = link.element->child(name);
+        if (e && parse_count(trim(e->text), level) && level <= 255)
+            sampler.mip_max_level = uint8_t(level);
+    }
     if (const Element* border = link.element->child("border_color")) {
         std::vector<double> c = read_doubles(x.document(link.doc), *border, x.diag);
         for (size_t i = 0; i < c.size() && i < 4; ++i) sampler.border_color[int(i)] = float(c[i]);
@@ -117,6 +133,7 @@ uint32_t image_of_param(Extraction& x, Link param, TextureSampler& sampler, int 
             return image_by_id(x, param.doc, trim(from->text));
         const Element* source = value.child("source");
         if (!source) return kNone;
+        if (is_sampler) sampler.surface = trim(source->text);
         const Element* surface = find_newparam(value, trim(source->text));
         if (surface) return image_of_param(x, {param.doc, surface}, sampler, depth + 1);
         return image_by_id(x, param.doc, trim(source->text));
@@ -130,7 +147,12 @@ const Element* find_newparam(const Element& from, std::string_view sid) {
     for (const Element* scope = from.parent; scope; scope = scope->parent) {
         for (const Element& child : scope->children())
             if (child.name == "newparam" && child.value("sid") == sid) return &child;
-        if (scope->name == "effect") break;
+        if (scope->name != "effect") continue;
+        // Out of scope, but exporters declare a surface further in than its sampler.
+        for (const Element& profile : scope->children())
+            for (const Element& child : profile.children())
+                if (child.name == "newparam" && child.value("sid") == sid) return &child;
+        break;
     }
     return nullptr;
 }
@@ -153,6 +175,51 @@ uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect) {
     }
     read_placement(*texture.element, sampler);
     return append(effect.samplers, std::move(sampler));
+}
+
+namespace {
+
+// The material's own sampler `number` of its effect, to be changed.
+TextureSampler* own_sampler(Extraction& x, const Effect& effect, uint32_t number,
+                            Material& material) {
+    for (auto& [s, sampler] : material.samplers)
+        if (s == number) return &sampler;
+    if (!afford(x, sizeof(TextureSampler) + kBookBytes, material.where)) return nullptr;
+    return &material.samplers.emplace_back(number, effect.samplers[number]).second;
+}
+
+// What a material puts in place of a sampler; where the <texture> puts it stays.
+void replace_sampler(TextureSampler& own, TextureSampler set, const Effect& effect) {
+    for (const TextureSampler& other : effect.samplers)  // a surface that stays
+        if (set.image == kNone && !set.surface.empty() && other.surface == set.surface)
+            set.image = other.image;
+    if (set.image == kNone) set.image = own.image;
+    set.repeat = own.repeat;
+    set.offset = own.offset;
+    set.turn_degrees = own.turn_degrees;
+    own = std::move(set);
+}
+
+}  // namespace
+
+bool set_sampler(Extraction& x, Link setparam, const Effect& effect, Material& material) {
+    const Element* value = setparam.element->first_child;
+    while (value && value->name != "surface" && !value->name.starts_with("sampler"))
+        value = value->next;
+    if (!value) return false;
+    bool is_surface = value->name == "surface";
+    std::string_view ref = setparam.element->value("ref");
+    TextureSampler set;
+    set.sid = ref;
+    set.where = x.where(setparam);
+    set.image = image_of_param(x, setparam, set);
+    for (uint32_t s = 0; s < effect.samplers.size(); ++s) {
+        if ((is_surface ? effect.samplers[s].surface : effect.samplers[s].sid) != ref) continue;
+        TextureSampler* own = own_sampler(x, effect, s, material);
+        if (own && is_surface && set.image != kNone) own->image = set.image;
+        if (own && !is_surface) replace_sampler(*own, set, effect);
+    }
+    return true;
 }
 
 }  // namespace kinora::collada

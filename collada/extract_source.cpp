@@ -101,13 +101,20 @@ bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& 
     else if (stride < needed)
         x.diag.report(Code::SRC_PARAM, x.where(accessor, "stride"),
                       fmt::format("stride is {}, the <param>s ask for {}", stride, needed));
-    stride = std::max(stride, needed);
+    uint64_t offset = read_count(x, accessor, "offset", 0);
+    uint64_t room = offset < array_length ? array_length - offset : 0;
+    // Blender gives the single numbers of a camera's key three <param>s: the array tells.
+    uint64_t said = read_count(x, accessor, "count", 0);
+    bool array_fits = stride > 0 && said > 0 && said == room / stride && room % stride == 0;
+    if (element->attribute("stride") && stride < needed && array_fits)
+        std::erase_if(view.columns, [&](uint32_t c) { return c >= stride; });
+    else
+        stride = std::max(stride, needed);
     if (view.columns.empty())
         for (uint32_t i = 0; i < std::min<uint64_t>(stride, 4096); ++i) view.columns.push_back(i);
-    uint64_t offset = read_count(x, accessor, "offset", 0);
     if (offset > 0 && offset >= array_length)
         x.diag.report(Code::SRC_OFFSET, x.where(accessor, "offset"), offset, array_length);
-    uint64_t held = offset < array_length ? (array_length - offset) / stride : 0;
+    uint64_t held = room / stride;
     uint64_t count = read_count(x, accessor, "count", held);
     uint64_t reach = 0;
     if (__builtin_mul_overflow(count, stride, &reach) ||

@@ -214,6 +214,24 @@ TargetResolver::Found TargetResolver::find(const Element& root,
     return {};
 }
 
+// Blender (2.8 on) writes a camera's or light's target as "Name-id/xfov". What is one word too long
+// in front still means one thing.
+const Element* TargetResolver::named_twice(uint32_t doc, std::string_view id,
+                                           Location where) const {
+    constexpr int kMostWords = 8;
+    std::string_view written = id;
+    for (int word = 0; word < kMostWords && id.find('-') != id.npos; ++word) {
+        std::string_view shorter = id.substr(id.find('-') + 1);
+        const Element* e = x_.document(doc).find(shorter);
+        if (e && (e->name == "camera" || e->name == "light")) {
+            x_.diag.report(Code::ANIM_TARGET_FALLBACK, where, written, shorter);
+            return e;
+        }
+        id = shorter;
+    }
+    return nullptr;
+}
+
 TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Location where,
                                   uint32_t stride, const FindingInfo& unresolved) {
     std::string_view rest = trim(target), selector;
@@ -231,6 +249,7 @@ TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Locatio
         split_selector(id, id, selector);
         root = x_.document(doc).find(id);
     }
+    if (!root) root = named_twice(doc, id, where);
     Found found;
     size_t tried = 0;
     for (const Element* e = root; e && tried < kMostSameId; e = e->next_same_id, ++tried) {

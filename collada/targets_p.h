@@ -24,6 +24,7 @@ class TargetResolver {
     Found find(const Element& root, const std::vector<std::string_view>& path);
     const Element* find_sid(const Element& scope, std::string_view sid);
     const Element* find_named(const Element& scope, std::string_view name);
+    const Element* named_twice(uint32_t doc, std::string_view id, Location where) const;
     TargetRef material_param(const Element& material, std::string_view ref);
     const Slot* slot_of(const TargetRef& ref) const;
     bool is_reached(const Element* element) const;

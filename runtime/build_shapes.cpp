@@ -7,19 +7,9 @@
 #include "runtime/build_mesh.h"
 #include "runtime/build_scene_p.h"
 #include "runtime/findings.h"
+#include "runtime/skin_space.h"
 
 namespace kinora {
-
-namespace {
-
-bool is_identity(const dmat4& m) {
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r)
-            if (std::abs(m[c][r] - (c == r ? 1.0 : 0.0)) > 1e-9) return false;
-    return true;
-}
-
-}  // namespace
 
 void SceneBuilder::place_meshes() {
     Scene& scene = *scene_;
@@ -161,9 +151,16 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         }
         shape.joint_world.resize(joints, dmat4(1.0));
         dmat4 world = scene.nodes[node].world * shape.conversion;
-        shape.in_world =
-            definition.in_world || !is_identity(definition.bind_shape) || is_identity(world);
-        if (!shape.in_world) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
+        std::vector<RestJoint> rest;
+        for (size_t j = 0; j < joints; ++j)
+            if (shape.joint_nodes[j] != kNone)
+                rest.push_back({scene.nodes[shape.joint_nodes[j]].world,
+                                definition.inverse_bind[j]});
+        SkinSpace space = definition.in_world ? SkinSpace::World
+                                              : skin_space(definition.bind_shape, world, rest);
+        if (space != SkinSpace::World) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
+        if (space == SkinSpace::BindsNode) shape.skeleton.bind_shape = world;
+        shape.in_world = space != SkinSpace::Node;
     }
     skin::SkinRepairs repairs;
     build_skin_mesh(use, shape, nullptr, repairs);

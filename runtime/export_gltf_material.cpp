@@ -6,6 +6,7 @@
 
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
+#include "runtime/shader_library.h"
 
 namespace kinora {
 
@@ -213,8 +214,18 @@ uint32_t GltfExport::material(const MeshUse& use, const PrimitiveGroup& group) {
     const MaterialUse* bound = nullptr;
     for (const MaterialUse& m : use.materials)
         if (m.symbol == group.symbol) bound = &m;
-    if (!bound || bound->material == kNone) return kNone;
-    const MaterialDefinition& definition = description_.materials[bound->material];
+    // What has no material wears default_surface, which glTF's own default (a metal) is far from.
+    MaterialUse unbound;
+    MaterialDefinition plain;
+    bool is_plain = !bound || bound->material == kNone;
+    if (is_plain) {
+        plain.surfaces.emplace_back().shader =
+            description_.default_surface ? description_.default_surface
+                                         : library_shader("default_surface", diagnostics_);
+        if (!bound) bound = &unbound;
+    }
+    const MaterialDefinition& definition =
+        is_plain ? plain : description_.materials[bound->material];
     const ShaderUse* top = definition.surfaces.empty() ? nullptr : &definition.surfaces.back();
     Json result = Json::object();
     bool common = false, pbr = false;
@@ -235,7 +246,7 @@ uint32_t GltfExport::material(const MeshUse& use, const PrimitiveGroup& group) {
     auto [found, fresh] = materials_.try_emplace(result.dump(), uint32_t(materials_.size()));
     if (fresh) {
         json_["materials"].push_back(result);
-        tell_losses(definition, common, pbr, !shaders.empty());
+        if (!is_plain) tell_losses(definition, common, pbr, !shaders.empty());
     }
     return found->second;
 }

@@ -9,6 +9,7 @@
 #include "anim/decompose.h"
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
+#include "runtime/skin_space.h"
 #include "runtime/transforms.h"
 
 namespace kinora {
@@ -248,12 +249,20 @@ uint32_t GltfExport::stand_again(uint32_t place, uint32_t above,
 // COLLADA 1.4.1, skinning: a skin is in world space, joint * inverse bind * bind shape.
 uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
     const SkinDefinition& definition = description_.skins[use.skin];
-    // Without a bind shape the matrix of the node is applied, too (COLLADA.md): the joints stand
-    // once more below it.
+    dmat4 bind_shape = definition.bind_shape;
     uint32_t above = root_;
     std::map<uint32_t, uint32_t> again;
     dmat4 world = placed_[placed].world * use.conversion;
-    if (is_identity(definition.bind_shape, 1e-9) && !is_identity(world, 1e-9)) {
+    std::vector<RestJoint> rest;
+    for (size_t j = 0; j < use.joint_nodes.size() && j < definition.inverse_bind.size(); ++j) {
+        uint32_t joint = use.joint_nodes[j];
+        uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
+        if (place != kNone) rest.push_back({placed_[place].world, definition.inverse_bind[j]});
+    }
+    SkinSpace space =
+        definition.in_world ? SkinSpace::World : skin_space(bind_shape, world, rest);
+    if (space == SkinSpace::BindsNode) bind_shape = world;
+    if (space == SkinSpace::Node) {  // the joints stand once more below it
         above = static_nodes(use.conversion, placed_[placed].node);
         json_["nodes"][above]["name"] = definition.id + " space";
         for (uint32_t joint : use.joint_nodes) {
@@ -281,14 +290,14 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
         uint32_t joint = j < use.joint_nodes.size() ? use.joint_nodes[j] : kNone;
         uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
         if (place == kNone)
-            add(still_node(), definition.bind_shape);
+            add(still_node(), bind_shape);
         else
             add(again.empty() ? placed_[place].node : again.at(place),
-                definition.inverse_bind[j] * definition.bind_shape);
+                definition.inverse_bind[j] * bind_shape);
     }
     bool follows_none = std::any_of(definition.joints.begin(), definition.joints.end(),
                                     [](int32_t j) { return j < 0; });
-    if (follows_none || joints.empty()) add(still_node(), definition.bind_shape);
+    if (follows_none || joints.empty()) add(still_node(), bind_shape);
     Json result = {{"joints", joints},
                    {"inverseBindMatrices", accessor(inverse_bind, 16, 0, false)}};
     if (!definition.id.empty()) result["name"] = definition.id;

@@ -61,7 +61,14 @@ std::string as_png(const std::string& path, std::string& error, std::string& los
 
 // glTF 2.0, sampler.
 constexpr int kWraps[] = {10497, 33648, 33071, 33071};  // TextureWrap
-constexpr int kNearest = 9728, kLinear = 9729, kNearestMip = 9984, kLinearMip = 9987;
+// OpenGL's numbers, which glTF uses: NEAREST, LINEAR, then x_MIPMAP_NEAREST and x_MIPMAP_LINEAR.
+constexpr int kNearest = 9728, kMipped = 9984;
+
+int min_filter(const TextureName& look) {
+    bool linear = !look.nearest && !look.nearest_minified;
+    if (look.mip == TextureMip::None) return kNearest + linear;
+    return kMipped + linear + 2 * (look.mip == TextureMip::Linear && !look.nearest);
+}
 
 constexpr const char* kLightShaders[] = {"collada_ambient", "collada_directional", "collada_point",
                                          "collada_spot"};
@@ -92,8 +99,8 @@ uint32_t GltfExport::texture(const std::string& name) {
     TextureName look = parse_texture_name(name);
     uint32_t source = image(look.path);
     if (source == kNone) return kNone;
-    Json sampler = {{"magFilter", look.nearest ? kNearest : kLinear},
-                    {"minFilter", look.nearest ? kNearestMip : kLinearMip},
+    Json sampler = {{"magFilter", kNearest + !(look.nearest || look.nearest_magnified)},
+                    {"minFilter", min_filter(look)},
                     {"wrapS", kWraps[size_t(look.wrap_s)]},
                     {"wrapT", kWraps[size_t(look.wrap_t)]}};
     std::string key = fmt::format("{} {}", source, sampler.dump());
@@ -104,6 +111,12 @@ uint32_t GltfExport::texture(const std::string& name) {
     json_["samplers"].push_back(sampler);
     json_["textures"].push_back({{"sampler", json_["samplers"].size() - 1}, {"source", source}});
     return found->second;
+}
+
+// Can a glTF sampler, "data" and "uv" say all of it?
+static bool fits_gltf_sampler(const TextureName& look) {
+    return look.wrap_s != TextureWrap::Border && look.wrap_t != TextureWrap::Border &&
+           look.turn == TextureName().turn && look.mip_bias == 0 && look.mip_max_level == 0;
 }
 
 // {"library": name} or {"code", "shader"}, and "params"; import_gltf_rsl reads it.
@@ -129,6 +142,8 @@ Json GltfExport::rsl(const ShaderUse& use) {
                 params[p.name]["texture"] = index;
                 if (look.data) params[p.name]["data"] = true;
                 if (look.uv != TextureName().uv) params[p.name]["uv"] = look.uv;
+                if (!fits_gltf_sampler(look))
+                    params[p.name]["look"] = p.strings[0].substr(path.size() + 1);
             } else if (p.strings.size() == 1) {
                 params[p.name] = p.strings[0];
             } else {

@@ -115,9 +115,16 @@ void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
     }
 }
 
-void ColladaImport::set_texture(const collada::Effect& effect, const collada::CommonValue& value,
+const collada::TextureSampler& ColladaImport::sampler_of(uint32_t material, uint32_t number) const {
+    const collada::Material& from = data_.materials[material];
+    for (const auto& [own, sampler] : from.samplers)
+        if (own == number) return sampler;
+    return data_.effects[from.effect].samplers[number];
+}
+
+void ColladaImport::set_texture(uint32_t material, const collada::CommonValue& value,
                                 const char* name, bool data, ShaderUse& use) const {
-    const collada::TextureSampler& sampler = effect.samplers[value.sampler];
+    const collada::TextureSampler& sampler = sampler_of(material, value.sampler);
     if (sampler.image == collada::kNone) return;
     const collada::Image& image = data_.images[sampler.image];
     TextureName texture;
@@ -129,6 +136,11 @@ void ColladaImport::set_texture(const collada::Effect& effect, const collada::Co
     texture.wrap_t = wrap(sampler.wrap_t);
     texture.nearest_magnified = sampler.mag == collada::Filter::Nearest;
     texture.nearest_minified = sampler.min == collada::Filter::Nearest;
+    texture.mip = sampler.mip == collada::Filter::None      ? TextureMip::None
+                  : sampler.mip == collada::Filter::Nearest ? TextureMip::Nearest
+                                                            : TextureMip::Linear;
+    texture.mip_bias = sampler.mip_bias;
+    texture.mip_max_level = sampler.mip_max_level;
     double turn = std::fmod(sampler.turn_degrees, 360.0);
     bool quarters = std::fmod(turn, 90.0) == 0;  // exact, whatever the library's cosine
     texture.turn = {
@@ -193,7 +205,7 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
                 add("transparent_alpha", {slot.offset + 3, 1});
         } else if (value.source == collada::SlotSource::Texture &&
                    find_parameter(*use.shader, std::string(row.name) + "_map")) {
-            set_texture(effect, value, row.name, false, use);
+            set_texture(index, value, row.name, false, use);
         }
     }
     bool transparent = common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||
@@ -206,7 +218,7 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
     use.params.push_back(std::move(opaque));
     if (common[CommonSlot::Bump].source == collada::SlotSource::Texture &&
         find_parameter(*use.shader, "bump_map")) {
-        set_texture(effect, common[CommonSlot::Bump], "bump", true, use);
+        set_texture(index, common[CommonSlot::Bump], "bump", true, use);
         ParamSource kind;
         kind.name = "bump_kind";
         kind.strings = {common.bump_is_normals ? "NORMALMAP" : "HEIGHTFIELD"};

@@ -51,8 +51,10 @@ class ColladaImport {
     ValueSlot param_slot(uint32_t material, uint32_t effect, uint32_t param) const;
     const collada::ParamValue& param_value(uint32_t material, uint32_t effect,
                                            uint32_t param) const;
-    void set_texture(const collada::Effect& effect, const collada::CommonValue& value,
-                     const char* name, bool data, ShaderUse& use) const;
+    void set_texture(uint32_t material, const collada::CommonValue& value, const char* name,
+                     bool data, ShaderUse& use) const;
+    // Sampler `number` of its effect, or the one its <setparam>s put in its place.
+    const collada::TextureSampler& sampler_of(uint32_t material, uint32_t number) const;
 
     // import_collada_animation.cpp
     void import_animation();

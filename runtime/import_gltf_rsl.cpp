@@ -82,6 +82,13 @@ void GltfImport::set_rsl_param(ShaderUse& use, const std::string& name,
             const tinygltf::Value* data = member(value, "data");
             bool is_data = data && data->IsBool() && data->Get<bool>();
             source.strings = {texture_string(texture->GetNumberAsInt(), is_data, pointer)};
+            // What the writer's texture name held beside its path (texture_name.h).
+            const tinygltf::Value* look = member(value, "look");
+            if (look && look->IsString() && !source.strings[0].empty()) {
+                std::string path = parse_texture_name(source.strings[0]).path;
+                source.strings[0] = texture_name_string(
+                    parse_texture_name(path + '\x1f' + look->Get<std::string>()));
+            }
             std::vector<double> uv;
             const tinygltf::Value* placed = member(value, "uv");  // TextureName::uv
             if (placed && numbers_of(*placed, uv) && uv.size() == 4 && !source.strings[0].empty()) {

@@ -2,7 +2,9 @@
 // up.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "runtime/findings.h"
 #include "runtime/import_gltf_p.h"
@@ -20,6 +22,10 @@ TextureWrap wrap_of(int mode) {
             return TextureWrap::Mirror;
     }
     return TextureWrap::Wrap;
+}
+
+bool is_one_of(int filter, std::initializer_list<int> filters) {
+    return std::find(filters.begin(), filters.end(), filter) != filters.end();
 }
 
 double number(const tinygltf::Value& object, const char* name, double otherwise) {
@@ -88,7 +94,17 @@ std::string GltfImport::texture_string(int texture, bool data, const std::string
         const tinygltf::Sampler& sampler = model_.samplers[size_t(from.sampler)];
         name.wrap_s = wrap_of(sampler.wrapS);
         name.wrap_t = wrap_of(sampler.wrapT);
-        name.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+        name.nearest_magnified = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+        name.nearest_minified = is_one_of(
+            sampler.minFilter,
+            {TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST,
+             TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR});
+        if (is_one_of(sampler.minFilter,
+                      {TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR}))
+            name.mip = TextureMip::None;
+        if (is_one_of(sampler.minFilter, {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST,
+                                          TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST}))
+            name.mip = TextureMip::Nearest;
     }
     return texture_name_string(name);
 }

@@ -1,8 +1,10 @@
-// runtime/texture_name.cpp: texture names to strings and back: "path\x1fst nd b b b b c s u u u u".
+// runtime/texture_name.cpp: texture names to strings and back:
+// "path\x1fwwfd b b b b c s u u u u m i x": wraps, filter, data; border, turn, uv; mip, bias, level.
 #include "runtime/texture_name.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace kinora {
@@ -20,13 +22,16 @@ char filter_letter(const TextureName& name) {
 std::string texture_name_string(const TextureName& name) {
     TextureName plain;
     bool is_plain = name.wrap_s == plain.wrap_s && name.wrap_t == plain.wrap_t &&
-                    filter_letter(name) == 'l' && !name.data && name.border == plain.border &&
+                    filter_letter(name) == 'l' && !name.data &&
+                    name.mip == plain.mip && name.mip_bias == plain.mip_bias &&
+                    name.mip_max_level == plain.mip_max_level && name.border == plain.border &&
                     name.turn == plain.turn && name.uv == plain.uv;
     if (is_plain) return name.path;
-    return fmt::format("{}{}{}{}{}{} {} {} {}", name.path, kSeparator,
+    return fmt::format("{}{}{}{}{}{} {} {} {} {} {} {}", name.path, kSeparator,
                        kWrapLetters[size_t(name.wrap_s)], kWrapLetters[size_t(name.wrap_t)],
                        filter_letter(name), name.data ? 'd' : 'c', fmt::join(name.border, " "),
-                       fmt::join(name.turn, " "), fmt::join(name.uv, " "));
+                       fmt::join(name.turn, " "), fmt::join(name.uv, " "), int(name.mip),
+                       name.mip_bias, name.mip_max_level);
 }
 
 TextureName parse_texture_name(std::string_view text) {
@@ -49,6 +54,9 @@ TextureName parse_texture_name(std::string_view text) {
         *value = std::strtof(at, &end);
         at = end;
     }
+    name.mip = TextureMip(std::clamp(std::strtol(at, &end, 10), 0L, 2L));
+    name.mip_bias = std::strtof(end, &end);
+    name.mip_max_level = uint8_t(std::clamp(std::strtol(end, &end, 10), 0L, 255L));
     return name;
 }
 

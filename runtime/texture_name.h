@@ -13,6 +13,7 @@
 namespace kinora {
 
 enum class TextureWrap : uint8_t { Wrap, Mirror, Clamp, Border };
+enum class TextureMip : uint8_t { Linear, Nearest, None };  // between levels; None: the finest
 
 struct TextureName {
     std::string path;
@@ -21,6 +22,9 @@ struct TextureName {
     bool nearest = false;            // no filtering at all
     bool nearest_magnified = false;  // none where texels are larger than pixels
     bool nearest_minified = false;   // none where they are smaller
+    TextureMip mip = TextureMip::Linear;
+    float mip_bias = 0;         // added to the level
+    uint8_t mip_max_level = 0;  // the coarsest used; 0 is all
     bool data = false;               // bump, masks: never decoded from sRGB
     std::array<float, 4> border{0, 0, 0, 0};
     std::array<float, 2> turn{1, 0};      // cosine, sine: s, t turn about (1/2, 1/2) first

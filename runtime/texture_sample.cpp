@@ -79,8 +79,8 @@ struct Sampler {
         return load_texel(texels + level.offset + level.row(y) + TextureLevel::column(x));
     }
 
-    float4 nearest(float s, float t) const {
-        const TextureLevel& level = pyramid.levels[0];
+    float4 nearest(size_t k, float s, float t) const {
+        const TextureLevel& level = pyramid.levels[k];
         int x = floor_int(wrapped(modes.wrap_s, s) * float(level.width));
         int y = floor_int(wrapped(modes.wrap_t, t) * float(level.height));
         // s = 1 itself belongs to the last texel, also of a border.
@@ -105,15 +105,29 @@ struct Sampler {
         return low + (high - low) * fy;
     }
 
+    // The level that is looked at for one of a footprint.
+    float level_of(float lod) const {
+        if (modes.mip == TextureMip::None) return 0;
+        float last = float(pyramid.levels.size() - 1);
+        if (modes.mip_max_level) last = std::min(last, float(modes.mip_max_level));
+        lod = std::clamp(lod + modes.mip_bias, 0.0f, last);
+        return modes.mip == TextureMip::Nearest ? float(floor_int(lod + 0.5f)) : lod;
+    }
+
+    // One or two levels, each by `look(level)`.
+    template <class Look>
+    float4 between(float lod, Look look) const {
+        if (!(lod > 0)) return look(0);
+        size_t k = size_t(lod);
+        if (lod == float(k)) return look(k);
+        float4 fine = look(k), coarse = look(k + 1);
+        return fine + (coarse - fine) * (lod - float(k));
+    }
+
     float4 trilinear(float lod, float s, float t) const {
         s = wrapped(modes.wrap_s, s);
         t = wrapped(modes.wrap_t, t);
-        if (!(lod > 0)) return bilinear(0, s, t);
-        size_t last = pyramid.levels.size() - 1;
-        if (lod >= float(last)) return bilinear(last, s, t);
-        size_t k = size_t(lod);
-        float4 fine = bilinear(k, s, t), coarse = bilinear(k + 1, s, t);
-        return fine + (coarse - fine) * (lod - float(k));
+        return between(lod, [&](size_t k) { return bilinear(k, s, t); });
     }
 };
 
@@ -187,15 +201,20 @@ float4 sample_lane(const Sampler<Texel>& sampler, TextureFilter filter, const Fo
                    int i) {
     bool magnified = at.lod[i] == 0.0f && at.taps[i] == 1.0f;
     bool nearest = magnified ? sampler.modes.nearest_magnified : sampler.modes.nearest_minified;
-    if (nearest || filter == TextureFilter::Nearest) return sampler.nearest(at.s[i], at.t[i]);
+    if (filter == TextureFilter::Nearest) return sampler.nearest(0, at.s[i], at.t[i]);
+    float lod = magnified ? 0 : sampler.level_of(at.lod[i]);
+    if (nearest)
+        return sampler.between(lod,
+                               [&](size_t k) { return sampler.nearest(k, at.s[i], at.t[i]); });
     if (filter == TextureFilter::Bilinear) return sampler.trilinear(0, at.s[i], at.t[i]);
-    if (at.taps[i] == 1.0f) return sampler.trilinear(at.lod[i], at.s[i], at.t[i]);
+    if (at.taps[i] == 1.0f || sampler.modes.mip == TextureMip::None)
+        return sampler.trilinear(lod, at.s[i], at.t[i]);
     float4 sum{};
     float step = 1.0f / at.taps[i];
     for (int k = 0; float(k) < at.taps[i]; ++k) {
         float offset = (float(k) + 0.5f) * step - 0.5f;
         sum +=
-            sampler.trilinear(at.lod[i], at.s[i] + offset * at.ds[i], at.t[i] + offset * at.dt[i]);
+            sampler.trilinear(lod, at.s[i] + offset * at.ds[i], at.t[i] + offset * at.dt[i]);
     }
     return sum * step;
 }

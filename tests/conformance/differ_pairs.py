@@ -44,6 +44,25 @@ def filters():
         "map.png": png([[(255, 0, 0), (0, 255, 0)], [(0, 0, 255), (255, 255, 255)]])}
 
 
+def minifications():
+    """Texels of a third of a pixel: one, four, of one level, of two; nearer and no coarser levels."""
+    many = ('<texture texture="map-sampler" texcoord="UV"><extra><technique profile="MAYA"><repeatU>5</repeatU>'
+            "<repeatV>5</repeatV></technique></extra></texture>")
+    smooth = "<minfilter>LINEAR_MIPMAP_LINEAR</minfilter>"
+    rows = {name.lower(): f"<minfilter>{name}</minfilter>" for name in (
+        "NEAREST", "LINEAR", "NEAREST_MIPMAP_NEAREST", "LINEAR_MIPMAP_NEAREST", "NEAREST_MIPMAP_LINEAR",
+        "LINEAR_MIPMAP_LINEAR")}
+    rows |= {"biased": smooth + "<mipmap_bias>-2</mipmap_bias>", "limited": smooth + "<mipmap_maxlevel>1</mipmap_maxlevel>"}
+    bits, rows_of = 12345, []
+    for _ in range(64):
+        row = []
+        for _ in range(64):
+            bits = (bits * 1103515245 + 12345) % 2**31
+            row.append((255 if bits & 2**20 else 0, 255 if bits & 2**24 else 0, 255 if bits & 2**28 else 0))
+        rows_of.append(row)
+    return {name: textured(texture=many, state=state) for name, state in rows.items()} | {"map.png": png(rows_of)}
+
+
 def texture_placements():
     def placed(text):
         return textured(texture='<texture texture="map-sampler" texcoord="UV"><extra><technique profile="MAYA">'
@@ -224,7 +243,7 @@ def units_of_others():
 
 
 FAMILIES = {f.__name__: f for f in (
-    light_terms, wraps, filters, texture_placements, opaque_modes, shading_models, interpolations, behaviours, clips,
+    light_terms, wraps, filters, minifications, texture_placements, opaque_modes, shading_models, interpolations, behaviours, clips,
     transform_steps, bumps, sides, texture_sets, camera_views, chosen_cameras, holes, skins_and_morphs,
     units_of_others)}
 OPTIONS = {"interpolations": ["--time", "1.4"], "behaviours": ["--time", "1.75"], "clips": ["--clip", "c"]}

@@ -65,6 +65,14 @@ def inputs():
             "interleaved": plain(geometries=wrap(interleaved))}
 
 
+def solids():
+    """A convex mesh is drawn as a mesh; the hull of a convex geometry is that geometry."""
+    convex = geometry().replace("<mesh>", "<convex_mesh>").replace("</mesh>", "</convex_mesh>")
+    hull = '<geometry id="hull"><convex_mesh convex_hull_of="#house"/></geometry>'
+    return {"mesh": plain(), "convex_mesh": plain(geometries=convex),
+            "hull": document(node(shown("#hull")), geometries=convex + hull)}
+
+
 def polygons_with_holes():
     """A square frame, seen from the front."""
     outer, inner = [(-1, -1), (1, -1), (1, 1), (-1, 1)], [(-.5, -.5), (.5, -.5), (.5, .5), (-.5, .5)]
@@ -167,6 +175,54 @@ def references():
         "parts/house": part, "parts/a house#1": part, "parts/inches": inches, "parts/z_up": z_up,
         "parts/nodes": nodes, "parts/materials": mats, "parts/lamps": lamps, "parts/scene": plain(),
     }
+
+
+def bases():
+    """xml:base moves where relative URIs start; an absolute one of another machine does not."""
+    def based(base, path, house):
+        return textured(path=path, geometries=" ").replace("#house", f"{house}#house").replace(
+            '">\n<asset>', f'" xml:base="{base}">\n<asset>', 1)
+    part = document("", scene=False, lights="", cameras="", materials="", effects="")
+    return {"none": textured(), "folder": based("parts/", "map.png", "house.dae"),
+            "file": based("./parts/a%20document.dae", "map.png", "house.dae"),
+            "above": based("parts/deep/", "../map.png", "../house.dae"),
+            "of_the_network": based("http://example.org/x/", "parts/map.png", "parts/house.dae"),
+            "not_there": based("nowhere/", "parts/map.png", "parts/house.dae"),
+            "parts/house": part, "parts/map.png": png(picture())}
+
+
+def absolute_references():
+    """What was absolute on the author's machine lies beside the document."""
+    def at(url):
+        return document(node(shown(url)), geometries=" ")
+    return {"inline": plain(), "drive": at("file:///C:/work/parts.dae#house"),
+            "folder": at("old/parts.dae#house"),
+            "parts": plain()}
+
+
+def samplers():
+    """A surface within and without its sampler's scope, and those that a material sets."""
+    whole = textured()
+    start = whole.index('<newparam sid="map-sampler">')
+    sampler = whole[start:whole.index("</newparam>", start) + len("</newparam>")]
+    other = whole.replace("</library_images>", '<image id="other"><init_from>other.png</init_from></image>'
+                          "</library_images>")
+    wrong = other.replace("<init_from>map</init_from>", "<init_from>other</init_from>")
+
+    def given(param):
+        use = '<instance_effect url="#fx">'
+        return wrong.replace(use, use + param)
+    surface = '<surface type="2D"><init_from>map</init_from></surface>'
+    new = f'<newparam sid="new">{surface}</newparam><newparam sid="new-sampler"><sampler2D><source>new</source>' \
+          '</sampler2D></newparam>'
+    return {"plain": whole,
+            "sampler_outside": whole.replace(sampler, "").replace("<profile_COMMON>", sampler + "<profile_COMMON>"),
+            "set_surface": given(f'<setparam ref="map-surface">{surface}</setparam>'),
+            "set_sampler": given(f'<setparam ref="map-sampler"><sampler2D><source>map</source></sampler2D></setparam>'),
+            "set_both": given(f'<setparam ref="map-surface">{surface}</setparam><setparam ref="map-sampler"><sampler2D>'
+                              "<source>map-surface</source></sampler2D></setparam>"),
+            "unused_params": whole.replace("<technique sid", new + "<technique sid"),
+            "map.png": png(picture()), "other.png": png([[(9, 9, 9)]])}
 
 
 def versions():
@@ -381,7 +437,8 @@ def kept():
 
 
 FAMILIES = {f.__name__: f for f in (
-    primitives, inputs, polygons_with_holes, transforms, cameras_by_lookat, skews, references, versions, units,
+    primitives, inputs, solids, polygons_with_holes, transforms, cameras_by_lookat, skews, references, bases, absolute_references,
+    samplers, versions, units,
     archives, fields_of_view, magnifications, instances, skins, morphs, targets, curves, colours, opacities,
     image_files, texture_coordinates, kept)}
 OPTIONS = {"targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"]}
