@@ -84,11 +84,15 @@ std::string base_folder(const Document& document) {
 std::string path_of_uri(const Document& document, std::string_view uri) {
     std::string path = written_path(uri);
     if (path.empty()) return {};
-    if (is_absolute(path)) return std::filesystem::path(path).lexically_normal().string();
-    std::string based = base_folder(document) + path, beside = document.directory() + path;
+    auto normal = [](const std::string& text) {
+        return std::filesystem::path(text).lexically_normal().string();
+    };
+    if (is_absolute(path)) return normal(path);
+    std::string based = normal(base_folder(document) + path);
+    std::string beside = normal(document.directory() + path);
     std::error_code error;
-    if (based != beside && !std::filesystem::is_regular_file(based, error)) based = beside;
-    return std::filesystem::path(based).lexically_normal().string();
+    bool moved = based != beside && std::filesystem::is_regular_file(based, error);
+    return moved ? based : beside;
 }
 
 void check_file_uri(Extraction& x, std::string_view uri, Location where) {

@@ -190,6 +190,7 @@ TextureSampler* own_sampler(Extraction& x, const Effect& effect, uint32_t number
 
 // What a material puts in place of a sampler; where the <texture> puts it stays.
 void replace_sampler(TextureSampler& own, TextureSampler set, const Effect& effect) {
+    if (set.image == kNone && set.surface == own.surface) set.image = own.image;
     for (const TextureSampler& other : effect.samplers)  // a surface that stays
         if (set.image == kNone && !set.surface.empty() && other.surface == set.surface)
             set.image = other.image;

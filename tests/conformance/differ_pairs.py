@@ -45,22 +45,20 @@ def filters():
 
 
 def minifications():
-    """Texels of a third of a pixel: one, four, of one level, of two; nearer and no coarser levels."""
-    many = ('<texture texture="map-sampler" texcoord="UV"><extra><technique profile="MAYA"><repeatU>5</repeatU>'
-            "<repeatV>5</repeatV></technique></extra></texture>")
+    """Several texels a pixel: one, four, of one level, of two; of nearer and of no coarser levels."""
+    many = ('<texture texture="map-sampler" texcoord="UV"><extra><technique profile="MAYA"><repeatU>1.5</repeatU>'
+            "<repeatV>1.5</repeatV></technique></extra></texture>")
     smooth = "<minfilter>LINEAR_MIPMAP_LINEAR</minfilter>"
     rows = {name.lower(): f"<minfilter>{name}</minfilter>" for name in (
         "NEAREST", "LINEAR", "NEAREST_MIPMAP_NEAREST", "LINEAR_MIPMAP_NEAREST", "NEAREST_MIPMAP_LINEAR",
         "LINEAR_MIPMAP_LINEAR")}
     rows |= {"biased": smooth + "<mipmap_bias>-2</mipmap_bias>", "limited": smooth + "<mipmap_maxlevel>1</mipmap_maxlevel>"}
-    bits, rows_of = 12345, []
-    for _ in range(64):
-        row = []
-        for _ in range(64):
-            bits = (bits * 1103515245 + 12345) % 2**31
-            row.append((255 if bits & 2**20 else 0, 255 if bits & 2**24 else 0, 255 if bits & 2**28 else 0))
-        rows_of.append(row)
-    return {name: textured(texture=many, state=state) for name, state in rows.items()} | {"map.png": png(rows_of)}
+    bits, blocks = 12345, []  # 16 x 16 blocks of 4 x 4 texels
+    for _ in range(256):
+        bits = (bits * 1103515245 + 12345) % 2**31
+        blocks.append(tuple(255 * (bits >> k & 1) for k in (20, 24, 28)))
+    texels = [[blocks[y // 4 * 16 + x // 4] for x in range(64)] for y in range(64)]
+    return {name: textured(texture=many, state=state) for name, state in rows.items()} | {"map.png": png(texels)}
 
 
 def texture_placements():

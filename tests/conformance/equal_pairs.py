@@ -183,7 +183,7 @@ def bases():
         return textured(path=path, geometries=" ").replace("#house", f"{house}#house").replace(
             '">\n<asset>', f'" xml:base="{base}">\n<asset>', 1)
     part = document("", scene=False, lights="", cameras="", materials="", effects="")
-    return {"none": textured(), "folder": based("parts/", "map.png", "house.dae"),
+    return {"none": textured(path="parts/map.png"), "folder": based("parts/", "map.png", "house.dae"),
             "file": based("./parts/a%20document.dae", "map.png", "house.dae"),
             "above": based("parts/deep/", "../map.png", "../house.dae"),
             "of_the_network": based("http://example.org/x/", "parts/map.png", "parts/house.dae"),

@@ -115,10 +115,37 @@ TEST(TextureSampler, NearestMayHoldForLargeOrSmallTexelsOnly) {
     magnified.path = minified.path = "x";
     magnified.nearest_magnified = true;
     minified.nearest_minified = true;
+    minified.mip = TextureMip::None;
     EXPECT_NEAR(value(magnified, 0.5f), 80, 0.01);  // texel 20
     EXPECT_NEAR(value(minified, 0.5f), 79, 0.1);    // a quarter of texel 19 beside it
     EXPECT_NEAR(value(minified, 8), 80, 0.01);
     EXPECT_GT(std::abs(value(magnified, 8) - 80), 0.5);
+}
+
+// Level k of a ramp of 64 texels has one of 64 >> k, each the mean of those it stands for.
+TEST(TextureSampler, LevelsAreChosenByMipFilterBiasAndLimit) {
+    TexturePyramid pyramid(byte_image(64, 64, [](int x, int) { return 4 * x; }), false);
+    auto value = [&](TextureMip mip, bool nearest, float texels, float bias = 0, int limit = 0) {
+        TextureName modes;
+        modes.path = "x";
+        modes.mip = mip;
+        modes.nearest_minified = nearest;
+        modes.mip_bias = bias;
+        modes.mip_max_level = uint8_t(limit);
+        modes = parse_texture_name(texture_name_string(modes));
+        TextureQuery q = at(20.25f / 64, 0.5f);
+        q.dsdx = q.dtdy = texels / 64;
+        return 255 * look_up(pyramid, modes, TextureFilter::Trilinear, q)[0];
+    };
+    auto mean = [](int first, int count) { return 4 * (first + (count - 1) / 2.0f); };
+    EXPECT_NEAR(value(TextureMip::None, true, 8), 80, 0.1);               // texel 20
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 4), mean(20, 4), 0.1);   // texel 5 of 16
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 5), mean(20, 4), 0.1);   // nearer to 4 than to 8
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 7), mean(16, 8), 0.1);   // texel 2 of 8
+    EXPECT_NEAR(value(TextureMip::Linear, true, 4), mean(20, 4), 0.5);
+    EXPECT_NEAR(value(TextureMip::Linear, true, 5.656854f), (mean(20, 4) + mean(16, 8)) / 2, 0.5);
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 8, -3), 80, 0.1);        // three levels nearer
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 32, 0, 2), mean(20, 4), 0.1);
 }
 
 TEST(TextureSampler, NearestTakesTheTexelThatHoldsThePoint) {
