@@ -97,14 +97,27 @@ void SceneBuilder::add_light(LightDefinition definition, uint32_t node) {
 
 void SceneBuilder::place_lights() {
     Scene& scene = *scene_;
-    bool lit = add_area_lights();
-    for (uint32_t n = 0; n < scene.nodes.size(); ++n)
+    LightSet wanted = scene.options.lights;
+    bool lit = wanted != LightSet::Default && add_area_lights(), ambient = false;
+    for (uint32_t n = 0; wanted != LightSet::Default && n < scene.nodes.size(); ++n)
         for (uint32_t light : description_.nodes[scene.nodes[n].definition].lights) {
+            if (scene.nodes[n].hidden) continue;
             scene.lights.push_back({light, n, kNone, kNone});
-            lit |= !description_.lights[light].ambient;
+            (description_.lights[light].ambient ? ambient : lit) = true;
         }
-    if (lit) return;
-    // Nothing needs light where every surface is constant.
+    if (wanted == LightSet::Scene) return;
+    if (wanted == LightSet::Auto && (lit || needs_no_light())) return;
+    // Before add_node, which takes the description's values over into the scene.
+    LightDefinition air = default_ambient_light(description_.values, diagnostics_);
+    uint32_t node =
+        add_node(default_light_node(description_.values), scene.cameras[scene.camera].node);
+    add_light(default_distant_light(diagnostics_), node);
+    if (!ambient) add_light(std::move(air), node);
+}
+
+// Where every surface is constant.
+bool SceneBuilder::needs_no_light() const {
+    const Scene& scene = *scene_;
     bool all_constant = !scene.surfaces.empty();
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         const Shape& shape = scene.shapes[scene.surfaces[s].shape];
@@ -119,14 +132,7 @@ void SceneBuilder::place_lights() {
             }
         all_constant &= constant;
     }
-    if (all_constant) return;
-    bool ambient = !scene.lights.empty();
-    // Before add_node, which takes the description's values over into the scene.
-    LightDefinition air = default_ambient_light(description_.values, diagnostics_);
-    uint32_t node =
-        add_node(default_light_node(description_.values), scene.cameras[scene.camera].node);
-    add_light(default_distant_light(diagnostics_), node);
-    if (!ambient) add_light(std::move(air), node);
+    return all_constant;
 }
 
 // ---- looks

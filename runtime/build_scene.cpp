@@ -104,10 +104,13 @@ void SceneBuilder::unroll(uint32_t definition, uint32_t parent, const dmat4& con
     node.conversion = conversion;
     node.can_move =
         definition_moves_[definition] || (parent != kNone && scene.nodes[parent].can_move);
+    const NodeDefinition& from = description_.nodes[definition];
+    node.hidden = from.hidden || (parent != kNone && scene.nodes[parent].hidden);
+    node.chosen =
+        from.chosen || (parent != kNone ? scene.nodes[parent].chosen : !description_.only_chosen);
     scene.nodes.push_back(node);
     first_occurrence_.try_emplace(definition, index);
-    for (const ChildUse& child : description_.nodes[definition].children)
-        unroll(child.node, index, child.conversion);
+    for (const ChildUse& child : from.children) unroll(child.node, index, child.conversion);
 }
 
 void SceneBuilder::evaluate(double time) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ class SceneBuilder {
     void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
     void evaluate(double time);
     uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
+    std::span<const MeshUse> meshes_of(const Node& node) const;
     void place_meshes();
     void place_mesh(const MeshUse& use, uint32_t node, bool repeated);
     void add_morph(const MeshUse& use, Shape& shape);
@@ -46,6 +48,7 @@ class SceneBuilder {
     void place_cameras();
     bool choose_camera();
     void place_lights();
+    bool needs_no_light() const;
     void extend_values();
     uint32_t add_node(NodeDefinition definition, uint32_t parent);
     void add_light(LightDefinition definition, uint32_t node);

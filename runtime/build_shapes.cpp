@@ -11,12 +11,18 @@
 
 namespace kinora {
 
+// Those that are there.
+std::span<const MeshUse> SceneBuilder::meshes_of(const Node& node) const {
+    if (node.hidden || !node.chosen) return {};
+    return description_.nodes[node.definition].meshes;
+}
+
 void SceneBuilder::place_meshes() {
     Scene& scene = *scene_;
     std::vector<bool> deforms(description_.meshes.size(), false);
     std::vector<size_t> uses(description_.meshes.size(), 0);
     for (const Node& node : scene.nodes)
-        for (const MeshUse& use : description_.nodes[node.definition].meshes) {
+        for (const MeshUse& use : meshes_of(node)) {
             deforms[use.mesh] = deforms[use.mesh] || use.skin != kNone || use.morph != kNone;
             ++uses[use.mesh];
         }
@@ -25,7 +31,7 @@ void SceneBuilder::place_meshes() {
         scene.meshes.back().definition = uint32_t(m);
     }
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
-        for (const MeshUse& use : description_.nodes[scene.nodes[n].definition].meshes) {
+        for (const MeshUse& use : meshes_of(scene.nodes[n])) {
             if (scene.meshes[use.mesh].groups.empty()) continue;
             bool repeated = uses[use.mesh] > 1;
             place_mesh(use, n, repeated);

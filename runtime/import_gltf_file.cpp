@@ -34,6 +34,15 @@ bool is_understood(const std::string& extension) {
            std::end(kExtensions);
 }
 
+// Whether the picture would be another one with it.
+bool is_shown(const std::string& extension) {
+    constexpr std::string_view kShown[] = {"_materials_", "_texture_",   "_mesh_",
+                                           "_lights_",    "_animation_", "_draco_"};
+    return std::any_of(std::begin(kShown), std::end(kShown), [&](std::string_view part) {
+        return extension.find(part) != std::string::npos;
+    });
+}
+
 // "" or why not.
 std::string read_bytes(const std::string& path, size_t limit, std::vector<unsigned char>& bytes) {
     std::error_code code;
@@ -205,8 +214,9 @@ bool check_extensions(const GltfFile& file, Diagnostics& diagnostics) {
     for (const std::string& extension : json_strings(file.json, "/extensionsUsed"))
         if (!is_understood(extension) &&
             std::find(required.begin(), required.end(), extension) == required.end())
-            diagnostics.report(Code::GLTF_EXTENSION, gltf_location(file, "/extensionsUsed"),
-                               extension);
+            diagnostics.report(
+                is_shown(extension) ? Code::GLTF_EXTENSION_SHOWN : Code::GLTF_EXTENSION,
+                gltf_location(file, "/extensionsUsed"), extension);
     return understood;
 }
 

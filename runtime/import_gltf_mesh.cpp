@@ -160,8 +160,10 @@ std::vector<uint32_t> GltfImport::triangles_of(const tinygltf::Primitive& primit
     return triangles;
 }
 
-void GltfImport::add_attributes(const tinygltf::Primitive& primitive, const PlacedPrimitive& placed,
-                                const std::string& pointer, PrimitiveGroup& group) {
+// Returns the primitive's tangents, four numbers a vertex, where its material wants them.
+std::vector<float> GltfImport::add_attributes(const tinygltf::Primitive& primitive,
+                                              const PlacedPrimitive& placed,
+                                              const std::string& pointer, PrimitiveGroup& group) {
     std::vector<uint32_t> corners = group.triangles;
     for (uint32_t& c : corners) c -= placed.first;
     auto add = [&](std::string semantic, uint32_t set, uint32_t stride, std::vector<float> values) {
@@ -169,6 +171,7 @@ void GltfImport::add_attributes(const tinygltf::Primitive& primitive, const Plac
         group.attributes.push_back({std::move(semantic), set, stride, std::move(values), corners});
     };
     Numbers numbers;
+    std::vector<float> tangents;
     for (const auto& [name, accessor] : primitive.attributes) {
         std::string place = pointer + "/attributes/" + name;
         Numbered of_set = numbered(name);
@@ -178,15 +181,11 @@ void GltfImport::add_attributes(const tinygltf::Primitive& primitive, const Plac
         if (name == "NORMAL") {
             if (read(kPoint)) add("NORMAL", 0, 3, std::move(numbers.values));
         } else if (name == "TANGENT") {
-            if (!read(kTangent)) continue;
-            std::vector<float> tangents, signs;
-            for (size_t i = 0; i < numbers.count(); ++i) {
-                const float* v = &numbers.values[4 * i];
-                tangents.insert(tangents.end(), v, v + 3);
-                signs.push_back(v[3]);
-            }
-            add("TANGENT", 0, 3, std::move(tangents));
-            add("TANGENT_SIGN", 0, 1, std::move(signs));
+            // Only a map of normals asks for them.
+            int m = primitive.material;
+            bool bent = m >= 0 && size_t(m) < model_.materials.size() &&
+                        model_.materials[size_t(m)].normalTexture.index >= 0;
+            if (bent && read(kTangent)) tangents = std::move(numbers.values);
         } else if (of_set.name == "TEXCOORD") {
             if (!read(kTexcoord)) continue;
             for (size_t i = 1; i < numbers.values.size(); i += 2)
@@ -210,6 +209,7 @@ void GltfImport::add_attributes(const tinygltf::Primitive& primitive, const Plac
                 std::move(numbers.values));
         }
     }
+    return tangents;
 }
 
 void GltfImport::import_primitive(uint32_t mesh, uint32_t index) {
@@ -251,11 +251,13 @@ void GltfImport::import_primitive(uint32_t mesh, uint32_t index) {
                "some of their vertices are not finite");
     placed.usable = true;
     if (group.triangles.empty()) return;
-    add_attributes(from, placed, pointer, group);
+    std::vector<float> tangents = add_attributes(from, placed, pointer, group);
     bool has_normals = std::any_of(group.attributes.begin(), group.attributes.end(),
                                    [](const VertexAttribute& a) { return a.semantic == "NORMAL"; });
     if (!has_normals && charge(group.triangles.size() * 8, pointer))
         group.attributes.push_back(flat_normals(definition.positions, group.triangles));
+    if (!tangents.empty() && charge(group.triangles.size() * 24, pointer))
+        add_tangents(definition.positions, placed.first, tangents, group);
     int material = from.material;
     if (material >= 0 &&
         !exists(material, model_.materials.size(), "material", pointer + "/material"))

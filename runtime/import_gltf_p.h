@@ -87,8 +87,12 @@ class GltfImport {
     bool place_vertices(uint32_t mesh, uint32_t primitive, const std::string& pointer);
     std::vector<uint32_t> triangles_of(const tinygltf::Primitive& primitive, uint32_t vertices,
                                        const std::string& pointer);
-    void add_attributes(const tinygltf::Primitive& primitive, const PlacedPrimitive& placed,
-                        const std::string& pointer, PrimitiveGroup& group);
+    std::vector<float> add_attributes(const tinygltf::Primitive& primitive,
+                                      const PlacedPrimitive& placed, const std::string& pointer,
+                                      PrimitiveGroup& group);
+    // import_gltf_tangent.cpp
+    void add_tangents(const std::vector<dvec3>& positions, uint32_t first_vertex,
+                      std::span<const float> tangents, PrimitiveGroup& group);
     MeshUse mesh_use(uint32_t node);
 
     // import_gltf_skin.cpp, import_gltf_morph.cpp

@@ -33,6 +33,8 @@ struct Node {
     uint32_t parent = kNone;
     bool can_move = false;  // it or an ancestor is animated
     bool moved = true;      // by the last update_transforms
+    bool hidden = false;    // it or an ancestor is
+    bool chosen = true;     // its meshes are there (SceneDescription::only_chosen)
     dmat4 conversion{1.0};  // of the reference that brought it in
     dmat4 world{1.0};       // world_from_node
 };
@@ -130,6 +132,9 @@ struct CameraSource {
 };
 
 enum class ShadowMode : uint8_t { Auto, Explicit, Off };
+// Which lights shine: the scene's, and the default ones where it has none that light anything
+// (Auto); only the scene's; only the default ones; both.
+enum class LightSet : uint8_t { Auto, Scene, Default, Both };
 enum class DisplacementMode : uint8_t { True, Bump };
 
 // What a scene is built for; part of what the kernels are.
@@ -138,6 +143,7 @@ struct SceneOptions {
     jit::math::Tier math = jit::math::Tier::Precise;
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
+    LightSet lights = LightSet::Auto;
     int ray_depth = 16;  // rays that trace, gather and indirectdiffuse may hang behind each other
     int diffuse_depth = 1;  // of those, bounces of indirectdiffuse
     raytrace::AccelPolicy accel;

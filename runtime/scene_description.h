@@ -82,6 +82,8 @@ struct NodeDefinition {
     std::vector<MeshUse> meshes;
     std::vector<uint32_t> lights;
     std::vector<uint32_t> cameras;
+    bool hidden = false;  // --hide: nothing of it and below is there
+    bool chosen = false;  // --only: its meshes and those below are there
 };
 
 // One attribute of a mesh with its own index per corner: NORMAL, TEXCOORD n, COLOR n.
@@ -195,6 +197,7 @@ struct SceneDescription {
     std::vector<double> values;
     std::vector<NodeDefinition> nodes;
     std::vector<uint32_t> roots;
+    bool only_chosen = false;  // --only: other meshes are not there
     uint32_t camera_node = kNone;  // the first camera at or below it is the default one
     std::vector<MeshDefinition> meshes;
     std::vector<SkinDefinition> skins;

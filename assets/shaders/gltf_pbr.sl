@@ -19,12 +19,15 @@
 #define S_OF(X) (X##_ss * X##_s + X##_st * X##_t + X##_so)
 #define T_OF(X) (X##_ts * X##_s + X##_tt * X##_t + X##_to)
 
-/* The tangent frame is that of the texture coordinates: T along growing s, B to the side of growing
-   t, both in the plane of N. */
-normal mapped_normal(normal Nn; float ss, tt; color texel; float amount;) {
+/* The tangent frame is that of the texture coordinates: T along growing s (or `given`, where the
+   file has tangents), B to the side of growing t (or away from it: flip -1), both in the plane of
+   N. */
+normal mapped_normal(normal Nn; float ss, tt; color texel; float amount; vector given; float flip;) {
     float su = Du(ss), sv = Dv(ss), tu = Du(tt), tv = Dv(tt);
     float turn = su * tv - sv * tu;
     vector T = sign(turn) * (dPdu * tv - dPdv * tu);
+    if (given . given > 0)
+        T = given;
     T = T - (T . Nn) * vector Nn;
     normal result = Nn;
     if (turn != 0 && T . T > 0) {
@@ -33,6 +36,7 @@ normal mapped_normal(normal Nn; float ss, tt; color texel; float amount;) {
         vector along = sign(turn) * (dPdv * su - dPdu * sv);
         if (B . along < 0)
             B = -B;
+        B *= flip;
         float x = amount * (2 * comp(texel, 0) - 1);
         float y = amount * (2 * comp(texel, 1) - 1);
         float z = 2 * comp(texel, 2) - 1;
@@ -69,7 +73,10 @@ surface gltf_pbr(
     float mirrors = 0;
     string alpha_mode = "OPAQUE";
     float alpha_cutoff = 0.5;
-    varying float vertex_alpha = 1;) {
+    varying float vertex_alpha = 1;
+    varying float tangent_u = 0;
+    varying float tangent_v = 0;
+    varying float tangent_flip = 1;) {
     color base = base_color * Cs;
     float a = base_alpha * vertex_alpha;
     if (base_color_map != "") {
@@ -97,7 +104,8 @@ surface gltf_pbr(
     normal Nf = normalize(N);
     if (normal_map != "")
         Nf = mapped_normal(Nf, normal_s, normal_t,
-                           color texture(normal_map, S_OF(normal), T_OF(normal)), normal_scale);
+                           color texture(normal_map, S_OF(normal), T_OF(normal)), normal_scale,
+                           tangent_u * dPdu + tangent_v * dPdv, sign(tangent_flip));
     if (Ng . I > 0)
         Nf = -Nf;
     vector V = -normalize(I);

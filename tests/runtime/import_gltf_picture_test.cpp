@@ -281,6 +281,48 @@ TEST(GltfTexture, NormalMapsLeanTowardsGrowingUAndUpwards) {
     }
 }
 
+// The file's tangents count: turned by 90 degrees against the coordinates, what leaned along
+// growing u leans up or down; mirrored and turned nodes take them along.
+TEST(GltfTexture, TangentsOfTheFileTurnTheNormalMap) {
+    double lean = 0.5;
+    auto byte = [](double x) { return uint8_t(std::lround((x * 0.5 + 0.5) * 255)); };
+    auto brightness = [&](std::vector<float> tangent, json light_turn, json node, bool along_B) {
+        GltfText g;
+        uint8_t side = byte(std::sin(lean)), none = byte(0);
+        int t = g.texture(1, 1,
+                          {along_B ? none : side, along_B ? side : none, byte(std::cos(lean)), 255},
+                          kNearest);
+        int m = g.material({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                            {"doubleSided", true},
+                            {"extensions", {{"KHR_materials_ior", {{"ior", 1.0}}}}},
+                            {"normalTexture", {{"index", t}}}});
+        int mesh = g.square(m);
+        std::vector<float> all;
+        for (int i = 0; i < 4; ++i) all.insert(all.end(), tangent.begin(), tangent.end());
+        g.json["meshes"][size_t(mesh)]["primitives"][0]["attributes"]["TANGENT"] =
+            g.floats(all, "VEC4");
+        node["mesh"] = mesh;
+        g.node(node);
+        lit(g, {{"type", "directional"}}, {{"rotation", light_turn}});
+        return middle(g).x * M_PI;
+    };
+    float s = float(std::sin(lean / 2)), c = float(std::cos(lean / 2));
+    json from_right = {0, s, 0, c}, from_left = {0, -s, 0, c}, from_above = {-s, 0, 0, c},
+         from_below = {s, 0, 0, c}, plain = json::object();
+    // As the coordinates have it, and turned: +y, -x.
+    EXPECT_NEAR(brightness({1, 0, 0, 1}, from_right, plain, false), 1, 0.01);
+    EXPECT_NEAR(brightness({0, 1, 0, 1}, from_above, plain, false), 1, 0.01);
+    EXPECT_NEAR(brightness({-1, 0, 0, -1}, from_left, plain, false), 1, 0.01);
+    // The bitangent is (N x T) w: up for T = +x and w = 1, down for -1.
+    EXPECT_NEAR(brightness({1, 0, 0, 1}, from_above, plain, true), 1, 0.01);
+    EXPECT_NEAR(brightness({1, 0, 0, -1}, from_below, plain, true), 1, 0.01);
+    // The node turns by 90 degrees about z: +x becomes +y. A mirrored node mirrors them.
+    float h = float(std::sqrt(0.5));
+    EXPECT_NEAR(brightness({1, 0, 0, 1}, from_above, {{"rotation", {0, 0, h, h}}}, false), 1, 0.01);
+    EXPECT_NEAR(brightness({1, 0, 0, 1}, from_left, {{"scale", {-1, 1, 1}}}, false), 1, 0.01);
+    EXPECT_NEAR(brightness({1, 0, 0, 1}, from_above, {{"scale", {-1, 1, 1}}}, true), 1, 0.01);
+}
+
 // ---- lights
 
 TEST(GltfLight, PointsFallWithTheSquareOfTheDistanceUpToTheirRange) {
