@@ -182,9 +182,11 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
                 bool file = p.name.ends_with("_map") ||
                             fs::is_regular_file(parse_texture_name(p.strings[0]).path);
                 value = file ? image(p.strings[0]) : p.strings[0];
-                if (file && p.strings[0].find('\x1f') != std::string::npos)
+                std::optional<std::string> words = texture_words(parse_texture_name(p.strings[0]));
+                if (file && !words)
                     lost(fmt::format("effect '{}'", effect),
-                         fmt::format("how '{}' repeats, is filtered or decoded", p.name));
+                         fmt::format("how '{}' repeats or is filtered", p.name));
+                if (file && words && !words->empty()) value += "?" + *words;
                 value = collada::escape_text(value);
             } else {
                 value = number_text(values(p.value));
@@ -221,8 +223,6 @@ std::string ColladaExporter::effect(uint32_t index) {
         });
     std::string profiles = common(m, top, own);
     if (!uses.empty() && !common_only) profiles += rsl(uses, own);
-    if (m.hide_backfaces && !common_only)
-        lost(fmt::format("material '{}'", m.id), "that back faces are hidden");
     effects_ += xml("effect", attribute("id", own), profiles);
     return own;
 }

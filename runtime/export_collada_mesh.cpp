@@ -46,8 +46,21 @@ std::string input(const char* semantic, const std::string& source, int offset = 
 
 }  // namespace
 
+// A morph target without triangles (glTF's) has those of the mesh it changes.
+const MeshDefinition& ColladaExporter::with_triangles(uint32_t mesh) const {
+    for (const NodeDefinition& node : description_.nodes)
+        for (const MeshUse& use : node.meshes) {
+            if (use.morph == kNone) continue;
+            const std::vector<uint32_t>& targets = description_.morphs[use.morph].targets;
+            if (std::find(targets.begin(), targets.end(), mesh) != targets.end())
+                return description_.meshes[use.mesh];
+        }
+    return description_.meshes[mesh];
+}
+
 std::string ColladaExporter::geometry(uint32_t index) {
     const MeshDefinition& mesh = description_.meshes[index];
+    const MeshDefinition& shape = with_triangles(index);
     const std::string& own = mesh_ids_[index];
     std::vector<double> positions;
     for (const dvec3& p : mesh.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
@@ -56,7 +69,10 @@ std::string ColladaExporter::geometry(uint32_t index) {
     std::string groups;
     for (size_t g = 0; g < mesh.groups.size(); ++g) {
         const PrimitiveGroup& group = mesh.groups[g];
-        std::vector<const std::vector<uint32_t>*> lists{&group.triangles};
+        const PrimitiveGroup& whole =
+            group.triangles.empty() && g < shape.groups.size() ? shape.groups[g] : group;
+        if (whole.triangles.empty()) continue;
+        std::vector<const std::vector<uint32_t>*> lists{&whole.triangles};
         std::string inputs = input("VERTEX", own + "-vertices", 0);
         for (size_t a = 0; a < group.attributes.size(); ++a) {
             const VertexAttribute& values = group.attributes[a];
@@ -73,8 +89,8 @@ std::string ColladaExporter::geometry(uint32_t index) {
             inputs += input(values.semantic.c_str(), source, offset, sets ? values.set : kNone);
         }
         groups += xml("triangles",
-                      attribute("count", std::to_string(group.triangles.size() / 3)) +
-                          attribute("material", xml_name(group.symbol)),
+                      attribute("count", std::to_string(whole.triangles.size() / 3)) +
+                          attribute("material", xml_name(whole.symbol)),
                       inputs + xml("p", "", index_text(lists)));
     }
     std::string vertices =

@@ -34,6 +34,7 @@ class ColladaExporter {
     std::string library(const char* name, const std::string& content) const;
 
     // export_collada_mesh.cpp: geometries and controllers
+    const MeshDefinition& with_triangles(uint32_t mesh) const;
     std::string geometry(uint32_t index);
     std::string skin(const MeshUse& use, const std::string& controller);
     std::string morph(uint32_t index, uint32_t mesh);

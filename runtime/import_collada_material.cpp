@@ -39,6 +39,18 @@ const collada::ParamValue& ColladaImport::param_value(uint32_t material, uint32_
     return data_.effects[effect].params[param].value;
 }
 
+// The image that a string names, and how it is looked up: "normals?data,clamp_s".
+std::string ColladaImport::image_name(const collada::Image& image, std::string_view text,
+                                      Location where) {
+    TextureName name;
+    name.path = image.path.empty() ? image.uri : image.path;
+    size_t mark = text.find('?');
+    if (text != image.id && mark != std::string_view::npos &&
+        !set_texture_words(text.substr(mark + 1), name))
+        diagnostics_.report(Code::RSL_IMAGE_WORDS, where, text.substr(mark + 1));
+    return texture_name_string(name);
+}
+
 std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const collada::Effect& effect,
                                                    const collada::RslShader& from) {
     const EffectShaders& shaders = compiled(effect);
@@ -59,8 +71,8 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
         if (value.type == collada::ParamType::String) {
             source.strings = value.strings;
             if (value.image != collada::kNone) {
-                const collada::Image& image = data_.images[value.image];
-                source.strings = {image.path.empty() ? image.uri : image.path};
+                source.strings = {
+                    image_name(data_.images[value.image], value.strings.back(), bind.where)};
             }
         } else if (value.type == collada::ParamType::Float4x4) {
             // COLLADA writes matrices for column vectors, RSL for row vectors.
@@ -225,7 +237,6 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
         use.params.push_back(std::move(kind));
         add("bump_amount", {append(&common.bump_amount, 1), 1});
     }
-    result.hide_backfaces = !common.double_sided;
     result.surfaces.push_back(std::move(use));
 }
 
@@ -240,6 +251,8 @@ MaterialDefinition ColladaImport::material(uint32_t index) {
         rsl_material(index, effect, result);
     else if (effect.common)
         common_material(index, effect, result);
+    // An extra of profile_COMMON that holds for profile_RSL beside it, too.
+    if (effect.common) result.hide_backfaces = !effect.common->double_sided;
     return result;
 }
 
@@ -269,8 +282,8 @@ PictureShaders ColladaImport::picture_shaders(const std::vector<uint32_t>& mater
             if (shader.stage == collada::RslStage::Volume) stack = &result.atmosphere;
             if (shader.stage == collada::RslStage::Imager) stack = &result.imagers;
             if (!stack)
-                diagnostics_.report(Code::RSL_STAGE_PLACE, shader.where,
-                                    stage_name(shader.stage), "a scene or camera");
+                diagnostics_.report(Code::RSL_STAGE_PLACE, shader.where, stage_name(shader.stage),
+                                    "a scene or camera");
             else if (auto use = shader_use(m, effect, shader))
                 stack->push_back(std::move(*use));
         }

@@ -45,6 +45,7 @@ class ColladaImport {
     MaterialDefinition material(uint32_t index);
     void rsl_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
     void common_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
+    std::string image_name(const collada::Image& image, std::string_view text, Location where);
     std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
                                         const collada::RslShader& shader);
     const EffectShaders& compiled(const collada::Effect& effect);

@@ -60,4 +60,60 @@ TextureName parse_texture_name(std::string_view text) {
     return name;
 }
 
+namespace {
+
+struct WordRow {
+    std::string_view word;
+    bool (*is)(const TextureName&);
+    void (*set)(TextureName&);
+};
+constexpr WordRow kWords[] = {
+    {"data", [](const TextureName& n) { return n.data; }, [](TextureName& n) { n.data = true; }},
+    {"nearest", [](const TextureName& n) { return filter_letter(n) == 'n'; },
+     [](TextureName& n) { n.nearest = true; }},
+    {"clamp_s", [](const TextureName& n) { return n.wrap_s == TextureWrap::Clamp; },
+     [](TextureName& n) { n.wrap_s = TextureWrap::Clamp; }},
+    {"clamp_t", [](const TextureName& n) { return n.wrap_t == TextureWrap::Clamp; },
+     [](TextureName& n) { n.wrap_t = TextureWrap::Clamp; }},
+    {"mirror_s", [](const TextureName& n) { return n.wrap_s == TextureWrap::Mirror; },
+     [](TextureName& n) { n.wrap_s = TextureWrap::Mirror; }},
+    {"mirror_t", [](const TextureName& n) { return n.wrap_t == TextureWrap::Mirror; },
+     [](TextureName& n) { n.wrap_t = TextureWrap::Mirror; }},
+    {"black_s", [](const TextureName& n) { return n.wrap_s == TextureWrap::Border; },
+     [](TextureName& n) { n.wrap_s = TextureWrap::Border; }},
+    {"black_t", [](const TextureName& n) { return n.wrap_t == TextureWrap::Border; },
+     [](TextureName& n) { n.wrap_t = TextureWrap::Border; }},
+};
+
+}  // namespace
+
+std::optional<std::string> texture_words(const TextureName& name) {
+    std::string words;
+    TextureName said;
+    said.path = name.path;
+    for (const WordRow& row : kWords) {
+        if (!row.is(name)) continue;
+        words += fmt::format("{}{}", words.empty() ? "" : ",", row.word);
+        row.set(said);
+    }
+    if (texture_name_string(said) != texture_name_string(name)) return std::nullopt;
+    return words;
+}
+
+bool set_texture_words(std::string_view words, TextureName& name) {
+    bool all_known = true;
+    while (!words.empty()) {
+        std::string_view word = words.substr(0, words.find(','));
+        words.remove_prefix(std::min(words.size(), word.size() + 1));
+        bool known = false;
+        for (const WordRow& row : kWords) {
+            if (row.word != word) continue;
+            row.set(name);
+            known = true;
+        }
+        all_known &= known;
+    }
+    return all_known;
+}
+
 }  // namespace kinora

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,5 +34,11 @@ struct TextureName {
 
 std::string texture_name_string(const TextureName& name);  // the bare path when all is default
 TextureName parse_texture_name(std::string_view text);
+
+// How it is looked up in words that a file can hold: "data,clamp_s,mirror_t,nearest"; "" when all
+// is default. Nothing where words do not say it (turned, repeated, with a border's color).
+std::optional<std::string> texture_words(const TextureName& name);
+// Sets what the words say; false if one of them is unknown.
+bool set_texture_words(std::string_view words, TextureName& name);
 
 }  // namespace kinora

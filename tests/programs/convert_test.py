@@ -1,5 +1,6 @@
 """tests/programs/convert_test.py: kinora-convert as its users run it: pictures before and after,
 and the judgement of Khronos' glTF-Validator (scripts/npm_packages; skipped without)."""
+import base64
 import json
 import math
 import os
@@ -194,7 +195,7 @@ class ExitCodes(Convert):
         bad = self.write("bad.sl", "surface s( { Ci = ; }")
         for target in ("o.glb", "o.dae"):
             self.expect(convert(MATTE, self.folder / target, "--shader", f"*={bad}"), 4, "bad.sl")
-            self.expect(convert(MATTE, self.folder / target, "--shader", f"none={SHADERS / 'matte.sl'}"), 4)
+            self.expect(convert(MATTE, self.folder / target, "--shader", f"none={SHADERS / 'matte.sl'}"), 2)
         self.expect(convert(MATTE, "/proc/none/o.glb"), 6)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["bad.sl", "cut.dae"])
 
@@ -322,6 +323,51 @@ class ToGlb(Convert):
                 self.assertEqual(out.read_bytes(), self.converted(out, "again.dae").read_bytes())
                 self.assertLess(self.difference(self.picture(scene, "--time", time),
                                                 self.picture(out, "--time", time)), LIKE)
+
+    def test_maps_of_normals_and_morph_normals_survive_in_collada(self):
+        """A wall whose normal map leans it to the light, with a target that turns its normals."""
+        def data(kind, payload):
+            return f"data:{kind};base64,{base64.b64encode(payload).decode()}"
+        floats = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0] + [0, 0, 1] * 4 + [0, 1, 1, 1, 1, 0, 0, 0] \
+            + [0, 0, 0.2] * 4 + [-0.6, 0, -0.2] * 4
+        indices = struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+        blob = struct.pack(f"<{len(floats)}f", *floats) + indices
+        image = self.folder / "lean.png"
+        png.write(image, 1, 1, [bytes((188, 128, 240))])
+        views = [(0, 48), (48, 48), (96, 32), (128, 48), (176, 48), (224, 12)]
+        kinds = ["VEC3", "VEC3", "VEC2", "VEC3", "VEC3", "SCALAR"]
+        tree = {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3}]}},
+            "buffers": [{"byteLength": len(blob), "uri": data("application/octet-stream", blob)}],
+            "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": n} for at, n in views],
+            "accessors": [{"bufferView": i, "componentType": 5123 if i == 5 else 5126,
+                           "count": 6 if i == 5 else 4, "type": kind,
+                           **({"min": [-1, -1, 0], "max": [1, 1, 0]} if i == 0 else {})}
+                          for i, kind in enumerate(kinds)],
+            "images": [{"uri": data("image/png", image.read_bytes())}], "textures": [{"source": 0}],
+            "materials": [{"name": "wall", "normalTexture": {"index": 0},
+                           "pbrMetallicRoughness": {"metallicFactor": 0}}],
+            "meshes": [{"name": "wall", "weights": [0.5], "primitives": [{
+                "attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 5, "material": 0,
+                "targets": [{"POSITION": 3, "NORMAL": 4}]}]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
+            "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]},
+                      {"rotation": [0, 0.3, 0, 0.954], "extensions": {"KHR_lights_punctual": {"light": 0}}}]}
+        scene = self.folder / "wall.gltf"
+        scene.write_text(json.dumps(tree))
+        plain = self.picture(scene)
+        self.assertLess(self.difference(plain, self.picture(self.converted(scene, "wall.dae"))), LIKE)
+        for part in ("normalTexture", "targets"):  # they are seen in the picture
+            owner = tree["materials"][0] if part == "normalTexture" else tree["meshes"][0]["primitives"][0]
+            kept = owner.pop(part)
+            (self.folder / "without.gltf").write_text(json.dumps(tree))
+            self.assertGreater(self.difference(plain, self.picture(self.folder / "without.gltf")), 3 * LIKE)
+            owner[part] = kept
+        text = (self.folder / "wall.dae").read_text()
+        self.assertIn("?data", text)
+        self.assertNotIn('triangles count="0"', text)
 
     def test_an_archive_brings_its_files(self):
         body = '<library_images><image id="i"><init_from>pictures/a.png</init_from></image></library_images>'
