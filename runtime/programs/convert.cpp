@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collada/write.h"
+#include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/export_collada.h"
 #include "runtime/export_gltf.h"
@@ -37,17 +38,18 @@ int tell(const Diagnostics& diag, const ConvertOptions& options) {
     Severity least = options.quiet     ? Severity::Error
                      : options.verbose ? Severity::Hint
                                        : Severity::Warning;
-    bool lost = false, shader = false;
+    bool lost = false, shader = false, usage = false;
     for (const Finding& f : diag.findings()) {
         lost |= f.info == &Code::CONVERT_LOST || f.info == &Code::CONVERT_EXTERNAL;
         bool rsl = std::string_view(f.info->code).starts_with("RSL_");
-        shader |= f.severity == Severity::Error &&
-                  (rsl || f.info == &Code::CONVERT_SHADER || f.info == &Code::MATERIAL_UNKNOWN);
+        shader |= f.severity == Severity::Error && (rsl || f.info == &Code::CONVERT_SHADER);
+        usage |= f.info == &Code::MATERIAL_UNKNOWN;
         // What the reader makes of the scene matters less here than what becomes of it.
         bool said = f.severity >= least || (f.info == &Code::CONVERT_EXTRAS && !options.quiet);
         if (said) std::fputs(format_finding(f, diag.files).c_str(), stderr);
     }
     if (shader) return kExitShader;
+    if (usage) return kExitUsage;
     return lost && options.strict ? kExitSomeFailed : kExitOk;
 }
 
@@ -86,21 +88,22 @@ class Conversion {
 
     int run() {
         Stopwatch watch;
+        if (options_.threads) set_thread_count(options_.threads);
         bool to_dae = extension(options_.output) == ".dae";
         if (to_dae && !is_gltf(options_.input)) {
             std::optional<std::string> text = convert_document(options_, diag_);
             int code = tell(diag_, options_);
-            if (!text) return code == kExitShader ? code : kExitUnreadable;
-            return code == kExitShader ? code : finish(*text, code, watch);
+            if (!text) return ends(code) ? code : kExitUnreadable;
+            return ends(code) ? code : finish(*text, code, watch);
         }
         if (!import()) {
             int code = tell(diag_, options_);
-            return code == kExitShader ? code : kExitUnreadable;
+            return ends(code) ? code : kExitUnreadable;
         }
         for (const auto& [material, file] : options_.shaders)
             if (!override_shader(scene_, material, file, options_.include_directories, diag_)) {
-                tell(diag_, options_);
-                return kExitShader;
+                int code = tell(diag_, options_);
+                return ends(code) ? code : kExitShader;
             }
         ColladaExport document;
         std::string bytes;
@@ -109,13 +112,15 @@ class Conversion {
         else
             bytes = export_glb(scene_, gltf_options(), diag_);
         int code = tell(diag_, options_);
-        if (code == kExitShader) return code;
+        if (ends(code)) return code;
         if (to_dae) return finish_collada(code, watch, std::move(document));
         if (extension(options_.output) != ".gltf") return finish(bytes, code, watch);
         return finish_gltf(bytes, code, watch);
     }
 
   private:
+    static bool ends(int code) { return code == kExitShader || code == kExitUsage; }
+
     bool import() {
         ImportOptions import;
         import.allow_external = options_.allow_external;

@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "runtime/findings.h"
 #include "runtime/frame.h"
 #include "runtime/import_scene.h"
+#include "runtime/override_scene.h"
 #include "runtime/override_shader.h"
 #include "runtime/programs/contact_sheet.h"
 #include "runtime/programs/exit_codes.h"
@@ -23,8 +25,8 @@ namespace kinora {
 
 namespace {
 
-// Set by the first signal; the frame under way is dropped at its next tile. A second signal stops at
-// once, and so does a tile that takes longer than this: no file is open while a frame is made.
+// Set by the first signal; the frame under way is dropped at its next tile. A second signal stops
+// at once, and so does a tile that takes longer than this: no file is open while a frame is made.
 constexpr unsigned kStopSeconds = 4;
 volatile std::sig_atomic_t g_signal = 0;
 
@@ -50,7 +52,10 @@ class Render {
     int run() {
         if (int code = load()) return code;
         if (!options_.list.empty()) {
-            std::fputs(list_scene(*scene_, options_.list).c_str(), stdout);
+            std::fputs((options_.json ? list_scene_json(*scene_, options_.list)
+                                      : list_scene(*scene_, options_.list))
+                           .c_str(),
+                       stdout);
             return flush_findings();
         }
         dump();
@@ -72,6 +77,9 @@ class Render {
     std::string fingerprint(double time) const;
     void print_stats() const;
     SceneOptions scene_options() const;
+    int scaled(double pixels) const {
+        return int(std::clamp(std::round(pixels * options_.scale), 1.0, 65536.0));
+    }
 
     const RenderOptions& options_;
     Diagnostics diagnostics_;
@@ -92,9 +100,10 @@ int Render::exit_code_of_findings(int otherwise) const {
     for (const Finding& finding : diagnostics_.findings()) {
         if (finding.severity != Severity::Error) continue;
         if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
-        if (finding.info == &Code::CAMERA_UNKNOWN || finding.info == &Code::MATERIAL_UNKNOWN ||
-            finding.info == &Code::IMAGER_UNKNOWN)
-            return kExitUsage;
+        for (const FindingInfo* usage :
+             {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::IMAGER_UNKNOWN,
+              &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE, &Code::NODE_UNKNOWN})
+            if (finding.info == usage) return kExitUsage;
     }
     return otherwise;
 }
@@ -124,6 +133,7 @@ SceneOptions Render::scene_options() const {
     o.math = options_.quality.math;
     o.target = options_.target;
     o.shadows = options_.shadows;
+    o.lights = options_.lights;
     o.ray_depth = options_.quality.ray_depth;
     o.diffuse_depth = options_.quality.diffuse_depth;
     o.accel.robust = options_.quality.robust;
@@ -135,8 +145,8 @@ SceneOptions Render::scene_options() const {
     o.displacement = options_.quality.displacement;
     o.dice = options_.quality.dice;
     if (options_.dice_limit) o.dice_limit = options_.dice_limit;
-    o.width = options_.width ? options_.width : 640;
-    o.height = options_.height;
+    o.width = scaled(options_.width ? options_.width : 640);
+    o.height = options_.height ? scaled(options_.height) : 0;
     return o;
 }
 
@@ -160,6 +170,9 @@ int Render::load() {
     }
     for (const auto& [pattern, file] : options_.shaders)
         override_shader(*description, pattern, file, options_.include_directories, diagnostics_);
+    for (const auto& [target, value] : options_.params)
+        override_param(*description, target, value, diagnostics_);
+    override_visibility(*description, options_.hide, options_.only, diagnostics_);
     if (!options_.imager.empty())
         override_imager(*description, options_.imager, options_.include_directories, diagnostics_);
     load_ms_ = watch.restart();
@@ -215,7 +228,10 @@ std::string Render::fingerprint(double time) const {
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
     text += fmt::format(" imager {} aovs {} light samples {} transparency {}", o.imager,
                         fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
-    for (const auto& [material, file] : o.shaders) text += fmt::format(" {}={}", material, file);
+    text += fmt::format(" lights {} hide {} only {}", int(o.lights), fmt::join(o.hide, ","),
+                        fmt::join(o.only, ","));
+    for (const auto* changes : {&o.shaders, &o.params})
+        for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }
 
@@ -310,10 +326,9 @@ int Render::frames() {
     catch_signals();
     const SceneDescription& description = *scene_->description;
     double aspect = camera_aspect(*scene_).value_or(16.0 / 9.0);
-    settings_.width = options_.width ? options_.width : 640;
-    settings_.height = options_.height
-                           ? options_.height
-                           : std::clamp(int(std::lround(settings_.width / aspect)), 1, 65536);
+    double width = options_.width ? options_.width : 640;
+    settings_.width = scaled(width);
+    settings_.height = scaled(options_.height ? options_.height : width / aspect);
     settings_.integrator.samples_per_pixel = options_.quality.samples_per_pixel;
     settings_.integrator.filter = raytrace::find_pixel_filter(options_.filter);
     settings_.integrator.filter_width = options_.filter_width;

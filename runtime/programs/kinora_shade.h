@@ -14,13 +14,15 @@ namespace kinora {
 
 struct ShadeOptions {
     std::string command;
-    std::string source;  // FILE.sl, SCENE.dae#effect or - for stdin; for `manual` a built-in's name
-    std::string shader;  // which of the source; "": the first
+    std::string source;  // FILE.sl, SCENE.dae#effect or - for stdin; for `manual` a name
+    std::vector<std::string> sources;  // check: several
+    std::string shader;                // which of the source; "": the first
     rsl::CompileOptions compile;
     bool preprocess_only = false;  // -E
     bool warnings_fail = false;    // -Werror
-    bool json = false;             // info
+    bool json = false;             // check, info, bench
     bool quiet = false, verbose = false;
+    bool silent = false;                                      // findings are told otherwise
     std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE
     int width = 256, height = 256;                            // of the grid of points
     bool sphere = false;

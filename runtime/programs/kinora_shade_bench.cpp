@@ -1,6 +1,7 @@
 // runtime/programs/kinora_shade_bench.cpp: what compiling costs and how fast the code runs.
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "runtime/base/stats.h"
 #include "runtime/programs/exit_codes.h"
@@ -50,39 +51,39 @@ CompileTimes compile_once(const ShadeOptions& options, const ShadeSource& source
     return times;
 }
 
-void print_row(const char* label, const CompileTimes& t) {
-    std::printf("  %-6s %8.3f %8.3f %8.3f %8.3f %8.3f\n", label, t.front, t.lower, t.optimise,
-                t.emit, t.total());
-}
+// What one target gives.
+struct TargetTimes {
+    CompileTimes first, middle;
+    double mpoints = 0, best_mpoints = 0;  // points/s * 1e-6: of the median and of the best run
+    size_t points = 0, code_bytes = 0;
+};
 
 int bench_compile(const ShadeOptions& options, const ShadeSource& source, const Patch& patch,
-                  const jit::Target& target) {
+                  const jit::Target& target, TargetTimes& times) {
     int code = 0;
     std::vector<CompileTimes> warm;
     int count = options.iterations ? options.iterations : kCompiles;
     for (int i = 0; i <= count; ++i) {
         jit::clear_cache();
-        CompileTimes times = compile_once(options, source, patch, target, code);
+        CompileTimes one = compile_once(options, source, patch, target, code);
         if (code) return code;
-        if (i == 0) {
-            std::printf("%s: ms     front    lower   passes     emit    total\n", target.name);
-            print_row("first", times);
-        } else {
-            warm.push_back(times);
-        }
+        if (i == 0)
+            times.first = one;
+        else
+            warm.push_back(one);
     }
     auto middle = [&](double CompileTimes::*part) {
         std::vector<double> values;
         for (const CompileTimes& t : warm) values.push_back(t.*part);
         return median(values);
     };
-    print_row("median", {middle(&CompileTimes::front), middle(&CompileTimes::lower),
-                         middle(&CompileTimes::optimise), middle(&CompileTimes::emit)});
+    times.middle = {middle(&CompileTimes::front), middle(&CompileTimes::lower),
+                    middle(&CompileTimes::optimise), middle(&CompileTimes::emit)};
     return kExitOk;
 }
 
 void bench_run(const ShadeOptions& options, const ShadeStack& stack, const Patch& patch,
-               const jit::Target& target, Diagnostics& diagnostics) {
+               const jit::Target& target, Diagnostics& diagnostics, TargetTimes& times) {
     ShadeKernel kernel;
     if (!kernel.compile(stack, &target, diagnostics)) return;
     kernel.bind(stack, patch);
@@ -94,29 +95,70 @@ void bench_run(const ShadeOptions& options, const ShadeStack& stack, const Patch
         ms.push_back(watch.ms());
     }
     double points = double(patch.count()) * 1e-3;  // Mpoints/s = points / ms * 1e-3
+    times.mpoints = points / median(ms);
+    times.best_mpoints = points / *std::min_element(ms.begin(), ms.end());
+    times.points = patch.count();
+    times.code_bytes = kernel.pair().point->code_bytes;
+}
+
+void print_row(const char* label, const CompileTimes& t) {
+    std::printf("  %-6s %8.3f %8.3f %8.3f %8.3f %8.3f\n", label, t.front, t.lower, t.optimise,
+                t.emit, t.total());
+}
+
+void print_times(const jit::Target& target, const TargetTimes& times) {
+    std::printf("%s: ms     front    lower   passes     emit    total\n", target.name);
+    print_row("first", times.first);
+    print_row("median", times.middle);
     std::printf("  runs at %.2f Mpoints/s (best %.2f), %zu points, %zu bytes of code\n",
-                points / median(ms), points / *std::min_element(ms.begin(), ms.end()),
-                patch.count(), kernel.pair().point->code_bytes);
+                times.mpoints, times.best_mpoints, times.points, times.code_bytes);
+}
+
+nlohmann::ordered_json json_of(const CompileTimes& t) {
+    return {{"front_ms", t.front},
+            {"lower_ms", t.lower},
+            {"passes_ms", t.optimise},
+            {"emit_ms", t.emit},
+            {"total_ms", t.total()}};
+}
+
+nlohmann::ordered_json json_of(const jit::Target& target, const TargetTimes& times) {
+    return {{"target", target.name},
+            {"lanes", target.lanes},
+            {"first", json_of(times.first)},
+            {"median", json_of(times.middle)},
+            {"mpoints_per_second", times.mpoints},
+            {"best_mpoints_per_second", times.best_mpoints},
+            {"points", times.points},
+            {"code_bytes", times.code_bytes}};
 }
 
 }  // namespace
 
 int shade_bench(const ShadeOptions& options) {
     ShadeSource source;
-    if (std::optional<int> code = compile_shade_source(options, source)) return *code;
-    const rsl::Shader* shader = choose_shader(options, source);
-    if (!shader) return kExitUsage;
-    if (!can_run(*shader)) return kExitUsage;
     Patch patch(options.width, options.height, options.sphere);
-    if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
     ShadeStack stack;
-    if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
-    std::printf("%s %s, %s, one thread\n", rsl::shader_kind_name(shader->kind),
-                shader->name.c_str(), options.math == jit::math::Tier::Fast ? "fast" : "precise");
+    if (std::optional<int> code = open_stack(options, source, patch, stack)) return *code;
+    const rsl::Shader* shader = stack.layers.front().shader;
+    const char* kind = rsl::shader_kind_name(shader->kind);
+    const char* math = options.math == jit::math::Tier::Fast ? "fast" : "precise";
+    if (!options.json) std::printf("%s %s, %s, one thread\n", kind, shader->name.c_str(), math);
+    auto rows = nlohmann::ordered_json::array();
     for (const jit::Target& target : jit::targets()) {
         if (!target.supported() || (options.target && options.target != &target)) continue;
-        if (int code = bench_compile(options, source, patch, target)) return code;
-        bench_run(options, stack, patch, target, source.diagnostics);
+        TargetTimes times;
+        if (int code = bench_compile(options, source, patch, target, times)) return code;
+        bench_run(options, stack, patch, target, source.diagnostics, times);
+        if (options.json)
+            rows.push_back(json_of(target, times));
+        else
+            print_times(target, times);
+    }
+    if (options.json) {
+        nlohmann::ordered_json all{
+            {"name", shader->name}, {"kind", kind}, {"math", math}, {"targets", std::move(rows)}};
+        std::printf("%s\n", all.dump(2).c_str());
     }
     return kExitOk;
 }

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <glm/matrix.hpp>
 
+#include "runtime/override_scene.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/kinora_shade_kernel.h"
 #include "runtime/shader_library.h"
@@ -26,21 +26,6 @@ size_t elements(const rsl::Type& type) {
 }
 size_t width_of(const rsl::Type& type) {
     return size_t(rsl::component_count(type.base));
-}
-
-// "1,0.5 0.25" as numbers; false if it is not that.
-bool parse_numbers(const std::string& text, std::vector<double>& numbers) {
-    const char *at = text.data(), *end = at + text.size();
-    auto gap = [](char c) { return c == ',' || c == ' '; };
-    while (true) {
-        at = std::find_if_not(at, end, gap);
-        if (at == end) return !numbers.empty();
-        double number = 0;
-        auto [rest, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (rest != end && !gap(*rest))) return false;
-        numbers.push_back(number);
-        at = rest;
-    }
 }
 
 const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, const std::string& name) {
@@ -70,9 +55,11 @@ int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, 
         out.strings.push_back(text);
         return kExitOk;
     }
-    if (!parse_numbers(text, out.numbers))
+    std::optional<std::vector<double>> numbers = parse_numbers(text);
+    if (!numbers)
         return usage(fmt::format("--param {}: '{}' is no {}", out.name, text,
                                  rsl::type_name(parameter.type)));
+    out.numbers = *numbers;
     size_t needed = elements(parameter.type) * width_of(parameter.type);
     if (out.numbers.size() == 1 && rsl::is_triple(parameter.type))
         out.numbers.resize(3, out.numbers[0]);
@@ -185,6 +172,16 @@ int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl
                      options.output);
     }
     return choose_outputs(options.output, shader, stack);
+}
+
+std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, Patch& patch,
+                              ShadeStack& stack) {
+    if (std::optional<int> code = compile_shade_source(options, source)) return code;
+    const rsl::Shader* shader = choose_shader(options, source);
+    if (!shader || !can_run(*shader)) return kExitUsage;
+    if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
+    if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
+    return std::nullopt;
 }
 
 }  // namespace kinora

@@ -35,13 +35,9 @@ constexpr const char* kStageHelp =
 // IR and machine code: `wanted` is "asm", "ir" (as lowered) or "ir:PASS".
 int dump_code(const ShadeOptions& options, const std::vector<std::string>& wanted) {
     ShadeSource source;
-    if (std::optional<int> code = compile_shade_source(options, source)) return *code;
-    const rsl::Shader* shader = choose_shader(options, source);
-    if (!shader) return kExitUsage;
-    if (!can_run(*shader)) return kExitUsage;
     Patch patch(1, 1, false);
     ShadeStack stack;
-    if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
+    if (std::optional<int> code = open_stack(options, source, patch, stack)) return *code;
     std::vector<std::pair<std::string, std::string>> dumps;
     ShadeKernel code;
     bool compiled = code.compile(stack, options.target, source.diagnostics, &dumps);

@@ -23,8 +23,13 @@ struct ShadeStack {
     std::vector<std::shared_ptr<const rsl::Shader>> library;  // keeps the matte
 };
 
-// Binds the effect's and the user's parameters and chooses the outputs. Returns an exit code other
-// than 0 (said on stderr) for unknown or ill-formed parameters and outputs.
+// Reads and compiles the source, chooses the shader, puts the patch before a light, binds the
+// effect's and the user's parameters and chooses the outputs. Returns an exit code (said on stderr)
+// when the command ends here; the shader is the stack's first layer.
+std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, Patch& patch,
+                              ShadeStack& stack);
+
+// The part of it that binds: 0, or the exit code of unknown or ill-formed parameters and outputs.
 int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl::Shader& shader,
                const Patch& patch, ShadeStack& stack);
 

@@ -1,4 +1,5 @@
-// runtime/programs/kinora_shade_manual.cpp: the manual of the built-in functions, from their rows.
+// runtime/programs/kinora_shade_manual.cpp: the manual of the built-in functions and the shader
+// globals, from their rows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "rsl/builtin.h"
+#include "rsl/globals.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/kinora_shade.h"
@@ -95,6 +97,13 @@ std::vector<Form> forms(const rsl::Builtin& row) {
     return result;
 }
 
+std::string kinds_of(uint32_t mask) {
+    std::string text;
+    for (const EffectRow& kind : kKinds)
+        if (mask & kind.flag) text += fmt::format(" {}", kind.text);
+    return text.empty() ? " nobody" : text;
+}
+
 void print_row(const rsl::Builtin& row) {
     for (const Form& form : forms(row)) {
         if (form.types.size() == 1)
@@ -106,15 +115,23 @@ void print_row(const rsl::Builtin& row) {
     std::printf("    %s\n", row.doc);
     for (const EffectRow& effect : kEffects)
         if (row.effects & effect.flag) std::printf("    It %s.\n", effect.text);
-    if (row.legal != rsl::kAnyShader) {
-        std::printf("    Only in");
-        for (const EffectRow& kind : kKinds)
-            if (row.legal & kind.flag) std::printf(" %s", kind.text);
-        std::printf(" shaders.\n");
-    }
+    if (row.legal != rsl::kAnyShader)
+        std::printf("    Only in%s shaders.\n", kinds_of(row.legal).c_str());
     if (row.tolerance_ulp > 0)
         std::printf("    Precise mathematics is within %d ULP.\n", row.tolerance_ulp);
     if (!row.lower) std::printf("    Known, but not supported yet.\n");
+}
+
+void print_global(const rsl::GlobalInfo& global, bool whole) {
+    if (!whole) {
+        std::printf("%-18s %s\n", std::string(global.name).c_str(),
+                    std::string(global.doc).c_str());
+        return;
+    }
+    std::printf("%s\n    %s\n    read by%s, written by%s\n",
+                fmt::format("{} {}", rsl::type_name(global.type), global.name).c_str(),
+                std::string(global.doc).c_str(), kinds_of(global.readers).c_str(),
+                kinds_of(global.writers).c_str());
 }
 
 }  // namespace
@@ -130,9 +147,18 @@ int shade_manual(const ShadeOptions& options) {
                 print_row(row);
             found |= options.source.empty() || options.source == row.name;
         }
+    for (const rsl::GlobalInfo& global : rsl::globals()) {
+        if (!options.source.empty() && options.source != global.name) continue;
+        print_global(global, !options.source.empty());
+        found = true;
+    }
     if (found) return kExitOk;
-    std::string_view near = nearest_name(options.source, rsl::builtin_names());
-    std::fprintf(stderr, "kinora-shade: no built-in function '%s'%s\n", options.source.c_str(),
+    std::vector<std::string_view> names;
+    for (const auto& name : rsl::builtin_names()) names.push_back(name);
+    for (const rsl::GlobalInfo& global : rsl::globals()) names.push_back(global.name);
+    std::string_view near = nearest_name(options.source, names);
+    std::fprintf(stderr, "kinora-shade: no built-in function or global '%s'%s\n",
+                 options.source.c_str(),
                  near.empty() ? "; kinora-shade manual lists all"
                               : fmt::format("; did you mean '{}'?", near).c_str());
     return kExitUsage;

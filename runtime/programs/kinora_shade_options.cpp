@@ -1,13 +1,8 @@
 // runtime/programs/kinora_shade_options.cpp: kinora-shade's command line.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 
-#include "runtime/base/diagnostic.h"
 #include "runtime/image_io.h"
-#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/command_line.h"
 #include "runtime/programs/kinora_shade.h"
 
 namespace kinora {
@@ -15,6 +10,8 @@ namespace kinora {
 namespace {
 
 constexpr const char* kSourceHelp = "FILE.sl, SCENE.dae#EFFECT, or - for standard input";
+constexpr const char* kSourcesHelp =
+    "FILE.sl, SCENE.dae (all its effects), SCENE.dae#EFFECT, or - for standard input";
 
 void parse_size(const std::string& text, ShadeOptions& o) {
     char tail = 0;
@@ -34,7 +31,8 @@ void choose_target(const std::string& name, ShadeOptions& o) {
     o.target = target;
 }
 
-std::pair<std::string, std::string> split_pair(const std::string& text, const char* option) {
+// NAME=VALUE; VALUE may be empty (a text).
+std::pair<std::string, std::string> name_and_value(const std::string& text, const char* option) {
     size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos)
         throw CLI::ValidationError(option, "takes NAME=VALUE, not '" + text + "'");
@@ -48,83 +46,101 @@ struct Texts {
     bool list = false;
 };
 
-void add_source(CLI::App* command, ShadeOptions& o, Texts& texts) {
-    command->add_option("source", o.source, kSourceHelp)->required();
-    command->add_option("-I", o.compile.include_directories, "where #include files are sought")
-        ->allow_extra_args(false);
-    command->add_option("-D", texts.defines, "NAME or NAME=VALUE: define a macro")
-        ->allow_extra_args(false);
-    command->add_option("-U", o.compile.undefines, "NAME: undefine a macro")
-        ->allow_extra_args(false);
-    command->add_flag("-E", o.preprocess_only, "print the preprocessed text only");
-    command->add_flag("--Werror", o.warnings_fail, "warnings fail too (also -Werror)");
-    command->add_option("--shader", o.shader, "which shader of the source (the first)");
+void add_telling(CLI::App& app, ShadeOptions& o) {
+    app.set_version_flag("--version", "kinora-shade " KINORA_VERSION);
+    app.add_flag("-q,--quiet", o.quiet, "say only errors");
+    app.add_flag("-v,--verbose", o.verbose, "say more");
 }
 
-void add_grid(CLI::App* command, ShadeOptions& o, Texts& texts) {
-    command->add_option("--size", texts.size, "WIDTHxHEIGHT points (256x256)");
-    command
-        ->add_option("--param", texts.params,
-                     "NAME=VALUE: a number, several with commas, or a text")
-        ->allow_extra_args(false);
-    command->add_flag("--sphere", o.sphere, "a sphere instead of a square");
-    command->add_flag("--flip", o.flip, "a light shines along +z of its space instead of -z");
-    command->add_option("--output", o.output,
-                        "Ci, Oi, N, P or an output parameter of the shader (Ci)");
-    command->add_option("--target", texts.target, "avx512, avx2, neon or interp");
-    command->add_option("--math", o.math, "precise (1 ULP) or fast (4 ULP)")
-        ->transform(CLI::CheckedTransformer(
-                        std::map<std::string, jit::math::Tier>{
-                            {"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}},
-                        CLI::ignore_case)
-                        .description(""))
-        ->type_name("NAME");
-    command->add_option("--iterations", o.iterations, "how often it is done, for the times")
+void add_compile(CLI::App& command, ShadeOptions& o, Texts& texts) {
+    add_list(command, "-I", o.compile.include_directories, "DIR: where #include files are sought");
+    add_list(command, "-D", texts.defines, "NAME or NAME=VALUE: define a macro");
+    add_list(command, "-U", o.compile.undefines, "NAME: undefine a macro");
+    command.add_flag("-E", o.preprocess_only, "print the preprocessed text only");
+    command.add_flag("--Werror", o.warnings_fail, "warnings fail too (also -Werror)");
+}
+
+void add_source(CLI::App& command, ShadeOptions& o, Texts& texts) {
+    command.add_option("source", o.source, kSourceHelp)->required();
+    add_compile(command, o, texts);
+    command.add_option("--shader", o.shader, "which shader of the source (the first)");
+}
+
+void add_grid(CLI::App& command, ShadeOptions& o, Texts& texts) {
+    command.add_option("--size", texts.size, "WIDTHxHEIGHT points (256x256)");
+    add_list(command, "--param", texts.params,
+             "NAME=VALUE: a number, several with commas, or a text");
+    command.add_flag("--sphere", o.sphere, "a sphere instead of a square");
+    command.add_flag("--flip", o.flip, "a light shines along +z of its space instead of -z");
+    command.add_option("--output", o.output,
+                       "Ci, Oi, N, P or an output parameter of the shader (Ci)");
+    command.add_option("--target", texts.target, "avx512, avx2, neon or interp");
+    add_choice<jit::math::Tier>(
+        command, "--math", o.math,
+        {{"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}},
+        "precise (1 ULP) or fast (4 ULP) (precise)");
+    command.add_option("--iterations", o.iterations, "how often it is done, for the times")
         ->check(CLI::Range(1, 1000000));
 }
 
 void add_commands(CLI::App& app, ShadeOptions& o, Texts& texts) {
     CLI::App* check = app.add_subcommand("check", "all findings and a summary");
-    add_source(check, o, texts);
+    check->add_option("sources", o.sources, kSourcesHelp)->required();
+    add_compile(*check, o, texts);
+    check->add_flag("--json", o.json, "as JSON");
     CLI::App* info = app.add_subcommand("info", "parameters, defaults, globals read and written");
-    add_source(info, o, texts);
+    add_source(*info, o, texts);
     info->add_flag("--json", o.json, "as JSON");
     CLI::App* run = app.add_subcommand("run", "shade a grid of points to a picture");
-    add_source(run, o, texts);
-    add_grid(run, o, texts);
+    add_source(*run, o, texts);
+    add_grid(*run, o, texts);
     run->add_option("-o", o.file, "the picture: .png or .exr");
     run->add_option("--compare", o.compare,
                     "interp (bit for bit) or reference (double precision): largest difference")
-        ->check(CLI::IsMember({"interp", "reference"}));
+        ->check(one_of({"interp", "reference"}));
     CLI::App* dump = app.add_subcommand("dump", "what a stage of the compiler makes of it");
-    add_source(dump, o, texts);
-    add_grid(dump, o, texts);
-    dump->add_option("--stage", o.stages,
-                     "tokens, ast, types, ir, ir:PASS or asm; several with commas (ir)")
-        ->delimiter(',');
+    add_source(*dump, o, texts);
+    add_grid(*dump, o, texts);
+    add_list(*dump, "--stage", o.stages,
+             "tokens, ast, types, ir, ir:PASS or asm; several with commas (ir)", ',');
     CLI::App* bench = app.add_subcommand("bench", "compile times and Mpoints/s per target");
-    add_source(bench, o, texts);
-    add_grid(bench, o, texts);
-    CLI::App* manual = app.add_subcommand("manual", "the built-in functions");
-    manual->add_option("function", o.source, "a name; without one, all are listed");
+    add_source(*bench, o, texts);
+    add_grid(*bench, o, texts);
+    bench->add_flag("--json", o.json, "as JSON");
+    CLI::App* manual = app.add_subcommand("manual", "the built-in functions and globals");
+    manual->add_option("name", o.source, "a function or a global; without one, all are listed");
     manual->add_flag("--list", texts.list, "one line each (what it does without a name)");
-    for (CLI::App* command : app.get_subcommands({})) {
-        command->add_flag("-q,--quiet", o.quiet, "say only errors");
-        command->add_flag("-v,--verbose", o.verbose, "say more");
-    }
+    for (CLI::App* command : app.get_subcommands({})) add_telling(*command, o);
 }
 
 // A first word that is no command deserves more than "a subcommand is required".
 void check_command(const CLI::App& app, const std::vector<std::string>& words) {
-    if (words.empty() || words.back().starts_with("-")) return;
+    auto first = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+        return word != "-q" && word != "-v" && word != "--quiet" && word != "--verbose";
+    });
+    if (first == words.end() || first->starts_with("-")) return;
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (std::find(names.begin(), names.end(), words.back()) != names.end()) return;
-    std::string_view near = nearest_name(words.back(), {names.begin(), names.end()});
+    if (std::find(names.begin(), names.end(), *first) != names.end()) return;
+    std::string_view near = nearest_name(*first, {names.begin(), names.end()});
     throw CLI::ValidationError(
-        "'" + words.back() + "'",
-        near.empty() ? fmt::format("no command; commands are {}", fmt::join(names, ", "))
-                     : fmt::format("no command; did you mean '{}'?", near));
+        "'" + *first + "'", near.empty()
+                                ? fmt::format("no command; commands are {}", fmt::join(names, ", "))
+                                : fmt::format("no command; did you mean '{}'?", near));
+}
+
+void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
+    o.command = app.get_subcommands().front()->get_name();
+    if (!texts.size.empty()) parse_size(texts.size, o);
+    if (!texts.target.empty()) choose_target(texts.target, o);
+    for (const std::string& text : texts.params)
+        o.params.push_back(name_and_value(text, "--param"));
+    for (const std::string& text : texts.defines)
+        o.compile.defines.push_back(text.find('=') == std::string::npos
+                                        ? std::pair(text, std::string("1"))
+                                        : name_and_value(text, "-D"));
+    if (!o.file.empty() && !is_image_path(o.file))
+        throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
 }
 
 }  // namespace
@@ -133,33 +149,15 @@ std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& o) {
     CLI::App app("kinora-shade: the shader writer's tool", "kinora-shade");
     app.footer(std::string("kinora-shade COMMAND --help shows a command's options.\n") +
                kExitCodeHelp);
-    app.set_version_flag("--version", "kinora-shade " KINORA_VERSION);
     app.require_subcommand(1);
     Texts texts;
+    add_telling(app, o);
     add_commands(app, o, texts);
+    std::vector<std::string> words = words_of(argc, argv);
     // -Werror is one word, as compilers have it; CLI11 would read -W -e -r ...
-    std::vector<std::string> words;
-    for (int i = argc - 1; i > 0; --i)
-        words.push_back(std::string(argv[i]) == "-Werror" ? "--Werror" : argv[i]);
-    try {
-        check_command(app, words);
-        app.parse(words);
-        o.command = app.get_subcommands().front()->get_name();
-        if (!texts.size.empty()) parse_size(texts.size, o);
-        if (!texts.target.empty()) choose_target(texts.target, o);
-        for (const std::string& text : texts.params)
-            o.params.push_back(split_pair(text, "--param"));
-        for (const std::string& text : texts.defines)
-            o.compile.defines.push_back(text.find('=') == std::string::npos
-                                            ? std::pair(text, std::string("1"))
-                                            : split_pair(text, "-D"));
-        if (!o.file.empty() && !is_image_path(o.file))
-            throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
-    } catch (const CLI::ParseError& error) {
-        int code = app.exit(error);
-        return code == 0 ? kExitOk : kExitUsage;
-    }
-    return std::nullopt;
+    std::replace(words.begin(), words.end(), std::string("-Werror"), std::string("--Werror"));
+    return parse_command_line(
+        app, words, {}, [&] { interpret(app, texts, o); }, [&] { check_command(app, words); });
 }
 
 }  // namespace kinora

@@ -91,14 +91,10 @@ double run_best(const ShadeOptions& options, ShadeKernel& kernel) {
 
 int shade_run(const ShadeOptions& options) {
     ShadeSource source;
-    if (std::optional<int> code = compile_shade_source(options, source)) return *code;
-    const rsl::Shader* shader = choose_shader(options, source);
-    if (!shader) return kExitUsage;
-    if (!can_run(*shader)) return kExitUsage;
     Patch patch(options.width, options.height, options.sphere);
-    if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
     ShadeStack stack;
-    if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
+    if (std::optional<int> code = open_stack(options, source, patch, stack)) return *code;
+    const rsl::Shader* shader = stack.layers.front().shader;
     ShadeKernel kernel;
     if (!kernel.compile(stack, options.target, source.diagnostics)) {
         source.print_findings(options);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -56,16 +57,23 @@ void take_binds(const collada::SceneData& data, const collada::Effect& effect,
         }
 }
 
+bool is_scene(const std::string& path) {
+    return path.ends_with(".dae") || path.ends_with(".DAE");
+}
+
+// Where only one effect has RSL it need not be named.
 int read_effect(const std::string& path, const std::string& id, ShadeSource& source) {
     std::optional<collada::Document> document = collada::read_document(path, source.diagnostics);
     std::optional<collada::SceneData> data;
     if (document) data = collada::extract(*document, source.diagnostics);
     if (!data) return kExitUnreadable;  // findings say why
     std::string known;
+    auto with_rsl = std::count_if(data->effects.begin(), data->effects.end(),
+                                  [](const collada::Effect& e) { return bool(e.rsl); });
     for (const collada::Effect& effect : data->effects) {
         if (!effect.rsl) continue;
         known += (known.empty() ? "" : ", ") + effect.id;
-        if (effect.id != id) continue;
+        if (effect.id != id && !(id.empty() && with_rsl == 1)) continue;
         source.text = joined_code(*effect.rsl, source.map);
         take_binds(*data, effect, source);
         return kExitOk;
@@ -86,7 +94,7 @@ void ShadeSource::print_findings(const ShadeOptions& options) {
                                        : Severity::Warning;
     const auto& findings = diagnostics.findings();
     for (; printed_ < findings.size(); ++printed_)
-        if (findings[printed_].severity >= least)
+        if (!options.silent && findings[printed_].severity >= least)
             std::fputs(format_finding(findings[printed_], diagnostics.files).c_str(), stderr);
 }
 
@@ -95,10 +103,22 @@ bool ShadeSource::failed(const ShadeOptions& options) const {
            (options.warnings_fail && diagnostics.count(Severity::Warning) > 0);
 }
 
+std::vector<std::string> shade_sources(const std::string& word) {
+    if (word.rfind('#') != std::string::npos || !is_scene(word)) return {word};
+    Diagnostics unheard;  // who reads an effect hears it
+    std::optional<collada::Document> document = collada::read_document(word, unheard);
+    std::optional<collada::SceneData> data;
+    if (document) data = collada::extract(*document, unheard);
+    std::vector<std::string> sources;
+    for (size_t e = 0; data && e < data->effects.size(); ++e)
+        if (data->effects[e].rsl) sources.push_back(word + "#" + data->effects[e].id);
+    return sources.empty() ? std::vector<std::string>{word} : sources;
+}
+
 int read_shade_source(const ShadeOptions& options, ShadeSource& source) {
     size_t hash = options.source.rfind('#');
     std::string path = options.source.substr(0, hash);
-    bool scene = path.ends_with(".dae") || path.ends_with(".DAE");
+    bool scene = is_scene(path);
     int code =
         scene ? read_effect(path, hash == std::string::npos ? "" : options.source.substr(hash + 1),
                             source)

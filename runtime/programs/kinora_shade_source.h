@@ -36,6 +36,10 @@ struct ShadeSource {
     size_t printed_ = 0;
 };
 
+// The sources that one word names: all RSL effects of a SCENE.dae without an #EFFECT (itself, where
+// it has none or cannot be read), else the word.
+std::vector<std::string> shade_sources(const std::string& word);
+
 // Reads the text. Returns an exit code other than 0 when it cannot be had (said on stderr).
 int read_shade_source(const ShadeOptions& options, ShadeSource& source);
 

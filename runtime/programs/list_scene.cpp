@@ -1,99 +1,270 @@
-// runtime/programs/list_scene.cpp: cameras, clips, materials, shaders and lights as text.
+// runtime/programs/list_scene.cpp: cameras, clips, materials and so on, as text and as JSON.
 #include "runtime/programs/list_scene.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 namespace kinora {
 
 namespace {
 
-std::string cameras(const Scene& scene) {
-    std::string text;
+using Json = nlohmann::ordered_json;
+
+const std::string& shown(const std::string& id, const std::string& name) {
+    return id.empty() ? name : id;
+}
+
+std::string node_path(const Scene& scene, uint32_t node) {
+    std::string path;
+    for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
+        const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
+        path = shown(step.id, step.name) + (path.empty() ? "" : "/" + path);
+    }
+    return path;
+}
+
+Json cameras(const Scene& scene) {
+    Json list = Json::array();
     for (size_t c = 0; c < scene.cameras.size(); ++c) {
         const CameraDefinition& camera = scene.description->cameras[scene.cameras[c].definition];
-        text +=
-            fmt::format("camera {} ({}{}){}\n", scene.cameras[c].name,
-                        camera.id.empty() ? camera.name : camera.id,
-                        camera.orthographic ? ", orthographic" : "", c == scene.camera ? " *" : "");
+        list.push_back({{"name", scene.cameras[c].name},
+                        {"camera", shown(camera.id, camera.name)},
+                        {"node", node_path(scene, scene.cameras[c].node)},
+                        {"orthographic", camera.orthographic},
+                        {"chosen", c == scene.camera}});
     }
-    return text;
+    return list;
 }
 
-std::string clips(const Scene& scene) {
+std::string camera_line(const Json& row) {
+    return fmt::format("camera {} ({}{}){}\n", row["name"].get<std::string>(),
+                       row["camera"].get<std::string>(),
+                       row["orthographic"].get<bool>() ? ", orthographic" : "",
+                       row["chosen"].get<bool>() ? " *" : "");
+}
+
+// The first row is the range that is played without --clip.
+Json clips(const Scene& scene) {
     PlayRange range = play_range(*scene.description);
-    std::string text = fmt::format("range {:.6g} to {:.6g} s at {:.6g} frames/s\n", range.start,
-                                   range.end, range.rate);
+    Json list = Json::array(
+        {{{"range", true}, {"start", range.start}, {"end", range.end}, {"rate", range.rate}}});
     for (const ClipDefinition& clip : scene.description->clips)
-        text += fmt::format("clip {} {:.6g} to {:.6g} s\n", clip.name, clip.start, clip.end);
-    return text;
+        list.push_back({{"name", clip.name}, {"start", clip.start}, {"end", clip.end}});
+    return list;
 }
 
-std::string stack_text(const std::vector<ShaderUse>& layers) {
-    std::string text;
-    for (const ShaderUse& use : layers)
-        text += fmt::format("{}{} {}", text.empty() ? "" : " + ",
-                            rsl::shader_kind_name(use.shader->kind), use.shader->name);
-    return text;
+std::string clip_line(const Json& row) {
+    double start = row["start"].get<double>(), end = row["end"].get<double>();
+    if (row.contains("range"))
+        return fmt::format("range {:.6g} to {:.6g} s at {:.6g} frames/s\n", start, end,
+                           row["rate"].get<double>());
+    return fmt::format("clip {} {:.6g} to {:.6g} s\n", row["name"].get<std::string>(), start, end);
 }
 
-std::string materials(const Scene& scene) {
-    std::string text;
+Json materials(const Scene& scene) {
+    Json list = Json::array();
     std::set<std::string> seen;
     for (const auto& look : scene.looks) {
         if (look->kind != LookKind::Surface || !seen.insert(look->name).second) continue;
         constexpr const char* kOpacity[] = {"opaque", "constant opacity", "computed opacity"};
-        text += fmt::format("material {} ({}; {})\n", look->name, stack_text(look->layers),
-                            kOpacity[size_t(look->lowered.opacity)]);
+        Json layers = Json::array();
+        for (const ShaderUse& use : look->layers)
+            layers.push_back(
+                {{"kind", rsl::shader_kind_name(use.shader->kind)}, {"shader", use.shader->name}});
+        list.push_back({{"name", look->name},
+                        {"layers", layers},
+                        {"opacity", kOpacity[size_t(look->lowered.opacity)]}});
     }
-    return text;
+    return list;
 }
 
-std::string shaders(const Scene& scene) {
-    std::string text;
+std::string material_line(const Json& row) {
+    std::string layers;
+    for (const Json& layer : row["layers"])
+        layers += fmt::format("{}{} {}", layers.empty() ? "" : " + ",
+                              layer["kind"].get<std::string>(), layer["shader"].get<std::string>());
+    return fmt::format("material {} ({}; {})\n", row["name"].get<std::string>(), layers,
+                       row["opacity"].get<std::string>());
+}
+
+// Calls f(Shader&) once for each shader that the scene runs.
+template <class F>
+void for_each_shader(const Scene& scene, F&& f) {
     std::set<const rsl::Shader*> seen;
-    for (const auto& look : scene.looks)
-        for (const ShaderUse& use : look->layers) {
-            if (!seen.insert(use.shader.get()).second) continue;
-            text += fmt::format("shader {} {}\n", rsl::shader_kind_name(use.shader->kind),
-                                use.shader->name);
-            for (const rsl::ShaderParameter& p : use.shader->parameters)
-                text += fmt::format("    {} {}\n", rsl::type_name(p.type), p.name);
-        }
-    return text;
+    for (const auto* looks : {&scene.looks, &scene.vertex_looks})
+        for (const auto& look : *looks)
+            for (const ShaderUse& use : look->layers)
+                if (seen.insert(use.shader.get()).second) f(*use.shader);
 }
 
-std::string lights(const Scene& scene) {
-    std::string text;
+Json shaders(const Scene& scene) {
+    Json list = Json::array();
+    for_each_shader(scene, [&](const rsl::Shader& shader) {
+        Json parameters = Json::array();
+        for (const rsl::ShaderParameter& p : shader.parameters)
+            parameters.push_back({{"name", p.name}, {"type", rsl::type_name(p.type)}});
+        list.push_back({{"name", shader.name},
+                        {"kind", rsl::shader_kind_name(shader.kind)},
+                        {"parameters", parameters}});
+    });
+    return list;
+}
+
+std::string shader_line(const Json& row) {
+    std::string lines = fmt::format("shader {} {}\n", row["kind"].get<std::string>(),
+                                    row["name"].get<std::string>());
+    for (const Json& p : row["parameters"])
+        lines +=
+            fmt::format("    {} {}\n", p["type"].get<std::string>(), p["name"].get<std::string>());
+    return lines;
+}
+
+// What --aov takes: output parameters of surfaces.
+Json aovs(const Scene& scene) {
+    Json list = Json::array();
+    std::set<std::string> seen;
+    for (const auto& look : scene.looks) {
+        if (look->kind != LookKind::Surface) continue;
+        for (const ShaderUse& use : look->layers)
+            for (const rsl::ShaderParameter& p : use.shader->parameters) {
+                bool numbers = p.output && !p.type.is_array() &&
+                               p.type.base != rsl::BaseType::String &&
+                               p.type.base != rsl::BaseType::Matrix;
+                if (numbers && seen.insert(std::string(p.name)).second)
+                    list.push_back({{"name", p.name},
+                                    {"type", rsl::type_name(p.type)},
+                                    {"shader", use.shader->name}});
+            }
+    }
+    return list;
+}
+
+std::string aov_line(const Json& row) {
+    return fmt::format("aov {} ({}, of {})\n", row["name"].get<std::string>(),
+                       row["type"].get<std::string>(), row["shader"].get<std::string>());
+}
+
+Json lights(const Scene& scene) {
+    Json list = Json::array();
     for (const LightSource& source : scene.lights) {
         const LightDefinition& light = scene.description->lights[source.definition];
         const NodeDefinition& node = scene.description->nodes[scene.nodes[source.node].definition];
-        text += fmt::format("light {} on {} ({})\n", light.id.empty() ? light.name : light.id,
-                            node.id.empty() ? node.name : node.id, light.shader.shader->name);
+        list.push_back({{"name", shown(light.id, light.name)},
+                        {"node", shown(node.id, node.name)},
+                        {"shader", light.shader.shader->name},
+                        {"area", source.surface != kNone}});
     }
-    return text;
+    return list;
 }
 
-struct Row {
-    const char* kind;
-    std::string (*text)(const Scene&);
+std::string light_line(const Json& row) {
+    return fmt::format("light {} on {} ({}{})\n", row["name"].get<std::string>(),
+                       row["node"].get<std::string>(), row["shader"].get<std::string>(),
+                       row["area"].get<bool>() ? ", on its surface" : "");
+}
+
+// What --hide and --only are for: nodes that bear something.
+Json nodes(const Scene& scene) {
+    const SceneDescription& description = *scene.description;
+    Json list = Json::array();
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
+        const NodeDefinition& node = description.nodes[scene.nodes[n].definition];
+        Json meshes = Json::array(), lights = Json::array(), cameras = Json::array();
+        for (const MeshUse& use : node.meshes) {
+            const MeshDefinition& mesh = description.meshes[use.mesh];
+            meshes.push_back(shown(mesh.id, mesh.name));
+        }
+        for (uint32_t l : node.lights)
+            lights.push_back(shown(description.lights[l].id, description.lights[l].name));
+        for (uint32_t c : node.cameras)
+            cameras.push_back(shown(description.cameras[c].id, description.cameras[c].name));
+        if (meshes.empty() && lights.empty() && cameras.empty()) continue;
+        list.push_back({{"path", node_path(scene, n)},
+                        {"id", node.id},
+                        {"name", node.name},
+                        {"meshes", meshes},
+                        {"lights", lights},
+                        {"cameras", cameras},
+                        {"hidden", scene.nodes[n].hidden || !scene.nodes[n].chosen}});
+    }
+    return list;
+}
+
+std::string node_line(const Json& row) {
+    std::string bears;
+    for (const char* kind : {"meshes", "lights", "cameras"})
+        for (const Json& name : row[kind])
+            bears += fmt::format("{}{}", bears.empty() ? "" : ", ", name.get<std::string>());
+    return fmt::format("node {} ({}){}\n", row["path"].get<std::string>(), bears,
+                       row["hidden"].get<bool>() ? " hidden" : "");
+}
+
+struct Kind {
+    std::string_view name;
+    Json (*rows)(const Scene&);
+    std::string (*line)(const Json& row);
 };
-constexpr Row kRows[] = {{"cameras", cameras},
-                         {"clips", clips},
-                         {"materials", materials},
-                         {"shaders", shaders},
-                         {"lights", lights}};
+constexpr Kind kKinds[] = {
+    {"cameras", cameras, camera_line},
+    {"clips", clips, clip_line},
+    {"materials", materials, material_line},
+    {"shaders", shaders, shader_line},
+    {"aovs", aovs, aov_line},
+    {"lights", lights, light_line},
+    {"nodes", nodes, node_line},
+};
+
+// DESIGN.md, section 5; runtime/defaults.cpp.
+struct Added {
+    std::string_view name, meaning;
+};
+constexpr Added kAdded[] = {
+    {"default camera",
+     "yfov 37, from (1, 0.6, 1) as the up axis has right, up and back; frames all over the range"},
+    {"default light", "white, distant, from over the camera's left shoulder; --lights scene: none"},
+    {"default ambient light", "0.15"},
+};
+
+std::string_view meaning_of(std::string_view added) {
+    for (const Added& row : kAdded)
+        if (row.name == added) return row.meaning;
+    return "";
+}
 
 }  // namespace
 
+const std::vector<std::string_view>& list_kinds() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> all;
+        for (const Kind& kind : kKinds) all.push_back(kind.name);
+        all.push_back("all");
+        return all;
+    }();
+    return names;
+}
+
 std::string list_scene(const Scene& scene, const std::string& kind) {
-    std::string text;
-    for (const Row& row : kRows)
-        if (kind == "all" || kind == row.kind) text += row.text(scene);
-    for (const std::string& added : scene.added) text += fmt::format("added: {}\n", added);
-    return text;
+    std::string lines;
+    for (const Kind& row : kKinds)
+        if (kind == "all" || kind == row.name)
+            for (const Json& thing : row.rows(scene)) lines += row.line(thing);
+    for (const std::string& added : scene.added)
+        lines += fmt::format("added: {} ({})\n", added, meaning_of(added));
+    return lines;
+}
+
+std::string list_scene_json(const Scene& scene, const std::string& kind) {
+    Json all = Json::object();
+    for (const Kind& row : kKinds)
+        if (kind == "all" || kind == row.name) all[std::string(row.name)] = row.rows(scene);
+    Json added = Json::array();
+    for (const std::string& name : scene.added)
+        added.push_back({{"name", name}, {"meaning", meaning_of(name)}});
+    all["added"] = added;
+    // Names may hold bytes that are no UTF-8.
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace kinora

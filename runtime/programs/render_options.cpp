@@ -1,36 +1,19 @@
 // runtime/programs/render_options.cpp: kinora-render's command line.
 #include "runtime/programs/render_options.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
-#include <thread>
 
-#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/command_line.h"
+#include "runtime/programs/list_scene.h"
 
 namespace kinora {
 
 namespace {
 
-constexpr int kMostThreads = 1024;
 constexpr double kMostSeconds = 1e9;
 constexpr double kMostFilterWidth = 64;  // pixels
-constexpr const char* kListKinds = "cameras, clips, materials, shaders, lights or all";
-
-int parse_threads(const std::string& text) {
-    int cores = std::max(1, int(std::thread::hardware_concurrency()));
-    if (text == "all") return cores;
-    int n = 0;
-    auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc() || *end != 0 || n == 0)
-        throw CLI::ValidationError("--threads", "takes a number, -N (all but N) or 'all'");
-    if (n > kMostThreads)
-        throw CLI::ValidationError("--threads", fmt::format("takes {} at most", kMostThreads));
-    return n > 0 ? n : std::max(1, cores + n);
-}
 
 void parse_size(const std::string& text, RenderOptions& o) {
     char tail = 0;
@@ -73,78 +56,92 @@ void check_stages(const std::vector<std::string>& stages) {
                 "--dump", "takes ir, ir:PASS or asm; kinora-shade dump shows the earlier stages");
 }
 
-// An enumeration by name.
-template <class T>
-CLI::Validator names(std::initializer_list<std::pair<const std::string, T>> rows) {
-    return CLI::CheckedTransformer(std::map<std::string, T>(rows), CLI::ignore_case)
-        .description("");
+// "50%" or "0.5".
+double parse_scale(const std::string& text) {
+    bool percent = text.ends_with('%');
+    double scale = 0;
+    const char* last = text.data() + text.size() - (percent ? 1 : 0);
+    auto [end, error] = std::from_chars(text.data(), last, scale);
+    if (percent) scale *= 0.01;
+    if (error != std::errc() || end != last || !(scale > 0 && scale <= 100))
+        throw CLI::ValidationError("--scale", "takes 50% or 0.5, not '" + text + "'");
+    return scale;
 }
 
-// Options that take a name say so in the help, not what CLI11 calls its type.
-void name_types(CLI::App& app) {
-    for (CLI::Option* option : app.get_options()) {
-        if (option->get_type_name() == "ENUM") option->type_name("NAME");
-        if (option->get_type_name() == "BOOLEAN") option->type_name("NAME");
-    }
+std::vector<std::string_view> quality_names() {
+    std::vector<std::string_view> names;
+    for (const Quality& row : qualities()) names.push_back(row.name);
+    return names;
 }
 
 // As they stand on the command line, where they are not yet what RenderOptions holds.
 struct Given {
-    std::string frames, fps, size, threads = "all", target, quality{kDefaultQuality}, background;
+    std::string frames, fps, size, scale, threads = "all", target, background;
+    std::string quality{kDefaultQuality};
     std::optional<int> spp, rays, bounces;
     std::optional<jit::math::Tier> math;
     std::optional<bool> robust, rebuild;
     std::optional<DisplacementMode> displacement;
     std::optional<double> dice;
     std::optional<size_t> dice_limit;
-    std::vector<std::string> shaders;
+    std::vector<std::string> shaders, params;
     bool overwrite = false;
-    std::string stats = "none", progress;
+    std::string stats, progress;
 };
 
 // What is rendered, where to and by what.
 void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
     app.footer(kExitCodeHelp);
     app.set_version_flag("--version", "kinora-render " KINORA_VERSION);
-    app.add_option("scene", o.scene, "the scene: .dae, .zae or .kmz")->required();
+    app.add_option("scene", o.scene, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
     app.add_option("-o,--output", o.output,
                    "file; with a frame token (#### or %04d) for several frames; .png or .exr");
-    app.add_option("--frames", given.frames, "1-240, 1-240x2, 300, 10-1x-1, comma separated");
-    app.add_option("--time", o.time, "one picture at this time, seconds");
-    app.add_option("--fps", given.fps, "frames per second: 24, 23.976 or 24000/1001");
-    app.add_option("--clip", o.clip, "play this clip's range");
+    auto* frames =
+        app.add_option("--frames", given.frames,
+                       "1-240, 1-240x2, 300, 10-1x-1, comma separated (what is animated)");
+    app.add_option("--time", o.time, "one picture at this time, seconds")->excludes(frames);
+    app.add_option("--fps", given.fps, "frames per second: 24, 23.976 or 24000/1001 (the file's)");
+    app.add_option("--clip", o.clip, "play this clip: its range, and in glTF its motion alone");
     app.add_option("--size", given.size, "WIDTHxHEIGHT in pixels (640 x 640/aspect)");
-    app.add_option("--camera", o.camera, "node path or id, else camera id");
-    app.add_option("--threads", given.threads, "N, -N (all but N) or all");
+    app.add_option("--scale", given.scale, "of the size: 50% or 0.5");
+    app.add_option("--camera", o.camera, "node path or id, else camera id (the first)");
+    app.add_option("--threads", given.threads, "N, -N (all but N) or all (all)");
     app.add_option("--target", given.target,
                    "avx512, avx2, neon or interp (the best this CPU has)");
 }
 
 // The rows of a quality, one by one, and how pixels are sampled.
 void declare_quality(CLI::App& app, Given& given, RenderOptions& o) {
-    app.add_option("--quality", given.quality, "draft, preview, final or reference");
-    app.add_option("--spp", given.spp, "samples per pixel")->check(CLI::Range(1, 1 << 20));
-    app.add_option("--math", given.math, "precise (1 ULP) or fast (4 ULP)")
-        ->transform(names<jit::math::Tier>(
-            {{"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}}));
-    app.add_option("--robust", given.robust, "watertight traversal: on or off");
-    app.add_option("--bvh", given.rebuild, "refit or rebuild each frame")
-        ->transform(names<bool>({{"refit", false}, {"rebuild", true}}));
-    app.add_option("--displacement", given.displacement, "true (vertices move) or bump (N bends)")
-        ->transform(names<DisplacementMode>(
-            {{"true", DisplacementMode::True}, {"bump", DisplacementMode::Bump}}));
+    app.add_option("--quality", given.quality,
+                   fmt::format("{} ({})", fmt::join(quality_names(), ", "), kDefaultQuality));
+    app.add_option("--spp", given.spp, "samples per pixel (the quality's)")
+        ->check(CLI::Range(1, 1 << 20));
+    add_choice<jit::math::Tier>(
+        app, "--math", given.math,
+        {{"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}},
+        "precise (1 ULP) or fast (4 ULP)");
+    add_choice<bool>(app, "--robust", given.robust, {{"on", true}, {"off", false}},
+                     "watertight traversal: on or off");
+    add_choice<bool>(app, "--bvh", given.rebuild, {{"refit", false}, {"rebuild", true}},
+                     "refit or rebuild each frame");
+    add_choice<DisplacementMode>(
+        app, "--displacement", given.displacement,
+        {{"true", DisplacementMode::True}, {"bump", DisplacementMode::Bump}},
+        "true (vertices move) or bump (N bends)");
     app.add_option("--dice", given.dice, "edge length of displaced surfaces, pixels");
     app.add_option("--dice-limit", given.dice_limit,
                    "most triangles of displaced surfaces (4000000)")
         ->check(CLI::Range(size_t(1), size_t(1) << 31));
-    app.add_option("--filter", o.filter, "pixel filter: box, triangle or gaussian")
+    app.add_option("--filter", o.filter, "pixel filter: box, triangle or gaussian (gaussian)")
         ->check(CLI::Validator(
             [](std::string& name) {
-                return raytrace::find_pixel_filter(name) ? "" : "no such filter";
+                return raytrace::find_pixel_filter(name)
+                           ? ""
+                           : none_of(name, {"box", "triangle", "gaussian"});
             },
-            "FILTER"));
+            "NAME"));
     app.add_option("--filter-width", o.filter_width, "in pixels (the filter's own)");
-    app.add_option("--seed", o.seed, "of all sampling");
+    app.add_option("--seed", o.seed, "of all sampling (0)");
     app.add_option("--rays", given.rays,
                    "rays that shaders may send one from the hit of another (16)")
         ->check(CLI::Range(0, 64));
@@ -154,38 +151,51 @@ void declare_quality(CLI::App& app, Given& given, RenderOptions& o) {
 
 // What the picture shows of the scene, and how.
 void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
-    app.add_option("--shadows", o.shadows, "auto, explicit or off")
-        ->transform(names<ShadowMode>({{"auto", ShadowMode::Auto},
-                                       {"explicit", ShadowMode::Explicit},
-                                       {"off", ShadowMode::Off}}));
-    app.add_option("--background", given.background, "R,G,B instead of transparent");
-    app.add_option("--nan", o.nan, "non-finite results become zero, magenta or keep")
-        ->transform(names<raytrace::NanPolicy>({{"zero", raytrace::NanPolicy::Zero},
-                                                {"magenta", raytrace::NanPolicy::Magenta},
-                                                {"keep", raytrace::NanPolicy::Keep}}));
-    app.add_option("--color", o.color, "srgb (PNG encoded) or legacy (as computed)")
-        ->transform(names<ColorEncoding>(
-            {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}}));
-    app.add_option("--shader", given.shaders,
-                   "MATERIAL=FILE.sl: try a shader; MATERIAL may be a glob");
+    add_choice<ShadowMode>(
+        app, "--shadows", o.shadows,
+        {{"auto", ShadowMode::Auto}, {"explicit", ShadowMode::Explicit}, {"off", ShadowMode::Off}},
+        "auto, explicit (where shaders ask) or off");
+    add_choice<LightSet>(app, "--lights", o.lights,
+                         {{"auto", LightSet::Auto},
+                          {"scene", LightSet::Scene},
+                          {"default", LightSet::Default},
+                          {"both", LightSet::Both}},
+                         "scene, default, both or auto (the scene's; default where it has none)");
     app.add_option("--light-samples", o.light_samples, "of each area light (the file's, else 16)")
         ->check(CLI::Range(1, 4096));
+    app.add_option("--background", given.background, "R,G,B instead of transparent");
+    add_choice<raytrace::NanPolicy>(app, "--nan", o.nan,
+                                    {{"zero", raytrace::NanPolicy::Zero},
+                                     {"magenta", raytrace::NanPolicy::Magenta},
+                                     {"keep", raytrace::NanPolicy::Keep}},
+                                    "non-finite results become zero, magenta or keep");
+    add_choice<ColorEncoding>(app, "--color", o.color,
+                              {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
+                              "srgb (PNG encoded) or legacy (as computed)");
     app.add_option("--imager", o.imager, "a standard imager's name, FILE.sl or none");
-    app.add_option("--aov", o.aovs, "output parameters of surfaces: channels of the EXR")
-        ->delimiter(',');
-    app.add_option("-I", o.include_directories, "where shaders find #include files");
-    app.add_option("--up", o.up_axis, "X, Y or Z instead of the file's up axis")
-        ->transform(names<UpAxis>({{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}}));
+    add_list(app, "--aov", o.aovs, "output parameters of surfaces: channels of the EXR", ',');
+    add_choice<UpAxis>(app, "--up", o.up_axis,
+                       {{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}},
+                       "X, Y or Z instead of the file's up axis");
     app.add_option("--unit", o.meter, "metres per unit instead of the file's");
-    app.add_option("--transparency", o.transparency,
-                   "spec, or auto: what the formula makes invisible everywhere is shown opaque")
-        ->transform(names<TransparencyMode>(
-            {{"spec", TransparencyMode::Spec}, {"auto", TransparencyMode::Auto}}));
-    app.add_option("--allow-external", o.allow_external,
-                   "a folder that the scene may read besides its own (repeatable)")
-        ->check(CLI::ExistingDirectory)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_choice<TransparencyMode>(
+        app, "--transparency", o.transparency,
+        {{"spec", TransparencyMode::Spec}, {"auto", TransparencyMode::Auto}},
+        "spec, or auto: what the formula makes invisible everywhere is shown opaque");
+}
+
+// What is tried on the scene without editing it. MATERIAL and NODE are ids, names or globs.
+void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
+    add_list(app, "--shader", given.shaders,
+             "MATERIAL=FILE.sl: try a shader; '*=clay.sl' for all (repeatable, as those below)");
+    add_list(app, "--param", given.params,
+             "MATERIAL.NAME=VALUE: a shader parameter, also of lights: 0.5, 1,0,0 or a text");
+    add_list(app, "--hide", o.hide, "NODE: without its meshes and lights and those below it");
+    add_list(app, "--only", o.only, "NODE: without the meshes that are not below it");
+    add_list(app, "-I", o.include_directories, "DIR: where shaders find #include files");
+    add_list(app, "--allow-external", o.allow_external,
+             "DIR: a folder that the scene may read besides its own")
+        ->check(CLI::ExistingDirectory);
 }
 
 // Frames that exist or fail, and what is told.
@@ -195,17 +205,14 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_flag("--overwrite", given.overwrite, "write every frame (the default)")->excludes(skip);
     app.add_flag("--keep-going", o.keep_going, "go on after a frame that failed");
     app.add_flag("--strict", o.strict, "missing assets are errors");
-    app.add_option("--stats", given.stats, "what each stage took, per frame: text or json")
-        ->expected(0, 1)
-        ->default_str("text")
-        ->check(CLI::IsMember({"text", "json", "none"}));
-    app.add_option("--progress", given.progress, "bar, lines or none")
-        ->check(CLI::IsMember({"bar", "lines", "none"}));
-    app.add_option("--list", o.list, kListKinds)
-        ->expected(0, 1)
-        ->default_str("all")
-        ->check(CLI::IsMember({"cameras", "clips", "materials", "shaders", "lights", "all"}));
-    app.add_option("--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm")->delimiter(',');
+    app.add_option("--stats", given.stats, "[=json]: what each stage took, per frame, on stdout")
+        ->check(one_of({"text", "json", "none"}));
+    app.add_option("--progress", given.progress, "bar, lines or none (bar on a terminal)")
+        ->check(one_of({"bar", "lines", "none"}));
+    auto* list = app.add_option("--list", o.list, fmt::format("{}", fmt::join(list_kinds(), ", ")))
+                     ->check(one_of(list_kinds()));
+    app.add_flag("--json", o.json, "the list as JSON")->needs(list);
+    add_list(app, "--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm", ',');
     app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
     app.add_flag("-v,--verbose", o.verbose, "say more");
     app.add_flag("-q,--quiet", o.quiet, "say only errors");
@@ -213,7 +220,7 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
 
 void interpret_quality(const Given& given, RenderOptions& o) {
     const Quality* row = find_quality(given.quality);
-    if (!row) throw CLI::ValidationError("--quality", "knows draft, preview, final and reference");
+    if (!row) throw CLI::ValidationError("--quality", none_of(given.quality, quality_names()));
     o.quality = *row;
     if (given.spp) o.quality.samples_per_pixel = *given.spp;
     if (given.math) o.quality.math = *given.math;
@@ -229,24 +236,32 @@ void interpret_quality(const Given& given, RenderOptions& o) {
     o.dice_limit = given.dice_limit.value_or(0);
 }
 
-void interpret_output(const CLI::App& app, const Given& given, RenderOptions& o) {
-    bool listing = app.count("--list") > 0;
-    if (listing && o.list.empty()) o.list = "all";
-    if (!listing && o.output.empty() && o.contact_sheet.empty() && o.dump.empty())
+void interpret_changes(const Given& given, RenderOptions& o) {
+    for (const std::string& shader : given.shaders)
+        o.shaders.push_back(split_pair(shader, "--shader", "MATERIAL=FILE.sl"));
+    for (const std::string& text : given.params) {
+        o.params.push_back(split_pair(text, "--param", "MATERIAL.NAME=VALUE"));
+        const std::string& target = o.params.back().first;
+        size_t dot = target.rfind('.');
+        if (dot == std::string::npos || dot == 0 || dot + 1 == target.size())
+            throw CLI::ValidationError("--param", "takes MATERIAL.NAME=VALUE, not '" + text + "'");
+    }
+}
+
+void interpret_output(const Given& given, RenderOptions& o) {
+    if (o.list.empty() && o.output.empty() && o.contact_sheet.empty() && o.dump.empty())
         throw CLI::RequiredError("-o FILE (or --list, --dump)");
     if (!o.output.empty() && !is_image_path(o.output))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
-    if (app.count("--stats")) {
-        o.stats = given.stats != "none";
-        o.stats_json = given.stats == "json";
-    }
+    o.stats = !given.stats.empty() && given.stats != "none";
+    o.stats_json = given.stats == "json";
     o.progress = isatty(STDERR_FILENO) ? ProgressStyle::Bar : ProgressStyle::Lines;
     if (given.progress == "bar") o.progress = ProgressStyle::Bar;
     if (given.progress == "lines") o.progress = ProgressStyle::Lines;
     if (given.progress == "none" || o.quiet) o.progress = ProgressStyle::None;
 }
 
-void interpret(const CLI::App& app, const Given& given, RenderOptions& o) {
+void interpret(const Given& given, RenderOptions& o) {
     std::string error;
     if (!given.frames.empty()) {
         o.frames = parse_frames(given.frames, error);
@@ -255,6 +270,7 @@ void interpret(const CLI::App& app, const Given& given, RenderOptions& o) {
     if (!given.fps.empty() && !(o.fps = parse_frame_rate(given.fps)))
         throw CLI::ValidationError("--fps", "takes a positive number or a fraction");
     if (!given.size.empty()) parse_size(given.size, o);
+    if (!given.scale.empty()) o.scale = parse_scale(given.scale);
     if (!given.background.empty()) o.background = parse_color(given.background);
     o.threads = parse_threads(given.threads);
     if (o.time)
@@ -265,13 +281,8 @@ void interpret(const CLI::App& app, const Given& given, RenderOptions& o) {
     check_stages(o.dump);
     if (!given.target.empty()) choose_target(given.target, o);
     interpret_quality(given, o);
-    for (const std::string& shader : given.shaders) {
-        size_t equals = shader.find('=');
-        if (equals == std::string::npos || equals == 0 || equals + 1 == shader.size())
-            throw CLI::ValidationError("--shader", "takes MATERIAL=FILE.sl");
-        o.shaders.emplace_back(shader.substr(0, equals), shader.substr(equals + 1));
-    }
-    interpret_output(app, given, o);
+    interpret_changes(given, o);
+    interpret_output(given, o);
 }
 
 }  // namespace
@@ -282,16 +293,10 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     declare_input(app, given, o);
     declare_quality(app, given, o);
     declare_look(app, given, o);
+    declare_changes(app, given, o);
     declare_run(app, given, o);
-    name_types(app);
-    try {
-        app.parse(argc, argv);
-        interpret(app, given, o);
-    } catch (const CLI::ParseError& error) {
-        int code = app.exit(error);
-        return code == 0 ? kExitOk : kExitUsage;
-    }
-    return std::nullopt;
+    return parse_command_line(app, words_of(argc, argv), {{"--stats", "text"}, {"--list", "all"}},
+                              [&] { interpret(given, o); });
 }
 
 }  // namespace kinora

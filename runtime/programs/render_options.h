@@ -25,6 +25,7 @@ struct RenderOptions {
     std::optional<FrameRate> fps;
     std::string clip;
     int width = 0, height = 0;  // 0: 640 x 640 / aspect
+    double scale = 1;           // of width and height
     std::string camera;
     int threads = 0;  // 0: all
     const jit::Target* target = nullptr;
@@ -35,10 +36,13 @@ struct RenderOptions {
     double filter_width = 0;
     uint32_t seed = 0;
     ShadowMode shadows = ShadowMode::Auto;
+    LightSet lights = LightSet::Auto;
     std::optional<vec3> background;
     raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
     ColorEncoding color = ColorEncoding::Srgb;
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
+    std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
+    std::vector<std::string> hide, only;                       // nodes
     std::string imager;             // a standard one's name, a file, "none"; "": the scene's own
     uint32_t light_samples = 0;     // of area lights; 0: the file's
     std::vector<std::string> aovs;  // output parameters of surfaces
@@ -54,6 +58,7 @@ struct RenderOptions {
     bool quiet = false, verbose = false;
     ProgressStyle progress = ProgressStyle::Lines;
     std::string list;               // "cameras", ..., "all"; "" = render
+    bool json = false;              // of the list
     std::vector<std::string> dump;  // stages: "ir", "ir:fold", "asm", ...
 };
 

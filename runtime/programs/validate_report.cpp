@@ -50,7 +50,7 @@ std::string counts_text(const std::array<size_t, 5>& counts) {
     std::string text;
     for (size_t s = counts.size() - 1; s > 0; --s)
         if (counts[s]) text += (text.empty() ? "" : ", ") + counted(counts[s], kNouns[s]);
-    return text.empty() ? "nothing" : text;
+    return text.empty() ? "no findings" : text;
 }
 
 }  // namespace kinora

@@ -25,7 +25,7 @@ struct TextRegion {
 };
 TextRegion text_region(Location where, const SourceFiles& files);
 
-// "3 errors, 1 warning", of the severities that occur; "nothing" for none.
+// "3 errors, 1 warning", of the severities that occur; "no findings" for none.
 std::string counts_text(const std::array<size_t, 5>& counts);
 std::string counted(size_t count, std::string_view noun);
 

@@ -153,7 +153,7 @@ std::string html_file(const FileResult& result, const ValidateSettings&) {
     std::string text = fmt::format("<section data-file=\"{0}\"><h2>{0} <small>{1}</small></h2>\n",
                                    xml_text(result.name), counts_text(result.counts));
     for (const Finding& finding : result.findings) text += article(finding, result.files());
-    if (result.findings.empty()) text += "<p class=\"none\">nothing to say</p>\n";
+    if (result.findings.empty()) text += "<p class=\"none\">no findings</p>\n";
     if (result.hidden)
         text += fmt::format("<p class=\"none\">{} more not shown</p>\n", result.hidden);
     if (result.info)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "collada/findings.h"
 #include "jit/findings.h"
@@ -88,19 +89,24 @@ std::optional<Severity> parse_severity(std::string_view name) {
     return std::nullopt;
 }
 
+// The text with "…" for its values; where it is nothing else, what the explanation says first.
 std::string rule_text(const FindingInfo& info) {
     std::string text;
+    bool says_something = false;
     for (const char* c = info.text; *c; ++c) {
         if (*c == '{' && c[1] != '{') {
             while (*c && *c != '}') ++c;
-            text += 'N';
+            text += "…";
             if (!*c) break;
         } else {
+            says_something |= std::isalpha(static_cast<unsigned char>(*c)) != 0;
             text += *c;
             if ((*c == '{' || *c == '}') && c[1] == *c) ++c;
         }
     }
-    return text;
+    if (says_something) return text;
+    std::string_view first = info.explanation;
+    return std::string(first.substr(0, first.find(". ")));
 }
 
 std::string rules_text() {

@@ -2,7 +2,7 @@
 import json
 import re
 
-from programs import MATTE, SHADERS, ProgramTest, main, shade, supported_targets
+from programs import MATTE, SCENES, SHADERS, ProgramTest, main, shade, supported_targets
 
 BROKEN = "surface x(float Kd = 1;)\n{\n    Ci = Kd * diffus(N);\n}\n"
 
@@ -37,7 +37,7 @@ class Check(ProgramTest):
 
     def test_unknown_effects_are_usage_errors_that_name_the_known(self):
         self.expect(shade("check", f"{MATTE}#none"), 2, "Matte")
-        self.expect(shade("check", MATTE), 2, "Matte")
+        self.expect(shade("info", SCENES / "walker.dae"), 2, "name an effect", "statue-rsl")
 
     def test_missing_files_exit_3(self):
         for source in (self.folder / "none.sl", f"{self.folder}/none.dae#x", self.folder):
@@ -57,6 +57,38 @@ class Check(ProgramTest):
         file = self.write("x.sl", "surface x(float k = 1;) { k = 2; Ci = k; }\n")
         self.expect(shade("check", file), 0, "1 warning")
         self.expect(shade("check", file, "-Werror"), 4)
+
+
+    def test_several_sources_are_checked_and_the_worst_tells(self):
+        bad = self.write("bad.sl", "surface x() { Ci = y; }")
+        good = [SHADERS / "plastic.sl", SHADERS / "wood.sl"]
+        self.expect(shade("check", *good), 0, "surface plastic", "surface wood")
+        self.expect(shade("check", good[0], bad, good[1]), 4, "bad.sl:1:20", "surface wood")
+        self.expect(shade("check", bad, self.folder / "none.sl", good[0]), 3, "surface plastic")
+
+    def test_a_scene_stands_for_all_its_effects(self):
+        self.expect(shade("check", MATTE), 0, "matte.dae#Matte: 0 errors")
+        self.expect(shade("info", MATTE), 0, 'surface "matte"')  # it has only one
+        names = re.findall(r"walker.dae#(\S+):", self.expect(
+            shade("check", SCENES / "walker.dae"), 0).out)
+        self.assertGreater(len(names), 4)
+        self.expect(shade("info", SCENES / "walker.dae"), 2, "name an effect", names[0])
+
+    def test_json_holds_the_findings_with_their_places(self):
+        bad = self.write("bad.sl", "surface x()\n{\n    Ci = diffus(N);\n}\n")
+        result = self.expect(shade("check", bad, MATTE, "--json"), 4)
+        self.assertEqual(result.err, "")
+        broken, clean = json.loads(result.out)
+        self.assertEqual((broken["ok"], clean["ok"]), (False, True))
+        self.assertEqual(clean["shaders"], [{"name": "matte", "kind": "surface"}])
+        finding = broken["findings"][0]
+        self.assertEqual((finding["severity"], finding["line"], finding["column"]), ("error", 3, 10))
+        self.assertIn("diffuse", finding["help"])
+
+    def test_quiet_stands_before_or_behind_the_command(self):
+        for words in (("-q", "check"), ("check", "-q")):
+            result = self.expect(shade(*words, SHADERS / "plastic.sl"), 0)
+            self.assertEqual(result.out + result.err, "")
 
 
 class Info(ProgramTest):
@@ -190,6 +222,21 @@ class DumpBenchManual(ProgramTest):
         result = shade("bench", SHADERS / "matte.sl", "--size", "64x64", "--iterations", "2")
         self.expect(result, 0, "median", "Mpoints/s")
         self.assertEqual(result.out.count("Mpoints/s"), len(supported_targets()))
+
+    def test_bench_tells_the_same_as_json(self):
+        words = ("bench", SHADERS / "matte.sl", "--size", "32x32", "--iterations", "2", "--json")
+        bench = json.loads(self.expect(shade(*words), 0).out)
+        self.assertEqual([row["target"] for row in bench["targets"]],
+                         re.findall(r"^(\w+): ms", shade(*words[:-1]).out, re.M))
+        for row in bench["targets"]:
+            self.assertEqual(row["points"], 32 * 32)
+            self.assertGreater(row["mpoints_per_second"], 0)
+            self.assertAlmostEqual(sum(v for k, v in row["median"].items() if k != "total_ms"),
+                                   row["median"]["total_ms"], places=6)
+
+    def test_the_manual_knows_the_globals(self):
+        self.expect(shade("manual", "Ng"), 0, "normal Ng", "geometric normal", "read by surface")
+        self.expect(shade("manual", "dPd"), 2, "did you mean 'dPd")
 
     def test_the_manual_knows_the_built_ins(self):
         self.expect(shade("manual", "smoothstep"), 0, "T smoothstep(T, T, T), T: float")

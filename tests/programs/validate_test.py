@@ -61,7 +61,7 @@ class Findings(ProgramTest):
     def test_exit_codes(self):
         good = self.write("good.dae", EMPTY)
         broken = self.write("broken.dae", EMPTY[:-12])
-        self.expect(validate(good), 0, "1 file: nothing")
+        self.expect(validate(good), 0, "1 file: no findings")
         self.expect(validate(broken), 1, "XML_SYNTAX")
         self.expect(validate(self.folder / "none.dae"), 3, "XML_OPEN")
         self.expect(validate(self.folder), 3, "-r")
