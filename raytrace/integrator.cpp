@@ -73,7 +73,8 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
         const int thread = thread_index();
         TileJob job(accel, camera, shading, film, settings, *scratch.filter,
                     *scratch.threads[size_t(thread)], thread);
-        for (size_t i = first; i < last && !stop.load(std::memory_order_relaxed); ++i) {
+        for (size_t i = first;
+             i < last && !stop.load(std::memory_order_relaxed) && !shading.stopped(); ++i) {
             job.run(tile_at(film, settings.tile, int(i)));
             if (!progress) continue;
             std::lock_guard lock(mutex);
@@ -84,7 +85,7 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
     for (auto& thread : scratch.threads) total += thread->counters;
     film.non_finite += total.non_finite;
     counters += total;
-    return !stop;
+    return !stop && !shading.stopped();
 }
 
 }  // namespace kinora::raytrace

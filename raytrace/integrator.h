@@ -29,6 +29,8 @@ class SurfaceShading {
     virtual void shade_misses(const HitBatch& /*ends*/, int /*thread*/, ShadeResult& /*result*/) {}
     // RayBatch::medium of a ray that goes on behind hit k.
     virtual uint32_t medium_behind(const HitBatch& /*hits*/, size_t /*k*/) const { return 0; }
+    // Nobody waits for the picture any more: what is still asked for may be anything.
+    virtual bool stopped() const { return false; }
     // After the last shade() of a tile, on the same thread.
     virtual void end_tile(int /*thread*/) {}
 };

@@ -35,7 +35,8 @@ void TileJob::run(const Tile& tile) {
     tile_ = tile;
     begin_tile();
     const int per_chunk = std::max(1, int(settings_.chunk_rays / tile.pixels()));
-    for (int first = 0; first < settings_.samples_per_pixel; first += per_chunk) {
+    for (int first = 0; first < settings_.samples_per_pixel && !shading_.stopped();
+         first += per_chunk) {
         make_rays(first, std::min(settings_.samples_per_pixel, first + per_chunk));
         const size_t slots = m_.rays.count;
         follow_layers();
@@ -90,6 +91,7 @@ void TileJob::add_ray(uint32_t x, uint32_t y, uint32_t sample) {
     r.sample[k] = sample;
     r.layer[k] = 0;
     r.medium[k] = 0;
+    r.share[k] = 1;
     r.slot[k] = uint32_t(k);
     m_.slot_pixel[k] = uint32_t(tile_.pixel(x, y));
 }
@@ -231,6 +233,7 @@ void TileJob::continue_ray(size_t to, const HitBatch& hits, size_t k) {
     r.sample[to] = hits.sample[k];
     r.layer[to] = hits.layer[k] + 1;
     r.medium[to] = shading_.medium_behind(hits, k);
+    r.share[to] = r.share[from];
     r.slot[to] = r.slot[from];
 }
 

@@ -55,6 +55,7 @@ void carve(RayBatch& b, Carver& carver) {
     carver(b.dOdx), carver(b.dOdy), carver(b.dDdx), carver(b.dDdy);
     carver(b.t_passed), carver(b.first_org);
     carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.medium);
+    carver(b.share);
     carver(b.slot);
 }
 

@@ -76,6 +76,7 @@ struct RayBatch {
     uint32_t* pixel_y = nullptr;
     uint32_t* sample = nullptr;
     uint32_t* layer = nullptr;
+    float* share = nullptr;      // of a camera ray's work that this one may make; 1 at the eye
     uint32_t* medium = nullptr;  // what the ray runs through; the shading's to define, 0 at the eye
     uint32_t* slot = nullptr;    // the caller's index (the integrator's sample)
 

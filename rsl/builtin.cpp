@@ -95,6 +95,7 @@ struct ForeignRow {
 };
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
+    {" fulltrace rayserver ", "BMRT"},
     {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture "
      "rayhittest irradiance stof sprintf strlen ",
      "other renderers"},

@@ -29,7 +29,10 @@ void binary(LowerCall& c) {
 // Functions of jit/math.h.
 template <Value (*function)(jit::Builder&, Value, jit::math::Tier)>
 void of_math(LowerCall& c) {
-    c.set(function(c.b, c.f(0), c.low.tier));
+    Lowered r{c.result_type(), {}};
+    for (size_t k = 0; k < size_t(r.size()); ++k)
+        r.c[k] = function(c.b, c.args[0].c[k], c.low.tier);
+    c.result = r;
 }
 
 Value to_radians(LowerCall& c, Value x) {
@@ -82,9 +85,9 @@ void atan(LowerCall& c) {
 }
 
 void log(LowerCall& c) {
+    if (c.args.size() == 1) return of_math<jit::math::log>(c);
     Value x = jit::math::log(c.b, c.f(0), c.low.tier);
-    if (c.args.size() == 2) x = c.low.div(x, jit::math::log(c.b, c.f(1), c.low.tier));
-    c.set(x);
+    c.set(c.low.div(x, jit::math::log(c.b, c.f(1), c.low.tier)));
 }
 
 void clamp(LowerCall& c) {
@@ -222,10 +225,10 @@ const Builtin kRows[] = {
      "Degrees to radians: x * PI / 180."},
     {"degrees", "f=f", lower::unary<lower::to_degrees>, KINORA_RSL_REF(ref::degrees), kPure, 1,
      "Radians to degrees: x * 180 / PI."},
-    {"sin", "f=f", lower::of_math<jit::math::sin>, KINORA_RSL_REF(ref::sin), kPure, 1,
-     "Sine of an angle in radians."},
-    {"cos", "f=f", lower::of_math<jit::math::cos>, KINORA_RSL_REF(ref::cos), kPure, 1,
-     "Cosine of an angle in radians."},
+    {"sin", "f=f c=c p=p v=v n=n", lower::of_math<jit::math::sin>, KINORA_RSL_REF(ref::sin), kPure,
+     1, "Sine of an angle in radians."},
+    {"cos", "f=f c=c p=p v=v n=n", lower::of_math<jit::math::cos>, KINORA_RSL_REF(ref::cos), kPure,
+     1, "Cosine of an angle in radians."},
     {"tan", "f=f", lower::of_math<jit::math::tan>, KINORA_RSL_REF(ref::tan), kPure, 2,
      "Tangent of an angle in radians."},
     {"asin", "f=f", lower::of_math<jit::math::asin>, KINORA_RSL_REF(ref::asin), kPure, 2,
@@ -234,9 +237,9 @@ const Builtin kRows[] = {
      "Arc cosine in radians; the argument is clamped to -1..1."},
     {"atan", "f=f f=ff", lower::atan, KINORA_RSL_REF(ref::atan), kPure, 2,
      "Arc tangent of x, or of y / x in the right quadrant: atan(y, x)."},
-    {"exp", "f=f", lower::of_math<jit::math::exp>, KINORA_RSL_REF(ref::exp), kPure, 1,
-     "e to the power x."},
-    {"log", "f=f f=ff", lower::log, KINORA_RSL_REF(ref::log), kPure, 2,
+    {"exp", "f=f c=c p=p v=v n=n", lower::of_math<jit::math::exp>, KINORA_RSL_REF(ref::exp), kPure,
+     1, "e to the power x."},
+    {"log", "f=f f=ff c=c p=p v=v n=n", lower::log, KINORA_RSL_REF(ref::log), kPure, 2,
      "Natural logarithm, or the logarithm to a base: log(x, base)."},
     {"sqrt", "f=f c=c p=p v=v n=n", lower::unary<lower::sqrt>, KINORA_RSL_REF(ref::sqrt), kPure, 1,
      "Square root; 0 for negative x."},

@@ -130,6 +130,10 @@ void ray_fact(LowerCall& c, const char* name) {
 void raydepth(LowerCall& c) {
     ray_fact(c, "depth");
 }
+// BMRT's question whether the ray only asks how opaque the surface is.
+void isshadowray(LowerCall& c) {
+    c.set(c.b.f(c.low.options.want_Ci ? 0.0f : 1.0f));
+}
 void raylabel(LowerCall& c) {
     ray_fact(c, "label");
 }
@@ -185,6 +189,10 @@ const Builtin kRows[] = {
      "known."},
     {"raydepth", "f=", lower::raydepth, KINORA_RSL_REF(ref::raydepth), kMessage | kVaryingResult, 0,
      "How many rays lie between the eye and this point: 0 for what the camera sees."},
+    {"raylevel", "f=", lower::raydepth, KINORA_RSL_REF(ref::raydepth), kMessage | kVaryingResult, 0,
+     "BMRT's name of raydepth."},
+    {"isshadowray", "f=", lower::isshadowray, KINORA_RSL_REF(ref::isshadowray), kMessage, 0,
+     "1 where only the opacity is asked for, as by rays to lights (BMRT)."},
     {"raylabel", "s=", lower::raylabel, KINORA_RSL_REF(ref::raylabel), kMessage | kVaryingResult, 0,
      "The label that trace or gather gave the ray that sees the point."},
     {"rayorigin", "p=", lower::rayorigin, KINORA_RSL_REF(ref::rayorigin), kMessage | kVaryingResult,

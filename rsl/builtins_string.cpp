@@ -8,10 +8,9 @@ namespace kinora::rsl {
 
 namespace lower_string {
 
-bool count_matches(LowerCall& c, size_t wanted) {
-    if (wanted == c.args.size() - 1) return true;
-    c.low.error(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
-    return false;
+void check_count(LowerCall& c, size_t wanted) {
+    if (wanted != c.args.size() - 1)
+        c.low.diagnostics.report(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
 }
 
 Value join(LowerCall& c, Value a, Value b) {
@@ -77,6 +76,10 @@ std::vector<Piece> pieces_of(LowerCall& c, const std::string& format) {
         pieces.back().format += format.substr(at, parts[k].begin - at);
         std::string conversion = format.substr(parts[k].begin, parts[k].end - parts[k].begin);
         at = parts[k].end;
+        if (k + 1 >= c.args.size()) {  // no value for it: it stands as it is written
+            pieces.back().format += escape_format(conversion);
+            continue;
+        }
         const Lowered& value = c.args[k + 1];
         conversion = fitting(conversion, parts[k].letter, value);
         std::vector<Value> values = numbers(c, value);
@@ -126,7 +129,7 @@ void format(LowerCall& c) {
             c.set(c.low.service("format", service_arguments(c, c.f(0), all.values))[0]);
         return;
     }
-    if (!count_matches(c, conversions(*text).size())) return;
+    check_count(c, conversions(*text).size());
     Value result = c.b.i(0);
     for (const Piece& piece : pieces_of(c, *text)) {
         Value format = c.b.i(intern(piece.format));
@@ -152,7 +155,7 @@ void print(LowerCall& c) {
             c.low.service("print", service_arguments(c, c.f(0), all.values));
         return;
     }
-    if (!count_matches(c, conversions(*text).size())) return;
+    check_count(c, conversions(*text).size());
     for (const Piece& piece : pieces_of(c, *text)) {
         Value format = c.b.i(intern(piece.format));
         c.low.service("print", service_arguments(c, format, piece.values));

@@ -89,8 +89,10 @@ void Lowering::gather(const GatherStmt& stmt) {
         if (is_gather_output(name)) {
             const Known* known = find_known(name);
             bool parameter = !known && name.starts_with("surface:");
-            if ((!known && !parameter) || (known && !fits(known->type, given.type.base)))
-                return error(Code::RSL_GATHER_OUTPUT, given.place.where, name);
+            if ((!known && !parameter) || (known && !fits(known->type, given.type.base))) {
+                diagnostics.report(Code::RSL_GATHER_OUTPUT, given.place.where, name);
+                continue;
+            }
             wanted.push_back({name, given.type.base});
             results.items.push_back({name, &given, column, name.starts_with("ray:")});
             column += component_count(given.type.base);

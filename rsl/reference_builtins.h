@@ -20,7 +20,7 @@
     F(caustic) F(subsurface) F(texture3d) F(bake3d) F(areashadow)                             \
     F(surface_message) F(displacement_message) F(atmosphere) F(incident) F(opposite)          \
     F(attribute) F(option) F(rendererinfo) F(rayinfo)                                         \
-    F(raydepth) F(raylabel) F(rayorigin) F(raydirection) F(raylength)                         \
+    F(raydepth) F(raylabel) F(rayorigin) F(raydirection) F(raylength) F(isshadowray)          \
     F(texture) F(environment) F(shadow) F(bump) F(textureinfo) F(bake)                        \
     F(concat) F(format) F(match) F(printf) F(lightsource) F(shadername)
 // clang-format on

@@ -103,8 +103,8 @@ void atan(RefCall<Real>& c) {
 }
 template <class Real>
 void log(RefCall<Real>& c) {
-    Dual<Real> x = rsl::log(c.f(0));
-    c.set(c.args.size() == 2 ? x / rsl::log(c.f(1)) : x);
+    if (c.args.size() == 2) return c.set(rsl::log(c.f(0)) / rsl::log(c.f(1)));
+    each(c, [&](size_t k) { return rsl::log(c.args[0].c[k]); });
 }
 template <class Real>
 void clamp(RefCall<Real>& c) {

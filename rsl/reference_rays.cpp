@@ -200,6 +200,11 @@ KINORA_FACT(rayorigin, "origin")
 KINORA_FACT(raydirection, "direction")
 KINORA_FACT(raylength, "length")
 
+template <class Real>
+void isshadowray(RefCall<Real>& c) {  // it looks as the camera does
+    c.set(Dual<Real>(0));
+}
+
 #define KINORA_ALL(F)                                                                             \
     F(trace)                                                                                      \
     F(transmission)                                                                               \
@@ -207,7 +212,7 @@ KINORA_FACT(raylength, "length")
     F(occlusion) F(indirectdiffuse) F(areashadow) F(photonmap) F(caustic) F(subsurface) F(bake3d) \
         F(texture3d) F(surface_message) F(displacement_message) F(atmosphere) F(incident)         \
             F(opposite) F(attribute) F(option) F(rendererinfo) F(rayinfo) F(raydepth) F(raylabel) \
-                F(rayorigin) F(raydirection) F(raylength)
+                F(rayorigin) F(raydirection) F(raylength) F(isshadowray)
 KINORA_ALL(KINORA_RSL_DEFINE_REF)
 
 }  // namespace kinora::rsl::ref

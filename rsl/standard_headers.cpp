@@ -20,6 +20,7 @@ std::string_view standard_header(std::string_view name) {
     std::string lower(name);
     for (char& c : lower)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    if (lower.ends_with(".sl")) lower.replace(lower.size() - 2, 2, "h");  // as some are spelled
     for (size_t i = 0; i < kStandardHeaderCount; ++i)
         if (lower == kStandardHeaders[i].name) return kStandardHeaders[i].text;
     return {};

@@ -228,8 +228,8 @@ class UsageWalk {
         walk_inside(*s.body, Inside::Light);
     }
     void at(const GatherStmt& s) {
-        bool traces = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume;
-        legal(s, traces, "gather");
+        constexpr uint8_t kGatherers = kSurface | kVolume | kLight;
+        legal(s, kGatherers & in_kind(shader_.kind), "gather");
         walk_all(s.args.first(5));
         for (size_t k = 0; k < s.pairs.size(); ++k)
             argument(s.pairs[k], k % 2 == 1 && is_gather_output(pair_name(s.pairs, k)));

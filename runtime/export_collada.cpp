@@ -249,13 +249,22 @@ ColladaExport ColladaExporter::run() {
     tops += skinned_;
     for (uint32_t m = 0; m < description_.meshes.size(); ++m) geometries += geometry(m);
     for (uint32_t m = 0; m < description_.materials.size(); ++m) {
-        std::string name = effect(m);
+        std::string name = effect(m), sides;  // of the VOLUME shaders, in the effect's order
+        for (size_t k = 0; k < description_.materials[m].interior.size(); ++k) sides += " interior";
+        for (size_t k = 0; k < description_.materials[m].exterior.size(); ++k) sides += " exterior";
+        if (description_.materials[m].exterior.empty()) sides.clear();  // interiors need no word
+        std::string extra;
+        if (!sides.empty())
+            extra =
+                xml("extra", "",
+                    xml("technique",
+                        attribute("profile", "RSL") + attribute("target", sides.substr(1)), ""));
         materials_ += xml("material",
                           attribute("id", material_ids_[m]) +
                               (description_.materials[m].name.empty()
                                    ? ""
                                    : attribute("name", xml_name(description_.materials[m].name))),
-                          xml("instance_effect", attribute("url", "#" + name), ""));
+                          xml("instance_effect", attribute("url", "#" + name), "") + extra);
     }
     for (uint32_t l = 0; l < description_.lights.size(); ++l) lights += light(l);
     for (uint32_t c = 0; c < description_.cameras.size(); ++c) cameras += camera(c);

@@ -212,9 +212,8 @@ std::string ColladaExporter::effect(uint32_t index) {
     std::string own = id(material_ids_[index] + "-effect", "effect");
     std::vector<const ShaderUse*> uses;
     for (const auto* list :
-         {&m.transformations, &m.displacements, &m.surfaces, &m.interior, &m.lights})
+         {&m.transformations, &m.displacements, &m.surfaces, &m.interior, &m.exterior, &m.lights})
         for (const ShaderUse& use : *list) uses.push_back(&use);
-    if (!m.exterior.empty()) lost(fmt::format("material '{}'", m.id), "its exterior volume");
     const ShaderUse* top = m.surfaces.empty() ? nullptr : &m.surfaces.back();
     bool common_only = uses.size() == 1 && top;
     if (common_only)

@@ -181,6 +181,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     std::fill(scene.changed.begin(), scene.changed.end(), 0);
 
     prepare_planes(scene, film);
+    scene.shading->stop_by(settings.stop);
     scene.shading->begin_frame(time, settings.shutter, settings.integrator.seed);
     raytrace::IntegratorCounters counters;
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,

@@ -1,6 +1,8 @@
 // runtime/frame.h: a time to a picture.
 #pragma once
 
+#include <atomic>
+
 #include "raytrace/film.h"
 #include "runtime/scene.h"
 #include "runtime/shading.h"
@@ -24,13 +26,14 @@ struct FrameStats {
 
 struct FrameSettings {
     int width = 640, height = 360;
-    double shutter = 0;  // seconds
+    double shutter = 0;                      // seconds
+    const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
     raytrace::IntegratorSettings integrator;
 };
 
 // Renders the scene at a time into the film (linear, associated alpha). Findings: camera errors,
-// shader faults, non-finite results. False when the camera makes no picture or `progress` stopped
-// the frame. Allocates nothing once no new kernel or texture is met.
+// shader faults, non-finite results. False when the camera makes no picture or `progress` or
+// `stop` stopped the frame. Allocates nothing once no new kernel or texture is met.
 bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
                   FrameStats& stats, Diagnostics& diagnostics,
                   const raytrace::Progress* progress = nullptr);

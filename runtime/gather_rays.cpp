@@ -13,6 +13,7 @@ namespace kinora {
 namespace {
 
 constexpr int kLanes = jit::kMaxLanes;
+constexpr uint32_t kMostDepth = 64;  // of --rays
 using GatherResult = rsl::LoweredShader::GatherResult;
 
 // Columns of a grid that "primitive:" results show.
@@ -109,15 +110,22 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
         vec3 d = lanes.triple(D, lane);
         return glm::length(d) > 0 && glm::length(d) < kMiss ? lanes.samples(Samples, lane) : 0;
     };
+    bool shoots =
+        !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < ray_depth() && !stopped();
     int most = 0;
-    for (int lane = 0; lane < kLanes; ++lane)
-        if (lanes.asks(lane)) most = std::max(most, count(lane));
+    float share[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        int n = lanes.asks(lane) ? count(lane) : 0;
+        if (shoots && n > 0) share[lane] = ray_share(grid, lanes.point(lane), n);
+        most = std::max(most, n);
+    }
 
     Thread& own = thread(grid.thread);
-    Records records(own.gather_memory(grid.depth, level), most, width, size_t(call.first));
+    // A light may run within a turn of the gather of the surface it lights.
+    uint32_t room = grid.depth + (grid.look->kind == LookKind::Light ? kMostDepth + 1 : 0);
+    Records records(own.gather_memory(room, level), most, width, size_t(call.first));
     Arena::Mark mark = own.arena.mark();
     std::span<const RayColumn> of_ray = ray_columns(results, own.arena);
-    bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < ray_depth();
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     NestedWavefront nested(own);
     raytrace::RayBatch& rays = nested->rays;
@@ -154,18 +162,18 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
                 else
                     records.at(k, c.column, lane) = reach;
             }
-            if (!shoots) continue;
+            if (share[lane] == 0) continue;
             lane_of[rays.count] = uint8_t(lane);
             sample_of[rays.count] = k;
             add_ray(rays, grid, start, dir, reach, lanes.number(Bias, lane),
-                    raytrace::hash(seed, k), uint32_t(rays.count));
+                    raytrace::hash(seed, k), uint32_t(rays.count), share[lane]);
             if (rays.count == kGridPoints) flush();
         }
     }
     flush();
     own.arena.release(mark);
     int32_t handle = int32_t(kGatherSets) + level;
-    grid.record_sets[size_t(handle)] = {most, own.gather_memory(grid.depth, level).records.data()};
+    grid.record_sets[size_t(handle)] = {most, own.gather_memory(room, level).records.data()};
     return handle;
 }
 

@@ -68,6 +68,7 @@ struct Grid {
     Arena::Mark record_mark{};  // where its records begin
     bool shadows = true;        // false inside opacity kernels
     RayTag ray;
+    std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null
     // in lights and volumes: each point's own surface.
     const Look* surface = nullptr;

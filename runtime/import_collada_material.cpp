@@ -100,7 +100,7 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
 
 void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
                                  MaterialDefinition& result) {
-    const std::string& target = data_.materials[index].volume_target;
+    size_t volumes = 0;
     result.light_samples = data_.materials[index].samples;
     result.light_shadows = data_.materials[index].shadows;
     for (const collada::RslShader& shader : effect.rsl->shaders) {
@@ -110,6 +110,7 @@ void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
         if (shader.stage == collada::RslStage::Transformation) stack = &result.transformations;
         if (shader.stage == collada::RslStage::Light) stack = &result.lights;
         if (shader.stage == collada::RslStage::Volume) {
+            std::string_view target = volume_side(data_.materials[index], volumes++);
             stack = target == "exterior" ? &result.exterior : &result.interior;
             if (!target.empty() && target != "exterior" && target != "interior")
                 diagnostics_.report(Code::RSL_VOLUME_TARGET, shader.where, target);

@@ -256,6 +256,10 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
         lit.shading = this;
         lit.arena = &arena;
         lit.record_sets = grid.record_sets;
+        if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
+            lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
+            std::fill(lit.record_sets.begin(), lit.record_sets.end(), jit::RecordSet{});
+        }
         lit.columns =
             light_columns(look, scene_, scene_.lights[l], at.P, at.N, at.rng, at.count, arena);
         run_kernel(look.full, lit, out);

@@ -15,6 +15,11 @@ namespace {
 
 constexpr int kSeenLayers = 16;       // surfaces one ray sees through (DESIGN.md decision 6)
 constexpr float kLeastLight = 1e-4f;  // of what lies behind them, still worth a ray
+// Each call of a point divides its ray's share by its number and 0.29, so that a way of one ray a
+// hit still goes 16 deep, and two a hit end at some 400 rays instead of 2^16. Hits near the eye may
+// shoot more: what they lack shows.
+constexpr float kCallCost = 0.29f, kLeastShare[] = {0, 1.0f / 1024, 1.0f / 128, 1.0f / 64};
+constexpr int kUsualDepth = 16;
 
 }  // namespace
 
@@ -38,7 +43,7 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
 }
 
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
-             float tfar, float bias, uint32_t path, uint32_t slot) {
+             float tfar, float bias, uint32_t path, uint32_t slot, float share) {
     vec3 org;
     if (start.Ng != vec3(0.0f)) {
         org = raytrace::offset_ray_origin(start.P, start.error, start.Ng, dir);
@@ -53,6 +58,7 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
     if (!grid.scene.volumes.empty())
         rays.medium[i] = grid.shading->nested_medium(grid.hits, start.hit, dir);
     rays.sample[i] = path;
+    rays.share[i] = share;
     rays.slot[i] = slot;
 }
 
@@ -75,6 +81,22 @@ vec3 Cone::direction(uint32_t k, uint32_t seed) const {
     double up = by_cosine ? std::sqrt(1 - s.x * (1 - c * c)) : 1 - s.x * (1 - c);
     double out = std::sqrt(std::max(0.0, 1 - up * up));
     return float(out * std::cos(phi)) * x + float(out * std::sin(phi)) * y + float(up) * z;
+}
+
+float ray_share(Grid& grid, size_t point, int samples) {
+    uint32_t hit = grid.points[std::min(point, grid.count() - 1)];
+    float share = grid.hits.rays ? grid.hits.rays->share[grid.hits.ray[hit]] : 1.0f;
+    float calls = 1;
+    if (point < grid.calls.size()) {
+        uint16_t& before = grid.calls[point];
+        if (before < 0xffff) ++before;
+        calls = before;
+    }
+    share /= (calls + kCallCost) * std::sqrt(float(samples));
+    // Who asks for deeper rays gets them.
+    int deeper = std::max(0, int(grid.shading->ray_depth()) - kUsualDepth);
+    float least = kLeastShare[std::min(grid.depth, 3u)] * std::pow(1 + kCallCost, -float(deeper));
+    return share < least ? 0 : share;
 }
 
 uint32_t Lanes::seed(int lane) const {

@@ -23,7 +23,12 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 // A ray of a batch from there in a direction of any length but 0; `bias` >= 0 leaves out what is
 // nearer. Its length counts in units of the scene.
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
-             float tfar, float bias, uint32_t path, uint32_t slot);
+             float tfar, float bias, uint32_t path, uint32_t slot, float share = 1);
+
+// The share of the eye's ray that each ray of a point's next call of so many samples has, which
+// keeps shaders that shoot several rays a hit from multiplying them without end (BMRT and PRMan
+// stop such shaders at a depth of 2 to 4). 0: too little, no ray is shot.
+float ray_share(Grid& grid, size_t point, int samples);
 
 // The axes of a cone and the direction of sample k of n stratified ones in it.
 struct Cone {

@@ -121,6 +121,8 @@ void Shading::prepare_grid(Grid& grid, int thread_id) {
     grid.arena = &arena;
     grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
+    grid.calls = arena.allocate_span<uint16_t>(padded(grid.count()));
+    std::fill(grid.calls.begin(), grid.calls.end(), uint16_t(0));
     grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
 }

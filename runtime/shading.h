@@ -33,6 +33,9 @@ class Shading : public raytrace::SurfaceShading {
 
     // Before a frame's first shade(): sizes the threads' memory, runs the frame kernels.
     void begin_frame(double time, double shutter, uint32_t seed);
+    // The frame ends as soon as it can once this is not 0; null: never.
+    void stop_by(const std::atomic<int>* flag) { stop_ = flag; }
+    bool stopped() const override { return stop_ && stop_->load(std::memory_order_relaxed) != 0; }
     // After the last: sums counters; reports faults, one finding a source line.
     // `whole`: the picture was finished, so what it baked is written.
     ShadingCounters end_frame(Diagnostics& diagnostics, bool whole = true);
@@ -155,6 +158,7 @@ class Shading : public raytrace::SurfaceShading {
     Scene& scene_;
     std::vector<std::unique_ptr<Thread>> threads_;
     std::set<std::string> reported_points_;  // point files that could not be read
+    const std::atomic<int>* stop_ = nullptr;
     uint32_t seed_ = 0;
     double time_ = 0, shutter_ = 0;
     bool any_transparent_ = false;

@@ -76,9 +76,9 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
     enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label };
     Lanes lanes(call);
     vec3 color[kLanes] = {};
-    float distance[kLanes];
+    float distance[kLanes], share[kLanes] = {};
     std::fill_n(distance, kLanes, kMiss);
-    if (grid.shadows && grid.depth < ray_depth()) {
+    if (grid.shadows && grid.depth < ray_depth() && !stopped()) {
         Thread& own = thread(grid.thread);
         Arena::Mark mark = own.arena.mark();
         std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
@@ -88,7 +88,9 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
             lanes, nested->rays,
             [&](int lane) {
                 if (!has_direction(lanes.triple(R, lane))) return 0;
-                return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
+                int n = lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
+                share[lane] = ray_share(grid, lanes.point(lane), n);
+                return share[lane] > 0 ? n : 0;
             },
             [&](int lane, uint32_t k, uint32_t slot) {
                 uint32_t seed = lanes.seed(lane);
@@ -97,7 +99,7 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
                     dir = Cone(dir, spread, false).direction(k, seed);
                 RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
                 add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
-                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot);
+                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
             },
             [&](std::span<const uint8_t> lane_of) {
                 int32_t label = lanes.integer(Label, lane_of[0]);
@@ -142,7 +144,8 @@ void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
     std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
     NestedWavefront nested(own);
     auto open = [&](int lane) {  // nothing can lie between two points that are the same
-        return !grid.shadows || !has_direction(lanes.triple(To, lane) - lanes.triple(From, lane));
+        return !grid.shadows || stopped() ||
+               !has_direction(lanes.triple(To, lane) - lanes.triple(From, lane));
     };
     in_batches(
         lanes, nested->rays, [&](int lane) { return open(lane) ? 0 : count(lane); },
@@ -191,7 +194,7 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     NestedWavefront nested(own), near(own);
     auto count = [&](int lane) {
-        bool asks = grid.shadows && has_direction(lanes.triple(N, lane));
+        bool asks = grid.shadows && !stopped() && has_direction(lanes.triple(N, lane));
         return asks ? lanes.samples(Samples, lane) : 0;
     };
     in_batches(
@@ -251,7 +254,13 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     Thread& own = thread(grid.thread);
     vec3 sum[kLanes] = {};
     // What lies beyond the last bounce is black; a map alone costs no ray.
-    bool bounces = grid.depth < ray_depth() && grid.ray.diffuse < diffuse_depth();
+    bool bounces = grid.depth < ray_depth() && grid.ray.diffuse < diffuse_depth() && !stopped();
+    // The bounces are counted, so these rays are shot however small their share.
+    float share[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane)
+        if (bounces && lanes.asks(lane))
+            share[lane] =
+                std::max(1e-6f, ray_share(grid, lanes.point(lane), lanes.samples(Samples, lane)));
     Arena::Mark mark = own.arena.mark();
     std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
     std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
@@ -273,7 +282,7 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
             seen[slot] = {};
             if (bounces && lanes.number(Maxdist, lane) > 0)
                 add_ray(nested->rays, grid, start, dirs[slot], lanes.number(Maxdist, lane),
-                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot);
+                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
         },
         [&](std::span<const uint8_t> lane_of) {
             see(grid.thread, nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), seen);

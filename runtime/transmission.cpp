@@ -28,6 +28,7 @@ void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, floa
     rays.pixel_y[i] = from.pixel_y[hit];
     rays.sample[i] = from.sample[hit];
     rays.layer[i] = 0;
+    rays.share[i] = from.rays ? from.rays->share[from.ray[hit]] : 1.0f;
     rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
 }
 

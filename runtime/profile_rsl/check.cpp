@@ -164,7 +164,9 @@ class Check {
         const CheckedEffect* effect = effect_of(binding.material);
         if (!effect || !effect->compiled) return;
         const collada::Material& material = scene_.materials[binding.material];
-        for (const PassShader& pass : effect->passes) check_surface_stage(*pass.from, material);
+        size_t volumes = 0;
+        for (const PassShader& pass : effect->passes)
+            check_surface_stage(*pass.from, material, volumes);
         auto some_has = [&](const std::string& name) {
             return std::any_of(
                 effect->passes.begin(), effect->passes.end(),
@@ -180,12 +182,13 @@ class Check {
                                     input.semantic);
     }
 
-    void check_surface_stage(const collada::RslShader& shader, const collada::Material& material) {
+    void check_surface_stage(const collada::RslShader& shader, const collada::Material& material,
+                             size_t& volumes) {
         if (shader.stage == RslStage::Imager)
             diagnostics_.report(Code::RSL_STAGE_PLACE, shader.where, "IMAGER", "a surface");
-        const std::string& target = material.volume_target;
-        if (shader.stage == RslStage::Volume && !target.empty() && target != "exterior" &&
-            target != "interior")
+        if (shader.stage != RslStage::Volume) return;
+        std::string_view target = volume_side(material, volumes++);
+        if (!target.empty() && target != "exterior" && target != "interior")
             diagnostics_.report(Code::RSL_VOLUME_TARGET, shader.where, target);
     }
 

@@ -91,6 +91,19 @@ const rsl::ShaderParameter* bound_parameter(const rsl::Shader& shader, const col
     return nullptr;
 }
 
+std::string_view volume_side(const collada::Material& material, size_t nth) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    std::string_view rest = material.volume_target, side;
+    for (size_t k = 0; k <= nth; ++k) {
+        size_t begin = rest.find_first_not_of(kSpace);
+        if (begin == rest.npos) break;
+        size_t end = std::min(rest.find_first_of(kSpace, begin), rest.size());
+        side = rest.substr(begin, end - begin);
+        rest.remove_prefix(end);
+    }
+    return side;
+}
+
 bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& value) {
     bool is_string = parameter.type.base == rsl::BaseType::String;
     if (is_string || value.type == collada::ParamType::String)

@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -25,10 +26,11 @@ namespace kinora {
 
 namespace {
 
-// Set by the first signal; the frame under way is dropped at its next tile. A second signal stops
-// at once, and so does a tile that takes longer than this: no file is open while a frame is made.
+// Set by the first signal; the frame under way is dropped at its next rays. A second signal stops
+// at once, and so does a shader that takes longer than this: no file is open while a frame is made.
 constexpr unsigned kStopSeconds = 4;
-volatile std::sig_atomic_t g_signal = 0;
+std::atomic<int> g_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
 void on_signal(int number) {
     if (g_signal) _exit(128 + g_signal);
@@ -287,6 +289,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     }
     if (wants_file)
         if (int code = refuse_unwritable(record.file)) return code;
+    settings_.stop = &g_signal;
     settings_.integrator.seed = options_.seed * 0x9e3779b9u + uint32_t(frame);
     auto on_tile = [&](int done, int total) {
         progress_.tile(frame, index, done, total);

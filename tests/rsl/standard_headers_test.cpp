@@ -58,6 +58,19 @@ const HeaderRow kHeaders[] = {
      "Ci += MaterialClay(Nf, c, 1, 1, 0.5) + MaterialBrushedMetal(Nf, c, 1, 1, 1, 0.1, 0.3);"
      "Ci += MaterialCeramic(Nf, c, 1, 1, 1, 0.1, 0.5, 1, 0, 1.5, 1, ENVPARAMS);"
      "Ci += MaterialGlass(normalize(N), c, 0, 0, 1, 0.1, 1, 0, 1, 0, 1.5, ENVPARAMS);"},
+    {"material.h", "DECLARE_DEFAULTED_ENVPARAMS; color c = 0.5;",
+     "normal Nf = faceforward(normalize(N), I);"
+     "Ci = MaterialShinyMetal(Nf, c, 1, 1, 1, 0.1, 1, 0, ENVPARAMS);"
+     "Ci += MaterialShinyPlastic(Nf, c, 1, 1, 1, 0.1, 1, 0, 1.5, ENVPARAMS);"
+     "Ci += MaterialBrushedMetal(Nf, c, 1, 1, 1, dPdv, 0.1, 0.3);"
+     "Ci += MaterialCeramic(Nf, c, 1, 1, 1, 0.1, 0.5, 1, 0, 1.5, ENVPARAMS);"
+     "Ci += MaterialGlass(normalize(N), c, 0, 0, 1, 0.1, 1, 0, 1, 0, 1.5, color(1, 0, 0), "
+     "ENVPARAMS);"},
+    {"rmannotes.h", "",
+     "float a, b; rotate2d(s, t, 0.1, 0.5, 0.5, a, b); topolar2(s, t, a, b);"
+     "Ci = blend(color(1, 0, 0), color(0, 1, 0), pulse(0.2, 0.3, 0.1, repeat(s, 3))) + a + b;"
+     "Ci = union(Ci, color(0.1, 0.1, 0.1)) * gamma(2, s) * boxpulse(0.2, 0.3, 0.1, t);"
+     "Ci += snoise(P) + snoise2(s, t) + filterwidth_point(P) + odd(whichtile(s, 3)) + bias(s, t);"},
     {"locillum.h", "",
      "normal Nf = faceforward(normalize(N), I); vector V = -normalize(I);"
      "Ci = LocIllumOrenNayar(Nf, V, 0.5) + LocIllumGlossy(Nf, V, 0.1, 0.5);"
@@ -108,6 +121,12 @@ TEST(StandardHeaders, MayBeIncludedTogetherTwiceAndFromFolders) {
         text += fmt::format("#include \"{}\"\n#include <shaders/{}>\n", row.header, row.header);
     TestSource source(text + "surface x() { Ci = 1; }");
     EXPECT_EQ(compile(source.source, {}, source.diagnostics).size(), 1u) << source.messages();
+}
+
+TEST(StandardHeaders, AreFoundAsSlToo) {
+    EXPECT_EQ(standard_header("rmannotes.sl"), standard_header("rmannotes.h"));
+    EXPECT_EQ(standard_header("../shaders/noises.sl"), standard_header("noises.h"));
+    EXPECT_TRUE(standard_header("mine.sl").empty());
 }
 
 TEST(StandardHeaders, FilesOnTheIncludePathWin) {

@@ -316,6 +316,35 @@ TEST(Exterior, SurroundsItsObjectUpToTheEye) {
     expect_near(r.color(12, 8), {1, 0.5, 0});
 }
 
+// One material with both: what the view goes through within the box, and what before it.
+TEST(Exterior, StandsBesideAnInterior) {
+    auto haze = [](const char* name, const char* color) {
+        return fmt::format("volume {}() {{ float d = length(I); Ci += {} * d; }}\n", name, color);
+    };
+    const char* stages =
+        "<shader stage=\"SURFACE\"/><shader stage=\"VOLUME\"><name>within</name></shader>"
+        "<shader stage=\"VOLUME\"><name>around</name></shader>";
+    for (const char* extra :
+         {"<extra><technique profile=\"RSL\" target=\"interior exterior\"/></extra>",
+          "<extra><technique profile=\"RSL\"><volume target=\"interior\"/>"
+          "<volume target=\"exterior\"/></technique></extra>"}) {
+        SceneText scene;
+        scene.look("black", "surface black() { Oi = 1; Ci = 0; }");
+        scene.square("back", 5).place("back", "black", "<translate>0 0 -2</translate>");
+        scene.look("glass",
+                   "surface clear() { Oi = 0; Ci = 0; }\n" + haze("within", "color(1, 0, 0)") +
+                       haze("around", "color(0, 1, 0)"),
+                   stages, "", extra);
+        scene.cube("box", 0.5).place("box", "glass");
+        Rendering r(scene.text());
+        r.frame();
+        EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+        // The box is 1 deep; 9.5 lie before it and 1.5 behind.
+        EXPECT_NEAR(r.color(8, 8).x, 1.0f, 1e-4f) << r.findings();
+        EXPECT_NEAR(r.color(8, 8).y, 11.0f, 1e-4f);
+    }
+}
+
 TEST(Volumes, GiveTheSameBytesForAnyThreadsAndTargets) {
     SceneText scene = fog_scene();
     std::string include = fmt::format("#include \"{}/assets/shaders/smoke.sl\"", KINORA_SOURCE_DIR);

@@ -1,2 +1,2 @@
-surface x() { Ci = sin(Cs); }
-//! 1:20 error RSL_NO_OVERLOAD no form of 'sin' takes (color)
+surface x() { Ci = tan(Cs); }
+//! 1:20 error RSL_NO_OVERLOAD no form of 'tan' takes (color)

@@ -1,0 +1,58 @@
+// tests/rsl/lenient_test.cpp: calls that other renderers let pass are warned of, and mean what
+// their writers evidently meant.
+#include <gtest/gtest.h>
+
+#include "tests/rsl/run_shader.h"
+
+namespace kinora::rsl {
+namespace {
+
+float red(RunShader& run) {
+    return run.ok() ? run.value("Ci.r") : -1;
+}
+bool finds(const RunShader& run, const char* code) {
+    return run.findings().find(code) != std::string::npos;
+}
+
+TEST(Lenient, FormatsWithTooFewAndTooManyValues) {
+    RunShader few("surface t() { Ci = format(\"a %f b %f\", 3) == \"a 3 b %f\" ? 1 : 0; }");
+    EXPECT_EQ(red(few), 1);
+    EXPECT_TRUE(finds(few, "RSL_FORMAT_ARGUMENTS")) << few.findings();
+    RunShader many("surface t() { Ci = format(\"<%d>\", 3, 4, N) == \"<3>\" ? 1 : 0; }");
+    EXPECT_EQ(red(many), 1);
+    EXPECT_TRUE(finds(many, "RSL_FORMAT_ARGUMENTS")) << many.findings();
+    RunShader print("surface t() { printf(\"%f %f\\n\", s); printf(\"\\n\", s); Ci = 1; }");
+    EXPECT_TRUE(print.ok()) << print.findings();
+}
+
+TEST(Lenient, UnknownSpacesAreCurrent) {
+    std::vector<std::string> spaces = {"lamp"};
+    LowerOptions options;
+    options.spaces = &spaces;
+    RunShader run("surface t() { Ci = xcomp(transform(\"lanp\", point(3, 0, 0))); }", options);
+    EXPECT_EQ(red(run), 3);
+    EXPECT_TRUE(finds(run, "did you mean 'lamp'")) << run.findings();
+}
+
+TEST(Lenient, UnknownResultsOfGatherAreLeftAlone) {
+    RunShader run(
+        "surface t() { color c = 5; float x = 2; gather(\"\", P, N, 0, 1, \"primitive:Cs\", c, "
+        "\"surface:Ci\", x) { } Ci = color(x); }");
+    EXPECT_TRUE(run.lowered.gathers.size() == 1 && run.lowered.gathers[0].empty());
+    EXPECT_TRUE(finds(run, "primitive:Cs")) << run.findings();
+    EXPECT_TRUE(finds(run, "surface:Ci")) << run.findings();
+}
+
+TEST(Lenient, ShadowRaysOfBmrtAskForOpacityAlone) {
+    const char* source = "surface t() { if (isshadowray() == 1) Oi = 0.25; else Oi = 1; Ci = Oi; }";
+    RunShader seen(source);
+    EXPECT_EQ(red(seen), 1);
+    LowerOptions opacity;
+    opacity.want_Ci = false;
+    RunShader shadow(source, opacity);
+    ASSERT_TRUE(shadow.ok()) << shadow.findings();
+    EXPECT_EQ(shadow.value("Oi.r"), 0.25f);
+}
+
+}  // namespace
+}  // namespace kinora::rsl
