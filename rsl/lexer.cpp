@@ -284,8 +284,11 @@ size_t Lexer::string_end_below(size_t i) const {
     if (quote == std::string_view::npos) return 0;
     int lines = 0, quotes = 0;
     for (size_t k = i; k < quote; ++k) {
-        lines += newline_length(k) != 0;
-        if (newline_length(k) && at(k + 1) == '#') return 0;  // a directive must not be lost
+        if (!newline_length(k)) continue;
+        ++lines;
+        size_t first = k + newline_length(k);
+        while (is_blank(at(first))) ++first;
+        if (at(first) == '#') return 0;  // a directive must not be lost
     }
     for (size_t k = quote; k < text_.size() && !newline_length(k); ++k) quotes += text_[k] == '"';
     return quotes % 2 == 1 && lines <= kMostLines ? quote + 1 : 0;

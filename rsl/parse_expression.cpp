@@ -117,19 +117,40 @@ Expr* Parser::binary(int lowest) {
     Expr* left = unary();
     while (!panic_) {
         const OperatorRow* row = find_operator(token().punct);
+        bool doubled = !row && at_doubled_sign();
+        if (doubled) row = find_operator(Punct::Subtract);
         if (!row || row->level < lowest) break;
         uint32_t at = next_;
         int left_height = height_;
-        advance();
+        if (!doubled) advance();
         auto* node = make<BinaryExpr>(left->place);
         node->op = row->op;
         node->left = left;
-        node->right = binary(row->level + 1);
+        node->right = doubled ? negated(row->level + 1) : binary(row->level + 1);
         grow(left_height);
         node->place = place_from(left->place, at);
         left = node;
     }
     return left;
+}
+
+// "a--b": RSL has no decrement, so this is a - (-b).
+bool Parser::at_doubled_sign() const {
+    bool operand = token(1).kind == TokenKind::Identifier || token(1).kind == TokenKind::Number ||
+                   is(Punct::LeftParen, 1);
+    return is(Punct::Decrement) && operand;
+}
+
+// The operand behind a "--" that stands for "- -".
+Expr* Parser::negated(int lowest) {
+    uint32_t at = next_;
+    advance();
+    auto* node = make<UnaryExpr>({});
+    node->op = Op::Negate;
+    node->operand = binary(lowest);
+    grow(0);
+    node->place = place_from(at);
+    return node;
 }
 
 Expr* Parser::unary() {

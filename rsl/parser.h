@@ -115,6 +115,8 @@ class Parser {
     Expr* ternary();
     Expr* binary(int lowest);
     Expr* unary();
+    bool at_doubled_sign() const;
+    Expr* negated(int lowest);
     Expr* cast();
     Expr* c_cast();
     Expr* postfix();

@@ -7,5 +7,6 @@ surface expression_precedence(float Kd = 0.5) {
     float e = - - s + +t;
     float f = 1 - 2 - 3 / 4 / 5;
     float g = s < t == t > s;
-    Ci = lambert * 0.01 + color(b) * 0.1 + d * 0.1 + e + f * 0.1 + g * !s;
+    float h = s--t * 2 --1;
+    Ci = lambert * 0.01 + color(b) * 0.1 + d * 0.1 + e + f * 0.1 + g * !s + h;
 }
