@@ -72,12 +72,6 @@ std::string_view word_text(Word word) {
     return "";
 }
 
-const char* punct_text(Punct punct) {
-    for (const PunctRow& row : kPuncts)
-        if (row.punct == punct) return row.text.data();
-    return "";
-}
-
 const char* plain_character(std::string_view text) {
     for (const auto& row : kTypographic)
         if (row.text == text) return row.plain;

@@ -51,7 +51,6 @@ class Lexer {
 // The meaning of an identifier.
 Word find_word(std::string_view text);
 std::string_view word_text(Word word);
-const char* punct_text(Punct punct);
 
 // The character that a typographic one (a curly quote, a dash) stands for; "" for all others.
 const char* plain_character(std::string_view text);

@@ -88,7 +88,7 @@ Stmt* Parser::statement_unguarded() {
     return shader_handle() ? nullptr : expression_statement();
 }
 
-// What an if or a loop does; nothing where that is broken.
+// The statement that another one governs; empty where it is broken.
 Stmt* Parser::body_statement() {
     Stmt* stmt = statement();
     if (panic_) skip_statement();
@@ -308,24 +308,26 @@ Stmt* Parser::return_statement() {
     return node;
 }
 
-Stmt* Parser::illuminance_statement() {
+// "keyword ( arguments )" of the statements about lights and rays; false after an error.
+bool Parser::head(Stmt& node, std::span<Expr*>& args) {
     uint32_t at = next_;
-    auto* node = make<IlluminanceStmt>({});
     advance();
-    node->args = arguments();
-    if (panic_) return nullptr;
-    node->place = place_from(at);
+    args = arguments();
+    node.place = place_from(at);
+    return !panic_;
+}
+
+Stmt* Parser::illuminance_statement() {
+    auto* node = make<IlluminanceStmt>({});
+    if (!head(*node, node->args)) return nullptr;
     node->body = body_statement();
     return node;
 }
 
 Stmt* Parser::illuminate_statement() {
-    uint32_t at = next_;
     auto* node = make<IlluminateStmt>({});
-    advance();
-    std::span<Expr*> args = arguments();
-    if (panic_) return nullptr;
-    node->place = place_from(at);
+    std::span<Expr*> args;
+    if (!head(*node, args)) return nullptr;
     if (args.size() != 1 && args.size() != 3) {
         reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "illuminate",
                          "(position) or (position, axis, angle)");
@@ -341,12 +343,9 @@ Stmt* Parser::illuminate_statement() {
 }
 
 Stmt* Parser::solar_statement() {
-    uint32_t at = next_;
     auto* node = make<SolarStmt>({});
-    advance();
-    std::span<Expr*> args = arguments();
-    if (panic_) return nullptr;
-    node->place = place_from(at);
+    std::span<Expr*> args;
+    if (!head(*node, args)) return nullptr;
     if (args.size() > 2) {
         reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "solar",
                          "() or (axis, angle)");
@@ -359,16 +358,10 @@ Stmt* Parser::solar_statement() {
 }
 
 Stmt* Parser::gather_statement() {
-    uint32_t at = next_;
     auto* node = make<GatherStmt>({});
-    advance();
-    node->args = arguments();
-    if (panic_) return nullptr;
-    node->place = place_from(at);
+    if (!head(*node, node->args)) return nullptr;
     node->body = body_statement();
-    if (!panic_ && accept(Word::Else)) {
-        node->missed = body_statement();
-    }
+    if (!panic_ && accept(Word::Else)) node->missed = body_statement();
     return node;
 }
 

@@ -107,6 +107,7 @@ class Parser {
     Stmt* empty_statement();
     Stmt* body_statement();
     void leave_header(uint32_t open);
+    bool head(Stmt& node, std::span<Expr*>& args);
     Expr* condition();
     std::span<Symbol*> declared_symbols(const Declaration& head, SymbolKind kind);
 
