@@ -184,6 +184,7 @@ struct ServiceRow {
     jit::ServiceFn function;
 };
 constexpr ServiceRow kServices[] = {{"concat", concat}, {"format", format}, {"match", match}};
+static_assert(std::size(kServices) == std::size(kStringServices));
 
 }  // namespace
 

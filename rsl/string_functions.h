@@ -38,6 +38,7 @@ bool matches(std::string_view pattern, std::string_view text);
 // The services "concat", "format" and "match" (rsl/renderer_services.h), the same for every
 // renderer; null for other names. Each does its work once for each distinct set of arguments of a
 // call. Once a million strings exist no new ones are made: the result is "".
+inline constexpr std::string_view kStringServices[] = {"concat", "format", "match"};
 jit::ServiceFn string_service(std::string_view name);
 
 }  // namespace kinora::rsl

@@ -6,9 +6,8 @@
 #include <glm/matrix.hpp>
 
 #include "rsl/renderer_services.h"
-#include "rsl/string_functions.h"
+#include "rsl/service_table.h"
 #include "runtime/bake.h"
-#include "runtime/base/check.h"
 #include "runtime/print.h"
 #include "runtime/queries.h"
 #include "runtime/shading_p.h"
@@ -136,11 +135,7 @@ void print(const jit::ServiceCall& call) {
         std::fputs(print_text(call, 0).c_str(), stdout);
 }
 
-struct Row {
-    std::string_view name;
-    jit::ServiceFn function;
-};
-constexpr Row kRows[] = {
+constexpr rsl::ServiceRow kRows[] = {
     {"textureinfo", lookup_texture_info},
     {"lights", lights},
     {"texture", texture},
@@ -158,16 +153,12 @@ constexpr Row kRows[] = {
     {"texture3d", texture3d},
     {"indirectdiffuse", indirectdiffuse},
 };
-constexpr size_t kStringServices = 3;  // rsl::string_service
-static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));
+static_assert(rsl::has_all_services(kRows));
 
 }  // namespace
 
 jit::ServiceFn find_service(std::string_view name) {
-    for (const Row& row : kRows)
-        if (row.name == name) return row.function;
-    if (jit::ServiceFn function = rsl::string_service(name)) return function;
-    check_failed("runtime/services.cpp", 0, "unknown service " + std::string(name));
+    return rsl::find_service(kRows, name);
 }
 
 }  // namespace kinora

@@ -5,8 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "rsl/renderer_services.h"
-#include "rsl/string_functions.h"
-#include "runtime/base/check.h"
+#include "rsl/service_table.h"
 #include "runtime/print.h"
 #include "runtime/programs/kinora_shade_kernel.h"
 #include "runtime/texture.h"
@@ -68,11 +67,7 @@ void print(const jit::ServiceCall& call) {
         if (call.mask >> lane & 1) std::fputs(print_text(call, lane).c_str(), stdout);
 }
 
-struct Row {
-    std::string_view name;
-    jit::ServiceFn function;
-};
-constexpr Row kRows[] = {
+constexpr rsl::ServiceRow kRows[] = {
     {"textureinfo", lookup_texture_info},
     {"lights", lights},
     {"texture", lookup_texture},
@@ -90,16 +85,12 @@ constexpr Row kRows[] = {
     {"texture3d", nothing<33>},
     {"indirectdiffuse", nothing<3>},
 };
-constexpr size_t kStringServices = 3;  // rsl::string_service
-static_assert(std::size(kRows) + kStringServices == std::size(rsl::kServiceNames));
+static_assert(rsl::has_all_services(kRows));
 
 }  // namespace
 
 jit::ServiceFn shade_service(std::string_view name) {
-    for (const Row& row : kRows)
-        if (row.name == name) return row.function;
-    if (jit::ServiceFn function = rsl::string_service(name)) return function;
-    check_failed("kinora_shade_services.cpp", 0, "unknown service " + std::string(name));
+    return rsl::find_service(kRows, name);
 }
 
 // As in a scene without lights (DESIGN.md section 5): a distant light from over the camera's left
