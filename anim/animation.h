@@ -36,6 +36,7 @@ Animation make_animation(std::vector<Sampler> samplers, std::vector<Channel> cha
 void evaluate(const Animation& animation, double time_seconds, std::span<double> values,
               std::span<uint64_t> changed);
 
+// Words of `changed` that hold a bit for each owner.
 constexpr size_t changed_words(size_t owners) {
     return (owners + 63) / 64;
 }

@@ -118,12 +118,12 @@ void set_times(const SegmentKeys& k, CurveSegment& c, SamplerRepairs& repairs) {
 }  // namespace
 
 const InterpolationRow kInterpolations[] = {
-    {"STEP", false, nullptr, evaluate_step},
-    {"LINEAR", false, nullptr, evaluate_linear},
-    {"BEZIER", true, shape_bezier, evaluate_curve},
-    {"HERMITE", true, shape_hermite, evaluate_curve},
-    {"CARDINAL", false, shape_cardinal, evaluate_curve},
-    {"BSPLINE", false, shape_bspline, evaluate_curve},
+    {false, nullptr, evaluate_step},          // Step
+    {false, nullptr, evaluate_linear},        // Linear
+    {true, shape_bezier, evaluate_curve},     // Bezier
+    {true, shape_hermite, evaluate_curve},    // Hermite
+    {false, shape_cardinal, evaluate_curve},  // Cardinal
+    {false, shape_bspline, evaluate_curve},   // Bspline
 };
 static_assert(std::size(kInterpolations) == static_cast<size_t>(Interpolation::Count));
 

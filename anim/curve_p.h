@@ -22,7 +22,6 @@ struct SegmentKeys {
 };
 
 struct InterpolationRow {
-    const char* name;    // COLLADA's
     bool uses_tangents;  // without them the segment runs straight
     // Fills value and, by 2-D tangents, time; null where the segment is no cubic.
     void (*shape)(const SegmentKeys& keys, CurveSegment& curve);

@@ -34,6 +34,7 @@ using Matrix16 = std::array<double, 16>;  // row-major, as in a document
 
 RigidStretch decompose(const Matrix16& m);
 Matrix16 compose(const RigidStretch& r);
+// The rotation by slerp, all else linearly; s = 0 is a, s = 1 is b.
 RigidStretch interpolate(const RigidStretch& a, const RigidStretch& b, double s);
 
 }  // namespace kinora::anim

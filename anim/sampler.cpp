@@ -1,10 +1,13 @@
 // anim/sampler.cpp: a document's key arrays made ready to evaluate.
 #include "anim/sampler.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "anim/curve_p.h"
 
@@ -147,14 +150,20 @@ void decompose_keys(Sampler& sampler) {
 
 }  // namespace
 
-std::optional<Interpolation> interpolation_from_name(std::string_view collada_name) {
-    for (int i = 0; i < static_cast<int>(Interpolation::Count); ++i)
-        if (collada_name == kInterpolations[i].name) return static_cast<Interpolation>(i);
-    return std::nullopt;
-}
-
-const char* interpolation_name(Interpolation interpolation) {
-    return row(interpolation).name;
+std::string to_text(const SamplerRepairs& r) {
+    const std::pair<uint32_t, const char*> told[] = {
+        {r.missing_values, "keys without values dropped"},
+        {r.non_finite_keys, "keys that are not finite dropped"},
+        {r.unsorted_keys, "keys out of order sorted"},
+        {r.missing_tangents, "segments without tangents made straight"},
+        {r.bad_tangents, "tangents that are not finite made straight"},
+        {r.clamped_tangents, "tangents moved into their segment"},
+        {r.bad_stride, "unfitting stride"},
+    };
+    std::string text;
+    for (auto [count, what] : told)
+        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+    return text;
 }
 
 Sampler make_sampler(const SamplerSource& source, SamplerRepairs* repairs) {

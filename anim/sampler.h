@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "anim/decompose.h"
@@ -19,8 +18,6 @@ namespace kinora::anim {
 //   CARDINAL, BSPLINE  uniform Catmull-Rom and cubic B-spline over the keys' values, time linear in
 //            the segment; beyond the ends the first (last) two keys continue in a line.
 enum class Interpolation : uint8_t { Step, Linear, Bezier, Hermite, Cardinal, Bspline, Count };
-std::optional<Interpolation> interpolation_from_name(std::string_view collada_name);  // "BEZIER"
-const char* interpolation_name(Interpolation interpolation);
 
 // What holds before the first and after the last key (COLLADA 1.5 sampler).
 enum class Behaviour : uint8_t {
@@ -31,7 +28,6 @@ enum class Behaviour : uint8_t {
     Oscillate,      // the curve to and fro
     Count
 };
-std::optional<Behaviour> behaviour_from_name(std::string_view collada_name);  // "CYCLE_RELATIVE"
 
 // Numbers: every component by itself. Matrix: 16 numbers in document (row-major) order; LINEAR
 // segments interpolate translation, rotation (slerp) and stretch apart, others work on the numbers.
@@ -72,6 +68,8 @@ struct SamplerRepairs {
                missing_tangents | bad_tangents | clamped_tangents | bad_stride;
     }
 };
+// "2 keys out of order sorted, 1 unfitting stride"; "" where nothing was lost or moved.
+std::string to_text(const SamplerRepairs& repairs);
 
 // One component of one curved segment as a cubic Bezier; times are offsets from the left key.
 struct CurveSegment {

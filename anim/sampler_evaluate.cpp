@@ -88,15 +88,10 @@ void oscillate(const Sampler& sampler, double time, uint32_t first, std::span<do
     evaluate_inside(sampler, folded.time, first, out);
 }
 
-struct BehaviourRow {
-    const char* name;
-    void (*evaluate)(const Sampler&, double time, uint32_t first, std::span<double> out);
-};
-constexpr BehaviourRow kBehaviours[] = {
-    {"CONSTANT", hold},       {"LINEAR", extend_line},
-    {"CYCLE", cycle},         {"CYCLE_RELATIVE", cycle_relative},
-    {"OSCILLATE", oscillate},
-};
+using EvaluateOutside = void (*)(const Sampler&, double time, uint32_t first,
+                                 std::span<double> out);
+constexpr EvaluateOutside kBehaviours[] = {  // by Behaviour
+    hold, extend_line, cycle, cycle_relative, oscillate};
 static_assert(std::size(kBehaviours) == static_cast<size_t>(Behaviour::Count));
 
 void evaluate_any(const Sampler& sampler, double time, uint32_t first, std::span<double> out) {
@@ -107,7 +102,7 @@ void evaluate_any(const Sampler& sampler, double time, uint32_t first, std::span
     // one moment has no slope and no period
     if (!std::isfinite(time) || !(sampler.last_time() > sampler.first_time()))
         behaviour = Behaviour::Constant;
-    kBehaviours[static_cast<int>(behaviour)].evaluate(sampler, time, first, out);
+    kBehaviours[static_cast<int>(behaviour)](sampler, time, first, out);
 }
 
 // All four numbers together: each depends on the length of all.
@@ -121,12 +116,6 @@ void evaluate_unit_quaternion(const Sampler& sampler, double time, uint32_t firs
 }
 
 }  // namespace
-
-std::optional<Behaviour> behaviour_from_name(std::string_view collada_name) {
-    for (size_t i = 0; i < std::size(kBehaviours); ++i)
-        if (collada_name == kBehaviours[i].name) return static_cast<Behaviour>(i);
-    return std::nullopt;
-}
 
 void evaluate(const Sampler& sampler, double time, uint32_t first, std::span<double> out) {
     CHECK(!sampler.empty());

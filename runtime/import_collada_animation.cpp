@@ -1,6 +1,4 @@
 // runtime/import_collada_animation.cpp: COLLADA's channels and samplers for anim.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "runtime/findings.h"
@@ -28,21 +26,6 @@ void transpose_matrices(std::vector<double>& numbers, size_t width) {
                 for (size_t k = 0; k < width; ++k)
                     numbers[begin + (row * 4 + column) * width + k] =
                         original[begin + (column * 4 + row) * width + k];
-}
-
-std::string repair_text(const anim::SamplerRepairs& r) {
-    std::string text;
-    auto add = [&](uint32_t count, const char* what) {
-        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
-    };
-    add(r.missing_values, "keys without values dropped");
-    add(r.non_finite_keys, "keys that are not finite dropped");
-    add(r.unsorted_keys, "keys out of order sorted");
-    add(r.missing_tangents, "segments without tangents made straight");
-    add(r.bad_tangents, "tangents that are not finite made straight");
-    add(r.clamped_tangents, "tangents moved into their segment");
-    add(r.bad_stride, "unfitting stride");
-    return text;
 }
 
 anim::Sampler make_sampler(const collada::Sampler& from, bool matrix,
@@ -84,7 +67,7 @@ void ColladaImport::import_animation() {
         if (is_new) {
             anim::SamplerRepairs repairs;
             samplers.push_back(make_sampler(data_.samplers[from.sampler], matrix, repairs));
-            if (std::string text = repair_text(repairs); !text.empty())
+            if (std::string text = to_text(repairs); !text.empty())
                 diagnostics_.report(Code::ANIM_KEYS_REPAIRED, data_.samplers[from.sampler].where,
                                     from.target, text);
         }

@@ -22,18 +22,6 @@ constexpr InterpolationRow kInterpolations[] = {
     {"CUBICSPLINE", anim::Interpolation::Hermite, 3},
 };
 
-std::string repair_text(const anim::SamplerRepairs& r) {
-    std::string text;
-    auto add = [&](uint32_t count, const char* what) {
-        if (count) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
-    };
-    add(r.missing_values, "keys without values dropped");
-    add(r.non_finite_keys, "keys that are not finite dropped");
-    add(r.unsorted_keys, "keys out of order sorted");
-    add(r.bad_tangents, "tangents that are not finite made straight");
-    return text;
-}
-
 // HERMITE's tangents are derivatives over a segment's 0..1, CUBICSPLINE's over seconds (glTF 2.0,
 // appendix C.5).
 anim::Sampler make_sampler(const std::vector<double>& times, const std::vector<float>& output,
@@ -124,7 +112,7 @@ std::optional<anim::Sampler> GltfImport::sampler_of(uint32_t animation, uint32_t
     std::vector<double> times(input.values.begin(), input.values.end());
     anim::SamplerRepairs repairs;
     anim::Sampler made = make_sampler(times, output.values, stride, *row, rotation, repairs);
-    if (std::string text = repair_text(repairs); !text.empty())
+    if (std::string text = to_text(repairs); !text.empty())
         report(Code::GLTF_ANIMATION, pointer, from.name, text);
     if (made.empty()) return std::nullopt;
     return made;
