@@ -129,9 +129,6 @@ uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) con
 const AccelPolicy& Accel::policy() const {
     return state_->policy;
 }
-size_t Accel::memory_bytes() const {
-    return embree_memory_bytes();
-}
 
 #if defined(__x86_64__)
 namespace {

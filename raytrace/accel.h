@@ -1,5 +1,4 @@
-// raytrace/accel.h: answers rays on moving geometry. Embree underneath, seen in accel_embree.cpp
-// only.
+// raytrace/accel.h: answers rays on moving geometry. Embree underneath, seen in embree.cpp only.
 #pragma once
 
 #include <cstdint>
@@ -139,7 +138,6 @@ class Accel {
     void wait_for_background();
 
     const AccelPolicy& policy() const;
-    size_t memory_bytes() const;  // held by Embree
 
     struct State;  // accel_state_p.h
 

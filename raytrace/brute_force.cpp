@@ -2,17 +2,11 @@
 #include "raytrace/brute_force.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace kinora::raytrace {
 
 namespace {
-
-double dot(dvec3 a, dvec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-dvec3 cross(dvec3 a, dvec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 struct Crossing {
     double t, u, v;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
@@ -10,12 +11,6 @@ namespace kinora::raytrace {
 
 namespace {
 
-double dot(dvec3 a, dvec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-dvec3 cross(dvec3 a, dvec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 double length(dvec3 a) {
     return std::hypot(a.x, a.y, a.z);
 }

@@ -14,13 +14,6 @@ namespace kinora::raytrace {
 
 namespace {
 
-std::atomic<int64_t> g_bytes{0};
-
-bool count_memory(void*, ssize_t bytes, bool) {
-    g_bytes.fetch_add(bytes, std::memory_order_relaxed);
-    return true;
-}
-
 void report_error(void*, RTCError code, const char* text) {
     if (code == RTC_ERROR_NONE) return;
     std::fprintf(stderr, "kinora: Embree: %s (%d)\n", text ? text : "", int(code));
@@ -32,7 +25,6 @@ RTCDevice device() {
         RTCDevice d = rtcNewDevice(nullptr);
         CHECK(d != nullptr);
         rtcSetDeviceErrorFunction(d, report_error, nullptr);
-        rtcSetDeviceMemoryMonitorFunction(d, count_memory, nullptr);
         return d;
     }();
     return the_device;
@@ -300,10 +292,6 @@ uint32_t EmbreeScene::occluded16(const RayPacket16& rays) const {
     for (int i = 0; i < kPacket; ++i)
         if (rays.active >> i & 1 && ray.tfar[i] < 0) mask |= 1u << i;  // Embree sets -inf
     return mask;
-}
-
-size_t embree_memory_bytes() {
-    return size_t(std::max<int64_t>(0, g_bytes.load()));
 }
 
 }  // namespace kinora::raytrace

@@ -98,6 +98,4 @@ class EmbreeScene {
     void* scene_ = nullptr;
 };
 
-size_t embree_memory_bytes();
-
 }  // namespace kinora::raytrace

@@ -3,18 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace kinora::raytrace {
 
 namespace {
-
-dvec3 cross(dvec3 a, dvec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(dvec3 a, dvec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 constexpr double kLargestGain = 1e10;
 constexpr double kLargestLocal = 1.7e18;  // a little under Embree's limit, for rounding

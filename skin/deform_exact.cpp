@@ -1,21 +1,12 @@
 // skin/deform_exact.cpp: a normal in double, for numbers that leave float's safe range.
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "runtime/base/math.h"
 #include "skin/deform_p.h"
 #include "skin/influences_p.h"
 
 namespace kinora::skin {
-namespace {
-
-dvec3 cross(const dvec3& a, const dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(const dvec3& a, const dvec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-}  // namespace
 
 void exact_normal(const float* palette, const float* weights, const uint32_t* places,
                   uint32_t rounds, uint32_t vertex, const float* rest, float* normal) {
