@@ -25,6 +25,18 @@ void append(std::vector<Value>& list, const Lowered& value) {
     list.insert(list.end(), value.c.begin(), value.c.begin() + value.size());
 }
 
+// Where calls may still go deeper; lanes that may not report it.
+Value calls_allowed(Emitter& at, const CallExpr& e, Value depth, Value left) {
+    jit::Builder& b = at.b;
+    Value shallow = b.op(jit::Op::ILt, depth, b.i(kMaxCallDepth));
+    Value allowed = b.logical_and(shallow, b.op(jit::Op::ILt, b.i(0), left));
+    std::string text =
+        fmt::format("function '{}' calls itself more than {} levels deep, or {} times", e.name,
+                    kMaxCallDepth, kMaxRecursiveCalls);
+    b.fault(b.fault_site(e.place.where, text), b.and_not(at.running, allowed));
+    return allowed;
+}
+
 }  // namespace
 
 Value Lowering::path_value() {
@@ -108,16 +120,7 @@ Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& argumen
     bool outermost = call_depth_ == jit::kNone;
     Value depth = outermost ? b.i(0) : call_depth_;
     Value left = outermost ? b.i(kMaxRecursiveCalls) : read_slot(calls_left_).c[0];
-    Value allowed = b.m(true);
-    if (!outermost) {
-        Value shallow = b.op(jit::Op::ILt, depth, b.i(kMaxCallDepth));
-        allowed = b.logical_and(shallow, b.op(jit::Op::ILt, b.i(0), left));
-        std::string text = fmt::format(
-            "function '{}' calls itself more than {} levels deep, or {} "
-            "times",
-            f.name, kMaxCallDepth, kMaxRecursiveCalls);
-        b.fault(b.fault_site(e.place.where, text), b.and_not(running, allowed));
-    }
+    Value allowed = outermost ? b.m(true) : calls_allowed(*this, e, depth, left);
     Value mask = b.logical_and(running, allowed);
     std::vector<Value> args = {mask, b.iadd(depth, b.i(1)), b.isub(left, b.i(1))};
     if (r.random) {
