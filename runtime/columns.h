@@ -40,6 +40,14 @@ enum Column : uint16_t {
     kColVarying = kColFromCurrent + 12,  // then Look::varying, each value and its du and dv
 };
 
+// Columns that hold one number everywhere: u and v are the parameters of the surface.
+struct ConstantColumn {
+    uint16_t column;
+    float value;
+};
+inline constexpr ConstantColumn kConstantColumns[] = {
+    {kColOne, 1}, {kColdsdu, 1}, {kColdsdv, 0}, {kColdtdu, 0}, {kColdtdv, 1}};
+
 // Column of a kernel input's name ("P.x", "space:object:to_current:03"); varying parameters are
 // looked up by their look. kNoColumn: not a column.
 inline constexpr uint16_t kNoColumn = 0xffff;

@@ -307,12 +307,7 @@ class Gather {
     }
 
     void constants() const {
-        static constexpr std::pair<uint16_t, float> kConstants[] = {{kColOne, 1.0f},
-                                                                    {kColdsdu, 1.0f},
-                                                                    {kColdsdv, 0.0f},
-                                                                    {kColdtdu, 0.0f},
-                                                                    {kColdtdv, 1.0f}};
-        for (auto [which, value] : kConstants)
+        for (auto [which, value] : kConstantColumns)
             if (float* row = column(which)) std::fill_n(row, padded(grid_.count()), value);
     }
 

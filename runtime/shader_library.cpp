@@ -40,10 +40,4 @@ std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnos
     return nullptr;
 }
 
-std::vector<std::string_view> library_shader_names() {
-    std::vector<std::string_view> names;
-    for (size_t i = 0; i < kEmbeddedShaderCount; ++i) names.push_back(kEmbeddedShaders[i].name);
-    return names;
-}
-
 }  // namespace kinora

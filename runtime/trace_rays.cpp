@@ -70,6 +70,35 @@ void look_up(int32_t map, std::span<const vec3> directions, float width, vec3* l
     }
 }
 
+// What occlusion and indirectdiffuse are asked: samples in a cone about N, denser along it.
+enum ConeArgs { kP = 2, kN = 5, kSamples = 8, kAngle, kMaxdist, kBias, kMoreArgs };
+
+class ConeRays {
+  public:
+    ConeRays(const Grid& grid, const Lanes& lanes, const mat3& accel_from_camera)
+        : grid_(grid), lanes_(lanes), accel_from_camera_(accel_from_camera) {}
+
+    int count(int lane) const {
+        bool asks = grid_.shadows && has_direction(lanes_.triple(kN, lane));
+        return asks ? lanes_.samples(kSamples, lane) : 0;
+    }
+    vec3 direction(int lane, uint32_t k) const {
+        vec3 axis = accel_from_camera_ * lanes_.triple(kN, lane);
+        return Cone(axis, lanes_.number(kAngle, lane), true).direction(k, lanes_.seed(lane));
+    }
+    void add(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot, vec3 dir,
+             float share = 1) const {
+        RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(kP, lane));
+        add_ray(rays, grid_, start, dir, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane),
+                raytrace::hash(lanes_.seed(lane), k), slot, share);
+    }
+
+  private:
+    const Grid& grid_;
+    const Lanes& lanes_;
+    mat3 accel_from_camera_;
+};
+
 }  // namespace
 
 void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
@@ -183,7 +212,7 @@ void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
 }
 
 void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
-    enum { P = 2, N = 5, Samples = 8, Angle, Maxdist, Bias, Falloff, Mode };
+    enum { Falloff = kMoreArgs, Mode };
     Lanes lanes(call);
     Thread& own = thread(grid.thread);
     float blocked[kLanes] = {};
@@ -191,21 +220,13 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
     Arena::Mark mark = own.arena.mark();
     std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
     std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
-    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     NestedWavefront nested(own), near(own);
-    auto count = [&](int lane) {
-        bool asks = grid.shadows && !stopped() && has_direction(lanes.triple(N, lane));
-        return asks ? lanes.samples(Samples, lane) : 0;
-    };
+    ConeRays cone(grid, lanes, glm::transpose(camera_from_accel_));
     in_batches(
-        lanes, nested->rays, count,
+        lanes, nested->rays, [&](int lane) { return stopped() ? 0 : cone.count(lane); },
         [&](int lane, uint32_t k, uint32_t slot) {
-            uint32_t seed = lanes.seed(lane);
-            Cone cone(accel_from_camera * lanes.triple(N, lane), lanes.number(Angle, lane), true);
-            RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
-            dirs[slot] = cone.direction(k, seed);
-            add_ray(nested->rays, grid, start, dirs[slot], lanes.number(Maxdist, lane),
-                    lanes.number(Bias, lane), raytrace::hash(seed, k), slot);
+            dirs[slot] = cone.direction(lane, k);
+            cone.add(nested->rays, lane, k, slot, dirs[slot]);
         },
         [&](std::span<const uint8_t> lane_of) {
             bool by_distance = false;
@@ -221,7 +242,7 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
                 if (falloff > 0 && hidden > 0)
                     hidden *=
                         lanes.number(Mode, lane) > 0
-                            ? std::pow(std::max(0.0f, 1 - weight[i] / lanes.number(Maxdist, lane)),
+                            ? std::pow(std::max(0.0f, 1 - weight[i] / lanes.number(kMaxdist, lane)),
                                        falloff)
                             : std::exp(-falloff * weight[i]);
                 blocked[lane] += hidden;
@@ -230,11 +251,11 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
         });
     own.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? count(lane) : 0;
+        int n = lanes.asks(lane) ? cone.count(lane) : 0;
         lanes.set(0, lane, n ? blocked[lane] / float(n) : 0.0f);
         float length = glm::length(open[lane]);
         vec3 mean = length > 0 ? camera_from_accel_ * open[lane] / length : vec3(0.0f);
-        lanes.set(1, lane, n ? mean : lanes.triple(N, lane));
+        lanes.set(1, lane, n ? mean : lanes.triple(kN, lane));
     }
 }
 
@@ -249,7 +270,7 @@ void Shading::distances(int thread_id, const raytrace::RayBatch& rays, raytrace:
 }
 
 void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
-    enum { P = 2, N = 5, Samples = 8, Angle, Maxdist, Bias, Map };
+    enum { Map = kMoreArgs };
     Lanes lanes(call);
     Thread& own = thread(grid.thread);
     vec3 sum[kLanes] = {};
@@ -260,29 +281,23 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     for (int lane = 0; lane < kLanes; ++lane)
         if (bounces && lanes.asks(lane))
             share[lane] =
-                std::max(1e-6f, ray_share(grid, lanes.point(lane), lanes.samples(Samples, lane)));
+                std::max(1e-6f, ray_share(grid, lanes.point(lane), lanes.samples(kSamples, lane)));
     Arena::Mark mark = own.arena.mark();
     std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
     std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
     std::span<vec3> light = own.arena.allocate_span<vec3>(kGridPoints);
-    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
     NestedWavefront nested(own);
+    ConeRays cone(grid, lanes, glm::transpose(camera_from_accel_));
     auto count = [&](int lane) {
-        bool asks = grid.shadows && has_direction(lanes.triple(N, lane));
-        asks &= bounces || lanes.integer(Map, lane) != 0;
-        return asks ? lanes.samples(Samples, lane) : 0;
+        return bounces || lanes.integer(Map, lane) != 0 ? cone.count(lane) : 0;
     };
     in_batches(
         lanes, nested->rays, count,
         [&](int lane, uint32_t k, uint32_t slot) {
-            uint32_t seed = lanes.seed(lane);
-            Cone cone(accel_from_camera * lanes.triple(N, lane), lanes.number(Angle, lane), true);
-            RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
-            dirs[slot] = cone.direction(k, seed);
+            dirs[slot] = cone.direction(lane, k);
             seen[slot] = {};
-            if (bounces && lanes.number(Maxdist, lane) > 0)
-                add_ray(nested->rays, grid, start, dirs[slot], lanes.number(Maxdist, lane),
-                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
+            if (bounces && lanes.number(kMaxdist, lane) > 0)
+                cone.add(nested->rays, lane, k, slot, dirs[slot], share[lane]);
         },
         [&](std::span<const uint8_t> lane_of) {
             see(grid.thread, nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), seen);
@@ -293,7 +308,7 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
                 if (map != 0) {
                     // Each sample stands for its share of the hemisphere.
                     float width =
-                        std::sqrt(2 * float(kPi) / float(lanes.samples(Samples, lane_of[begin])));
+                        std::sqrt(2 * float(kPi) / float(lanes.samples(kSamples, lane_of[begin])));
                     look_up(map, dirs.subspan(begin, end - begin), width, light.data());
                     for (size_t i = begin; i < end; ++i)
                         seen[i].color += seen[i].open * light[i - begin];

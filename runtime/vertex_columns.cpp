@@ -215,12 +215,7 @@ class Columns {
     }
 
     void constants() {
-        static constexpr std::pair<uint16_t, float> kConstants[] = {{kColOne, 1.0f},
-                                                                    {kColdsdu, 1.0f},
-                                                                    {kColdsdv, 0.0f},
-                                                                    {kColdtdu, 0.0f},
-                                                                    {kColdtdv, 1.0f}};
-        for (auto [which, value] : kConstants)
+        for (auto [which, value] : kConstantColumns)
             if (float* row = columns_[which]) std::fill_n(row, count_, value);
         for (size_t first : {size_t(kColToCurrent), size_t(kColFromCurrent)})  // the identity
             for (size_t k = 0; k < 12; ++k)

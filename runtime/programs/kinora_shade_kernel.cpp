@@ -170,12 +170,6 @@ void ShadeKernel::run() {
     }
 }
 
-std::vector<std::string> ShadeKernel::output_names() const {
-    std::vector<std::string> names;
-    for (const jit::OutputInfo& info : pair_.point->outputs) names.push_back(info.name);
-    return names;
-}
-
 ShadeOutputs ShadeKernel::outputs() const {
     ShadeOutputs outputs;
     for (size_t o = 0; o < out_.size(); ++o) {

@@ -53,7 +53,6 @@ class ShadeKernel {
 
     const rsl::LoweredShader& lowered() const { return lowered_; }
     const jit::KernelPair& pair() const { return pair_; }
-    std::vector<std::string> output_names() const;
     double lower_ms = 0;
 
   private:
