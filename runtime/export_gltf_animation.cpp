@@ -14,43 +14,7 @@ namespace kinora {
 
 namespace {
 
-constexpr double kLargestTurn = 90;      // degrees between keys: slerp takes the shorter way
-constexpr double kShortestPiece = 1e-4;  // seconds
-constexpr size_t kMostKeys = 200000;     // a path
-constexpr double kProbes[] = {0.5, 0.25, 0.75, 0.13};  // where a piece is measured
-
-anim::Quaternion quaternion(const double* xyzw) {
-    return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
-}
-
-double angle_between(const double* a, const double* b) {
-    double dot = std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]);
-    if (dot > 0.999) {  // acos is blind there
-        double sign = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1, sum = 0;
-        for (int i = 0; i < 4; ++i) sum += (a[i] - sign * b[i]) * (a[i] - sign * b[i]);
-        return 2 * std::sqrt(sum);
-    }
-    return 2 * std::acos(std::min(1.0, dot));
-}
-
-// What a reader makes of two keys between them.
-void between(bool rotation, uint32_t width, const double* a, const double* b, double s,
-             double* out) {
-    if (rotation) {
-        anim::Quaternion q = anim::slerp(quaternion(a), quaternion(b), s);
-        out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
-        return;
-    }
-    for (uint32_t i = 0; i < width; ++i) out[i] = a[i] + s * (b[i] - a[i]);
-}
-
-double distance(bool rotation, uint32_t width, const double* a, const double* b) {
-    if (rotation) return angle_between(a, b);
-    double worst = 0;
-    for (uint32_t i = 0; i < width; ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
-    return worst;
-}
-
+constexpr double kLargestTurn = 90;  // degrees between keys: slerp takes the shorter way
 // The times as the file holds them, each later than the one before.
 std::vector<double> distinct(std::vector<double> times) {
     for (double& t : times) t = double(float(t));
@@ -188,84 +152,15 @@ bool GltfExport::add_spline(uint32_t node, const Path& path, uint32_t first_valu
     return true;
 }
 
-// Straight pieces: halved until they keep to the tolerance, then joined where one says as much.
+// Straight pieces.
 void GltfExport::add_sampled(uint32_t node, const Path& path) {
-    uint32_t width = path.width;
-    struct Key {
-        double time;
-        std::vector<double> value;
-    };
-    auto key = [&](double time) {
-        Key k{time, std::vector<double>(width)};
-        path.at(time, k.value.data());
-        return k;
-    };
-    double worst = 0;
-    std::vector<double> truth(width), guess(width);
-    auto error = [&](const Key& a, const Key& b) {
-        double most = 0;
-        for (double s : kProbes) {
-            path.at(a.time + s * (b.time - a.time), truth.data());
-            between(path.rotation, width, a.value.data(), b.value.data(), s, guess.data());
-            most = std::max(most, distance(path.rotation, width, truth.data(), guess.data()));
-        }
-        return most;
-    };
-    std::vector<Key> keys;
-    for (size_t i = 0; i < path.times.size(); ++i) {
-        if (i == 0) {
-            keys.push_back(key(path.times[0]));
-            continue;
-        }
-        std::vector<Key> ahead{key(path.times[i])};  // nearest last
-        while (!ahead.empty()) {
-            const Key& a = keys.back();
-            Key& b = ahead.back();
-            double e = error(a, b);
-            double middle = double(float(0.5 * (a.time + b.time)));
-            bool splits = e > path.tolerance && b.time - a.time > kShortestPiece &&
-                          middle > a.time && middle < b.time && keys.size() < kMostKeys;
-            if (splits) {
-                ahead.push_back(key(middle));
-                continue;
-            }
-            if (b.time - a.time > kShortestPiece) worst = std::max(worst, e);
-            keys.push_back(std::move(b));
-            ahead.pop_back();
-        }
-    }
-    // Keys that the line through their neighbours passes anyway.
-    std::vector<Key> kept;
-    std::vector<const Key*> left_out;
-    double exact = 1e-9 * path.tolerance;
-    for (size_t i = 0; i < keys.size(); ++i) {
-        bool redundant = i > 0 && i + 1 < keys.size() && left_out.size() < 256;
-        if (redundant) {
-            left_out.push_back(&keys[i]);
-            const Key &a = kept.back(), &b = keys[i + 1];
-            redundant = !path.rotation || angle_between(a.value.data(), b.value.data()) < 1.6;
-            for (const Key* k : left_out) {
-                double s = (k->time - a.time) / (b.time - a.time);
-                between(path.rotation, width, a.value.data(), b.value.data(), s, guess.data());
-                redundant =
-                    redundant && distance(path.rotation, width, k->value.data(), guess.data()) <=
-                                     std::max(exact, 1e-7 * path.tolerance);
-            }
-        }
-        if (redundant) continue;
-        kept.push_back(keys[i]);
-        left_out.clear();
-    }
-    std::vector<double> times, numbers;
-    for (const Key& k : kept) {
-        times.push_back(k.time);
-        numbers.insert(numbers.end(), k.value.begin(), k.value.end());
-    }
-    if (worst > 0.01 * path.tolerance) {  // less is rounding
+    StraightKeys keys = straight_keys(path, path.times, path.tolerance);
+    if (keys.worst > 0.01 * path.tolerance) {  // less is rounding
         ++sampled_paths_;
-        worst_error_ = std::max(worst_error_, worst * options_.animation_error / path.tolerance);
+        worst_error_ =
+            std::max(worst_error_, keys.worst * options_.animation_error / path.tolerance);
     }
-    add_channel(node, path.name, times, numbers, path.element_width(), "LINEAR");
+    add_channel(node, path.name, keys.times, keys.numbers, path.element_width(), "LINEAR");
 }
 
 // A path that stays where it is needs no keys: it is written into the node.
@@ -277,7 +172,7 @@ void GltfExport::add_path(uint32_t node, Path path) {
     double moves = 0, size = 0;
     auto look = [&](double time) {
         path.at(time, now.data());
-        moves = std::max(moves, distance(path.rotation, width, first.data(), now.data()));
+        moves = std::max(moves, path.distance(first.data(), now.data()));
         for (uint32_t i = 0; i < width; ++i) size = std::max(size, std::abs(now[i]));
     };
     for (size_t k = 0; k < path.times.size(); ++k) {
@@ -293,6 +188,27 @@ void GltfExport::add_path(uint32_t node, Path path) {
     if (!path.rotation) path.tolerance *= path.name == std::string_view("scale") ? size : moves;
     if (add_step(node, path)) return;
     add_sampled(node, path);
+}
+
+// Where the stack is translations and scales and turns each in its place, one transform's cubics
+// are the path's: the one of the kind that moves, or null.
+const Transform* GltfExport::only_mover(std::span<const Transform> stack,
+                                        TransformKind kind) const {
+    const Transform* only = nullptr;
+    bool linear_before = true;
+    for (const Transform& t : stack) {
+        if (t.kind == TransformKind::Matrix || t.kind == TransformKind::Skew ||
+            t.kind == TransformKind::Lookat)
+            return nullptr;
+        if (t.kind == kind) {
+            bool moving = !channels_of(t.value, 16).empty();
+            if ((only && moving) || !linear_before) return nullptr;
+            if (moving) only = &t;
+        }
+        if (kind == TransformKind::Translate && t.kind != kind) linear_before = false;
+        if (kind == TransformKind::Scale && t.kind == kind && only != &t) return nullptr;
+    }
+    return only;
 }
 
 void GltfExport::move_node(uint32_t node, std::span<const Transform> stack, const dmat4& conversion,
@@ -311,33 +227,12 @@ void GltfExport::move_node(uint32_t node, std::span<const Transform> stack, cons
     path.channels = channels;
     path.times = key_times(stack, channels);
     auto triple = [](const dvec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; };
-    // Where the stack is translations and scales and turns each in its place, one transform's
-    // cubics are the path's.
-    auto spline = [&](TransformKind kind) {
-        const Transform* only = nullptr;
-        bool linear_before = true, clean = true;
-        for (const Transform& t : stack) {
-            bool moving = !channels_of(t.value, 16).empty();
-            if (t.kind == TransformKind::Matrix || t.kind == TransformKind::Skew ||
-                t.kind == TransformKind::Lookat)
-                clean = false;
-            if (t.kind == kind) {
-                clean = clean && (!only || !moving) && linear_before;
-                if (moving) only = &t;
-            }
-            if (t.kind != TransformKind::Translate && kind == TransformKind::Translate)
-                linear_before = false;
-            if (t.kind == TransformKind::Scale && kind == TransformKind::Scale && only != &t)
-                clean = false;
-        }
-        bool identity = conversion == dmat4(1.0);
-        return clean && identity ? only : nullptr;
-    };
     path.name = "translation";
     path.width = 3;
     path.at = [&](double t, double* out) { triple(trs_at(t).translation, out); };
     auto add = [&](TransformKind kind) {
-        if (const Transform* t = spline(kind)) {
+        const Transform* t = conversion == dmat4(1.0) ? only_mover(stack, kind) : nullptr;
+        if (t) {
             Path own = path;
             own.channels = channels_of(t->value, 3);
             if (add_spline(node, own, t->value)) return;

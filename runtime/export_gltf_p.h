@@ -1,7 +1,6 @@
 // runtime/export_gltf_p.h: the parts of the glTF exporter; for export_gltf*.cpp only.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include "runtime/export_gltf.h"
 #include "runtime/scene.h"
+#include "runtime/straight_keys.h"
 #include "runtime/texture_name.h"
 
 namespace kinora {
@@ -48,12 +48,9 @@ class GltfExport {
         const anim::Channel* channel;
     };
     // A curve of glTF: what it is at any time, and how near its keys must come.
-    struct Path {
+    struct Path : Curve {
         const char* name;
-        uint32_t width;
-        std::function<void(double, double*)> at;
         std::vector<Channel> channels;
-        bool rotation = false;
         double tolerance = 1e-4;
         std::vector<double> times;  // keys of the channels, more where they turn far
         uint32_t element_width() const { return name == std::string_view("weights") ? 1 : width; }
@@ -85,6 +82,7 @@ class GltfExport {
 
     // export_gltf_animation.cpp
     std::vector<Channel> channels_of(uint32_t first_value, uint32_t count) const;
+    const Transform* only_mover(std::span<const Transform> stack, TransformKind kind) const;
     void move_node(uint32_t node, std::span<const Transform> stack, const dmat4& conversion,
                    const std::vector<Channel>& channels);
     void move_weights(uint32_t node, const MorphDefinition& morph);
