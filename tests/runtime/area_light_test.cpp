@@ -27,12 +27,6 @@ std::string samples(int n) {
     return rsl_extra(fmt::format("<samples>{}</samples>", n));
 }
 
-SceneText floor_scene() {
-    SceneText scene;
-    scene.square("floor", 1.5).look("matte", kMatte).place("floor", "matte");
-    return scene;
-}
-
 // The lamp stands above the eye (at z = 10), so that it hides nothing.
 SceneText& lamp(SceneText& scene, const std::string& code, double half, double height, int n,
                 const std::string& binds = "", const std::string& transforms = "") {
@@ -59,7 +53,7 @@ double rectangle_factor(dvec2 p, double half, double height) {
 }
 
 TEST(AreaLight, ARectanglesIrradianceIsItsFormFactor) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene, kLambert, 3, 11, 1024, "<bind symbol=\"intensity\"><float>50</float></bind>");
     Rendering r(scene.text());
     EXPECT_EQ(r.findings(), "");
@@ -73,7 +67,7 @@ TEST(AreaLight, ARectanglesIrradianceIsItsFormFactor) {
 }
 
 TEST(AreaLight, ASmallOneIsThePointLightWithItsShader) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene, kPoint, 1e-4, 11, 4,
          "<bind symbol=\"intensity\"><float>200</float></bind>"
          "<bind symbol=\"lightcolor\"><color>1 0.5 0.25</color></bind>");
@@ -108,7 +102,7 @@ TEST(AreaLight, ASpheresIrradianceIsTheMeanOverItsLitSide) {
             if (i > 0) triangles.insert(triangles.end(), {a, c, b});
             if (i + 1 < rings) triangles.insert(triangles.end(), {b, c, d});
         }
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.mesh("ball", positions, triangles, normals)
         .look("ball-look", kLambert,
               emitter_passes("<bind symbol=\"intensity\"><float>600</float></bind>"), "",
@@ -135,21 +129,21 @@ TEST(AreaLight, ASpheresIrradianceIsTheMeanOverItsLitSide) {
 }
 
 TEST(AreaLight, ShinesWhereItsNormalsLook) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene, kPoint, 1, 11, 16, "", "<rotate>1 0 0 180</rotate>");
     Rendering r(scene.text());
     EXPECT_EQ(r.frame().color(8, 8), vec3(0));
 }
 
 TEST(AreaLight, ABlockerOfHalfTheLampMakesHalfShadow) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene, kLambert, 2, 12, 256);
     scene.square("flag", 1).look("black", "surface b() { Oi = 1; Ci = 0; }");
     // At half the height a half plane x < 0 hides the half x < 0 of the lamp from the origin.
     scene.place("flag", "black", "<translate>-3 0 11.999</translate><scale>3 6 1</scale>");
     Rendering half(scene.text());
     half.frame();
-    SceneText open = floor_scene();
+    SceneText open = floor_scene(kMatte);
     lamp(open, kLambert, 2, 12, 256);
     Rendering all(open.text());
     all.frame();
@@ -159,7 +153,7 @@ TEST(AreaLight, ABlockerOfHalfTheLampMakesHalfShadow) {
 TEST(AreaLight, ItsOwnSurfaceDoesNotShadowIt) {
     // Scales and places at which a fixed offset would fail.
     for (double scale : {1e-4, 1.0, 1e5}) {
-        SceneText scene = floor_scene();
+        SceneText scene = floor_scene(kMatte);
         lamp(scene, kLambert, 2, 12, 64, "<bind symbol=\"intensity\"><float>100</float></bind>");
         scene.nodes = fmt::format("<node><scale>{0} {0} {0}</scale>{1}</node>", scale, scene.nodes);
         scene.cameras = fmt::format(
@@ -204,7 +198,7 @@ TEST(AreaLight, DoesNotLightItself) {
 
 TEST(AreaLight, SamplesKnowTheirPlaceOnTheMesh) {
     // Light through a slide: red grows with s over the lamp; its mean is a half.
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene,
          "light slide() { illuminate (P, N, PI/2) { Cl = 100 * color(s, t * t, 1) / (L . L); } }",
          1e-4, 11, 1024);
@@ -216,7 +210,7 @@ TEST(AreaLight, SamplesKnowTheirPlaceOnTheMesh) {
 }
 
 TEST(AreaLight, FollowsItsNode) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.square("lamp", 1e-4)
         .look("lamp-look", kPoint, emitter_passes(), "", samples(1))
         .place("lamp", "lamp-look", fmt::format("<translate sid=\"t\">0 0 11</translate>{}", kDown),
@@ -254,7 +248,7 @@ TEST(AreaLight, FollowsItsMeshAsItDeforms) {
 }
 
 TEST(AreaLight, SampleCountsComeFromTheMaterialOrTheOption) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene, kLambert, 2, 12, 7);
     Rendering file(scene.text());
     uint64_t points = 16 * 16;
@@ -265,7 +259,7 @@ TEST(AreaLight, SampleCountsComeFromTheMaterialOrTheOption) {
     option.frame();
     EXPECT_NEAR(double(file.stats.rays - points) / double(option.stats.rays - points), 7.0 / 3,
                 1e-9);
-    SceneText bad = floor_scene();
+    SceneText bad = floor_scene(kMatte);
     bad.square("lamp", 1)
         .look("l", kPoint, emitter_passes(), "", rsl_extra("<samples>many</samples>"))
         .place("lamp", "l", "<translate>0 0 12</translate>");
@@ -273,9 +267,9 @@ TEST(AreaLight, SampleCountsComeFromTheMaterialOrTheOption) {
 }
 
 TEST(AreaLight, GivesTheSameBytesForAnyThreadsAndTargets) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     lamp(scene, kLambert, 2, 12, 8, "<bind symbol=\"intensity\"><float>100</float></bind>");
-    scene.octahedron("ball").place("ball", "matte", "<scale>0.5 0.5 0.5</scale>");
+    scene.octahedron("ball").place("ball", "floor-look", "<scale>0.5 0.5 0.5</scale>");
     std::string text = scene.text();
     Rendering first(text);
     first.settings.integrator.samples_per_pixel = 3;

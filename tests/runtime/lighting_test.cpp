@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scene_text.h"
+#include "expect_colors.h"
 
 namespace kinora {
 namespace {
@@ -12,33 +12,13 @@ namespace {
 const char* kMatte = "surface matte() { Oi = 1; Ci = diffuse(normalize(N)); }";
 const char* kSun = "<directional><color>1 1 1</color></directional>";
 
-SceneText floor_scene(const char* code = kMatte) {
-    SceneText scene;
-    scene.square("floor", 1.5).look("floor-look", code).place("floor", "floor-look");
-    return scene;
-}
-
 std::string turned(const char* axis, double degrees) {
     return fmt::format("<rotate>{} {}</rotate>", axis, degrees);
 }
 
-// Every pixel of an all-covering picture against a function of its place.
-template <class F>
-void expect_colors(const Rendering& r, F&& expected, double tolerance = 2e-6) {
-    for (int y = 0; y < r.film.height; ++y)
-        for (int x = 0; x < r.film.width; ++x) {
-            dvec3 want = expected(r.place(x, y));
-            vec3 got = r.color(x, y);
-            for (int k = 0; k < 3; ++k)
-                ASSERT_NEAR(got[k], want[k], tolerance)
-                    << "pixel " << x << "," << y << " component " << k << "\n"
-                    << r.findings();
-        }
-}
-
 TEST(Lights, AMatteSquareUnderADirectionalLightIsTheCosineEverywhere) {
     for (double angle : {0.0, 30.0, 60.0, 85.0, 100.0}) {
-        SceneText scene = floor_scene();
+        SceneText scene = floor_scene(kMatte);
         scene.light("sun", kSun, turned("1 0 0", angle));
         double want = std::max(0.0, std::cos(radians(angle)));
         expect_colors(Rendering(scene.text()).frame(), [&](dvec2) { return dvec3(want); });
@@ -46,14 +26,14 @@ TEST(Lights, AMatteSquareUnderADirectionalLightIsTheCosineEverywhere) {
 }
 
 TEST(Lights, ColoursOfSeveralLightsAddUp) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.light("a", "<directional><color>0.5 0.25 2</color></directional>")
         .light("b", "<directional><color>0.1 1 0</color></directional>", turned("0 1 0", 60));
     expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(0.55, 0.75, 2); });
 }
 
 TEST(Lights, PointLightsFallOffByTheirThreeAttenuations) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.light("bulb",
                 "<point><color>2 2 2</color><constant_attenuation>0.5</constant_attenuation>"
                 "<linear_attenuation>0.25</linear_attenuation>"
@@ -66,7 +46,7 @@ TEST(Lights, PointLightsFallOffByTheirThreeAttenuations) {
 }
 
 TEST(Lights, ASpotLightsUpTheInsideOfItsConeOnly) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.light("spot",
                 "<spot><color>1 1 1</color><falloff_angle>40</falloff_angle>"
                 "<falloff_exponent>3</falloff_exponent></spot>",
@@ -136,7 +116,7 @@ TEST(Lights, SurfacesReadALightsParametersAndOutputs) {
 }
 
 TEST(Lights, RslLightsStandWhereTheirNodeStands) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.rsl_light("lamp",
                     "light lamp(float intensity = 1; point from = point \"shader\" (0,0,0);) {"
                     "  illuminate(from) Cl = intensity / (L . L); }",
@@ -156,7 +136,7 @@ TEST(Lights, RslLightsStandWhereTheirNodeStands) {
 // A small square above the floor under light slanting by 30 degrees about y: its shadow is the
 // square moved by -tan(30).
 SceneText shadow_scene(const char* occluder_code, const char* light_extra = "") {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.square("small", 0.25)
         .look("cover", occluder_code)
         .place("small", "cover", "<translate>0 0 1</translate>")
@@ -205,7 +185,7 @@ TEST(Shadows, ThroughTransparentSurfacesAreTintedByTheirOpacity) {
 }
 
 TEST(Shadows, OpacitiesOfSeveralSurfacesMultiply) {
-    SceneText straight = floor_scene();
+    SceneText straight = floor_scene(kMatte);
     straight.square("big", 2).look("cover", "surface s() { Oi = 0.5; Ci = 0; }");
     for (double z : {20.0, 30.0, 40.0})
         straight.place("big", "cover", fmt::format("<translate>0 0 {}</translate>", z));
@@ -214,7 +194,7 @@ TEST(Shadows, OpacitiesOfSeveralSurfacesMultiply) {
 }
 
 TEST(Shadows, OfAPointLightEndAtTheLight) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.square("big", 2)
         .look("cover", "surface s() { Oi = 1; Ci = 1; }")
         .place("big", "cover", "<translate>0 0 20</translate>")  // behind light and camera
@@ -237,7 +217,7 @@ TEST(Shadows, AreOffWhereTheLightOrTheOptionSaysSo) {
 }
 
 TEST(Shadows, OfASurfaceDoNotFallOnItself) {
-    SceneText scene = floor_scene();
+    SceneText scene = floor_scene(kMatte);
     scene.light("sun", kSun, turned("1 0 0", 89.5));
     double want = std::cos(radians(89.5));
     expect_colors(Rendering(scene.text()).frame(64, 64), [&](dvec2) { return dvec3(want); });

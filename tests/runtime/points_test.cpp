@@ -30,12 +30,6 @@ class Points : public testing::Test {
     std::filesystem::path folder_;
 };
 
-SceneText floor_scene(const std::string& code) {
-    SceneText scene;
-    scene.square("floor", 1.5).look("floor-look", code).place("floor", "floor-look");
-    return scene;
-}
-
 std::string bakes(const std::string& file) {
     return fmt::format(
         "surface s() {{ Oi = 1; point w = transform(\"world\", P); color c = color(xcomp(w), "

@@ -8,13 +8,6 @@
 namespace kinora {
 namespace {
 
-SceneText floor_scene(const std::string& code,
-                      const std::string& passes = "<shader stage=\"SURFACE\"/>") {
-    SceneText scene;
-    scene.square("floor", 1.5).look("floor-look", code, passes).place("floor", "floor-look");
-    return scene;
-}
-
 vec3 middle(const SceneText& scene) {
     Rendering r(scene.text());
     r.frame(4, 4, 0.5);

@@ -76,6 +76,12 @@ SceneText& SceneText::look(const std::string& id, const std::string& code,
     return *this;
 }
 
+SceneText floor_scene(const std::string& code, const std::string& passes) {
+    SceneText scene;
+    scene.square("floor", 1.5).look("floor-look", code, passes).place("floor", "floor-look");
+    return scene;
+}
+
 std::string rsl_extra(const std::string& inside) {
     return "<extra><technique profile=\"RSL\">" + inside + "</technique></extra>";
 }

@@ -60,6 +60,10 @@ struct SceneText {
     std::string text() const;
 };
 
+// A square about the origin, more than what the default camera sees, in a look "floor-look".
+SceneText floor_scene(const std::string& code,
+                      const std::string& passes = "<shader stage=\"SURFACE\"/>");
+
 // <extra> with an RSL technique around `inside`.
 std::string rsl_extra(const std::string& inside);
 std::string numbers(const std::vector<double>& values);

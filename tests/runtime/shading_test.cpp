@@ -6,17 +6,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "scene_text.h"
+#include "expect_colors.h"
 
 namespace kinora {
 namespace {
-
-SceneText floor_scene(const std::string& code,
-                      const std::string& passes = "<shader stage=\"SURFACE\"/>") {
-    SceneText scene;
-    scene.square("floor", 1.5).look("floor-look", code, passes).place("floor", "floor-look");
-    return scene;
-}
 
 // A surface whose colour is three numbers.
 std::string show(const std::string& expression, const std::string& params = "",
@@ -26,21 +19,6 @@ std::string show(const std::string& expression, const std::string& params = "",
 }
 std::string components(const std::string& expression) {
     return fmt::format("xcomp({0}), ycomp({0}), zcomp({0})", expression);
-}
-
-template <class F>
-void expect_colors(const Rendering& r, F&& expected, double tolerance = 2e-6) {
-    EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
-    for (int y = 0; y < r.film.height; ++y)
-        for (int x = 0; x < r.film.width; ++x) {
-            if (r.film.at(x, y).w == 0) continue;
-            dvec3 want = expected(r.place(x, y));
-            vec3 got = r.color(x, y);
-            for (int k = 0; k < 3; ++k)
-                ASSERT_NEAR(got[k], want[k], tolerance)
-                    << "pixel " << x << "," << y << " component " << k << "\n"
-                    << r.findings();
-        }
 }
 
 // ---- spaces
