@@ -13,6 +13,7 @@ using ExprNote = std::function<std::string(const Expr& expr, std::string text)>;
 // Text behind a variable's declaration. Null: none.
 using SymbolNote = std::function<std::string(const Symbol& symbol)>;
 
+// Source text that parses to the same tree, with the notes where they give text.
 std::string print_expr(const Expr& expr, const ExprNote& note = {});
 std::string print_tree(const Ast& ast, const ExprNote& note = {}, const SymbolNote& symbols = {});
 

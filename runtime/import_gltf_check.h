@@ -8,6 +8,7 @@
 
 namespace kinora {
 
+// What "buffers" of a glTF's JSON says of each; none where the JSON cannot be read.
 struct GltfBuffer {
     std::string uri;  // "" for the .glb's own and for data URIs
     bool data = false;

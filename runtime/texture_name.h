@@ -33,6 +33,7 @@ struct TextureName {
 };
 
 std::string texture_name_string(const TextureName& name);  // the bare path when all is default
+// The other way round; a plain path has the defaults.
 TextureName parse_texture_name(std::string_view text);
 
 // How it is looked up in words that a file can hold: "data,clamp_s,mirror_t,nearest"; "" when all

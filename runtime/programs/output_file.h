@@ -29,6 +29,6 @@ class OutputFile {
 // Replaces a file by the text, at once; permissions stay. 0, or errno of what failed.
 int replace_file(const std::string& path, std::string_view text);
 
-std::string read_stdin();
+std::string read_stdin();  // up to its end
 
 }  // namespace kinora

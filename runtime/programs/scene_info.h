@@ -52,11 +52,13 @@ struct SceneInfo {
     std::optional<Bounds> bounds;
 };
 
+// What --info says of a document and of what <scene> reaches in it.
 SceneInfo scene_info(const collada::Document& document, const collada::SceneData& scene);
 
 // scene_bounds.cpp: node transforms, skins and morph weights at their rest values, metres.
 std::optional<Bounds> rest_bounds(const collada::SceneData& scene);
 
+// The same as lines for people, and as one JSON object.
 std::string info_text(const std::string& name, const SceneInfo& info);
 std::string info_json(const SceneInfo& info);
 
