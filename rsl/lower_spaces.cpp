@@ -47,6 +47,7 @@ void Lowering::unknown_space(const std::string& name, Location where) {
     known.push_back("current");
     known.push_back("camera");
     known.insert(known.end(), options.spaces->begin(), options.spaces->end());
+    failed = true;
     Finding& finding = diagnostics.report(Code::RSL_SPACE_UNKNOWN, where, name);
     if (auto near = nearest_name(name, known); !near.empty())
         finding.help = "did you mean '" + std::string(near) + "'?";

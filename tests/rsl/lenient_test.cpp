@@ -25,15 +25,6 @@ TEST(Lenient, FormatsWithTooFewAndTooManyValues) {
     EXPECT_TRUE(print.ok()) << print.findings();
 }
 
-TEST(Lenient, UnknownSpacesAreCurrent) {
-    std::vector<std::string> spaces = {"lamp"};
-    LowerOptions options;
-    options.spaces = &spaces;
-    RunShader run("surface t() { Ci = xcomp(transform(\"lanp\", point(3, 0, 0))); }", options);
-    EXPECT_EQ(red(run), 3);
-    EXPECT_TRUE(finds(run, "did you mean 'lamp'")) << run.findings();
-}
-
 TEST(Lenient, UnknownResultsOfGatherAreLeftAlone) {
     RunShader run(
         "surface t() { color c = 5; float x = 2; gather(\"\", P, N, 0, 1, \"primitive:Cs\", c, "
