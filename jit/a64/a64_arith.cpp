@@ -32,9 +32,9 @@ void Emit::min_max(bool max) {
             a_.fcmgt(choice.s4(), a.s4(), b.s4());
         else
             a_.fcmgt(choice.s4(), b.s4(), a.s4());
-        if (to.id() == b.id())
+        if (to.id() == b.id() && !planted(PlantedFault::MinMaxMixed))
             a_.bit(to.b16(), a.b16(), choice.b16());
-        else if (to.id() == a.id())
+        else if (meets)
             a_.bif(to.b16(), b.b16(), choice.b16());
         else
             a_.bsl(to.b16(), a.b16(), b.b16());
@@ -60,7 +60,10 @@ void Emit::op_Floor() {
     unary([&](Vec to, Vec a) { a_.frintm(to.s4(), a.s4()); });
 }
 void Emit::op_Ceil() {
-    unary([&](Vec to, Vec a) { a_.frintp(to.s4(), a.s4()); });
+    unary([&](Vec to, Vec a) {
+        planted(PlantedFault::WrongRounding) ? a_.frintm(to.s4(), a.s4())
+                                             : a_.frintp(to.s4(), a.s4());
+    });
 }
 void Emit::op_Trunc() {
     unary([&](Vec to, Vec a) { a_.frintz(to.s4(), a.s4()); });
@@ -107,7 +110,8 @@ void Emit::op_IShr() {
 void Emit::op_ISar() {
     unary([&](Vec to, Vec a) {
         if (now().imm == 0) return move(to, a);
-        a_.sshr(to.s4(), a.s4(), now().imm);
+        planted(PlantedFault::WrongShift) ? a_.ushr(to.s4(), a.s4(), now().imm)
+                                          : a_.sshr(to.s4(), a.s4(), now().imm);
     });
 }
 
@@ -115,6 +119,7 @@ void Emit::op_ISar() {
 void Emit::op_FToI() {
     unary([&](Vec to, Vec a) {
         Vec in_range = scratch(0), whole = scratch(2);
+        if (planted(PlantedFault::ConversionSaturates)) return void(a_.fcvtzs(to.s4(), a.s4()));
         constant(in_range, kTwoTo31);
         a_.fcmgt(in_range.s4(), in_range.s4(), a.s4());
         a_.fcvtzs(whole.s4(), a.s4());
@@ -146,6 +151,8 @@ void Emit::op_Fma() {
             negative[k] = true;
             v[k] = inst(v[k]).a;
         }
+    if (planted(PlantedFault::FmaNegationLost)) negative[2] = false;
+    if (planted(PlantedFault::ProductNegationLost)) negative[0] = negative[1];
     auto [a, b, c] = v;
     Vec to = target();
     bool in_place = lies_in(to, c) && !negative[2];

@@ -28,6 +28,7 @@ void Emit::op_Service() {
     }
     mask_bits(arm::w0, now().a);
     a_.ldr(arm::w1, arm::ptr(kGlobals, kValidBits));
+    if (planted(PlantedFault::ServiceIgnoresMask)) a_.mov(arm::w0, arm::w1);
     a_.and_(arm::w0, arm::w0, arm::w1);
     branch_if_zero(arm::w0, skip);
     auto field = [](size_t offset) {
@@ -91,6 +92,7 @@ void Emit::op_Fault() {
     Label none = a_.newLabel();
     mask_bits(arm::w0, now().a);
     a_.ldr(arm::w1, arm::ptr(kGlobals, kValidBits));
+    if (planted(PlantedFault::FaultIgnoresMask)) a_.mov(arm::w0, arm::w1);
     a_.and_(arm::w0, arm::w0, arm::w1);
     a_.cbz(arm::w0, none);
     report_fault(now().imm);

@@ -43,14 +43,15 @@ void Emit::op_EndIf() {
     auto begin = static_cast<Value>(now().imm);
     Value mask = inst(begin).a;
     for (Value m = at_ + 1; inst(m).op == Op::Merge; ++m) {
-        if (plan_.values[begin].masked)
+        if (plan_.values[begin].masked && !planted(PlantedFault::MergeIgnoresMask))
             merge_into(m, inst(m).a, mask);
         else
             copy(m, inst(m).a);
     }
     const OpenIf& open = ifs_.back();
     a_.bind(open.end);
-    if (record_set_ != open.record_set || record_ != open.record) record_ = kNone;
+    bool another = record_set_ != open.record_set || record_ != open.record;
+    if (another && !planted(PlantedFault::RecordKeptAtJoin)) record_ = kNone;
     ifs_.pop_back();
     for (Value m = at_ + 1; inst(m).op == Op::Merge; ++m) fill_slot(m);
 }
@@ -63,8 +64,8 @@ void Emit::fill_slot(Value v) {
 // Leaves kAny for begin_body; copying the first values of variables in between keeps it.
 void Emit::op_Loop() {
     OpenLoop loop{at_, a_.newLabel(), a_.newLabel(), {}};
-    if (!plan_.calls && loops_.size() < std::size(kCounters))
-        loop.counter = kCounters[loops_.size()];
+    bool kept = !plan_.calls || planted(PlantedFault::CountersAcrossCalls);
+    if (kept && loops_.size() < std::size(kCounters)) loop.counter = kCounters[loops_.size()];
     loops_.push_back(loop);
     if (!plan_.values[at_].masked) {
         find_any(reg(now().a, 1));
@@ -93,7 +94,7 @@ void Emit::begin_body(Value begin) {
     for (auto [owner, v] : allocation_.loop_hoists)
         if (owner == begin) load_home(vec(place(v).reg), v);
     Gp budget = loop.counter.isValid() ? loop.counter : arm::w16;
-    a_.mov(budget, module_.loop_budget);
+    a_.mov(budget, module_.loop_budget + planted(PlantedFault::LoopBudgetOffByOne));
     if (!loop.counter.isValid()) a_.str(budget, at(kStack, counter(), 4));
     a_.bind(loop.header);
 }
@@ -155,7 +156,8 @@ void Emit::update_mask(Value loop, Value next_mask) {
     if (!plan_.values[loop].masked) return find_any(reg(next_mask, 1));
     bool memory = place(loop).reg < 0;
     Vec to = memory ? scratch(0) : vec(place(loop).reg);
-    Vec old = reg(loop, 1), more = reg(next_mask, 2);
+    Value kept = planted(PlantedFault::LoopMaskNotKept) ? next_mask : loop;
+    Vec old = reg(kept, 1), more = reg(next_mask, 2);
     a_.and_(to.b16(), old.b16(), more.b16());
     if (memory) store_slot(loop, to);
     find_any(to);

@@ -107,6 +107,7 @@ void Emit::find_valid_lanes() {
     a_.ldr(arm::w0, arm::ptr(kArgs, offsetof(KernelArgs, count)));
     a_.lsr(arm::x1, kGroup, 2);
     a_.sub(arm::w0, arm::w0, arm::w1);
+    if (planted(PlantedFault::PaddingLaneAsks)) a_.add(arm::w0, arm::w0, 1);
     a_.ldr(scratch(1), arm::ptr(kPool, Pool::kIota));
     a_.dup(scratch(0).s4(), arm::w0);
     a_.cmgt(scratch(0).s4(), scratch(0).s4(), scratch(1).s4());

@@ -14,6 +14,7 @@
 #include "jit/a64/a64_asmjit_p.h"
 #include "jit/a64/a64_pool_p.h"
 #include "jit/function_code_p.h"
+#include "jit/planted_fault.h"
 
 namespace kinora::jit::a64 {
 

@@ -1,5 +1,7 @@
 // jit/a64/a64_masks.cpp: comparisons, mask logic, and blends under a mask. A mask's lanes are all
 // ones or zero.
+#include <utility>
+
 #include "jit/a64/a64_emit_p.h"
 
 namespace kinora::jit::a64 {
@@ -31,7 +33,10 @@ void Emit::op_MXor() {
     op_IXor();
 }
 void Emit::op_MAndNot() {
-    binary([&](Vec to, Vec a, Vec b) { a_.bic(to.b16(), a.b16(), b.b16()); });
+    binary([&](Vec to, Vec a, Vec b) {
+        if (planted(PlantedFault::AndNotMirrored)) std::swap(a, b);
+        a_.bic(to.b16(), a.b16(), b.b16());
+    });
 }
 void Emit::op_MNot() {
     unary([&](Vec to, Vec a) { a_.not_(to.b16(), a.b16()); });
@@ -42,7 +47,7 @@ void Emit::blend(const Vec& to, const Vec& otherwise, Value then, Value mask) {
     Vec m = reg(mask, 1), t = reg(then, 2);
     if (to.id() == m.id() && to.id() != otherwise.id() && to.id() != t.id()) {
         a_.bsl(to.b16(), t.b16(), otherwise.b16());
-    } else if (to.id() == t.id()) {
+    } else if (to.id() == t.id() && !planted(PlantedFault::BlendMixed)) {
         a_.bif(to.b16(), otherwise.b16(), m.b16());
     } else {
         move(to, otherwise);
@@ -58,7 +63,9 @@ void Emit::op_Select() {
         a_.and_(to.b16(), m.b16(), reg(then, 2).b16());
     } else if (is_zero(then)) {
         Vec m = reg(mask, 1);
-        a_.bic(to.b16(), reg(otherwise, 2).b16(), m.b16());
+        Vec kept = reg(otherwise, 2);
+        planted(PlantedFault::ZeroArmMixed) ? a_.and_(to.b16(), kept.b16(), m.b16())
+                                            : a_.bic(to.b16(), kept.b16(), m.b16());
     } else {
         blend(to, reg(otherwise, 0), then, mask);
     }
@@ -79,7 +86,10 @@ void Emit::merge_into(Value variable, Value then, Value mask) {
 // kAny: half of each lane's bits.
 void Emit::find_any(const Vec& mask) {
     a_.xtn(scratch(2).h4(), mask.s4());
-    a_.fmov(kAny, scratch(2).d());
+    if (planted(PlantedFault::LanesOverlooked))
+        a_.fmov(kAny.w(), scratch(2).s());
+    else
+        a_.fmov(kAny, scratch(2).d());
 }
 
 // Bit k of `to` is lane k. Changes scratch 1 and 2.

@@ -21,6 +21,7 @@ void Emit::index_to(const Gp& to, Value index, int32_t length) {
 
 void Emit::clamp_lanes(const Vec& to, Value index, int32_t length) {
     Vec from = reg(index, 1);
+    if (planted(PlantedFault::ClampOffByOne) && now().op == Op::ArrayLoad) ++length;
     zero(scratch(2));
     a_.smax(to.s4(), from.s4(), scratch(2).s4());
     constant(scratch(2), static_cast<uint32_t>(length - 1));
@@ -61,7 +62,7 @@ void Emit::op_Lookup() {
     add_offset(arm::x1, kPool, state_.pool.row(words));
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
         a_.umov(arm::w0, index.s(lane));
-        a_.and_(arm::w0, arm::w0, now().imm2);
+        if (!planted(PlantedFault::LookupUnmasked)) a_.and_(arm::w0, arm::w0, now().imm2);
         a_.add(arm::x0, arm::x1, arm::x0, Shift(ShiftOp::kLSL, 2));
         a_.ld1(scratch(1).s(lane), arm::ptr(arm::x0));
     }

@@ -61,6 +61,7 @@ void Emit::load_home(const Vec& to, Value v) {
     const Inst& i = inst(v);
     for (int k = 0; k < 2; ++k)
         if (saved_[k] == v) return void(a_.ldr(to, row(layout_.swap + kRow * k)));
+    bool stale = planted(PlantedFault::StaleFrameSlot) && i.imm > 0;
     switch (i.op) {
         case Op::ConstF:
         case Op::ConstI:
@@ -68,7 +69,7 @@ void Emit::load_home(const Vec& to, Value v) {
         case Op::ConstM:
             return constant(to, i.imm != 0 ? ~0u : 0u);
         case Op::FrameLoad:
-            return broadcast(to, at(kFrameBlock, int64_t{4} * i.imm, 4));
+            return broadcast(to, at(kFrameBlock, int64_t{4} * (i.imm - stale), 4));
         case Op::Input:
             a_.ldr(arm::x17, at(kIn, int64_t{8} * i.imm, 8));
             a_.ldr(to, arm::ptr(arm::x17, kGroup));
@@ -106,6 +107,7 @@ Vec Emit::target() const {
 }
 
 void Emit::store_slot(Value v, const Vec& value) {
+    if (planted(PlantedFault::MissingSpill) && place(v).reg >= 0) return;
     if (place(v).slot >= 0) a_.str(value, row(slot(v)));
 }
 

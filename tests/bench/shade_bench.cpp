@@ -11,6 +11,7 @@
 // JIT and hand-written code take turns within one row, both in CPU time. `jit` and `hand` are
 // Mpoints/s in the best iteration of each (others share their caches with whatever else runs),
 // `ratio` is jit / hand. `differs` is the largest difference of Ci between the two.
+// specular/*: plastic with Ks = 0 (its shape), with Ks = 0.5, and matte, which has no such term.
 // divergent/*: a shader that takes one of four ways at random by point, against the sum of the four
 // shaders that take one way each.
 #include <benchmark/benchmark.h>
@@ -218,19 +219,43 @@ surface divergent(float w = DEFAULT) {
     Ci = v; Oi = 1;
 })";
 
+// `parameter`, if named, is the constant; the others are as a scene sets them.
+std::unique_ptr<Compiled> compile_text(const std::string& text, const jit::Target& target,
+                                       const std::string& parameter = "", float constant = 0) {
+    auto result = std::make_unique<Compiled>();
+    result->shader = front_end(text, result->diagnostics);
+    result->layer.shader = result->shader.get();
+    result->layer.params = bound_parameters(*result->shader);
+    for (rsl::ParamBinding& binding : result->layer.params)
+        if (binding.name == parameter)
+            binding = {parameter, rsl::ParamBinding::Kind::Constant, {constant}, {}};
+    result->lowered = lower_fast(result->layer, result->diagnostics);
+    result->kernels = jit::compile(result->lowered.module, {&target, nullptr});
+    result->frame = frame_block(*result);
+    return result;
+}
+
 std::unique_ptr<Compiled> compile_way(const std::string& way, const std::string& value,
                                       const jit::Target& target) {
     std::string text = kDivergent;
     text.replace(text.find("WAY"), 3, way);
     text.replace(text.find("DEFAULT"), 7, value);
-    auto result = std::make_unique<Compiled>();
-    result->shader = front_end(text, result->diagnostics);
-    result->layer.shader = result->shader.get();
-    result->layer.params = bound_parameters(*result->shader);
-    result->lowered = lower_fast(result->layer, result->diagnostics);
-    result->kernels = jit::compile(result->lowered.module, {&target, nullptr});
-    result->frame = frame_block(*result);
-    return result;
+    return compile_text(text, target);
+}
+
+// The best time of each over all iterations, for 8 walks over all points.
+std::vector<double> best_times(benchmark::State& state,
+                               std::span<const std::unique_ptr<Run>> runs) {
+    _mm_setcsr(_mm_getcsr() | 0x8040);
+    std::vector<double> best(runs.size(), 1e30);
+    for (auto _ : state)
+        for (size_t k = 0; k < runs.size(); ++k) {
+            double start = cpu_seconds();
+            for (int repeat = 0; repeat < 8; ++repeat)
+                for (size_t g = 0; g < runs[k]->grids(); ++g) runs[k]->run(g);
+            best[k] = std::min(best[k], cpu_seconds() - start);
+        }
+    return best;
 }
 
 void divergent_row(benchmark::State& state, const jit::Target& target) {
@@ -244,19 +269,33 @@ void divergent_row(benchmark::State& state, const jit::Target& target) {
         compiled.push_back(compile_way(ways[k], values[k], target));
         runs.push_back(std::make_unique<Run>(*compiled.back(), points, kGrid));
     }
-    _mm_setcsr(_mm_getcsr() | 0x8040);
-    std::vector<double> best(std::size(ways), 1e30);
-    for (auto _ : state)
-        for (size_t k = 0; k < runs.size(); ++k) {
-            double start = cpu_seconds();
-            for (int repeat = 0; repeat < 8; ++repeat)
-                for (size_t g = 0; g < runs[k]->grids(); ++g) runs[k]->run(g);
-            best[k] = std::min(best[k], cpu_seconds() - start);
-        }
+    std::vector<double> best = best_times(state, runs);
     double sum = best[1] + best[2] + best[3] + best[4];
     state.counters["Mpoints_divergent"] = 8 * kCount * 1e-6 / best[0];
     state.counters["Mpoints_one_way"] = 8 * kCount * 1e-6 / (sum / 4);
     state.counters["divergent_over_sum"] = best[0] / sum;
+}
+
+void specular_row(benchmark::State& state, const jit::Target& target) {
+    constexpr size_t kCount = 4096, kGrid = 1024;
+    Points points(kCount);
+    JitLights lights(target, points, kGrid);
+    std::string plastic = shader_text("plastic");
+    std::unique_ptr<Compiled> compiled[] = {compile_text(plastic, target, "Ks", 0),
+                                            compile_text(plastic, target),
+                                            compile_text(shader_text("matte"), target)};
+    std::vector<std::unique_ptr<Run>> runs;
+    for (const auto& shader : compiled) {
+        runs.push_back(std::make_unique<Run>(*shader, points, kGrid));
+        for (size_t g = 0; g < runs.back()->grids(); ++g) {
+            lights.run(g);
+            runs.back()->set_records(g, lights.set(g));
+        }
+    }
+    std::vector<double> best = best_times(state, runs);
+    const char* names[] = {"Mpoints_Ks_0", "Mpoints_Ks_half", "Mpoints_matte"};
+    for (size_t k = 0; k < 3; ++k) state.counters[names[k]] = 8 * kCount * 1e-6 / best[k];
+    state.counters["Ks_0_over_matte"] = best[0] / best[2];
 }
 
 void register_rows() {
@@ -265,6 +304,9 @@ void register_rows() {
         if (!target.supported() || !width.shaders()) continue;
         benchmark::RegisterBenchmark((std::string("divergent/") + width.target).c_str(),
                                      divergent_row, target)
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((std::string("specular/") + width.target).c_str(),
+                                     specular_row, target)
             ->Unit(benchmark::kMillisecond);
         for (const ShaderRow& shader : kShaders) {
             std::string name = shader.name;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "jit/function_code_p.h"
+#include "jit/planted_fault.h"
 #include "tests/jit/target_random.h"
 
 namespace kinora::jit {
@@ -112,6 +114,41 @@ TEST(RegisterAllocation, CheckerFindsDamage) {
         }
     }
     EXPECT_GT(damaged, 100);
+}
+
+// What the generators plan with and the registers they have.
+struct GeneratorRow {
+    const char* name;
+    CodeRules rules;
+};
+const GeneratorRow kGenerators[] = {
+    {"avx2", {.plan = {false, true, true}, .limits = {.registers = {14}}, .lanes = 8}},
+    {"avx512",
+     {.plan = {true, true, true}, .limits = {.registers = {30, 7}, .first = {0, 1}}, .lanes = 16}},
+    {"neon", {.plan = {false, false, false}, .limits = {.registers = {29}}, .lanes = 4}},
+};
+
+// How many functions of random programs the checker refuses while the allocator has the fault. No
+// code is made, let alone run.
+int refused(const CodeRules& rules, PlantedFault fault) {
+    int found = 0;
+    planted_fault = fault;
+    for (uint32_t seed = 1; seed <= 60; ++seed) {
+        Module module = test::random_target_module(seed, 300, seed % 2 == 0);
+        for (size_t k = 0; k < module.functions.size(); ++k)
+            found += !FunctionCode(module, k, rules).check().empty();
+    }
+    planted_fault = PlantedFault::None;
+    return found;
+}
+
+TEST(RegisterAllocation, FaultsOfTheAllocatorAreFoundByTheCheckerAlone) {
+    for (const GeneratorRow& row : kGenerators) {
+        EXPECT_EQ(refused(row.rules, PlantedFault::None), 0) << row.name;
+        for (PlantedFault fault : {PlantedFault::RangeNotStretched, PlantedFault::SlotFreedEarly,
+                                   PlantedFault::MergeTakesLiveRegister})
+            EXPECT_GT(refused(row.rules, fault), 0) << row.name << ", fault " << int(fault);
+    }
 }
 
 }  // namespace
