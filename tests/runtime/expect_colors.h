@@ -33,7 +33,9 @@ int expect_covered_colors(const Rendering& r, F&& expected, double tolerance = 2
 template <class F>
 void expect_colors(const Rendering& r, F&& expected, double tolerance = 2e-6) {
     int covered = expect_covered_colors(r, expected, tolerance);
-    if (!testing::Test::HasFailure()) EXPECT_EQ(covered, r.film.width * r.film.height);
+    if (!testing::Test::HasFailure()) {
+        EXPECT_EQ(covered, r.film.width * r.film.height);
+    }
 }
 
 }  // namespace kinora
