@@ -14,6 +14,14 @@ constexpr size_t kChunk = 256 << 10;  // expat copies what it is given: keep tha
 // A tag must be whole before its attributes are seen, and they take much memory in expat.
 constexpr size_t kMaxTag = 1 << 20, kMaxComment = 64 << 20;
 
+// The finding says "not well-formed" itself; expat's "not well-formed (invalid token)" does, too.
+std::string_view error_text(XML_Error error) {
+    std::string_view text = XML_ErrorString(error);
+    constexpr std::string_view kSaid = "not well-formed (";
+    if (!text.starts_with(kSaid) || !text.ends_with(')')) return text;
+    return text.substr(kSaid.size(), text.size() - kSaid.size() - 1);
+}
+
 }  // namespace
 
 // The tag is well-formed (expat has seen it), so a plain scan finds names and quotes.
@@ -84,7 +92,7 @@ void DocumentReader::report_syntax() {
         bad_utf8_ = true;
         return;
     }
-    Finding& finding = diag_.report(Code::XML_SYNTAX, where, std::string(XML_ErrorString(error)));
+    Finding& finding = diag_.report(Code::XML_SYNTAX, where, error_text(error));
     bool unclosed = error == XML_ERROR_TAG_MISMATCH || error == XML_ERROR_NO_ELEMENTS;
     if (builder_->open().empty() || (!unclosed && where.begin < text_.size())) return;
     const Element& open = *builder_->open().back().element;

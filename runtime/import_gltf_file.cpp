@@ -202,6 +202,22 @@ bool load_model(const std::vector<unsigned char>& bytes, Guard& guard, std::stri
     return false;
 }
 
+// "" or why a file of that version is not read (glTF 2.0, 3.2): others of version 2 are, unless
+// they say that a reader must know more.
+std::string check_version(std::string_view json) {
+    auto number = [&](const char* pointer) {
+        std::optional<JsonRange> place = json_find(json, pointer);
+        SourceMap map;
+        return place ? json_string(json, *place, kNoFile, map) : std::string();
+    };
+    std::string version = number("/asset/version"), least = number("/asset/minVersion");
+    if (!version.empty() && version != "2" && !version.starts_with("2."))
+        return fmt::format("its version is {}", version);
+    if (!least.empty() && least != "2" && least != "2.0")
+        return fmt::format("it asks for a reader of version {}", least);
+    return "";
+}
+
 bool check_extensions(const GltfFile& file, Diagnostics& diagnostics) {
     bool understood = true;
     std::vector<std::string> required = json_strings(file.json, "/extensionsRequired");
@@ -278,6 +294,7 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     file.file = diagnostics.files.add(path, std::string(json));
     file.json = diagnostics.files.text(file.file);
     std::string error = check_gltf_json(file.json, bytes.size(), is_binary(bytes));
+    if (error.empty()) error = check_version(file.json);
     if (!error.empty()) return fail(error);
     if (!check_extensions(file, diagnostics)) return std::nullopt;
     Guard guard{options, diagnostics, file, {}};

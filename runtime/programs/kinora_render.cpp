@@ -300,7 +300,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     bool whole =
         render_frame(*scene_, time, settings_, film_, record.stats, diagnostics_, &progress);
     if (g_signal) return 128 + g_signal;
-    flush_findings();
+    if (int missing = flush_findings()) return missing;  // textures are read when they are seen
     if (!whole) return kExitSomeFailed;
     Stopwatch watch;
     if (wants_file) {

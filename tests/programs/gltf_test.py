@@ -96,6 +96,34 @@ class Gltf(ProgramTest):
         self.assertEqual(result.code, 3)
         self.assertIn("s.gltf:2:", result.err)
 
+    def test_other_versions_are_refused(self):
+        tree, binary = parts(BENDER)
+        tree["buffers"][0]["uri"] = ("data:application/octet-stream;base64," +
+                                     base64.b64encode(binary).decode())
+        for asset, text in (({"version": "1.0"}, "its version is 1.0"),
+                            ({"version": "2.0", "minVersion": "2.1"}, "a reader of version 2.1")):
+            tree["asset"] = asset
+            scene = self.write("v.gltf", json.dumps(tree))
+            result = render(scene, "-o", self.folder / "v.png", "--frames", "1")
+            self.assertEqual(result.code, 3, result)
+            self.assertIn(text, result.err)
+
+    def test_a_missing_texture_is_an_error_when_strict(self):
+        tree, binary = parts(BENDER)
+        tree["buffers"][0]["uri"] = ("data:application/octet-stream;base64," +
+                                     base64.b64encode(binary).decode())
+        tree["images"], tree["textures"] = [{"uri": "none.png"}], [{"source": 0}]
+        for material in tree["materials"]:
+            material.setdefault("pbrMetallicRoughness", {})["baseColorTexture"] = {"index": 0}
+        scene = self.write("t.gltf", json.dumps(tree))
+        words = (scene, "-o", self.folder / "t.png", "--frames", "1", "--size", "32x24", "--spp", "1")
+        for strict, code in (((), 0), (("--strict",), 5)):
+            (self.folder / "t.png").unlink(missing_ok=True)
+            result = render(*words, *strict)
+            self.assertEqual(result.code, code, result)
+            self.assertIn("IMAGE_UNREADABLE", result.err)
+            self.assertEqual((self.folder / "t.png").exists(), code == 0)
+
     def test_rsl_in_extras_is_the_surface(self):
         tree, binary = parts(BENDER)
         tree["buffers"][0]["uri"] = "b.bin"

@@ -52,6 +52,10 @@ class Findings(ProgramTest):
         self.expect(result, 1, f"s.dae:{line}:{row.index('difuse(') + 1}: error: ",
                     "library_effects/effect[@id='Matte']/profile_RSL", "did you mean 'diffuse'")
 
+    def test_what_is_no_xml_is_said_once(self):
+        result = validate(self.write("a.dae", "/* a shader */"))
+        self.expect(result, 1, "a.dae:1:1: error: not well-formed: invalid token [XML_SYNTAX]")
+
     def test_binds_that_fit_no_parameter(self):
         text = MATTE.read_text()
         self.assertIn('symbol="', text)
