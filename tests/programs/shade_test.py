@@ -184,6 +184,14 @@ class Run(ProgramTest):
                     worst = re.search(r"largest difference (\S+):", result.out)
                     self.assertLess(float(worst[1]) if worst else 0, 1e-4, result)
 
+    def test_the_reference_is_asked_where_the_code_needs_no_service(self):
+        folded = 'surface x(string a = "a.tif") { Ci = 0 * color texture(a); }'
+        gathers = ('surface x() { color c = 0; float n = 0; gather("illuminance", P, N, 1, 4, '
+                   '"surface:Ci", c) n += 1; else n += 10; Ci = c + n; }')
+        for source in (folded, gathers):
+            words = ("run", "-", "--size", "4x4", "--compare", "reference")
+            self.expect(shade(*words, stdin=source), 0, "16 points compared", "no difference")
+
     def test_faults_have_the_loop_s_place(self):
         source = "surface x() {\n float i = 0;\n while (i > -1) i += 1;\n Ci = i; }"
         self.expect(shade("run", "-", "--size", "1x1", stdin=source), 0, "<stdin>:3:2: warning")
