@@ -1,4 +1,4 @@
-// jit/code_tools.cpp: perf's map file and GDB's JIT interface.
+// jit/code_tools.cpp: perf's map file and GDB's JIT interface; jit_dump.cpp has the other file.
 #include "jit/code_tools.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+
+#include "jit/jit_dump_p.h"
 
 // The interface that GDB looks for by name: "JIT Compilation Interface" in its manual.
 extern "C" {
@@ -108,7 +110,9 @@ std::string code_symbol(const Kernel& kernel) {
 
 void show_code(Kernel& kernel, const SourceFiles* files) {
     static const bool perf = is_on("KINORA_PERF"), gdb = is_on("KINORA_GDB");
+    static const char* const dump = std::getenv("KINORA_JITDUMP");
     if (kernel.machine_code.empty()) return;
+    if (dump != nullptr && *dump != 0) add_to_jit_dump(dump, kernel, files);
     if (perf) add_to_perf_map(kernel);
     if (gdb) kernel.shown = std::make_shared<Registration>(debug_object(kernel, files));
 }

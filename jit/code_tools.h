@@ -1,8 +1,10 @@
-// jit/code_tools.h: generated code as other tools see it. Both are off unless the environment says
+// jit/code_tools.h: generated code as other tools see it. All are off unless the environment says
 // otherwise, and cost nothing then:
-//   KINORA_PERF=1  each kernel is a line of /tmp/perf-PID.map, which `perf report` reads
-//   KINORA_GDB=1   each kernel is an object file in memory, registered with GDB's JIT interface:
-//                  breakpoints and backtraces name kernels and shader lines
+//   KINORA_PERF=1          each kernel is a line of /tmp/perf-PID.map, which `perf report` reads
+//   KINORA_JITDUMP=FOLDER  kernels with their code and shader lines in FOLDER/jit-PID.dump, for
+//                          `perf record -k 1`, then `perf inject --jit`
+//   KINORA_GDB=1           each kernel is an object file in memory, registered with GDB's JIT
+//                          interface: breakpoints and backtraces name kernels and shader lines
 #pragma once
 
 #include <memory>

@@ -148,7 +148,7 @@ void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
 std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& o) {
     CLI::App app("kinora-shade: the shader writer's tool", "kinora-shade");
     app.footer(std::string("kinora-shade COMMAND --help shows a command's options.\n") +
-               kExitCodeHelp);
+               kExitCodeHelp + "\n" + kEnvironmentHelp);
     app.require_subcommand(1);
     Texts texts;
     add_telling(app, o);

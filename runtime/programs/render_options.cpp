@@ -91,7 +91,7 @@ struct Given {
 
 // What is rendered, where to and by what.
 void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
-    app.footer(kExitCodeHelp);
+    app.footer(std::string(kExitCodeHelp) + "\n" + kEnvironmentHelp);
     app.set_version_flag("--version", "kinora-render " KINORA_VERSION);
     app.add_option("scene", o.scene, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
     app.add_option("-o,--output", o.output,

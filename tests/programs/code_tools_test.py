@@ -3,19 +3,61 @@
 import os
 import re
 import shutil
+import struct
 import subprocess
+import tempfile
 import unittest
+from pathlib import Path
 
 from programs import ProgramTest, command, main, shade, supported_targets, SHADERS
 
 MATTE = SHADERS / "matte.sl"
 
 
+# Linux, tools/perf/Documentation/jitdump-specification.txt.
+CODE_LOAD, DEBUG_INFO = 0, 2
+
+
+def text_at(data, at):
+    """The text that ends with a zero, and where what follows begins."""
+    end = data.index(b"\0", at)
+    return data[at:end].decode(), end + 1
+
+
+def read_jitdump(data):
+    magic, version, size, machine, _, pid, time, flags = struct.unpack_from("<6I2Q", data)
+    assert (magic, version, size, flags) == (0x4A695444, 1, 40, 0), data[:40]
+    assert machine in (62, 183), machine  # x86-64, AArch64
+    records, at = [], size
+    while at < len(data):
+        kind, size, when = struct.unpack_from("<2IQ", data, at)
+        body, at = data[at + 16:at + size], at + size
+        record = {"id": kind, "time": when}
+        if kind == CODE_LOAD:
+            _, _, place, record["address"], bytes_, record["index"] = struct.unpack_from("<2I4Q", body)
+            assert place == record["address"]
+            record["name"], begin = text_at(body, 40)
+            record["code"] = body[begin:]
+            assert len(record["code"]) == bytes_
+        elif kind == DEBUG_INFO:
+            record["address"], count = struct.unpack_from("<2Q", body)
+            record["rows"], begin = [], 16
+            for _ in range(count):
+                row = struct.unpack_from("<Q2I", body, begin)
+                name, begin = text_at(body, begin + 16)
+                record["rows"].append((*row, name))
+            assert begin == len(body)
+        else:
+            assert False, f"record {kind}"
+        records.append(record)
+    return {"pid": pid, "time": time}, records
+
+
 class CodeTools(ProgramTest):
-    def run_with(self, variable, *words):
+    def run_with(self, variable, *words, value="1"):
         """Runs a command with the variable set; its process and output."""
         process = subprocess.Popen([str(c) for c in words], stdout=subprocess.PIPE, text=True,
-                                   stderr=subprocess.STDOUT, env={**os.environ, variable: "1"})
+                                   stderr=subprocess.STDOUT, env={**os.environ, variable: value})
         out, _ = process.communicate(timeout=300)
         return process, out
 
@@ -55,6 +97,51 @@ class CodeTools(ProgramTest):
         for start, size, _ in rows:
             self.assertGreater(int(start, 16), 0)
             self.assertGreater(int(size, 16), 0)
+
+    def test_jitdump_holds_code_and_lines(self):
+        target = self.compiled_target()
+        with tempfile.TemporaryDirectory() as folder:
+            process, out = self.run_with("KINORA_JITDUMP", *command(
+                "kinora-shade", "run", "--target", target, "--size", "4x4", MATTE), value=folder)
+            self.assertEqual(process.returncode, 0, out)
+            head, records = read_jitdump(Path(folder, f"jit-{process.pid}.dump").read_bytes())
+        self.assertEqual(head["pid"], process.pid)
+        loads = [r for r in records if r["id"] == CODE_LOAD]
+        self.assertEqual([r["index"] for r in loads], list(range(len(loads))))
+        named = [r for r in loads if r["name"] == f"kinora_matte_{target}"]
+        self.assertTrue(named, [r["name"] for r in loads])
+        stamps = [head["time"]] + [r["time"] for r in records]
+        self.assertEqual(stamps, sorted(stamps))
+        matte = named[0]
+        lines = [r for r in records if r["id"] == DEBUG_INFO and r["address"] == matte["address"]]
+        self.assertEqual(len(lines), 1)
+        self.assertLess(records.index(lines[0]), records.index(matte))
+        text = MATTE.read_text().splitlines()
+        self.assertTrue(lines[0]["rows"])
+        for address, line, column, file in lines[0]["rows"]:
+            self.assertIn(address, range(matte["address"], matte["address"] + len(matte["code"])))
+            self.assertTrue(file.endswith("matte.sl"), file)
+            self.assertGreater(len(text[line - 1]), column - 1)
+        listing = shade("dump", "--stage", "asm", "--target", target, MATTE).out
+        self.assertLessEqual({row[1] for row in lines[0]["rows"]},
+                             {int(n) for n in re.findall(r"^; \S*matte\.sl:(\d+): ", listing, re.M)})
+
+    def test_perf_names_kernels_from_the_jitdump(self):
+        target = self.compiled_target()
+        if shutil.which("perf") is None:
+            self.skipTest("perf is not installed")
+        with tempfile.TemporaryDirectory() as folder:
+            data, injected = Path(folder, "perf.data"), Path(folder, "injected.data")
+            process, out = self.run_with(
+                "KINORA_JITDUMP", "perf", "record", "-k", "1", "-e", "cpu-clock", "-o", data, "--",
+                *command("kinora-shade", "bench", "--target", target, MATTE), value=folder)
+            if process.returncode != 0 or not data.exists():
+                self.skipTest(f"perf may not record here: {out[-200:]}")
+            subprocess.run(["perf", "inject", "--jit", "-i", data, "-o", injected], check=True,
+                           capture_output=True, cwd=folder)
+            report = subprocess.run(["perf", "report", "--stdio", "-i", injected, "--sort", "sym"],
+                                    capture_output=True, text=True, check=True).stdout
+        self.assertIn(f"kinora_matte_{target}", report)
 
     def test_no_map_is_written_unless_asked(self):
         process = subprocess.Popen(command("kinora-shade", "run", "--size", "4x4", MATTE),
