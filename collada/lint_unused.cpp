@@ -33,6 +33,10 @@ class Reachable {
         }
     }
     bool used(const Element& item) const { return item_of_.at(&item); }
+    void take(const Element& item) {
+        item_of_[&item] = true;
+        follow(item);
+    }
 
   private:
     // As deep as the document may be.
@@ -103,11 +107,28 @@ std::string label(const Element& item) {
 
 }  // namespace
 
+namespace {
+
+// Where <scene> leads to no visual scene, the first one is shown.
+void follow_shown_scene(Lint& lint, Reachable& reachable) {
+    const Element* first = nullptr;
+    for (const Element& library : lint.document.root().children())
+        for (const Element& item : library.children())
+            if (library.name == "library_visual_scenes" && item.name == "visual_scene") {
+                if (reachable.used(item)) return;
+                if (!first) first = &item;
+            }
+    if (first) reachable.take(*first);
+}
+
+}  // namespace
+
 void lint_unused(Lint& lint) {
     const Element* scene = lint.document.root().child("scene");
     if (!scene || !scene->first_child) return;  // a library for other documents
     Reachable reachable(lint);
     reachable.follow(*scene);
+    if (scene->child("instance_visual_scene")) follow_shown_scene(lint, reachable);
     for (const Element& extra : lint.document.root().children())
         if (extra.name == "extra") reachable.follow(extra);
     for (const Element& library : lint.document.root().children()) {

@@ -307,6 +307,24 @@ def skins():
     return {name: text.replace(geometry(), bare).replace(effect(), lit) for name, text in documents.items()}
 
 
+def skin_spaces():
+    """A skin below a turned armature: its bind shape given, forgotten, or not needed."""
+    c, s = math.cos(math.radians(20)), math.sin(math.radians(20))
+    place = (c, -s, 0, .2, s, c, 0, .1, 0, 0, 1, 0, 0, 0, 0, 1)
+    back = (c, s, 0, -.2 * c - .1 * s, -s, c, 0, .2 * s - .1 * c, 0, 0, 1, 0, 0, 0, 0, 1)
+    bend = animated("bone-high/turn.ANGLE", [0, 1], [(0,), (30,)])
+    use = node(shown("#skin", kind="controller", skeleton="<skeleton>#bone-low</skeleton>"))
+
+    def skinned(inverse, shape=None, outside=False):
+        tree = f'<node id="arm"><matrix>{numbers(place)}</matrix>{joints(0)}{"" if outside else use}</node>'
+        text = "" if shape is None else f"<bind_shape_matrix>{numbers(shape)}</bind_shape_matrix>"
+        lit = effect("<constant><emission><color>.8 .5 .2 1</color></emission></constant>")
+        return document(tree + (use if outside else ""), animations=bend, effects=lit,
+                        controllers=skin(["low", "high"], inverses=[inverse] * 2, shape=text))
+    return {"given": skinned(back, place), "given_at_the_root": skinned(back, place, True),
+            "forgotten": skinned(back), "identity": skinned(back, IDENTITY), "in_the_joints": skinned(IDENTITY)}
+
+
 def morphs():
     """A tall house at weight 0.5, as the difference, as the target, and baked."""
     tall = [(x, y * 1.6, z) for x, y, z in POINTS]
@@ -439,6 +457,6 @@ def kept():
 FAMILIES = {f.__name__: f for f in (
     primitives, inputs, solids, polygons_with_holes, transforms, cameras_by_lookat, skews, references, bases, absolute_references,
     samplers, versions, units,
-    archives, fields_of_view, magnifications, instances, skins, morphs, targets, curves, colours, opacities,
+    archives, fields_of_view, magnifications, instances, skins, skin_spaces, morphs, targets, curves, colours, opacities,
     image_files, texture_coordinates, kept)}
-OPTIONS = {"targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"]}
+OPTIONS = {"skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"]}

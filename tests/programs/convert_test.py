@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -311,6 +312,20 @@ class ToGlb(Convert):
                 before = self.picture(scene, "--time", time)
                 after = self.picture(out, "--time", time)
                 self.assertLess(self.difference(before, after), LIKE)
+
+    def test_what_has_no_material_and_how_textures_are_filtered_stay(self):
+        pairs = SOURCE / "tests/conformance/differ"
+        bare = self.write("bare.dae", re.sub(r"<bind_material>.*?</bind_material>", "", mesh_scene(), flags=re.S))
+        for scene in [bare, *sorted((pairs / "minifications").glob("*.dae")), *sorted((pairs / "wraps").glob("*.dae"))]:
+            with self.subTest(scene.name):
+                out = self.converted(scene, f"{scene.stem}.glb")
+                self.assertLess(self.difference(self.picture(scene), self.picture(out)), LIKE)
+        filters = {self.filters(self.folder / f"{name}.glb") for name in
+                   ("nearest", "linear", "nearest_mipmap_nearest", "linear_mipmap_linear")}
+        self.assertEqual(filters, {9728, 9729, 9984, 9987})
+
+    def filters(self, path):
+        return glb_json(path)["samplers"][0]["minFilter"]
 
     def test_back_to_collada_the_pictures_stay(self):
         scenes = [(SCENES / name, time) for name, time in self.PICTURES[:1]]
