@@ -189,12 +189,12 @@ class Planner {
                plan_.in_range[inst.a] && f_.insts[inst.b].op == Op::ConstI && uses_[inst.a] == 1;
     }
 
-    // Loops that go from one constant to another in constant steps.
+    // Loops that go from one constant to another in constant steps: all lanes that enter one leave
+    // it together, so the mask of a masked one stays what it was.
     void plan_known_loops() {
         IeeeScope ieee;  // counts as precise kernels do
         for (Value v = 0; v < f_.insts.size(); ++v) {
-            if (f_.insts[v].op != Op::Loop || value(v).masked || plan_.counted[v] != kNone)
-                continue;
+            if (f_.insts[v].op != Op::Loop || plan_.counted[v] != kNone) continue;
             const Inst& end = f_.insts[s_.end_of[v]];
             if (!is_compare(f_.insts[end.a].op) || uses_[end.a] != 1 || value(end.a).fused)
                 continue;

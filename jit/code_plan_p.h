@@ -26,8 +26,8 @@ struct FunctionPlan {
     // Of Loop: the variable that counts records and needs no vector register, or kNone. It is the
     // loop's budget at the start minus what is left of it, plus its first value.
     std::vector<Value> counted;
-    // Of Loop: how often its body runs, where that is known and all lanes agree; else 0. Such a
-    // loop counts down in a general register and compares nothing.
+    // Of Loop: how often its body runs for the lanes that enter, where that is known; else 0. Such
+    // a loop counts down in a general register and compares nothing.
     std::vector<int32_t> rounds;
     bool calls = false;  // has a Call or Service: no register lives through
 };
