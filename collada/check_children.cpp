@@ -56,7 +56,7 @@ void ElementChecker::check_children(const Element& element, const ElementType& t
     if (!model.places[at].last) missing_children(element, type, at);
 }
 
-uint16_t ElementChecker::step(const ContentModel& model, uint16_t at, const Element& child) const {
+uint16_t ElementChecker::step(const ContentModel& model, uint16_t at, const Element& child) {
     if (foreign(child)) {
         if (uint16_t any = model.step(at, Kind::Any)) return any;
         bool math = child.name == "math" || child.name.ends_with(":math");
@@ -64,6 +64,12 @@ uint16_t ElementChecker::step(const ContentModel& model, uint16_t at, const Elem
     }
     if (uint16_t next = model.step(at, child.name)) return next;
     return model.step(at, Kind::Any);
+}
+
+// Each look at the siblings takes as long as there are siblings.
+bool ElementChecker::misplaced_often(const ElementType& type, const Element& child) {
+    constexpr uint32_t kOften = 64;
+    return ++misplaced_[{&type, child.name}] > kOften;
 }
 
 uint16_t ElementChecker::misplaced(const Element& element, const ElementType& type, uint16_t at,
@@ -81,8 +87,8 @@ uint16_t ElementChecker::misplaced(const Element& element, const ElementType& ty
         return at;
     }
     // What was jumped over is missing, or comes later and is then out of order.
-    bool later = true;
-    for (size_t i = 0; i + 1 < way.size(); ++i)
+    bool later = true, often = misplaced_often(type, child);
+    for (size_t i = 0; i + 1 < way.size() && !often; ++i)
         later = later && has_child(child.next, model.places[way[i]].name);
     if (!later && first(Code::SCHEMA_MIN_OCCURS, &type, child.name))
         diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(child), element.name,
@@ -117,7 +123,7 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
     if (!first(Code::SCHEMA_UNKNOWN_ELEMENT, &type, child.name)) return;
     Finding& finding = diag_.report(Code::SCHEMA_UNKNOWN_ELEMENT, document_.location(child),
                                     child.name, element.name);
-    std::string_view near = types_.nearest(child.name);
+    std::string_view near = may_suggest() ? types_.nearest(child.name) : "";
     if (!near.empty()) finding.help = fmt::format("did you mean <{}>?", near);
 }
 
@@ -126,6 +132,7 @@ void ElementChecker::disordered_child(const Element& element, const ElementType&
                                       const Element& child) {
     const ContentModel& model = type.rules().content;
     uint16_t place = model.find(child.name);
+    if (misplaced_often(type, child)) return;
     // The first sibling before it that could follow it: it stands too late.
     for (const Element* e = element.first_child; e && e != &child; e = e->next) {
         if (e->name == child.name || model.way(place, e->name).empty()) continue;

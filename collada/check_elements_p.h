@@ -1,11 +1,15 @@
 // collada/check_elements_p.h: the walk that holds a document against the element table.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "collada/element_types_p.h"
 #include "collada/findings.h"
+#include "collada/namespaces_p.h"
 
 namespace kinora::collada {
 
@@ -33,7 +37,7 @@ class ElementChecker {
 
     // check_children.cpp
     void check_children(const Element& element, const ElementType& type, bool kept);
-    uint16_t step(const ContentModel& model, uint16_t at, const Element& child) const;
+    uint16_t step(const ContentModel& model, uint16_t at, const Element& child);
     // A child that may not stand where it does: reports it, checks what is inside. Returns where in
     // the model to go on.
     uint16_t misplaced(const Element& element, const ElementType& type, uint16_t at,
@@ -44,9 +48,9 @@ class ElementChecker {
     void missing_children(const Element& element, const ElementType& type, uint16_t at);
     void check_any(const Element& child, bool kept);
 
-    // Is the child in another namespace than COLLADA's?
-    bool foreign(const Element& child) const;
-    std::string_view name_space(const Element& child) const;
+    bool foreign(const Element& child) { return namespaces_.foreign(child); }
+    // "did you mean" of the first names only: the search takes longer than all other checks.
+    bool may_suggest() { return ++suggestions_ <= 1000; }
     void report_foreign(const Element& child);
 
     bool first(const FindingInfo& code, const void* type, std::string_view name) {
@@ -57,9 +61,13 @@ class ElementChecker {
     Diagnostics& diag_;
     const ElementTypes& types_;
     const ElementTypes& other_version_;
-    std::string_view name_space_;  // COLLADA's, as the root has it
-    std::string_view xmlns_;       // the root's attribute that says so
+    Namespaces namespaces_;
     std::unordered_map<std::string_view, const Element*> shared_ids_;  // of those used twice
+    // Whether so many children of that name stood in wrong places that all has been said of them.
+    bool misplaced_often(const ElementType& type, const Element& child);
+
+    size_t suggestions_ = 0;
+    std::map<std::pair<const void*, std::string_view>, uint32_t> misplaced_;
     std::set<std::tuple<const FindingInfo*, const void*, std::string_view>> seen_;
 };
 

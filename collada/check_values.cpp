@@ -56,6 +56,7 @@ void ElementChecker::unknown_attribute(const Element& element, const ElementType
     Finding& finding =
         diag_.report(Code::SCHEMA_UNKNOWN_ATTRIBUTE,
                      Location{document_.file(), a.bytes.begin, a.bytes.end}, element.name, a.name);
+    if (!may_suggest()) return;
     std::vector<std::string_view> names;
     for (const AttributeType& rule : type.rules().attributes) names.push_back(rule.name);
     std::string_view near = nearest_name(a.name, names);

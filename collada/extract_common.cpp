@@ -79,7 +79,7 @@ CommonValue read_slot_value(Extraction& x, Link link, TargetRef ref, Effect& eff
             read_texture(x, part, effect, value);
         } else if (child.name == "param") {
             std::string_view name = child.value("ref");
-            value.param = find_param(effect, name);
+            value.param = find_param(x, effect, name);
             if (value.param == kNone)
                 x.diag.report(Code::FX_PARAM_UNRESOLVED, x.where(part, "ref"), name);
             else

@@ -34,30 +34,45 @@ bool is_file(const std::string& path) {
     return fs::is_regular_file(path, error);
 }
 
-// The best match in a folder: the name in another case, then another image of that stem.
-std::string search_folder(const std::string& folder, std::string_view wanted) {
-    std::string name = lower(wanted), name_stem(stem(name));
-    std::string best;
-    size_t best_rank = SIZE_MAX;
+constexpr size_t kMostFiles = 10'000, kMostListed = 100'000;  // of a folder, of all folders
+
+// The images of a folder, by the names under which they may be asked for.
+FolderImages list_folder(Extraction& x, const std::string& folder) {
+    FolderImages images;
     std::error_code error;
     fs::directory_iterator at(folder.empty() ? "." : folder, error), end;
-    for (size_t seen = 0; !error && at != end && seen < 10000; at.increment(error), ++seen) {
+    for (size_t seen = 0; !error && at != end && seen < kMostFiles; at.increment(error), ++seen) {
+        if (++x.listed_files > kMostListed) break;
+        std::error_code no_file;
+        if (!at->is_regular_file(no_file)) continue;
         std::string found = at->path().filename().string();
         std::string low = lower(found);
-        size_t rank = SIZE_MAX;
-        if (low == name) {
-            rank = 0;
-        } else if (stem(low) == name_stem && low.size() > name_stem.size()) {
-            std::string_view extension = std::string_view(low).substr(name_stem.size() + 1);
-            auto known = std::find(std::begin(kExtensions), std::end(kExtensions), extension);
-            if (known != std::end(kExtensions)) rank = 1 + size_t(known - std::begin(kExtensions));
-        }
-        if (rank < best_rank && is_file(folder + found)) {
-            best_rank = rank;
-            best = folder + found;
-        }
+        images.by_name.try_emplace(low, found);
+        std::string name_stem(stem(low));
+        if (low.size() <= name_stem.size()) continue;
+        std::string_view extension = std::string_view(low).substr(name_stem.size() + 1);
+        auto known = std::find(std::begin(kExtensions), std::end(kExtensions), extension);
+        if (known == std::end(kExtensions)) continue;
+        size_t rank = size_t(known - std::begin(kExtensions));
+        auto [best, fresh] = images.by_stem.try_emplace(name_stem, FolderImages::Best{rank, found});
+        if (!fresh && rank < best->second.rank) best->second = {rank, found};
     }
-    return best;
+    return images;
+}
+
+// The best match in a folder: the name in another case, then another image of that stem. A folder
+// is listed once.
+std::string search_folder(Extraction& x, const std::string& folder, std::string_view wanted) {
+    auto at = x.folders.find(folder);
+    if (at == x.folders.end()) {
+        if (x.listed_files > kMostListed || x.folders.size() > kMostFiles) return {};
+        at = x.folders.emplace(folder, list_folder(x, folder)).first;
+    }
+    std::string name = lower(wanted);
+    auto same = at->second.by_name.find(name);
+    if (same != at->second.by_name.end()) return folder + same->second;
+    auto like = at->second.by_stem.find(std::string(stem(name)));
+    return like == at->second.by_stem.end() ? "" : folder + like->second.name;
 }
 
 std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std::string_view uri,
@@ -67,8 +82,8 @@ std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std
     const std::string& beside = x.document(doc).directory();
     std::string_view name = file_name(path);
     std::string found;
-    if (inside) found = search_folder(path.substr(0, path.size() - name.size()), name);
-    if (found.empty()) found = search_folder(beside, name);
+    if (inside) found = search_folder(x, path.substr(0, path.size() - name.size()), name);
+    if (found.empty()) found = search_folder(x, beside, name);
     if (!found.empty() && inside_tree(x, found)) {  // it may be a link that leads out
         bool case_only = lower(found) == lower(path);
         x.diag.report(case_only ? Code::FILE_CASE : Code::FILE_FALLBACK, where, uri, found);

@@ -1,6 +1,4 @@
 // collada/extract_instances.cpp: meshes, lights and cameras that a node shows.
-#include <set>
-
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
 
@@ -73,30 +71,38 @@ bool read_controller(Extraction& x, Link controller, MeshInstance& mesh) {
     return false;
 }
 
-// The symbols that primitives of a geometry use, each once; once a geometry.
-const std::vector<std::string>& symbols_of(Extraction& x, uint32_t geometry) {
-    auto [at, fresh] = x.symbols_of_geometry.try_emplace(geometry);
-    if (!fresh) return at->second;
-    std::set<std::string_view> seen;
-    for (const PrimitiveGroup& group : x.scene.geometries[geometry].groups)
-        if (!group.material.empty() && seen.insert(group.material).second)
-            at->second.push_back(group.material);
-    return at->second;
-}
-
 void report_unbound(Extraction& x, Link instance, const MeshInstance& mesh) {
     if (mesh.materials.empty()) {
         x.diag.report(Code::MAT_NO_BIND, x.where(instance));
         return;
     }
-    for (const std::string& symbol : symbols_of(x, mesh.geometry)) {
-        bool bound = false;
-        for (const MaterialBinding& m : mesh.materials) bound = bound || m.symbol == symbol;
-        if (!bound) x.diag.report(Code::MAT_UNBOUND_SYMBOL, x.where(instance), symbol);
+    // Of very many the first ones are named: a mesh of them may have as many instances.
+    constexpr int kMostNamed = 16;
+    std::unordered_set<std::string_view> bound;
+    for (const MaterialBinding& m : mesh.materials) bound.insert(m.symbol);
+    const std::vector<PrimitiveGroup>& groups = x.scene.geometries[mesh.geometry].groups;
+    int named = 0;
+    for (uint32_t first : symbols_of(x, mesh.geometry).groups) {
+        const std::string& symbol = groups[first].material;
+        if (symbol.empty() || bound.count(symbol)) continue;
+        x.diag.report(Code::MAT_UNBOUND_SYMBOL, x.where(instance), symbol);
+        if (++named == kMostNamed) break;
     }
 }
 
 }  // namespace
+
+// Once a geometry. The views are of its groups, which stay where they are.
+GeometrySymbols& symbols_of(Extraction& x, uint32_t geometry) {
+    auto [at, fresh] = x.symbols_of_geometry.try_emplace(geometry);
+    GeometrySymbols& symbols = at->second;
+    if (!fresh) return symbols;
+    const std::vector<PrimitiveGroup>& groups = x.scene.geometries[geometry].groups;
+    for (uint32_t g = 0; g < groups.size(); ++g)
+        if (symbols.first_group.try_emplace(groups[g].material, g).second)
+            symbols.groups.push_back(g);
+    return symbols;
+}
 
 void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_number) {
     bool controlled = link.element->name == "instance_controller";
@@ -115,8 +121,7 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     uint32_t mesh_number = uint32_t(node.meshes.size());
     read_bind_material(x, link, mesh, node_number, mesh_number);
     report_unbound(x, link, mesh);
-    for (MaterialBinding& binding : mesh.materials)
-        bind_texcoords(x, x.scene.geometries[mesh.geometry], binding);
+    for (MaterialBinding& binding : mesh.materials) bind_texcoords(x, mesh.geometry, binding);
     if (mesh.skin != kNone) {
         for (const Element& child : link.element->children())
             if (child.name == "skeleton")

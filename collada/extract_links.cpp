@@ -46,6 +46,10 @@ std::string linked_path(Extraction& x, Link from, std::string_view file, Locatio
 
 // The document that the part before '#' names; kNone and a finding if there is none.
 uint32_t linked_document(Extraction& x, Link from, std::string_view file, Location where) {
+    // The system is asked once a path: thousands of links may name one document.
+    std::string written = path_of_uri(x.document(from.doc), file);
+    auto linked = x.doc_by_link.find(written);
+    if (linked != x.doc_by_link.end()) return linked->second;
     std::string path = linked_path(x, from, file, where);
     if (!inside_tree(x, path)) {
         x.diag.report(Code::LINK_OUTSIDE, where, file);
@@ -55,7 +59,10 @@ uint32_t linked_document(Extraction& x, Link from, std::string_view file, Locati
     std::string real = real_path(path);
     auto known = x.doc_by_path.find(real);
     if (known != x.doc_by_path.end()) {
-        if (known->second == kNone) report_unread(x, path, file, where);
+        if (known->second == kNone)
+            report_unread(x, path, file, where);
+        else
+            x.doc_by_link.emplace(written, known->second);
         return known->second;
     }
     if (x.docs.size() >= x.options.max_documents) {
@@ -75,7 +82,7 @@ uint32_t linked_document(Extraction& x, Link from, std::string_view file, Locati
         return kNone;
     }
     x.owned.push_back(std::make_unique<Document>(std::move(*document)));
-    return add_document(x, *x.owned.back(), real);
+    return x.doc_by_link[written] = add_document(x, *x.owned.back(), real);
 }
 
 dmat4 y_up_from(UpAxis axis) {

@@ -31,7 +31,7 @@ void read_setparams(Extraction& x, Link instance, uint32_t material_number, Mate
         SetParam set;
         set.ref = child.value("ref");
         set.where = x.where(link);
-        if (effect) set.param = find_param(*effect, set.ref);
+        if (effect) set.param = find_param(x, *effect, set.ref);
         if (effect && set.param == kNone)
             x.diag.report(Code::FX_PARAM_UNRESOLVED, x.where(link, "ref"), set.ref);
         if (!read_param_value(x, {instance.doc, value}, set.value)) continue;
@@ -42,19 +42,14 @@ void read_setparams(Extraction& x, Link instance, uint32_t material_number, Mate
     }
 }
 
-// <extra><technique profile="RSL" target="interior exterior">, or on elements inside it: a word for
-// each VOLUME shader.
+// <extra><technique profile="RSL" target="interior">, or on an element inside it.
 std::string read_volume_target(const Element& material) {
     const Element* technique = extra_technique(material, "RSL");
     if (!technique) return {};
-    std::string targets(technique->value("target"));
-    if (!targets.empty()) return targets;
-    for (const Element& child : technique->children()) {
-        std::string_view target = child.value("target");
-        if (!target.empty() && !targets.empty()) targets += ' ';
-        targets += target;
-    }
-    return targets;
+    std::string_view target = technique->value("target");
+    for (const Element& child : technique->children())
+        if (target.empty()) target = child.value("target");
+    return std::string(target);
 }
 
 // <extra><technique profile="RSL"><samples>: of an area light, at each lit point.

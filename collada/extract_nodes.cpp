@@ -156,6 +156,17 @@ class GraphCheck {
 
     void report_cycle(const NodeInstance& instance) {
         auto from = std::find(path_.begin(), path_.end(), instance.node);
+        // Where several documents take part, each node says which is its own.
+        uint32_t own = nodes_[instance.node].document;
+        bool several =
+            std::any_of(from, path_.end(), [&](uint32_t n) { return nodes_[n].document != own; });
+        auto label = [&](uint32_t n) {
+            const Node& node = nodes_[n];
+            if (!several) return node_label(node);
+            const std::string& path = x_.scene.documents[node.document].path;
+            std::string file = path.substr(path.rfind('/') + 1);
+            return node.id.empty() ? "<node> of '" + file + "'" : "'" + file + "#" + node.id + "'";
+        };
         std::string text;
         size_t shown = 0;
         for (auto n = from; n != path_.end(); ++n, ++shown) {
@@ -163,9 +174,9 @@ class GraphCheck {
                 text += "... -> ";
                 break;
             }
-            text += node_label(nodes_[*n]) + " -> ";
+            text += label(*n) + " -> ";
         }
-        x_.diag.report(Code::LINK_CYCLE, instance.where, text + node_label(nodes_[instance.node]));
+        x_.diag.report(Code::LINK_CYCLE, instance.where, text + label(instance.node));
     }
 
     Extraction& x_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "collada/findings.h"
 #include "collada/scene.h"
+#include "runtime/base/file_trees.h"
 
 namespace kinora::collada {
 
@@ -21,10 +23,32 @@ struct Link {
     explicit operator bool() const { return element != nullptr; }
 };
 
+// Look-ups that many elements repeat, made once.
+struct GeometrySymbols {
+    std::vector<uint32_t> groups;                                // the first of each symbol
+    std::unordered_map<std::string_view, uint32_t> first_group;  // by symbol
+    std::map<std::pair<uint32_t, std::string>, std::vector<uint32_t>> sets;  // group, semantic
+};
+using NewParams = std::unordered_map<std::string_view, const Element*>;
+struct NameIndex {
+    size_t known = 0;  // entries of the list that are in it
+    std::unordered_map<std::string, uint32_t> at;
+};
+// What a folder has for a name that is not there, by lower-case name and by stem.
+struct FolderImages {
+    struct Best {
+        size_t rank;
+        std::string name;
+    };
+    std::unordered_map<std::string, std::string> by_name;
+    std::unordered_map<std::string, Best> by_stem;
+};
+
 struct Extraction {
     Diagnostics& diag;
     const ExtractOptions& options;
     SceneData scene{};
+    std::optional<FileTrees> trees{};  // where files may lie, made by inside_tree
     std::optional<Version> schema{};  // whose rules documents are held to; none: their own
 
     std::vector<const Document*> docs{};  // same order as scene.documents
@@ -41,7 +65,14 @@ struct Extraction {
     std::unordered_map<const Element*, uint32_t> made{};
     // Elements (of a value, or around one) that a channel may name.
     std::unordered_map<const Element*, TargetRef> target_of{};
-    std::unordered_map<uint32_t, std::vector<std::string>> symbols_of_geometry{};
+    std::unordered_map<uint32_t, GeometrySymbols> symbols_of_geometry{};
+    std::unordered_map<const Element*, NewParams> newparams_of{};  // by the element around them
+    std::unordered_map<const Element*, NewParams> newparams_inside{};  // an effect's profiles
+    std::unordered_map<uint64_t, NameIndex> params_of_effect{};    // by the effect's place
+    std::unordered_map<uint32_t, NameIndex> setparams_of_material{};
+    std::unordered_map<std::string, uint32_t> doc_by_link{};  // by the path as linked
+    std::unordered_map<std::string, FolderImages> folders{};
+    size_t listed_files = 0;                           // of all folders
     std::unordered_set<const Element*> read_arrays{};  // whose numbers were parsed and checked
     // Nodes whose index is given out and whose content is still to be read.
     std::vector<std::pair<uint32_t, Link>> pending_nodes{};
@@ -112,17 +143,15 @@ std::string percent_decode(std::string_view text);
 std::string path_of_uri(const Document& document, std::string_view uri);
 // Reports what is unportable about the spelling of a file's URI.
 void check_file_uri(Extraction& x, std::string_view uri, Location where);
-// Absolute, with links followed as far as it exists.
-std::string real_path(const std::string& path);
 // True when `path` (existing or not) lies in the folder tree of the root document, or all may.
-bool inside_tree(const Extraction& x, const std::string& path);
+bool inside_tree(Extraction& x, const std::string& path);
 
 // extract_transparency.cpp: marks materials that the formula makes invisible; reports them.
 void check_transparency(Extraction& x);
 
 // extract_texcoords.cpp: how the texture coordinates that a material names are found on the mesh;
 // says what was assumed. Adds bindings for names that no <bind_vertex_input> binds.
-void bind_texcoords(Extraction& x, const Geometry& geometry, MaterialBinding& binding);
+void bind_texcoords(Extraction& x, uint32_t geometry, MaterialBinding& binding);
 
 // embedded_image.cpp: writes the bytes that `data` spells in hexadecimal into a file that lasts as
 // long as scene.files; "" (reported) when they are no image.
@@ -137,6 +166,9 @@ uint32_t node_index(Extraction& x, Link node);  // may add to pending_nodes
 void read_pending_nodes(Extraction& x);
 // Removes node instances that close a cycle or pass the limit of unrolled nodes.
 void check_node_graph(Extraction& x);
+
+// The groups of a geometry by the symbols of their materials.
+GeometrySymbols& symbols_of(Extraction& x, uint32_t geometry);
 
 // extract_transform.cpp
 bool is_transform(std::string_view name);
@@ -210,13 +242,14 @@ bool read_param_value(Extraction& x, Link value, ParamValue& out);
 // The child that is a value (<float>, <color>, ...) or null.
 const Element* value_child(const Element& owner);
 uint32_t effect_index(Extraction& x, Link effect);
-uint32_t find_param(const Effect& effect, std::string_view sid);
+// The innermost parameter of that sid, or kNone.
+uint32_t find_param(Extraction& x, const Effect& effect, std::string_view sid);
 void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& effect);
 void read_rsl(Extraction& x, Link profile, uint32_t effect_number, Effect& effect);
 void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_number,
                  Effect& effect);
 // The <newparam sid> seen from `from`: in the elements around it, inside out; or null.
-const Element* find_newparam(const Element& from, std::string_view sid);
+const Element* find_newparam(Extraction& x, const Element& from, std::string_view sid);
 // Index into effect.samplers of the texture `name`, or kNone (reported).
 uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect);
 // A <setparam> of a surface or sampler: the material's own image. False if it sets something else.

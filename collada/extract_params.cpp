@@ -47,10 +47,7 @@ void fit_color(Extraction& x, Link link, std::vector<double>& numbers) {
 
 void read_string(Extraction& x, Link link, ParamValue& out) {
     out.strings.emplace_back(trim(link.element->text));
-    std::string_view id = out.strings.back();  // of an image, perhaps with words behind a '?'
-    const Element* image = find_kind(x.document(link.doc), id, {"image"});
-    if (!image && id.find('?') != std::string_view::npos)
-        image = find_kind(x.document(link.doc), id.substr(0, id.find('?')), {"image"});
+    const Element* image = find_kind(x.document(link.doc), out.strings.back(), {"image"});
     if (image) out.image = image_index(x, {link.doc, image});
 }
 
@@ -119,10 +116,19 @@ bool read_param_value(Extraction& x, Link link, ParamValue& out) {
     return true;
 }
 
-uint32_t find_param(const Effect& effect, std::string_view sid) {
-    for (size_t i = effect.params.size(); i-- > 0;)  // inner scopes are read last
-        if (effect.params[i].sid == sid) return uint32_t(i);
-    return kNone;
+uint32_t find_param(Extraction& x, const Effect& effect, std::string_view sid) {
+    constexpr size_t kFew = 16;
+    if (effect.params.size() <= kFew) {
+        for (size_t i = effect.params.size(); i-- > 0;)  // inner scopes are read last
+            if (effect.params[i].sid == sid) return uint32_t(i);
+        return kNone;
+    }
+    uint64_t place = uint64_t(effect.where.file) << 32 | effect.where.begin;
+    NameIndex& index = x.params_of_effect[place];
+    for (; index.known < effect.params.size(); ++index.known)
+        index.at.insert_or_assign(effect.params[index.known].sid, uint32_t(index.known));
+    auto found = index.at.find(std::string(sid));
+    return found == index.at.end() ? kNone : found->second;
 }
 
 void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_number,

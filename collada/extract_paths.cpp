@@ -25,6 +25,16 @@ bool names_drive(std::string_view path) {
     return starts_with_drive(path);
 }
 
+// A scheme's letters may be of either case (RFC 3986, 3.1).
+bool takes_file_scheme(std::string& path) {
+    constexpr std::string_view kScheme = "file:";
+    if (path.size() < kScheme.size()) return false;
+    for (size_t i = 0; i < kScheme.size(); ++i)
+        if (std::tolower(uint8_t(path[i])) != kScheme[i]) return false;
+    path.erase(0, kScheme.size());
+    return true;
+}
+
 }  // namespace
 
 std::string percent_decode(std::string_view text) {
@@ -50,8 +60,7 @@ std::string written_path(std::string_view uri) {
     std::string path = percent_decode(trim(uri));
     for (char& c : path)
         if (c == '\\') c = '/';
-    if (path.starts_with("file:")) {
-        path.erase(0, 5);
+    if (takes_file_scheme(path)) {
         // file:///abs and file:/abs are absolute; file://NAME is an exporter's relative name.
         if (path.starts_with("///"))
             path.erase(0, 2);
@@ -101,8 +110,7 @@ void check_file_uri(Extraction& x, std::string_view uri, Location where) {
     std::string path(uri);
     for (char& c : path)
         if (c == '\\') c = '/';
-    bool scheme = path.starts_with("file:");
-    if (scheme) path.erase(0, 5);
+    bool scheme = takes_file_scheme(path);
     bool host = path.starts_with("//") && !path.starts_with("///") &&
                 !starts_with_drive(std::string_view(path).substr(2));
     if (host && scheme)
@@ -111,27 +119,15 @@ void check_file_uri(Extraction& x, std::string_view uri, Location where) {
         x.diag.report(Code::FILE_ABSOLUTE, where, uri);
 }
 
-std::string real_path(const std::string& path) {
-    std::error_code error;
-    // Absolute first: a relative path of nothing that exists would stay relative.
-    std::filesystem::path absolute = std::filesystem::absolute(path, error);
-    if (error) return path;
-    std::filesystem::path real = std::filesystem::weakly_canonical(absolute, error);
-    return error ? path : real.string();
-}
-
-bool inside_tree(const Extraction& x, const std::string& path) {
-    namespace fs = std::filesystem;
-    fs::path real = real_path(path);
-    auto inside = [&](const std::string& folder) {
-        fs::path relative = real.lexically_relative(real_path(folder.empty() ? "." : folder));
-        return !relative.empty() && *relative.begin() != "..";
-    };
-    const std::string& own = x.options.folder;
-    if (inside(own.empty() ? x.document(0).directory() : own)) return true;
-    for (const std::string& folder : x.options.allow_external)
-        if (inside(folder)) return true;
-    return false;
+bool inside_tree(Extraction& x, const std::string& path) {
+    if (!x.trees) {
+        const std::string& own = x.options.folder;
+        std::vector<std::string> folders{own.empty() ? x.document(0).directory() : own};
+        folders.insert(folders.end(), x.options.allow_external.begin(),
+                       x.options.allow_external.end());
+        x.trees = FileTrees(folders);
+    }
+    return x.trees->contains(path);
 }
 
 }  // namespace kinora::collada

@@ -75,7 +75,7 @@ void read_bind(Extraction& x, Link link, const Effect& effect, RslShader& shader
     bind.where = x.where(link);
     if (const Element* param = e.child("param")) {
         std::string_view ref = param->value("ref");
-        bind.param = find_param(effect, ref);
+        bind.param = find_param(x, effect, ref);
         if (bind.param == kNone) {
             Finding& finding =
                 x.diag.report(Code::FX_PARAM_UNRESOLVED, x.where({link.doc, param}, "ref"), ref);

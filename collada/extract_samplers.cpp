@@ -134,25 +134,34 @@ uint32_t image_of_param(Extraction& x, Link param, TextureSampler& sampler, int 
         const Element* source = value.child("source");
         if (!source) return kNone;
         if (is_sampler) sampler.surface = trim(source->text);
-        const Element* surface = find_newparam(value, trim(source->text));
+        const Element* surface = find_newparam(x, value, trim(source->text));
         if (surface) return image_of_param(x, {param.doc, surface}, sampler, depth + 1);
         return image_by_id(x, param.doc, trim(source->text));
     }
     return kNone;
 }
 
+void add_newparams(const Element& scope, NewParams& table) {
+    for (const Element& child : scope.children())
+        if (child.name == "newparam") table.try_emplace(child.value("sid"), &child);
+}
+
 }  // namespace
 
-const Element* find_newparam(const Element& from, std::string_view sid) {
+const Element* find_newparam(Extraction& x, const Element& from, std::string_view sid) {
     for (const Element* scope = from.parent; scope; scope = scope->parent) {
-        for (const Element& child : scope->children())
-            if (child.name == "newparam" && child.value("sid") == sid) return &child;
+        auto [table, fresh] = x.newparams_of.try_emplace(scope);
+        if (fresh) add_newparams(*scope, table->second);
+        auto found = table->second.find(sid);
+        if (found != table->second.end()) return found->second;
         if (scope->name != "effect") continue;
         // Out of scope, but exporters declare a surface further in than its sampler.
-        for (const Element& profile : scope->children())
-            for (const Element& child : profile.children())
-                if (child.name == "newparam" && child.value("sid") == sid) return &child;
-        break;
+        auto [inner, unseen] = x.newparams_inside.try_emplace(scope);
+        for (const Element* profile = unseen ? scope->first_child : nullptr; profile;
+             profile = profile->next)
+            add_newparams(*profile, inner->second);
+        found = inner->second.find(sid);
+        return found == inner->second.end() ? nullptr : found->second;
     }
     return nullptr;
 }
@@ -162,7 +171,7 @@ uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect) {
     TextureSampler sampler;
     sampler.sid = name;
     sampler.where = x.where(texture);
-    if (const Element* param = find_newparam(*texture.element, name)) {
+    if (const Element* param = find_newparam(x, *texture.element, name)) {
         sampler.image = image_of_param(x, {texture.doc, param}, sampler);
     } else {
         sampler.image = image_by_id(x, texture.doc, name);

@@ -79,12 +79,15 @@ TargetRef TargetResolver::material_param(const Element& material, std::string_vi
     if (made == x_.made.end() || made->second == kNone) return {};
     uint32_t number = made->second;
     Material& m = x_.scene.materials[number];
-    uint32_t slot = 0;
-    while (slot < m.setparams.size() && m.setparams[slot].ref != ref) ++slot;
+    NameIndex& index = x_.setparams_of_material[number];
+    for (; index.known < m.setparams.size(); ++index.known)
+        index.at.try_emplace(m.setparams[index.known].ref, uint32_t(index.known));
+    auto found = index.at.find(std::string(ref));
+    uint32_t slot = found == index.at.end() ? uint32_t(m.setparams.size()) : found->second;
     if (slot == m.setparams.size()) {
         if (m.effect == kNone) return {};
         const Effect& effect = x_.scene.effects[m.effect];
-        uint32_t param = find_param(effect, ref);
+        uint32_t param = find_param(x_, effect, ref);
         if (param == kNone) return {};
         m.setparams.push_back({std::string(ref), param, effect.params[param].value, m.where});
     }

@@ -18,8 +18,12 @@ uint32_t number_in(std::string_view name) {
     return good ? uint32_t(number) : kNone;
 }
 
-std::vector<uint32_t> sets_of(const PrimitiveGroup& group, std::string_view semantic) {
-    std::vector<uint32_t> sets;
+// The sets that a group has of a semantic, sorted.
+const std::vector<uint32_t>& sets_of(GeometrySymbols& symbols, uint32_t number,
+                                     const PrimitiveGroup& group, const std::string& semantic) {
+    auto [at, fresh] = symbols.sets.try_emplace({number, semantic});
+    std::vector<uint32_t>& sets = at->second;
+    if (!fresh) return sets;
     for (const VertexInput& input : group.inputs)
         if (input.semantic == semantic) sets.push_back(input.set);
     std::sort(sets.begin(), sets.end());
@@ -39,24 +43,24 @@ std::vector<std::string_view> texcoords_of(const Effect& effect) {
 
 }  // namespace
 
-void bind_texcoords(Extraction& x, const Geometry& geometry, MaterialBinding& binding) {
+void bind_texcoords(Extraction& x, uint32_t geometry, MaterialBinding& binding) {
     if (binding.material == kNone) return;
     const Material& material = x.scene.materials[binding.material];
     if (material.effect == kNone) return;
     const Effect& effect = x.scene.effects[material.effect];
     if (!effect.common || effect.rsl) return;
-    auto group =
-        std::find_if(geometry.groups.begin(), geometry.groups.end(),
-                     [&](const PrimitiveGroup& g) { return g.material == binding.symbol; });
-    if (group == geometry.groups.end()) return;
+    GeometrySymbols& symbols = symbols_of(x, geometry);
+    auto first = symbols.first_group.find(binding.symbol);
+    if (first == symbols.first_group.end()) return;
+    const PrimitiveGroup& group = x.scene.geometries[geometry].groups[first->second];
     for (std::string_view name : texcoords_of(effect)) {
         auto bound = std::find_if(binding.vertex_inputs.begin(), binding.vertex_inputs.end(),
                                   [&](const VertexInputBinding& b) { return b.semantic == name; });
         bool is_bound = bound != binding.vertex_inputs.end();
         std::string semantic = is_bound ? bound->input_semantic : "TEXCOORD";
-        std::vector<uint32_t> sets = sets_of(*group, semantic);
+        const std::vector<uint32_t>& sets = sets_of(symbols, first->second, group, semantic);
         uint32_t wanted = is_bound ? bound->input_set : number_in(name);
-        bool has = std::find(sets.begin(), sets.end(), wanted) != sets.end();
+        bool has = std::binary_search(sets.begin(), sets.end(), wanted);
         if (sets.empty() || (is_bound && wanted != kNone && !has)) {
             std::string text = semantic;
             if (!sets.empty()) text += fmt::format(" of set {}", wanted);

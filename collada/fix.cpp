@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "collada/fix_p.h"
 
@@ -81,11 +82,24 @@ void add_counts(std::vector<FixCount>& sum, const std::vector<FixCount>& counts)
     }
 }
 
+// <?xml version="1.0" encoding="UTF-16"?> of a text that is UTF-8 by now.
+std::string declared_utf8(std::string_view text) {
+    std::string out(text);
+    size_t end = text.starts_with("<?xml") ? text.find("?>") : text.npos;
+    size_t at = end == text.npos ? text.npos : text.substr(0, end).find("encoding");
+    if (at == text.npos) return out;
+    size_t open = text.find_first_of("'\"", at);
+    size_t close = open < end ? text.find(text[open], open + 1) : text.npos;
+    if (close < end) out.replace(open + 1, close - open - 1, "utf-8");
+    return out;
+}
+
 }  // namespace
 
 FixResult fix_text(const std::string& path, std::string text, const ValidateOptions& options,
                    bool (*wanted)(const FindingInfo&, const void*), const void* context) {
-    FixResult result{std::move(text), {}};
+    FixResult result{std::move(text), {}, {}};
+    std::string original;
     std::vector<const Fixer*> chosen;
     for (const Fixer& fixer : fixers())
         if (wanted(*fixer.info, context)) chosen.push_back(&fixer);
@@ -93,7 +107,13 @@ FixResult fix_text(const std::string& path, std::string text, const ValidateOpti
         Diagnostics diagnostics;
         std::optional<Document> document = read_document_text(path, result.text, diagnostics);
         if (!document || !document->whole()) break;
-        if (diagnostics.files.text(document->file()) != result.text) break;  // recoded, or a BOM
+        if (std::string_view decoded = diagnostics.files.text(document->file());
+            decoded != result.text) {
+            if (!original.empty()) break;
+            original = std::exchange(result.text, declared_utf8(decoded));
+            result.recoded = decoded;
+            continue;
+        }
         std::optional<SceneData> scene = validate(*document, diagnostics, options);
         Round fixes = find_fixes(*document, diagnostics, scene ? &*scene : nullptr, chosen);
         if (fixes.edits.empty()) break;
@@ -101,6 +121,10 @@ FixResult fix_text(const std::string& path, std::string text, const ValidateOpti
         if (next == result.text) break;
         result.text = std::move(next);
         add_counts(result.fixes, fixes.counts);
+    }
+    if (result.fixes.empty() && !original.empty()) {  // nothing to repair is nothing to rewrite
+        result.text = std::move(original);
+        result.recoded.clear();
     }
     return result;
 }

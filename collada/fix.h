@@ -18,6 +18,9 @@ struct FixCount {
 struct FixResult {
     std::string text;
     std::vector<FixCount> fixes;  // empty: the text is as it was
+    // Where the bytes were no UTF-8 and something was repaired: what they say in UTF-8. `text` is
+    // UTF-8 then and declares it.
+    std::string recoded;
 };
 
 // Repairs `text` until nothing more can be done: order of children, empty libraries, paths, counts,

@@ -60,6 +60,15 @@ void ElementIndex::number_children(const Element& parent) {
 }
 
 std::string ElementIndex::step(const Element& element) {
+    constexpr size_t kMany =
+        16;  // attributes: those of one element may be asked for at each finding
+    if (element.attributes.size() <= kMany) return new_step(element);
+    auto [at, fresh] = steps_.try_emplace(&element);
+    if (fresh) at->second = new_step(element);
+    return at->second;
+}
+
+std::string ElementIndex::new_step(const Element& element) {
     if (const Attribute* id = element.attribute("id"))
         return fmt::format("{}[@id={}]", element.name, quoted(id->value));
     if (const Attribute* sid = element.attribute("sid"))

@@ -27,10 +27,12 @@ class ElementIndex {
 
   private:
     std::string step(const Element& element);
+    std::string new_step(const Element& element);
     void number_children(const Element& parent);
 
     std::vector<const Element*> elements_;  // in document order
     std::unordered_set<const Element*> numbered_;
+    std::unordered_map<const Element*, std::string> steps_;  // of those with many attributes
     std::unordered_map<const Element*, uint32_t> numbers_;  // of those with namesakes
 };
 

@@ -16,8 +16,10 @@ class Definitions {
   public:
     explicit Definitions(Lint& lint) : lint_(lint) {}
 
-    void add_link(const Element* from, const Element* to, Location where) {
-        if (from && to) state_of(from).links.push_back({to, where});
+    void add_link(Link from, Link to, Location where) {
+        if (!from || !to) return;
+        state_of(from).links.push_back({to.element, where});
+        state_of(to);
     }
     void report_cycles() {
         for (const Element* start : order_) {
@@ -30,13 +32,15 @@ class Definitions {
     enum Color : uint8_t { White, Gray, Black };
     struct State {
         Color color = White;
+        uint32_t doc = 0;
         size_t next = 0;
         std::vector<std::pair<const Element*, Location>> links;
     };
 
-    State& state_of(const Element* element) {
-        auto [at, fresh] = states_.try_emplace(element);
-        if (fresh) order_.push_back(element);
+    State& state_of(Link link) {
+        auto [at, fresh] = states_.try_emplace(link.element);
+        if (fresh) order_.push_back(link.element);
+        at->second.doc = link.doc;
         return at->second;
     }
     void enter(const Element* element) {
@@ -58,18 +62,25 @@ class Definitions {
     void report(const Element* to, Location where) {
         constexpr long kShown = 16;
         auto from = std::find(path_.begin(), path_.end(), to);
+        bool several = std::any_of(
+            from, path_.end(), [&](const Element* e) { return states_[e].doc != states_[to].doc; });
         std::string text;
         for (auto e = from; e != path_.end(); ++e) {
             if (e - from == kShown) {
                 text += "... -> ";
                 break;
             }
-            text += label(**e) + " -> ";
+            text += label(**e, several) + " -> ";
         }
-        lint_.diag.report(Code::LINK_CYCLE, where, text + label(*to));
+        lint_.diag.report(Code::LINK_CYCLE, where, text + label(*to, several));
     }
-    static std::string label(const Element& e) {
+    // Where several documents take part, each definition says which is its own.
+    std::string label(const Element& e, bool several) {
         std::string_view name = e.value(e.name == "newparam" ? "sid" : "id");
+        if (several && !name.empty()) {
+            const std::string& path = lint_.x.scene.documents[states_[&e].doc].path;
+            return fmt::format("'{}#{}'", path.substr(path.rfind('/') + 1), name);
+        }
         return name.empty() ? "<" + std::string(e.name) + ">" : "'" + std::string(name) + "'";
     }
 
@@ -98,15 +109,38 @@ constexpr CycleRow kCycles[] = {
     {"formula", "instance_formula", "url"},
 };
 
+// The document that a link leads to, if it was read; kNone if not.
+uint32_t linked_document(Lint& lint, uint32_t from, std::string_view file) {
+    if (file.empty()) return from;
+    std::string path = path_of_uri(lint.x.document(from), file);
+    auto known = lint.x.doc_by_link.find(path);
+    if (known != lint.x.doc_by_link.end()) return known->second;
+    auto read = lint.x.doc_by_path.find(real_path(path));
+    bool there = read != lint.x.doc_by_path.end() && read->second != kNone;
+    if (there) lint.x.doc_by_link.emplace(path, read->second);
+    return there ? read->second : kNone;
+}
+
+void add_link(Lint& lint, const CycleRow& row, Link link, Definitions& graph) {
+    std::string_view url = trim(link.element->value(row.attribute));
+    size_t hash = url.find('#');
+    const Element* from = enclosing(*link.element, row.definition);
+    if (!from || hash == url.npos) return;
+    uint32_t doc = linked_document(lint, link.doc, url.substr(0, hash));
+    if (doc == kNone) return;
+    const Element* to = find_kind(lint.x.document(doc), url.substr(hash + 1), {row.definition});
+    graph.add_link({link.doc, from}, {doc, to}, lint.x.where(link, row.attribute));
+}
+
 void add_links(Lint& lint, const CycleRow& row, Definitions& graph) {
-    for (const Element* link : lint.named(row.link)) {
-        std::string_view url = trim(link->value(row.attribute));
-        if (!url.starts_with('#')) continue;
-        const Element* from = enclosing(*link, row.definition);
-        const Element* to =
-            from ? find_kind(lint.document, url.substr(1), {row.definition}) : nullptr;
-        graph.add_link(from, to, lint.where(*link, row.attribute));
-    }
+    for (const Element* link : lint.named(row.link)) add_link(lint, row, {0, link}, graph);
+}
+
+// Of a document that links led to.
+void add_linked(Lint& lint, Link at, Definitions& graph) {
+    for (const CycleRow& row : kCycles)
+        if (at.element->name == row.link) add_link(lint, row, at, graph);
+    for (const Element& child : at.element->children()) add_linked(lint, {at.doc, &child}, graph);
 }
 
 // The <newparam>s by the element they stand in and their sid: looked up inside out.
@@ -141,7 +175,7 @@ void add_params(Lint& lint, Definitions& graph) {
             const Element* source = value.child("source");
             if (!source || !value.name.starts_with("sampler")) continue;
             if (const Element* to = scopes.find(*source, trim(source->text)))
-                graph.add_link(param, to, lint.document.text_location(*source));
+                graph.add_link({0, param}, {0, to}, lint.document.text_location(*source));
         }
     }
 }
@@ -152,6 +186,8 @@ void lint_cycles(Lint& lint) {
     // One graph: links lead from a definition to one of its own kind.
     Definitions graph(lint);
     for (const CycleRow& row : kCycles) add_links(lint, row, graph);
+    for (uint32_t doc = 1; doc < lint.x.docs.size(); ++doc)
+        add_linked(lint, {doc, &lint.x.document(doc).root()}, graph);
     add_params(lint, graph);
     graph.report_cycles();
 }

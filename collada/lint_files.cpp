@@ -29,7 +29,10 @@ void lint_files(Lint& lint) {
         check_file_uri(lint.x, url, where);
         if (in_profile_rsl(*include)) continue;
         std::error_code error;
-        if (!std::filesystem::is_regular_file(path_of_uri(lint.document, url), error))
+        std::string path = path_of_uri(lint.document, url);
+        if (!inside_tree(lint.x, path))
+            lint.diag.report(Code::LINK_OUTSIDE, where, url);
+        else if (!std::filesystem::is_regular_file(path, error))
             lint.diag.report(Code::FILE_MISSING, where, url);
     }
 }

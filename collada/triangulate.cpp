@@ -40,7 +40,7 @@ class EarClipper {
         : points_(std::move(points)), triangles_(triangles) {}
 
     // Joins a hole (corner numbers, clockwise) to the outline; false if it sees no outline.
-    bool bridge(std::span<const uint32_t> hole);
+    bool bridge(std::span<const uint32_t> hole);  // or when the budget of work is spent
     void set_outline(uint32_t count) {
         ring_.resize(count);
         std::iota(ring_.begin(), ring_.end(), 0u);
@@ -64,6 +64,8 @@ class EarClipper {
 };
 
 bool EarClipper::bridge(std::span<const uint32_t> hole) {
+    work_ += 4 * ring_.size();
+    if (work_ > kBudget) return false;
     size_t rightmost = 0;
     for (size_t i = 1; i < hole.size(); ++i)
         if (points_[hole[i]].x > points_[hole[rightmost]].x) rightmost = i;

@@ -1,8 +1,14 @@
 // collada/validate.h: everything that can be said about a document.
 #pragma once
 
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
 #include "collada/document.h"
 #include "collada/scene.h"
+#include "runtime/base/file_trees.h"
 
 namespace kinora::collada {
 
@@ -11,9 +17,22 @@ namespace kinora::collada {
 // departure from the schema is an error. V1_4_1, V1_5: as Default, by that version's rules.
 enum class Profile : uint8_t { Default, Lenient, Strict, V1_4_1, V1_5 };
 
+// Elements of another maker's namespace, the outermost of each, and the schema for them.
+struct ForeignElements {
+    const Document& document;
+    std::string_view name_space;
+    const std::string& schema;  // a file that may be read
+    std::span<const Element* const> elements;
+    const FileTrees& files;  // where what the schema includes may lie
+    Diagnostics& diag;
+};
+
 struct ValidateOptions {
     Profile profile = Profile::Default;
     ExtractOptions extract;
+    // Holds elements against their schema, reporting SCHEMA_FOREIGN; "" or why it could not. Empty:
+    // such elements are not checked, which is said.
+    std::function<std::string(const ForeignElements&)> check_foreign;
 };
 
 // Reports, sorted by place and each once: the element table's findings, those of reading every

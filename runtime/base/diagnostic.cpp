@@ -91,9 +91,10 @@ std::string_view SourceFiles::line_text(FileId file, int line) const {
     const File& f = at(file);
     if (line < 1 || size_t(line) > f.line_starts.size()) return {};
     uint32_t begin = f.line_starts[size_t(line) - 1];
-    size_t end = f.text.find('\n', begin);
-    std::string_view text = std::string_view(f.text).substr(
-        begin, end == std::string::npos ? std::string_view::npos : end - begin);
+    // Not looked for: thousands of findings may stand in one long line.
+    bool last = size_t(line) == f.line_starts.size();
+    size_t end = last ? f.text.size() : f.line_starts[size_t(line)] - 1;
+    std::string_view text = std::string_view(f.text).substr(begin, end - begin);
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
     return text;
 }
@@ -238,11 +239,18 @@ std::string format_finding(const Finding& finding, const SourceFiles& files) {
 
 namespace {
 
-// Letters inserted, left out, changed, or swapped with their neighbour.
-size_t edit_distance(std::string_view a, std::string_view b) {
+// Letters inserted, left out, changed, or swapped with their neighbour; `most` or more where there
+// are that many.
+size_t edit_distance(std::string_view a, std::string_view b, size_t most) {
+    size_t apart = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
+    if (apart >= most) return most;
     std::vector<size_t> last(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    size_t least_before = 0;
     for (size_t i = 1; i <= a.size(); ++i) {
+        size_t least = *std::min_element(row.begin(), row.end());
+        if (std::min(least, least_before) >= most) return most;  // it never falls again
+        least_before = least;
         next[0] = i;
         for (size_t j = 1; j <= b.size(); ++j) {
             next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] != b[j - 1])});
@@ -261,8 +269,12 @@ std::string_view nearest_name(std::string_view word,
                               const std::vector<std::string_view>& candidates) {
     std::string_view best;
     size_t best_distance = std::max<size_t>(1, word.size() / 3) + 1;
+    constexpr size_t kMostCandidates = 1000, kLongestWord = 100;
+    if (word.size() > kLongestWord) return {};
+    size_t tried = 0;
     for (std::string_view candidate : candidates) {
-        size_t distance = edit_distance(word, candidate);
+        if (++tried > kMostCandidates) break;
+        size_t distance = edit_distance(word, candidate, best_distance);
         if (distance < best_distance) {
             best_distance = distance;
             best = candidate;

@@ -1,0 +1,44 @@
+// runtime/base/file_trees.h: the folders whose files a scene may name. Links of the file system
+// count as what they lead to: a path lies where its real path does.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinora {
+
+// Absolute, with links followed as far as the path exists. The path itself where that fails.
+std::string real_path(const std::string& path);
+
+// Default-made: every file, and relative names mean the current folder.
+class FileTrees {
+  public:
+    FileTrees() = default;
+    // The trees below these folders ("" is the current one) and nothing else.
+    explicit FileTrees(const std::vector<std::string>& folders);
+
+    bool limited() const { return limited_; }
+    void add(const std::string& folder);  // no-op where there is no limit
+    // The path, existing or not, lies in one of the trees.
+    bool contains(const std::string& path) const;
+
+    // What a name (a plain path, no URI) leads to.
+    struct Found {
+        std::string path;      // to be opened, there or not
+        bool outside = false;  // it leads out of the trees: not to be opened
+    };
+    // The name as it is (from the current folder) where such a file lies in a tree, else the file
+    // of that name in the first folder that has it. What is nowhere, or new, belongs to the current
+    // folder where that lies in a tree, else to the first one.
+    Found find(std::string_view name) const;
+
+    bool operator==(const FileTrees&) const = default;
+
+  private:
+    bool limited_ = false;
+    std::vector<std::string> folders_;  // as given; "" or ending in '/'
+    std::vector<std::string> real_;     // of each
+};
+
+}  // namespace kinora
