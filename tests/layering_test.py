@@ -21,6 +21,7 @@ PACKAGES = {
     r"asmjit/": r"jit/(x64|a64)/.*|jit/compiler\.cpp|jit/code_memory\.(h|cpp)",
     r"embree3/": r"raytrace/embree(_p\.h|\.cpp)|tests/bench/.*",
     r"expat\.h": r"collada/.*|tests/.*",
+    r"libxml/": r"runtime/programs/foreign_schema\.cpp",
     r"OpenImageIO/": r"runtime/images_module/.*|tests/.*",
     r"CLI/": r"runtime/programs/.*",
     r"tiny_gltf": r"runtime/(import_gltf_file\.h|tinygltf\.cpp)",

@@ -10,6 +10,7 @@
 #include "collada/profile.h"
 #include "runtime/profile_rsl/check.h"
 #include "runtime/programs/exit_codes.h"
+#include "runtime/programs/foreign_schema.h"
 #include "runtime/programs/kinora_validate.h"
 #include "runtime/programs/validate_rules.h"
 
@@ -68,6 +69,7 @@ void check(FileResult& result, std::optional<collada::Document> document,
         collada::judge_by_profile(*document, settings.validate.profile, diagnostics);
         collada::ValidateOptions options = settings.validate;
         options.extract.folder = file.folder;
+        options.check_foreign = check_foreign;
         options.extract.scene_id = file.scene_id;
         auto scene = collada::validate(*document, diagnostics, options);
         if (scene) {

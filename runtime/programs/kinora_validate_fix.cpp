@@ -41,7 +41,8 @@ std::string fixes_text(const collada::FixResult& fixed) {
     std::string text;
     for (const collada::FixCount& fix : fixed.fixes)
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", fix.count, fix.info->code);
-    return text.empty() ? "nothing to repair" : "repaired " + text;
+    if (text.empty()) return "nothing to repair";
+    return "repaired " + text + (fixed.recoded.empty() ? "" : "; it is UTF-8 now");
 }
 
 // Repairs one file and writes what was asked for to `out` or the file itself.
@@ -53,22 +54,28 @@ class FileFix {
         name_ = file == "-" ? "<stdin>" : file;
         // What cannot be repaired is reported as without --fix.
         std::optional<std::string> bytes = read_bytes(file);
-        if (!bytes || bytes->empty() || collada::is_archive_bytes(*bytes))
+        if (!bytes || bytes->empty())
             return report(validate_file(file, settings_, bytes.value_or("")));
+        if (collada::is_archive_bytes(*bytes)) {
+            say("an archive is not repaired: unpack it, repair its .dae and pack it again");
+            return std::max(int(kExitSomeFailed), report(validate_file(file, settings_, *bytes)));
+        }
         bool marked = bytes->starts_with(kByteOrderMark);
         std::string text = marked ? bytes->substr(kByteOrderMark.size()) : *bytes;
         collada::FixResult fixed =
             collada::fix_text(name_, text, settings_.validate, is_wanted, &settings_);
         std::string whole = (marked ? std::string(kByteOrderMark) : std::string()) + fixed.text;
-        if (int code = write(file, *bytes, whole)) return code;
+        if (int code = write(file, *bytes, whole, fixed.recoded)) return code;
         say(fixes_text(fixed));
         return report(validate_text(name_, std::move(fixed.text), settings_));
     }
 
   private:
-    int write(const std::string& file, const std::string& before, const std::string& after) {
+    // `recoded`: what `before` says in UTF-8, if it is none.
+    int write(const std::string& file, const std::string& before, const std::string& after,
+              const std::string& recoded) {
         if (settings_.diff) {
-            out_.write(unified_diff(before, after, name_, name_));
+            out_.write(unified_diff(recoded.empty() ? before : recoded, after, name_, name_));
         } else if (!settings_.in_place) {
             out_.write(after);
         } else if (before != after) {

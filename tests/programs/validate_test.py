@@ -205,6 +205,111 @@ REPAIRED = {"SCHEMA_ORDER", "SCHEMA_EMPTY_LIBRARY", "SRC_COUNT", "SRC_ACCESSOR_C
             "FILE_HOST", "FILE_SPACE", "FILE_CASE", "FILE_FALLBACK"}
 
 
+SCHEMA = """<?xml version="1.0"?>
+<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" targetNamespace="urn:light" xmlns="urn:light"
+           elementFormDefault="qualified">
+  <xs:include schemaLocation="types.xsd"/>
+  <xs:element name="lamp"><xs:complexType><xs:sequence>
+    <xs:element name="watt" type="watts" maxOccurs="2"/>
+  </xs:sequence><xs:attribute name="on" type="xs:boolean" use="required"/></xs:complexType></xs:element>
+</xs:schema>
+"""
+TYPES = """<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" targetNamespace="urn:light" xmlns="urn:light">
+  <xs:simpleType name="watts"><xs:restriction base="xs:integer"><xs:maxInclusive value="100"/></xs:restriction>
+  </xs:simpleType>
+</xs:schema>
+"""
+
+
+class Foreign(ProgramTest):
+    """Elements of other makers by their own schema."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("scene/light.xsd", SCHEMA)
+        self.write("scene/types.xsd", TYPES)
+
+    def scene(self, lamp, schema="light.xsd", name="scene/s.dae", xmlns="xmlns:l='urn:light'"):
+        return self.write(name, EMPTY.replace('version="1.4.1"', f"""version="1.4.1" {xmlns}
+ xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
+ xsi:schemaLocation="http://www.collada.org/2005/11/COLLADASchema http://example.org/c.xsd urn:light {schema}\"""")
+            .replace('<node id="n"/>', f"""<node id="n"><extra><technique profile="LIGHTS">
+{lamp}
+</technique></extra></node>"""))
+
+    def foreign(self, *words):
+        return [(f["line"], f["column"], f["severity"], f["message"]) for f in findings(*words)
+                if f["code"] == "SCHEMA_FOREIGN"]
+
+    def test_what_fits_says_nothing(self):
+        self.assertEqual(self.foreign(self.scene('<l:lamp on="true"><l:watt>60</l:watt></l:lamp>')), [])
+        own = '<lamp xmlns="urn:light" on="1"><watt>1</watt><watt>2</watt></lamp>'
+        self.assertEqual(self.foreign(self.scene(own, xmlns="")), [])
+
+    def test_what_does_not_fit_is_said_at_its_place(self):
+        scene = self.scene('<l:lamp>\n  <l:watt>60</l:watt>\n  <l:bulb/></l:lamp><l:lamp on="maybe"><l:watt>1000</l:watt></l:lamp>')
+        lines = scene.read_text().split("\n")
+        lamp = next(i for i, row in enumerate(lines, 1) if row == "<l:lamp>")
+        found = self.foreign(scene)
+        self.assertEqual({severity for _, _, severity, _ in found}, {"warning"})
+        places = {(line - lamp, column) for line, column, _, _ in found}
+        self.assertIn((0, 1), places)  # no attribute "on"
+        self.assertIn((2, 3), places)  # <bulb>
+        second = lines[lamp + 1].index("<l:lamp on") + 1
+        self.assertIn((2, second + len('<l:lamp on="')), places)  # "maybe"
+        self.assertIn((2, lines[lamp + 1].index("<l:watt>1000") + 1), places)
+        said = " ".join(message for *_, message in found)
+        for word in ("bulb", "'on' is required", "maybe", "1000"):
+            self.assertIn(word, said)
+        self.expect(validate(scene), 0, "[SCHEMA_FOREIGN]")
+        self.expect(validate("--fail-on", "warning", scene), 1)
+
+    def test_a_schema_that_is_not_here_is_said_to_be_unread(self):
+        lamp = "<l:lamp/>"
+        for schema, why in (("http://example.org/light.xsd", "no local file"),
+                            ("HTTPS://example.org/light.xsd", "no local file"),
+                            ("none.xsd", "there is no file"),
+                            ("../other/light.xsd", "outside the scene's folder"),
+                            ("%2e%2e/other/light.xsd", "outside the scene's folder"),
+                            ("File:///etc/passwd", "outside the scene's folder")):
+            self.write("other/light.xsd", SCHEMA)
+            self.write("other/types.xsd", TYPES)
+            found = self.foreign(self.scene(lamp, schema))
+            self.assertEqual(len(found), 1, (schema, found))
+            self.assertEqual(found[0][2], "info")
+            self.assertIn("not checked", found[0][3])
+            self.assertIn(why, found[0][3])
+        allowed = self.foreign("--allow-external", self.folder / "other", self.scene(lamp, "../other/light.xsd"))
+        self.assertIn("'on' is required", " ".join(message for *_, message in allowed))
+
+    def test_a_schema_reads_nothing_outside_either(self):
+        self.write("other/types.xsd", TYPES)
+        secret = self.write("other/secret.txt", "the-secret-word")
+        wrong = {
+            "include.xsd": SCHEMA.replace("types.xsd", "../other/types.xsd"),
+            "remote.xsd": SCHEMA.replace("types.xsd", "http://127.0.0.1:9/types.xsd"),
+            "entity.xsd": SCHEMA.replace('<?xml version="1.0"?>', '<!DOCTYPE x [<!ENTITY e SYSTEM '
+                                         f'"file://{secret}">]>').replace('name="lamp"', 'name="&e;"'),
+            "broken.xsd": SCHEMA[:200],
+        }
+        os.symlink(self.folder / "other/types.xsd", self.folder / "scene/link.xsd")
+        wrong["symlink.xsd"] = SCHEMA.replace("types.xsd", "link.xsd")
+        for name, text in wrong.items():
+            self.write("scene/" + name, text)
+            result = validate("-v", self.scene('<l:lamp on="1"><l:watt>1</l:watt></l:lamp>', name))
+            self.assertIn(result.code, (0, 1))
+            self.assertIn("SCHEMA_FOREIGN", result.out, name)
+            self.assertIn("cannot be used", result.out, name)
+            self.assertNotIn("the-secret-word", result.out + result.err)
+
+    def test_entities_of_a_schema_do_not_multiply(self):
+        bomb = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 10))
+        self.write("scene/bomb.xsd", SCHEMA.replace(
+            '<?xml version="1.0"?>', f'<!DOCTYPE x [<!ENTITY e0 "boom">{bomb}]>').replace('name="watt"', 'name="&e9;"'))
+        result = validate("-v", self.scene("<l:lamp/>", "bomb.xsd"))
+        self.assertIn("cannot be used", result.out)
+
+
 class Fix(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -258,6 +363,70 @@ class Fix(ProgramTest):
         validate("--fix", "--in-place", self.scene)
         self.assertEqual(self.scene.read_text(), text)
         self.assertEqual(validate("--fix", "--diff", self.scene).out, "")
+
+    def image(self, path, name="image.dae"):
+        return self.write(name, EMPTY.replace(
+            "<library_visual_scenes>", f'<library_images><image id="i"><init_from>{path}</init_from>'
+            "</image></library_images><library_visual_scenes>"))
+
+    def test_the_case_of_a_file_s_name_is_made_its_own(self):
+        scene = self.image("Stone.PNG")
+        self.assertIn("FILE_CASE", codes(scene))
+        self.expect(validate("--fix", "--only", "FILE_CASE", "--in-place", scene), 0, "1 FILE_CASE")
+        self.assertIn("<init_from>stone.png<", scene.read_text())
+        self.assertNotIn("FILE_CASE", codes(scene))
+
+    def test_a_space_in_a_path_is_encoded(self):
+        scene = self.image("tex/my wood.png")
+        self.assertIn("FILE_SPACE", codes(scene))
+        self.expect(validate("--fix", "--only", "FILE_SPACE", "--in-place", scene), 0, "1 FILE_SPACE")
+        self.assertIn("<init_from>tex/my%20wood.png<", scene.read_text())
+        self.assertNotIn("FILE_SPACE", codes(scene))
+        both = self.image("Tex/My Wood.png", "both.dae")
+        (self.folder / "My wood.png").write_bytes(b"\x89PNG\r\n\x1a\n" + b"\0" * 30)
+        validate("--fix", "--in-place", both)
+        self.assertIn("My%20wood.png<", both.read_text())
+        self.assertFalse({"FILE_CASE", "FILE_SPACE", "FILE_MISSING"} & set(codes(both)))
+
+    def test_other_encodings_become_utf8_with_their_repairs(self):
+        text = BAD.replace("<!-- kept -->", "<!-- gr\u00fc\u00dfe -->")
+        self.assertNotEqual(text, BAD)
+        head = text[:text.index("?>") + 2]
+        self.assertTrue(head.startswith("<?xml"))
+        fixed = None
+        for name, encoding, declared in (("utf16.dae", "utf-16", "UTF-16"), ("be.dae", "utf-16-be", "UTF-16"),
+                                         ("latin.dae", "latin-1", "ISO-8859-1"), ("liar.dae", "latin-1", "utf-8")):
+            path = self.folder / name
+            body = f"<?xml version='1.0' encoding='{declared}'?>" + text[len(head):]
+            path.write_bytes((b"\xfe\xff" if name == "be.dae" else b"") + body.encode(encoding))
+            before = path.read_bytes()
+            diff = validate("--fix", "--diff", path).out
+            self.assertEqual(path.read_bytes(), before)
+            self.assertIn("-    <float_array id=\"pa\" count=\"8\">0 0 0  1,5 0 0  0 1 0</float_array>", diff)
+            self.expect(validate("--fix", "--in-place", path), 0, "repaired", "it is UTF-8 now")
+            after = path.read_bytes().decode("utf-8")
+            self.assertIn("encoding='utf-8'", after)
+            self.assertIn("gr\u00fc\u00dfe", after)
+            self.assertIn("1.5 0 0", after)
+            self.assertEqual(set(codes(path)) & (REPAIRED | {"XML_RECODED", "XML_ENCODING"}), set())
+            self.assertEqual(fixed or after, after)
+            fixed = after
+        whole = self.folder / "whole.dae"
+        whole.write_bytes(EMPTY.replace("utf-8", "UTF-16").encode("utf-16"))
+        before = whole.read_bytes()
+        self.expect(validate("--fix", "--in-place", whole), 0, "nothing to repair")
+        self.assertEqual(whole.read_bytes(), before)
+
+    def test_an_archive_is_not_repaired_and_that_is_said(self):
+        path = self.folder / "a.zae"
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("bad.dae", BAD)
+        before = path.read_bytes()
+        for words in (["--in-place"], ["--diff"], []):
+            result = validate("--fix", *words, path)
+            self.expect(result, 1, "an archive is not repaired")
+            self.assertEqual(result.out, "")
+        self.assertEqual(path.read_bytes(), before)
 
     def test_what_cannot_be_repaired_is_reported(self):
         broken = self.write("broken.dae", BAD[:-12])
