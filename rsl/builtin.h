@@ -38,6 +38,7 @@ enum Effects : uint32_t {
     kShadows = 1 << 7,        // its presence in a light switches automatic shadows off (decision 5)
     kUniformOnly = 1 << 8,    // all inputs must be uniform
     kChannelPairs = 1 << 9,   // pairs name channels and the variables they are put in (rsl/pairs.h)
+    kNamesFile = 1 << 10,     // the first argument, if a string, is a file
 };
 
 // Shader kinds that may call the function.

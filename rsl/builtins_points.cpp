@@ -109,7 +109,7 @@ namespace {
 
 namespace lower = lower_points;
 
-constexpr uint32_t kLooksUp = kService | kVaryingResult;
+constexpr uint32_t kLooksUp = kService | kVaryingResult | kNamesFile;
 
 const Builtin kRows[] = {
     {"texture3d", "f=spn~", lower::texture3d, KINORA_RSL_REF(ref::texture3d),
@@ -118,7 +118,7 @@ const Builtin kRows[] = {
      "file has all channels.",
      kSurface | kLight | kDisplacement | kVolume},
     {"bake3d", "f=spn~ f=sspn~", lower::bake3d, KINORA_RSL_REF(ref::bake3d),
-     kService | kPrints | kVaryingResult, 0,
+     kService | kPrints | kVaryingResult | kNamesFile, 0,
      "Puts a point into a point file, written after the frame: bake3d(file, channels, P, N, "
      "\"channel\", value, ...).",
      kSurface | kLight | kDisplacement},

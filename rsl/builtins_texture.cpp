@@ -315,31 +315,33 @@ constexpr const char* kAnyVariable =
 
 const Builtin kRows[] = {
     // Two rows: only the forms without coordinates read s and t.
-    {"texture", "f=s~ c=s~", lower::texture, KINORA_RSL_REF(ref::texture), kService | kDerivative,
-     0,
+    {"texture", "f=s~ c=s~", lower::texture, KINORA_RSL_REF(ref::texture),
+     kService | kNamesFile | kDerivative, 0,
      "Filtered texture at the surface's s, t; texture(name[channel]); \"blur\" \"sblur\" "
      "\"tblur\" \"width\" \"swidth\" \"twidth\" \"filter\" \"fill\".",
      kAnyShader, "s t"},
     {"texture", "f=sff~ c=sff~ f=sffffffff~ c=sffffffff~", lower::texture,
-     KINORA_RSL_REF(ref::texture), kService | kDerivative, 0,
+     KINORA_RSL_REF(ref::texture), kService | kNamesFile | kDerivative, 0,
      "Filtered texture at s, t or over a quadrilateral; texture(name[channel], s, t)."},
     {"environment", "f=sv~ c=sv~ f=svvvv~ c=svvvv~", lower::environment,
-     KINORA_RSL_REF(ref::environment), kService | kDerivative, 0,
+     KINORA_RSL_REF(ref::environment), kService | kNamesFile | kDerivative, 0,
      "Environment map (latitude-longitude or six faces) in a direction, or by a ray from P where "
      "the map is \"raytrace\"; \"blur\" \"width\" \"fill\"."},
     {"shadow", "f=sp~ c=sp~ f=spppp~ c=spppp~", lower::shadow, KINORA_RSL_REF(ref::shadow),
-     kService | kShadows | kVaryingResult, 0,
+     kService | kNamesFile | kShadows | kVaryingResult, 0,
      "Share of shadow at a point, by a depth map, or by rays to the light where the map is "
      "\"raytrace\"; \"bias\" \"blur\" \"samples\" \"width\".",
      kSurface | kLight},
-    {"bump", "n=snvv~ n=snvvff~", lower::bump, KINORA_RSL_REF(ref::bump), kService | kDerivative, 0,
+    {"bump", "n=snvv~ n=snvvff~", lower::bump, KINORA_RSL_REF(ref::bump),
+     kService | kNamesFile | kDerivative, 0,
      "N bent by a map of heights: bump(name, N, dPds, dPdt [, s, t]).", kSurface | kDisplacement,
      "s t"},
-    {"textureinfo", kAnyVariable, lower::textureinfo, KINORA_RSL_REF(ref::textureinfo), kService, 0,
+    {"textureinfo", kAnyVariable, lower::textureinfo, KINORA_RSL_REF(ref::textureinfo),
+     kService | kNamesFile, 0,
      "A fact about a texture, 1 if known: resolution channels type exists viewingmatrix "
      "projectionmatrix."},
     {"bake", "x=sfff x=sffc x=sffp x=sffv x=sffn", lower::bake, KINORA_RSL_REF(ref::bake),
-     kService | kPrints | kDerivative, 0,
+     kService | kNamesFile | kPrints | kDerivative, 0,
      "Puts a value at s, t into a point file, as channel \"value\" of the world's (s, t, 0).",
      kSurface | kDisplacement},
 };

@@ -149,6 +149,7 @@ class Checker {
     bool fits_builtin(const CallExpr& e, BaseType wanted) const;
     void bind_function(CallExpr& e, Function& f);
     void bind_builtin(CallExpr& e, const Overload& overload);
+    void check_file_name(const CallExpr& e);
     void bind_argument(CallExpr& e, size_t index, Type type, bool output);
     int function_cost(const CallExpr& e, const Function& f, BaseType wanted) const;
     int builtin_cost(const CallExpr& e, const Signature& s, BaseType wanted) const;

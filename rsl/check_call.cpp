@@ -231,8 +231,16 @@ void Checker::bind_builtin(CallExpr& e, const Overload& overload) {
         const Signature::Argument& a = i < fixed ? s.arguments[i] : s.repeated;
         bind_argument(e, i, a.type, a.output);
     }
+    if (overload.builtin->effects & kNamesFile) check_file_name(e);
     if (!overload.builtin->lower && options_.require_implemented)
         report(Code::RSL_NOT_SUPPORTED, e.place, fmt::format("'{}'", e.name));
+}
+
+// A file that the shader will not be let to read.
+void Checker::check_file_name(const CallExpr& e) {
+    const auto* name = e.args.empty() ? nullptr : as_if<StringExpr>(e.args[0]);
+    if (name && options_.files.find(name->value).outside)
+        report(Code::RSL_FILE_OUTSIDE, name->place, name->value);
 }
 
 // Brings an argument to the parameter's type; base Invalid takes any.

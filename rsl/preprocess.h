@@ -19,8 +19,9 @@ namespace kinora::rsl {
 inline constexpr size_t kMostTokens = 1'000'000;  // made by expansion, in one compile
 inline constexpr size_t kMostIncludeDepth = 64;
 inline constexpr size_t kMostIncludes = 1000;
-inline constexpr int kMostMacroNesting = 200;      // of macro calls inside arguments
-inline constexpr int kMostConditionNesting = 200;  // of parentheses in #if
+inline constexpr uintmax_t kMostIncludeBytes = 64 << 20;  // of one file
+inline constexpr int kMostMacroNesting = 200;             // of macro calls inside arguments
+inline constexpr int kMostConditionNesting = 200;         // of parentheses in #if
 
 struct Macro {
     std::string_view name;

@@ -170,6 +170,7 @@ std::filesystem::path in_any_case(const std::filesystem::path& path) {
 bool read_whole_file(const std::filesystem::path& path, std::string& text) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return false;
+    if (std::filesystem::file_size(path, error) > kMostIncludeBytes || error) return false;
     std::ifstream in(path, std::ios::binary);
     text.assign(std::istreambuf_iterator<char>(in), {});
     return bool(in) || in.eof();
@@ -188,9 +189,14 @@ bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) 
     if (quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
     for (const std::string& directory : options_.include_directories) places.push_back(directory);
     if (!quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
+    bool outside = false;
     for (const std::filesystem::path& place : places) {
         std::filesystem::path path = in_any_case(place / file);
         std::string text;
+        if (!options_.files.contains(path.string())) {
+            outside = true;
+            continue;
+        }
         if (!read_whole_file(path, text)) continue;
         std::string key = path.lexically_normal().string();
         if (std::find(once_.begin(), once_.end(), key) != once_.end()) return true;
@@ -205,7 +211,7 @@ bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) 
         enter_text(text, maps_.back(), file);
         return true;
     }
-    reporter_.report(Code::RSL_INCLUDE_NOT_FOUND, at, file);
+    reporter_.report(outside ? Code::RSL_INCLUDE_OUTSIDE : Code::RSL_INCLUDE_NOT_FOUND, at, file);
     return false;
 }
 

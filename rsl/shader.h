@@ -11,6 +11,7 @@
 #include "rsl/ast.h"
 #include "rsl/globals.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/base/file_trees.h"
 
 namespace kinora::rsl {
 
@@ -28,6 +29,9 @@ struct CompileOptions {
     std::vector<std::string> undefines;  // -U NAME
     int max_errors = 20;                 // then one "too many errors" and silence
     bool require_implemented = true;     // a built-in whose row has no lowering is an error
+    // What the source may read. #include of a file elsewhere is an error, a literal that names a
+    // texture or point file elsewhere a warning (whoever runs the shader must refuse it).
+    FileTrees files;
 };
 
 // A value known without running. numbers: component_count x elements; strings for String types.

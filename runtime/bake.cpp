@@ -102,7 +102,7 @@ void look_up_points(const KernelHost& host, const jit::ServiceCall& call) {
         for (int k = 0; k < rsl::kPointFloats; ++k) call.results[(1 + k) * kLanes + lane] = 0;
         if (!(call.mask >> lane & 1)) continue;
         PointStore::Lookup found =
-            PointStore::process().find(rows.integer(0, lane), rows.integer(1, lane));
+            host.scene->points->find(rows.integer(0, lane), rows.integer(1, lane));
         if (!found.cloud) continue;
         Mean mean(*found.cloud, to_world.place(rows.triple(2, lane)),
                   to_world.direction(rows.triple(5, lane)));
@@ -132,7 +132,7 @@ void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
             auto kind = rsl::PhotonKind(rows.integer(1, lane));
             bool scattered = kind == rsl::PhotonKind::Subsurface;
             PointStore::Lookup found =
-                PointStore::process().find(file, scattered ? kDiffusion : kPower);
+                host.scene->points->find(file, scattered ? kDiffusion : kPower);
             vec3 P = to_world.place(rows.triple(3, lane));
             vec3 N = to_world.direction(rows.triple(6, lane));
             if (found.cloud && scattered) {
@@ -232,14 +232,17 @@ void Shading::flush_bakes(bool whole, Diagnostics& diagnostics) {
     for (size_t begin = 0; whole && begin < all.size();) {
         size_t end = begin + 1;
         while (end < all.size() && all[end]->file == all[begin]->file) ++end;
-        const std::string& path = rsl::interned(all[begin]->file);
-        std::string error = write_point_file(path, joined({all.data() + begin, end - begin}));
+        const std::string& name = rsl::interned(all[begin]->file);
+        auto [path, outside] = scene_.description->writable.find(name);
+        std::string error =
+            outside ? "it lies outside the scene's folder (--allow-external DIR lets it be written)"
+                    : write_point_file(path, joined({all.data() + begin, end - begin}));
         if (!error.empty()) diagnostics.report(Code::FRAME_UNWRITABLE, Location{}, path, error);
-        PointStore::process().forget(path);
+        scene_.points->forget(name);
         begin = end;
     }
     for (auto& own : threads_) own->bakes.clear();
-    for (auto& [path, error] : PointStore::process().take_errors())
+    for (auto& [path, error] : scene_.points->take_errors())
         if (reported_points_.insert(path).second)
             diagnostics.report(Code::POINT_FILE_UNREADABLE, Location{}, path, error);
 }

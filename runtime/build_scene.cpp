@@ -12,8 +12,10 @@
 #include "runtime/defaults.h"
 #include "runtime/deform.h"
 #include "runtime/findings.h"
+#include "runtime/point_store.h"
 #include "runtime/shading.h"
 #include "runtime/texture.h"
+#include "runtime/texture_store.h"
 #include "runtime/transforms.h"
 #include "runtime/vertex_work.h"
 
@@ -58,6 +60,8 @@ SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
     scene_->description = std::move(description);
     scene_->options = options;
     scene_->accel = raytrace::Accel(options.accel);
+    scene_->textures = std::make_shared<TextureStore>(description_.readable);
+    scene_->points = std::make_shared<PointStore>(description_.readable);
 }
 
 std::unique_ptr<Scene> SceneBuilder::run() {
@@ -70,7 +74,7 @@ std::unique_ptr<Scene> SceneBuilder::run() {
     if (!choose_camera()) return nullptr;
     place_lights();
     if (!make_looks()) return nullptr;
-    preload_textures(description_);
+    preload_textures(description_, *scene_->textures);
     displace();
     finish_rows();
     scene_->shading = std::make_unique<Shading>(*scene_);

@@ -11,6 +11,10 @@
 
 namespace kinora {
 
+namespace {
+constexpr size_t kMostSurfaces = 1'000'000;
+}  // namespace
+
 // Those that are there.
 std::span<const MeshUse> SceneBuilder::meshes_of(const Node& node) const {
     if (node.hidden || !node.chosen) return {};
@@ -33,6 +37,10 @@ void SceneBuilder::place_meshes() {
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshUse& use : meshes_of(scene.nodes[n])) {
             if (scene.meshes[use.mesh].groups.empty()) continue;
+            if (scene.surfaces.size() + scene.meshes[use.mesh].groups.size() > kMostSurfaces) {
+                diagnostics_.report(Code::SCENE_LIMIT, Location{}, kMostSurfaces);
+                return;
+            }
             bool repeated = uses[use.mesh] > 1;
             place_mesh(use, n, repeated);
         }
@@ -160,10 +168,10 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         std::vector<RestJoint> rest;
         for (size_t j = 0; j < joints; ++j)
             if (shape.joint_nodes[j] != kNone)
-                rest.push_back({scene.nodes[shape.joint_nodes[j]].world,
-                                definition.inverse_bind[j]});
-        SkinSpace space = definition.in_world ? SkinSpace::World
-                                              : skin_space(definition.bind_shape, world, rest);
+                rest.push_back(
+                    {scene.nodes[shape.joint_nodes[j]].world, definition.inverse_bind[j]});
+        SkinSpace space =
+            definition.in_world ? SkinSpace::World : skin_space(definition.bind_shape, world, rest);
         if (space != SkinSpace::World) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
         if (space == SkinSpace::BindsNode) shape.skeleton.bind_shape = world;
         shape.in_world = space != SkinSpace::Node;

@@ -11,6 +11,7 @@
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
 #include "runtime/image_io.h"
+#include "runtime/memory_file.h"
 #include "runtime/texture_image.h"
 #include "runtime/texture_name.h"
 
@@ -78,10 +79,17 @@ constexpr const char* kLightShaders[] = {"collada_ambient", "collada_directional
 uint32_t GltfExport::image(const std::string& path) {
     auto [found, fresh] = images_.try_emplace(path, kNone);
     if (!fresh) return found->second;
-    std::string bytes = read_bytes(path), error, loss;
+    FileTrees::Found file =
+        is_memory_file(path) ? FileTrees::Found{path} : description_.readable.find(path);
+    std::string bytes, error, loss;
+    if (file.outside) {
+        lost(fmt::format("image '{}'", path), "it lies outside the scene's folder");
+        return kNone;
+    }
+    bytes = read_bytes(file.path);
     const char* type = mime_type(bytes);
     if (!type) {
-        bytes = as_png(path, error, loss);
+        bytes = as_png(file.path, error, loss);
         type = "image/png";
     }
     if (bytes.empty()) {

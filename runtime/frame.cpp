@@ -9,7 +9,7 @@
 #include "runtime/base/stats.h"
 #include "runtime/deform.h"
 #include "runtime/findings.h"
-#include "runtime/texture.h"
+#include "runtime/texture_store.h"
 #include "runtime/transforms.h"
 #include "runtime/vertex_work.h"
 
@@ -71,8 +71,8 @@ raytrace::CameraStatus place_camera(Scene& scene, int width, int height) {
         optics.znear *= scale;
         optics.zfar *= scale;
     }
-    raytrace::CameraStatus status = raytrace::make_camera(optics, world, width, height,
-                                                          scene.origin, scene.size, scene.view);
+    raytrace::CameraStatus status =
+        raytrace::make_camera(optics, world, width, height, scene.origin, scene.size, scene.view);
     // What a file's camera says it sees from and to; a range that had to be repaired says nothing.
     bool both = camera.znear.present() && camera.zfar.present();
     bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;
@@ -188,7 +188,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
                                      settings.integrator, scene.scratch, counters, progress);
     if (whole && scene.imager != kNone) scene.shading->run_imager(film);
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
-    report_textures(diagnostics);
+    scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();
     stats.rays = counters.trace.rays + counters.trace.shadow_rays + shading.trace.rays +

@@ -32,6 +32,14 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     auto files = std::make_shared<std::vector<std::shared_ptr<const void>>>(data->files);
     files->push_back(file->keep);
     description.files = std::move(files);
+    bool archive = !file->folder.empty();
+    limit_files(description, archive ? file->folder : document->directory(), options);
+    // Images that the document holds were unpacked into folders of ours.
+    for (const collada::Image& image : data->images)
+        if (!image.path.empty() && !description.readable.contains(image.path))
+            description.readable.add(image.path.substr(0, image.path.rfind('/') + 1));
+    // An archive is not written to: its folder is ours and dies with the scene.
+    if (archive) description.writable = FileTrees(options.allow_external);
     ColladaImport(*data, options, diagnostics, description).run();
     return description;
 }
@@ -94,8 +102,11 @@ void ColladaImport::allocate_values() {
     }
     for (const collada::Material& material : data_.materials) {
         auto& setparams = setparam_values_.emplace_back();
-        for (const collada::SetParam& set : material.setparams)
+        auto& of_param = setparam_of_.emplace_back();  // the first of several wins
+        for (const collada::SetParam& set : material.setparams) {
+            of_param.try_emplace(set.param, uint32_t(setparams.size()));
             setparams.push_back(append(set.value.numbers.data(), set.value.numbers.size()));
+        }
     }
     for (const collada::Morph& morph : data_.morphs)
         morph_values_.push_back(append(morph.weights.data(), morph.weights.size()));

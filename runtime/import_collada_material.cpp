@@ -19,23 +19,24 @@ const EffectShaders& ColladaImport::compiled(const collada::Effect& effect) {
     if (!is_new) return place->second;
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
+    options.files = out_.readable;
     place->second = compile_effect(effect, options, diagnostics_);
     return place->second;
 }
 
 ValueSlot ColladaImport::param_slot(uint32_t material, uint32_t effect, uint32_t param) const {
     const auto& setparams = data_.materials[material].setparams;
-    for (size_t s = 0; s < setparams.size(); ++s)
-        if (setparams[s].param == param)
-            return {setparam_values_[material][s], uint32_t(setparams[s].value.numbers.size())};
+    if (auto set = setparam_of_[material].find(param); set != setparam_of_[material].end())
+        return {setparam_values_[material][set->second],
+                uint32_t(setparams[set->second].value.numbers.size())};
     return {param_values_[effect][param],
             uint32_t(data_.effects[effect].params[param].value.numbers.size())};
 }
 
 const collada::ParamValue& ColladaImport::param_value(uint32_t material, uint32_t effect,
                                                       uint32_t param) const {
-    for (const collada::SetParam& set : data_.materials[material].setparams)
-        if (set.param == param) return set.value;
+    if (auto set = setparam_of_[material].find(param); set != setparam_of_[material].end())
+        return data_.materials[material].setparams[set->second].value;
     return data_.effects[effect].params[param].value;
 }
 
@@ -88,6 +89,7 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
                                : ValueSlot{append(value.numbers.data(), value.numbers.size()),
                                            uint32_t(value.numbers.size())};
         }
+        check_named_files(value, out_.readable, bind.where, diagnostics_);
         if (!takes(*parameter, value)) {
             diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
                                 rsl::type_name(parameter->type), value_text(value));

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "collada/scene.h"
@@ -65,6 +66,7 @@ class ColladaImport {
     Diagnostics& diagnostics_;
     SceneDescription& out_;
 
+    std::vector<std::unordered_map<uint32_t, uint32_t>> setparam_of_;  // by material: by param
     // Offsets into values: [definition][slot].
     std::vector<std::vector<uint32_t>> transform_values_, light_values_, camera_values_,
         param_values_, common_values_, setparam_values_;

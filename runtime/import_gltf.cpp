@@ -28,6 +28,7 @@ std::optional<SceneDescription> import_gltf(const std::string& path, const Impor
     if (!file) return std::nullopt;
     SceneDescription description;
     description.path = path;
+    limit_files(description, file->directory, options);
     if (!GltfImport(*file, options, diagnostics, description).run()) return std::nullopt;
     description.inputs = std::move(file->files);
     return description;
@@ -236,7 +237,7 @@ void GltfImport::import_cameras() {
             return value != 0 ? ValueSlot{append(std::span(&value, 1), 1), 1} : ValueSlot{};
         };
         double metres = 1 / axes_meter_;  // lengths are the file's
-        if (to.orthographic) {  // xmag and ymag are half the sides here and in COLLADA
+        if (to.orthographic) {            // xmag and ymag are half the sides here and in COLLADA
             to.x = slot(from.orthographic.xmag * metres);
             to.y = slot(from.orthographic.ymag * metres);
             to.znear = slot(from.orthographic.znear * metres);

@@ -120,6 +120,7 @@ std::vector<std::shared_ptr<const rsl::Shader>> GltfImport::rsl_shaders(
     std::string code_pointer = stage.IsString() ? pointer : pointer + "/code";
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
+    options.files = out_.readable;
     std::vector<std::shared_ptr<const rsl::Shader>> shaders;
     auto take = [&](auto compiled) {
         for (auto& shader : compiled) shaders.push_back(std::move(shader));

@@ -22,4 +22,9 @@ struct ImportOptions {
     std::vector<std::string> include_directories;  // for #include in shaders
 };
 
+// Limits what the scene's shaders may read and write to its folder ("" is the current one) and what
+// the options allow.
+void limit_files(SceneDescription& description, const std::string& folder,
+                 const ImportOptions& options);
+
 }  // namespace kinora

@@ -23,6 +23,16 @@ bool has_extension(const std::string& path, std::string_view extension) {
 
 }  // namespace
 
+void limit_files(SceneDescription& description, const std::string& folder,
+                 const ImportOptions& options) {
+    std::vector<std::string> folders{folder};
+    folders.insert(folders.end(), options.allow_external.begin(), options.allow_external.end());
+    description.writable = FileTrees(folders);
+    folders.insert(folders.end(), options.include_directories.begin(),
+                   options.include_directories.end());
+    description.readable = FileTrees(folders);
+}
+
 bool is_gltf(const std::string& path) {
     if (has_extension(path, ".gltf") || has_extension(path, ".glb")) return true;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),

@@ -11,6 +11,15 @@
 
 namespace kinora {
 
+namespace {
+
+// A shader that the user gives may read what lies beside it.
+void allow_beside(SceneDescription& description, const std::string& file) {
+    description.readable.add(file.substr(0, file.rfind('/') + 1));
+}
+
+}  // namespace
+
 bool override_shader(SceneDescription& description, const std::string& pattern,
                      const std::string& file, const std::vector<std::string>& include_directories,
                      Diagnostics& diagnostics) {
@@ -28,6 +37,7 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
             diagnostics.report(Code::RSL_SHADER_MISSING, Location{}, "surface", " in " + file);
         return false;
     }
+    allow_beside(description, file);
     bool matched = false;
     for (MaterialDefinition& material : description.materials) {
         bool match = fnmatch(pattern.c_str(), material.id.c_str(), 0) == 0 ||
@@ -68,6 +78,7 @@ bool override_imager(SceneDescription& description, const std::string& name,
         for (auto& shader : rsl::compile_file(name, options, diagnostics))
             if (!use.shader && shader->kind == rsl::ShaderKind::Imager)
                 use.shader = std::move(shader);
+        allow_beside(description, name);
     }
     bool known = name == "none" || (use.shader && use.shader->kind == rsl::ShaderKind::Imager);
     if (!known) {

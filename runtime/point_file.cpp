@@ -104,7 +104,16 @@ std::string read_point_file(const std::string& path, PointFile& out) {
     return "";
 }
 
+// A scene must not be able to destroy what is not its own.
+static bool may_replace(const std::string& path) {
+    File f(std::fopen(path.c_str(), "rb"));
+    char magic[kMagicBytes];
+    size_t got = f ? std::fread(magic, 1, kMagicBytes, f.get()) : 0;
+    return got == 0 || (got == kMagicBytes && std::memcmp(magic, kMagic, kMagicBytes) == 0);
+}
+
 std::string write_point_file(const std::string& path, const PointFile& file) {
+    if (!may_replace(path)) return "another file has that name, and it is no point file";
     std::string beside = fmt::format("{}.{}.part", path, getpid());
     File f(std::fopen(beside.c_str(), "wb"));
     if (!f) return std::strerror(errno);

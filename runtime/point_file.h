@@ -38,7 +38,8 @@ struct PointFile {
     size_t channel(std::string_view name, char type);
 };
 
-// Both give "" or what is wrong. Writing is whole or not at all: a file beside it is renamed.
+// Both give "" or what is wrong. Writing is whole or not at all: a file beside it is renamed. It
+// replaces nothing but point files and empty ones.
 std::string read_point_file(const std::string& path, PointFile& out);
 std::string write_point_file(const std::string& path, const PointFile& file);
 

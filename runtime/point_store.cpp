@@ -96,11 +96,6 @@ size_t PointCloud::nearest(vec3 P, vec3 N, std::span<Near> near) const {
 
 // ---- the store ----------------------------------------------------------------------------------
 
-PointStore& PointStore::process() {
-    static PointStore store;
-    return store;
-}
-
 std::vector<std::pair<char, std::string>> split_channels(std::string_view text) {
     std::vector<std::pair<char, std::string>> parts;
     while (!text.empty()) {
@@ -149,7 +144,10 @@ PointStore::Lookup PointStore::find(int32_t path, int32_t channels) {
     auto [entry, fresh] = entries_.try_emplace(path);
     if (fresh) {
         PointFile file;
-        entry->second.error = read_point_file(rsl::interned(path), file);
+        auto [place, outside] = trees_.find(rsl::interned(path));
+        entry->second.error =
+            outside ? "it lies outside the scene's folder (--allow-external DIR lets it be read)"
+                    : read_point_file(place, file);
         if (entry->second.error.empty())
             entry->second.cloud = std::make_unique<PointCloud>(std::move(file));
     }

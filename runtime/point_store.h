@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/file_trees.h"
 #include "runtime/base/math.h"
 #include "runtime/point_file.h"
 
@@ -43,7 +44,8 @@ class PointCloud {
 
 class PointStore {
   public:
-    static PointStore& process();  // the one that shaders use
+    PointStore() = default;
+    explicit PointStore(FileTrees trees) : trees_(std::move(trees)) {}  // reads files of these only
 
     // A channel of a file, as a look-up names it.
     struct Channel {
@@ -69,6 +71,7 @@ class PointStore {
         std::string error;
         std::map<int32_t, std::vector<Channel>> channels;  // by the interned text
     };
+    const FileTrees trees_;
     std::shared_mutex mutex_;
     std::map<int32_t, Entry> entries_;  // by the interned path
 };

@@ -25,7 +25,9 @@
 
 namespace kinora {
 
-class VertexWork;  // runtime/vertex_work.h
+class VertexWork;    // runtime/vertex_work.h
+class TextureStore;  // runtime/texture_store.h
+class PointStore;    // runtime/point_store.h
 
 // One occurrence of a node definition; parents come first.
 struct Node {
@@ -212,6 +214,8 @@ struct Scene {
     raytrace::Accel accel;
     raytrace::Camera view;
     raytrace::IntegratorScratch scratch;
+    std::shared_ptr<TextureStore> textures;  // what names in shaders stand for
+    std::shared_ptr<PointStore> points;
     std::unique_ptr<Shading> shading;
     SceneOptions options;
 };

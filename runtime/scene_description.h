@@ -12,6 +12,7 @@
 
 #include "anim/animation.h"
 #include "rsl/shader.h"
+#include "runtime/base/file_trees.h"
 #include "runtime/base/math.h"
 #include "runtime/memory_file.h"
 #include "skin/morph.h"
@@ -174,7 +175,7 @@ struct PictureShaders {
 struct CameraDefinition {
     std::string id, name;
     bool orthographic = false;
-    bool clips = false;  // what lies before znear or behind zfar is not seen
+    bool clips = false;                   // what lies before znear or behind zfar is not seen
     ValueSlot x, y, aspect, znear, zfar;  // fov in degrees, or magnifications; absent = not given
     PictureShaders picture;
     Location where;
@@ -192,12 +193,15 @@ enum class UpAxis : uint8_t { X, Y, Z };
 struct SceneDescription {
     std::string path;
     std::shared_ptr<const void> files;  // what paths name is there as long as this is held
+    // Where shaders may read textures, point files and maps, and write point files. Importers limit
+    // both to the scene's folder and what the user allows.
+    FileTrees readable, writable;
     double meter = 1;
     UpAxis up_axis = UpAxis::Y;
     std::vector<double> values;
     std::vector<NodeDefinition> nodes;
     std::vector<uint32_t> roots;
-    bool only_chosen = false;  // --only: other meshes are not there
+    bool only_chosen = false;      // --only: other meshes are not there
     uint32_t camera_node = kNone;  // the first camera at or below it is the default one
     std::vector<MeshDefinition> meshes;
     std::vector<SkinDefinition> skins;

@@ -48,15 +48,20 @@ void lights(const jit::ServiceCall& call) {
 }
 
 void texture(const jit::ServiceCall& call) {
-    lookup_texture(call);
+    lookup_texture(call, *host_of(call).scene->textures);
 }
 void environment(const jit::ServiceCall& call) {
-    lookup_environment(call);
+    lookup_environment(call, *host_of(call).scene->textures);
+}
+
+void texture_info(const jit::ServiceCall& call) {
+    lookup_texture_info(call, *host_of(call).scene->textures);
 }
 
 void shadow(const jit::ServiceCall& call) {
     const KernelHost& host = host_of(call);
-    lookup_shadow(call, glm::inverse(current_from_space(*host.scene, "world", host.look->node)));
+    lookup_shadow(call, glm::inverse(current_from_space(*host.scene, "world", host.look->node)),
+                  *host.scene->textures);
 }
 
 void trace(const jit::ServiceCall& call) {
@@ -136,7 +141,7 @@ void print(const jit::ServiceCall& call) {
 }
 
 constexpr rsl::ServiceRow kRows[] = {
-    {"textureinfo", lookup_texture_info},
+    {"textureinfo", texture_info},
     {"lights", lights},
     {"texture", texture},
     {"environment", environment},

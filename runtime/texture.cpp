@@ -58,8 +58,8 @@ void fill_lanes(uint32_t mask, const float* fill, float* results) {
 }
 
 // The texture of lanes that share a name; null for none.
-const Texture* texture_of(const float* names, uint32_t mask) {
-    return find_texture(jit::bits_of(names[std::countr_zero(mask)]));
+const Texture* texture_of(TextureStore& store, const float* names, uint32_t mask) {
+    return find_texture(store, jit::bits_of(names[std::countr_zero(mask)]));
 }
 
 // Directions as coordinates, footprints as their angles: lanes without a direction leave `mask`.
@@ -102,14 +102,14 @@ constexpr auto kZeros = filled_row(0), kOnes = filled_row(1);
 
 }  // namespace
 
-const Texture* find_texture(int32_t name) {
-    const Texture* texture = TextureStore::process().find(name);
+const Texture* find_texture(TextureStore& store, int32_t name) {
+    const Texture* texture = store.find(name);
     if (texture && !texture->image->error.empty())
         texture->image->asked.store(true, std::memory_order_relaxed);
     return texture;
 }
 
-void lookup_texture(const jit::ServiceCall& call) {
+void lookup_texture(const jit::ServiceCall& call, TextureStore& store) {
     enum { Name, Channel, S, T, Dsdx, Dtdx, Dsdy, Dtdy, Blur, Swidth, Twidth, Filter, Fill };
     auto row = [&](int index) { return argument(call, index); };
     TextureLanes lanes{row(Channel), row(S),    row(T),      row(Dsdx),   row(Dtdx), row(Dsdy),
@@ -119,14 +119,14 @@ void lookup_texture(const jit::ServiceCall& call) {
         same = lanes_like_first(row(Filter), same);
         left &= ~same;
         int32_t filter = jit::bits_of(row(Filter)[std::countr_zero(same)]);
-        if (const Texture* texture = texture_of(row(Name), same))
+        if (const Texture* texture = texture_of(store, row(Name), same))
             sample_texture(texture->image->pyramid, texture->modes, filter_of(filter), same, lanes);
         else
             fill_lanes(same, row(Fill), call.results);
     }
 }
 
-void lookup_environment(const jit::ServiceCall& call) {
+void lookup_environment(const jit::ServiceCall& call, TextureStore& store) {
     enum { Name, Channel, Blur = 11, Fill = 12 };
     auto row = [&](int index) { return argument(call, index); };
     DirectionRows at = directions(call);
@@ -139,7 +139,7 @@ void lookup_environment(const jit::ServiceCall& call) {
     for (uint32_t left = call.mask & at.mask; left;) {
         uint32_t same = lanes_like_first(row(Name), left);
         left &= ~same;
-        const Texture* texture = texture_of(row(Name), same);
+        const Texture* texture = texture_of(store, row(Name), same);
         if (texture && !texture->image->faces.empty()) {
             lookup_cube(*texture->image, call, same);
         } else if (texture) {
@@ -151,7 +151,7 @@ void lookup_environment(const jit::ServiceCall& call) {
     }
 }
 
-void preload_textures(const SceneDescription& description) {
+void preload_textures(const SceneDescription& description, TextureStore& store) {
     std::vector<std::string> names;
     auto add_strings = [&](const ShaderUse& use) {
         for (const ParamSource& source : use.params)
@@ -163,11 +163,7 @@ void preload_textures(const SceneDescription& description) {
                              parameter.constant->strings.end());
     };
     for_each_shader_use(description, add_strings);
-    TextureStore::process().preload(names);
-}
-
-void report_textures(Diagnostics& diagnostics) {
-    TextureStore::process().report(diagnostics);
+    store.preload(names);
 }
 
 }  // namespace kinora

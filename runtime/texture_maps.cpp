@@ -116,7 +116,7 @@ OnFace face_of(vec3 d) {
 
 }  // namespace
 
-void lookup_texture_info(const jit::ServiceCall& call) {
+void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         float values[16] = {};
@@ -124,7 +124,7 @@ void lookup_texture_info(const jit::ServiceCall& call) {
         const std::string& field = rsl::interned(jit::bits_of(argument(call, 1, i)));
         int count = 0;
         // To ask whether a file is there is no use of it.
-        const Texture* texture = TextureStore::process().find(name);
+        const Texture* texture = store.find(name);
         if (texture && texture->image->error.empty())
             count = find_fact(texture->image->facts, field, values);
         else if (texture && field == "exists")
@@ -134,13 +134,14 @@ void lookup_texture_info(const jit::ServiceCall& call) {
     }
 }
 
-void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current) {
+void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current,
+                   TextureStore& store) {
     enum { Name, P = 1, Dx = 4, Dy = 7, Bias = 10, Blur, Samples };
     mat4 to_world(world_from_current);
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = 0;
-        const Texture* texture = find_texture(jit::bits_of(argument(call, Name, i)));
+        const Texture* texture = find_texture(store, jit::bits_of(argument(call, Name, i)));
         if (!texture || !texture->image->error.empty() || !texture->image->facts.has_matrices)
             continue;
         const TextureFacts& facts = texture->image->facts;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "collada/findings.h"
+#include "rsl/findings.h"
 #include "rsl/renderer_services.h"
 #include "runtime/base/parallel.h"
 #include "runtime/findings.h"
@@ -15,11 +16,15 @@ namespace kinora {
 
 namespace {
 
-std::unique_ptr<StoredImage> read_image(const std::string& path, bool data) {
+constexpr const char* kOutside =
+    "it lies outside the scene's folder (--allow-external DIR lets it be read)";
+
+std::unique_ptr<StoredImage> read_image(const std::string& name, const std::string& path,
+                                        bool outside, bool data) {
     auto image = std::make_unique<StoredImage>();
-    image->path = path;
+    image->path = name;
     TextureImage pixels;
-    image->error = read_texture_image(path, pixels);
+    image->error = outside ? kOutside : read_texture_image(path, pixels);
     if (image->error.empty()) {
         try {
             image->pyramid = TexturePyramid(pixels, pixels.encoded && !data);
@@ -36,10 +41,12 @@ std::unique_ptr<StoredImage> read_image(const std::string& path, bool data) {
     return image;
 }
 
-// The reader of the scene says so of files its <image> elements name.
+// The reader of the scene says so of files its <image> elements name, the compiler of literals.
 bool known_missing(const Diagnostics& diagnostics, const std::string& path) {
     for (const Finding& finding : diagnostics.findings())
-        if (finding.info == &collada::Code::FILE_MISSING &&
+        if ((finding.info == &collada::Code::FILE_MISSING ||
+             finding.info == &collada::Code::LINK_OUTSIDE ||
+             finding.info == &rsl::Code::RSL_FILE_OUTSIDE) &&
             finding.message.find("'" + path + "'") != std::string::npos)
             return true;
     return false;
@@ -90,10 +97,15 @@ const Texture* TextureStore::meet(int32_t name) {
     return texture.get();
 }
 
+FileTrees::Found TextureStore::file_of(const std::string& name) const {
+    return is_memory_file(name) ? FileTrees::Found{name} : trees_.find(name);
+}
+
 // The mutex is held.
-const StoredImage* TextureStore::image(const std::string& path, bool data) {
-    std::unique_ptr<StoredImage>& known = images_[{path, data}];
-    if (!known) known = read_image(path, data);
+const StoredImage* TextureStore::image(const std::string& name, bool data) {
+    FileTrees::Found file = file_of(name);
+    std::unique_ptr<StoredImage>& known = images_[{file.path, data}];
+    if (!known) known = read_image(name, file.path, file.outside, data);
     return known.get();
 }
 
@@ -105,17 +117,18 @@ void TextureStore::preload(std::span<const std::string> names) {
         for (const std::string& name : names) {
             TextureName parsed = parse_texture_name(name);
             std::error_code code;
+            auto [path, outside] = file_of(parsed.path);
             bool there =
-                std::filesystem::is_regular_file(parsed.path, code) || is_memory_file(parsed.path);
-            if (there && !images_.count({parsed.path, parsed.data}))
-                wanted.emplace(parsed.path, parsed.data);
+                !outside && (std::filesystem::is_regular_file(path, code) || is_memory_file(path));
+            if (there && !images_.count({path, parsed.data})) wanted.emplace(path, parsed.data);
         }
     }
     // Read without the lock: a worker that waits for it could hold up the one that owns it.
     std::vector<std::pair<std::string, bool>> keys(wanted.begin(), wanted.end());
     std::vector<std::unique_ptr<StoredImage>> read(keys.size());
     parallel_for(0, keys.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) read[i] = read_image(keys[i].first, keys[i].second);
+        for (size_t i = begin; i < end; ++i)
+            read[i] = read_image(keys[i].first, keys[i].first, false, keys[i].second);
     });
     std::lock_guard lock(mutex_);
     for (size_t i = 0; i < keys.size(); ++i) images_.try_emplace(keys[i], std::move(read[i]));

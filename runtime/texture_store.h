@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/base/file_trees.h"
 #include "runtime/texture_name.h"
 #include "runtime/texture_pyramid.h"
 
@@ -36,10 +37,12 @@ struct Texture {
 class TextureStore {
   public:
     TextureStore() = default;
+    // Only files of these trees are read; any other is as one that cannot be read.
+    explicit TextureStore(FileTrees trees) : trees_(std::move(trees)) {}
     ~TextureStore();
     TextureStore(const TextureStore&) = delete;
 
-    static TextureStore& process();  // the one that shaders use
+    static TextureStore& process();  // of shaders that belong to no scene; reads any file
 
     // The texture of an interned name, read now if it has not been met: then, and only then, it
     // locks and allocates. Null for the name "".
@@ -50,7 +53,7 @@ class TextureStore {
     void preload(std::span<const std::string> names);
 
     // One finding for each unreadable file that find's callers asked for and that is not reported,
-    // not even by the reader of the scene (collada::Code::FILE_MISSING).
+    // not even by the reader of the scene (collada::Code::FILE_MISSING and its like).
     void report(Diagnostics& diagnostics);
 
     int images() const;
@@ -59,8 +62,10 @@ class TextureStore {
     static constexpr int kChunkBits = 10, kChunks = 1 << 14;
     using Chunk = std::array<std::atomic<const Texture*>, 1 << kChunkBits>;
     const Texture* meet(int32_t name);
-    const StoredImage* image(const std::string& path, bool data);
+    const StoredImage* image(const std::string& name, bool data);
+    FileTrees::Found file_of(const std::string& name) const;
 
+    const FileTrees trees_;
     std::array<std::atomic<Chunk*>, kChunks> chunks_{};  // by name
     mutable std::mutex mutex_;                           // guards the maps and changes of chunks_
     std::map<int32_t, std::unique_ptr<Texture>> textures_;

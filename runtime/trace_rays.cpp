@@ -47,7 +47,8 @@ bool has_direction(vec3 d) {
 }
 
 // Light of a map along directions in world space, filtered over `width` radians.
-void look_up(int32_t map, std::span<const vec3> directions, float width, vec3* light) {
+void look_up(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
+             vec3* light) {
     alignas(64) float args[13 * kLanes] = {}, results[4 * kLanes];
     for (size_t begin = 0; begin < directions.size(); begin += kLanes) {
         size_t count = std::min(directions.size() - begin, size_t(kLanes));
@@ -64,7 +65,7 @@ void look_up(int32_t map, std::span<const vec3> directions, float width, vec3* l
                 args[(8 + k) * kLanes + int(i)] = up[k];
             }
         }
-        lookup_environment({nullptr, args, results, (1u << count) - 1, 0, kLanes});
+        lookup_environment({nullptr, args, results, (1u << count) - 1, 0, kLanes}, store);
         for (size_t i = 0; i < count; ++i)
             for (int k = 0; k < 3; ++k) light[begin + i][k] = results[k * kLanes + int(i)];
     }
@@ -309,7 +310,8 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
                     // Each sample stands for its share of the hemisphere.
                     float width =
                         std::sqrt(2 * float(kPi) / float(lanes.samples(kSamples, lane_of[begin])));
-                    look_up(map, dirs.subspan(begin, end - begin), width, light.data());
+                    look_up(*scene_.textures, map, dirs.subspan(begin, end - begin), width,
+                            light.data());
                     for (size_t i = begin; i < end; ++i)
                         seen[i].color += seen[i].open * light[i - begin];
                 }

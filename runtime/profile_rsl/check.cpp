@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 
 #include "rsl/lower.h"
 #include "runtime/profile_rsl/effect_shaders.h"
@@ -19,6 +20,20 @@ using collada::RslStage;
 struct PassShader {
     const collada::RslShader* from = nullptr;
     std::shared_ptr<const rsl::Shader> shader;
+    std::unordered_map<std::string_view, const rsl::ShaderParameter*> parameters;  // of shader
+    std::unordered_multimap<uint32_t, const collada::RslBind*> binds;  // by the effect's parameter
+
+    PassShader(const collada::RslShader& pass, std::shared_ptr<const rsl::Shader> chosen)
+        : from(&pass), shader(std::move(chosen)) {
+        if (!shader) return;
+        for (const rsl::ShaderParameter& p : shader->parameters) parameters.try_emplace(p.name, &p);
+        for (const collada::RslBind& bind : from->binds)
+            if (bind.param != kNone) binds.emplace(bind.param, &bind);
+    }
+    const rsl::ShaderParameter* parameter(std::string_view name) const {
+        auto found = parameters.find(name);
+        return found == parameters.end() ? nullptr : found->second;
+    }
 };
 
 struct CheckedEffect {
@@ -30,9 +45,10 @@ struct CheckedEffect {
 class Check {
   public:
     Check(const collada::SceneData& scene, const std::vector<std::string>& include_directories,
-          Diagnostics& diagnostics)
+          const FileTrees& files, Diagnostics& diagnostics)
         : scene_(scene), diagnostics_(diagnostics) {
         compile_options_.include_directories = include_directories;
+        compile_options_.files = files;
         for (const collada::Node& node : scene.nodes)
             if (!node.id.empty()) spaces_.push_back(node.id);
     }
@@ -60,7 +76,7 @@ class Check {
         if (shaders.empty()) return result;
         result.compiled = true;
         for (const collada::RslShader& from : effect.rsl->shaders) {
-            PassShader pass{&from, choose_shader(shaders, from, diagnostics_)};
+            PassShader pass(from, choose_shader(shaders, from, diagnostics_));
             if (pass.shader) check_binds(effect, pass);
             result.passes.push_back(std::move(pass));
         }
@@ -88,14 +104,17 @@ class Check {
         for (const collada::RslBind& bind : pass.from->binds) {
             if (!seen.insert(bind.symbol).second)
                 diagnostics_.report(Code::RSL_BIND_TWICE, bind.where, bind.symbol);
-            const rsl::ShaderParameter* parameter =
+            const rsl::ShaderParameter* parameter = pass.parameter(bind.symbol);
+            if (!parameter) {
                 bound_parameter(*pass.shader, bind, diagnostics_);
-            if (!parameter) continue;
+                continue;
+            }
             const collada::ParamValue& value =
                 bind.param == kNone ? bind.literal : effect.params[bind.param].value;
             if (!takes(*parameter, value))
                 diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
                                     rsl::type_name(parameter->type), value_text(value));
+            check_named_files(value, compile_options_.files, bind.where, diagnostics_);
         }
     }
 
@@ -123,17 +142,18 @@ class Check {
         if (material.effect == kNone) return;
         for (const PassShader& pass : effects_[material.effect].passes)
             for (const collada::SetParam& set : material.setparams)
-                for (const collada::RslBind& bind : pass.from->binds)
-                    if (pass.shader && set.param != kNone && bind.param == set.param)
-                        check_setparam(set, bind, *pass.shader);
+                if (set.param != kNone) {
+                    auto [first, last] = pass.binds.equal_range(set.param);
+                    for (; first != last; ++first) check_setparam(set, *first->second, pass);
+                }
     }
 
     void check_setparam(const collada::SetParam& set, const collada::RslBind& bind,
-                        const rsl::Shader& shader) {
-        const rsl::ShaderParameter* parameter = find_parameter(shader, bind.symbol);
+                        const PassShader& pass) {
+        const rsl::ShaderParameter* parameter = pass.parameter(bind.symbol);
         if (parameter && !takes(*parameter, set.value))
             diagnostics_.report(Code::RSL_SETPARAM_TYPE, set.where, set.ref, bind.symbol,
-                                shader.name, rsl::type_name(parameter->type),
+                                pass.shader->name, rsl::type_name(parameter->type),
                                 value_text(set.value));
     }
 
@@ -168,9 +188,8 @@ class Check {
         for (const PassShader& pass : effect->passes)
             check_surface_stage(*pass.from, material, volumes);
         auto some_has = [&](const std::string& name) {
-            return std::any_of(
-                effect->passes.begin(), effect->passes.end(),
-                [&](const PassShader& p) { return p.shader && find_parameter(*p.shader, name); });
+            return std::any_of(effect->passes.begin(), effect->passes.end(),
+                               [&](const PassShader& p) { return p.parameter(name) != nullptr; });
         };
         for (const collada::ParamBinding& param : binding.params)
             if (!some_has(param.semantic))
@@ -202,11 +221,11 @@ class Check {
 }  // namespace
 
 void check_profile_rsl(const collada::SceneData& scene,
-                       const std::vector<std::string>& include_directories,
+                       const std::vector<std::string>& include_directories, const FileTrees& files,
                        Diagnostics& diagnostics) {
     bool any = std::any_of(scene.effects.begin(), scene.effects.end(),
                            [](const collada::Effect& effect) { return effect.rsl.has_value(); });
-    if (any) Check(scene, include_directories, diagnostics).run();
+    if (any) Check(scene, include_directories, files, diagnostics).run();
 }
 
 }  // namespace kinora

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "rsl/findings.h"
 #include "runtime/profile_rsl/findings.h"
 #include "runtime/profile_rsl/joined_code.h"
 
@@ -109,6 +111,15 @@ bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& val
     if (is_string || value.type == collada::ParamType::String)
         return is_string && value.type == collada::ParamType::String;
     return fits(parameter.type, value.numbers.size());
+}
+
+void check_named_files(const collada::ParamValue& value, const FileTrees& files, Location where,
+                       Diagnostics& diagnostics) {
+    if (value.image != collada::kNone) return;
+    std::error_code error;
+    for (const std::string& text : value.strings)  // many are no names of files at all
+        if (files.find(text).outside && std::filesystem::is_regular_file(text, error))
+            diagnostics.report(rsl::Code::RSL_FILE_OUTSIDE, where, text);
 }
 
 std::string value_text(const collada::ParamValue& value) {

@@ -33,13 +33,18 @@ const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::strin
 const rsl::ShaderParameter* bound_parameter(const rsl::Shader& shader, const collada::RslBind& bind,
                                             Diagnostics& diagnostics);
 
-// The side of its object that the nth VOLUME shader of an effect fills, as the material says it: the
-// nth word of its target, the last for all further ones; "" if it is silent.
+// The side of its object that the nth VOLUME shader of an effect fills, as the material says it:
+// the nth word of its target, the last for all further ones; "" if it is silent.
 std::string_view volume_side(const collada::Material& material, size_t nth);
 
 // Whether the parameter can take the value: strings for strings, numbers where the count fits (its
 // own, or one or four for a triple).
 bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& value);
+
+// Reports texts that name a file outside `files` (RSL_FILE_OUTSIDE); of an <image> the reader has.
+void check_named_files(const collada::ParamValue& value, const FileTrees& files, Location where,
+                       Diagnostics& diagnostics);
+
 std::string value_text(const collada::ParamValue& value);  // "float3 of 3 number(s)"
 
 }  // namespace kinora

@@ -15,12 +15,13 @@ namespace kinora {
 struct ShadeOptions {
     std::string command;
     std::string source;  // FILE.sl, SCENE.dae#effect or - for stdin; for `manual` a name
-    std::vector<std::string> sources;  // check: several
-    std::string shader;                // which of the source; "": the first
-    rsl::CompileOptions compile;
-    bool preprocess_only = false;  // -E
-    bool warnings_fail = false;    // -Werror
-    bool json = false;             // check, info, bench
+    std::vector<std::string> sources;         // check: several
+    std::string shader;                       // which of the source; "": the first
+    rsl::CompileOptions compile;              // a scene's shader is held to the scene's folder
+    std::vector<std::string> allow_external;  // and to these
+    bool preprocess_only = false;             // -E
+    bool warnings_fail = false;               // -Werror
+    bool json = false;                        // check, info, bench
     bool quiet = false, verbose = false;
     bool silent = false;                                      // findings are told otherwise
     std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE

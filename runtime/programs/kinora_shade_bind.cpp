@@ -179,6 +179,7 @@ std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, 
     if (std::optional<int> code = compile_shade_source(options, source)) return code;
     const rsl::Shader* shader = choose_shader(options, source);
     if (!shader || !can_run(*shader)) return kExitUsage;
+    patch.textures = std::make_shared<TextureStore>(options.compile.files);
     if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
     if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
     return std::nullopt;

@@ -90,6 +90,7 @@ int shade_check(const ShadeOptions& options) {
         for (const std::string& name : shade_sources(word)) {
             ShadeOptions one = options;
             one.source = name;
+            hold_to_scene(one);
             int code = check_source(one, list);
             bool unread = worst == kExitUnreadable || code == kExitUnreadable;
             worst = unread ? int(kExitUnreadable) : std::max(worst, code);

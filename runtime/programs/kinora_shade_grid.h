@@ -3,11 +3,13 @@
 // space are one: the square spans x, y = 0..1 at z = 0 there, the sphere has radius 1 about 0.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/texture_store.h"
 
 namespace kinora {
 
@@ -31,6 +33,9 @@ class Patch {
     // From now on "shader" space is a light's: 1 before the patch's middle, its -z towards the
     // patch as COLLADA's lights and ours have it (flip: its +z).
     void place_light(bool flip);
+
+    // What its shader may read.
+    std::shared_ptr<TextureStore> textures = std::make_shared<TextureStore>();
 
   private:
     void add_square_point(int x, int y, uint32_t pixel);

@@ -3,7 +3,7 @@
 
 #include "runtime/image_io.h"
 #include "runtime/programs/command_line.h"
-#include "runtime/programs/kinora_shade.h"
+#include "runtime/programs/kinora_shade_source.h"
 
 namespace kinora {
 
@@ -56,6 +56,8 @@ void add_compile(CLI::App& command, ShadeOptions& o, Texts& texts) {
     add_list(command, "-I", o.compile.include_directories, "DIR: where #include files are sought");
     add_list(command, "-D", texts.defines, "NAME or NAME=VALUE: define a macro");
     add_list(command, "-U", o.compile.undefines, "NAME: undefine a macro");
+    add_list(command, "--allow-external", o.allow_external,
+             "DIR: a scene's shader may read files there too, outside its folder");
     command.add_flag("-E", o.preprocess_only, "print the preprocessed text only");
     command.add_flag("--Werror", o.warnings_fail, "warnings fail too (also -Werror)");
 }
@@ -139,6 +141,7 @@ void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
         o.compile.defines.push_back(text.find('=') == std::string::npos
                                         ? std::pair(text, std::string("1"))
                                         : name_and_value(text, "-D"));
+    hold_to_scene(o);
     if (!o.file.empty() && !is_image_path(o.file))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
 }

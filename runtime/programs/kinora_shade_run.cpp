@@ -103,7 +103,7 @@ int shade_run(const ShadeOptions& options) {
     kernel.bind(stack, patch);
     double ms = run_best(options, kernel);
     kernel.report_faults(source.diagnostics);
-    report_textures(source.diagnostics);
+    patch.textures->report(source.diagnostics);
     source.print_findings(options);
     ShadeOutputs outputs = stack.light ? kernel.illumination() : kernel.outputs();
     std::vector<std::string> names = columns_of(options.output, outputs);

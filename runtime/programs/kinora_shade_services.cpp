@@ -27,7 +27,16 @@ void lights(const jit::ServiceCall& call) {
 }
 void shadow(const jit::ServiceCall& call) {
     const Patch& patch = *static_cast<const Patch*>(call.grid);
-    lookup_shadow(call, glm::inverse(patch.current_from_space("world")));
+    lookup_shadow(call, glm::inverse(patch.current_from_space("world")), *patch.textures);
+}
+void texture(const jit::ServiceCall& call) {
+    lookup_texture(call, *static_cast<const Patch*>(call.grid)->textures);
+}
+void environment(const jit::ServiceCall& call) {
+    lookup_environment(call, *static_cast<const Patch*>(call.grid)->textures);
+}
+void texture_info(const jit::ServiceCall& call) {
+    lookup_texture_info(call, *static_cast<const Patch*>(call.grid)->textures);
 }
 void trace(const jit::ServiceCall& call) {
     for (int k = 0; k < 3; ++k) fill(call, k, 0.0f);
@@ -68,11 +77,11 @@ void print(const jit::ServiceCall& call) {
 }
 
 constexpr rsl::ServiceRow kRows[] = {
-    {"textureinfo", lookup_texture_info},
+    {"textureinfo", texture_info},
     {"lights", lights},
-    {"texture", lookup_texture},
+    {"texture", texture},
     {"shadow", shadow},
-    {"environment", lookup_environment},
+    {"environment", environment},
     {"trace", trace},
     {"transmission", transmission},
     {"transform", transform},

@@ -57,15 +57,21 @@ void take_binds(const collada::SceneData& data, const collada::Effect& effect,
         }
 }
 
-bool is_scene(const std::string& path) {
-    return path.ends_with(".dae") || path.ends_with(".DAE");
+// The path of SCENE.dae or SCENE.dae#EFFECT; "" for other sources.
+std::string scene_of_source(const std::string& source) {
+    std::string path = source.substr(0, source.rfind('#'));
+    return path.ends_with(".dae") || path.ends_with(".DAE") ? path : "";
 }
 
 // Where only one effect has RSL it need not be named.
-int read_effect(const std::string& path, const std::string& id, ShadeSource& source) {
+int read_effect(const std::string& path, const ShadeOptions& options, ShadeSource& source) {
+    size_t hash = options.source.rfind('#');
+    std::string id = hash == std::string::npos ? "" : options.source.substr(hash + 1);
+    collada::ExtractOptions extract;
+    extract.allow_external = options.allow_external;
     std::optional<collada::Document> document = collada::read_document(path, source.diagnostics);
     std::optional<collada::SceneData> data;
-    if (document) data = collada::extract(*document, source.diagnostics);
+    if (document) data = collada::extract(*document, source.diagnostics, extract);
     if (!data) return kExitUnreadable;  // findings say why
     std::string known;
     auto with_rsl = std::count_if(data->effects.begin(), data->effects.end(),
@@ -103,8 +109,17 @@ bool ShadeSource::failed(const ShadeOptions& options) const {
            (options.warnings_fail && diagnostics.count(Severity::Warning) > 0);
 }
 
+void hold_to_scene(ShadeOptions& options) {
+    std::string scene = scene_of_source(options.source);
+    if (scene.empty()) return;
+    std::vector<std::string> folders{scene.substr(0, scene.rfind('/') + 1)};
+    for (const auto* more : {&options.allow_external, &options.compile.include_directories})
+        folders.insert(folders.end(), more->begin(), more->end());
+    options.compile.files = FileTrees(folders);
+}
+
 std::vector<std::string> shade_sources(const std::string& word) {
-    if (word.rfind('#') != std::string::npos || !is_scene(word)) return {word};
+    if (word.rfind('#') != std::string::npos || scene_of_source(word).empty()) return {word};
     Diagnostics unheard;  // who reads an effect hears it
     std::optional<collada::Document> document = collada::read_document(word, unheard);
     std::optional<collada::SceneData> data;
@@ -116,13 +131,9 @@ std::vector<std::string> shade_sources(const std::string& word) {
 }
 
 int read_shade_source(const ShadeOptions& options, ShadeSource& source) {
-    size_t hash = options.source.rfind('#');
-    std::string path = options.source.substr(0, hash);
-    bool scene = is_scene(path);
+    std::string scene = scene_of_source(options.source);
     int code =
-        scene ? read_effect(path, hash == std::string::npos ? "" : options.source.substr(hash + 1),
-                            source)
-              : read_file(options.source, source);
+        scene.empty() ? read_file(options.source, source) : read_effect(scene, options, source);
     if (code != kExitOk) source.print_findings(options);
     return code;
 }

@@ -40,6 +40,9 @@ struct ShadeSource {
 // it has none or cannot be read), else the word.
 std::vector<std::string> shade_sources(const std::string& word);
 
+// A scene's shader reads files of the scene's folder, --allow-external and -I alone.
+void hold_to_scene(ShadeOptions& options);
+
 // Reads the text. Returns an exit code other than 0 when it cannot be had (said on stderr).
 int read_shade_source(const ShadeOptions& options, ShadeSource& source);
 

@@ -62,6 +62,16 @@ void finish(FileResult& result, const collada::Document* document,
         result.bytes += result.files().text(file).size();
 }
 
+// What the scene's shaders may read.
+FileTrees scene_files(const collada::Document& document, const collada::SceneFile& file,
+                      const ValidateSettings& settings) {
+    std::vector<std::string> folders{file.folder.empty() ? document.directory() : file.folder};
+    for (const auto* more :
+         {&settings.validate.extract.allow_external, &settings.include_directories})
+        folders.insert(folders.end(), more->begin(), more->end());
+    return FileTrees(folders);
+}
+
 void check(FileResult& result, std::optional<collada::Document> document,
            const collada::SceneFile& file, const ValidateSettings& settings) {
     Diagnostics& diagnostics = *result.diagnostics;
@@ -73,7 +83,8 @@ void check(FileResult& result, std::optional<collada::Document> document,
         options.extract.scene_id = file.scene_id;
         auto scene = collada::validate(*document, diagnostics, options);
         if (scene) {
-            check_profile_rsl(*scene, settings.include_directories, diagnostics);
+            check_profile_rsl(*scene, settings.include_directories,
+                              scene_files(*document, file, settings), diagnostics);
             if (settings.info || !settings.budgets.empty()) {
                 result.info = scene_info(*document, *scene);
                 check_budgets(*result.info, settings, document->location(document->root()),

@@ -14,6 +14,7 @@
 #include "rsl/renderer_services.h"
 #include "runtime/base/math.h"
 #include "runtime/texture.h"
+#include "runtime/texture_store.h"
 
 namespace kinora {
 namespace {
@@ -57,7 +58,10 @@ std::vector<float> call(void (*service)(const jit::ServiceCall&), std::vector<fl
 }
 
 std::vector<float> info(int32_t name, const char* field) {
-    return call(lookup_texture_info, {jit::float_of(name), jit::float_of(rsl::intern(field))}, 17);
+    auto service = [](const jit::ServiceCall& c) {
+        lookup_texture_info(c, TextureStore::process());
+    };
+    return call(service, {jit::float_of(name), jit::float_of(rsl::intern(field))}, 17);
 }
 
 // The eye at z = -5 looking along +z with a view of 90 degrees; row vectors.
@@ -92,7 +96,9 @@ TEST(TextureInfo, KnowsWhatTheFileSays) {
 
 float shadow_at(int32_t name, vec3 p, float bias = -1, float blur = 0, float samples = 16) {
     static dmat4 identity(1);
-    auto service = [](const jit::ServiceCall& c) { lookup_shadow(c, identity); };
+    auto service = [](const jit::ServiceCall& c) {
+        lookup_shadow(c, identity, TextureStore::process());
+    };
     return call(service,
                 {jit::float_of(name), p.x, p.y, p.z, 0, 0, 0, 0, 0, 0, bias, blur, samples}, 3)[0];
 }
@@ -145,8 +151,11 @@ TEST(EnvironmentCube, LooksWhereOpenExrWould) {
         Imath::V2f in_face;
         Imf::CubeMap::faceAndPixelPosition(d, window, face, in_face);
         Imath::V2f at = Imf::CubeMap::pixelPosition(face, window, in_face);
-        auto got = call(lookup_environment,
-                        {jit::float_of(map.name()), 0, d.x, d.y, d.z, 0, 0, 0, 0, 0, 0, 0, 0}, 4);
+        auto service = [](const jit::ServiceCall& c) {
+            lookup_environment(c, TextureStore::process());
+        };
+        auto got =
+            call(service, {jit::float_of(map.name()), 0, d.x, d.y, d.z, 0, 0, 0, 0, 0, 0, 0, 0}, 4);
         EXPECT_NEAR(got[2], float(face), 1e-3f);
         EXPECT_NEAR(got[0], at.x / kSide, 2e-3f) << "face " << face;
         EXPECT_NEAR(got[1], (at.y - float(face) * kSide) / kSide, 2e-3f) << "face " << face;

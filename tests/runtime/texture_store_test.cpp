@@ -66,7 +66,7 @@ Results call_texture(const std::vector<int32_t>& names, float s, float t, float 
         args[12][i] = fill;
     }
     Results results{};
-    lookup_texture({nullptr, args[0], results.r[0], 0xffff, 0, kLanes});
+    lookup_texture({nullptr, args[0], results.r[0], 0xffff, 0, kLanes}, TextureStore::process());
     return results;
 }
 
@@ -81,7 +81,8 @@ Results call_environment(int32_t name, float x, float y, float z, float fill = 0
         args[12][i] = fill;
     }
     Results results{};
-    lookup_environment({nullptr, args[0], results.r[0], 0xffff, 0, kLanes});
+    lookup_environment({nullptr, args[0], results.r[0], 0xffff, 0, kLanes},
+                       TextureStore::process());
     return results;
 }
 
