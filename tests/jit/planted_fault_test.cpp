@@ -73,6 +73,7 @@ Catch hunt(PlantedFault fault) {
         for (uint64_t seed = 1; seed <= kPrograms; ++seed) {
             Catch found{seed, "crashed"};
             (void)!write(pipes[1], &found, sizeof found);
+            alarm(60);  // wrong code may never end; SIGALRM ends it, which is a catch
             std::string wrong = module_difference(program(seed), seed);
             if (wrong.empty()) continue;
             snprintf(found.how, sizeof found.how, "%.180s", wrong.c_str());
