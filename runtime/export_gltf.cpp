@@ -191,6 +191,11 @@ std::string GltfExport::finish() {
     anim::TimeRange range = anim::time_range(description_.animation);
     if (range.begin < 0 && !description_.animation.channels.empty())
         lost("the animation", fmt::format("what moves before time 0 (from {} s)", range.begin));
+    for (const anim::Sampler& sampler : description_.animation.samplers)
+        if (sampler.pre != anim::Behaviour::Constant || sampler.post != anim::Behaviour::Constant) {
+            lost("the animation", "what goes on beyond the range that is played (behaviours)");
+            break;
+        }
     if (sampled_paths_)
         diagnostics_.report(Code::CONVERT_SAMPLED, Location{}, sampled_paths_, worst_error_);
     std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -168,14 +168,21 @@ uint32_t GltfExport::stack_nodes(const NodeDefinition& definition, const dmat4& 
     }
     if (all.empty())
         return static_nodes(conversion * node_matrix(definition, description_.values), parent);
-    bool simple = true;
-    Trs trs;
-    for (double time : key_times(definition.transforms, all)) {
-        for (const Channel& c : all)
-            anim::evaluate(*c.sampler, time, c.channel->component,
-                           std::span(at_time_).subspan(c.channel->slot, c.channel->count));
-        simple = simple && decompose_trs(conversion * node_matrix(definition, at_time_), trs);
-    }
+    // Whether a matrix is translation, rotation and scale at all times that matter.
+    auto holds = [this](std::span<const Transform> stack, const std::vector<Channel>& moving,
+                        auto&& matrix_at) {
+        Trs trs;
+        bool all_hold = true;
+        for (double time : key_times(stack, moving)) {
+            for (const Channel& c : moving)
+                anim::evaluate(*c.sampler, time, c.channel->component,
+                               std::span(at_time_).subspan(c.channel->slot, c.channel->count));
+            all_hold = all_hold && decompose_trs(matrix_at(), trs);
+        }
+        return all_hold;
+    };
+    bool simple = holds(definition.transforms, all,
+                        [&] { return conversion * node_matrix(definition, at_time_); });
     if (simple) {
         uint32_t node = static_nodes(conversion * node_matrix(definition, at_time_), parent);
         move_node(node, definition.transforms, conversion, all);
@@ -192,8 +199,11 @@ uint32_t GltfExport::stack_nodes(const NodeDefinition& definition, const dmat4& 
         }
         if (!is_identity(still, 1e-15)) node = static_nodes(still, node);
         still = dmat4(1.0);
-        if (!decompose_trs(matrix, trs))
+        if (!holds({&transform, 1}, channels[t],
+                   [&] { return transform_matrix(transform.kind, &at_time_[transform.value]); }))
             lost(fmt::format("node '{}'", definition.id), "animated shear");
+        Trs trs;
+        decompose_trs(matrix, trs);
         Json part = Json::object();
         write_trs(trs, part);
         node = add_node(std::move(part), node);
@@ -259,8 +269,7 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
         uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
         if (place != kNone) rest.push_back({placed_[place].world, definition.inverse_bind[j]});
     }
-    SkinSpace space =
-        definition.in_world ? SkinSpace::World : skin_space(bind_shape, world, rest);
+    SkinSpace space = definition.in_world ? SkinSpace::World : skin_space(bind_shape, world, rest);
     if (space == SkinSpace::BindsNode) bind_shape = world;
     if (space == SkinSpace::Node) {  // the joints stand once more below it
         above = static_nodes(use.conversion, placed_[placed].node);

@@ -218,6 +218,25 @@ class ExitCodes(Convert):
 
 
 class ToGlb(Convert):
+    def test_what_gltf_cannot_move_is_named_as_lost(self):
+        moves = """<library_animations><animation id="a">
+<source id="i"><float_array id="ia" count="2">0 1</float_array><technique_common><accessor source="#ia" count="2">
+<param name="TIME" type="float"/></accessor></technique_common></source><source id="o"><float_array id="oa" count="2">0 40</float_array>
+<technique_common><accessor source="#oa" count="2"><param name="ANGLE" type="float"/></accessor></technique_common></source>
+<sampler id="s"{0}><input semantic="INPUT" source="#i"/><input semantic="OUTPUT" source="#o"/></sampler>
+<channel source="#s" target="n/{1}.ANGLE"/></animation></library_animations>"""
+        cases = {"shear": ("", "k"), "beyond": (' post_behavior="CYCLE"', "r"), None: ("", "r")}
+        for word, (behaviour, target) in cases.items():
+            with self.subTest(word):
+                text = mesh_scene(moves.format(behaviour, target)).replace('version="1.4.1"', 'version="1.5.0"').replace(
+                    "2005/11", "2008/03").replace('<rotate sid="r">', '<skew sid="k">0 1 0 0 0 1 0</skew><rotate sid="r">')
+                scene = self.write("a.dae", text)
+                result = convert(scene, self.folder / "a.glb", "--strict")
+                if word:
+                    self.expect(result, 1, "CONVERT_LOST", word)
+                else:
+                    self.expect(result, 0)
+
     def test_vertices_are_shared_and_normals_written(self):
         json_ = glb_json(self.converted(SCENES / "matte.dae", "m.glb"))
         primitive = json_["meshes"][0]["primitives"][0]
