@@ -26,14 +26,15 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     std::optional<collada::SceneData> data =
         collada::extract(*document, diagnostics, extract_options);
     if (!data) return std::nullopt;
+    bool archive = !file->folder.empty();
+    std::string folder = archive ? file->folder : document->directory();
     document.reset();  // the scene's data stand alone
     SceneDescription description;
     description.path = path;
     auto files = std::make_shared<std::vector<std::shared_ptr<const void>>>(data->files);
     files->push_back(file->keep);
     description.files = std::move(files);
-    bool archive = !file->folder.empty();
-    limit_files(description, archive ? file->folder : document->directory(), options);
+    limit_files(description, folder, options);
     // Images that the document holds were unpacked into folders of ours.
     for (const collada::Image& image : data->images)
         if (!image.path.empty() && !description.readable.contains(image.path))

@@ -116,8 +116,8 @@ class Tree {
     xmlNode* add(const Element& element) {
         xmlNode* root = node(element);
         xmlDocSetRootElement(doc_.get(), root);
-        // What the elements around it declare, the inner ones first.
-        for (const Element* e = element.parent; e; e = e->parent) declare(*e, root);
+        // What it and the elements around it declare, the inner ones first.
+        for (const Element* e = &element; e; e = e->parent) declare(*e, root);
         fill(element, root);
         return root;
     }

@@ -260,7 +260,9 @@ std::unique_ptr<Rendering> Rendering::of_file(const std::string& path,
 
 void Rendering::load(const std::string& path, const SceneOptions& options) {
     settings.width = settings.height = 16;
-    auto description = import_scene(path, {}, diagnostics);
+    ImportOptions import_options;
+    import_options.allow_external = {KINORA_SOURCE_DIR "/assets/shaders"};  // tests include them
+    auto description = import_scene(path, import_options, diagnostics);
     if (!description) return;
     scene = build_scene(std::make_shared<SceneDescription>(std::move(*description)), options,
                         diagnostics);
