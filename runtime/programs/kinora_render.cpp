@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -74,6 +75,7 @@ class Render {
     void dump() const;
     int frames();
     int report_unwritable(const std::string& file, const std::string& error, int number);
+    ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
     int one_frame(int64_t frame, double time, size_t index);
     std::string fingerprint(double time) const;
@@ -268,6 +270,14 @@ int Render::report_unwritable(const std::string& file, const std::string& error,
     return full ? kExitRetry : kExitUnwritable;
 }
 
+// How many files could not be written so far; those that shaders bake too.
+ptrdiff_t Render::unwritable() const {
+    const std::vector<Finding>& findings = diagnostics_.findings();
+    return std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
+        return finding.info == &Code::FRAME_UNWRITABLE;
+    });
+}
+
 // Before a frame is rendered, not after.
 int Render::refuse_unwritable(const std::string& file) {
     int number = 0;
@@ -297,6 +307,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     };
     raytrace::Progress progress(on_tile);
     if (first_ray_ms_ == 0) first_ray_ms_ = since_start_.ms();
+    ptrdiff_t unwritten = unwritable();
     bool whole =
         render_frame(*scene_, time, settings_, film_, record.stats, diagnostics_, &progress);
     if (g_signal) return 128 + g_signal;
@@ -313,7 +324,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
     record.write_ms = watch.ms();
     progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
-    return kExitOk;
+    return unwritable() == unwritten ? kExitOk : kExitSomeFailed;  // baked point files
 }
 
 // From here on a signal lets go of the frame under way; before, it just ends the process.

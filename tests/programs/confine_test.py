@@ -243,9 +243,9 @@ class Sources(ConfineTest):
 
     def test_an_archive_holds_its_scene_to_its_members(self):
         self.write_bytes("map.png", dae.png(dae.picture()))
-        code = Maps.TEXTURED.format("", '"{}"')
         for name in ("../map.png", str(self.folder / "map.png")):
-            scene = dae.plain(effects=RSL.format(code=code.format(name), params="", binds=""))
+            code = Maps.TEXTURED.format("", f'"{name}"')
+            scene = dae.plain(effects=RSL.format(code=code, params="", binds=""))
             path = self.folder / "a.zae"
             with zipfile.ZipFile(path, "w") as archive:
                 archive.writestr("main.dae", scene)
