@@ -42,14 +42,19 @@ void read_setparams(Extraction& x, Link instance, uint32_t material_number, Mate
     }
 }
 
-// <extra><technique profile="RSL" target="interior">, or on an element inside it.
+// <extra><technique profile="RSL" target="interior exterior">, or on elements inside it: a word for
+// each VOLUME shader.
 std::string read_volume_target(const Element& material) {
     const Element* technique = extra_technique(material, "RSL");
     if (!technique) return {};
-    std::string_view target = technique->value("target");
-    for (const Element& child : technique->children())
-        if (target.empty()) target = child.value("target");
-    return std::string(target);
+    std::string targets(technique->value("target"));
+    if (!targets.empty()) return targets;
+    for (const Element& child : technique->children()) {
+        std::string_view target = child.value("target");
+        if (!target.empty() && !targets.empty()) targets += ' ';
+        targets += target;
+    }
+    return targets;
 }
 
 // <extra><technique profile="RSL"><samples>: of an area light, at each lit point.

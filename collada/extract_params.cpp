@@ -47,7 +47,10 @@ void fit_color(Extraction& x, Link link, std::vector<double>& numbers) {
 
 void read_string(Extraction& x, Link link, ParamValue& out) {
     out.strings.emplace_back(trim(link.element->text));
-    const Element* image = find_kind(x.document(link.doc), out.strings.back(), {"image"});
+    std::string_view id = out.strings.back();  // of an image, perhaps with words behind a '?'
+    const Element* image = find_kind(x.document(link.doc), id, {"image"});
+    if (!image && id.find('?') != std::string_view::npos)
+        image = find_kind(x.document(link.doc), id.substr(0, id.find('?')), {"image"});
     if (image) out.image = image_index(x, {link.doc, image});
 }
 

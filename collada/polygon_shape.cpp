@@ -3,18 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 namespace kinora::collada {
 
 namespace {
-
-dvec3 cross3(const dvec3& a, const dvec3& b) {
-    return dvec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-double dot3(const dvec3& a, const dvec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 // Files hold about seven digits: corners off a line by less are on it.
 constexpr double kFileDigits = 1e-7;
@@ -66,16 +60,16 @@ PolygonShape polygon_shape(std::span<const dvec3> corners) {
     double diameter2 = 0;
     for (size_t i = 1; i < n; ++i) {
         dvec3 a = corners[i] - origin;
-        diameter2 = std::max(diameter2, dot3(a, a));
-        if (i + 1 < n) area += cross3(a, corners[i + 1] - origin);
+        diameter2 = std::max(diameter2, glm::dot(a, a));
+        if (i + 1 < n) area += glm::cross(a, corners[i + 1] - origin);
     }
     // Of larger polygons the distance from one corner says enough.
     for (size_t i = 1; n <= kAllPairs && i < n; ++i)
         for (size_t k = i + 1; k < n; ++k) {
             dvec3 a = corners[k] - corners[i];
-            diameter2 = std::max(diameter2, dot3(a, a));
+            diameter2 = std::max(diameter2, glm::dot(a, a));
         }
-    double length2 = dot3(area, area);
+    double length2 = glm::dot(area, area);
     if (!(length2 > kFileDigits * kFileDigits * diameter2 * diameter2)) {
         shape.empty = true;
         return shape;
@@ -86,10 +80,10 @@ PolygonShape polygon_shape(std::span<const dvec3> corners) {
     for (const dvec3& c : corners) center += (c - origin) / double(n);
     for (size_t i = 0; i < n; ++i) {
         dvec3 a = corners[i] - origin;
-        shape.deviation = std::max(shape.deviation, std::abs(dot3(a - center, normal)));
+        shape.deviation = std::max(shape.deviation, std::abs(glm::dot(a - center, normal)));
         dvec3 in = corners[i] - corners[(i + n - 1) % n], out = corners[(i + 1) % n] - corners[i];
-        double turn = dot3(cross3(in, out), normal);
-        if (turn < 0 && turn * turn > kStraight * kStraight * dot3(in, in) * dot3(out, out))
+        double turn = glm::dot(glm::cross(in, out), normal);
+        if (turn < 0 && turn * turn > kStraight * kStraight * glm::dot(in, in) * glm::dot(out, out))
             shape.concave = true;
     }
     shape.deviation /= std::sqrt(diameter2);

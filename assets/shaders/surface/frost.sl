@@ -5,12 +5,11 @@ surface frost(float Ka = 0.6; float Kd = 0.25; float Ks = 0.4; float Kr = 0.8; f
     normal Nf = faceforward(normalize(N), I);
     vector In = normalize(I);
     vector R = reflect(In, Nf);
-    float depth = 0;
-    rayinfo("depth", depth);
+    float depth = raylevel();
     color sum = 0;
     float hits = 0;
     float misses = 0;
-    if (depth < 2) {
+    if (depth < 2 && isshadowray() == 0) {
         color seen = 0;
         float way = 0;
         gather("illuminance", P, R, radians(blur), depth > 0 ? 2 : samples, "surface:Ci", seen,
