@@ -13,6 +13,28 @@ namespace kinora {
 
 namespace {
 constexpr size_t kMostSurfaces = 1'000'000;
+
+// Meshes whose definitions are read after they are built: by displacement, which dices them anew,
+// and by morphs.
+std::vector<bool> read_again(const SceneDescription& description) {
+    bool displaced = std::any_of(description.materials.begin(), description.materials.end(),
+                                 [](const MaterialDefinition& m) {
+                                     return !m.displacements.empty() || !m.transformations.empty();
+                                 });
+    std::vector<bool> result(description.meshes.size(), displaced);
+    for (const MorphDefinition& morph : description.morphs)
+        for (uint32_t target : morph.targets)
+            if (target < result.size()) result[target] = true;
+    for (const NodeDefinition& node : description.nodes)
+        for (const MeshUse& use : node.meshes)
+            if (use.morph != kNone) result[use.mesh] = true;
+    return result;
+}
+
+void release(MeshDefinition& mesh) {
+    mesh.positions = {};
+    mesh.groups = {};
+}
 }  // namespace
 
 // Those that are there.
@@ -30,9 +52,11 @@ void SceneBuilder::place_meshes() {
             deforms[use.mesh] = deforms[use.mesh] || use.skin != kNone || use.morph != kNone;
             ++uses[use.mesh];
         }
+    std::vector<bool> kept = read_again(description_);
     for (size_t m = 0; m < description_.meshes.size(); ++m) {
         scene.meshes.push_back(uses[m] ? build_mesh(description_.meshes[m], deforms[m]) : Mesh());
         scene.meshes.back().definition = uint32_t(m);
+        if (!kept[m]) release(description_.meshes[m]);
     }
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshUse& use : meshes_of(scene.nodes[n])) {
