@@ -31,9 +31,10 @@ std::vector<bool> read_again(const SceneDescription& description) {
     return result;
 }
 
-void release(MeshDefinition& mesh) {
+// Its attributes stay: looks point at them.
+void release_geometry(MeshDefinition& mesh) {
     mesh.positions = {};
-    mesh.groups = {};
+    for (PrimitiveGroup& group : mesh.groups) group.triangles = {};
 }
 }  // namespace
 
@@ -56,7 +57,7 @@ void SceneBuilder::place_meshes() {
     for (size_t m = 0; m < description_.meshes.size(); ++m) {
         scene.meshes.push_back(uses[m] ? build_mesh(description_.meshes[m], deforms[m]) : Mesh());
         scene.meshes.back().definition = uint32_t(m);
-        if (!kept[m]) release(description_.meshes[m]);
+        if (!kept[m]) release_geometry(description_.meshes[m]);
     }
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshUse& use : meshes_of(scene.nodes[n])) {
