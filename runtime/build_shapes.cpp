@@ -33,8 +33,8 @@ std::vector<bool> read_again(const SceneDescription& description) {
 
 // Its attributes stay: looks point at them.
 void release_geometry(MeshDefinition& mesh) {
-    mesh.positions = {};
-    for (PrimitiveGroup& group : mesh.groups) group.triangles = {};
+    std::vector<dvec3>().swap(mesh.positions);
+    for (PrimitiveGroup& group : mesh.groups) std::vector<uint32_t>().swap(group.triangles);
 }
 }  // namespace
 
