@@ -218,7 +218,7 @@ bool holds_for_all(std::string_view text) {
         if (!rules.holds(p)) return false;
     char rest[64];  // with a space at least, so that the last number ends
     std::memset(rest, ' ', sizeof rest);
-    std::memcpy(rest, p, size_t(end - p));
+    std::copy(p, end, rest);
     return rules.holds(rest);
 }
 

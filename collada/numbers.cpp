@@ -149,7 +149,7 @@ struct Words {
         if (begin == tail) return;
         size_t left = size_t(end - p);
         offset = size_t(p - begin);
-        std::memcpy(tail, p, left);
+        std::copy(p, end, tail);
         std::memset(tail + left, 0, sizeof tail - left);
         p = begin = tail;
         end = tail + left;
