@@ -7,6 +7,7 @@
 #include "runtime/findings.h"
 #include "runtime/import_gltf_p.h"
 #include "runtime/json_text.h"
+#include "runtime/profile_rsl/effect_shaders.h"
 #include "runtime/profile_rsl/findings.h"
 #include "runtime/shader_library.h"
 #include "runtime/texture_name.h"
@@ -14,12 +15,6 @@
 namespace kinora {
 
 namespace {
-
-const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::string_view name) {
-    for (const rsl::ShaderParameter& parameter : shader.parameters)
-        if (parameter.name == name) return &parameter;
-    return nullptr;
-}
 
 const tinygltf::Value* member(const tinygltf::Value& object, const char* name) {
     return object.IsObject() && object.Has(name) ? &object.Get(name) : nullptr;

@@ -9,16 +9,11 @@
 #include <cmath>
 
 #include "runtime/findings.h"
+#include "runtime/profile_rsl/effect_shaders.h"
 
 namespace kinora {
 
 namespace {
-
-const rsl::ShaderParameter* find_parameter(const rsl::Shader& shader, std::string_view name) {
-    for (const rsl::ShaderParameter& parameter : shader.parameters)
-        if (parameter.name == name) return &parameter;
-    return nullptr;
-}
 
 // Calls f(ShaderUse&) for all shaders of a material.
 template <class F>
