@@ -94,6 +94,7 @@ class Checker {
     bool sort_illuminance(IlluminanceStmt& s, size_t next);
     void output_pairs(std::span<Expr*> pairs, const char* statement_name,
                       bool (*is_output)(std::string_view name));
+    void drop_unfit(std::span<Expr*>& args, size_t first, std::string_view callee);
     void cone(Expr*& axis, Expr*& angle, const char* statement_name);
     Expr* assumed_angle(const Stmt& s, const char* statement_name, double angle, const char* text);
 

@@ -168,10 +168,12 @@ bool Checker::sort_illuminance(IlluminanceStmt& s, size_t next) {
         bool given = next < count && !is_string(next);
         s.angle = given ? s.args[next++] : assumed_angle(s, "illuminance", kHalfPi, "PI/2");
     }
-    s.pairs = s.args.subspan(next);
     for (size_t k = next; k < count; k += 2)
         if (!is_string(k)) return false;
-    return s.pairs.size() % 2 == 0;
+    if ((count - next) % 2 != 0) return false;
+    drop_unfit(s.args, next, "illuminance");
+    s.pairs = s.args.subspan(next);
+    return true;
 }
 
 void Checker::check(IlluminateStmt& s) {
@@ -217,10 +219,32 @@ void Checker::check(GatherStmt& s) {
         bring_to(s.args[k], {kWanted[k], -1}, fmt::format("argument {} of gather", k + 1));
         *wanted[k] = s.args[k];
     }
+    drop_unfit(s.args, 5, "gather");
     s.pairs = s.args.subspan(5);
     output_pairs(s.pairs, "gather", is_gather_output);
     loop_body(s, *s.body);
     if (s.missed) loop_body(s, *s.missed);
+}
+
+// Optional parameters from args[first] on whose values have the wrong type are reported and left
+// out, so that no later stage meets a text where it takes a number.
+void Checker::drop_unfit(std::span<Expr*>& args, size_t first, std::string_view callee) {
+    size_t kept = first;
+    for (size_t k = first; k + 1 < args.size(); k += 2) {
+        Expr*& given = args[k + 1];
+        if (given->type.base == BaseType::Bool) convert(given, BaseType::Float);
+        std::string_view name = pair_name(args, k + 1);
+        BaseType wanted = option_type(name);
+        bool known = wanted != BaseType::Invalid && given->type.base != BaseType::Invalid;
+        if (known && given->type != Type{wanted, -1}) {
+            report(Code::RSL_PAIR_TYPE, given->place, name, callee, type_name({wanted, -1}),
+                   type_name(given->type));
+            continue;
+        }
+        args[kept++] = args[k];
+        args[kept++] = given;
+    }
+    args = args.first(kept);
 }
 
 // Results among "name", value pairs must be variables.

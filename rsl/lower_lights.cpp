@@ -191,15 +191,16 @@ void Lowering::light_body(const IlluminanceStmt& stmt, Value set, Value record, 
         Value dark = b.op(jit::Op::IEq, record_field(set, record, kLightLit, jit::Type::I), b.i(0));
         Value lit = b.and_not(inside(around, L), dark);
         guarded(b.logical_and(running, lit), [&] {
+            // Through write_slot: a body that assigns them (to no effect outside) is merged with
+            // what they were before.
             constexpr Global kSet[] = {Global::L, Global::Cl, Global::Ol, Global::Ps};
             Slot saved[4];
             for (size_t k = 0; k < 4; ++k) saved[k] = slots_[size_t(kSet[k])];
-            slots_[size_t(Global::L)] = {true, lowered(BaseType::Vector, L)};
-            slots_[size_t(Global::Cl)] = {
-                true, lowered(BaseType::Color, record_triple(set, record, kLightCl))};
-            slots_[size_t(Global::Ol)] = {
-                true, lowered(BaseType::Color, record_triple(set, record, kLightOl))};
-            slots_[size_t(Global::Ps)] = {true, position};
+            V3 Cl = record_triple(set, record, kLightCl), Ol = record_triple(set, record, kLightOl);
+            write_slot(int(Global::L), lowered(BaseType::Vector, L));
+            write_slot(int(Global::Cl), lowered(BaseType::Color, Cl));
+            write_slot(int(Global::Ol), lowered(BaseType::Color, Ol));
+            write_slot(int(Global::Ps), position);
             Value outer_set = std::exchange(current_set, set);
             Value outer_record = std::exchange(current_record, record);
             light_pairs(stmt);

@@ -15,6 +15,13 @@ constexpr std::string_view kPointOptions[] = {"radius",       "coordsystem", "in
                                               "lerp",         "samples"};
 constexpr std::string_view kOcclusionOutputs[] = {"environmentdir"};
 
+constexpr std::string_view kTexts[] = {"filter",         "label",    "distribution",
+                                       "environmentmap", "filename", "coordsystem"};
+constexpr std::string_view kNumbers[] = {
+    "bias",   "maxdist", "samples",    "samplecone", "coneangle", "falloff", "falloffmode",
+    "blur",   "sblur",   "tblur",      "width",      "swidth",    "twidth",  "fill",
+    "radius", "source",  "samplebase", "estimator",  "gapbias"};
+
 template <size_t N>
 bool among(std::string_view name, const std::string_view (&list)[N]) {
     return std::find(list, list + N, name) != list + N;
@@ -25,6 +32,11 @@ bool among(std::string_view name, const std::string_view (&list)[N]) {
 std::string_view pair_name(std::span<Expr* const> args, size_t value) {
     const auto* name = value > 0 ? as_if<StringExpr>(args[value - 1]) : nullptr;
     return name ? std::string_view(name->value) : std::string_view();
+}
+
+BaseType option_type(std::string_view name) {
+    if (among(name, kTexts)) return BaseType::String;
+    return among(name, kNumbers) ? BaseType::Float : BaseType::Invalid;
 }
 
 bool is_output_pair(const CallExpr& call, size_t value) {

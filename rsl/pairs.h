@@ -17,6 +17,9 @@ bool is_gather_output(std::string_view name);
 // illuminance(..., "light:falloff", x): a parameter of the light.
 bool is_light_output(std::string_view name);
 
+// What an optional parameter that Kinora knows takes: String, or Float; Invalid for any other name.
+BaseType option_type(std::string_view name);
+
 // The literal that names the pair whose value is args[value]; "" if it is no literal.
 std::string_view pair_name(std::span<Expr* const> args, size_t value);
 
