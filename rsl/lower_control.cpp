@@ -16,8 +16,7 @@ void Lowering::statement(const Stmt& stmt) {
         case StmtKind::DefineFunction:
             return;
         case StmtKind::Expression:
-            expr(*as<ExpressionStmt>(stmt).expression);
-            return;
+            return evaluate(*as<ExpressionStmt>(stmt).expression);
         case StmtKind::If:
             return branch(as<IfStmt>(stmt));
         case StmtKind::While:
@@ -42,6 +41,11 @@ void Lowering::statement(const Stmt& stmt) {
         case StmtKind::Gather:
             return gather(as<GatherStmt>(stmt));
     }
+}
+
+// An array by itself does nothing, and is no value.
+void Lowering::evaluate(const Expr& e) {
+    if (e.kind != ExprKind::Variable) expr(e);
 }
 
 // After a statement that took lanes out, the rest runs in an If for those that are left.

@@ -146,6 +146,7 @@ class Lowering : public Emitter {
 
     // lower_control.cpp
     void statement(const Stmt& stmt);
+    void evaluate(const Expr& e);
     void block(std::span<Stmt* const> body);
     // Runs body() for the lanes of `mask` (a part of running) and merges what it changed.
     template <class Body>
