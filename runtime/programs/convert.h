@@ -15,11 +15,11 @@ struct ConvertOptions {
     std::string input, output;
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
     std::vector<std::string> include_directories;
-    std::optional<UpAxis> up_axis;  // of the output; the picture stays
-    std::optional<double> meter;    // likewise
-    double animation_error = 1e-4;  // GltfExportOptions
+    std::optional<UpAxis> up_axis;            // of the output; the picture stays
+    std::optional<double> meter;              // likewise
+    double animation_error = 1e-4;            // GltfExportOptions
     std::vector<std::string> allow_external;  // folders outside the scene's that it may read
-    int threads = 0;  // 0: all
+    int threads = 0;                          // 0: all
     bool strict = false;
     bool quiet = false, verbose = false;
     bool stats = false, stats_json = false;
@@ -51,8 +51,9 @@ std::string change_axes(const std::string& path, const std::string& text,
 
 // The text with relative links of files (images, other documents, shaders) as seen from another
 // folder. `archive` is the folder that a .zae was unpacked to ("" for none): its files are copied
-// into NAME_files beside NAME.dae, where the links then lead.
+// into NAME_files beside NAME.dae, where the links then lead. CONVERT_OUTSIDE for links that lead
+// out of the new document's folder.
 std::string move_links(const std::string& path, const std::string& text,
-                       const std::string& new_path, const std::string& archive);
+                       const std::string& new_path, const std::string& archive, Diagnostics& diag);
 
 }  // namespace kinora

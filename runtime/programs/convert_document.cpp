@@ -178,10 +178,8 @@ class AxisChange {
             std::string_view name;
             double power;
         };
-        static constexpr Row kLengths[] = {{"xmag", 1},
-                                           {"ymag", 1},
-                                           {"linear_attenuation", -1},
-                                           {"quadratic_attenuation", -2}};
+        static constexpr Row kLengths[] = {
+            {"xmag", 1}, {"ymag", 1}, {"linear_attenuation", -1}, {"quadratic_attenuation", -2}};
         if (scale_ == 1) return;
         for (const Row& row : kLengths) {
             if (e.name != row.name || !collada::holds_numbers(e)) continue;
@@ -270,7 +268,7 @@ std::string change_axes(const std::string& path, const std::string& text,
 }
 
 std::string move_links(const std::string& path, const std::string& text,
-                       const std::string& new_path, const std::string& archive) {
+                       const std::string& new_path, const std::string& archive, Diagnostics& diag) {
     Diagnostics quiet;
     std::optional<Document> document = collada::read_document_text(path, text, quiet);
     if (!document || !document->whole()) return text;
@@ -287,11 +285,14 @@ std::string move_links(const std::string& path, const std::string& text,
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
     }
     std::vector<Edit> edits;
+    std::set<std::string> outside;
     auto moved = [&](std::string_view link) -> std::optional<std::string> {
         std::optional<std::string> file = relative_file(link);
         if (!file) return std::nullopt;
         fs::path moved_file = archive.empty() ? (from / *file).lexically_relative(to)
                                               : (unpacked / *file).lexically_normal();
+        if (moved_file.begin() != moved_file.end() && *moved_file.begin() == "..")
+            outside.insert(moved_file.generic_string());
         std::string name = encoded(moved_file.generic_string());
         size_t hash = link.find('#');
         return name + (hash == link.npos ? "" : std::string(link.substr(hash)));
@@ -312,6 +313,8 @@ std::string move_links(const std::string& path, const std::string& text,
                 edits.push_back({a.value_bytes, collada::escape_attribute(*link)});
         }
     });
+    if (!outside.empty())
+        diag.report(Code::CONVERT_OUTSIDE, Location{}, *outside.begin(), outside.size() - 1);
     return collada::apply_edits(own, std::move(edits));
 }
 
@@ -322,7 +325,7 @@ std::optional<std::string> convert_document(const ConvertOptions& options, Diagn
     if (!document || !document->whole()) return std::nullopt;  // an Error says why
     std::string path = document->path();
     std::string text = move_links(path, std::string(diag.files.text(document->file())),
-                                  options.output, file->folder);
+                                  options.output, file->folder, diag);
     for (const auto& [material, shader] : options.shaders) {
         std::optional<std::string> next = embed_shader(path, text, material, shader, options, diag);
         if (!next) return std::nullopt;

@@ -173,6 +173,8 @@ class ToDae(Convert):
         scene = self.write("a.dae", mesh_scene(body))
         out = self.converted(scene, "deep/er/b.dae")
         self.assertIn("<init_from>../../pictures/a%20b.png</init_from>", out.read_text())
+        self.expect(convert(scene, out), 0, "'../../pictures/a b.png' is outside", "--allow-external")
+        self.assertNotIn("CONVERT_OUTSIDE", str(convert(scene, self.folder / "c.dae")))
 
     def test_comments_and_private_data_stay(self):
         body = '<!-- keep me -->\n<library_nodes><node id="x"><extra><technique profile="v"><a b="1">&lt;2</a>' \
