@@ -314,7 +314,7 @@ std::string move_links(const std::string& path, const std::string& text,
         }
     });
     if (!outside.empty())
-        diag.report(Code::CONVERT_OUTSIDE, Location{}, *outside.begin(), outside.size() - 1);
+        diag.report(Code::CONVERT_OUTSIDE, Location{}, outside.size(), *outside.begin());
     return collada::apply_edits(own, std::move(edits));
 }
 
