@@ -1,4 +1,5 @@
 // collada/extract_mesh.cpp: <geometry>: positions, sources, and the primitives on them.
+#include <algorithm>
 #include <cmath>
 
 #include "collada/numbers_p.h"
@@ -14,10 +15,10 @@ uint32_t MeshReader::source_index(Link link) {
     bool fits = afford(x, sizeof(FloatSource) + data.values.size() * sizeof(float), x.where(link));
     if (!fits) return kNone;
     FloatSource source{std::string(link.element->value("id")), data.stride, {}};
-    source.values.reserve(data.values.size());
+    source.values.resize(data.values.size());
     // Beyond a float's range counts as not finite, too.
-    for (double v : data.values)
-        source.values.push_back(std::abs(v) <= 3.4028234e38 ? float(v) : 0.0f);
+    std::transform(data.values.begin(), data.values.end(), source.values.begin(),
+                   [](double v) { return std::abs(v) <= 3.4028234e38 ? float(v) : 0.0f; });
     return at->second = append(geometry.sources, std::move(source));
 }
 

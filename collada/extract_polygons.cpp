@@ -98,10 +98,10 @@ class TriangleList {
   private:
     bool ok(uint32_t v) const { return usable_.empty() || usable_[v]; }
     void add(uint32_t a, uint32_t b, uint32_t c) {
-        if (ok(a) && ok(b) && ok(c)) triangles_.insert(triangles_.end(), {a, b, c});
+        if (!ok(a) || !ok(b) || !ok(c)) return;
+        for (uint32_t corner : {a, b, c}) triangles_.push_back(corner);
     }
-    // An outline as the file has it; strips and fans repeat corners on purpose.
-    void see_shape(uint32_t first, uint32_t count);
+    bool gather(uint32_t first, uint32_t count);
     void add_polygon(uint32_t first, std::span<const uint32_t> loops);
     void report_short(uint32_t count) {
         if (!short_reported_)
@@ -117,8 +117,7 @@ class TriangleList {
     uint32_t offset_;
     std::vector<uint32_t> triangles_;
     std::vector<dvec3> corners_;
-    std::vector<uint32_t> cut_;
-    PolygonStatistics shapes_;  // only the validator asks for them
+    PolygonStatistics shapes_;  // of outlines, for the validator; strips and fans repeat corners
     bool short_reported_ = false, crossing_reported_ = false, hole_reported_ = false;
 };
 
@@ -131,17 +130,19 @@ void TriangleList::read_triangles() {
     triangles_.reserve(size_t(count) * 3);
     for (uint32_t t = 0; t < count; ++t) add(3 * t, 3 * t + 1, 3 * t + 2);
     if (mesh_.x.options.everything)
-        for (uint32_t t = 0; t < count; ++t) see_shape(3 * t, 3);
+        for (uint32_t t = 0; t < count; ++t)
+            if (gather(3 * t, 3)) shapes_.add(corners_);
 }
 
-void TriangleList::see_shape(uint32_t first, uint32_t count) {
-    corners_.clear();
-    for (uint32_t v = first; v < first + count; ++v) {
-        if (!ok(v)) return;
-        corners_.push_back(
-            mesh_.geometry.positions[size_t(p_.numbers[size_t(v) * p_.stride + offset_])]);
+// The places of corners that follow one another; false when one of them is not usable.
+bool TriangleList::gather(uint32_t first, uint32_t count) {
+    corners_.resize(count);
+    for (uint32_t c = 0; c < count; ++c) {
+        if (!ok(first + c)) return false;
+        int32_t position = p_.numbers[size_t(first + c) * p_.stride + offset_];
+        corners_[c] = mesh_.geometry.positions[size_t(position)];
     }
-    shapes_.add(corners_);
+    return true;
 }
 
 void TriangleList::report_shapes() {
@@ -160,17 +161,12 @@ void TriangleList::add_polygon(uint32_t first, std::span<const uint32_t> loops) 
     if (loops[0] < 3) return report_short(loops[0]);
     uint32_t corners = 0;
     for (uint32_t loop : loops) corners += loop;
-    for (uint32_t v = first; v < first + corners; ++v)
-        if (!ok(v)) return;
-    if (mesh_.x.options.everything) see_shape(first, loops[0]);
+    if (!gather(first, corners)) return;
+    if (mesh_.x.options.everything) shapes_.add(std::span(corners_).first(loops[0]));
     if (corners == 3) return add(first, first + 1, first + 2);
-    corners_.clear();
-    for (uint32_t v = first; v < first + corners; ++v)
-        corners_.push_back(
-            mesh_.geometry.positions[size_t(p_.numbers[size_t(v) * p_.stride + offset_])]);
-    cut_.clear();
-    Triangulation result = triangulate(corners_, loops, cut_);
-    for (uint32_t c : cut_) triangles_.push_back(first + c);
+    size_t done = triangles_.size();
+    Triangulation result = triangulate(corners_, loops, triangles_);
+    for (size_t i = done; i < triangles_.size(); ++i) triangles_[i] += first;
     if (result.self_intersecting && !crossing_reported_) {
         crossing_reported_ = true;
         mesh_.x.diag.report(Code::PRIM_SELF_INTERSECT, mesh_.x.where(primitive_));

@@ -113,31 +113,36 @@ Location number_place(Extraction& x, Link primitive, const PrimitiveIndices& p, 
     return x.document(primitive.doc).text_location(*part.element, begin, begin + word.size());
 }
 
+// The first vertex from `v` on whose number at the offset is beyond what it points into.
+uint32_t next_beyond(const PrimitiveIndices& p, const OffsetUse& use, uint32_t v, uint32_t count) {
+    const int32_t* numbers = p.numbers.data() + use.offset;
+    while (v < count && uint32_t(numbers[size_t(v) * p.stride]) < use.limit) ++v;
+    return v;
+}
+
 // Which vertices name only what exists; empty when all do. Reports the first bad one.
 std::vector<bool> usable_vertices(MeshReader& mesh, Link primitive, const PrimitiveIndices& p,
                                   const Inputs& inputs) {
     std::vector<bool> usable;
+    const uint32_t count = p.vertex_count();
     auto reject = [&](uint32_t vertex) {
-        if (usable.empty()) usable.assign(p.vertex_count(), true);
+        if (usable.empty()) usable.assign(count, true);
         usable[vertex] = false;
     };
     for (const OffsetUse& use : inputs.offsets) {
-        bool reported = false;
-        for (uint32_t v = 0; v < p.vertex_count(); ++v) {
-            int32_t index = p.numbers[size_t(v) * p.stride + use.offset];
-            if (uint32_t(index) < use.limit) continue;
-            reject(v);
-            if (reported) continue;
-            reported = true;
-            Location where = number_place(mesh.x, primitive, p, size_t(v) * p.stride + use.offset);
-            if (index < 0)
-                mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);
-            else
-                mesh.x.diag.report(Code::PRIM_INDEX_RANGE, where, index, use.semantic, use.limit);
-        }
+        uint32_t v = next_beyond(p, use, 0, count);
+        if (v == count) continue;
+        size_t number = size_t(v) * p.stride + use.offset;
+        Location where = number_place(mesh.x, primitive, p, number);
+        int32_t index = p.numbers[number];
+        if (index < 0)
+            mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);
+        else
+            mesh.x.diag.report(Code::PRIM_INDEX_RANGE, where, index, use.semantic, use.limit);
+        for (; v < count; v = next_beyond(p, use, v + 1, count)) reject(v);
     }
     if (mesh.bad_position.empty()) return usable;
-    for (uint32_t v = 0; v < p.vertex_count(); ++v) {
+    for (uint32_t v = 0; v < count; ++v) {
         uint32_t position = uint32_t(p.numbers[size_t(v) * p.stride + inputs.offsets[0].offset]);
         if (position < mesh.bad_position.size() && mesh.bad_position[position]) reject(v);
     }
@@ -175,10 +180,10 @@ void read_primitive(MeshReader& mesh, Link primitive) {
     group.inputs = std::move(inputs.inputs);
     group.where = mesh.x.where(primitive);
     for (const OffsetUse& use : inputs.offsets) {
-        std::vector<uint32_t>& list = group.indices.emplace_back();
-        list.reserve(triangles.size());
-        for (uint32_t v : triangles)
-            list.push_back(uint32_t(p.numbers[size_t(v) * p.stride + use.offset]));
+        std::vector<uint32_t>& list = group.indices.emplace_back(triangles.size());
+        const int32_t* numbers = p.numbers.data() + use.offset;
+        for (size_t i = 0; i < list.size(); ++i)
+            list[i] = uint32_t(numbers[size_t(triangles[i]) * p.stride]);
     }
     mesh.geometry.groups.push_back(std::move(group));
 }

@@ -23,16 +23,15 @@ double cross2(dvec2 a, dvec2 b, dvec2 c) {
 
 // The corners seen along the axis nearest the normal.
 void project(std::span<const dvec3> corners, const dvec3& normal, std::vector<dvec2>& points) {
-    int drop = 2;
+    double dvec3::*u = &dvec3::x;
+    double dvec3::*v = &dvec3::y;
     if (std::abs(normal.x) >= std::abs(normal.y) && std::abs(normal.x) >= std::abs(normal.z))
-        drop = 0;
+        u = &dvec3::y, v = &dvec3::z;
     else if (std::abs(normal.y) >= std::abs(normal.z))
-        drop = 1;
-    points.clear();
-    for (const dvec3& c : corners) {
-        dvec3 p = c - corners[0];
-        points.emplace_back(p[(drop + 1) % 3], p[(drop + 2) % 3]);
-    }
+        u = &dvec3::z, v = &dvec3::x;
+    points.resize(corners.size());
+    for (size_t i = 0; i < corners.size(); ++i)
+        points[i] = {corners[i].*u - corners[0].*u, corners[i].*v - corners[0].*v};
 }
 
 // Edges that only touch, as where a hole is joined to its outline, do not cross.
@@ -41,7 +40,7 @@ bool edges_cross(std::span<const dvec2> p, double tolerance) {
     auto side = [&](double area) { return area > tolerance ? 1 : area < -tolerance ? -1 : 0; };
     for (size_t i = 0; i + 2 < n; ++i)
         for (size_t k = i + 2; k < n && k < n - (i == 0); ++k) {
-            dvec2 a = p[i], b = p[i + 1], c = p[k], d = p[(k + 1) % n];
+            dvec2 a = p[i], b = p[i + 1], c = p[k], d = p[k + 1 < n ? k + 1 : 0];
             if (side(cross2(a, b, c)) * side(cross2(a, b, d)) < 0 &&
                 side(cross2(c, d, a)) * side(cross2(c, d, b)) < 0)
                 return true;
@@ -56,18 +55,20 @@ PolygonShape polygon_shape(std::span<const dvec3> corners) {
     PolygonShape shape;
     const dvec3& origin = corners[0];  // differences keep far polygons exact
     size_t n = corners.size();
-    dvec3 area(0.0);
-    double diameter2 = 0;
-    for (size_t i = 1; i < n; ++i) {
-        dvec3 a = corners[i] - origin;
-        diameter2 = std::max(diameter2, glm::dot(a, a));
-        if (i + 1 < n) area += glm::cross(a, corners[i + 1] - origin);
+    dvec3 area(0.0), a = corners[1] - origin, sum = a;
+    double diameter2 = glm::dot(a, a);
+    for (size_t i = 2; i < n; ++i) {
+        dvec3 b = corners[i] - origin;
+        diameter2 = std::max(diameter2, glm::dot(b, b));
+        area += glm::cross(a, b);
+        sum += b;
+        a = b;
     }
     // Of larger polygons the distance from one corner says enough.
     for (size_t i = 1; n <= kAllPairs && i < n; ++i)
         for (size_t k = i + 1; k < n; ++k) {
-            dvec3 a = corners[k] - corners[i];
-            diameter2 = std::max(diameter2, glm::dot(a, a));
+            dvec3 side = corners[k] - corners[i];
+            diameter2 = std::max(diameter2, glm::dot(side, side));
         }
     double length2 = glm::dot(area, area);
     if (!(length2 > kFileDigits * kFileDigits * diameter2 * diameter2)) {
@@ -76,15 +77,15 @@ PolygonShape polygon_shape(std::span<const dvec3> corners) {
     }
     if (n == 3) return shape;
     dvec3 normal = area / std::sqrt(length2);
-    dvec3 center(0.0);
-    for (const dvec3& c : corners) center += (c - origin) / double(n);
+    dvec3 center = sum / double(n), in = origin - corners[n - 1];
     for (size_t i = 0; i < n; ++i) {
-        dvec3 a = corners[i] - origin;
-        shape.deviation = std::max(shape.deviation, std::abs(glm::dot(a - center, normal)));
-        dvec3 in = corners[i] - corners[(i + n - 1) % n], out = corners[(i + 1) % n] - corners[i];
+        double height = glm::dot(corners[i] - origin - center, normal);
+        shape.deviation = std::max(shape.deviation, std::abs(height));
+        dvec3 out = corners[i + 1 < n ? i + 1 : 0] - corners[i];
         double turn = glm::dot(glm::cross(in, out), normal);
         if (turn < 0 && turn * turn > kStraight * kStraight * glm::dot(in, in) * glm::dot(out, out))
             shape.concave = true;
+        in = out;
     }
     shape.deviation /= std::sqrt(diameter2);
     constexpr size_t kMostCorners = 256;  // the work is the square of it

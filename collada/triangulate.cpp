@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 namespace kinora::collada {
@@ -12,12 +13,12 @@ namespace {
 
 // Newell's normal: twice the area vector of the outline.
 dvec3 area_vector(std::span<const dvec3> loop) {
-    dvec3 sum(0.0);
     const dvec3& origin = loop[0];  // differences keep far polygons exact
-    for (size_t i = 0; i < loop.size(); ++i) {
-        dvec3 a = loop[i] - origin;
-        dvec3 b = loop[(i + 1) % loop.size()] - origin;
-        sum += dvec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    dvec3 sum(0.0), a = loop[1] - origin;
+    for (size_t i = 2; i < loop.size(); ++i) {
+        dvec3 b = loop[i] - origin;
+        sum += glm::cross(a, b);
+        a = b;
     }
     return sum;
 }
@@ -36,8 +37,8 @@ bool same(dvec2 a, dvec2 b) {
 
 class EarClipper {
   public:
-    EarClipper(std::vector<dvec2> points, std::vector<uint32_t>& triangles)
-        : points_(std::move(points)), triangles_(triangles) {}
+    EarClipper(std::span<const dvec2> points, std::vector<uint32_t>& triangles)
+        : points_(points), triangles_(triangles) {}
 
     // Joins a hole (corner numbers, clockwise) to the outline; false if it sees no outline.
     bool bridge(std::span<const uint32_t> hole);  // or when the budget of work is spent
@@ -55,7 +56,7 @@ class EarClipper {
     bool cut_stuck(uint32_t& start, uint32_t left);
 
     static constexpr uint64_t kBudget = 100'000'000;
-    std::vector<dvec2> points_;
+    std::span<const dvec2> points_;
     std::vector<uint32_t>& triangles_;
     std::vector<uint32_t> ring_;             // corner numbers around the (bridged) outline
     std::vector<uint32_t> next_, previous_;  // linked positions of ring_
@@ -196,30 +197,36 @@ bool EarClipper::clip() {
 }
 
 // Drops the coordinate along which the polygon is thinnest, keeping its orientation positive.
-std::vector<dvec2> project(std::span<const dvec3> corners, dvec3 normal) {
-    int drop = 2;
+void project(std::span<const dvec3> corners, dvec3 normal, std::vector<dvec2>& points) {
+    double dvec3::*drop = &dvec3::z;
+    double dvec3::*u = &dvec3::x;
+    double dvec3::*v = &dvec3::y;
     if (std::abs(normal.x) > std::abs(normal.y) && std::abs(normal.x) > std::abs(normal.z))
-        drop = 0;
+        drop = &dvec3::x, u = &dvec3::y, v = &dvec3::z;
     else if (std::abs(normal.y) > std::abs(normal.z))
-        drop = 1;
-    int u = (drop + 1) % 3, v = (drop + 2) % 3;
-    if (normal[drop] < 0) std::swap(u, v);
-    std::vector<dvec2> points;
-    points.reserve(corners.size());
-    for (const dvec3& p : corners) points.emplace_back(p[u], p[v]);
-    return points;
+        drop = &dvec3::y, u = &dvec3::z, v = &dvec3::x;
+    if (normal.*drop < 0) std::swap(u, v);
+    points.resize(corners.size());
+    for (size_t i = 0; i < corners.size(); ++i) points[i] = {corners[i].*u, corners[i].*v};
 }
 
 bool is_convex_fan(std::span<const dvec2> p) {
-    for (size_t i = 0; i < p.size(); ++i)
-        if (!(cross(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) >= 0)) return false;
+    dvec2 a = p[p.size() - 2], b = p[p.size() - 1];
+    for (dvec2 c : p) {
+        if (!(cross(a, b, c) >= 0)) return false;
+        a = b, b = c;
+    }
     for (size_t i = 2; i < p.size(); ++i)
         if (!(cross(p[0], p[i - 1], p[i]) > 0)) return false;
     return true;
 }
 
+void add_triangle(std::vector<uint32_t>& triangles, uint32_t a, uint32_t b, uint32_t c) {
+    for (uint32_t corner : {a, b, c}) triangles.push_back(corner);
+}
+
 void fan(uint32_t count, std::vector<uint32_t>& triangles) {
-    for (uint32_t i = 2; i < count; ++i) triangles.insert(triangles.end(), {0, i - 1, i});
+    for (uint32_t i = 2; i < count; ++i) add_triangle(triangles, 0, i - 1, i);
 }
 
 double signed_area(std::span<const dvec2> points, std::span<const uint32_t> loop) {
@@ -237,12 +244,13 @@ Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32
     uint32_t outline = loops[0];
     if (outline < 3) return result;
     if (outline == 3 && loops.size() == 1) {
-        triangles.insert(triangles.end(), {0, 1, 2});
+        add_triangle(triangles, 0, 1, 2);
         return result;
     }
     dvec3 normal = area_vector(corners.first(outline));
     bool flat = normal.x == 0 && normal.y == 0 && normal.z == 0;
-    std::vector<dvec2> points = project(corners, normal);
+    thread_local std::vector<dvec2> points;  // of one polygon after the other
+    project(corners, normal, points);
     if (flat || (loops.size() == 1 && is_convex_fan(points))) {
         fan(outline, triangles);
         return result;
