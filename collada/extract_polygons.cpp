@@ -11,8 +11,8 @@ namespace kinora::collada {
 
 namespace {
 
-void read_part(Extraction& x, Link link, PrimitiveIndices& p) {
-    std::vector<int32_t> numbers = read_ints(x.document(link.doc), *link.element, x.diag);
+void read_part(Extraction& x, Link link, PrimitiveIndices& p, size_t expected = 0) {
+    std::vector<int32_t> numbers = read_ints(x.document(link.doc), *link.element, x.diag, expected);
     size_t surplus = numbers.size() % p.stride;
     if (surplus) {
         x.diag.report(Code::PRIM_P_COUNT, x.where(link), numbers.size(), p.stride);
@@ -53,6 +53,13 @@ void check_count(Extraction& x, Link primitive, size_t found) {
         x.diag.report(Code::PRIM_COUNT, x.where(primitive, "count"), count, found);
 }
 
+// About as many as the <p> of so many triangles or polygons holds; of others each <p> is one.
+size_t expected_indices(const Element& primitive, uint32_t stride) {
+    bool one_list = primitive.name == "triangles" || primitive.name == "polylist";
+    size_t corners = primitive.name == "triangles" ? 3 : 4, most = SIZE_MAX / (4 * stride);
+    return one_list ? std::min(written_count(primitive), most) * corners * stride : 0;
+}
+
 }  // namespace
 
 PrimitiveIndices read_indices(Extraction& x, Link primitive, uint32_t stride,
@@ -63,7 +70,7 @@ PrimitiveIndices read_indices(Extraction& x, Link primitive, uint32_t stride,
         Link link{primitive.doc, &child};
         if (child.name == "p") {
             polygons.first.push_back(p.vertex_count());
-            read_part(x, link, p);
+            read_part(x, link, p, expected_indices(*primitive.element, stride));
             polygons.loop_sizes.push_back(p.vertex_count() - polygons.first.back());
             polygons.loops_of.push_back(1);
         } else if (child.name == "ph") {
@@ -184,8 +191,8 @@ void TriangleList::read_polylist() {
                             "vcount");
         return;
     }
-    std::vector<int32_t> counts =
-        read_ints(mesh_.x.document(primitive_.doc), *vcount, mesh_.x.diag);
+    std::vector<int32_t> counts = read_ints(mesh_.x.document(primitive_.doc), *vcount, mesh_.x.diag,
+                                            written_count(*primitive_.element));
     check_count(mesh_.x, primitive_, counts.size());
     triangles_.reserve(size_t(p_.vertex_count()) * 2);
     uint32_t at = 0;

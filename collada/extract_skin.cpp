@@ -200,7 +200,8 @@ void SkinReader::read_influences(Link link, const Layout& layout) {
     const Element* v_element = link.element->child("v");
     size_t positions = skin.offsets.size() - 1;
     std::vector<int32_t> counts, v;
-    if (vcount_element) counts = read_ints(x.document(doc), *vcount_element, x.diag);
+    if (vcount_element)
+        counts = read_ints(x.document(doc), *vcount_element, x.diag, written_count(*link.element));
     if (v_element) v = read_ints(x.document(doc), *v_element, x.diag);
     uint64_t written = 0;
     bool has_count = parse_count(link.element->value("count"), written);

@@ -141,7 +141,8 @@ DoubleSource read_double_source(Extraction& x, Link source) {
         return out;
     }
     if (!afford_parsing(x, {source.doc, array})) return out;
-    std::vector<double> values = read_doubles(x.document(source.doc), *array, x.diag);
+    std::vector<double> values =
+        read_doubles(x.document(source.doc), *array, x.diag, written_count(*array));
     if (x.options.everything) x.read_arrays.insert(array);
     check_array_count(x, {source.doc, array}, values.size());
     SourceView view;

@@ -56,25 +56,25 @@ const char* read_short_doubles(const char* begin, const char* p, const char* end
             ++p;
             continue;
         }
-        bool negative = *p == '-';
-        const char* first = p + negative;
-        __m128i word = load(first);
+        __m128i word = load(p);
         unsigned space = bits(_mm_cmpeq_epi8(_mm_min_epu8(word, _mm_set1_epi8(' ')), word));
         unsigned point = bits(_mm_cmpeq_epi8(word, _mm_set1_epi8('.')));
         if (space == 0) break;
         std::ptrdiff_t length = std::countr_zero(space), before = std::countr_zero(space | point);
         std::ptrdiff_t stop = std::max(length, before + 1), fraction = stop - 1 - before;
-        if (stop == 1) break;  // no digit
+        bool negative = *p == '-';
+        std::ptrdiff_t count = stop - 1 - negative;
+        if (count == 0) break;
         __m128i behind = last_bytes(fraction);
-        __m128i digits = _mm_or_si128(_mm_and_si128(behind, load(first + stop - kBytes)),
-                                      _mm_andnot_si128(behind, load(first + stop - kBytes - 1)));
-        digits = _mm_and_si128(_mm_sub_epi8(digits, nought), last_bytes(stop - 1));
+        __m128i digits = _mm_or_si128(_mm_and_si128(behind, load(p + stop - kBytes)),
+                                      _mm_andnot_si128(behind, load(p + stop - kBytes - 1)));
+        digits = _mm_and_si128(_mm_sub_epi8(digits, nought), last_bytes(count));
         if (bits(_mm_cmpeq_epi8(_mm_min_epu8(digits, nine), digits)) != 0xFFFF) break;
         // Clinger's case of scale_decimal(): 15 digits are below 2^53.
         double magnitude = double(int64_t(sixteen_digits(digits))) / kExactPowersOfTen[fraction];
         *next++ =
             std::bit_cast<double>(std::bit_cast<uint64_t>(magnitude) | uint64_t(negative) << 63);
-        p = first + length + 1;
+        p += length + 1;
     }
     out = next;
     return p;

@@ -37,7 +37,8 @@ constexpr void ends(Table& t, uint8_t state) {
 
 constexpr Table real_table() {
     enum : uint8_t {
-        Sign = 1,
+        Minus = 1,
+        Plus,
         Int,
         Point,
         BarePoint,
@@ -53,8 +54,10 @@ constexpr Table real_table() {
         Nan
     };
     Table t = bad_table();
-    for (uint8_t s : {uint8_t(kSpace), uint8_t(Sign)}) digits(t, s, Int), t[s]['.'] = BarePoint;
-    t[kSpace]['+'] = t[kSpace]['-'] = Sign;
+    for (uint8_t s : {uint8_t(kSpace), uint8_t(Minus), uint8_t(Plus)})
+        digits(t, s, Int), t[s]['.'] = BarePoint;
+    t[kSpace]['-'] = Minus;
+    t[kSpace]['+'] = Plus;
     digits(t, Int, Int);
     t[Int]['.'] = Point;
     digits(t, Point, Fraction);
@@ -65,7 +68,7 @@ constexpr Table real_table() {
     digits(t, E, Exponent);
     digits(t, ESign, Exponent);
     digits(t, Exponent, Exponent);
-    t[kSpace]['I'] = t[Sign]['I'] = I;  // "+INF" is let through here and refused by is_real
+    t[kSpace]['I'] = t[Minus]['I'] = I;  // XML Schema 1.0 has no "+INF"
     t[I]['N'] = In;
     t[In]['F'] = Inf;
     t[kSpace]['N'] = N;

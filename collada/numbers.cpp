@@ -3,6 +3,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 
@@ -169,18 +170,27 @@ const char* read_short(const char*, const char* p, const char* end, int32_t*& ou
     return read_short_ints(p, end, out);
 }
 
+// Short words are read a piece of the text at a time, then one word of any form.
 template <class T, bool (*Scan)(const char*, const char*, T&),
           T (*Slow)(std::string_view, size_t, Trouble&)>
-std::vector<T> read_list(const Document& document, const Element& element, Diagnostics& diag) {
-    std::vector<T> values(count_words(element.text));
-    T* out = values.data();
+std::vector<T> read_list(const Document& document, const Element& element, Diagnostics& diag,
+                         size_t expected) {
+    constexpr std::ptrdiff_t kPiece = 1024;  // bytes; a number and its space are two at least
+    T piece[kPiece / 2 + 1];
+    std::vector<T> values;
+    values.reserve(expected ? std::min(expected, element.text.size() / 2 + 1)
+                            : count_words(element.text));
     Trouble trouble;
     Words words(element.text);
     while (true) {
-        words.p = read_short(words.begin, words.p, words.end, out);
+        T* out = piece;
+        const char* end = words.p + std::min(words.end - words.p, kPiece + kScanReach);
+        words.p = read_short(words.begin, words.p, end, out);
+        values.insert(values.end(), piece, out);
         if (!words.next()) break;
-        if (!Scan(words.p, words.stop, *out)) *out = Slow(words.word(), words.place(), trouble);
-        ++out;
+        T value = 0;
+        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.place(), trouble);
+        values.push_back(value);
         words.p = words.stop;
     }
     report(trouble, document, element, diag);
@@ -220,13 +230,18 @@ size_t count_words(std::string_view text) {
 }
 
 std::vector<double> read_doubles(const Document& document, const Element& element,
-                                 Diagnostics& diag) {
-    return read_list<double, scan_double, slow_double>(document, element, diag);
+                                 Diagnostics& diag, size_t expected) {
+    return read_list<double, scan_double, slow_double>(document, element, diag, expected);
 }
 
-std::vector<int32_t> read_ints(const Document& document, const Element& element,
-                               Diagnostics& diag) {
-    return read_list<int32_t, scan_int, slow_int>(document, element, diag);
+std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag,
+                               size_t expected) {
+    return read_list<int32_t, scan_int, slow_int>(document, element, diag, expected);
+}
+
+size_t written_count(const Element& element) {
+    uint64_t count = 0;
+    return parse_count(element.value("count"), count) ? size_t(count) : 0;
 }
 
 std::string_view trim(std::string_view text) {

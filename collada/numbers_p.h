@@ -10,11 +10,15 @@ namespace kinora::collada {
 
 // Each reads all numbers of the text. What is no number becomes 0 (SRC_NUMBER), a decimal comma is
 // understood (SRC_COMMA_DECIMAL), NaN and infinities are kept; of each kind the first is reported
-// with its place. Memory is taken by what the text can hold, never by a count attribute.
+// with its place. `expected`, how many there are likely to be, spares counting them (0: unknown);
+// it may be wrong, and no more memory is taken than what the text can hold.
 std::vector<double> read_doubles(const Document& document, const Element& element,
-                                 Diagnostics& diag);
+                                 Diagnostics& diag, size_t expected = 0);
 // Values beyond 32 bits are clamped, which puts them out of every range.
-std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag);
+std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag,
+                               size_t expected = 0);
+// What its count attribute says; 0 without one.
+size_t written_count(const Element& element);
 
 // One number alone; false when the text (trimmed) is anything else or not finite.
 bool parse_double(std::string_view text, double& value);

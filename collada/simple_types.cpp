@@ -14,8 +14,7 @@ namespace {
 using Numbers = BaseType::Numbers;
 
 bool is_real(std::string_view word) {
-    return !word.empty() && word != "+INF" && word.find_first_of(" \t\r\n") == word.npos &&
-           is_real_list(word);
+    return !word.empty() && word.find_first_of(" \t\r\n") == word.npos && is_real_list(word);
 }
 
 // A whole number within [-below, above]; `plus`: "+1" may be written.
@@ -61,7 +60,7 @@ bool is_hex_binary(std::string_view word) {
 }
 
 bool is_fragment(std::string_view word) {
-    return word.starts_with('#') && word.find_first_of("\r\n") == word.npos;
+    return word.starts_with('#') && word.find('\r') == word.npos && word.find('\n') == word.npos;
 }
 
 // id, or one character, then "/sid"s; at the end (i) or (i)(j). A ".member" is part of the last
@@ -169,7 +168,7 @@ bool is_number_list(const SimpleType& type, std::string_view text) {
         case Numbers::No:
             return false;
         case Numbers::Real:
-            return is_real_list(text) && text.find("+I") == text.npos;
+            return is_real_list(text);
         case Numbers::Whole:
             return is_whole_list(text, true);
         case Numbers::Natural:
