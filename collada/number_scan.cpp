@@ -152,7 +152,7 @@ template <bool reals>
 }
 
 // The masks moved up by one byte: of each byte what stands before it. Before a text stands a space.
-Masks before(const Masks& m, const Masks& last) {
+[[gnu::always_inline]] inline Masks before(const Masks& m, const Masks& last) {
     auto up = [](uint64_t now, uint64_t then) { return now << 1 | then >> 63; };
     return {up(m.digit, last.digit), up(m.point, last.point), up(m.sign, last.sign),
             up(m.e, last.e), up(m.space, last.space)};
