@@ -60,8 +60,8 @@ void ElementIndex::number_children(const Element& parent) {
 }
 
 std::string ElementIndex::step(const Element& element) {
-    constexpr size_t kMany =
-        16;  // attributes: those of one element may be asked for at each finding
+    // An element of many attributes may be asked for at each of their findings.
+    constexpr size_t kMany = 16;
     if (element.attributes.size() <= kMany) return new_step(element);
     auto [at, fresh] = steps_.try_emplace(&element);
     if (fresh) at->second = new_step(element);
