@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <unordered_set>
 
 namespace kinora::collada {
 
@@ -35,6 +36,13 @@ bool same(dvec2 a, dvec2 b) {
     return a.x == b.x && a.y == b.y;
 }
 
+struct PointHash {
+    size_t operator()(dvec2 p) const {
+        std::hash<double> hash;
+        return hash(p.x) * 31 + hash(p.y);
+    }
+};
+
 class EarClipper {
   public:
     EarClipper(std::span<const dvec2> points, std::vector<uint32_t>& triangles)
@@ -42,6 +50,8 @@ class EarClipper {
 
     // Joins a hole (corner numbers, clockwise) to the outline; false if it sees no outline.
     bool bridge(std::span<const uint32_t> hole);  // or when the budget of work is spent
+    // Joins a hole that has a corner where the outline has one; false if it has none.
+    bool join_touching(std::span<const uint32_t> hole);
     void set_outline(uint32_t count) {
         ring_.resize(count);
         std::iota(ring_.begin(), ring_.end(), 0u);
@@ -51,6 +61,8 @@ class EarClipper {
   private:
     dvec2 at(uint32_t i) const { return points_[ring_[i]]; }
     bool reflex(uint32_t i) const { return cross(at(previous_[i]), at(i), at(next_[i])) <= 0; }
+    bool opens_to(uint32_t i, dvec2 p) const;
+    void insert(uint32_t i, std::span<const uint32_t> hole, size_t first);
     bool is_ear(uint32_t i);
     void cut(uint32_t i, bool emit);
     bool cut_stuck(uint32_t& start, uint32_t left);
@@ -58,9 +70,10 @@ class EarClipper {
     static constexpr uint64_t kBudget = 100'000'000;
     std::span<const dvec2> points_;
     std::vector<uint32_t>& triangles_;
-    std::vector<uint32_t> ring_;             // corner numbers around the (bridged) outline
-    std::vector<uint32_t> next_, previous_;  // linked positions of ring_
-    std::vector<uint32_t> reflex_;           // positions that were reflex when last looked at
+    std::vector<uint32_t> ring_;                   // corner numbers around the (bridged) outline
+    std::unordered_set<dvec2, PointHash> places_;  // of ring_'s corners, once holes are joined
+    std::vector<uint32_t> next_, previous_;        // linked positions of ring_
+    std::vector<uint32_t> reflex_;                 // positions that were reflex when last looked at
     uint64_t work_ = 0;
 };
 
@@ -92,12 +105,7 @@ bool EarClipper::bridge(std::span<const uint32_t> hole) {
         if (q.x < m.x || same(q, m)) continue;
         bool inside = p.y < m.y ? in_triangle(m, p, hit, q) : in_triangle(m, hit, p, q);
         if (!inside) continue;
-        dvec2 before = at(uint32_t((i + ring_.size() - 1) % ring_.size()));
-        dvec2 after = at(uint32_t((i + 1) % ring_.size()));
-        // The bridge must leave q inside the polygon's own corner.
-        bool convex = cross(before, q, after) > 0;
-        bool left = cross(before, q, m) > 0, right = cross(q, after, m) > 0;
-        if (convex ? !(left && right) : !(left || right)) continue;
+        if (!opens_to(uint32_t(i), m)) continue;
         double slope = std::abs(q.y - m.y) / (q.x - m.x), distance = q.x - m.x;
         if (slope < best_slope || (slope == best_slope && distance < best_distance)) {
             best_slope = slope;
@@ -105,11 +113,44 @@ bool EarClipper::bridge(std::span<const uint32_t> hole) {
             visible = i;
         }
     }
-    std::vector<uint32_t> joined(ring_.begin(), ring_.begin() + std::ptrdiff_t(visible) + 1);
-    for (size_t i = 0; i <= hole.size(); ++i) joined.push_back(hole[(rightmost + i) % hole.size()]);
-    joined.insert(joined.end(), ring_.begin() + std::ptrdiff_t(visible), ring_.end());
-    ring_ = std::move(joined);
+    insert(uint32_t(visible), hole, rightmost);
     return true;
+}
+
+bool EarClipper::join_touching(std::span<const uint32_t> hole) {
+    if (places_.empty())
+        for (uint32_t i = 0; i < ring_.size(); ++i) places_.insert(at(i));
+    for (size_t k = 0; k < hole.size() && work_ <= kBudget; ++k) {
+        dvec2 p = points_[hole[k]];
+        if (!places_.contains(p)) continue;
+        work_ += ring_.size();
+        for (uint32_t i = 0; i < ring_.size(); ++i)
+            if (same(at(i), p) && opens_to(i, points_[hole[(k + 1) % hole.size()]])) {
+                insert(i, hole, k);
+                return true;
+            }
+    }
+    return false;
+}
+
+// Whether a line from the ring's corner i to p begins inside the polygon.
+bool EarClipper::opens_to(uint32_t i, dvec2 p) const {
+    uint32_t size = uint32_t(ring_.size());
+    dvec2 before = at((i + size - 1) % size), q = at(i), after = at((i + 1) % size);
+    bool convex = cross(before, q, after) > 0;
+    bool left = cross(before, q, p) > 0, right = cross(q, after, p) > 0;
+    return convex ? left && right : left || right;
+}
+
+// From the ring's corner i to the hole's corner `first`, once around, and back; where both are one
+// place, no way leads there or back.
+void EarClipper::insert(uint32_t i, std::span<const uint32_t> hole, size_t first) {
+    size_t skip = same(at(i), points_[hole[first]]);
+    std::vector<uint32_t> joined(ring_.begin(), ring_.begin() + std::ptrdiff_t(i) + 1);
+    for (size_t k = skip; k <= hole.size(); ++k) joined.push_back(hole[(first + k) % hole.size()]);
+    joined.insert(joined.end(), ring_.begin() + std::ptrdiff_t(i + skip), ring_.end());
+    ring_ = std::move(joined);
+    for (uint32_t corner : hole) places_.insert(points_[corner]);
 }
 
 bool EarClipper::is_ear(uint32_t i) {
@@ -275,7 +316,7 @@ Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32
     EarClipper clipper(points, triangles);
     clipper.set_outline(outline);
     for (const auto& hole : holes)
-        if (!clipper.bridge(hole)) ++result.lost_holes;
+        if (!clipper.join_touching(hole) && !clipper.bridge(hole)) ++result.lost_holes;
     result.self_intersecting = !clipper.clip();
     return result;
 }

@@ -63,8 +63,9 @@ struct Polygon {
     }
 };
 
-void expect_exact_cover(const Polygon& p) {
-    size_t corners = p.points.size(), holes = p.loops.size() - 1;
+// `touching`: of the holes, those that are joined where they touch, without a way there and back.
+void expect_exact_cover(const Polygon& p, size_t touching = 0) {
+    size_t corners = p.points.size(), holes = p.loops.size() - 1 - touching;
     EXPECT_EQ(p.triangles.size(), 3 * (corners + 2 * holes - 2));
     EXPECT_FALSE(p.result.self_intersecting);
     EXPECT_EQ(p.result.lost_holes, 0u);
@@ -90,6 +91,29 @@ TEST(Triangulate, CoversConcavePolygonsExactly) {
         p.loops = {star(random, 4 + int(random() % 60), {0, 0}, 0.1, 1)};
         p.cut(i % 2);
         expect_exact_cover(p);
+    }
+}
+
+// A hole with a corner at one of the outline's, or at one of another hole's.
+TEST(Triangulate, CoversPolygonsWithHolesThatTouch) {
+    std::mt19937 random(9);
+    for (int i = 0; i < 400; ++i) {
+        Polygon p;
+        p.loops = {star(random, 20 + int(random() % 20), {0, 0}, 3, 5)};
+        dvec2 corner = p.loops[0][random() % p.loops[0].size()];
+        double a = std::atan2(corner.y, corner.x);
+        auto polar = [&](double angle, double r) {
+            return r * dvec2(std::cos(a + angle), std::sin(a + angle));
+        };
+        bool at_outline = i % 4 < 2;
+        dvec2 tip = at_outline ? corner : corner * 0.5, shared = polar(0.3, 1);
+        p.loops.push_back({tip, polar(-0.3, 1), shared});
+        if (!at_outline) p.loops.push_back({shared, polar(1.3, 0.5), polar(2.3, 0.5)});
+        for (size_t h = 1; h < p.loops.size(); ++h)
+            if (twice_area(p.loops[h][0], p.loops[h][1], p.loops[h][2]) > 0)
+                std::reverse(p.loops[h].begin(), p.loops[h].end());
+        p.cut(i % 2);
+        expect_exact_cover(p, 1);
     }
 }
 
