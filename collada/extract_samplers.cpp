@@ -65,7 +65,8 @@ void read_sampler_state(Extraction& x, Link link, TextureSampler& sampler) {
     for (std::string_view name : {"mipmap_bias", "mip_bias"}) {
         double bias = 0;
         const Element* e = link.element->child(name);
-        if (e && parse_double(e->text, bias) && std::abs(bias) <= 64) sampler.mip_bias = float(bias);
+        if (e && parse_double(e->text, bias) && std::abs(bias) <= 64)
+            sampler.mip_bias = float(bias);
     }
     for (std::string_view name : {"mipmap_maxlevel", "mip_max_level"}) {
         uint64_t level = 0;
@@ -131,6 +132,10 @@ uint32_t image_of_param(Extraction& x, Link param, TextureSampler& sampler, int 
         }
         if (const Element* from = value.child("init_from"))
             return image_by_id(x, param.doc, trim(from->text));
+        // 1.4's other ways to fill a surface: the whole, the first level or a face of it
+        for (std::string_view init : {"init_planar", "init_cube", "init_volume"})
+            if (const Element* from = value.child(init); from && from->first_child)
+                return image_by_id(x, param.doc, trim(from->first_child->value("ref")));
         const Element* source = value.child("source");
         if (!source) return kNone;
         if (is_sampler) sampler.surface = trim(source->text);

@@ -57,18 +57,21 @@ const Element* TargetResolver::find_sid(const Element& scope, std::string_view s
 }
 
 // Exporters' short forms name the element itself: "effect/diffuse", "camera/xfov".
-const Element* TargetResolver::find_named(const Element& scope, std::string_view name) {
-    bool small_scope = scope.name == "effect" || scope.name == "light" || scope.name == "camera" ||
-                       scope.name == "technique" || scope.name == "node";
-    if (!small_scope) return nullptr;
+const Element* TargetResolver::find_named(const Element& root, const Element& scope,
+                                          std::string_view name) {
+    bool deep = root.name == "effect" || root.name == "light" || root.name == "camera" ||
+                root.name == "controller";
+    if (!deep && scope.name != "node") return nullptr;
     auto [at, fresh] = named_.try_emplace(&scope);
     std::vector<const Element*> queue;
     if (fresh) queue.push_back(&scope);
     for (size_t i = 0; i < queue.size(); ++i)
         for (const Element& child : queue[i]->children()) {
             if (x_.target_of.count(&child)) at->second.emplace(child.name, &child);
-            if (scope.name != "node") queue.push_back(&child);
+            if (deep) queue.push_back(&child);
         }
+    // what only leads to one: "effect/phong/diffuse/sid", "effect/profile_COMMON/common/sid"
+    for (size_t i = 1; i < queue.size(); ++i) at->second.emplace(queue[i]->name, queue[i]);
     auto found = at->second.find(name);
     return found == at->second.end() ? nullptr : found->second;
 }
@@ -189,12 +192,22 @@ bool TargetResolver::is_reached(const Element* element) const {
     return false;
 }
 
-TargetResolver::Found TargetResolver::find(const Element& root,
+// A source of morph weights has an id and no sid: "controller/weights(0)".
+const Element* TargetResolver::find_below(const Element& scope, uint32_t doc,
+                                          std::string_view id) const {
+    const Element* found = x_.document(doc).find(id);
+    if (!found || !x_.target_of.count(found)) return nullptr;
+    for (const Element* e = found->parent; e; e = e->parent)
+        if (e == &scope) return found;
+    return nullptr;
+}
+
+TargetResolver::Found TargetResolver::find(const Element& root, uint32_t doc,
                                            const std::vector<std::string_view>& path) {
     const Element* at = &root;
     for (size_t i = 0; i + 1 < path.size() && at; ++i) {
         const Element* next = find_sid(*at, path[i]);
-        if (!next) next = find_named(*at, path[i]);
+        if (!next) next = find_named(root, *at, path[i]);
         at = next;
     }
     if (!at) return {};
@@ -211,7 +224,10 @@ TargetResolver::Found TargetResolver::find(const Element& root,
         }
         const Element* found = find_sid(*at, reading.name);
         if (!found || !x_.target_of.count(found))
-            if (const Element* named = find_named(*at, reading.name)) found = named;
+            if (const Element* named = find_named(root, *at, reading.name);
+                named && x_.target_of.count(named))
+                found = named;
+        if (!found) found = find_below(*at, doc, reading.name);
         if (found) return {found, reading.selector, {}};
     }
     return {};
@@ -256,7 +272,7 @@ TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Locatio
     Found found;
     size_t tried = 0;
     for (const Element* e = root; e && tried < kMostSameId; e = e->next_same_id, ++tried) {
-        Found here = find(*e, path);
+        Found here = find(*e, doc, path);
         if (!here.element) continue;
         if (!found.element) found = here;
         if (here.ref.kind != Owner::None || x_.target_of.count(here.element)) {

@@ -21,9 +21,10 @@ class TargetResolver {
         std::string_view selector;
         TargetRef ref;  // set when it is a material's parameter
     };
-    Found find(const Element& root, const std::vector<std::string_view>& path);
+    Found find(const Element& root, uint32_t doc, const std::vector<std::string_view>& path);
     const Element* find_sid(const Element& scope, std::string_view sid);
-    const Element* find_named(const Element& scope, std::string_view name);
+    const Element* find_named(const Element& root, const Element& scope, std::string_view name);
+    const Element* find_below(const Element& scope, uint32_t doc, std::string_view id) const;
     const Element* named_twice(uint32_t doc, std::string_view id, Location where) const;
     TargetRef material_param(const Element& material, std::string_view ref);
     const Slot* slot_of(const TargetRef& ref) const;

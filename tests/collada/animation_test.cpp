@@ -39,6 +39,29 @@ const char* const kLibraries =
     "<yfov sid=\"fov\">40</yfov></perspective></technique_common></optics></camera>"
     "</library_cameras>";
 
+// A morph of id "x" with two weights in the source "w", and a node that shows it.
+std::string morph_library() {
+    std::string out;
+    for (const char* id : {"g0", "g1", "g2"}) {
+        std::string p = std::string(id) + "-p", v = std::string(id) + "-v";
+        out += std::string("<geometry id=\"") + id + "\"><mesh>" +
+               float_source(p, "0 0 0 1 0 0 0 1 0", 3, "XYZ") + "<vertices id=\"" + v +
+               "\"><input semantic=\"POSITION\" source=\"#" + p +
+               "\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#" + v +
+               "\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>";
+    }
+    return "<library_geometries>" + out +
+           "</library_geometries><library_controllers><controller id=\"x\"><morph source=\"#g0\">"
+           "<source id=\"names\"><IDREF_array id=\"names-a\" count=\"2\">g1 g2</IDREF_array>"
+           "<technique_common><accessor source=\"#names-a\" count=\"2\"><param name=\"T\" "
+           "type=\"IDREF\"/></accessor></technique_common></source>" +
+           float_source("w", "0 0", 2, "W") +
+           "<targets><input semantic=\"MORPH_TARGET\" source=\"#names\"/><input "
+           "semantic=\"MORPH_WEIGHT\" source=\"#w\"/></targets></morph></controller>"
+           "</library_controllers>";
+}
+const char* const kMorphNode = "<node id=\"y\"><instance_controller url=\"#x\"/></node>";
+
 TEST(Targets, NamePartsOfValues) {
     struct {
         std::string target;
@@ -68,10 +91,17 @@ TEST(Targets, NamePartsOfValues) {
         {"l/constant_attenuation", 1, Owner::Light, 1, 0, 1, false},
         {"c/fov", 1, Owner::Camera, 1, 0, 1, false},
         {"c/yfov", 1, Owner::Camera, 1, 0, 1, false},
+        {"c/optics/technique_common/perspective/fov", 1, Owner::Camera, 1, 0, 1, false},
+        {"l/technique_common/point/col.G", 1, Owner::Light, 0, 1, 1, false},
+        {"x/w(1)", 1, Owner::MorphWeight, 0, 1, 1, false},
+        {"x/morph/w(1)", 1, Owner::MorphWeight, 0, 1, 1, false},
+        {"w(1)", 1, Owner::MorphWeight, 0, 1, 1, false},
     };
     for (const auto& c : cases) {
         Reading r;
-        read_text(r, with_scene(kLibraries + channel_library({{c.target, c.stride}}), kNodes));
+        read_text(r,
+                  with_scene(kLibraries + morph_library() + channel_library({{c.target, c.stride}}),
+                             std::string(kNodes) + kMorphNode));
         ASSERT_TRUE(r.scene && r.scene->channels.size() == 1) << c.target << r.all();
         const Channel& channel = r.scene->channels[0];
         EXPECT_EQ(channel.ref.kind, c.kind) << c.target;
