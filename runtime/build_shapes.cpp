@@ -195,11 +195,17 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
             if (shape.joint_nodes[j] != kNone)
                 rest.push_back(
                     {scene.nodes[shape.joint_nodes[j]].world, definition.inverse_bind[j]});
+        uint32_t shared = shared_ancestor(node, shape.joint_nodes, kNone,
+                                          [&](uint32_t n) { return scene.nodes[n].parent; });
         SkinSpace space =
-            definition.in_world ? SkinSpace::World : skin_space(definition.bind_shape, world, rest);
+            definition.in_world
+                ? SkinSpace::World
+                : skin_space(definition.bind_shape, world,
+                             shared == kNone ? dmat4(1.0) : scene.nodes[shared].world, rest);
         if (space != SkinSpace::World) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
         if (space == SkinSpace::BindsNode) shape.skeleton.bind_shape = world;
-        shape.in_world = space != SkinSpace::Node;
+        shape.in_world = space == SkinSpace::World || space == SkinSpace::BindsNode;
+        if (space == SkinSpace::NodeBelow) shape.placed_below = shared;
     }
     skin::SkinRepairs repairs;
     build_skin_mesh(use, shape, nullptr, repairs);

@@ -35,6 +35,15 @@ void update_world(Scene& scene, Shape& shape) {
     shape.mirrored = glm::determinant(dmat3(shape.world)) < 0;
 }
 
+// A skin is turned inside out by its joints, not by its node.
+bool most_mirror(std::span<const skin::JointMatrix> joints) {
+    auto mirrors = [](const skin::JointMatrix& m) {
+        auto column = [&](int c) { return dvec3(m.c[c][0], m.c[c][1], m.c[c][2]); };
+        return glm::dot(glm::cross(column(0), column(1)), column(2)) < 0;
+    };
+    return 2 * size_t(std::ranges::count_if(joints, mirrors)) > joints.size();
+}
+
 void morph(Scene& scene, Shape& shape) {
     const MorphDefinition& definition = scene.description->morphs[shape.morph];
     std::span<const double> weights(scene.values.data() + definition.weights.offset,
@@ -99,6 +108,10 @@ void pose(Scene& scene) {
             shape.palette.assign(shape.palette.size(), skin::joint_matrix(shape.world, anchors));
             continue;
         }
+        dmat4 place(1.0);
+        if (!shape.in_world) place = shape.world;
+        if (shape.placed_below != kNone)
+            place = place * glm::inverse(scene.nodes[shape.placed_below].world);
         // The palette reads matrices by joint; unresolved joints stay with the bind shape.
         for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
             uint32_t node = shape.joint_nodes[j];
@@ -106,10 +119,11 @@ void pose(Scene& scene) {
             world = node == kNone ? glm::inverse(shape.skeleton.inverse_bind[j])
                                   : scene.nodes[node].world;
             if (node == kNone && !is_finite(world)) world = dmat4(1.0);
-            if (!shape.in_world) world = shape.world * world;
+            if (!shape.in_world) world = place * world;
         }
         skin::pose(shape.skeleton, shape.joint_world, anchors, shape.palette,
                    shape.in_world ? dmat4(1.0) : shape.world);
+        shape.mirrored = most_mirror(std::span(shape.palette).subspan(1));
     }
 }
 

@@ -246,13 +246,15 @@ uint32_t GltfExport::nearest_occurrence(uint32_t definition, uint32_t from) cons
     return best;
 }
 
-// A placed node and those above it once more below the glTF node `above`, without their content.
-uint32_t GltfExport::stand_again(uint32_t place, uint32_t above,
+// A placed node and those above it once more below the glTF node `above`, which stands for `top`
+// (kNone: for what is above all), without their content.
+uint32_t GltfExport::stand_again(uint32_t place, uint32_t above, uint32_t top,
                                  std::map<uint32_t, uint32_t>& again) {
     auto found = again.find(place);
     if (found != again.end()) return found->second;
+    if (place == top) return again[place] = above;
     const Placed& p = placed_[place];
-    uint32_t parent = p.parent == kNone ? above : stand_again(p.parent, above, again);
+    uint32_t parent = p.parent == kNone ? above : stand_again(p.parent, above, top, again);
     return again[place] = stack_nodes(description_.nodes[p.definition], p.conversion, parent);
 }
 
@@ -264,19 +266,28 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
     std::map<uint32_t, uint32_t> again;
     dmat4 world = placed_[placed].world * use.conversion;
     std::vector<RestJoint> rest;
+    std::vector<uint32_t> places;
     for (size_t j = 0; j < use.joint_nodes.size() && j < definition.inverse_bind.size(); ++j) {
         uint32_t joint = use.joint_nodes[j];
         uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
-        if (place != kNone) rest.push_back({placed_[place].world, definition.inverse_bind[j]});
+        if (place == kNone) continue;
+        rest.push_back({placed_[place].world, definition.inverse_bind[j]});
+        places.push_back(place);
     }
-    SkinSpace space = definition.in_world ? SkinSpace::World : skin_space(bind_shape, world, rest);
+    uint32_t shared =
+        shared_ancestor(placed, places, kNone, [&](uint32_t n) { return placed_[n].parent; });
+    SkinSpace space = definition.in_world
+                          ? SkinSpace::World
+                          : skin_space(bind_shape, world,
+                                       shared == kNone ? dmat4(1.0) : placed_[shared].world, rest);
     if (space == SkinSpace::BindsNode) bind_shape = world;
-    if (space == SkinSpace::Node) {  // the joints stand once more below it
+    if (space == SkinSpace::Node || space == SkinSpace::NodeBelow) {  // the joints stand below it
+        uint32_t top = space == SkinSpace::Node ? kNone : shared;
         above = static_nodes(use.conversion, placed_[placed].node);
         json_["nodes"][above]["name"] = definition.id + " space";
         for (uint32_t joint : use.joint_nodes) {
             uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
-            if (place != kNone) stand_again(place, above, again);
+            if (place != kNone) stand_again(place, above, top, again);
         }
     }
     std::vector<float> inverse_bind;

@@ -78,7 +78,8 @@ class GltfExport {
     void set_bounds(const dmat4& axes);
     uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
     uint32_t skin(const MeshUse& use, uint32_t placed);
-    uint32_t stand_again(uint32_t place, uint32_t above, std::map<uint32_t, uint32_t>& again);
+    uint32_t stand_again(uint32_t place, uint32_t above, uint32_t top,
+                         std::map<uint32_t, uint32_t>& again);
 
     // export_gltf_animation.cpp
     std::vector<Channel> channels_of(uint32_t first_value, uint32_t count) const;

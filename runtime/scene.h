@@ -76,6 +76,7 @@ struct Shape {
     uint32_t morph_data = kNone;  // index into Scene::morphs
     dmat4 conversion{1.0};
     bool in_world = false;  // a skin's result is in world space; its node's matrix does not apply
+    uint32_t placed_below = kNone;  // if it does: below this node, which moves the joints, too
     std::vector<uint32_t> joint_nodes;  // scene nodes
 
     // Where the triangles stand now: own buffers (accel space) for static and deforming shapes,
@@ -149,6 +150,7 @@ struct SceneOptions {
     int ray_depth = 16;  // rays that trace, gather and indirectdiffuse may hang behind each other
     int diffuse_depth = 1;  // of those, bounces of indirectdiffuse
     raytrace::AccelPolicy accel;
+    bool decode_textures = true;    // 8-bit colours from sRGB; false: --color legacy
     uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
     // Range played, seconds: frames the default camera, and its views tell how fine to dice.

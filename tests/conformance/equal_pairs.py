@@ -221,6 +221,7 @@ def samplers():
             "set_sampler": given(f'<setparam ref="map-sampler"><sampler2D><source>map</source></sampler2D></setparam>'),
             "set_both": given(f'<setparam ref="map-surface">{surface}</setparam><setparam ref="map-sampler"><sampler2D>'
                               "<source>map-surface</source></sampler2D></setparam>"),
+            "planar": whole.replace("<init_from>map</init_from>", '<init_planar><all ref="map"/></init_planar>', 1),
             "unused_params": whole.replace("<technique sid", new + "<technique sid"),
             "map.png": png(picture()), "other.png": png([[(9, 9, 9)]])}
 
@@ -396,6 +397,67 @@ def curves():
                 "n/r.ANGLE", [0, .25, 1], [(0,), (15,), (60,)], interpolation=["STEP", "LINEAR", "STEP"]))}
 
 
+def armatures():
+    """A posed skeleton and its skin below what moves both: that counts once, wherever the skin stands."""
+    place = (0, -.7, 0, .2, .7, 0, 0, .1, 0, 0, .7, 0, 0, 0, 0, 1)
+    lit = effect("<constant><emission><color>.8 .5 .2 1</color></emission></constant>")
+    use = node(shown("#skin", kind="controller", skeleton="<skeleton>#bone-low</skeleton>"))
+    tree = joints(25).replace('type="JOINT">', 'type="JOINT"><translate>.1 .2 0</translate>', 1)
+
+    def seen(nodes, **parts):
+        return document(nodes, effects=lit, controllers=skin(["low", "high"]), **parts)
+    arm = f'<node id="arm"><matrix>{numbers(place)}</matrix>{{}}</node>'
+    return {"outside": seen(arm.format(tree) + use), "inside": seen(arm.format(tree + use)),
+            "of_a_library": seen('<node id="n2">' + arm.format('<instance_node url="#rig"/>') + "</node>",
+                                 library_nodes=f'<node id="rig">{tree}{use}</node>'),
+            "below_the_joint": seen(arm.format(tree.replace("0</translate>", f"0</translate>{use}", 1)))}
+
+
+def mirrors():
+    """A house turned inside out by its points, its node, its joints, its bind shape: lit from outside."""
+    flip = "<scale>-1 1 1</scale>"
+    mirror = (-1, *IDENTITY[1:])
+    use = shown("#skin", kind="controller", skeleton="<skeleton>#bone-low</skeleton>")
+    both = ["low", "high"]
+
+    def shape(matrix):
+        return f"<bind_shape_matrix>{numbers(matrix)}</bind_shape_matrix>"
+    bones = joints(0)
+    half = (.5, *IDENTITY[1:])
+    return {"node": document(node(transforms=flip)),
+            "joints": document(f'<node id="arm">{flip}{bones}</node>{node(use)}', controllers=skin(both)),
+            "bind_shape": document(bones + node(use), controllers=skin(both, shape=shape(mirror))),
+            "twice": document(f'<node id="arm">{flip}<scale>2 1 1</scale>{bones}</node>' + node(use, flip),
+                              controllers=skin(both, shape=shape(half))),
+            "morph": document(node(shown("#morph", kind="controller"), flip),
+                              geometries=geometry() + geometry(id="target"),
+                              controllers=morph(["target"], [.5]))}
+
+
+def masks():
+    """How opaque a texture makes is what its file holds, not what it looks like."""
+    grey = png([[(64, 64, 64)] * 2] * 2)
+    half = "<diffuse><color>.8 .5 .2 1</color></diffuse>"
+    quarter = f"<color>{numbers([64 / 255] * 4)}</color>"
+
+    def seen(inside):
+        return textured(texture="", path="grey.png").replace(
+            "<diffuse></diffuse>", f'{half}<transparent opaque="RGB_ZERO">{inside}</transparent>')
+    return {"texture": seen('<texture texture="map-sampler" texcoord="UV"/>'), "color": seen(quarter),
+            "grey.png": grey}
+
+
+def legacy_colours():
+    """--color legacy: the numbers of files are those of the picture."""
+    grey = png([[(64, 128, 200)] * 2] * 2)
+
+    def seen(inside):
+        return textured(texture=inside, path="grey.png").replace("lambert>", "constant>").replace(
+            "diffuse>", "emission>")
+    return {"texture": seen('<texture texture="map-sampler" texcoord="UV"/>'),
+            "color": seen(f"<color>{numbers((64 / 255, 128 / 255, 200 / 255))} 1</color>"), "grey.png": grey}
+
+
 def colours():
     """One colour as a literal, a parameter, a material's parameter, a texture of nothing else."""
     param = '<newparam sid="c"><float4>1 0 1 1</float4></newparam>'
@@ -457,6 +519,7 @@ def kept():
 FAMILIES = {f.__name__: f for f in (
     primitives, inputs, solids, polygons_with_holes, transforms, cameras_by_lookat, skews, references, bases, absolute_references,
     samplers, versions, units,
-    archives, fields_of_view, magnifications, instances, skins, skin_spaces, morphs, targets, curves, colours, opacities,
+    archives, fields_of_view, magnifications, instances, skins, skin_spaces, armatures, mirrors, morphs, targets, curves, colours, opacities, masks, legacy_colours,
     image_files, texture_coordinates, kept)}
-OPTIONS = {"skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"]}
+OPTIONS = {"skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"],
+           "legacy_colours": ["--color", "legacy", "--time", "0"]}
