@@ -60,7 +60,8 @@ SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
     scene_->description = std::move(description);
     scene_->options = options;
     scene_->accel = raytrace::Accel(options.accel);
-    scene_->textures = std::make_shared<TextureStore>(description_.readable);
+    scene_->textures =
+        std::make_shared<TextureStore>(description_.readable, options.decode_textures);
     scene_->points = std::make_shared<PointStore>(description_.readable);
 }
 

@@ -220,7 +220,8 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
                 add("transparent_alpha", {slot.offset + 3, 1});
         } else if (value.source == collada::SlotSource::Texture &&
                    find_parameter(*use.shader, std::string(row.name) + "_map")) {
-            set_texture(index, value, row.name, false, use);
+            set_texture(index, value, row.name, row.slot == CommonSlot::Transparent,
+                        use);  // a mask
         }
     }
     bool transparent = common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||

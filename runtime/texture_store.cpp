@@ -104,6 +104,7 @@ FileTrees::Found TextureStore::file_of(const std::string& name) const {
 // The mutex is held.
 const StoredImage* TextureStore::image(const std::string& name, bool data) {
     FileTrees::Found file = file_of(name);
+    data = data || !decode_;
     std::unique_ptr<StoredImage>& known = images_[{file.path, data}];
     if (!known) known = read_image(name, file.path, file.outside, data);
     return known.get();
@@ -120,7 +121,8 @@ void TextureStore::preload(std::span<const std::string> names) {
             auto [path, outside] = file_of(parsed.path);
             bool there =
                 !outside && (std::filesystem::is_regular_file(path, code) || is_memory_file(path));
-            if (there && !images_.count({path, parsed.data})) wanted.emplace(path, parsed.data);
+            bool data = parsed.data || !decode_;
+            if (there && !images_.count({path, data})) wanted.emplace(path, data);
         }
     }
     // Read without the lock: a worker that waits for it could hold up the one that owns it.

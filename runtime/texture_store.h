@@ -37,8 +37,10 @@ struct Texture {
 class TextureStore {
   public:
     TextureStore() = default;
-    // Only files of these trees are read; any other is as one that cannot be read.
-    explicit TextureStore(FileTrees trees) : trees_(std::move(trees)) {}
+    // Only files of these trees are read; any other is as one that cannot be read. With `decode`
+    // false, pixels are what the files hold, never decoded from sRGB (--color legacy).
+    explicit TextureStore(FileTrees trees, bool decode = true)
+        : trees_(std::move(trees)), decode_(decode) {}
     ~TextureStore();
     TextureStore(const TextureStore&) = delete;
 
@@ -66,6 +68,7 @@ class TextureStore {
     FileTrees::Found file_of(const std::string& name) const;
 
     const FileTrees trees_;
+    const bool decode_ = true;
     std::array<std::atomic<Chunk*>, kChunks> chunks_{};  // by name
     mutable std::mutex mutex_;                           // guards the maps and changes of chunks_
     std::map<int32_t, std::unique_ptr<Texture>> textures_;

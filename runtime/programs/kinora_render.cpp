@@ -143,6 +143,7 @@ SceneOptions Render::scene_options() const {
     o.accel.robust = options_.quality.robust;
     o.accel.always_rebuild = options_.quality.always_rebuild;
     o.accel.background = false;  // a frame depends on its time alone
+    o.decode_textures = options_.color == ColorEncoding::Srgb;
     o.light_samples = options_.light_samples;
     o.aovs = options_.aovs;
     o.want_dumps = !options_.dump.empty();

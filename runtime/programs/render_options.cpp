@@ -171,7 +171,7 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
                                     "non-finite results become zero, magenta or keep");
     add_choice<ColorEncoding>(app, "--color", o.color,
                               {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
-                              "srgb (PNG encoded) or legacy (as computed)");
+                              "srgb, or legacy: textures and PNG neither decoded nor encoded");
     app.add_option("--imager", o.imager, "a standard imager's name, FILE.sl or none");
     add_list(app, "--aov", o.aovs, "output parameters of surfaces: channels of the EXR", ',');
     add_choice<UpAxis>(app, "--up", o.up_axis,
