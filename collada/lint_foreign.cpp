@@ -75,10 +75,7 @@ class ForeignWalk {
 }  // namespace
 
 void lint_foreign(Lint& lint) {
-    for (uint32_t doc = 0; doc < lint.x.docs.size(); ++doc) {
-        std::string_view text = lint.diag.files.text(lint.x.document(doc).file());
-        if (text.find("schemaLocation") != text.npos) ForeignWalk(lint, doc).run();
-    }
+    for (uint32_t doc = 0; doc < lint.x.docs.size(); ++doc) ForeignWalk(lint, doc).run();
 }
 
 }  // namespace kinora::collada
