@@ -1,5 +1,9 @@
-// jit/analysis.cpp: matching regions, agreeing lanes, effects of functions.
+// jit/analysis.cpp: matching regions, agreeing lanes, effects of functions, rounds of loops.
 #include "jit/analysis.h"
+
+#include "jit/fold_inst.h"
+
+#include <algorithm>
 
 namespace kinora::jit {
 
@@ -105,6 +109,35 @@ std::vector<bool> has_effects(const Module& module) {
         effects[k] = state[k] == 2;
     }
     return effects;
+}
+
+// The condition after k rounds, for k = 1, 2, ... until it is false.
+int32_t known_rounds(std::span<const Inst> insts, std::span<const Value> next, Value loop,
+                     Value end, int32_t budget) {
+    constexpr int32_t kMostRounds = 1024;
+    const Inst& condition = insts[insts[end].a];
+    if (!is_compare(condition.op)) return 0;
+    Value stepped = is_constant(insts[condition.a]) ? condition.b : condition.a;
+    Value limit = stepped == condition.a ? condition.b : condition.a;
+    const Inst& step = insts[stepped];
+    bool plain = step.op == Op::Add || step.op == Op::Sub || step.op == Op::IAdd ||
+                 step.op == Op::ISub || step.op == Op::Mul;
+    if (!plain || !is_constant(insts[limit])) return 0;
+    Value variable = is_constant(insts[step.a]) ? step.b : step.a;
+    const Inst& first = insts[variable];
+    bool ours = first.op == Op::LoopVar && static_cast<Value>(first.imm) == loop &&
+                next[variable - loop - 1] == stepped;
+    Value by = variable == step.a ? step.b : step.a;
+    if (!ours || !is_constant(insts[by]) || !is_constant(insts[first.a])) return 0;
+    int32_t at = insts[first.a].imm;
+    auto bits = [&](Value v) { return v == variable || v == stepped ? at : insts[v].imm; };
+    for (int32_t k = 1; k <= std::min(kMostRounds, budget); ++k) {
+        int32_t again = 0;
+        evaluate(step, bits(step.a), bits(step.b), 0, &at);
+        evaluate(condition, bits(condition.a), bits(condition.b), 0, &again);
+        if (again == 0) return k;
+    }
+    return 0;
 }
 
 }  // namespace kinora::jit

@@ -28,6 +28,12 @@ std::vector<bool> has_effects(const Module& module);
 // Per function: does it call itself, directly or through others?
 std::vector<bool> cyclic_functions(const Module& module);
 
+// How often the body of `loop` runs for lanes that enter it, where it goes from one constant to
+// another in constant steps; 0 where that is not known, or beyond the loop budget. `next`: the
+// arguments of its EndLoop at `end`. Counts as the thread's modes of floats have it (IeeeScope).
+int32_t known_rounds(std::span<const Inst> insts, std::span<const Value> next, Value loop,
+                     Value end, int32_t budget);
+
 // What a run of the kernel stacks up at most, where an activation of function k takes frames[k]:
 // its deepest chain of calls, Module::call_depth activations of each circle among them.
 size_t deepest_stack(const Module& module, std::span<const size_t> frames);

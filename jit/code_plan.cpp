@@ -10,10 +10,6 @@ namespace kinora::jit {
 
 namespace {
 
-bool is_compare(Op op) {
-    return op == Op::Lt || op == Op::Le || op == Op::Eq || op == Op::ILt || op == Op::IEq;
-}
-
 class Planner {
   public:
     Planner(const Module& m, const Function& f, const Structure& s, const PlanRules& rules)
@@ -196,38 +192,11 @@ class Planner {
         for (Value v = 0; v < f_.insts.size(); ++v) {
             if (f_.insts[v].op != Op::Loop || plan_.counted[v] != kNone) continue;
             const Inst& end = f_.insts[s_.end_of[v]];
-            if (!is_compare(f_.insts[end.a].op) || uses_[end.a] != 1 || value(end.a).fused)
-                continue;
-            plan_.rounds[v] = rounds_of(v, end);
+            if (uses_[end.a] != 1 || value(end.a).fused) continue;
+            plan_.rounds[v] =
+                known_rounds(f_.insts, f_.args_of(end), v, s_.end_of[v], m_.loop_budget);
             if (plan_.rounds[v] > 0) drop_condition(v, end);
         }
-    }
-
-    // The condition after k rounds, for k = 1, 2, ... until it is false; 0 if that is not known.
-    int32_t rounds_of(Value loop, const Inst& end) const {
-        constexpr int32_t kMostRounds = 1024;
-        const Inst& condition = f_.insts[end.a];
-        Value next = is_constant(f_.insts[condition.a]) ? condition.b : condition.a;
-        Value limit = next == condition.a ? condition.b : condition.a;
-        const Inst& step = f_.insts[next];
-        bool plain = step.op == Op::Add || step.op == Op::Sub || step.op == Op::IAdd ||
-                     step.op == Op::ISub || step.op == Op::Mul;
-        if (!plain || !is_constant(f_.insts[limit])) return 0;
-        Value variable = is_constant(f_.insts[step.a]) ? step.b : step.a;
-        const Inst& stepped = f_.insts[variable];
-        bool ours = stepped.op == Op::LoopVar && static_cast<Value>(stepped.imm) == loop &&
-                    f_.args_of(end)[variable - loop - 1] == next;
-        Value by = variable == step.a ? step.b : step.a;
-        if (!ours || !is_constant(f_.insts[by]) || !is_constant(f_.insts[stepped.a])) return 0;
-        int32_t at = f_.insts[stepped.a].imm;
-        auto bits = [&](Value v) { return v == variable || v == next ? at : f_.insts[v].imm; };
-        for (int32_t k = 1; k <= std::min(kMostRounds, m_.loop_budget); ++k) {
-            int32_t again = 0;
-            evaluate(step, bits(step.a), bits(step.b), 0, &at);
-            evaluate(condition, bits(condition.a), bits(condition.b), 0, &again);
-            if (again == 0) return k;
-        }
-        return 0;
     }
 
     // Nothing asks for the comparison any more, and perhaps nothing for what it compares.

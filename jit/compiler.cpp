@@ -35,6 +35,7 @@ constexpr Pass kBeforeHoist[] = {
     {"inline", inline_calls},
     {"dce", dce},
     {"fold", fold},
+    {"unmask", unmask},
     {"cse", cse},
 };
 constexpr Pass kAfterHoist[] = {{"dce", dce}, {"schedule", schedule}};

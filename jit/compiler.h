@@ -15,6 +15,7 @@ namespace kinora::jit {
 void inline_calls(Module& module);   // one call site or under 40 instructions
 void differentiate(Module& module);  // Du, Dv -> dual numbers for the values that reach them
 void fold(Module& module);           // constants and exact identities
+void unmask(Module& module);         // loops of known rounds that all lanes around enter
 void cse(Module& module);            // equal pure values once; loop-invariant ones before loops
 bool fuse(Module& module);           // loops over the same records, Ifs of one mask; true if any
 void dce(Module& module);            // what nothing needs

@@ -24,6 +24,9 @@ bool evaluate(const Inst& inst, int32_t a, int32_t b, int32_t c, int32_t* result
 inline bool is_constant(const Inst& inst) {
     return inst.op == Op::ConstF || inst.op == Op::ConstI || inst.op == Op::ConstM;
 }
+inline bool is_compare(Op op) {
+    return op == Op::Lt || op == Op::Le || op == Op::Eq || op == Op::ILt || op == Op::IEq;
+}
 Op constant_op(Type type);  // ConstF, ConstI, ConstM
 
 }  // namespace kinora::jit

@@ -127,6 +127,7 @@ constexpr Stage kStages[] = {
     {"inline", inline_calls},
     {"dce", dce},
     {"fold", fold},
+    {"unmask", unmask},
     {"cse", cse},
     {"hoist", pass_hoist},
 };

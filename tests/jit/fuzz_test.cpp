@@ -69,8 +69,8 @@ struct PassRow {
     void (*run)(Module&);
 };
 const PassRow kPasses[] = {
-    {"inline_calls", inline_calls}, {"fold", fold}, {"cse", cse}, {"dce", dce},
-    {"schedule", schedule},
+    {"inline_calls", inline_calls}, {"fold", fold},     {"cse", cse}, {"dce", dce},
+    {"schedule", schedule},         {"unmask", unmask},
 };
 
 std::string same_after(const Module& module, uint64_t seed, void (*pass)(Module&)) {
