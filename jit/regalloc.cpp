@@ -203,14 +203,20 @@ class Allocator {
         return std::countr_zero(free_[c]);
     }
 
-    // Values carried around the loop we are in are its last choice for memory.
+    // Values carried around the innermost loop we are in are its last choice for memory. Those of
+    // loops around it wait there for the most part: what it computes itself comes first.
     uint32_t effective_end(Value v, Value at) const {
         const Inst& inst = f_.insts[v];
         if (inst.op == Op::Loop) return at;
         // Merges that start here may sit in registers of outer values still to be copied.
         if (inst.op == Op::Merge && static_cast<Value>(inst.imm) == at) return at;
-        if (inst.op == Op::LoopVar && at <= s_.end_of[static_cast<Value>(inst.imm)]) return at;
+        if (inst.op == Op::LoopVar && carries_on(static_cast<Value>(inst.imm), at)) return at;
         return out_.places[v].end;
+    }
+
+    bool carries_on(Value loop, Value at) const {
+        bool innermost = s_.loop_of[at] == loop || !s_.in_loop(loop, at);
+        return innermost && at <= s_.end_of[loop];
     }
 
     void evict(Value v, Value at, Value last) {

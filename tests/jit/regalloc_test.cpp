@@ -78,6 +78,49 @@ TEST(RegisterAllocation, NeedsNoSlotsWhenRegistersSuffice) {
     EXPECT_EQ(check_allocation(c.function(), structure, c.plan, a), "");
 }
 
+// for k, for j: what the inner loop computes, while eight values of the outer loop wait for it.
+Module waiting_loop() {
+    Module m;
+    add_function(m, "kernel", {});
+    Builder b(m, 0);
+    Value x = b.input({"x", Type::F, Rate::Point, "", ""});
+    b.begin_loop(b.m(true), b.fault_site({}, "outer"));
+    std::vector<Value> outer = {b.loop_var(b.i(0))}, next;
+    for (int k = 0; k < 8; ++k) outer.push_back(b.loop_var(b.f(float(k))));
+    b.begin_loop(b.m(true), b.fault_site({}, "inner"));
+    Value j = b.loop_var(b.i(0)), sum = b.loop_var(x), y = sum;
+    for (int k = 0; k < 20; ++k) y = b.fma(b.add(y, sum), y, sum);
+    Value next_j = b.iadd(j, b.i(1));
+    b.end_loop(b.op(Op::ILt, next_j, b.i(5)), std::vector<Value>{next_j, y});
+    for (size_t k = 0; k < outer.size(); ++k)
+        next.push_back(k == 0 ? b.iadd(outer[0], b.i(1)) : b.add(outer[k], b.loop_out(sum)));
+    b.end_loop(b.op(Op::ILt, next[0], b.i(5)), next);
+    for (size_t k = 1; k < outer.size(); ++k) x = b.add(x, b.loop_out(outer[k]));
+    b.output({"y", Type::F}, x);
+    b.finish();
+    return m;
+}
+
+TEST(RegisterAllocation, GivesWhatTheInnermostLoopComputesRegistersBeforeWhatLoopsAroundCarry) {
+    Case c{waiting_loop(), {}};
+    const std::vector<Inst>& insts = c.function().insts;
+    for (const Inst& inst : insts) {
+        bool plain = inst.type == Type::F || (inst.type == Type::I && inst.op != Op::ConstI);
+        bool value = plain && inst.op != Op::ConstF && inst.op != Op::LoopOut;
+        c.plan.push_back({.cls = value ? RegClass::Vector : RegClass::None});
+    }
+    Structure structure(c.function());
+    Allocation a = allocate(c, structure, 8, 0);
+    EXPECT_EQ(check_allocation(c.function(), structure, c.plan, a), "");
+    int computed = 0;
+    for (Value v = 0; v < insts.size(); ++v) {
+        if (insts[v].op != Op::Fma) continue;
+        ++computed;
+        EXPECT_TRUE(a.places[v].in_reg(a.places[v].end)) << "%" << v;
+    }
+    EXPECT_EQ(computed, 20);
+}
+
 // The last position outside Ifs and Loops that reads v from its register, 0 if none.
 Value last_plain_read(const Case& c, const Structure& structure, const Allocation& a, Value v) {
     Value last = 0;
