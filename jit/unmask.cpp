@@ -27,7 +27,7 @@ class Unmask {
     void run() {
         bool any = false;
         for (Value v = 0; v < f_.insts.size(); ++v) {
-            read_entry_masks(f_.insts[v]);
+            if (any) read_entry_masks(f_.insts[v]);
             const Inst& inst = f_.insts[v];
             if (inst.op == Op::EndIf || inst.op == Op::EndLoop) close();
             if (inst.op == Op::Loop) any |= unmasked_[v] = needs_no_mask(v);
@@ -99,9 +99,11 @@ class Unmask {
 
 void unmask(Module& module) {
     for (Function& function : module.functions) {
-        bool loops = std::any_of(function.insts.begin(), function.insts.end(),
-                                 [](const Inst& inst) { return inst.op == Op::Loop; });
-        if (loops) Unmask(module, function).run();
+        bool masked =
+            std::any_of(function.insts.begin(), function.insts.end(), [&](const Inst& inst) {
+                return inst.op == Op::Loop && function.insts[inst.a].op != Op::ConstM;
+            });
+        if (masked) Unmask(module, function).run();
     }
 }
 
