@@ -49,8 +49,9 @@ void read_bind_material(Extraction& x, Link instance, MeshInstance& mesh, uint32
             read_material_instance(x, {instance.doc, &child}, mesh, node_number, mesh_number);
 }
 
-// Sets the skin, morph and geometry of a <controller>; false if it shows nothing.
-bool read_controller(Extraction& x, Link controller, MeshInstance& mesh) {
+// Sets the skin, morph and geometry of a <controller>; false if it shows nothing. A morph of
+// another controller is left out (MORPH_SOURCE): that one is shown, at most `depth` below.
+bool read_controller(Extraction& x, Link controller, MeshInstance& mesh, int depth = 4) {
     if (controller.element->child("skin")) {
         mesh.skin = skin_index(x, controller);
         if (mesh.skin == kNone) return false;
@@ -60,9 +61,15 @@ bool read_controller(Extraction& x, Link controller, MeshInstance& mesh) {
         if (skin.joints.empty()) mesh.skin = kNone;  // broken, reported: the mesh as it is
         return true;
     }
-    if (controller.element->child("morph")) {
+    if (const Element* morph = controller.element->child("morph")) {
         mesh.morph = morph_index(x, controller);
-        if (mesh.morph == kNone) return false;
+        if (mesh.morph == kNone) {
+            std::string_view source = morph->value("source");
+            if (depth == 0 || !source.starts_with('#')) return false;
+            const Document& document = x.document(controller.doc);
+            const Element* base = find_kind(document, source.substr(1), {"controller"});
+            return base && read_controller(x, {controller.doc, base}, mesh, depth - 1);
+        }
         mesh.geometry = x.scene.morphs[mesh.morph].geometry;
         return true;
     }

@@ -76,7 +76,7 @@ struct Shape {
     uint32_t morph_data = kNone;  // index into Scene::morphs
     dmat4 conversion{1.0};
     bool in_world = false;  // a skin's result is in world space; its node's matrix does not apply
-    uint32_t placed_below = kNone;  // if it does: below this node, which moves the joints, too
+    uint32_t placed_below = kNone;      // if it does: below this node, which moves the joints, too
     std::vector<uint32_t> joint_nodes;  // scene nodes
 
     // Where the triangles stand now: own buffers (accel space) for static and deforming shapes,

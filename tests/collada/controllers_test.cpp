@@ -39,6 +39,42 @@ TEST(Morph, LeavesOutMissingTargetsAndKeepsWeightsAligned) {
     EXPECT_EQ(r.count("MORPH_TARGET_MISSING"), 1u);
 }
 
+TEST(Morph, OfAnotherControllerIsLeftOutAndThatOneShown) {
+    std::string mesh =
+        "<library_geometries><geometry id=\"g\"><mesh>" +
+        float_source("pos", "0 0 0 1 0 0 0 1 0", 3, "XYZ") +
+        "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#pos\"/></vertices>"
+        "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" "
+        "offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+        "</library_geometries>";
+    auto morph = [](const std::string& id, const std::string& source) {
+        std::string t = id + "-t", w = id + "-w";
+        return "<controller id=\"" + id + "\"><morph source=\"#" + source + "\"><source id=\"" + t +
+               "\"><IDREF_array id=\"" + t +
+               "-a\" count=\"1\">g</IDREF_array><technique_common>"
+               "<accessor source=\"#" +
+               t +
+               "-a\" count=\"1\"><param type=\"IDREF\"/></accessor>"
+               "</technique_common></source>" +
+               float_source(w, "0.5", 1, "W") +
+               "<targets><input semantic=\"MORPH_TARGET\" source=\"#" + t +
+               "\"/><input "
+               "semantic=\"MORPH_WEIGHT\" source=\"#" +
+               w + "\"/></targets></morph></controller>";
+    };
+    auto shown = [&](Reading& r, const std::string& base) {
+        read_text(r, with_scene(mesh + "<library_controllers>" + morph("outer", base) +
+                                    morph("inner", "g") + "</library_controllers>",
+                                "<node id=\"n\"><instance_controller url=\"#outer\"/></node>"));
+        return r.scene ? r.node("n").meshes.size() : 0;
+    };
+    Reading of_morph, of_itself;
+    ASSERT_EQ(shown(of_morph, "inner"), 1u) << of_morph.all();
+    EXPECT_EQ(of_morph.scene->morphs.at(of_morph.node("n").meshes[0].morph).id, "inner");
+    EXPECT_EQ(of_morph.count("MORPH_SOURCE"), 1u);
+    EXPECT_EQ(shown(of_itself, "outer"), 0u);
+}
+
 std::string skin_document(const std::string& joints, const std::string& array,
                           const std::string& weights, const std::string& nodes,
                           const std::string& skeleton) {
