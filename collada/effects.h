@@ -173,7 +173,7 @@ struct Material {
     std::vector<std::pair<uint32_t, TextureSampler>> samplers;  // in place of effect.samplers[first]
     uint32_t samples = 0;         // <extra> RSL <samples> of an area light; 0 if silent
     std::optional<bool> shadows;  // and its <shadows>
-    std::string volume_target;    // <extra> RSL "interior" or "exterior"; "" if silent
+    std::string volume_target;    // <extra> RSL "interior", "exterior", both in order; "" if silent
     bool invisible = false;       // profile_COMMON's formula gives opacity 0 everywhere, always
     Location where;
 };
