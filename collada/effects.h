@@ -70,7 +70,7 @@ struct TextureSampler {
     Filter min = Filter::Linear, mag = Filter::Linear, mip = Filter::Linear;
     float mip_bias = 0;         // added to the level
     uint8_t mip_max_level = 0;  // the coarsest used; 0 is all
-    std::string surface;  // sid of the <surface> it looks through; "" for none
+    std::string surface;        // sid of the <surface> it looks through; "" for none
     vec4 border_color{0, 0, 0, 0};
     // uv' = turned(uv) * repeat + offset, from MAYA/MAX3D/OKINO extras; turned anticlockwise about
     // (1/2, 1/2) by degrees.
@@ -170,7 +170,8 @@ struct Material {
     std::string id, name;
     uint32_t effect = kNone;  // kNone: unresolved, reported; use the default material
     std::vector<SetParam> setparams;
-    std::vector<std::pair<uint32_t, TextureSampler>> samplers;  // in place of effect.samplers[first]
+    std::vector<std::pair<uint32_t, TextureSampler>>
+        samplers;                 // in place of effect.samplers[first]
     uint32_t samples = 0;         // <extra> RSL <samples> of an area light; 0 if silent
     std::optional<bool> shadows;  // and its <shadows>
     std::string volume_target;    // <extra> RSL "interior", "exterior", both in order; "" if silent

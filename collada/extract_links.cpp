@@ -35,8 +35,7 @@ std::string linked_path(Extraction& x, Link from, std::string_view file, Locatio
     std::string path = path_of_uri(x.document(from.doc), file);
     std::error_code error;
     bool found = inside_tree(x, path) && std::filesystem::is_regular_file(path, error);
-    std::string beside =
-        x.document(from.doc).directory() + path.substr(path.find_last_of('/') + 1);
+    std::string beside = x.document(from.doc).directory() + path.substr(path.find_last_of('/') + 1);
     if (found || beside == path || !inside_tree(x, beside) ||
         !std::filesystem::is_regular_file(beside, error))
         return path;

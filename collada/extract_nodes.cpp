@@ -42,7 +42,8 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
                 node.attributes.emplace_back(item.value("name"), trim(item.text));
     size_t transforms = 0;
     for (const Element& child : e.children()) transforms += is_transform(child.name);
-    if (afford(x, transforms * (sizeof(Transform) + kBookBytes), node.where)) node.transforms.reserve(transforms);
+    if (afford(x, transforms * (sizeof(Transform) + kBookBytes), node.where))
+        node.transforms.reserve(transforms);
     for (const Element& child : e.children()) {
         Link part{link.doc, &child};
         if (is_transform(child.name)) {

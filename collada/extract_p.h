@@ -49,7 +49,7 @@ struct Extraction {
     const ExtractOptions& options;
     SceneData scene{};
     std::optional<FileTrees> trees{};  // where files may lie, made by inside_tree
-    std::optional<Version> schema{};  // whose rules documents are held to; none: their own
+    std::optional<Version> schema{};   // whose rules documents are held to; none: their own
 
     std::vector<const Document*> docs{};  // same order as scene.documents
     std::vector<std::unique_ptr<Document>> owned{};
@@ -66,9 +66,9 @@ struct Extraction {
     // Elements (of a value, or around one) that a channel may name.
     std::unordered_map<const Element*, TargetRef> target_of{};
     std::unordered_map<uint32_t, GeometrySymbols> symbols_of_geometry{};
-    std::unordered_map<const Element*, NewParams> newparams_of{};  // by the element around them
+    std::unordered_map<const Element*, NewParams> newparams_of{};      // by the element around them
     std::unordered_map<const Element*, NewParams> newparams_inside{};  // an effect's profiles
-    std::unordered_map<uint64_t, NameIndex> params_of_effect{};    // by the effect's place
+    std::unordered_map<uint64_t, NameIndex> params_of_effect{};        // by the effect's place
     std::unordered_map<uint32_t, NameIndex> setparams_of_material{};
     std::unordered_map<std::string, uint32_t> doc_by_link{};  // by the path as linked
     std::unordered_map<std::string, FolderImages> folders{};

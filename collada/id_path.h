@@ -33,7 +33,7 @@ class ElementIndex {
     std::vector<const Element*> elements_;  // in document order
     std::unordered_set<const Element*> numbered_;
     std::unordered_map<const Element*, std::string> steps_;  // of those with many attributes
-    std::unordered_map<const Element*, uint32_t> numbers_;  // of those with namesakes
+    std::unordered_map<const Element*, uint32_t> numbers_;   // of those with namesakes
 };
 
 // Fills the id path of every finding of the documents' own files, and of documents among

@@ -195,9 +195,9 @@ struct SceneData {
     Asset asset;
     std::vector<SourceDocument> documents;  // [0] is the root; others by external references
     std::string scene_id, scene_name;
-    std::vector<uint32_t> roots;          // nodes of the visual scene
-    std::vector<uint32_t> rsl_materials;  // the visual scene's <extra> RSL effects
-    uint32_t camera_node = kNone;         // of <evaluate_scene><render camera_node>
+    std::vector<uint32_t> roots;                     // nodes of the visual scene
+    std::vector<uint32_t> rsl_materials;             // the visual scene's <extra> RSL effects
+    uint32_t camera_node = kNone;                    // of <evaluate_scene><render camera_node>
     std::vector<std::shared_ptr<const void>> files;  // embedded images live as long as these
 
     std::vector<Node> nodes;

@@ -326,7 +326,8 @@ bool holds(const Function& function, std::initializer_list<Op> ops) {
 
 std::vector<bool> who_asks(const Module& module) {
     std::vector<bool> asks;
-    for (const Function& function : module.functions) asks.push_back(holds(function, {Op::Du, Op::Dv}));
+    for (const Function& function : module.functions)
+        asks.push_back(holds(function, {Op::Du, Op::Dv}));
     for (bool changed = true; changed;) {
         changed = false;
         for (size_t k = 0; k < asks.size(); ++k) {

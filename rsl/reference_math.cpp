@@ -113,9 +113,8 @@ void clamp(RefCall<Real>& c) {
 template <class Real>
 void mix(RefCall<Real>& c) {
     Dual<Real> one(1);  // not a + (b - a) alpha, which loses all of b beside a huge a
-    each(c, [&](size_t k) {
-        return at(c, 0, k) * (one - at(c, 2, k)) + at(c, 1, k) * at(c, 2, k);
-    });
+    each(c,
+         [&](size_t k) { return at(c, 0, k) * (one - at(c, 2, k)) + at(c, 1, k) * at(c, 2, k); });
 }
 template <class Real>
 void smoothstep(RefCall<Real>& c) {

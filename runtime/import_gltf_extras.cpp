@@ -75,8 +75,8 @@ void GltfImport::import_scene_extras() {
     }
 }
 
-// kinora_axes of the one root that kinora-convert puts over a scene with other axes or another unit:
-// its matrix is left off, the world is the original's.
+// kinora_axes of the one root that kinora-convert puts over a scene with other axes or another
+// unit: its matrix is left off, the world is the original's.
 void GltfImport::find_axes(const std::vector<int>& roots) {
     for (int root : roots) {
         if (root < 0) continue;

@@ -95,10 +95,10 @@ std::string GltfImport::texture_string(int texture, bool data, const std::string
         name.wrap_s = wrap_of(sampler.wrapS);
         name.wrap_t = wrap_of(sampler.wrapT);
         name.nearest_magnified = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-        name.nearest_minified = is_one_of(
-            sampler.minFilter,
-            {TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST,
-             TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR});
+        name.nearest_minified =
+            is_one_of(sampler.minFilter, {TINYGLTF_TEXTURE_FILTER_NEAREST,
+                                          TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST,
+                                          TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR});
         if (is_one_of(sampler.minFilter,
                       {TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR}))
             name.mip = TextureMip::None;

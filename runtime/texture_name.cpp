@@ -1,5 +1,6 @@
 // runtime/texture_name.cpp: texture names to strings and back:
-// "path\x1fwwfd b b b b c s u u u u m i x": wraps, filter, data; border, turn, uv; mip, bias, level.
+// "path\x1fwwfd b b b b c s u u u u m i x": wraps, filter, data; border, turn, uv; mip, bias,
+// level.
 #include "runtime/texture_name.h"
 
 #include <fmt/format.h>
@@ -22,10 +23,9 @@ char filter_letter(const TextureName& name) {
 std::string texture_name_string(const TextureName& name) {
     TextureName plain;
     bool is_plain = name.wrap_s == plain.wrap_s && name.wrap_t == plain.wrap_t &&
-                    filter_letter(name) == 'l' && !name.data &&
-                    name.mip == plain.mip && name.mip_bias == plain.mip_bias &&
-                    name.mip_max_level == plain.mip_max_level && name.border == plain.border &&
-                    name.turn == plain.turn && name.uv == plain.uv;
+                    filter_letter(name) == 'l' && !name.data && name.mip == plain.mip &&
+                    name.mip_bias == plain.mip_bias && name.mip_max_level == plain.mip_max_level &&
+                    name.border == plain.border && name.turn == plain.turn && name.uv == plain.uv;
     if (is_plain) return name.path;
     return fmt::format("{}{}{}{}{}{} {} {} {} {} {} {}", name.path, kSeparator,
                        kWrapLetters[size_t(name.wrap_s)], kWrapLetters[size_t(name.wrap_t)],

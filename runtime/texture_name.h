@@ -26,7 +26,7 @@ struct TextureName {
     TextureMip mip = TextureMip::Linear;
     float mip_bias = 0;         // added to the level
     uint8_t mip_max_level = 0;  // the coarsest used; 0 is all
-    bool data = false;               // bump, masks: never decoded from sRGB
+    bool data = false;          // bump, masks: never decoded from sRGB
     std::array<float, 4> border{0, 0, 0, 0};
     std::array<float, 2> turn{1, 0};      // cosine, sine: s, t turn about (1/2, 1/2) first
     std::array<float, 4> uv{1, 1, 0, 0};  // then s' = s * uv[0] + uv[2], t' = t * uv[1] + uv[3]

@@ -204,8 +204,7 @@ float4 sample_lane(const Sampler<Texel>& sampler, TextureFilter filter, const Fo
     if (filter == TextureFilter::Nearest) return sampler.nearest(0, at.s[i], at.t[i]);
     float lod = magnified ? 0 : sampler.level_of(at.lod[i]);
     if (nearest)
-        return sampler.between(lod,
-                               [&](size_t k) { return sampler.nearest(k, at.s[i], at.t[i]); });
+        return sampler.between(lod, [&](size_t k) { return sampler.nearest(k, at.s[i], at.t[i]); });
     if (filter == TextureFilter::Bilinear) return sampler.trilinear(0, at.s[i], at.t[i]);
     if (at.taps[i] == 1.0f || sampler.modes.mip == TextureMip::None)
         return sampler.trilinear(lod, at.s[i], at.t[i]);
@@ -213,8 +212,7 @@ float4 sample_lane(const Sampler<Texel>& sampler, TextureFilter filter, const Fo
     float step = 1.0f / at.taps[i];
     for (int k = 0; float(k) < at.taps[i]; ++k) {
         float offset = (float(k) + 0.5f) * step - 0.5f;
-        sum +=
-            sampler.trilinear(lod, at.s[i] + offset * at.ds[i], at.t[i] + offset * at.dt[i]);
+        sum += sampler.trilinear(lod, at.s[i] + offset * at.ds[i], at.t[i] + offset * at.dt[i]);
     }
     return sum * step;
 }

@@ -15,8 +15,8 @@ inline uint64_t fuzz_setting(const char* name, uint64_t otherwise) {
     return text != nullptr && *text != 0 ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Where the second run of a fuzzer starts. The same each time unless KINORA_FUZZ_FRESH gives another,
-// so that a build never fails by chance: nightly runs set it (scripts/fuzz).
+// Where the second run of a fuzzer starts. The same each time unless KINORA_FUZZ_FRESH gives
+// another, so that a build never fails by chance: nightly runs set it (scripts/fuzz).
 inline uint64_t fresh_seed() {
     return fuzz_setting("KINORA_FUZZ_FRESH", 1'000'000'000);
 }

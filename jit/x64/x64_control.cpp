@@ -163,8 +163,7 @@ void Emit::update_variables(Value loop) {
         else
             copy(step.variable, step.next);
     }
-    if (plan_.counted[loop] == kNone && plan_.rounds[loop] == 0)
-        update_mask(loop, root(now().a));
+    if (plan_.counted[loop] == kNone && plan_.rounds[loop] == 0) update_mask(loop, root(now().a));
     saved_[0] = saved_[1] = kNone;
 }
 

@@ -14,7 +14,7 @@ Module with_derivatives(const Module& module, uint64_t seed) {
     for (size_t k = 0; k < kArrayInputs; ++k) m.inputs[kPointArray + k].dv = "p1";
     for (Function& function : m.functions) {
         std::vector<Value> top;  // derivatives outside of regions
-        Value outside = kNone;  // the last value outside of regions
+        Value outside = kNone;   // the last value outside of regions
         int depth = 0;
         Rewrite r(function);
         for (Value v = 0; v < r.old.size(); ++v) {

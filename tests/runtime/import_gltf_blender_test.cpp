@@ -1,5 +1,5 @@
-// tests/runtime/import_gltf_blender_test.cpp: a skin on morphs and a moving box, exported by Blender,
-// against the vertices of Blender's own evaluation (scripts/assets/make_gltf.py).
+// tests/runtime/import_gltf_blender_test.cpp: a skin on morphs and a moving box, exported by
+// Blender, against the vertices of Blender's own evaluation (scripts/assets/make_gltf.py).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,10 +21,9 @@ std::vector<dvec3> places_of(const Scene& scene, std::string_view node) {
         const Mesh& mesh = scene.meshes[shape.mesh];
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
         for (const vec4& p : instanced ? mesh.positions : shape.positions)
-            places.push_back(instanced
-                                 ? dvec3(scene.nodes[shape.node].world *
-                                         dvec4(dvec3(p) + mesh.anchor, 1.0))
-                                 : dvec3(p) + scene.origin);
+            places.push_back(instanced ? dvec3(scene.nodes[shape.node].world *
+                                               dvec4(dvec3(p) + mesh.anchor, 1.0))
+                                       : dvec3(p) + scene.origin);
     }
     return places;
 }

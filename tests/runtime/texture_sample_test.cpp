@@ -138,13 +138,13 @@ TEST(TextureSampler, LevelsAreChosenByMipFilterBiasAndLimit) {
         return 255 * look_up(pyramid, modes, TextureFilter::Trilinear, q)[0];
     };
     auto mean = [](int first, int count) { return 4 * (first + (count - 1) / 2.0f); };
-    EXPECT_NEAR(value(TextureMip::None, true, 8), 80, 0.1);               // texel 20
-    EXPECT_NEAR(value(TextureMip::Nearest, true, 4), mean(20, 4), 0.1);   // texel 5 of 16
-    EXPECT_NEAR(value(TextureMip::Nearest, true, 5), mean(20, 4), 0.1);   // nearer to 4 than to 8
-    EXPECT_NEAR(value(TextureMip::Nearest, true, 7), mean(16, 8), 0.1);   // texel 2 of 8
+    EXPECT_NEAR(value(TextureMip::None, true, 8), 80, 0.1);              // texel 20
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 4), mean(20, 4), 0.1);  // texel 5 of 16
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 5), mean(20, 4), 0.1);  // nearer to 4 than to 8
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 7), mean(16, 8), 0.1);  // texel 2 of 8
     EXPECT_NEAR(value(TextureMip::Linear, true, 4), mean(20, 4), 0.5);
     EXPECT_NEAR(value(TextureMip::Linear, true, 5.656854f), (mean(20, 4) + mean(16, 8)) / 2, 0.5);
-    EXPECT_NEAR(value(TextureMip::Nearest, true, 8, -3), 80, 0.1);        // three levels nearer
+    EXPECT_NEAR(value(TextureMip::Nearest, true, 8, -3), 80, 0.1);  // three levels nearer
     EXPECT_NEAR(value(TextureMip::Nearest, true, 32, 0, 2), mean(20, 4), 0.1);
 }
 
