@@ -98,7 +98,7 @@ Reach SidPaths::find(const Element& from, std::string_view path, int depth) {
     for (int steps = 0; at.element && slash != path.npos && steps < 64; ++steps) {
         path.remove_prefix(slash + 1);
         slash = path.find('/');
-        at = step(*at.element, path.substr(0, slash), 0);
+        at = step(*at.element, path.substr(0, slash), depth);
     }
     return at;
 }

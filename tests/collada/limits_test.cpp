@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "collada/validate.h"
@@ -296,6 +297,24 @@ TEST(LimitFindings, NameWhatWasTooMuch) {
     Reading deep;
     read_text(deep, text_of("DeepElements"));
     EXPECT_EQ(deep.count("XML_DEPTH"), 1u);
+}
+
+// Found by fuzzing: the way to what a SIDREF names leads through the SIDREF.
+TEST(LimitFindings, SidrefsThatLeadToThemselvesEnd) {
+    Diagnostics diag;
+    auto document = read_document_text(
+        "loop.dae",
+        "<COLLADA xmlns=\"http://www.collada.org/2008/03/COLLADASchema\" version=\"1.5.0\">"
+        "<library_articulated_systems><articulated_system id=\"a\"><SIDREF>a/b</SIDREF>"
+        "</articulated_system></library_articulated_systems>"
+        "<scene><instance_kinematics_scene><bind_joint_axis target=\"n/t\"><axis>"
+        "<SIDREF>a/x</SIDREF></axis></bind_joint_axis></instance_kinematics_scene></scene>"
+        "</COLLADA>",
+        diag);
+    ASSERT_TRUE(document);
+    validate(*document, diag);
+    auto named = [](const Finding& f) { return f.message.find("'a/x'") != f.message.npos; };
+    EXPECT_TRUE(std::ranges::any_of(diag.findings(), named));
 }
 
 TEST(LimitFindings, AreCutAtFiftyThousandWithAWordOfIt) {
