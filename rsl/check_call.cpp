@@ -231,9 +231,9 @@ void Checker::bind_builtin(CallExpr& e, const Overload& overload) {
         const Signature::Argument& a = i < fixed ? s.arguments[i] : s.repeated;
         bind_argument(e, i, a.type, a.output);
     }
-    bool channels =
-        overload.builtin->effects & (kChannelPairs | kPrints);  // have names of their own
-    if (!channels) drop_unfit(e.args, e.pairs, e.name);
+    // texture3d, and bake3d among those that print, take any name: that of a channel.
+    bool names_channels = overload.builtin->effects & (kChannelPairs | kPrints);
+    if (!names_channels) drop_unfit(e.args, e.pairs, e.name);
     if (overload.builtin->effects & kNamesFile) check_file_name(e);
     if (!overload.builtin->lower && options_.require_implemented)
         report(Code::RSL_NOT_SUPPORTED, e.place, fmt::format("'{}'", e.name));

@@ -43,7 +43,7 @@ void Lowering::statement(const Stmt& stmt) {
     }
 }
 
-// An array by itself does nothing, and is no value.
+// A variable by itself does nothing, and an array would not even be a value.
 void Lowering::evaluate(const Expr& e) {
     if (e.kind != ExprKind::Variable) expr(e);
 }

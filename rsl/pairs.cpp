@@ -15,9 +15,9 @@ constexpr std::string_view kPointOptions[] = {"radius",       "coordsystem", "in
                                               "lerp",         "samples"};
 constexpr std::string_view kOcclusionOutputs[] = {"environmentdir"};
 
-constexpr std::string_view kTexts[] = {"filter",         "label",    "distribution",
-                                       "environmentmap", "filename", "coordsystem"};
-constexpr std::string_view kNumbers[] = {
+constexpr std::string_view kTextOptions[] = {"filter",         "label",    "distribution",
+                                             "environmentmap", "filename", "coordsystem"};
+constexpr std::string_view kNumberOptions[] = {
     "bias",   "maxdist", "samples",    "samplecone", "coneangle", "falloff", "falloffmode",
     "blur",   "sblur",   "tblur",      "width",      "swidth",    "twidth",  "fill",
     "radius", "source",  "samplebase", "estimator",  "gapbias"};
@@ -35,8 +35,8 @@ std::string_view pair_name(std::span<Expr* const> args, size_t value) {
 }
 
 BaseType option_type(std::string_view name) {
-    if (among(name, kTexts)) return BaseType::String;
-    return among(name, kNumbers) ? BaseType::Float : BaseType::Invalid;
+    if (among(name, kTextOptions)) return BaseType::String;
+    return among(name, kNumberOptions) ? BaseType::Float : BaseType::Invalid;
 }
 
 bool is_output_pair(const CallExpr& call, size_t value) {
