@@ -20,7 +20,7 @@ if ((all)); then stage "npm validators" scripts/npm_packages; fi
 stage "release tests" ctest --preset release
 if ((all)); then
     stage "ASan+UBSan build" scripts/build asan -DKINORA_TESTS=ON
-    stage "ASan+UBSan tests" env ASAN_OPTIONS=detect_leaks=1 ctest --preset asan
+    stage "ASan+UBSan tests" ctest --preset asan
     stage "fuzzing of code" scripts/fuzz build/release code
     stage "fuzzing of shaders" scripts/fuzz build/release shaders
     stage "fuzzing of sources" scripts/fuzz build/asan text
