@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "collada/encoding_p.h"
+#include "collada/entities_p.h"
 #include "collada/plain_xml_p.h"
 
 namespace kinora::collada {
@@ -158,16 +159,20 @@ std::optional<Document> DocumentReader::read_by_expat() {
     XML_SetUserData(parser_, this);
     XML_SetElementHandler(parser_, on_start, on_end);
     XML_SetCharacterDataHandler(parser_, on_text);
-    XML_SetEntityDeclHandler(parser_, on_entity);
+    std::optional<ByteRange> entity = find_entity_use(text_);
+    size_t end = entity ? entity->begin : text_.size();
     bool ok = true;
-    for (size_t at = 0; ok && at < text_.size(); at += kChunk) {
-        size_t length = std::min(kChunk, text_.size() - at);
+    for (size_t at = 0; ok && at < end; at += kChunk) {
+        size_t length = std::min(kChunk, end - at);
         bool last = at + length == text_.size();
         ok = XML_Parse(parser_, text_.data() + at, int(length), last) == XML_STATUS_OK;
         if (ok && !last) ok = check_token(at + length);
     }
     if (!ok && !stopped_) report_syntax();
-    if (!ok && builder_->root()) builder_->close_after_error();
+    if (ok && entity)
+        diag_.report(Code::XML_ENTITY, Location{file_, entity->begin, entity->end},
+                     text_.substr(entity->begin, entity->end - entity->begin));
+    if ((!ok || entity) && builder_->root()) builder_->close_after_error();
     XML_ParserFree(parser_);
     return finish();
 }

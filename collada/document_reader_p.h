@@ -27,12 +27,6 @@ class DocumentReader {
     static void XMLCALL on_text(void* self, const XML_Char* text, int length) {
         static_cast<DocumentReader*>(self)->add_text(text, size_t(length));
     }
-    static void XMLCALL on_entity(void* self, const XML_Char* name, int, const XML_Char*, int,
-                                  const XML_Char*, const XML_Char*, const XML_Char*,
-                                  const XML_Char*) {
-        auto* reader = static_cast<DocumentReader*>(self);
-        reader->stop(Code::XML_ENTITY, std::string(name));
-    }
 
     void start_element(const XML_Char* name, const XML_Char** attributes);
     void end_element();

@@ -1,4 +1,6 @@
 // collada/extract_targets.cpp: "id/sid/sid.MEMBER", "(i)" and "(i)(j)" name part of a value.
+#include <cctype>
+
 #include "collada/numbers_p.h"
 #include "collada/targets_p.h"
 
@@ -19,6 +21,13 @@ void split_selector(std::string_view segment, std::string_view& name, std::strin
     size_t cut = segment.ends_with(')') ? segment.find('(') : segment.find_last_of('.');
     name = segment.substr(0, cut);
     selector = cut == segment.npos ? std::string_view{} : segment.substr(cut);
+}
+
+// Members are written in capitals; some exporters do not.
+std::string capital(std::string_view member) {
+    std::string name(member);
+    for (char& c : name) c = char(std::toupper(uint8_t(c)));
+    return name;
 }
 
 // "(3)(0)" -> {3, 0}.
@@ -139,7 +148,8 @@ const char* TargetResolver::apply_index(std::string_view selector, TargetRef& re
     return nullptr;
 }
 
-const char* TargetResolver::apply_member(std::string_view name, TargetRef& ref) const {
+const char* TargetResolver::apply_member(std::string_view written, TargetRef& ref) const {
+    std::string name = capital(written);
     uint32_t component = UINT32_MAX;
     for (const Member& m : kMembers)
         if (m.name == name) component = m.component;
@@ -299,6 +309,11 @@ TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Locatio
     if (const char* fault = apply_selector(selector, stride, ref)) {
         x_.diag.report(Code::ANIM_TARGET_MEMBER, where, target, fault);
         return {};
+    }
+    if (std::string proper = capital(selector); proper != selector) {
+        size_t before = target.rfind(selector);
+        x_.diag.report(Code::ANIM_TARGET_FALLBACK, where, target,
+                       std::string(target.substr(0, before)) + proper);
     }
     return ref;
 }

@@ -3,68 +3,26 @@
 #include <cmath>
 
 #include "collada/lint_p.h"
+#include "runtime/base/skin_space.h"
+#include "runtime/base/transform_matrix.h"
 
 namespace kinora::collada {
 
 namespace {
 
-double radians_of(double degrees) {
-    return degrees * (3.14159265358979323846 / 180);
-}
-
-// Rodrigues' formula; no turn about an axis without direction.
-dmat4 rotation(const std::array<double, 16>& v) {
-    double length = std::hypot(v[0], v[1], v[2]);
-    dmat4 m(1.0);
-    if (!(length > 0)) return m;
-    double a[3] = {v[0] / length, v[1] / length, v[2] / length};
-    double c = std::cos(radians_of(v[3])), s = std::sin(radians_of(v[3]));
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row) {
-            int third = 3 - column - row;
-            double turn = column == row ? 0 : ((row - column + 3) % 3 == 1 ? s : -s) * a[third];
-            m[column][row] = (1 - c) * a[column] * a[row] + (column == row ? c : 0) + turn;
-        }
-    return m;
-}
-
-// The matrix of a transform at rest; <lookat> and <skew>, which are never the identity by chance,
-// as one that is none and flattens nothing.
-dmat4 rest_matrix(const Transform& transform) {
-    const auto& v = transform.slot.values;
-    dmat4 m(1.0);
-    switch (transform.kind) {
-        case TransformKind::Translate:
-            m[3] = {v[0], v[1], v[2], 1};
-            break;
-        case TransformKind::Rotate:
-            return rotation(v);
-        case TransformKind::Scale:
-            for (int i = 0; i < 3; ++i) m[i][i] = v[size_t(i)];
-            break;
-        case TransformKind::Matrix:
-            for (int c = 0; c < 4; ++c)
-                for (int r = 0; r < 4; ++r) m[c][r] = v[size_t(c * 4 + r)];
-            break;
-        case TransformKind::Lookat:
-        case TransformKind::Skew:
-            m[3] = {1e-3, 2e-3, 3e-3, 1};
-            break;
-    }
-    return m;
-}
+using MatrixOf = dmat4 (*)(const double*);
+constexpr MatrixOf kMatrixOf[] = {translation_matrix, rotation_matrix, scale_matrix, rows_matrix,
+                                  lookat_matrix,      skew_matrix};  // TransformKind
 
 dmat4 rest_matrix(const Node& node) {
     dmat4 m(1.0);
-    for (const Transform& t : node.transforms) m = m * rest_matrix(t);
+    for (const Transform& t : node.transforms) {
+        std::array<double, 16> v = t.slot.values;
+        if (t.kind == TransformKind::Matrix)  // slots are column-major
+            for (size_t i = 0; i < 16; ++i) v[i] = t.slot.values[i % 4 * 4 + i / 4];
+        m = m * kMatrixOf[size_t(t.kind)](v.data());
+    }
     return m;
-}
-
-bool is_identity(const dmat4& m) {
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r)
-            if (!(std::abs(m[c][r] - (c == r)) <= 1e-6)) return false;
-    return true;
 }
 
 bool flattens(const dmat4& m) {
@@ -79,12 +37,25 @@ std::string label(const Node& node) {
     return node.id.empty() ? node.name : node.id;
 }
 
-// Each node definition once, by the first way that leads to it; without recursion, since instances
-// may be chained as long as the file.
+// What the matrix of the node over a skin does there, by SkinSpace.
+constexpr const char* kInstead[] = {"", "binds it with its matrix", "moves it with its matrix",
+                                    "moves it with what its matrix has below the joints' ancestor"};
+
+// Where a node definition stands by the first way that leads to it; parents come first.
+struct Place {
+    uint32_t node;
+    uint32_t parent;  // a place, or kNone
+    dmat4 world;
+};
+
+// Without recursion, since instances may be chained as long as the file.
 class NodeWalk {
   public:
     explicit NodeWalk(Lint& lint)
-        : lint_(lint), nodes_(lint.scene.nodes), seen_(nodes_.size()), animated_(nodes_.size()) {
+        : lint_(lint),
+          nodes_(lint.scene.nodes),
+          place_of_(nodes_.size(), kNone),
+          animated_(nodes_.size()) {
         for (const Channel& channel : lint.scene.channels)
             if (channel.ref.kind == Owner::Transform) animated_[channel.ref.owner] = true;
     }
@@ -93,41 +64,71 @@ class NodeWalk {
         for (uint32_t root : lint_.scene.roots) walk(root);
         for (uint32_t i = 0; i < nodes_.size(); ++i)
             if (nodes_[i].parent == kNone) walk(i);
+        for (uint32_t place = 0; place < places_.size(); ++place)
+            for (const MeshInstance& mesh : nodes_[places_[place].node].meshes)
+                if (mesh.skin != kNone) check_skin(place, mesh);
     }
 
   private:
     void walk(uint32_t root) {
-        std::vector<std::pair<uint32_t, dmat4>> todo{{root, dmat4(1.0)}};
+        std::vector<std::pair<uint32_t, uint32_t>> todo{{root, kNone}};
         while (!todo.empty()) {
-            auto [at, above] = todo.back();
+            auto [at, parent] = todo.back();
             todo.pop_back();
-            if (seen_[at]) continue;
-            seen_[at] = true;
+            if (place_of_[at] != kNone) continue;
+            uint32_t place = place_of_[at] = uint32_t(places_.size());
             const Node& node = nodes_[at];
             dmat4 local = rest_matrix(node);
-            dmat4 world = above * local;
-            check(node, at, local, world);
-            for (uint32_t child : node.children) todo.emplace_back(child, world);
+            check_flat(node, at, local);
+            dmat4 above = parent == kNone ? dmat4(1.0) : places_[parent].world;
+            places_.push_back({at, parent, above * local});
+            for (uint32_t child : node.children) todo.emplace_back(child, place);
             for (const NodeInstance& instance : node.instances)
-                todo.emplace_back(instance.node, world);
+                todo.emplace_back(instance.node, place);
         }
     }
 
-    void check(const Node& node, uint32_t number, const dmat4& local, const dmat4& world) {
+    void check_flat(const Node& node, uint32_t number, const dmat4& local) {
         bool shows = !node.meshes.empty() || !node.children.empty() || !node.instances.empty();
         if (shows && !animated_[number] && flattens(local))
             lint_.diag.report(Code::NODE_SINGULAR, node.where, label(node));
-        for (const MeshInstance& mesh : node.meshes) {
-            if (mesh.skin == kNone) continue;
-            const Skin& skin = lint_.scene.skins[mesh.skin];
-            if (is_identity(skin.bind_shape_matrix) && !is_identity(world))
-                lint_.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where, label(node), skin.id);
+    }
+
+    // As the scene is built (SceneBuilder::add_skin).
+    void check_skin(uint32_t place, const MeshInstance& mesh) {
+        const Skin& skin = lint_.scene.skins[mesh.skin];
+        std::vector<bool> used(skin.inverse_bind.size());
+        for (int32_t joint : skin.influence_joints)
+            if (joint >= 0) used[size_t(joint)] = true;
+        std::vector<RestJoint> rest, moving;
+        std::vector<uint32_t> joints;
+        for (size_t j = 0; j < mesh.joint_nodes.size() && j < used.size(); ++j) {
+            uint32_t node = mesh.joint_nodes[j];
+            if (node == kNone || place_of_[node] == kNone) continue;
+            joints.push_back(place_of_[node]);
+            rest.push_back({places_[joints.back()].world, skin.inverse_bind[j]});
+            if (used[j]) moving.push_back(rest.back());
         }
+        dmat4 world = places_[place].world;
+        if (mesh.conversion != kNone) world = world * lint_.scene.conversions[mesh.conversion];
+        uint32_t shared =
+            shared_ancestor(place, joints, kNone, [&](uint32_t p) { return places_[p].parent; });
+        SkinSpace space = skin_space(skin.bind_shape_matrix, world,
+                                     shared == kNone ? dmat4(1.0) : places_[shared].world, rest);
+        if (space != SkinSpace::World)
+            lint_.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where,
+                              label(nodes_[places_[place].node]), skin.id, kInstead[size_t(space)]);
+        size_t mirroring = mirroring_joints(skin.bind_shape_matrix, moving);
+        if (mirroring && mirroring < moving.size())
+            lint_.diag.report(Code::SKIN_MIXED_MIRROR, mesh.where, mirroring, moving.size(),
+                              skin.id);
     }
 
     Lint& lint_;
     const std::vector<Node>& nodes_;
-    std::vector<bool> seen_, animated_;
+    std::vector<Place> places_;
+    std::vector<uint32_t> place_of_;  // by node definition
+    std::vector<bool> animated_;
 };
 
 void check_influences(Lint& lint, const Skin& skin) {

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
+#include "collada/encoding_p.h"
+#include "collada/entities_p.h"
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
 
@@ -56,11 +59,6 @@ struct TextSearch {
         }
         search->inside = false;
     }
-    static void XMLCALL on_entity(void* self, const XML_Char*, int, const XML_Char*, int,
-                                  const XML_Char*, const XML_Char*, const XML_Char*,
-                                  const XML_Char*) {
-        XML_StopParser(static_cast<TextSearch*>(self)->parser, XML_FALSE);  // none is expanded
-    }
 };
 
 // "" where there is none; what such a file gets wrong is no finding, it is no COLLADA.
@@ -71,16 +69,18 @@ std::string first_text(const std::string& path, std::string_view name, std::stri
     std::string bytes(size_t(size), '\0');
     std::ifstream in(path, std::ios::binary);
     if (!in.read(bytes.data(), std::streamsize(size))) return {};
+    DecodedText decoded = decode_text(std::move(bytes));
+    std::string_view xml = decoded.text;
+    if (std::optional<ByteRange> use = find_entity_use(xml)) xml = xml.substr(0, use->begin);
     TextSearch search;
     search.name = name;
     search.ending = ending;
-    search.parser = XML_ParserCreate(nullptr);
+    search.parser = XML_ParserCreate("UTF-8");
     if (!search.parser) return {};
     XML_SetUserData(search.parser, &search);
     XML_SetElementHandler(search.parser, TextSearch::on_start, TextSearch::on_end);
     XML_SetCharacterDataHandler(search.parser, TextSearch::on_text);
-    XML_SetEntityDeclHandler(search.parser, TextSearch::on_entity);
-    XML_Parse(search.parser, bytes.data(), int(size), XML_TRUE);
+    XML_Parse(search.parser, xml.data(), int(xml.size()), XML_TRUE);
     XML_ParserFree(search.parser);
     return std::move(search.found);
 }
@@ -114,6 +114,17 @@ const std::string* first_scene(const Archive& archive) {
     return best;
 }
 
+// True when one of these members is an archive itself, with the finding.
+bool report_nested(const std::string& path, const Archive& archive,
+                   std::span<const std::string> members, Diagnostics& diag) {
+    for (const std::string& member : members) {
+        if (!is_archive(archive.folder->path() + "/" + member)) continue;
+        diag.report(Code::ARCHIVE_NESTED, Location{}, member, path);
+        return true;
+    }
+    return false;
+}
+
 std::optional<SceneFile> scene_of(const std::string& path, Archive archive, Diagnostics& diag) {
     const std::string& folder = archive.folder->path();
     std::string index, link;
@@ -130,7 +141,8 @@ std::optional<SceneFile> scene_of(const std::string& path, Archive archive, Diag
     if (root.path.empty()) {
         const std::string* first = first_scene(archive);
         if (!first) {
-            diag.report(Code::ARCHIVE_NO_SCENE, Location{}, path);
+            if (!report_nested(path, archive, archive.members, diag))
+                diag.report(Code::ARCHIVE_NO_SCENE, Location{}, path);
             return std::nullopt;
         }
         std::string what = link.empty()
@@ -139,6 +151,7 @@ std::optional<SceneFile> scene_of(const std::string& path, Archive archive, Diag
         diag.report(Code::ARCHIVE_ROOT, Location{}, what, path + "!" + *first);
         root = {*first, {}};
     }
+    if (report_nested(path, archive, {&root.path, 1}, diag)) return std::nullopt;
     return SceneFile{folder + "/" + root.path, folder, root.scene_id, std::move(archive.folder)};
 }
 

@@ -1,11 +1,13 @@
 // collada/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first joined
-// to the outline by bridges (Eberly, "Triangulation by Ear Clipping").
+// to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what touches itself then
+// is taken apart.
 #include "collada/triangulate_p.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <tuple>
 #include <unordered_set>
 
 namespace kinora::collada {
@@ -52,13 +54,14 @@ class EarClipper {
     bool bridge(std::span<const uint32_t> hole);  // or when the budget of work is spent
     // Joins a hole that has a corner where the outline has one; false if it has none.
     bool join_touching(std::span<const uint32_t> hole);
-    void set_outline(uint32_t count) {
-        ring_.resize(count);
-        std::iota(ring_.begin(), ring_.end(), 0u);
-    }
+    void set_outline(std::vector<uint32_t> ring) { ring_ = std::move(ring); }
+    // Where outline and holes have corners at one place, the inside of the ring is not told by the
+    // order of its corners: what holes that touch twice part becomes rings of their own.
+    void take_apart();
     bool clip();  // false: the polygon crosses itself
 
   private:
+    bool clip_ring();
     dvec2 at(uint32_t i) const { return points_[ring_[i]]; }
     bool reflex(uint32_t i) const { return cross(at(previous_[i]), at(i), at(next_[i])) <= 0; }
     bool opens_to(uint32_t i, dvec2 p) const;
@@ -71,6 +74,7 @@ class EarClipper {
     std::span<const dvec2> points_;
     std::vector<uint32_t>& triangles_;
     std::vector<uint32_t> ring_;                   // corner numbers around the (bridged) outline
+    std::vector<std::vector<uint32_t>> rings_;     // what take_apart made of it
     std::unordered_set<dvec2, PointHash> places_;  // of ring_'s corners, once holes are joined
     std::vector<uint32_t> next_, previous_;        // linked positions of ring_
     std::vector<uint32_t> reflex_;                 // positions that were reflex when last looked at
@@ -125,12 +129,69 @@ bool EarClipper::join_touching(std::span<const uint32_t> hole) {
         if (!places_.contains(p)) continue;
         work_ += ring_.size();
         for (uint32_t i = 0; i < ring_.size(); ++i)
-            if (same(at(i), p) && opens_to(i, points_[hole[(k + 1) % hole.size()]])) {
+            if (same(at(i), p)) {
                 insert(i, hole, k);
                 return true;
             }
     }
     return false;
+}
+
+// Half turns and then signs of areas order directions without angles: whether `p` comes before `q`
+// when one turns clockwise around `o`, beginning behind the direction to `from`.
+bool turns_sooner(dvec2 o, dvec2 from, dvec2 p, dvec2 q) {
+    auto half = [&](dvec2 x) {  // 0: to the right of `from`, 1: opposite or left, 2: `from` itself
+        double side = cross(o, from, x);
+        if (side < 0) return 0;
+        double along = (from.x - o.x) * (x.x - o.x) + (from.y - o.y) * (x.y - o.y);
+        return side == 0 && along > 0 ? 2 : 1;
+    };
+    int a = half(p), b = half(q);
+    return a != b ? a < b : cross(o, p, q) < 0;
+}
+
+// At each place every edge that arrives goes on by the edge that comes first clockwise: between
+// the two lies the inside.
+void EarClipper::take_apart() {
+    uint32_t size = uint32_t(ring_.size());
+    std::vector<uint32_t> order(size), follows(size);
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t k) {
+        dvec2 p = at(i), q = at(k);
+        return std::tie(p.x, p.y, i) < std::tie(q.x, q.y, k);
+    });
+    for (uint32_t first = 0, end; first < size; first = end) {
+        for (end = first + 1; end < size && same(at(order[first]), at(order[end])); ++end) {
+        }
+        work_ += uint64_t(end - first) * (end - first);
+        for (uint32_t n = first; n < end; ++n) {
+            uint32_t i = order[n], best = i;
+            dvec2 before = at((i + size - 1) % size);
+            for (uint32_t m = first; m < end && work_ <= kBudget; ++m)
+                if (turns_sooner(at(i), before, at((order[m] + 1) % size), at((best + 1) % size)))
+                    best = order[m];
+            follows[i] = (best + 1) % size;
+        }
+    }
+    std::vector<bool> seen(size);
+    for (uint32_t i = 0; i < size; ++i) {
+        std::vector<uint32_t> ring;
+        for (uint32_t k = i; !seen[k]; k = follows[k]) {
+            seen[k] = true;
+            ring.push_back(ring_[k]);
+        }
+        if (ring.size() > 2) rings_.push_back(std::move(ring));
+    }
+}
+
+bool EarClipper::clip() {
+    if (rings_.empty()) return clip_ring();
+    bool clean = true;
+    for (std::vector<uint32_t>& ring : rings_) {
+        ring_ = std::move(ring);
+        clean = clip_ring() && clean;
+    }
+    return clean;
 }
 
 // Whether a line from the ring's corner i to p begins inside the polygon.
@@ -196,7 +257,7 @@ bool EarClipper::cut_stuck(uint32_t& start, uint32_t left) {
     return chosen == flat;  // a corner on a straight line is no crossing
 }
 
-bool EarClipper::clip() {
+bool EarClipper::clip_ring() {
     uint32_t left = uint32_t(ring_.size());
     next_.resize(left);
     previous_.resize(left);
@@ -204,6 +265,7 @@ bool EarClipper::clip() {
         next_[i] = i + 1 < left ? i + 1 : 0;
         previous_[i] = i > 0 ? i - 1 : left - 1;
     }
+    reflex_.clear();
     for (uint32_t i = 0; i < left; ++i)
         if (reflex(i)) reflex_.push_back(i);
     bool clean = true;
@@ -270,6 +332,33 @@ void fan(uint32_t count, std::vector<uint32_t>& triangles) {
     for (uint32_t i = 2; i < count; ++i) add_triangle(triangles, 0, i - 1, i);
 }
 
+// Corners of other loops that stand on a loop's edges become corners of that loop, too.
+void share_corners(std::span<const dvec2> points, std::vector<std::vector<uint32_t>>& loops) {
+    constexpr uint64_t kMost = 10'000'000;  // pairs of an edge and a corner
+    uint64_t corners = points.size();
+    if (corners * corners > kMost) return;
+    std::vector<std::pair<double, uint32_t>> on_edge;
+    for (std::vector<uint32_t>& loop : loops) {
+        std::vector<uint32_t> shared;
+        for (size_t i = 0; i < loop.size(); ++i) {
+            dvec2 a = points[loop[i]], b = points[loop[i + 1 < loop.size() ? i + 1 : 0]];
+            on_edge.clear();
+            for (const std::vector<uint32_t>& other : loops)
+                for (uint32_t corner : other) {
+                    dvec2 p = points[corner];
+                    double along = glm::dot(p - a, b - a);
+                    if (&other == &loop || cross(a, b, p) != 0 || along <= 0) continue;
+                    if (along < glm::dot(b - a, b - a)) on_edge.emplace_back(along, corner);
+                }
+            std::sort(on_edge.begin(), on_edge.end());
+            shared.push_back(loop[i]);
+            for (auto [along, corner] : on_edge)
+                if (!same(points[corner], points[shared.back()])) shared.push_back(corner);
+        }
+        loop = std::move(shared);
+    }
+}
+
 double signed_area(std::span<const dvec2> points, std::span<const uint32_t> loop) {
     double area = 0;
     for (size_t i = 1; i + 1 < loop.size(); ++i)
@@ -296,7 +385,9 @@ Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32
         fan(outline, triangles);
         return result;
     }
-    std::vector<std::vector<uint32_t>> holes;
+    std::vector<std::vector<uint32_t>> holes(1);  // with the outline as the first
+    holes[0].resize(outline);
+    std::iota(holes[0].begin(), holes[0].end(), 0u);
     uint32_t first = outline;
     for (size_t l = 1; l < loops.size(); first += loops[l], ++l) {
         if (loops[l] < 3) continue;
@@ -305,6 +396,10 @@ Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32
         if (signed_area(points, hole) > 0) std::reverse(hole.begin(), hole.end());
         holes.push_back(std::move(hole));
     }
+    if (holes.size() > 1) share_corners(points, holes);
+    EarClipper clipper(points, triangles);
+    clipper.set_outline(std::move(holes[0]));
+    holes.erase(holes.begin());
     // Rightmost holes first, so that later bridges may end on them.
     auto right_end = [&](const std::vector<uint32_t>& hole) {
         double x = -INFINITY;
@@ -313,10 +408,13 @@ Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32
     };
     std::stable_sort(holes.begin(), holes.end(),
                      [&](const auto& a, const auto& b) { return right_end(a) > right_end(b); });
-    EarClipper clipper(points, triangles);
-    clipper.set_outline(outline);
-    for (const auto& hole : holes)
-        if (!clipper.join_touching(hole) && !clipper.bridge(hole)) ++result.lost_holes;
+    bool touching = false;
+    for (const auto& hole : holes) {
+        bool touches = clipper.join_touching(hole);
+        touching |= touches;
+        if (!touches && !clipper.bridge(hole)) ++result.lost_holes;
+    }
+    if (touching) clipper.take_apart();
     result.self_intersecting = !clipper.clip();
     return result;
 }

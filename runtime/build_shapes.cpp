@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/base/skin_space.h"
 #include "runtime/build_mesh.h"
 #include "runtime/build_scene_p.h"
 #include "runtime/findings.h"
-#include "runtime/skin_space.h"
 
 namespace kinora {
 
@@ -190,11 +190,18 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         }
         shape.joint_world.resize(joints, dmat4(1.0));
         dmat4 world = scene.nodes[node].world * shape.conversion;
-        std::vector<RestJoint> rest;
-        for (size_t j = 0; j < joints; ++j)
-            if (shape.joint_nodes[j] != kNone)
-                rest.push_back(
-                    {scene.nodes[shape.joint_nodes[j]].world, definition.inverse_bind[j]});
+        std::vector<bool> used(joints);
+        for (int32_t joint : definition.joints)
+            if (joint >= 0 && size_t(joint) < used.size()) used[size_t(joint)] = true;
+        std::vector<RestJoint> rest, moving;
+        for (size_t j = 0; j < joints; ++j) {
+            if (shape.joint_nodes[j] == kNone) continue;
+            rest.push_back({scene.nodes[shape.joint_nodes[j]].world, definition.inverse_bind[j]});
+            if (used[j]) moving.push_back(rest.back());
+        }
+        size_t mirroring = mirroring_joints(definition.bind_shape, moving);
+        if (mirroring && mirroring < moving.size())
+            diagnostics_.report(Code::SKIN_MIXED_MIRROR, where, mirroring, moving.size(), id);
         uint32_t shared = shared_ancestor(node, shape.joint_nodes, kNone,
                                           [&](uint32_t n) { return scene.nodes[n].parent; });
         SkinSpace space =

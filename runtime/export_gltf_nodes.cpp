@@ -9,7 +9,7 @@
 #include "anim/decompose.h"
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
-#include "runtime/skin_space.h"
+#include "runtime/base/skin_space.h"
 #include "runtime/transforms.h"
 
 namespace kinora {

@@ -130,11 +130,48 @@ TEST(Document, RefusesEntitiesAndDepth) {
                        "<extra>&b;</extra></COLLADA>";
     read_document_text("t.dae", bomb, r.diag);
     EXPECT_EQ(r.count("XML_ENTITY"), 1u);
+    EXPECT_EQ(r.pointed("XML_ENTITY"), "b");
     Reading deep;
     std::string text = kRoot;
     for (int i = 0; i < 100000; ++i) text += "<node>";
     read_document_text("t.dae", text, deep.diag);
     EXPECT_EQ(deep.count("XML_DEPTH"), 1u);
+}
+
+// What is declared costs nothing until it is used, wherever that is; what came before is kept.
+TEST(Document, StopsAtTheFirstUseOfAnEntity) {
+    std::string declared =
+        "<?xml version=\"1.0\"?><!-- &a; --><!DOCTYPE COLLADA [<!ENTITY a \"aaaaaa\">";
+    for (int i = 0; i < 40; ++i) {
+        std::string from(1, char('a' + i % 26)), to(1, char('a' + (i + 1) % 26));
+        if (i) from += std::to_string(i);
+        to += std::to_string(i + 1);
+        declared += "<!ENTITY " + to + " \"&" + from + ";&" + from + ";&#38;\">";
+    }
+    declared += "]>" + kRoot + "<asset/><library_lights><light id=\"l\"/></library_lights>";
+    const char* const harmless[] = {"", "<extra>&amp;&#65;&lt;</extra>",
+                                    "<extra name=\"&quot;&apos;&#x41;\"><![CDATA[&o40;]]></extra>",
+                                    "<!--&o40;--><?page &o40;?>"};
+    for (const char* text : harmless) {
+        Reading r;
+        r.document = read_document_text("t.dae", declared + text + "</COLLADA>", r.diag);
+        ASSERT_TRUE(r.document) << text << r.all();
+        EXPECT_TRUE(r.document->whole()) << text;
+        EXPECT_TRUE(r.diag.findings().empty()) << text << r.all();
+    }
+    const char* const uses[] = {"<extra>&o40;</extra>", "<extra id=\"x&o40;\"/>",
+                                "<extra>&unknown;</extra>"};
+    for (const char* text : uses) {
+        Reading r;
+        r.document = read_document_text("t.dae", declared + text + "</COLLADA>", r.diag);
+        EXPECT_EQ(r.count("XML_ENTITY"), 1u) << text << r.all();
+        ASSERT_TRUE(r.document) << text;
+        EXPECT_TRUE(r.document->find("l")) << text;
+        EXPECT_FALSE(r.document->whole()) << text;
+    }
+    Reading without;  // where nothing is declared, XML itself forbids it
+    read_document_text("t.dae", kRoot + "<extra>&a;</extra></COLLADA>", without.diag);
+    EXPECT_EQ(without.count("XML_SYNTAX"), 1u);
 }
 
 TEST(Document, VersionsNamespacesAndDoubleIdsAreChecked) {

@@ -19,6 +19,11 @@ def write(name, members):
 write("ARCHIVE_ROOT.zae", {"scene.dae": SCENE})
 write("ARCHIVE_ROOT.gone.zae", {"manifest.xml": "<dae_root>gone.dae</dae_root>", "scene.dae": SCENE})
 write("ARCHIVE_NO_SCENE.zae", {"readme.txt": "no scene"})
+write("ARCHIVE_NESTED.zae", {"doc.kml": "<kml/>",
+                             "models/inner.zae": (HERE / "ARCHIVE_ROOT.zae").read_bytes()})
+write("ARCHIVE_NESTED.named.zae", {"manifest.xml": MANIFEST, "other.dae": SCENE,
+                                   "scene.dae": (HERE / "ARCHIVE_ROOT.zae").read_bytes()})
+write("ARCHIVE_NESTED.ok.zae", WHOLE | {"textures.zip": (HERE / "ARCHIVE_ROOT.zae").read_bytes()})
 write("ARCHIVE_MEMBER.zae", WHOLE | {"../../outside.txt": "x"})
 write("ARCHIVE_LIMIT.zae", WHOLE | {"zeros": bytes(80 << 20)})
 for code in ("OPEN", "LIMIT", "MEMBER", "NO_SCENE", "ROOT"):

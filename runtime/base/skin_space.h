@@ -1,7 +1,8 @@
-// runtime/skin_space.h: where a COLLADA skin stands: in world space, or at the node that instances
-// it.
+// runtime/base/skin_space.h: where a COLLADA skin stands: in world space, or at the node that
+// instances it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -27,6 +28,9 @@ struct RestJoint {
 // twice: NodeBelow). `node` is the node's world matrix, `shared` that of shared_ancestor.
 SkinSpace skin_space(const dmat4& bind_shape, const dmat4& node, const dmat4& shared,
                      std::span<const RestJoint> joints);
+
+// How many of the joints turn what they move inside out at rest.
+size_t mirroring_joints(const dmat4& bind_shape, std::span<const RestJoint> joints);
 
 // The nearest node that `node` and all `joints` are or stand below; `none` where there is none.
 // `parent_of` gives smaller numbers, in the end `none`, which is greater than all.

@@ -1,9 +1,10 @@
-// runtime/skin_space.cpp: where a COLLADA skin stands: in world space, or at the node that
+// runtime/base/skin_space.cpp: where a COLLADA skin stands: in world space, or at the node that
 // instances it.
-#include "runtime/skin_space.h"
+#include "runtime/base/skin_space.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 namespace kinora {
 
@@ -49,6 +50,12 @@ SkinSpace skin_space(const dmat4& bind_shape, const dmat4& node, const dmat4& sh
     }
     if (!(with < without)) return SkinSpace::Node;
     return is_near(node, shared, kExact) ? SkinSpace::World : SkinSpace::NodeBelow;
+}
+
+size_t mirroring_joints(const dmat4& bind_shape, std::span<const RestJoint> joints) {
+    return size_t(std::ranges::count_if(joints, [&](const RestJoint& j) {
+        return glm::determinant(dmat3(j.world * j.inverse_bind * bind_shape)) < 0;
+    }));
 }
 
 }  // namespace kinora
