@@ -33,12 +33,13 @@ enum Effects : uint32_t {
     kService = 1 << 2,        // calls RendererServices
     kLights = 1 << 3,         // reads the light records at P
     kTraces = 1 << 4,         // shoots rays (shadow included)
-    kPrints = 1 << 5,         // visible outside: never removed, never hoisted
+    kPrints = 1 << 5,         // visible outside: never removed, never hoisted (also baking)
     kMessage = 1 << 6,        // reads another shader or the renderer's state
     kShadows = 1 << 7,        // its presence in a light switches automatic shadows off (decision 5)
     kUniformOnly = 1 << 8,    // all inputs must be uniform
-    kChannelPairs = 1 << 9,   // pairs name channels and the variables they are put in (rsl/pairs.h)
+    kReadsChannels = 1 << 9,  // pairs name channels and the variables they are put in (rsl/pairs.h)
     kNamesFile = 1 << 10,     // the first argument, if a string, is a file
+    kWritesChannels = 1 << 11,  // pairs name channels and the values they are given
 };
 
 // Shader kinds that may call the function.

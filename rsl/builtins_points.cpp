@@ -18,11 +18,6 @@ struct Channels {
     }
 };
 
-bool is_option(std::string_view name) {
-    constexpr std::string_view kOptions = " radius interpolate coordsystem radiusscale ";
-    return kOptions.find(" " + std::string(name) + " ") != std::string_view::npos;
-}
-
 // bake3d(file, channels, P, N, "channel", value, ...) or without the list of channels.
 void bake3d(LowerCall& c) {
     auto& e = c.low;
@@ -31,7 +26,8 @@ void bake3d(LowerCall& c) {
     int at = c.args.size() == 4 ? 2 : 1;
     Channels channels;
     for (auto& [name, value] : c.pairs)
-        if (!is_option(name) && value.type != BaseType::String) channels.add(name, value);
+        if (!takes_option(c.call.name, name) && value.type != BaseType::String)
+            channels.add(name, value);
     if (channels.numbers.size() > size_t(kPointFloats)) {
         e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
         return;
@@ -88,9 +84,7 @@ void texture3d(LowerCall& c) {
 template <PhotonKind kind>
 void photons(LowerCall& c) {
     auto& e = c.low;
-    c.known_pairs(
-        "estimator lookup mindist samples smooth maxdist albedo diffusemeanfreepath "
-        "dmfp ior scale unitlength filename");
+    c.report_unknown_pairs();
     bool named = c.args[0].type == BaseType::String;
     size_t at = named ? 1 : 0;
     V3 P = c.v3(int(at));
@@ -113,12 +107,12 @@ constexpr uint32_t kLooksUp = kService | kVaryingResult | kNamesFile;
 
 const Builtin kRows[] = {
     {"texture3d", "f=spn~", lower::texture3d, KINORA_RSL_REF(ref::texture3d),
-     kLooksUp | kChannelPairs, 0,
+     kLooksUp | kReadsChannels, 0,
      "Values of a point file near P: texture3d(file, P, N, \"channel\", variable, ...), 1 if the "
      "file has all channels.",
      kSurface | kLight | kDisplacement | kVolume},
     {"bake3d", "f=spn~ f=sspn~", lower::bake3d, KINORA_RSL_REF(ref::bake3d),
-     kService | kPrints | kVaryingResult | kNamesFile, 0,
+     kService | kPrints | kWritesChannels | kVaryingResult | kNamesFile, 0,
      "Puts a point into a point file, written after the frame: bake3d(file, channels, P, N, "
      "\"channel\", value, ...).",
      kSurface | kLight | kDisplacement},

@@ -8,10 +8,6 @@ namespace kinora::rsl {
 namespace lower_rays {
 
 constexpr float kFar = 1e30f;
-// Accepted by all: what the renderer does anyway, or hints for methods it has no need of.
-#define KINORA_RAY_HINTS                                                                        \
-    "samplebase maxvariation maxerror maxpixeldist hitmode hitsides label minsamples adaptive " \
-    "brightnesswarning pointbased filename clamp maxsolidangle sortbleeding rayoffset "
 
 // In an opacity kernel nothing is traced (DESIGN.md decision 6).
 bool traces(LowerCall& c) {
@@ -24,7 +20,7 @@ Value samples(LowerCall& c, float otherwise) {
 }
 
 void trace(LowerCall& c) {
-    c.known_pairs(KINORA_RAY_HINTS "samples samplecone bias maxdist");
+    c.report_unknown_pairs();
     if (!traces(c)) return;
     V3 P = c.v3(0), R = c.v3(1);
     auto seed = c.low.sample_seed(c.call.site);
@@ -39,7 +35,7 @@ void trace(LowerCall& c) {
 }
 
 V3 let_through(LowerCall& c) {
-    c.known_pairs(KINORA_RAY_HINTS "samples samplecone bias");
+    c.report_unknown_pairs();
     if (!traces(c)) return c.low.f3(1);
     V3 from = c.v3(0), to = c.v3(1);
     auto seed = c.low.sample_seed(c.call.site);
@@ -63,7 +59,7 @@ Value cone(LowerCall& c) {
 
 // A form that begins with maps asks for what the rays know better: the maps are not read.
 void occlusion(LowerCall& c) {
-    c.known_pairs(KINORA_RAY_HINTS "coneangle maxdist bias falloff falloffmode");
+    c.report_unknown_pairs();
     if (!traces(c)) return;
     int first = c.args.size() == 4 ? 1 : 0;
     V3 P = c.v3(first), N = c.v3(first + 1);
@@ -80,7 +76,7 @@ void occlusion(LowerCall& c) {
 
 // indirectdiffuse(P, N, samples), or (map, N, samples): the map's light alone, at P.
 void indirectdiffuse(LowerCall& c) {
-    c.known_pairs(KINORA_RAY_HINTS "coneangle maxdist bias environmentmap");
+    c.report_unknown_pairs();
     if (!traces(c)) return;
     bool of_map = c.args[0].type == BaseType::String;
     V3 P = of_map ? c.low.read_global(Global::P).v3() : c.v3(0), N = c.v3(1);
@@ -97,7 +93,7 @@ void indirectdiffuse(LowerCall& c) {
 // areashadow(map, P, three corners of the light): the share that the source's parallelogram is
 // hidden, by rays.
 void areashadow(LowerCall& c) {
-    c.known_pairs(KINORA_RAY_HINTS "samples bias blur width swidth twidth source gapbias");
+    c.report_unknown_pairs();
     if (!traces(c)) return;
     auto& e = c.low;
     V3 P = c.v3(1), corner = c.v3(2);

@@ -52,12 +52,6 @@ Value channel(LowerCall& c) {
     return c.call.channel ? c.low.value(*c.call.channel) : c.b.f(0);
 }
 
-Value filter_name(LowerCall& c) {
-    for (auto& [name, value] : c.pairs)
-        if (name == "filter" && value.type == BaseType::String) return value.c[0];
-    return c.b.i(0);
-}
-
 void set_texels(LowerCall& c, const std::vector<Value>& rgba) {
     if (c.result_type() == BaseType::Float)
         c.set(rgba[0]);
@@ -90,7 +84,7 @@ Value with_differences(LowerCall& c, Value here, Value along_u, Value along_v) {
 std::vector<Value> look_up(LowerCall& c, const Lookup& at, Value blur, Value swidth, Value twidth) {
     return c.low.service(
         "texture", std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx, at.dsdy, at.dtdy,
-                              blur, swidth, twidth, filter_name(c), c.pair("fill", 0)});
+                              blur, swidth, twidth, c.text_pair("filter"), c.pair("fill", 0)});
 }
 
 // "sblur" and "tblur" widen the footprint by shares of the image after the widths have scaled it.
@@ -117,9 +111,7 @@ void texture(LowerCall& c) {
                               c.low.read_global(Global::t).c[0]);
     Value width = c.pair("width", 1);
     auto width_of = [&](std::string_view name) {
-        for (auto& [key, value] : c.pairs)
-            if (key == name) return value.c[0];
-        return width;
+        return has_pair(c, name) ? c.pair(name, 0) : width;
     };
     Lookup where = at;
     Value swidth = width_of("swidth"), twidth = width_of("twidth");

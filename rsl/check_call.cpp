@@ -231,8 +231,7 @@ void Checker::bind_builtin(CallExpr& e, const Overload& overload) {
         const Signature::Argument& a = i < fixed ? s.arguments[i] : s.repeated;
         bind_argument(e, i, a.type, a.output);
     }
-    // texture3d, and bake3d among those that print, take any name: that of a channel.
-    bool names_channels = overload.builtin->effects & (kChannelPairs | kPrints);
+    bool names_channels = overload.builtin->effects & (kReadsChannels | kWritesChannels);
     if (!names_channels) drop_unfit(e.args, e.pairs, e.name);
     if (overload.builtin->effects & kNamesFile) check_file_name(e);
     if (!overload.builtin->lower && options_.require_implemented)

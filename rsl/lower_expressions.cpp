@@ -271,21 +271,22 @@ const std::string* LowerCall::text(int i) const {
 }
 
 Value LowerCall::pair(std::string_view name, float otherwise) const {
+    CHECK(takes_option(call.name, name));
     for (auto& [key, value] : pairs)
         if (key == name && value.type != BaseType::String) return value.c[0];
     return b.f(otherwise);
 }
 
 Value LowerCall::text_pair(std::string_view name) const {
+    CHECK(takes_option(call.name, name));
     for (auto& [key, value] : pairs)
         if (key == name && value.type == BaseType::String) return value.c[0];
     return b.i(0);
 }
 
-void LowerCall::known_pairs(std::string_view names) const {
-    std::string list = " " + std::string(names) + " ";
+void LowerCall::report_unknown_pairs() const {
     for (auto& [key, value] : pairs)
-        if (list.find(" " + key + " ") == std::string::npos)
+        if (!takes_option(call.name, key))
             low.diagnostics.report(Code::RSL_PAIR_UNKNOWN, where(), key, call.name);
 }
 

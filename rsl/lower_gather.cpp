@@ -1,6 +1,5 @@
 // rsl/lower_gather.cpp: gather: all rays of the statement are shot by one service, then its body is
 // replayed once for each (DESIGN.md decision 5).
-#include <algorithm>
 #include <set>
 
 #include "rsl/lower_p.h"
@@ -44,10 +43,6 @@ const Known* find_known(std::string_view name) {
 bool fits(BaseType wanted, BaseType variable) {
     return wanted == variable || (is_triple(wanted) && is_triple(variable));
 }
-
-constexpr std::string_view kOptions[] = {"bias",         "maxdist", "samplebase",
-                                         "distribution", "label",   "hitmode",
-                                         "hitsides",     "volume",  "lightcache"};
 
 void find_gathers(const Stmt* stmt, std::set<std::string>& names) {
     if (!stmt) return;
@@ -105,8 +100,7 @@ void Lowering::gather(const GatherStmt& stmt) {
         } else if (name == "distribution") {
             const std::string* text = constant_text(value(given));
             if (text && *text == "cosine") flags |= kGatherCosine;
-        } else if (std::find(std::begin(kOptions), std::end(kOptions), name) ==
-                   std::end(kOptions)) {
+        } else if (!takes_option("gather", name)) {
             diagnostics.report(Code::RSL_PAIR_UNKNOWN, given.place.where, name, "gather");
         }
     }

@@ -63,10 +63,11 @@ struct LowerCall {
     void set(const V3& v) { result = lowered(result_type(), v); }
     // The text of a string argument, or null if it is not known at compile time (then reported).
     const std::string* text(int i) const;
+    // The value of a pair that the callee's row of optional parameters has (rsl/pairs.h).
     Value pair(std::string_view name, float otherwise) const;
     Value text_pair(std::string_view name) const;  // its string id, that of "" if absent
-    // Reports pairs that are not among these (separated by spaces): they have no effect.
-    void known_pairs(std::string_view names) const;
+    // Reports pairs that the callee does not know (rsl/pairs.h): they have no effect.
+    void report_unknown_pairs() const;
     Target* output_pair(std::string_view name);  // null if absent
     const Location& where() const { return call.place.where; }
 };

@@ -1,4 +1,4 @@
-// rsl/pairs.cpp: which optional parameters are results.
+// rsl/pairs.cpp: the table of optional parameters, and which of them are results.
 #include "rsl/pairs.h"
 
 #include <algorithm>
@@ -9,22 +9,104 @@ namespace kinora::rsl {
 
 namespace {
 
-// Options of point file look-ups; every other name is a channel.
-constexpr std::string_view kPointOptions[] = {"radius",       "coordsystem", "interpolate",
-                                              "filterradius", "filterscale", "maxdepth",
-                                              "lerp",         "samples"};
-constexpr std::string_view kOcclusionOutputs[] = {"environmentdir"};
+// A row: one optional parameter. texture3d and bake3d take any other name as that of a channel.
+struct OptionalParameter {
+    std::string_view name;
+    BaseType type;            // what its value must be, whoever is called; Invalid: anything
+    std::string_view takers;  // built-ins, and gather, that it is no news to, separated by spaces
+    bool result = false;      // its value is a variable that the call sets
+};
 
-constexpr std::string_view kTextOptions[] = {"filter",         "label",    "distribution",
-                                             "environmentmap", "filename", "coordsystem"};
-constexpr std::string_view kNumberOptions[] = {
-    "bias",   "maxdist", "samples",    "samplecone", "coneangle", "falloff", "falloffmode",
-    "blur",   "sblur",   "tblur",      "width",      "swidth",    "twidth",  "fill",
-    "radius", "source",  "samplebase", "estimator",  "gapbias"};
+constexpr BaseType kAny = BaseType::Invalid;
+constexpr BaseType kNumber = BaseType::Float;
+constexpr BaseType kText = BaseType::String;
 
-template <size_t N>
-bool among(std::string_view name, const std::string_view (&list)[N]) {
-    return std::find(list, list + N, name) != list + N;
+#define RAYS "trace transmission visibility occlusion indirectdiffuse areashadow"
+#define PHOTONS "photonmap caustic subsurface"
+#define POINTS "texture3d bake3d"
+
+constexpr OptionalParameter kOptionalParameters[] = {
+    // Rays.
+    {"samples", kNumber,
+     "trace transmission visibility areashadow environment shadow texture3d " PHOTONS},
+    {"samplecone", kNumber, "trace transmission visibility"},
+    {"bias", kNumber, RAYS " gather environment shadow"},
+    {"maxdist", kNumber, "trace occlusion indirectdiffuse gather environment " PHOTONS},
+    {"coneangle", kNumber, "occlusion indirectdiffuse"},
+    {"falloff", kNumber, "occlusion"},
+    {"falloffmode", kNumber, "occlusion"},
+    {"environmentdir", kAny, RAYS, true},
+    {"environmentmap", kText, "indirectdiffuse"},
+    {"distribution", kText, "gather"},
+    {"volume", kAny, "gather"},
+    {"lightcache", kAny, "gather"},
+    {"source", kNumber, "areashadow"},
+    {"gapbias", kNumber, "areashadow"},
+    // What the renderer does anyway, or hints for methods it has no need of.
+    {"samplebase", kNumber, RAYS " gather"},
+    {"label", kText, RAYS " gather"},
+    {"hitmode", kAny, RAYS " gather"},
+    {"hitsides", kAny, RAYS " gather"},
+    {"minsamples", kAny, RAYS},
+    {"maxvariation", kAny, RAYS},
+    {"maxerror", kAny, RAYS},
+    {"maxpixeldist", kAny, RAYS},
+    {"adaptive", kAny, RAYS},
+    {"brightnesswarning", kAny, RAYS},
+    {"pointbased", kAny, RAYS},
+    {"clamp", kAny, RAYS},
+    {"maxsolidangle", kAny, RAYS},
+    {"sortbleeding", kAny, RAYS},
+    {"rayoffset", kAny, RAYS},
+    // Maps.
+    {"blur", kNumber, "texture environment shadow bump areashadow"},
+    {"sblur", kNumber, "texture"},
+    {"tblur", kNumber, "texture"},
+    {"width", kNumber, "texture environment shadow areashadow filterstep"},
+    {"swidth", kNumber, "texture areashadow"},
+    {"twidth", kNumber, "texture areashadow"},
+    {"fill", kNumber, "texture environment bump"},
+    {"filter", kText, "texture bump filterstep"},
+    // Point files.
+    {"filename", kText, RAYS " " PHOTONS},
+    {"radius", kNumber, POINTS},
+    {"coordsystem", kText, POINTS},
+    {"interpolate", kAny, POINTS},
+    {"radiusscale", kAny, "bake3d"},
+    {"filterradius", kAny, "texture3d"},
+    {"filterscale", kAny, "texture3d"},
+    {"maxdepth", kAny, "texture3d"},
+    {"lerp", kAny, "texture3d"},
+    {"estimator", kNumber, PHOTONS},
+    {"lookup", kAny, PHOTONS},
+    {"mindist", kAny, PHOTONS},
+    {"smooth", kAny, PHOTONS},
+    {"albedo", kAny, PHOTONS},
+    {"diffusemeanfreepath", kAny, PHOTONS},
+    {"dmfp", kAny, PHOTONS},
+    {"ior", kAny, PHOTONS},
+    {"scale", kAny, PHOTONS},
+    {"unitlength", kAny, PHOTONS},
+};
+
+#undef RAYS
+#undef PHOTONS
+#undef POINTS
+
+const OptionalParameter* find_option(std::string_view name) {
+    auto row = std::find_if(std::begin(kOptionalParameters), std::end(kOptionalParameters),
+                            [&](const OptionalParameter& option) { return option.name == name; });
+    return row == std::end(kOptionalParameters) ? nullptr : row;
+}
+
+bool has_word(std::string_view words, std::string_view word) {
+    for (size_t at = words.find(word); at != words.npos; at = words.find(word, at + 1)) {
+        size_t end = at + word.size();
+        bool whole =
+            (at == 0 || words[at - 1] == ' ') && (end == words.size() || words[end] == ' ');
+        if (whole) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -35,16 +117,22 @@ std::string_view pair_name(std::span<Expr* const> args, size_t value) {
 }
 
 BaseType option_type(std::string_view name) {
-    if (among(name, kTextOptions)) return BaseType::String;
-    return among(name, kNumberOptions) ? BaseType::Float : BaseType::Invalid;
+    const OptionalParameter* option = find_option(name);
+    return option ? option->type : BaseType::Invalid;
+}
+
+bool takes_option(std::string_view callee, std::string_view name) {
+    const OptionalParameter* option = find_option(name);
+    return option && has_word(option->takers, callee);
 }
 
 bool is_output_pair(const CallExpr& call, size_t value) {
     if (!call.builtin || value <= call.pairs || (value - call.pairs) % 2 == 0) return false;
     std::string_view name = pair_name(call.args, value);
     if (name.empty()) return false;
-    if (call.builtin->effects & kChannelPairs) return !among(name, kPointOptions);
-    return (call.builtin->effects & kTraces) && among(name, kOcclusionOutputs);
+    if (call.builtin->effects & kReadsChannels) return !takes_option(call.name, name);
+    const OptionalParameter* option = find_option(name);
+    return option && option->result && has_word(option->takers, call.name);
 }
 
 bool is_gather_output(std::string_view name) {

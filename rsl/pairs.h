@@ -1,5 +1,5 @@
-// rsl/pairs.h: the "name", value pairs that end calls and statements: those whose values are
-// variables that the renderer writes.
+// rsl/pairs.h: the "name", value pairs that end calls and statements: which optional parameters
+// there are, what they take, and which are variables that the renderer writes.
 #pragma once
 
 #include <string_view>
@@ -17,8 +17,12 @@ bool is_gather_output(std::string_view name);
 // illuminance(..., "light:falloff", x): a parameter of the light.
 bool is_light_output(std::string_view name);
 
-// What an optional parameter that Kinora knows takes: String, or Float; Invalid for any other name.
+// What an optional parameter that Kinora knows takes: String or Float; Invalid where anything goes
+// and for names it does not know.
 BaseType option_type(std::string_view name);
+
+// Does the built-in of that name, or gather, know this optional parameter (if only to pass it by)?
+bool takes_option(std::string_view callee, std::string_view name);
 
 // The literal that names the pair whose value is args[value]; "" if it is no literal.
 std::string_view pair_name(std::span<Expr* const> args, size_t value);

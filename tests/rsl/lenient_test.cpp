@@ -34,6 +34,32 @@ TEST(Lenient, UnknownResultsOfGatherAreLeftAlone) {
     EXPECT_TRUE(finds(run, "surface:Ci")) << run.findings();
 }
 
+TEST(Lenient, OptionalParametersThatACalleeDoesNotKnowAreNamed) {
+    struct Case {
+        const char *call, *unknown;  // "" where all are known
+    };
+    const Case kCases[] = {
+        {"trace(P, N, \"maxdist\", 1, \"hitmode\", \"primitive\")", ""},
+        {"trace(P, N, \"falloff\", 1)", "'falloff' of trace"},
+        {"occlusion(P, N, 4, \"falloff\", 1)", ""},
+        {"occlusion(P, N, 4, \"distribution\", \"cosine\")", "'distribution' of occlusion"},
+        {"indirectdiffuse(P, N, 4, \"samples\", 2)", "'samples' of indirectdiffuse"},
+        {"transmission(P, P + N, \"sample\", 2)", "'sample' of transmission"},
+        {"photonmap(\"a.ptc\", P, N, \"estimator\", 9)", ""},
+        {"photonmap(\"a.ptc\", P, N, \"radius\", 9)", "'radius' of photonmap"},
+    };
+    for (const Case& c : kCases) {
+        RunShader run(std::string("surface t() { Ci = ") + c.call + "; }");
+        EXPECT_TRUE(run.ok()) << c.call << "\n" << run.findings();
+        EXPECT_EQ(finds(run, "RSL_PAIR_UNKNOWN"), *c.unknown != 0) << run.findings();
+        EXPECT_TRUE(finds(run, c.unknown)) << c.call << "\n" << run.findings();
+    }
+    RunShader gather(
+        "surface t() { gather(\"\", P, N, 0, 1, \"distribution\", \"cosine\", \"far\", 1) { } }");
+    EXPECT_TRUE(finds(gather, "'far' of gather")) << gather.findings();
+    EXPECT_FALSE(finds(gather, "'distribution' of")) << gather.findings();
+}
+
 TEST(Lenient, ShadowRaysOfBmrtAskForOpacityAlone) {
     const char* source = "surface t() { if (isshadowray() == 1) Oi = 0.25; else Oi = 1; Ci = Oi; }";
     RunShader seen(source);

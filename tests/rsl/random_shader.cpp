@@ -34,7 +34,7 @@ void ShaderWriter::find_rows(bool all_rows) {
         for (const Builtin& row : group) {
             bool usable = row.lower && (row.legal >> int(kind_) & 1) != 0;
             if (!usable || (!row.ref.single && !all_rows)) continue;
-            if (row.effects & kChannelPairs) continue;  // their arguments follow a list of names
+            if (row.effects & kReadsChannels) continue;  // their arguments follow a list of names
             // Maps give their coordinates' slopes, which the reference does not know: a shader has
             // maps or takes derivatives.
             bool slopes = (row.effects & kDerivative) != 0, map = (row.effects & kService) != 0;
