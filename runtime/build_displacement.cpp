@@ -4,6 +4,7 @@
 // How fine a mesh is diced depends on the scene, its camera, the range played and the size of the
 // picture, not on which frames are rendered: a frame is the same alone and in a sequence.
 #include <algorithm>
+#include <array>
 #include <glm/matrix.hpp>
 #include <map>
 
@@ -269,6 +270,68 @@ void find_attributes(std::span<const VaryingParam> params, const PrimitiveGroup&
         varying[k] = diced_attribute(varying[k], params[k].semantic, old, made);
 }
 
+// Vertex looks of the surface, transformation first.
+std::array<const VertexUse*, VertexWork::kStages> vertex_stages(const Surface& surface) {
+    return {&surface.transformation, &surface.displacement};
+}
+
+using SurfaceLists = std::span<const std::vector<uint32_t>>;  // by shape, by group
+
+void add_wanted_attributes(const Scene& scene, SurfaceLists surfaces_of_shapes, DicedMesh& made) {
+    for (const auto& surfaces : surfaces_of_shapes)
+        for (size_t g = 0; g < surfaces.size(); ++g) {
+            const Surface& surface = scene.surfaces[surfaces[g]];
+            PrimitiveGroup& group = *made.mesh.own_groups[g];
+            add_attributes(scene.looks[surface.look]->varying, made.mesh, made.groups[g], group);
+            for (const VertexUse* use : vertex_stages(surface))
+                if (use->look != kNone)
+                    add_attributes(scene.vertex_looks[use->look]->varying, made.mesh,
+                                   made.groups[g], group);
+        }
+}
+
+// Vertex inputs of the surfaces are those of the diced mesh from now on.
+void take_diced_attributes(Scene& scene, SurfaceLists surfaces_of_shapes, const Mesh& base,
+                           const Mesh& mesh) {
+    for (const auto& surfaces : surfaces_of_shapes)
+        for (size_t g = 0; g < surfaces.size(); ++g) {
+            Surface& surface = scene.surfaces[surfaces[g]];
+            const PrimitiveGroup &old = *base.groups[g].definition, &group = *mesh.own_groups[g];
+            surface.st = diced_attribute(surface.st, "TEXCOORD", old, group);
+            find_attributes(scene.looks[surface.look]->varying, old, group, surface.varying);
+            for (VertexUse* use : {&surface.transformation, &surface.displacement})
+                if (use->look != kNone)
+                    find_attributes(scene.vertex_looks[use->look]->varying, old, group,
+                                    use->varying);
+        }
+}
+
+// What moves the vertices of each group.
+std::vector<VertexWork::Use> vertex_uses(const Scene& scene, std::span<const uint32_t> surfaces,
+                                         const Mesh& mesh) {
+    std::vector<VertexWork::Use> uses;
+    for (size_t g = 0; g < surfaces.size(); ++g) {
+        const Surface& surface = scene.surfaces[surfaces[g]];
+        VertexWork::Use& use = uses.emplace_back();
+        use.st = surface.st;
+        use.attributes = mesh.own_groups[g].get();
+        auto stages = vertex_stages(surface);
+        for (size_t s = 0; s < stages.size(); ++s) {
+            if (stages[s]->look == kNone) continue;
+            use.looks[s] = scene.vertex_looks[stages[s]->look].get();
+            use.varying[s] = stages[s]->varying;
+        }
+    }
+    return uses;
+}
+
+void include_moved(Mesh& mesh) {
+    for (const vec4& p : mesh.positions) {
+        mesh.low = glm::min(mesh.low, dvec3(p) + mesh.anchor);
+        mesh.high = glm::max(mesh.high, dvec3(p) + mesh.anchor);
+    }
+}
+
 }  // namespace
 
 // Puts the diced mesh on its shapes and moves its vertices, or readies them to be moved.
@@ -277,41 +340,9 @@ void SceneBuilder::wear(Displaced& from) {
     DicedMesh& made = *from.made;
     Mesh& mesh = made.mesh;
     uint32_t index = uint32_t(scene.meshes.size());
-    for (const auto& surfaces : from.surfaces)
-        for (size_t g = 0; g < surfaces.size(); ++g) {
-            const Surface& surface = scene.surfaces[surfaces[g]];
-            PrimitiveGroup& group = *mesh.own_groups[g];
-            add_attributes(scene.looks[surface.look]->varying, mesh, made.groups[g], group);
-            for (const VertexUse* use : {&surface.transformation, &surface.displacement})
-                if (use->look != kNone)
-                    add_attributes(scene.vertex_looks[use->look]->varying, mesh, made.groups[g],
-                                   group);
-        }
-    for (const auto& surfaces : from.surfaces)
-        for (size_t g = 0; g < surfaces.size(); ++g) {
-            Surface& surface = scene.surfaces[surfaces[g]];
-            const PrimitiveGroup &old = *from.base.groups[g].definition,
-                                 &group = *mesh.own_groups[g];
-            surface.st = diced_attribute(surface.st, "TEXCOORD", old, group);
-            find_attributes(scene.looks[surface.look]->varying, old, group, surface.varying);
-            for (VertexUse* use : {&surface.transformation, &surface.displacement})
-                if (use->look != kNone)
-                    find_attributes(scene.vertex_looks[use->look]->varying, old, group,
-                                    use->varying);
-        }
-    std::vector<VertexWork::Use> uses;
-    for (size_t g = 0; g < from.surfaces[0].size(); ++g) {
-        const Surface& surface = scene.surfaces[from.surfaces[0][g]];
-        VertexWork::Use& use = uses.emplace_back();
-        use.st = surface.st;
-        use.attributes = mesh.own_groups[g].get();
-        const VertexUse* stages[] = {&surface.transformation, &surface.displacement};
-        for (size_t s = 0; s < VertexWork::kStages; ++s) {
-            if (stages[s]->look == kNone) continue;
-            use.looks[s] = scene.vertex_looks[stages[s]->look].get();
-            use.varying[s] = stages[s]->varying;
-        }
-    }
+    add_wanted_attributes(scene, from.surfaces, made);
+    take_diced_attributes(scene, from.surfaces, from.base, mesh);
+    std::vector<VertexWork::Use> uses = vertex_uses(scene, from.surfaces[0], mesh);
     bool instanced = from.shapes.size() > 1 && made.triangles() > kBakedTriangles;
     bool once = !from.deforms && !from.each_frame;
     Shape& first = scene.shapes[from.shapes[0]];
@@ -319,10 +350,7 @@ void SceneBuilder::wear(Displaced& from) {
     if (once) {
         work->run(scene, first.node, first.conversion, mesh.anchor, mesh.positions, mesh.normals);
         work->report(description_.meshes[mesh.definition].id, diagnostics_);
-        for (const vec4& p : mesh.positions) {
-            mesh.low = glm::min(mesh.low, dvec3(p) + mesh.anchor);
-            mesh.high = glm::max(mesh.high, dvec3(p) + mesh.anchor);
-        }
+        include_moved(mesh);
     }
     scene.meshes.push_back(std::move(mesh));
     for (uint32_t h : from.shapes) {

@@ -23,24 +23,6 @@ double clamp01(double x) {
     return std::clamp(std::isfinite(x) ? x : 0.0, 0.0, 1.0);
 }
 
-// The parameters of a collada_* shader use.
-struct CommonParams {
-    const ShaderUse& use;
-    const std::vector<double>& values;
-
-    dvec3 color(const char* name, double otherwise) const {
-        const ParamSource* p = find_source(use, name);
-        if (!p || !p->value.present() || p->value.count < 1) return dvec3(otherwise);
-        const double* v = &values[p->value.offset];
-        return p->value.count < 3 ? dvec3(v[0]) : dvec3(v[0], v[1], v[2]);
-    }
-    double number(const char* name, double otherwise) const { return color(name, otherwise).x; }
-    std::string text(const std::string& name) const {
-        const ParamSource* p = find_source(use, name);
-        return p && !p->strings.empty() ? p->strings[0] : "";
-    }
-};
-
 // GGX as wide as a Blinn highlight of this exponent (export_gltf.h).
 double roughness(double exponent) {
     return clamp01(std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))));
@@ -80,12 +62,50 @@ uint32_t GltfExport::texcoord_index(const std::string& name, const MaterialUse& 
     return 0;
 }
 
+namespace {
+
+// collada_*.sl, slot_opacity: how much of what lies behind is hidden.
+struct Opacity {
+    double alpha = 1;  // 0..1
+    bool blends = false;
+    bool lost_map = false;  // a transparency texture other than the color's alpha
+};
+
+Opacity common_opacity(const UsedParams& p, const std::string& base_slot) {
+    Opacity result;
+    std::string opaque = p.text("opaque");
+    bool by_alpha = opaque == "A_ONE" || opaque == "A_ZERO";
+    double alpha = 1;
+    if (opaque != "NONE" && !opaque.empty()) {
+        alpha = p.number("transparency", 1) *
+                (by_alpha ? p.number("transparent_alpha", 1) : mean(p.color("transparent", 1)));
+        if (opaque.ends_with("ZERO")) alpha = 1 - alpha;
+    }
+    result.blends = clamp01(alpha) < 1;
+    if (std::string t = p.text("transparent_map"); !t.empty() && opaque != "NONE") {
+        bool same =
+            parse_texture_name(t).path == parse_texture_name(p.text(base_slot + "_map")).path;
+        result.blends = same && opaque == "A_ONE";
+        result.lost_map = !result.blends;
+        alpha = result.blends ? p.number("transparency", 1) : 1;
+    }
+    result.alpha = clamp01(alpha);
+    return result;
+}
+
+Json clamped(const dvec3& c) {
+    return {clamp01(c.x), clamp01(c.y), clamp01(c.z)};
+}
+
+}  // namespace
+
 Json GltfExport::common_material(const MaterialDefinition& definition, const ShaderUse& shader,
                                  const MaterialUse& use, const PrimitiveGroup& group) {
-    CommonParams p{shader, description_.values};
+    UsedParams p{shader, description_.values};
     std::string model = shader.shader->name;
     bool unlit = model == kModels[0];
-    const char* base_slot = unlit ? "emission" : "diffuse";
+    bool has_highlight = model == kModels[2] || model == kModels[3];
+    std::string base_slot = unlit ? "emission" : "diffuse";
     dvec3 base = p.color(base_slot, 0);
     Json pbr = {{"metallicFactor", 0}}, material = Json::object();
     auto map = [&](const std::string& slot) -> Json {
@@ -97,49 +117,30 @@ Json GltfExport::common_material(const MaterialDefinition& definition, const Sha
         pbr["baseColorTexture"] = info;
         base = dvec3(1.0);
     }
-    // collada_*.sl, slot_opacity: how much of what lies behind is hidden.
-    std::string opaque = p.text("opaque");
-    double alpha = 1;
-    bool by_alpha = opaque == "A_ONE" || opaque == "A_ZERO";
-    if (opaque != "NONE" && !opaque.empty()) {
-        alpha = p.number("transparency", 1) *
-                (by_alpha ? p.number("transparent_alpha", 1) : mean(p.color("transparent", 1)));
-        if (opaque.ends_with("ZERO")) alpha = 1 - alpha;
-    }
-    bool blends = clamp01(alpha) < 1;
-    if (std::string t = p.text("transparent_map"); !t.empty() && opaque != "NONE") {
-        bool same = parse_texture_name(t).path ==
-                    parse_texture_name(p.text(std::string(base_slot) + "_map")).path;
-        blends = same && opaque == "A_ONE";
-        alpha = p.number("transparency", 1);
-        if (!blends) {
-            alpha = 1;
-            lost(fmt::format("material '{}'", definition.id),
-                 "a transparency texture other than the color's alpha", material_place(shader));
-        }
-    }
-    alpha = clamp01(alpha);
-    if (blends) material["alphaMode"] = "BLEND";
-    pbr["baseColorFactor"] = {clamp01(base.x), clamp01(base.y), clamp01(base.z), alpha};
+    Opacity opacity = common_opacity(p, base_slot);
+    if (opacity.lost_map)
+        lost(fmt::format("material '{}'", definition.id),
+             "a transparency texture other than the color's alpha", material_place(shader));
+    if (opacity.blends) material["alphaMode"] = "BLEND";
+    pbr["baseColorFactor"] = clamped(base);
+    pbr["baseColorFactor"].push_back(opacity.alpha);
     dvec3 specular = p.color("specular", 0);
-    bool shines = model == kModels[2] || model == kModels[3];
     double most = std::max({specular.x, specular.y, specular.z});
+    bool shines = has_highlight && most > 0;
     // Phong's lobe around R is a Blinn lobe around the half vector of four times the exponent.
     double exponent = (model == kModels[2] ? 4 : 1) * p.number("shininess", 20);
-    pbr["roughnessFactor"] = shines && most > 0 ? roughness(exponent) : 1.0;
+    pbr["roughnessFactor"] = shines ? roughness(exponent) : 1.0;
     material["pbrMetallicRoughness"] = pbr;
     if (unlit) {
         material["extensions"]["KHR_materials_unlit"] = Json::object();
         use_extension("KHR_materials_unlit");
         return material;
     }
-    Json layer = {{"specularFactor", shines ? clamp01(most) : 0.0}};
-    if (shines && most > 0)
-        layer["specularColorFactor"] = {clamp01(specular.x / most), clamp01(specular.y / most),
-                                        clamp01(specular.z / most)};
+    Json layer = {{"specularFactor", has_highlight ? clamp01(most) : 0.0}};
+    if (shines) layer["specularColorFactor"] = clamped(specular / most);
     material["extensions"]["KHR_materials_specular"] = layer;
     use_extension("KHR_materials_specular");
-    if (!(shines && most > 0)) {
+    if (!shines) {
         material["extensions"]["KHR_materials_ior"] = {{"ior", 1.0}};
         use_extension("KHR_materials_ior");
     }
@@ -148,16 +149,14 @@ Json GltfExport::common_material(const MaterialDefinition& definition, const Sha
         material["emissiveTexture"] = info;
         emission = dvec3(1.0);
     }
-    if (emission != dvec3(0.0))
-        material["emissiveFactor"] = {clamp01(emission.x), clamp01(emission.y),
-                                      clamp01(emission.z)};
+    if (emission != dvec3(0.0)) material["emissiveFactor"] = clamped(emission);
     return material;
 }
 
 // What import_gltf makes of glTF's own materials, written back.
 Json GltfExport::pbr_material(const MaterialDefinition&, const ShaderUse& shader,
                               const MaterialUse& use, const PrimitiveGroup& group) {
-    CommonParams p{shader, description_.values};
+    UsedParams p{shader, description_.values};
     dvec3 base = p.color("base_color", 1), emissive = p.color("emissive", 0);
     Json pbr = {
         {"baseColorFactor",

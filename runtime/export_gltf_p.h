@@ -151,6 +151,27 @@ class GltfExport {
 
 // A parameter's source, or null; whether the use is that library shader.
 const ParamSource* find_source(const ShaderUse& use, std::string_view name);
+
+// The parameters that a use of a shader gives, at rest.
+struct UsedParams {
+    const ShaderUse& use;
+    const std::vector<double>& values;
+
+    // One value is grey.
+    dvec3 color(std::string_view name, double otherwise) const {
+        const ParamSource* p = find_source(use, name);
+        if (!p || !p->value.present() || p->value.count < 1) return dvec3(otherwise);
+        const double* v = &values[p->value.offset];
+        return p->value.count < 3 ? dvec3(v[0]) : dvec3(v[0], v[1], v[2]);
+    }
+    double number(std::string_view name, double otherwise) const {
+        return color(name, otherwise).x;
+    }
+    std::string text(std::string_view name) const {
+        const ParamSource* p = find_source(use, name);
+        return p && !p->strings.empty() ? p->strings[0] : "";
+    }
+};
 bool is_library_shader(const ShaderUse& use, std::string_view name);
 
 }  // namespace kinora

@@ -71,9 +71,6 @@ int min_filter(const TextureName& look) {
     return kMipped + linear + 2 * (look.mip == TextureMip::Linear && !look.nearest);
 }
 
-constexpr const char* kLightShaders[] = {"collada_ambient", "collada_directional", "collada_point",
-                                         "collada_spot"};
-
 }  // namespace
 
 uint32_t GltfExport::image(const std::string& path) {
@@ -213,75 +210,91 @@ Json GltfExport::rsl_of(const MaterialDefinition& m, const MaterialUse& bound,
     return result;
 }
 
+namespace {
+
+// What glTF's light says of one of ours.
+struct PunctualLight {
+    Json json;
+    bool more = true;  // the shader does more: the extras bring it
+    const char* beyond = "its RSL shader";
+};
+
+PunctualLight punctual(const char* type, double intensity, const dvec3& color, double most) {
+    PunctualLight light;
+    light.json["type"] = type;
+    light.json["intensity"] = std::isfinite(intensity) ? std::max(intensity, 0.0) : 0.0;
+    if (most > 0)
+        light.json["color"] = {std::max(color.x, 0.0) / most, std::max(color.y, 0.0) / most,
+                               std::max(color.z, 0.0) / most};
+    return light;
+}
+
+// What the light is divided by at that distance (COLLADA 1.4.1). Attenuations are per unit of the
+// file, of `meter` metres.
+double attenuation(const UsedParams& p, double meters, double meter) {
+    double d = meters / meter;
+    return p.number("constant_attenuation", 1) + d * p.number("linear_attenuation", 0) +
+           d * d * p.number("quadratic_attenuation", 0);
+}
+
+Json collada_cone(const UsedParams& p) {
+    double half = std::clamp(radians(0.5 * p.number("falloff_angle", 180)), 1e-3, kPi / 2);
+    bool hard = p.number("falloff_exponent", 0) <= 0;
+    return {{"innerConeAngle", hard ? half * (1 - 1e-6) : 0.0}, {"outerConeAngle", half}};
+}
+
+// A light of this shader that stands `meters` from where it is to be right.
+PunctualLight punctual_light(const UsedParams& p, double meters, double meter) {
+    auto is = [&](const char* shader) { return is_library_shader(p.use, shader); };
+    dvec3 color = p.color("lightcolor", 1);
+    double most = std::max({color.x, color.y, color.z, 0.0});
+    bool spot = is("collada_spot");
+    PunctualLight light;
+    if (is("collada_directional")) {
+        light = punctual("directional", kPi * most, color, most);
+        light.more = false;
+    } else if (is("collada_point") || spot) {
+        double a = attenuation(p, meters, meter);
+        light = punctual(spot ? "spot" : "point", a > 0 ? kPi * most * meters * meters / a : 0.0,
+                         color, most);
+        if (spot) light.json["spot"] = collada_cone(p);
+        light.beyond = "its attenuation (1 / d^2 comes near it)";
+    } else if (is("gltf_directional")) {
+        light = punctual("directional", p.number("intensity", 1) * most, color, most);
+        light.more = false;
+    } else if (is("gltf_point") || is("gltf_spot")) {
+        spot = is("gltf_spot");
+        light = punctual(spot ? "spot" : "point", p.number("intensity", 1) * most, color, most);
+        if (double range = p.number("range", 0); range > 0) light.json["range"] = range;
+        if (spot)
+            light.json["spot"] = {{"innerConeAngle", p.number("inner_angle", 0)},
+                                  {"outerConeAngle", p.number("outer_angle", kPi / 4)}};
+        light.more = false;
+    } else {
+        light = punctual("point", 0, color, most);  // nothing of glTF's comes near
+        if (is("collada_ambient")) light.beyond = "ambient light";
+    }
+    return light;
+}
+
+}  // namespace
+
 // KHR_lights_punctual: lux and candela that give a Lambert surface what COLLADA's light gives it; a
 // light whose fall-off is not 1 / d^2 does so at the centre of the scene's bounds.
 uint32_t GltfExport::light(const LightDefinition& l, const dmat4& world) {
     use_extension("KHR_lights_punctual");
     const ShaderUse& use = l.shader;
-    auto number = [&](const char* name, double otherwise) {
-        const ParamSource* p = find_source(use, name);
-        return p && p->value.present() ? values(p->value)[0] : otherwise;
-    };
-    auto color_of = [&](const char* name) {
-        const ParamSource* p = find_source(use, name);
-        std::span<const double> v = p ? values(p->value) : std::span<const double>();
-        return v.size() >= 3 ? dvec3(v[0], v[1], v[2]) : dvec3(v.empty() ? 1.0 : v[0]);
-    };
-    size_t kind = 0;
-    while (kind < std::size(kLightShaders) && !is_library_shader(use, kLightShaders[kind])) ++kind;
-    Json result;
     std::string name = fmt::format("light '{}'", l.id);
-    dvec3 color = color_of("lightcolor");
-    double most = std::max({color.x, color.y, color.z, 0.0});
-    double distance = glm::length(dvec3((axes_ * world)[3]) - bounds_centre_);
-    auto set = [&](const char* type, double intensity) {
-        result["type"] = type;
-        result["intensity"] = std::isfinite(intensity) ? std::max(intensity, 0.0) : 0.0;
-        if (most > 0)
-            result["color"] = {std::max(color.x, 0.0) / most, std::max(color.y, 0.0) / most,
-                               std::max(color.z, 0.0) / most};
-    };
-    bool shades = true;  // what glTF has is not all of it
-    if (kind == 1) {
-        set("directional", kPi * most);
-        shades = false;
-    } else if (kind == 2 || kind == 3) {
-        // Attenuations are per unit of the file, glTF's distance is metres.
-        double d = distance / description_.meter;
-        double a = number("constant_attenuation", 1) + d * number("linear_attenuation", 0) +
-                   d * d * number("quadratic_attenuation", 0);
-        set(kind == 2 ? "point" : "spot", a > 0 ? kPi * most * distance * distance / a : 0.0);
-        if (kind == 3) {
-            double half = std::clamp(radians(0.5 * number("falloff_angle", 180)), 1e-3, kPi / 2);
-            result["spot"] = {{"innerConeAngle", 0.0}, {"outerConeAngle", half}};
-            if (number("falloff_exponent", 0) <= 0)
-                result["spot"]["innerConeAngle"] = half * (1 - 1e-6);
-        }
-    } else if (is_library_shader(use, "gltf_directional")) {
-        set("directional", number("intensity", 1) * most);
-        shades = false;
-    } else if (is_library_shader(use, "gltf_point") || is_library_shader(use, "gltf_spot")) {
-        bool spot = use.shader->name == "gltf_spot";
-        set(spot ? "spot" : "point", number("intensity", 1) * most);
-        if (double range = number("range", 0); range > 0) result["range"] = range;
-        if (spot)
-            result["spot"] = {{"innerConeAngle", number("inner_angle", 0)},
-                              {"outerConeAngle", number("outer_angle", kPi / 4)}};
-        shades = false;
-    } else {
-        set("point", 0);  // ambient, or RSL: nothing of glTF's comes near
-    }
+    double meters = glm::length(dvec3((axes_ * world)[3]) - bounds_centre_);
+    PunctualLight light = punctual_light({use, description_.values}, meters, description_.meter);
+    Json& result = light.json;
     if (!l.id.empty()) result["name"] = l.id;
-    if (shades && use.shader) {
+    if (light.more && use.shader) {
         Json extras = rsl(use);  // in the file's own unit: kinora_axes tells it
         result["extras"]["kinora_rsl"]["light"] = extras;
         if (l.ambient) result["extras"]["kinora_rsl"]["ambient"] = true;
         if (l.shadows) result["extras"]["kinora_rsl"]["shadows"] = *l.shadows;
-        in_extras(name,
-                  kind == 0                ? "ambient light"
-                  : kind == 2 || kind == 3 ? "its attenuation (1 / d^2 comes near it)"
-                                           : "its RSL shader",
-                  l.where);
+        in_extras(name, light.beyond, l.where);
     }
     for (const ParamSource& p : use.params)
         if (is_animated(p.value)) {

@@ -86,6 +86,50 @@ class Records {
     int width_;
 };
 
+// Rows of the service's arguments (rsl/renderer_services.h).
+struct Row {
+    enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags };
+};
+
+// The rays of one call at each lane: how many, and the share of the eye's ray that each has.
+struct RayCounts {
+    int samples[kLanes] = {};
+    float share[kLanes] = {};  // 0: not shot
+    int most = 0;              // of any lane
+};
+
+RayCounts count_rays(Grid& grid, const Lanes& lanes, bool shoots) {
+    RayCounts counts;
+    for (int lane = 0; lane < kLanes; ++lane) {
+        if (!lanes.asks(lane)) continue;
+        float length = glm::length(lanes.triple(Row::D, lane));
+        if (!(length > 0 && length < kMiss)) continue;
+        int n = counts.samples[lane] = lanes.samples(Row::Samples, lane);
+        if (shoots) counts.share[lane] = ray_share(grid, lanes.point(lane), n);
+        counts.most = std::max(counts.most, n);
+    }
+    return counts;
+}
+
+int record_width(std::span<const GatherResult> results) {
+    int width = rsl::kGatherResults;
+    for (const GatherResult& result : results) width += rsl::component_count(result.type);
+    return width;
+}
+
+// A ray as its record shows it, in current space; `length` until it is known to end earlier.
+void record_ray(Records& records, std::span<const RayColumn> columns, uint32_t record, int lane,
+                vec3 origin, vec3 direction, float length) {
+    for (const RayColumn& c : columns) {
+        if (c.fact == RayFact::Origin)
+            records.set(record, c.column, lane, origin);
+        else if (c.fact == RayFact::Direction)
+            records.set(record, c.column, lane, direction);
+        else
+            records.at(record, c.column, lane) = length;
+    }
+}
+
 }  // namespace
 
 // The rays of one batch: what they meet goes into their records.
@@ -99,31 +143,19 @@ struct Shading::GatherJob {
 };
 
 int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
-    enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags };
     Lanes lanes(call);
     int any = std::countr_zero(call.mask);
-    const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Request, any))];
-    int level = lanes.integer(Level, any), flags = lanes.integer(Flags, any);
-    int width = rsl::kGatherResults;
-    for (const GatherResult& result : results) width += rsl::component_count(result.type);
-    auto count = [&](int lane) {
-        vec3 d = lanes.triple(D, lane);
-        return glm::length(d) > 0 && glm::length(d) < kMiss ? lanes.samples(Samples, lane) : 0;
-    };
+    const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Row::Request, any))];
+    int level = lanes.integer(Row::Level, any), flags = lanes.integer(Row::Flags, any);
     bool shoots =
         !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < ray_depth() && !stopped();
-    int most = 0;
-    float share[kLanes] = {};
-    for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? count(lane) : 0;
-        if (shoots && n > 0) share[lane] = ray_share(grid, lanes.point(lane), n);
-        most = std::max(most, n);
-    }
+    RayCounts counts = count_rays(grid, lanes, shoots);
 
     Thread& own = thread(grid.thread);
     // A light may run within a turn of the gather of the surface it lights.
     uint32_t room = grid.depth + (grid.look->kind == LookKind::Light ? kMostDepth + 1 : 0);
-    Records records(own.gather_memory(room, level), most, width, size_t(call.first));
+    GatherMemory& memory = own.gather_memory(room, level);
+    Records records(memory, counts.most, record_width(results), size_t(call.first));
     Arena::Mark mark = own.arena.mark();
     std::span<const RayColumn> of_ray = ray_columns(results, own.arena);
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
@@ -136,44 +168,42 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
     auto flush = [&] {
         size_t n = rays.count;
         if (n > 0 && shoots)
-            shade_gathered(
-                {grid, results, records, {lane_of, n}, {sample_of, n}, lanes.integer(Label, any)},
-                rays);
+            shade_gathered({grid,
+                            results,
+                            records,
+                            {lane_of, n},
+                            {sample_of, n},
+                            lanes.integer(Row::Label, any)},
+                           rays);
         rays.count = 0;
     };
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? count(lane) : 0;
-        for (int k = n; k < most; ++k)
+        int n = counts.samples[lane];
+        for (int k = n; k < counts.most; ++k)
             records.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
         if (n == 0) continue;
         uint32_t seed = lanes.seed(lane);
-        Cone cone(accel_from_camera * lanes.triple(D, lane), lanes.number(Angle, lane),
+        float angle = lanes.number(Row::Angle, lane), reach = lanes.number(Row::Maxdist, lane);
+        vec3 P = lanes.triple(Row::P, lane);
+        Cone cone(accel_from_camera * lanes.triple(Row::D, lane), angle,
                   flags & rsl::kGatherCosine);
-        RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+        RayStart start = ray_start(grid, lanes.point(lane), P);
         for (uint32_t k = 0; k < uint32_t(n); ++k) {
             // A cone without width is its axis.
-            vec3 dir = lanes.number(Angle, lane) > 0 ? cone.direction(k, seed) : cone.z;
-            float reach = lanes.number(Maxdist, lane);
-            for (const RayColumn& c : of_ray) {
-                if (c.fact == RayFact::Origin)
-                    records.set(k, c.column, lane, lanes.triple(P, lane));
-                else if (c.fact == RayFact::Direction)
-                    records.set(k, c.column, lane, camera_from_accel_ * dir);
-                else
-                    records.at(k, c.column, lane) = reach;
-            }
-            if (share[lane] == 0) continue;
+            vec3 dir = angle > 0 ? cone.direction(k, seed) : cone.z;
+            record_ray(records, of_ray, k, lane, P, camera_from_accel_ * dir, reach);
+            if (counts.share[lane] == 0) continue;
             lane_of[rays.count] = uint8_t(lane);
             sample_of[rays.count] = k;
-            add_ray(rays, grid, start, dir, reach, lanes.number(Bias, lane),
-                    raytrace::hash(seed, k), uint32_t(rays.count), share[lane]);
+            add_ray(rays, grid, start, dir, reach, lanes.number(Row::Bias, lane),
+                    raytrace::hash(seed, k), uint32_t(rays.count), counts.share[lane]);
             if (rays.count == kGridPoints) flush();
         }
     }
     flush();
     own.arena.release(mark);
     int32_t handle = int32_t(kGatherSets) + level;
-    grid.record_sets[size_t(handle)] = {most, own.gather_memory(room, level).records.data()};
+    grid.record_sets[size_t(handle)] = {counts.most, memory.records.data()};
     return handle;
 }
 

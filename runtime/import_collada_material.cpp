@@ -173,73 +173,88 @@ void ColladaImport::set_texture(uint32_t material, const collada::CommonValue& v
     use.params.push_back(std::move(source));
 }
 
+namespace {
+
+using collada::CommonSlot;
+
+// Slots of profile_COMMON that are parameters of collada_*.sl, as colors or numbers.
+struct SlotRow {
+    CommonSlot slot;
+    const char* name;
+    uint32_t count;
+};
+constexpr SlotRow kSlots[] = {
+    {CommonSlot::Emission, "emission", 3},
+    {CommonSlot::Ambient, "ambient_color", 3},
+    {CommonSlot::Diffuse, "diffuse", 3},
+    {CommonSlot::Specular, "specular", 3},
+    {CommonSlot::Shininess, "shininess", 1},
+    {CommonSlot::Reflective, "reflective", 3},
+    {CommonSlot::Reflectivity, "reflectivity", 1},
+    {CommonSlot::Transparent, "transparent", 3},
+    {CommonSlot::Transparency, "transparency", 1},
+    {CommonSlot::IndexOfRefraction, "index_of_refraction", 1},
+};
+constexpr const char* kModels[] = {"collada_constant", "collada_lambert", "collada_phong",
+                                   "collada_blinn"};                           // CommonModel
+constexpr const char* kOpaque[] = {"A_ONE", "RGB_ZERO", "A_ZERO", "RGB_ONE"};  // Opaque
+
+// Only what the shader has a parameter for.
+void add_value(ShaderUse& use, const char* name, ValueSlot value) {
+    if (!find_parameter(*use.shader, name)) return;
+    ParamSource source;
+    source.name = name;
+    source.value = value;
+    use.params.push_back(std::move(source));
+}
+
+void add_text(ShaderUse& use, const char* name, const char* text) {
+    ParamSource source;
+    source.name = name;
+    source.strings = {text};
+    use.params.push_back(std::move(source));
+}
+
+bool has_map(const ShaderUse& use, const std::string& slot) {
+    return find_parameter(*use.shader, slot + "_map");
+}
+
+bool transparent(const collada::CommonShading& common) {
+    return common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||
+           common[CommonSlot::Transparency].source != collada::SlotSource::Absent;
+}
+
+}  // namespace
+
 void ColladaImport::common_material(uint32_t index, const collada::Effect& effect,
                                     MaterialDefinition& result) {
-    using collada::CommonSlot;
-    struct Row {
-        CommonSlot slot;
-        const char* name;
-        uint32_t count;
-    };
-    static constexpr Row kRows[] = {
-        {CommonSlot::Emission, "emission", 3},
-        {CommonSlot::Ambient, "ambient_color", 3},
-        {CommonSlot::Diffuse, "diffuse", 3},
-        {CommonSlot::Specular, "specular", 3},
-        {CommonSlot::Shininess, "shininess", 1},
-        {CommonSlot::Reflective, "reflective", 3},
-        {CommonSlot::Reflectivity, "reflectivity", 1},
-        {CommonSlot::Transparent, "transparent", 3},
-        {CommonSlot::Transparency, "transparency", 1},
-        {CommonSlot::IndexOfRefraction, "index_of_refraction", 1},
-    };
-    static constexpr const char* kModels[] = {"collada_constant", "collada_lambert",
-                                              "collada_phong", "collada_blinn"};
-    static constexpr const char* kOpaque[] = {"A_ONE", "RGB_ZERO", "A_ZERO", "RGB_ONE"};
     const collada::CommonShading& common = *effect.common;
     uint32_t effect_index = uint32_t(&effect - data_.effects.data());
     ShaderUse use;
     use.shader = library_shader(kModels[size_t(common.model)], diagnostics_);
-    auto add = [&](const char* name, ValueSlot value) {
-        ParamSource source;
-        source.name = name;
-        source.value = value;
-        if (find_parameter(*use.shader, name)) use.params.push_back(std::move(source));
-    };
-    for (const Row& row : kRows) {
+    for (const SlotRow& row : kSlots) {
         const collada::CommonValue& value = common[row.slot];
+        bool mask = row.slot == CommonSlot::Transparent;
         if (value.source == collada::SlotSource::Value) {
             uint32_t offset = common_values_[effect_index][size_t(row.slot)];
-            add(row.name, {offset, row.count});
-            if (row.slot == CommonSlot::Transparent && value.slot.count == 4)
-                add("transparent_alpha", {offset + 3, 1});
+            add_value(use, row.name, {offset, row.count});
+            if (mask && value.slot.count == 4) add_value(use, "transparent_alpha", {offset + 3, 1});
         } else if (value.source == collada::SlotSource::Param) {
             ValueSlot slot = param_slot(index, effect_index, value.param);
-            if (slot.count >= row.count) add(row.name, {slot.offset, row.count});
-            if (row.slot == CommonSlot::Transparent && slot.count >= 4)
-                add("transparent_alpha", {slot.offset + 3, 1});
-        } else if (value.source == collada::SlotSource::Texture &&
-                   find_parameter(*use.shader, std::string(row.name) + "_map")) {
-            set_texture(index, value, row.name, row.slot == CommonSlot::Transparent,
-                        use);  // a mask
+            if (slot.count >= row.count) add_value(use, row.name, {slot.offset, row.count});
+            if (mask && slot.count >= 4) add_value(use, "transparent_alpha", {slot.offset + 3, 1});
+        } else if (value.source == collada::SlotSource::Texture && has_map(use, row.name)) {
+            set_texture(index, value, row.name, mask, use);
         }
     }
-    bool transparent = common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||
-                       common[CommonSlot::Transparency].source != collada::SlotSource::Absent;
-    if (data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto)
-        transparent = false;
-    ParamSource opaque;
-    opaque.name = "opaque";
-    opaque.strings = {transparent ? kOpaque[size_t(common.opaque)] : "NONE"};
-    use.params.push_back(std::move(opaque));
-    if (common[CommonSlot::Bump].source == collada::SlotSource::Texture &&
-        find_parameter(*use.shader, "bump_map")) {
+    bool hides_all =
+        data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto;
+    add_text(use, "opaque",
+             transparent(common) && !hides_all ? kOpaque[size_t(common.opaque)] : "NONE");
+    if (common[CommonSlot::Bump].source == collada::SlotSource::Texture && has_map(use, "bump")) {
         set_texture(index, common[CommonSlot::Bump], "bump", true, use);
-        ParamSource kind;
-        kind.name = "bump_kind";
-        kind.strings = {common.bump_is_normals ? "NORMALMAP" : "HEIGHTFIELD"};
-        use.params.push_back(std::move(kind));
-        add("bump_amount", {append(&common.bump_amount, 1), 1});
+        add_text(use, "bump_kind", common.bump_is_normals ? "NORMALMAP" : "HEIGHTFIELD");
+        add_value(use, "bump_amount", {append(&common.bump_amount, 1), 1});
     }
     result.surfaces.push_back(std::move(use));
 }

@@ -319,34 +319,68 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
     return {columns.data(), uniforms};
 }
 
+namespace {
+
+// How far a light's sample stands off the surface that shines, where the ray to it ends.
+vec3 before_sample(const raytrace::HitBatch& samples, size_t i, vec3 P, vec3 to_light) {
+    vec3 end = triple(samples.P, i);
+    // Origin, direction and the distance of a hit all round: 16 steps of the largest.
+    vec3 size = glm::max(glm::abs(end), glm::abs(P));
+    vec3 error = vec3(std::max(size.x, std::max(size.y, size.z)) * 16 * 0x1p-24f) +
+                 triple(samples.P_error, i);
+    return raytrace::offset_ray_origin(end, error, triple(samples.Ng, i), -to_light) - end;
+}
+
+// Shadow rays by the packet, and the lit points that asked for them.
+struct ShadowPacket {
+    raytrace::RayPacket16 rays;
+    uint32_t points[raytrace::kPacket];
+    int filled = 0;
+
+    void add(uint32_t point, vec3 org, vec3 dir, float tfar) {
+        rays.org_x[filled] = org.x;
+        rays.org_y[filled] = org.y;
+        rays.org_z[filled] = org.z;
+        rays.dir_x[filled] = dir.x;
+        rays.dir_y[filled] = dir.y;
+        rays.dir_z[filled] = dir.z;
+        rays.tnear[filled] = 0;
+        rays.tfar[filled] = tfar;
+        rays.mask[filled] = raytrace::kMaskOpaque;
+        rays.time[filled] = 0;
+        points[filled++] = point;
+    }
+    vec3 org(int j) const { return {rays.org_x[j], rays.org_y[j], rays.org_z[j]}; }
+    vec3 dir(int j) const { return {rays.dir_x[j], rays.dir_y[j], rays.dir_z[j]}; }
+};
+
+}  // namespace
+
+// What is opaque takes all of Cl; the rays it lets by go on through what is transparent.
 void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const float* const L[3],
                      const float* lit, float* const Cl[3], const LightSamples* samples) {
     Thread& own = thread(grid.thread);
     mat3 accel_from_camera = glm::transpose(camera_from_accel_);
-    raytrace::RayPacket16 packet;
-    uint32_t lanes[raytrace::kPacket];
-    int filled = 0;
+    ShadowPacket packet;
     NestedWavefront nested(own);
     raytrace::RayBatch& rest = nested->rays;
     if (any_transparent_) rest.reserve(kGridPoints);
     rest.count = 0;
     auto flush = [&] {
-        if (filled == 0) return;
-        packet.active = (1u << filled) - 1;
-        uint32_t blocked = scene_.accel.occluded16(packet, own.counters.trace);
-        for (int j = 0; j < filled; ++j) {
-            uint32_t i = lanes[j];
+        if (packet.filled == 0) return;
+        packet.rays.active = (1u << packet.filled) - 1;
+        uint32_t blocked = scene_.accel.occluded16(packet.rays, own.counters.trace);
+        for (int j = 0; j < packet.filled; ++j) {
+            uint32_t i = packet.points[j];
             if (blocked >> j & 1) {
                 for (size_t k = 0; k < 3; ++k) Cl[k][i] = 0;
             } else if (any_transparent_) {
-                vec3 org(packet.org_x[j], packet.org_y[j], packet.org_z[j]);
-                vec3 dir(packet.dir_x[j], packet.dir_y[j], packet.dir_z[j]);
-                set_nested_ray(rest, rest.count, org, dir, packet.tfar[j], grid.hits,
-                               grid.points[at.first + i]);
+                set_nested_ray(rest, rest.count, packet.org(j), packet.dir(j), packet.rays.tfar[j],
+                               grid.hits, grid.points[at.first + i]);
                 rest.slot[rest.count++] = i;
             }
         }
-        filled = 0;
+        packet.filled = 0;
     };
     for (uint32_t i = 0; i < at.count; ++i) {
         if (lit && jit::bits_of(lit[i]) == 0) continue;
@@ -358,27 +392,9 @@ void Shading::shadow(const Grid& grid, const LightPoints& at, bool solar, const 
         if (Ng == vec3(0)) Ng = glm::normalize(to_light);
         vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light);
         vec3 dir = solar ? to_light : P + to_light - org;
-        if (samples && !solar) {  // the ray ends before the surface that shines
-            const raytrace::HitBatch& ends = samples->hits;
-            vec3 end = triple(ends.P, i);
-            // Origin, direction and the distance of a hit all round: 16 steps of the largest.
-            vec3 size = glm::max(glm::abs(end), glm::abs(P));
-            vec3 error = vec3(std::max(size.x, std::max(size.y, size.z)) * 16 * 0x1p-24f) +
-                         triple(ends.P_error, i);
-            dir += raytrace::offset_ray_origin(end, error, triple(ends.Ng, i), -to_light) - end;
-        }
-        packet.org_x[filled] = org.x;
-        packet.org_y[filled] = org.y;
-        packet.org_z[filled] = org.z;
-        packet.dir_x[filled] = dir.x;
-        packet.dir_y[filled] = dir.y;
-        packet.dir_z[filled] = dir.z;
-        packet.tnear[filled] = 0;
-        packet.tfar[filled] = solar ? std::numeric_limits<float>::infinity() : 1.0f;
-        packet.mask[filled] = raytrace::kMaskOpaque;
-        packet.time[filled] = 0;
-        lanes[filled++] = i;
-        if (filled == raytrace::kPacket) flush();
+        if (samples && !solar) dir += before_sample(samples->hits, i, P, to_light);
+        packet.add(i, org, dir, solar ? std::numeric_limits<float>::infinity() : 1.0f);
+        if (packet.filled == raytrace::kPacket) flush();
     }
     flush();
     if (rest.count == 0) return;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <span>
 
 #include "collada/edit.h"
 #include "rsl/shader.h"
@@ -97,6 +98,50 @@ std::string with_profile(std::string_view text, const Element& effect, const std
         text.substr(effect.bytes.begin, effect.bytes.end - effect.bytes.begin), edits);
 }
 
+bool matches(const std::string& pattern, std::string_view name) {
+    return fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
+}
+
+std::vector<const Element*> materials_with_effects(const Document& document) {
+    std::vector<const Element*> found;
+    for (const Element& library : document.root().children())
+        if (library.name == "library_materials")
+            for (const Element& m : library.children())
+                if (m.name == "material" && m.child("instance_effect")) found.push_back(&m);
+    return found;
+}
+
+std::string_view effect_url(const Element& material) {
+    return material.child("instance_effect")->value("url");
+}
+
+// The effect's parameters of RSL, as they stand in the text.
+std::string rsl_params(std::string_view text, const Element& effect) {
+    std::string params;
+    if (const Element* old = effect.child("profile_RSL"))
+        for (const Element& p : old->children())
+            if (p.name == "newparam")
+                params += text.substr(p.bytes.begin, p.bytes.end - p.bytes.begin);
+    return params;
+}
+
+// A copy of the effect behind it, with `markup` in place of its bytes and an id of its own, and
+// those of the materials that wore the effect wear the copy.
+void add_copy(const Document& document, std::string_view text, const Element& effect,
+              std::string markup, std::span<const Element* const> materials, std::string_view url,
+              std::vector<Edit>& edits) {
+    std::string id = std::string(effect.value("id")) + "-rsl";
+    while (document.find(id)) id += "_";
+    collada::ByteRange at = effect.attribute("id")->value_bytes;
+    uint32_t begin = at.begin - effect.bytes.begin, length = at.end - at.begin;
+    markup.replace(begin, length, collada::escape_attribute(id));
+    edits.push_back({{effect.bytes.end, effect.bytes.end}, std::move(markup)});
+    for (const Element* material : materials)
+        if (effect_url(*material) == url)
+            edits.push_back(
+                collada::set_attribute(text, *material->child("instance_effect"), "url", "#" + id));
+}
+
 }  // namespace
 
 std::optional<std::string> embed_shader(const std::string& path, const std::string& text,
@@ -116,27 +161,21 @@ std::optional<std::string> embed_shader(const std::string& path, const std::stri
     if (!document || !document->whole()) return text;
     std::string_view own = quiet.files.text(document->file());
 
-    // Effects and the materials that wear them.
-    std::vector<const Element*> materials, all;
-    for (const Element& library : document->root().children())
-        if (library.name == "library_materials")
-            for (const Element& m : library.children())
-                if (m.name == "material" && m.child("instance_effect")) {
-                    all.push_back(&m);
-                    std::string id(m.value("id")), name(m.value("name"));
-                    if (fnmatch(pattern.c_str(), id.c_str(), 0) == 0 ||
-                        fnmatch(pattern.c_str(), name.c_str(), 0) == 0)
-                        materials.push_back(&m);
-                }
+    std::vector<const Element*> all = materials_with_effects(*document), materials;
+    for (const Element* m : all)
+        if (matches(pattern, m->value("id")) || matches(pattern, m->value("name")))
+            materials.push_back(m);
     if (materials.empty()) {
         diag.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
         return std::nullopt;
     }
-    auto url_of = [](const Element& m) { return m.child("instance_effect")->value("url"); };
+    auto chosen = [&](const Element* m) {
+        return std::find(materials.begin(), materials.end(), m) != materials.end();
+    };
     std::vector<Edit> edits;
-    std::vector<const Element*> done;
+    std::set<const Element*> done;
     for (const Element* m : materials) {
-        std::string_view url = url_of(*m);
+        std::string_view url = effect_url(*m);
         const Element* effect = url.starts_with('#') ? document->find(url.substr(1)) : nullptr;
         if (!effect || effect->name != "effect") {
             diag.report(Code::CONVERT_SHADER, Location{},
@@ -144,33 +183,16 @@ std::optional<std::string> embed_shader(const std::string& path, const std::stri
                                     m->value("id")));
             return std::nullopt;
         }
-        if (std::find(done.begin(), done.end(), effect) != done.end()) continue;
-        std::string params;
-        if (const Element* old = effect->child("profile_RSL"))
-            for (const Element& p : old->children())
-                if (p.name == "newparam")
-                    params += own.substr(p.bytes.begin, p.bytes.end - p.bytes.begin);
-        std::string markup =
-            with_profile(own, *effect, profile(shaders, code, own, *effect, params));
-        bool shared = false;  // with a material that keeps its look
-        for (const Element* other : all)
-            shared |= url_of(*other) == url &&
-                      std::find(materials.begin(), materials.end(), other) == materials.end();
-        done.push_back(effect);
-        if (!shared) {
+        if (!done.insert(effect).second) continue;
+        std::string markup = with_profile(
+            own, *effect, profile(shaders, code, own, *effect, rsl_params(own, *effect)));
+        bool keeps_its_look = std::any_of(all.begin(), all.end(), [&](const Element* other) {
+            return effect_url(*other) == url && !chosen(other);
+        });
+        if (keeps_its_look)
+            add_copy(*document, own, *effect, std::move(markup), materials, url, edits);
+        else
             edits.push_back({effect->bytes, markup});
-            continue;
-        }
-        std::string id = std::string(effect->value("id")) + "-rsl";
-        while (document->find(id)) id += "_";
-        collada::ByteRange at = effect->attribute("id")->value_bytes;
-        uint32_t begin = at.begin - effect->bytes.begin, length = at.end - at.begin;
-        markup.replace(begin, length, collada::escape_attribute(id));
-        edits.push_back({{effect->bytes.end, effect->bytes.end}, markup});
-        for (const Element* other : materials)
-            if (url_of(*other) == url)
-                edits.push_back(
-                    collada::set_attribute(own, *other->child("instance_effect"), "url", "#" + id));
     }
     return collada::apply_edits(own, std::move(edits));
 }
