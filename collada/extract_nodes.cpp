@@ -69,6 +69,7 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
             read_node(x, index, part, number);
         }
     }
+    mend_order(x, link, node.transforms);
     x.scene.nodes[number] = std::move(node);
 }
 

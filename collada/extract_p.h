@@ -60,6 +60,7 @@ struct Extraction {
     uint64_t made_bytes = 0;    // of structs and lists
     uint64_t parsed_bytes = 0;  // of text, each time it is parsed
     bool over_limit = false;
+    std::unordered_set<uint32_t> disordered{};  // documents whose NODE_ORDER was reported
 
     // Definitions by element; kNone: tried and not usable (reported).
     std::unordered_map<const Element*, uint32_t> made{};
@@ -173,6 +174,8 @@ GeometrySymbols& symbols_of(Extraction& x, uint32_t geometry);
 // extract_transform.cpp
 bool is_transform(std::string_view name);
 Transform read_transform(Extraction& x, Link link);
+// Exchanges the scale and the translation of a node that Blender wrote in the wrong order.
+void mend_order(Extraction& x, Link node, std::vector<Transform>& transforms);
 
 // extract_instances.cpp: instances inside a node.
 void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_number);

@@ -91,4 +91,38 @@ Transform read_transform(Extraction& x, Link link) {
     return transform;
 }
 
+namespace {
+
+constexpr std::string_view kBlenderOrder[] = {"scale", "rotationZ", "rotationY", "rotationX",
+                                              "location"};
+
+bool made_by_blender(const Document& document) {
+    const Element* e = &document.root();
+    for (const char* name : {"asset", "contributor", "authoring_tool"})
+        if (e) e = e->child(name);
+    return e && trim(e->text).starts_with("Blender");
+}
+
+}  // namespace
+
+void mend_order(Extraction& x, Link node, std::vector<Transform>& transforms) {
+    if (transforms.size() != std::size(kBlenderOrder)) return;
+    for (size_t i = 0; i < transforms.size(); ++i)
+        if (transforms[i].slot.sid != kBlenderOrder[i]) return;
+    if (transforms.front().kind != TransformKind::Scale ||
+        transforms.back().kind != TransformKind::Translate ||
+        !made_by_blender(x.document(node.doc)))
+        return;
+    const Element *first = nullptr, *last = nullptr;
+    for (const Element& child : node.element->children()) {
+        if (!is_transform(child.name)) continue;
+        if (!first) first = &child;
+        last = &child;
+    }
+    std::swap(transforms.front(), transforms.back());
+    std::swap(x.target_of[first].slot, x.target_of[last].slot);
+    if (x.disordered.insert(node.doc).second)
+        x.diag.report(Code::NODE_ORDER, x.where({node.doc, first}));
+}
+
 }  // namespace kinora::collada

@@ -14,9 +14,9 @@ using MatrixOf = dmat4 (*)(const double*);
 constexpr MatrixOf kMatrixOf[] = {translation_matrix, rotation_matrix, scale_matrix, rows_matrix,
                                   lookat_matrix,      skew_matrix};  // TransformKind
 
-dmat4 rest_matrix(const Node& node) {
+dmat4 matrix_of(const std::vector<Transform>& transforms) {
     dmat4 m(1.0);
-    for (const Transform& t : node.transforms) {
+    for (const Transform& t : transforms) {
         std::array<double, 16> v = t.slot.values;
         if (t.kind == TransformKind::Matrix)  // slots are column-major
             for (size_t i = 0; i < 16; ++i) v[i] = t.slot.values[i % 4 * 4 + i / 4];
@@ -44,8 +44,8 @@ constexpr const char* kInstead[] = {"", "binds it with its matrix", "moves it wi
 // Where a node definition stands by the first way that leads to it; parents come first.
 struct Place {
     uint32_t node;
-    uint32_t parent;  // a place, or kNone
-    dmat4 world;
+    uint32_t parent;     // a place, or kNone
+    dmat4 world, start;  // as the file leaves it, and at the first keys
 };
 
 // Without recursion, since instances may be chained as long as the file.
@@ -57,7 +57,7 @@ class NodeWalk {
           place_of_(nodes_.size(), kNone),
           animated_(nodes_.size()) {
         for (const Channel& channel : lint.scene.channels)
-            if (channel.ref.kind == Owner::Transform) animated_[channel.ref.owner] = true;
+            if (channel.ref.kind == Owner::Transform) start(channel);
     }
 
     void run() {
@@ -70,6 +70,18 @@ class NodeWalk {
     }
 
   private:
+    // The channel's first key into the node's transforms.
+    void start(const Channel& channel) {
+        const TargetRef& ref = channel.ref;
+        animated_[ref.owner] = true;
+        const Sampler& sampler = lint_.scene.samplers[channel.sampler];
+        auto& transforms =
+            started_.try_emplace(ref.owner, nodes_[ref.owner].transforms).first->second;
+        auto& values = transforms[ref.slot].slot.values;
+        for (uint32_t i = 0; i < ref.count && i < sampler.stride && i < sampler.values.size(); ++i)
+            if (ref.first + i < values.size()) values[ref.first + i] = sampler.values[i];
+    }
+
     void walk(uint32_t root) {
         std::vector<std::pair<uint32_t, uint32_t>> todo{{root, kNone}};
         while (!todo.empty()) {
@@ -78,10 +90,15 @@ class NodeWalk {
             if (place_of_[at] != kNone) continue;
             uint32_t place = place_of_[at] = uint32_t(places_.size());
             const Node& node = nodes_[at];
-            dmat4 local = rest_matrix(node);
+            dmat4 local = matrix_of(node.transforms), first = local;
             check_flat(node, at, local);
-            dmat4 above = parent == kNone ? dmat4(1.0) : places_[parent].world;
-            places_.push_back({at, parent, above * local});
+            if (auto moved = started_.find(at); moved != started_.end())
+                first = matrix_of(moved->second);
+            if (parent == kNone)
+                places_.push_back({at, parent, local, first});
+            else
+                places_.push_back(
+                    {at, parent, places_[parent].world * local, places_[parent].start * first});
             for (uint32_t child : node.children) todo.emplace_back(child, place);
             for (const NodeInstance& instance : node.instances)
                 todo.emplace_back(instance.node, place);
@@ -100,21 +117,26 @@ class NodeWalk {
         std::vector<bool> used(skin.inverse_bind.size());
         for (int32_t joint : skin.influence_joints)
             if (joint >= 0) used[size_t(joint)] = true;
-        std::vector<RestJoint> rest, moving;
+        SkinPose rest, start;
+        std::vector<RestJoint> moving;
         std::vector<uint32_t> joints;
         for (size_t j = 0; j < mesh.joint_nodes.size() && j < used.size(); ++j) {
             uint32_t node = mesh.joint_nodes[j];
             if (node == kNone || place_of_[node] == kNone) continue;
             joints.push_back(place_of_[node]);
-            rest.push_back({places_[joints.back()].world, skin.inverse_bind[j]});
-            if (used[j]) moving.push_back(rest.back());
+            rest.joints.push_back({places_[joints.back()].world, skin.inverse_bind[j]});
+            start.joints.push_back({places_[joints.back()].start, skin.inverse_bind[j]});
+            if (used[j]) moving.push_back(rest.joints.back());
         }
-        dmat4 world = places_[place].world;
-        if (mesh.conversion != kNone) world = world * lint_.scene.conversions[mesh.conversion];
+        dmat4 conversion(1.0);
+        if (mesh.conversion != kNone) conversion = lint_.scene.conversions[mesh.conversion];
+        rest.node = places_[place].world * conversion;
+        start.node = places_[place].start * conversion;
         uint32_t shared =
             shared_ancestor(place, joints, kNone, [&](uint32_t p) { return places_[p].parent; });
-        SkinSpace space = skin_space(skin.bind_shape_matrix, world,
-                                     shared == kNone ? dmat4(1.0) : places_[shared].world, rest);
+        if (shared != kNone) rest.shared = places_[shared].world;
+        if (shared != kNone) start.shared = places_[shared].start;
+        SkinSpace space = skin_place(skin.bind_shape_matrix, rest, start).space;
         if (space != SkinSpace::World)
             lint_.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where,
                               label(nodes_[places_[place].node]), skin.id, kInstead[size_t(space)]);
@@ -129,6 +151,7 @@ class NodeWalk {
     std::vector<Place> places_;
     std::vector<uint32_t> place_of_;  // by node definition
     std::vector<bool> animated_;
+    std::unordered_map<uint32_t, std::vector<Transform>> started_;  // of nodes that channels move
 };
 
 void check_influences(Lint& lint, const Skin& skin) {

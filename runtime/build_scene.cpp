@@ -68,6 +68,7 @@ SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
 std::unique_ptr<Scene> SceneBuilder::run() {
     find_moving_nodes();
     for (uint32_t root : description_.roots) unroll(root, kNone, dmat4(1.0));
+    if (!description_.skins.empty()) ask_joints();
     evaluate(scene_->options.start_time);
     place_meshes();
     set_bounds();
@@ -118,13 +119,24 @@ void SceneBuilder::unroll(uint32_t definition, uint32_t parent, const dmat4& con
     for (const ChildUse& child : from.children) unroll(child.node, index, child.conversion);
 }
 
-void SceneBuilder::evaluate(double time) {
+// Where the nodes are as the file leaves them and at the first keys, whatever is played.
+void SceneBuilder::ask_joints() {
+    auto keep = [&](std::vector<dmat4>& worlds) {
+        for (const Node& node : scene_->nodes) worlds.push_back(node.world);
+    };
+    evaluate(std::nullopt);
+    keep(rest_world_);
+    evaluate(anim::time_range(description_.animation).begin);
+    keep(start_world_);
+}
+
+void SceneBuilder::evaluate(std::optional<double> time) {
     Scene& scene = *scene_;
     scene.values = description_.values;
     size_t owners = description_.nodes.size() + description_.morphs.size() + 1;
     scene.changed.assign(anim::changed_words(owners), 0);
-    anim::evaluate(description_.animation, time, scene.values, scene.changed);
-    scene.time = time;
+    if (time) anim::evaluate(description_.animation, *time, scene.values, scene.changed);
+    scene.time = time.value_or(0);
     scene.first_frame = true;
     update_transforms(scene);
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +28,8 @@ class SceneBuilder {
     // build_scene.cpp: nodes, shapes, bounds, the ray tracer's rows
     void find_moving_nodes();
     void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
-    void evaluate(double time);
+    void evaluate(std::optional<double> time);  // none: the values of the file
+    void ask_joints();
     uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
     std::span<const MeshUse> meshes_of(const Node& node) const;
     void place_meshes();
@@ -97,7 +99,8 @@ class SceneBuilder {
     std::unique_ptr<Scene> scene_;
     std::vector<bool> definition_moves_;
     std::map<uint32_t, uint32_t> first_occurrence_;
-    std::vector<const MeshUse*> uses_;  // of each surface
+    std::vector<dmat4> rest_world_, start_world_;  // of nodes, where there are skins
+    std::vector<const MeshUse*> uses_;             // of each surface
     bool vertex_looks_ok_ = true;
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> shape_numbers_;
     std::map<std::string, uint32_t> looks_by_key_;

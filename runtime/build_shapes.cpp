@@ -189,28 +189,32 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
             shape.joint_nodes.push_back(nearest_occurrence(joint, node));
         }
         shape.joint_world.resize(joints, dmat4(1.0));
-        dmat4 world = scene.nodes[node].world * shape.conversion;
         std::vector<bool> used(joints);
         for (int32_t joint : definition.joints)
             if (joint >= 0 && size_t(joint) < used.size()) used[size_t(joint)] = true;
-        std::vector<RestJoint> rest, moving;
+        SkinPose rest, start;
+        std::vector<RestJoint> moving;
+        rest.node = rest_world_[node] * shape.conversion;
+        start.node = start_world_[node] * shape.conversion;
         for (size_t j = 0; j < joints; ++j) {
-            if (shape.joint_nodes[j] == kNone) continue;
-            rest.push_back({scene.nodes[shape.joint_nodes[j]].world, definition.inverse_bind[j]});
-            if (used[j]) moving.push_back(rest.back());
+            uint32_t joint = shape.joint_nodes[j];
+            if (joint == kNone) continue;
+            rest.joints.push_back({rest_world_[joint], definition.inverse_bind[j]});
+            start.joints.push_back({start_world_[joint], definition.inverse_bind[j]});
+            if (used[j]) moving.push_back(rest.joints.back());
         }
         size_t mirroring = mirroring_joints(definition.bind_shape, moving);
         if (mirroring && mirroring < moving.size())
             diagnostics_.report(Code::SKIN_MIXED_MIRROR, where, mirroring, moving.size(), id);
         uint32_t shared = shared_ancestor(node, shape.joint_nodes, kNone,
                                           [&](uint32_t n) { return scene.nodes[n].parent; });
-        SkinSpace space =
-            definition.in_world
-                ? SkinSpace::World
-                : skin_space(definition.bind_shape, world,
-                             shared == kNone ? dmat4(1.0) : scene.nodes[shared].world, rest);
+        if (shared != kNone) rest.shared = rest_world_[shared];
+        if (shared != kNone) start.shared = start_world_[shared];
+        SkinPlace place;
+        if (!definition.in_world) place = skin_place(definition.bind_shape, rest, start);
+        SkinSpace space = place.space;
         if (space != SkinSpace::World) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
-        if (space == SkinSpace::BindsNode) shape.skeleton.bind_shape = world;
+        if (space == SkinSpace::BindsNode) shape.skeleton.bind_shape = place.bind;
         shape.in_world = space == SkinSpace::World || space == SkinSpace::BindsNode;
         if (space == SkinSpace::NodeBelow) shape.placed_below = shared;
     }

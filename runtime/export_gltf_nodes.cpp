@@ -7,9 +7,9 @@
 #include <glm/matrix.hpp>
 
 #include "anim/decompose.h"
+#include "runtime/base/skin_space.h"
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
-#include "runtime/base/skin_space.h"
 #include "runtime/transforms.h"
 
 namespace kinora {
@@ -228,8 +228,10 @@ void GltfExport::unroll(uint32_t index, uint32_t parent, const dmat4& conversion
     if (!attributes.empty()) json_["nodes"][node]["extras"]["kinora_attributes"] = attributes;
     uint32_t place = uint32_t(placed_.size());
     dmat4 world = conversion * node_matrix(definition, description_.values);
+    dmat4 start = conversion * node_matrix(definition, start_values_);
     if (parent != kNone) world = placed_[parent].world * world;
-    placed_.push_back({index, parent, node, world, conversion});
+    if (parent != kNone) start = placed_[parent].start * start;
+    placed_.push_back({index, parent, node, world, start, conversion});
     for (const ChildUse& child : definition.children) unroll(child.node, place, child.conversion);
 }
 
@@ -264,23 +266,26 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
     dmat4 bind_shape = definition.bind_shape;
     uint32_t above = root_;
     std::map<uint32_t, uint32_t> again;
-    dmat4 world = placed_[placed].world * use.conversion;
-    std::vector<RestJoint> rest;
+    SkinPose rest, start;
+    rest.node = placed_[placed].world * use.conversion;
+    start.node = placed_[placed].start * use.conversion;
     std::vector<uint32_t> places;
     for (size_t j = 0; j < use.joint_nodes.size() && j < definition.inverse_bind.size(); ++j) {
         uint32_t joint = use.joint_nodes[j];
         uint32_t place = joint == kNone ? kNone : nearest_occurrence(joint, placed);
         if (place == kNone) continue;
-        rest.push_back({placed_[place].world, definition.inverse_bind[j]});
+        rest.joints.push_back({placed_[place].world, definition.inverse_bind[j]});
+        start.joints.push_back({placed_[place].start, definition.inverse_bind[j]});
         places.push_back(place);
     }
     uint32_t shared =
         shared_ancestor(placed, places, kNone, [&](uint32_t n) { return placed_[n].parent; });
-    SkinSpace space = definition.in_world
-                          ? SkinSpace::World
-                          : skin_space(bind_shape, world,
-                                       shared == kNone ? dmat4(1.0) : placed_[shared].world, rest);
-    if (space == SkinSpace::BindsNode) bind_shape = world;
+    if (shared != kNone) rest.shared = placed_[shared].world;
+    if (shared != kNone) start.shared = placed_[shared].start;
+    SkinPlace place;
+    if (!definition.in_world) place = skin_place(bind_shape, rest, start);
+    SkinSpace space = place.space;
+    if (space == SkinSpace::BindsNode) bind_shape = place.bind;
     if (space == SkinSpace::Node || space == SkinSpace::NodeBelow) {  // the joints stand below it
         uint32_t top = space == SkinSpace::Node ? kNone : shared;
         above = static_nodes(use.conversion, placed_[placed].node);
@@ -394,6 +399,10 @@ std::string GltfExport::glb() {
         json_["nodes"][root_]["extras"]["kinora_axes"] = {
             {"up", kAxes[size_t(description_.up_axis)]}, {"meter", description_.meter}};
     }
+    start_values_ = description_.values;
+    const anim::Animation& animation = description_.animation;
+    std::vector<uint64_t> changed(anim::changed_words(animation.owner_count));
+    anim::evaluate(animation, anim::time_range(animation).begin, start_values_, changed);
     for (uint32_t root : description_.roots) unroll(root, kNone, dmat4(1.0));
     set_bounds(axes);
     for (uint32_t p = 0; p < placed_.size(); ++p) hang_content(p);

@@ -41,6 +41,7 @@ class GltfExport {
         uint32_t parent;   // kNone: a root
         uint32_t node;     // the glTF node with its whole matrix: what children hang on
         dmat4 world;       // at rest, in the scene's own axes and unit
+        dmat4 start;       // likewise, at the first keys
         dmat4 conversion;  // of its use, outside its own stack
     };
     struct Channel {  // one that moves some number of a stack of transforms
@@ -134,8 +135,9 @@ class GltfExport {
     Json channels_ = Json::array(), samplers_ = Json::array();
     std::string buffer_;
     std::vector<Placed> placed_;
-    uint32_t root_ = kNone;        // the node of axes and unit
-    std::vector<double> at_time_;  // values while a path is evaluated
+    std::vector<double> start_values_;  // at the first keys
+    uint32_t root_ = kNone;             // the node of axes and unit
+    std::vector<double> at_time_;       // values while a path is evaluated
     std::map<std::string, uint32_t> meshes_, materials_, textures_, images_;
     std::set<const MaterialDefinition*> told_materials_;
     std::map<uint32_t, Mesh> built_;

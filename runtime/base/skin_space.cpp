@@ -24,32 +24,40 @@ bool is_near(const dmat4& a, const dmat4& b, double tolerance) {
     return apart(a, b) <= tolerance * size;
 }
 
-}  // namespace
+constexpr double kWritten = 1e-3;  // numbers of files have few digits
+constexpr double kNothing = 1e-5;  // and matrices that are the identity were multiplied as floats
 
-SkinSpace skin_space(const dmat4& bind_shape, const dmat4& node, const dmat4& shared,
-                     std::span<const RestJoint> joints) {
-    constexpr double kExact = 1e-9, kWritten = 1e-3;  // numbers of files have few digits
+// What no pose of the bind tells: is what moves node and joints in the joints' results? Turns and
+// scales show it better than places, which poses move more.
+SkinSpace guess(const SkinPose& pose) {
     const dmat4 identity(1.0);
-    if (!is_near(bind_shape, identity, kExact) || is_near(node, identity, kExact))
-        return SkinSpace::World;
-    auto all_near = [&](const dmat4& wanted) {
-        return !joints.empty() &&
-               std::all_of(joints.begin(), joints.end(), [&](const RestJoint& j) {
-                   return is_near(j.world * j.inverse_bind, wanted, kWritten);
-               });
-    };
-    if (all_near(node)) return SkinSpace::World;
-    if (all_near(identity)) return SkinSpace::BindsNode;
-    // No pose of the bind tells. Is what moves node and joints in the joints' results? Turns and
-    // scales show it better than places, which poses move more.
-    bool turns = apart(shared, identity, 3) > kWritten;
+    bool turns = apart(pose.shared, identity, 3) > kWritten;
     double with = 0, without = 0;
-    for (const RestJoint& j : joints) {
-        with += apart(j.world * j.inverse_bind, shared, turns ? 3 : 4);
+    for (const RestJoint& j : pose.joints) {
+        with += apart(j.world * j.inverse_bind, pose.shared, turns ? 3 : 4);
         without += apart(j.world * j.inverse_bind, identity, turns ? 3 : 4);
     }
     if (!(with < without)) return SkinSpace::Node;
-    return is_near(node, shared, kExact) ? SkinSpace::World : SkinSpace::NodeBelow;
+    return is_near(pose.node, pose.shared, kNothing) ? SkinSpace::World : SkinSpace::NodeBelow;
+}
+
+}  // namespace
+
+SkinPlace skin_place(const dmat4& bind_shape, const SkinPose& rest, const SkinPose& start) {
+    const dmat4 identity(1.0);
+    bool still = is_near(rest.node, identity, kNothing) && is_near(start.node, identity, kNothing);
+    if (!is_near(bind_shape, identity, kNothing) || still) return {};
+    auto all_near = [&](const SkinPose& pose, const dmat4& wanted) {
+        return !pose.joints.empty() &&
+               std::all_of(pose.joints.begin(), pose.joints.end(), [&](const RestJoint& j) {
+                   return is_near(j.world * j.inverse_bind, wanted, kWritten);
+               });
+    };
+    for (const SkinPose* pose : {&rest, &start}) {
+        if (all_near(*pose, pose->node)) return {};
+        if (all_near(*pose, identity)) return {SkinSpace::BindsNode, pose->node};
+    }
+    return {guess(is_near(rest.node, identity, kNothing) ? start : rest), {}};
 }
 
 size_t mirroring_joints(const dmat4& bind_shape, std::span<const RestJoint> joints) {

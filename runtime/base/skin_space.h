@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "runtime/base/math.h"
 
@@ -22,12 +23,24 @@ struct RestJoint {
     dmat4 inverse_bind;
 };
 
+// Node and joints at one time. `node` is the world matrix of the node that instances the skin,
+// `shared` that of shared_ancestor (the identity where there is none).
+struct SkinPose {
+    dmat4 node{1.0}, shared{1.0};
+    std::vector<RestJoint> joints;
+};
+
+struct SkinPlace {
+    SkinSpace space = SkinSpace::World;
+    dmat4 bind{1.0};  // BindsNode: the bind_shape_matrix
+};
+
 // A bind_shape_matrix, or a node that stands at the origin, leaves nothing to ask. Otherwise the
-// joints at rest tell: they move the mesh to the node (World), nowhere (BindsNode: what is applied
-// first is right in every pose), or elsewhere (Node; what moves the joints as well is not applied
-// twice: NodeBelow). `node` is the node's world matrix, `shared` that of shared_ancestor.
-SkinSpace skin_space(const dmat4& bind_shape, const dmat4& node, const dmat4& shared,
-                     std::span<const RestJoint> joints);
+// joints tell: they move the mesh to the node (World), nowhere (BindsNode: what is applied first is
+// right in every pose), or elsewhere (Node; what moves the joints as well is not applied twice:
+// NodeBelow). They are asked as the file leaves them (`rest`); where that is no pose of the bind,
+// at the first keys (`start`), since some exporters leave nodes as the last frame had them.
+SkinPlace skin_place(const dmat4& bind_shape, const SkinPose& rest, const SkinPose& start);
 
 // How many of the joints turn what they move inside out at rest.
 size_t mirroring_joints(const dmat4& bind_shape, std::span<const RestJoint> joints);

@@ -161,5 +161,27 @@ TEST(Asset, ReadsUnitsAxesAndRanges) {
     EXPECT_EQ(odd.scene->frame_rate, 30.0);
 }
 
+// Blender's decomposed transforms: what the picture needs is location * rotation * scale, and what
+// channels name moves along.
+TEST(Nodes, BlendersOrderOfTransformsIsMended) {
+    const std::string rules = std::string(KINORA_SOURCE_DIR) + "/tests/collada/rules/";
+    Reading r;
+    read_file(r, rules + "NODE_ORDER.dae");
+    ASSERT_TRUE(r.scene);
+    const Node& node = r.node("ball");
+    ASSERT_EQ(node.transforms.size(), 5u);
+    const char* const order[] = {"location", "rotationZ", "rotationY", "rotationX", "scale"};
+    for (size_t i = 0; i < 5; ++i) EXPECT_EQ(node.transforms[i].slot.sid, order[i]);
+    EXPECT_EQ(node.transforms[0].kind, TransformKind::Translate);
+    EXPECT_EQ(node.transforms[0].slot.values[2], 3);
+    ASSERT_EQ(r.scene->channels.size(), 1u);
+    EXPECT_EQ(r.scene->channels[0].ref.slot, 0u);
+    EXPECT_EQ(r.scene->channels[0].ref.first, 2u);
+    EXPECT_EQ(r.count("NODE_ORDER"), 1u);
+    Reading other;
+    read_file(other, rules + "NODE_ORDER.ok.maker.dae");
+    EXPECT_EQ(other.node("ball").transforms[0].kind, TransformKind::Scale);
+}
+
 }  // namespace
 }  // namespace kinora::collada
