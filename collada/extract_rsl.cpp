@@ -5,6 +5,7 @@
 
 #include "collada/extract_p.h"
 #include "collada/numbers_p.h"
+#include "runtime/base/text_encoding.h"
 
 namespace kinora::collada {
 
@@ -58,7 +59,7 @@ void read_include(Extraction& x, Link link, RslShading& rsl) {
     }
     std::ostringstream text;
     text << in.rdbuf();
-    RslCode code{text.str(), {}, path};
+    RslCode code{utf8_text(text.str()), {}, path};
     if (is_compiled(path, code.text)) {
         x.diag.report(Code::RSL_INCLUDE_COMPILED, where, url);
         return;

@@ -347,6 +347,13 @@ void Checker::unknown_function(CallExpr& e) {
         if (row.name == e.name) finding.help = row.help;
     for (const ShaderDefinition* shader : ast_.shaders)
         if (shader->name == e.name) finding.help = "it is a shader, which cannot be called";
+    if (const Symbol* symbol = find_symbol(e.name); symbol && finding.help.empty())
+        finding.help = symbol->type == Type{BaseType::String, -1}
+                           ? fmt::format(
+                                 "it is a variable; write 'transform({}, (x, y, z))' for a "
+                                 "point in the space that it names",
+                                 e.name)
+                           : "it is a variable, which cannot be called";
     if (!finding.help.empty()) return;
     if (std::string_view header = header_that_defines(e.name); !header.empty()) {
         finding.help = fmt::format("write '#include \"{}\"' at the beginning", header);

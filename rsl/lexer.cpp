@@ -38,6 +38,7 @@ constexpr bool is_letter(char c) {
 }
 // Left in files by old editors: the end mark of DOS, no-break spaces in Latin-1 and UTF-8.
 constexpr char kDosEnd = '\x1a', kNoBreak = '\xa0', kNoBreakLead = '\xc2';
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // also where texts were pasted
 
 constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
@@ -90,9 +91,7 @@ double number_value(std::string_view text, bool& too_large) {
     return beyond ? 0 : value;
 }
 
-Lexer::Lexer(std::string_view text, const SourceMap& map) : text_(text), map_(&map) {
-    if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // a byte order mark
-}
+Lexer::Lexer(std::string_view text, const SourceMap& map) : text_(text), map_(&map) {}
 
 Lexer::Trouble Lexer::take_trouble(Location& where) {
     where = locate(trouble_begin_, trouble_begin_ + 1);
@@ -155,6 +154,8 @@ bool Lexer::skip_space() {
             ++position_;
         } else if (c == kNoBreakLead && at(position_ + 1) == kNoBreak) {
             position_ += 2;
+        } else if (text_.substr(position_).starts_with(kByteOrderMark)) {
+            position_ += kByteOrderMark.size();
         } else if (size_t newline = newline_length(position_)) {
             position_ += newline;
             line_start_ = true;

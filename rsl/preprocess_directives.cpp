@@ -6,23 +6,18 @@
 
 #include "rsl/preprocess.h"
 #include "rsl/standard_headers.h"
+#include "runtime/base/text_encoding.h"
 
 namespace kinora::rsl {
 
 const Preprocessor::DirectiveRow Preprocessor::kDirectives[] = {
-    {"define", false, &Preprocessor::run_define},
-    {"undef", false, &Preprocessor::run_undef},
-    {"include", false, &Preprocessor::run_include},
-    {"pragma", false, &Preprocessor::run_pragma},
-    {"error", false, &Preprocessor::run_error},
-    {"line", false, &Preprocessor::run_nothing},
-    {"ident", false, &Preprocessor::run_nothing},
-    {"warning", false, &Preprocessor::run_nothing},
-    {"if", true, &Preprocessor::run_if},
-    {"ifdef", true, &Preprocessor::run_ifdef},
-    {"ifndef", true, &Preprocessor::run_ifndef},
-    {"elif", true, &Preprocessor::run_elif},
-    {"else", true, &Preprocessor::run_else},
+    {"define", false, &Preprocessor::run_define},   {"undef", false, &Preprocessor::run_undef},
+    {"include", false, &Preprocessor::run_include}, {"pragma", false, &Preprocessor::run_pragma},
+    {"error", false, &Preprocessor::run_error},     {"line", false, &Preprocessor::run_nothing},
+    {"ident", false, &Preprocessor::run_nothing},   {"sccs", false, &Preprocessor::run_nothing},
+    {"warning", false, &Preprocessor::run_nothing}, {"if", true, &Preprocessor::run_if},
+    {"ifdef", true, &Preprocessor::run_ifdef},      {"ifndef", true, &Preprocessor::run_ifndef},
+    {"elif", true, &Preprocessor::run_elif},        {"else", true, &Preprocessor::run_else},
     {"endif", true, &Preprocessor::run_endif},
 };
 
@@ -198,6 +193,7 @@ bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) 
             continue;
         }
         if (!read_whole_file(path, text)) continue;
+        text = utf8_text(std::move(text));
         std::string key = path.lexically_normal().string();
         if (std::find(once_.begin(), once_.end(), key) != once_.end()) return true;
         maps_.emplace_back();

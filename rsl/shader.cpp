@@ -9,6 +9,7 @@
 #include "rsl/preprocess.h"
 #include "rsl/reporter.h"
 #include "rsl/usage.h"
+#include "runtime/base/text_encoding.h"
 
 namespace kinora::rsl {
 
@@ -92,6 +93,7 @@ std::vector<std::unique_ptr<Shader>> compile_file(const std::string& path,
         diagnostics.report(Code::RSL_FILE_NOT_READ, Location{}, path);
         return {};
     }
+    text = utf8_text(std::move(text));
     ShaderSource source{text, {}};
     source.map.file = diagnostics.files.add(path, text);
     return compile(source, options, diagnostics);

@@ -35,6 +35,10 @@ class UsageWalk {
         const Token& token = ast_.tokens.tokens[place.token];
         reporter_.report(info, place.where, token.macro, token.spelling, args...);
     }
+    void lights(const void* node, const Place& place, const std::string& name) {
+        if (shader_.kind == ShaderKind::Displacement)
+            report(Code::RSL_NO_LIGHTS, node, place, name);
+    }
     const char* kind_name() const { return shader_kind_name(shader_.kind); }
 
     // ---- globals
@@ -152,6 +156,7 @@ class UsageWalk {
             report(derives ? Code::RSL_NO_DERIVATIVES : Code::RSL_NOT_LEGAL_HERE, &e, e.place,
                    fmt::format("'{}'", e.name), kind_name());
         }
+        if (e.builtin->effects & kLights) lights(&e, e.place, fmt::format("'{}'", e.name));
         read_names(e.builtin->globals);
         for (size_t i = 0; i < e.args.size(); ++i) {
             bool fixed = i < e.signature->arguments.size();
@@ -212,6 +217,7 @@ class UsageWalk {
         bool lit = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume ||
                    shader_.kind == ShaderKind::Displacement;
         legal(s, lit, "illuminance");
+        lights(&s, s.place, "illuminance");
         walk(s.category), walk(s.position), walk(s.axis), walk(s.angle);
         for (size_t k = 0; k < s.pairs.size(); ++k)
             argument(s.pairs[k], k % 2 == 1 && is_light_output(pair_name(s.pairs, k)));

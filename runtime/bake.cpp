@@ -165,6 +165,7 @@ void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
         if (grid.hits.sample[hit] != 0) continue;
         BakedPoint point;
         point.file = rows.integer(File, lane);
+        if (rsl::interned(point.file).empty()) continue;  // a parameter that is not filled in
         point.channels = rows.integer(Channels, lane);
         point.pixel_y = grid.hits.pixel_y[hit];
         point.pixel_x = grid.hits.pixel_x[hit];

@@ -67,12 +67,20 @@ bool any_part(std::string_view text, char separator, Each&& each) {
     return false;
 }
 
+std::string_view trimmed(std::string_view text) {
+    size_t first = text.find_first_not_of(' ');
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
 // "a", "a,b" (any of them), "a|b", "a&-b"; & binds closer than |, - stands before a name.
 bool has_category(std::string_view own, std::string_view wanted) {
     auto has = [&](std::string_view name) {
+        name = trimmed(name);
         bool without = name.starts_with("-");
-        if (without) name.remove_prefix(1);
-        return any_part(own, ',', [&](std::string_view part) { return part == name; }) != without;
+        if (without) name = trimmed(name.substr(1));
+        return any_part(own, ',', [&](std::string_view part) { return trimmed(part) == name; }) !=
+               without;
     };
     if (wanted.find_first_of("|&") == std::string_view::npos)
         return any_part(wanted, ',', [&](std::string_view name) { return has(name); });

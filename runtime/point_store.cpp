@@ -144,11 +144,13 @@ PointStore::Lookup PointStore::find(int32_t path, int32_t channels) {
     auto [entry, fresh] = entries_.try_emplace(path);
     if (fresh) {
         PointFile file;
-        auto [place, outside] = trees_.find(rsl::interned(path));
+        const std::string& name = rsl::interned(path);
+        auto [place, outside] = trees_.find(name);
         entry->second.error =
-            outside ? "it lies outside the scene's folder (--allow-external DIR lets it be read)"
-                    : read_point_file(place, file);
-        if (entry->second.error.empty())
+            name.empty() ? ""  // a parameter that is not filled in
+            : outside ? "it lies outside the scene's folder (--allow-external DIR lets it be read)"
+                      : read_point_file(place, file);
+        if (!name.empty() && entry->second.error.empty())
             entry->second.cloud = std::make_unique<PointCloud>(std::move(file));
     }
     const PointCloud* cloud = entry->second.cloud.get();

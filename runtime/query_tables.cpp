@@ -125,14 +125,13 @@ Fact frame_aspect(const Asker& asker) {
     return asker.scene.view.half_width / asker.scene.view.half_height;
 }
 Fact shutter(const Asker& asker) {
-    double open = asker.scene.shading->time();
-    return {open, open + asker.scene.shading->shutter()};
+    return {asker.scene.time, asker.scene.time + asker.scene.shutter};
 }
 Fact clipping(const Asker& asker) {
     return {asker.scene.view.znear, asker.scene.view.zfar};
 }
 Fact frame(const Asker& asker) {
-    return std::round(asker.scene.shading->time() * play_range(*asker.scene.description).rate);
+    return std::round(asker.scene.time * play_range(*asker.scene.description).rate);
 }
 Fact projection(const Asker& asker) {
     return std::string_view(asker.scene.view.orthographic ? "orthographic" : "perspective");

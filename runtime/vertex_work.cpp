@@ -264,6 +264,8 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
     for (size_t i = 0; i < in.size(); ++i) in[i] = columns[look.full.columns[i]];
     std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
     for (float*& row : out) row = arena.allocate_span<float>(padded(count)).data();
+    // No lights: the set behind handle 0, which `lights` gives without a grid, is empty.
+    const jit::RecordSet no_lights;
     VertexHost vertices{pass.node, &prints};
     KernelHost host{&pass.scene, &look, nullptr, &vertices};
     jit::KernelArgs args;
@@ -273,6 +275,7 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
     args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes));
     args.fault = faults;
     args.services = look.full.services.data();
+    args.record_sets = &no_lights;
     args.grid = &host;
     args.count = int32_t(count);
     kernel.run(args);
@@ -384,12 +387,14 @@ bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
                 return true;
         }
     }
-    // A space whose name is computed may be any.
-    auto transforms = [](const std::shared_ptr<const jit::Kernel>& kernel) {
-        return kernel && std::any_of(kernel->services.begin(), kernel->services.end(),
-                                     [](const auto& s) { return s.name == "transform"; });
+    // A space whose name is computed may be any; option("Frame") and its like are asked by name.
+    auto asks = [](const std::shared_ptr<const jit::Kernel>& kernel) {
+        return kernel &&
+               std::any_of(kernel->services.begin(), kernel->services.end(), [](const auto& s) {
+                   return s.name == "transform" || s.name == "query";
+               });
     };
-    return transforms(look.full.pair.point) || transforms(look.full.pair.frame);
+    return asks(look.full.pair.point) || asks(look.full.pair.frame);
 }
 
 bool depends_on_node(const Look& look) {

@@ -53,7 +53,8 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
                     results = k->services[s].results;
                 }
         if (!called) return {};  // the code does without: what it answers changes nothing
-        std::vector<float> in((arguments.size() + 1) * jit::kMaxLanes), out(32 * jit::kMaxLanes);
+        std::vector<float> in((arguments.size() + 1) * jit::kMaxLanes);
+        std::vector<float> out((results.size() + 1) * jit::kMaxLanes);
         for (size_t a = 0; a < arguments.size(); ++a) {
             bool is_int = a < params.size() && params[a] == jit::Type::I;
             in[a * jit::kMaxLanes] =

@@ -13,6 +13,7 @@
 
 #include "collada/document.h"
 #include "collada/scene.h"
+#include "runtime/base/text_encoding.h"
 #include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/exit_codes.h"
 
@@ -38,6 +39,7 @@ int read_file(const std::string& path, ShadeSource& source) {
     bool ok = !std::ferror(file);
     if (file != stdin) std::fclose(file);
     if (!ok) return complain(kExitUnreadable, fmt::format("cannot read '{}'", path));
+    source.text = utf8_text(std::move(source.text));
     source.map.file = source.diagnostics.files.add(path == "-" ? "<stdin>" : path, source.text);
     return kExitOk;
 }

@@ -188,7 +188,9 @@ class Run(ProgramTest):
         folded = 'surface x(string a = "a.tif") { Ci = 0 * color texture(a); }'
         gathers = ('surface x() { color c = 0; float n = 0; gather("illuminance", P, N, 1, 4, '
                    '"surface:Ci", c) n += 1; else n += 10; Ci = c + n; }')
-        for source in (folded, gathers):
+        points = ('surface x() { float a = 2; float ok = texture3d("a.ptc", P, N, "_a", a); '
+                  'Ci = a + ok; }')
+        for source in (folded, gathers, points):
             words = ("run", "-", "--size", "4x4", "--compare", "reference")
             self.expect(shade(*words, stdin=source), 0, "16 points compared", "no difference")
 

@@ -54,6 +54,17 @@ TEST(Lexer, EveryLineEndingEndsALine) {
     }
 }
 
+TEST(Lexer, AByteOrderMarkIsSpaceWhereverItIsPasted) {
+    auto tokens =
+        lex("\xef\xbb\xbf#a\n\xef\xbb\xbf"
+            "b\xef\xbb\xbf");
+    ASSERT_EQ(tokens.size(), 3u);
+    EXPECT_EQ(tokens[0].text, "#");
+    EXPECT_TRUE(tokens[0].line_start);
+    EXPECT_EQ(tokens[2].text, "b");
+    EXPECT_TRUE(tokens[2].line_start);
+}
+
 TEST(Lexer, DecodesEscapesOfStrings) {
     EXPECT_EQ(string_value(R"("a\n\"b\"\\\101")"), "a\n\"b\"\\A");
     EXPECT_EQ(string_value("\"ab\\\ncd\""), "abcd");

@@ -49,6 +49,10 @@ TEST(Preprocess, MakesStringsAndJoinsTokens) {
               "\"a + \\\"b\\\"\" noise");
 }
 
+TEST(Preprocess, LeavesOutMarksOfVersionControl) {
+    EXPECT_EQ(expand("#ident \"@(#)a 1.2\"\n#sccs \"@(#)a 1.2\"\nx"), "x");
+}
+
 TEST(Preprocess, EvaluatesConditionsAsCDoes) {
     auto taken = [](const std::string& condition) {
         return expand("#define ONE 1\n#if " + condition + "\nyes\n#else\nno\n#endif") == "yes";

@@ -42,6 +42,9 @@ TEST(TrueDisplacement, RunsOnceUnlessItReadsWhatChanges) {
          "displacement d() { P += 0.1 * noise(transform(\"world\", P)) * N; }\n", true, true},
         {"object space", "displacement d() { P += 0.1 * noise(transform(\"object\", P)) * N; }\n",
          true, false},
+        {"frame number",
+         "displacement d() { float f = 0; option(\"Frame\", f); P += 0.01 * f * N; }\n", false,
+         true},
         {"I without effect", "displacement d() { vector V = I; P += 0.1 * N; }\n", true, false},
     };
     for (const Decision& row : rows) {
@@ -58,6 +61,34 @@ TEST(TrueDisplacement, RunsOnceUnlessItReadsWhatChanges) {
         EXPECT_EQ(shape.kind, row.each_frame ? raytrace::GeometryKind::Deforming : still);
         EXPECT_GT(mesh_of(r).positions.size(), 50u);
         r.frame(0.5);
+    }
+}
+
+// Light loops, light functions and questions of every kind: vertices have no grid to answer from.
+TEST(TrueDisplacement, MeetsNoLightsAndAnswersQuestions) {
+    const std::string asks =
+        "float x = 0; surface(\"a\", x); displacement(\"b\", x); atmosphere(\"c\", x);"
+        " incident(\"d\", x); opposite(\"e\", x); rayinfo(\"depth\", x); attribute(\"f\", x);"
+        " float f = 0, t[2] = {0, 0}; option(\"Frame\", f); option(\"Shutter\", t);";
+    const std::string moves = " P += vector(0, 0, 0.25 + x + 1e-20 * (f + t[1]));";
+    const std::string lights =
+        " color c = ambient() + diffuse(N) + specular(N, -I, 0.1); illuminance(P) c += 1;"
+        " illuminance(P + N, N, PI / 2) { lightsource(\"g\", x); c += 1; }"
+        " P += vector(comp(c, 0), 0, 0);";
+    for (const char* kind : {"displacement", "transformation"}) {
+        SCOPED_TRACE(kind);
+        bool displaces = std::string(kind) == "displacement";
+        SceneText scene =
+            square_scene(kind + (" d() { " + asks + moves) + (displaces ? lights : "") + " }\n",
+                         displaces ? kDisplaced : kTransformed);
+        Rendering r(scene.text(), dice_of(8));
+        ASSERT_TRUE(r.scene) << r.findings();
+        r.frame(0.5);
+        for (dvec3 p : world_positions(r)) {
+            EXPECT_NEAR(p.z, 0.25, 1e-6);
+            EXPECT_LE(std::fabs(p.x), 1 + 1e-6);
+        }
+        EXPECT_EQ(r.count("RSL_NO_LIGHTS"), displaces ? 5 : 0) << r.findings();
     }
 }
 

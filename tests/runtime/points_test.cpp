@@ -168,6 +168,17 @@ TEST_F(Points, OfAMissingOrBrokenFileAreAFindingAndNothing) {
     }
 }
 
+// A parameter for the file that is not filled in.
+TEST_F(Points, WithoutAFileNameAreNotBakedAndNotFound) {
+    Rendering r(floor_scene("surface s(string file = \"\";) { float a = 3; Oi = 1;"
+                            " bake3d(file, \"\", P, N, \"a\", a);"
+                            " Ci = texture3d(file, P, N, \"a\", a) + a; }")
+                    .text());
+    r.frame();
+    EXPECT_EQ(r.findings(), "");
+    EXPECT_EQ(r.color(8, 8), vec3(3));
+}
+
 TEST_F(Points, CannotBeWrittenIntoNowhereAndSayIt) {
     Rendering r(floor_scene(bakes("/no/such/folder/a.pts")).text());
     r.frame();

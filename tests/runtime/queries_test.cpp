@@ -68,7 +68,7 @@ TEST(Categories, AreListsAndExpressions) {
         SceneText scene = floor_scene(
             surface(fmt::format("illuminance(\"{}\", P, normalize(N), PI/2) Ci += Cl;", category)));
         int value = 1;
-        for (const char* own : {"key,warm", "key", "fill,warm", ""}) {
+        for (const char* own : {"key, warm", "key ", "fill,warm", ""}) {
             scene.rsl_light(fmt::format("l{}", value),
                             fmt::format("light l(string __category = \"{}\";) {{"
                                         " solar(vector \"world\" (0,0,-1), 0) Cl = {}; }}",
@@ -86,6 +86,7 @@ TEST(Categories, AreListsAndExpressions) {
     EXPECT_EQ(lights("warm&-key"), 100);
     EXPECT_EQ(lights("key&-warm|fill"), 110);
     EXPECT_EQ(lights("-key|warm"), 1101);
+    EXPECT_EQ(lights("key & - warm | fill"), 110);
     EXPECT_EQ(lights(""), 1111);
 }
 
