@@ -9,17 +9,22 @@ namespace {
 // bit; beyond, exact arithmetic takes over.
 constexpr float kDirectLimit = 8192.0f;
 
-// Replaces what the direct reduction gave by the exact one where |x| is large.
-Reduced with_huge(Num x, Reduced direct) {
-    Builder& b = *x.b;
-    Value huge = (kDirectLimit < abs(x)).v;
-    b.begin_if(huge);
+// The exact reduction of the lanes of `mask`, a function of the module: hi, lo and quadrant.
+std::vector<Value> reduce_exactly(Num x, Value mask) {
     Value args[] = {x.v};
     auto write = [](std::span<const Num> p) {
         Reduced r = reduce_huge(p[0]);
         return std::vector<Value>{r.hi.v, r.lo.v, r.quadrant.v};
     };
-    auto exact = call_function(b, "trig_reduce", {Type::F, Type::F, Type::I}, huge, args, write);
+    return call_function(*x.b, "trig_reduce", {Type::F, Type::F, Type::I}, mask, args, write);
+}
+
+// Replaces what the direct reduction gave by the exact one where |x| is large.
+Reduced with_huge(Num x, Reduced direct) {
+    Builder& b = *x.b;
+    Value huge = (kDirectLimit < abs(x)).v;
+    b.begin_if(huge);
+    std::vector<Value> exact = reduce_exactly(x, huge);
     b.end_if();
     return {merge({&b, exact[0]}, direct.hi), merge({&b, exact[1]}, direct.lo),
             merge({&b, exact[2]}, direct.quadrant)};
@@ -81,12 +86,7 @@ Num huge_sin(Num x, Num direct, int quadrants_ahead) {
     Builder& b = *x.b;
     Value huge = (kDirectLimit < abs(x)).v;
     b.begin_if(huge);
-    Value args[] = {x.v};
-    auto write = [](std::span<const Num> p) {
-        Reduced r = reduce_huge(p[0]);
-        return std::vector<Value>{r.hi.v, r.lo.v, r.quadrant.v};
-    };
-    auto exact = call_function(b, "trig_reduce", {Type::F, Type::F, Type::I}, huge, args, write);
+    std::vector<Value> exact = reduce_exactly(x, huge);
     SinCos sc = sin_cos({&b, exact[0]}, {&b, exact[1]});
     Int quadrant = Int{&b, exact[2]} + quadrants_ahead;
     Num value = of_quadrant(sc.sin + sc.sin_low, sc.cos + sc.cos_low, quadrant);

@@ -2,13 +2,10 @@
 // same, alone and on every target.
 #include <gtest/gtest.h>
 
-#include <optional>
-#include <random>
-
 #include "jit/builder.h"
 #include "jit/compiler.h"
+#include "tests/jit/random_kernel.h"
 #include "tests/jit/random_module.h"
-#include "tests/jit/world.h"
 
 namespace kinora::jit::test {
 namespace {
@@ -26,43 +23,31 @@ void fuse_as_compiler_does(Module& module) {
 
 // Loops over record sets with Ifs in them, and Ifs outside, some of which may be fused: values are
 // drawn from all that is visible, so that they depend on each other in any way.
-class Generator {
+class RecordLoops : public RandomKernel {
   public:
-    explicit Generator(uint64_t seed) : random_(seed) {
-        declare_world(module);
-        module.name = "fused";
-        add_function(module, "kernel", {});
-        builder_.emplace(module, 0);
+    explicit RecordLoops(uint64_t seed) : RandomKernel(seed, "fused") {
         visible_ = {b().f(0.5f), b().f(-3), b().input(module.inputs[0])};
         for (int k = 0; k < 3; ++k) masks_.push_back(b().lt(any(), any()));
         int steps = 3 + below(6);
         for (int k = 0; k < steps; ++k) step();
         for (int k = 0; k < 4; ++k)
             b().output({"y" + std::to_string(k), Type::F}, visible_[visible_.size() - 1 - k % 3]);
-        b().output({"all", Type::F}, sum());
+        b().output({"all", Type::F}, sum(visible_));
         b().finish();
     }
-    Module module;
 
   private:
-    Builder& b() { return *builder_; }
-    int below(int n) { return int(random_() % uint64_t(n)); }
     // Rather an early one, so that not everything hangs on everything.
     Value any() {
         int n = int(visible_.size());
         return visible_[size_t(std::min({below(n), below(n), below(n)}))];
-    }
-    Value sum() {
-        Value s = b().f(0);
-        for (Value v : visible_) s = b().add(s, v);
-        return s;
     }
     void step() {
         switch (below(4)) {
             case 0:
                 return arithmetic();
             case 1:
-                return conditional(masks_[size_t(below(int(masks_.size())))], 2);
+                return conditional(RandomKernel::any(masks_), 2);
             default:
                 return loop();
         }
@@ -109,15 +94,13 @@ class Generator {
         masks_ = {b().lt(any(), any()), b().lt(any(), any())};
     }
 
-    std::mt19937_64 random_;
-    std::optional<Builder> builder_;
     std::vector<Value> visible_, masks_;
 };
 
 TEST(Fuse, KeepsTheMeaningOfRandomRecordLoops) {
     int fused = 0;
     for (uint64_t seed = 1; seed <= 1500; ++seed) {
-        Module module = Generator(seed).module;
+        Module module = RecordLoops(seed).module;
         ASSERT_EQ(verify(module), "") << print(module);
         Module changed = module;
         fuse_as_compiler_does(changed);

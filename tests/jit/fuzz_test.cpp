@@ -85,17 +85,28 @@ std::string same_after(const Module& module, uint64_t seed, void (*pass)(Module&
     return difference(*kernel, before, after);
 }
 
-std::string same_after_hoist(const Module& module, uint64_t seed) {
-    Module point = module;
-    Module frame = hoist(point);
+std::string malformed(const Module& frame, const Module& point) {
     for (const Module* m : {&point, &frame})
         if (std::string error = verify(*m); !error.empty()) return error + "\n" + print(*m);
+    return "";
+}
+
+// A frame kernel and a point kernel that came of one module.
+std::string same_as_pair(const Module& module, uint64_t seed, const Module& frame,
+                         const Module& point) {
     World world = world_of(seed);
     auto kernel = interp(module);
     RunResult before = world.run(*kernel);
     RunResult after = world.run_pair(interp(frame).get(), *interp(point));
     forgive_loop_fault(before, after);
     return difference(*kernel, before, after);
+}
+
+std::string same_after_hoist(const Module& module, uint64_t seed) {
+    Module point = module;
+    Module frame = hoist(point);
+    if (std::string error = malformed(frame, point); !error.empty()) return error;
+    return same_as_pair(module, seed, frame, point);
 }
 
 // Derivatives must not change what was there, and the module that has them must survive the rest.
@@ -105,8 +116,7 @@ std::string same_with_derivatives(const Module& module, uint64_t seed) {
     if (std::string error = verify(plain); !error.empty()) return error + "\n" + print(plain);
     Module point = plain, frame;
     optimize(point, &frame);
-    for (const Module* m : {&point, &frame})
-        if (std::string error = verify(*m); !error.empty()) return error + "\n" + print(*m);
+    if (std::string error = malformed(frame, point); !error.empty()) return error;
     World world = world_of(seed);
     auto kernel = interp(module);
     RunResult before = world.run(*kernel);
@@ -122,16 +132,10 @@ std::string same_with_derivatives(const Module& module, uint64_t seed) {
 std::string same_after_optimize(const Module& module, uint64_t seed) {
     Module point = module, frame;
     optimize(point, &frame);
-    for (const Module* m : {&point, &frame})
-        if (std::string error = verify(*m); !error.empty()) return error + "\n" + print(*m);
+    if (std::string error = malformed(frame, point); !error.empty()) return error;
     for (const InputInfo& input : point.inputs)
         if (input.rate != Rate::Point) return "a frame input is left: " + input.name;
-    World world = world_of(seed);
-    auto kernel = interp(module);
-    RunResult before = world.run(*kernel);
-    RunResult after = world.run_pair(interp(frame).get(), *interp(point));
-    forgive_loop_fault(before, after);
-    return difference(*kernel, before, after);
+    return same_as_pair(module, seed, frame, point);
 }
 
 TEST(Fuzz, EachPassKeepsTheMeaning) {

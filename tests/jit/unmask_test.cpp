@@ -2,12 +2,10 @@
 // their own, other loops keep theirs, and nothing that lanes see changes.
 #include <gtest/gtest.h>
 
-#include <optional>
-#include <random>
-
 #include "jit/builder.h"
 #include "jit/compiler.h"
 #include "tests/jit/module_difference.h"
+#include "tests/jit/random_kernel.h"
 
 namespace kinora::jit::test {
 namespace {
@@ -106,13 +104,9 @@ TEST(Unmask, ReachesLoopsInLoops) {
 
 // Ways and loops in each other, with stores and services for the lanes that run there; values are
 // drawn from all that is visible.
-class Generator {
+class WaysAndLoops : public RandomKernel {
   public:
-    explicit Generator(uint64_t seed) : random_(seed) {
-        declare_world(module);
-        module.name = "ways";
-        add_function(module, "kernel", {});
-        builder_.emplace(module, 0);
+    explicit WaysAndLoops(uint64_t seed) : RandomKernel(seed, "ways") {
         array_ = b().declare_array("a", Type::F, 3);
         loops_ = b().fault_site({}, "loop");
         running_ = b().m(true);
@@ -120,21 +114,13 @@ class Generator {
                    b().input(module.inputs[1])};
         ints_ = {b().i(0), b().i(2), b().input(module.inputs[2])};
         for (int k = 3 + below(5); k > 0; --k) step(0);
-        Value sum = b().f(0);
-        for (Value v : floats_) sum = b().add(sum, v);
-        b().output({"sum", Type::F}, sum);
+        b().output({"sum", Type::F}, sum(floats_));
         b().output({"last", Type::F}, floats_.back());
         b().output({"count", Type::I}, ints_.back());
         b().finish();
     }
-    Module module;
 
   private:
-    Builder& b() { return *builder_; }
-    int below(int n) { return int(random_() % uint64_t(n)); }
-    Value any(const std::vector<Value>& values) {
-        return values[size_t(below(int(values.size())))];
-    }
     Value condition() {
         return below(3) ? b().lt(any(floats_), any(floats_))
                         : b().op(Op::ILt, any(ints_), b().i(2));
@@ -222,8 +208,6 @@ class Generator {
         running_ = outside;
     }
 
-    std::mt19937_64 random_;
-    std::optional<Builder> builder_;
     int array_ = 0, loops_ = 0;
     Value running_ = kNone;
     std::vector<Value> floats_, ints_, masks_;
@@ -232,7 +216,7 @@ class Generator {
 TEST(Unmask, KeepsTheMeaningOfRandomWaysAndLoops) {
     int unmasked = 0;
     for (uint64_t seed = 1; seed <= 1500; ++seed) {
-        Module module = Generator(seed).module;
+        Module module = WaysAndLoops(seed).module;
         ASSERT_EQ(verify(module), "") << print(module);
         Module changed = module;
         fold(changed);

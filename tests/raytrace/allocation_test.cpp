@@ -1,42 +1,9 @@
 // tests/raytrace/allocation_test.cpp: after the first frame of a size, a frame allocates nothing.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "raytrace/integrator.h"
+#include "tests/anim/allocation_count.h"
 #include "tests/raytrace/meshes.h"
-
-namespace {
-std::atomic<bool> g_counting{false};
-std::atomic<int> g_count{0};
-
-void* counted(size_t bytes) {
-    if (g_counting.load(std::memory_order_relaxed)) ++g_count;
-    if (void* p = std::malloc(bytes ? bytes : 1)) return p;
-    throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(size_t bytes) {
-    return counted(bytes);
-}
-void* operator new[](size_t bytes) {
-    return counted(bytes);
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, size_t) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p, size_t) noexcept {
-    std::free(p);
-}
 
 namespace kinora::raytrace::test {
 namespace {
@@ -50,12 +17,10 @@ class HalfGrey final : public SurfaceShading {
 };
 
 template <class F>
-int count_allocations(F&& work) {
-    g_count = 0;
-    g_counting = true;
+size_t count_allocations(F&& work) {
+    size_t before = allocation_count();
     work();
-    g_counting = false;
-    return g_count;
+    return allocation_count() - before;
 }
 
 // One thread: what TBB allocates to share work is not ours.
@@ -82,10 +47,10 @@ TEST(Allocation, AFrameAllocatesNothingAfterTheFirst) {
         accel.update(rows);
         integrate(accel, camera, looks, film, settings, scratch, counters);
     };
-    EXPECT_GT(count_allocations(frame), 0);  // the counter works
-    EXPECT_EQ(count_allocations(frame), 0);
+    EXPECT_GT(count_allocations(frame), 0u);  // the counter works
+    EXPECT_EQ(count_allocations(frame), 0u);
     settings.samples_per_pixel = 5;
-    EXPECT_EQ(count_allocations(frame), 0);
+    EXPECT_EQ(count_allocations(frame), 0u);
     set_thread_count(threads_before);
 }
 
@@ -102,10 +67,10 @@ TEST(Allocation, OfARefitIsEmbreesAlone) {
         accel.update(rows);
     };
     move();
-    const int first = count_allocations(move), second = count_allocations(move);
+    const size_t first = count_allocations(move), second = count_allocations(move);
     EXPECT_LE(second, first);
-    RecordProperty("allocations", second);
-    EXPECT_LE(second, 8);  // measured; all within rtcCommitScene
+    RecordProperty("allocations", int(second));
+    EXPECT_LE(second, 8u);  // measured; all within rtcCommitScene
     set_thread_count(threads_before);
 }
 
