@@ -10,15 +10,15 @@
 
 namespace kinora::jit {
 
-// The passes, one file each, in the order optimize() runs them. Each takes a verified module and
-// leaves a verified one with the same meaning.
-void inline_calls(Module& module);   // one call site or under 40 instructions
+// The passes, one file each, in the order optimize() runs them; hoist() comes before schedule(), dce
+// again between. Each takes a verified module and leaves a verified one with the same meaning.
 void differentiate(Module& module);  // Du, Dv -> dual numbers for the values that reach them
+void inline_calls(Module& module);   // one call site or under 40 instructions
+void dce(Module& module);            // what nothing needs
 void fold(Module& module);           // constants and exact identities
 void unmask(Module& module);         // loops of known rounds that all lanes around enter
 void cse(Module& module);            // equal pure values once; loop-invariant ones before loops
 bool fuse(Module& module);           // loops over the same records, Ifs of one mask; true if any
-void dce(Module& module);            // what nothing needs
 void schedule(Module& module);       // what a loop's next round begins with, as soon as it can be
 // Splits frame-rate work off: returns the frame kernel (all its outputs are frame block slots, all
 // its inputs frame inputs), leaving `module` with FrameLoads and point inputs only.

@@ -32,7 +32,8 @@ std::string format_text(std::string_view format, std::span<const float> values);
 std::string escape_format(std::string_view text);
 
 // Does the regular expression match some part of the text? POSIX's extended syntax: . [] * + ? | ()
-// ^ $ and \ before a character to be taken as it is. Time grows with both lengths only.
+// ^ $ and \ before a character to be taken as it is. Takes time of the order of both lengths'
+// product at most.
 bool matches(std::string_view pattern, std::string_view text);
 
 // The services "concat", "format" and "match" (rsl/renderer_services.h), the same for every
