@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "collada/encoding_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {
@@ -35,10 +36,24 @@ constexpr Escape kEscapes[] = {{'&', "&amp;", false},  {'<', "&lt;", false},  {'
                                {'\r', "&#13;", false}, {'"', "&quot;", true}, {'\t', "&#9;", true},
                                {'\n', "&#10;", true}};
 
+// How many bytes the character at `at` has if XML forbids it, else 0. The text is UTF-8 as
+// valid_utf8 takes it, which lets surrogates and longer forms than needed pass.
+size_t forbidden_length(std::string_view text, size_t at) {
+    auto byte = [&](size_t k) { return uint8_t(text[at + k]); };
+    uint8_t first = byte(0);
+    if (first < 0x20) return first != '\t' && first != '\n' && first != '\r';
+    if (first == 0xE0) return byte(1) < 0xA0 ? 3 : 0;
+    if (first == 0xED) return byte(1) >= 0xA0 ? 3 : 0;                     // surrogates
+    if (first == 0xEF) return byte(1) == 0xBF && byte(2) >= 0xBE ? 3 : 0;  // U+FFFE, U+FFFF
+    if (first == 0xF0) return byte(1) < 0x90 ? 4 : 0;
+    if (first == 0xF4) return byte(1) >= 0x90 ? 4 : 0;
+    return 0;
+}
+
 std::string escape(std::string_view text, bool attribute) {
     std::string out;
     out.reserve(text.size());
-    for (char c : text) {
+    for (char c : xml_characters(text)) {
         const Escape* escape = nullptr;
         for (const Escape& e : kEscapes)
             if (e.letter == c && (attribute || !e.in_attributes_only)) escape = &e;
@@ -103,6 +118,21 @@ std::string apply_edits(std::string_view original, std::vector<Edit> edits, size
     return out;
 }
 
+std::string utf8_text(std::string_view text) {
+    return valid_utf8(text) ? std::string(text) : utf8_from_latin1(text);
+}
+
+std::string xml_characters(std::string_view text) {
+    std::string characters = utf8_text(text), out;
+    out.reserve(characters.size());
+    for (size_t at = 0; at < characters.size();) {
+        size_t forbidden = forbidden_length(characters, at);
+        out += forbidden ? ' ' : characters[at];
+        at += forbidden ? forbidden : 1;
+    }
+    return out;
+}
+
 std::string escape_text(std::string_view text) {
     return escape(text, false);
 }
@@ -115,8 +145,8 @@ std::string attribute_text(std::string_view name, std::string_view value) {
     return std::string(name) + "=\"" + escape_attribute(value) + "\"";
 }
 
-std::string cdata(std::string_view text) {
-    std::string out = "<![CDATA[";
+std::string cdata(std::string_view code) {
+    std::string text = xml_characters(code), out = "<![CDATA[";
     for (size_t at = 0; at < text.size();) {
         size_t end = text.find("]]>", at);
         if (end == text.npos) {

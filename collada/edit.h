@@ -23,6 +23,13 @@ struct Edit {
 std::string apply_edits(std::string_view original, std::vector<Edit> edits,
                         size_t* left_out = nullptr);
 
+// UTF-8 as it is; bytes that are none are taken for Latin-1.
+std::string utf8_text(std::string_view text);
+
+// utf8_text of characters that XML 1.0 can hold (2.2, Char): a space stands for each other one. All
+// that follows goes through it.
+std::string xml_characters(std::string_view text);
+
 // Text as it stands between tags: & < > and carriage returns escaped.
 std::string escape_text(std::string_view text);
 
@@ -32,9 +39,9 @@ std::string escape_attribute(std::string_view value);
 // name="value", escaped.
 std::string attribute_text(std::string_view name, std::string_view value);
 
-// A CDATA section with `text`, split where the text holds its end mark. Carriage returns cannot
+// A CDATA section with `code`, split where it holds the section's end mark. Carriage returns cannot
 // stand in one (XML makes line feeds of them).
-std::string cdata(std::string_view text);
+std::string cdata(std::string_view code);
 
 // --- common edits of elements
 // ---------------------------------------------------------------------

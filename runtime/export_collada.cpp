@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
 
 #include "collada/document.h"
@@ -24,16 +25,27 @@ std::string attribute(const std::string& name, const std::string& value) {
     return " " + collada::attribute_text(name, value);
 }
 
-std::string number_text(std::span<const double> numbers) {
+namespace {
+
+// XML Schema 1.0, 3.2.5: what xs:double calls the numbers that have no digits.
+template <class T>
+std::string list_text(std::span<const T> numbers, auto&& digits_of) {
     std::string text;
-    for (double x : numbers) (text += text.empty() ? "" : " ") += collada::shortest_number(x);
+    for (T x : numbers) {
+        if (!text.empty()) text += ' ';
+        text += std::isnan(x) ? "NaN" : std::isinf(x) ? (x > 0 ? "INF" : "-INF") : digits_of(x);
+    }
     return text;
 }
 
+}  // namespace
+
+std::string number_text(std::span<const double> numbers) {
+    return list_text(numbers, [](double x) { return collada::shortest_number(x); });
+}
+
 std::string number_text(std::span<const float> numbers) {
-    std::string text;
-    for (float x : numbers) text += fmt::format("{}{}", text.empty() ? "" : " ", x);
-    return text;
+    return list_text(numbers, [](float x) { return fmt::format("{}", x); });
 }
 
 std::string float_source(const std::string& id, const std::string& numbers, size_t count,
@@ -70,7 +82,7 @@ constexpr const char* kRotate[] = {".X", ".Y", ".Z", ".ANGLE"};
 
 std::string xml_name(const std::string& wanted) {
     std::string name;
-    for (char c : wanted)
+    for (char c : collada::xml_characters(wanted))
         name += std::isalnum(uint8_t(c)) || c == '_' || c == '-' || uint8_t(c) >= 0x80 ? c : '_';
     bool starts = name.empty() || std::isdigit(uint8_t(name[0])) || name[0] == '-';
     return starts ? "_" + name : name;
@@ -86,6 +98,13 @@ std::string ColladaExporter::id(const std::string& wanted, const char* kind) {
 
 void ColladaExporter::lost(const std::string& what, const std::string& why, Location where) {
     diagnostics_.report(Code::CONVERT_LOST, where, what, why);
+}
+
+// Text for XML; what cannot stand in it is told.
+const std::string& ColladaExporter::told(const std::string& text, const std::string& what) {
+    if (collada::xml_characters(text) != collada::utf8_text(text))
+        lost(what, "a control character in its text (a space stands for it)");
+    return text;
 }
 
 std::span<const double> ColladaExporter::values(ValueSlot slot) const {
@@ -227,9 +246,12 @@ std::string ColladaExporter::node(uint32_t index) {
     for (uint32_t l : definition.lights)
         lights += xml("instance_light", attribute("url", "#" + light_ids_[l]), "");
     for (const ChildUse& c : definition.children) nodes += child(c);
-    for (const UserAttribute& a : definition.attributes)
-        extra += xml("attribute", attribute("name", a.name),
-                     a.numbers.empty() ? collada::escape_text(a.text) : number_text(a.numbers));
+    for (const UserAttribute& a : definition.attributes) {
+        std::string what = fmt::format("node '{}'", own);
+        extra += xml(
+            "attribute", attribute("name", told(a.name, what)),
+            a.numbers.empty() ? collada::escape_text(told(a.text, what)) : number_text(a.numbers));
+    }
     if (!extra.empty())
         extra = xml("extra", "", xml("technique", attribute("profile", "RSL"), extra));
     return xml("node", attributes,
@@ -288,7 +310,10 @@ ColladaExport ColladaExporter::run() {
     Diagnostics quiet;
     std::optional<collada::Document> document =
         collada::read_document_text(path_, std::move(text), quiet);
-    if (document && document->whole()) result_.text = collada::write(*document, quiet.files);
+    if (document && document->whole())
+        result_.text = collada::write(*document, quiet.files);
+    else  // what the reader says is what is wrong with it: nested too deep
+        collada::read_document_text(path_, std::string(quiet.files.text(0)), diagnostics_);
     return std::move(result_);
 }
 

@@ -11,7 +11,8 @@
 namespace kinora {
 
 struct ColladaExport {
-    std::string text;  // COLLADA 1.4.1, canonical (collada/write.h)
+    // COLLADA 1.4.1, canonical (collada/write.h); "" where no reader would take it, with findings.
+    std::string text;
     // Images that were inside the scene's file: names relative to the document, and bytes.
     std::vector<std::pair<std::string, std::string>> files;
 };

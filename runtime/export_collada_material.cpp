@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -89,9 +90,13 @@ std::string ColladaExporter::image(const std::string& texture_name) {
         lost(fmt::format("image '{}'", path), "it cannot be read");
         link = path;
     }
+    bool utf8 = collada::utf8_text(link) == link;
     std::string escaped;
-    for (char c : link)
-        escaped += c == ' ' ? "%20" : c == '%' ? "%25" : c == '#' ? "%23" : std::string(1, c);
+    for (char c : link) {
+        uint8_t byte = uint8_t(c);
+        bool plain = byte > ' ' && byte != 0x7f && !std::strchr("%#", c) && (utf8 || byte < 0x80);
+        escaped += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+    }
     images_ +=
         xml("image", attribute("id", own), xml("init_from", "", collada::escape_text(escaped)));
     return own;
@@ -171,7 +176,9 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
     for (const ShaderUse* use : uses) {
         if (!use->shader) continue;
         std::string code = rsl::print_ast(*use->shader->ast);
-        if (written.insert(code).second) codes += xml("code", "", collada::cdata(code));
+        if (written.insert(code).second)
+            codes +=
+                xml("code", "", collada::cdata(told(code, fmt::format("effect '{}'", effect))));
         std::string binds;
         for (const ParamSource& p : use->params) {
             const rsl::ShaderParameter* parameter = parameter_of(*use, p.name);
@@ -181,7 +188,8 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
                 if (p.strings[0].empty()) continue;
                 bool file = p.name.ends_with("_map") ||
                             fs::is_regular_file(parse_texture_name(p.strings[0]).path);
-                value = file ? image(p.strings[0]) : p.strings[0];
+                value = file ? image(p.strings[0])
+                             : told(p.strings[0], fmt::format("effect '{}'", effect));
                 std::optional<std::string> words = texture_words(parse_texture_name(p.strings[0]));
                 if (file && !words)
                     lost(fmt::format("effect '{}'", effect),

@@ -44,6 +44,10 @@ std::string input(const char* semantic, const std::string& source, int offset = 
     return "<input" + attributes + "/>";
 }
 
+bool is_gltf_tangent(const VertexAttribute& a) {
+    return a.semantic == "TANGENT" && a.stride == 4;
+}
+
 }  // namespace
 
 // A morph target without triangles (glTF's) has those of the mesh it changes.
@@ -76,7 +80,8 @@ std::string ColladaExporter::geometry(uint32_t index) {
         std::string inputs = input("VERTEX", own + "-vertices", 0);
         for (size_t a = 0; a < group.attributes.size(); ++a) {
             const VertexAttribute& values = group.attributes[a];
-            if (values.stride == 0) continue;
+            // glTF's TANGENT is there as the numbers that shaders read (import_gltf_tangent).
+            if (values.stride == 0 || is_gltf_tangent(values)) continue;
             std::string source = fmt::format("{}-{}-{}{}", own, g, values.semantic, a);
             sources += float_source(source, number_text(values.values),
                                     values.values.size() / values.stride,

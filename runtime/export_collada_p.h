@@ -23,6 +23,7 @@ class ColladaExporter {
     // export_collada.cpp: the document, nodes
     std::string id(const std::string& wanted, const char* kind);
     void lost(const std::string& what, const std::string& why, Location where = {});
+    const std::string& told(const std::string& text, const std::string& what);
     std::span<const double> values(ValueSlot slot) const;
     void name_all();
     std::string asset() const;

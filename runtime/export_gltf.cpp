@@ -166,14 +166,26 @@ Json GltfExport::camera(const CameraDefinition& c) {
 std::string GltfExport::finish() {
     Json scene = json_["scenes"][0];
     Json extras = Json::object();
-    for (const ClipDefinition& clip : description_.clips)
+    for (const Take& take : takes_) {
+        if (take.channels.empty()) continue;
+        Json animation = {{"channels", take.channels}, {"samplers", take.samplers}};
+        if (!take.name.empty()) animation["name"] = take.name;
+        json_["animations"].push_back(std::move(animation));
+    }
+    size_t ranges = 0;
+    for (const ClipDefinition& clip : description_.clips) {
+        bool is_take = std::any_of(takes_.begin(), takes_.end(), [&](const Take& take) {
+            return take.animation == clip.animation.get() && !take.channels.empty();
+        });
+        if (is_take) continue;
+        ++ranges;
         extras["kinora_clips"].push_back(
             {{"name", clip.name}, {"start", clip.start}, {"end", clip.end}});
+    }
     if (description_.start_time) extras["kinora_start_time"] = *description_.start_time;
     if (description_.end_time) extras["kinora_end_time"] = *description_.end_time;
     if (description_.frame_rate) extras["kinora_frame_rate"] = *description_.frame_rate;
-    if (!description_.clips.empty())
-        in_extras("the scene", fmt::format("{} clips", description_.clips.size()));
+    if (ranges) in_extras("the scene", fmt::format("{} clips", ranges));
     Json shaders = Json::object();
     if (!description_.picture.atmosphere.empty())
         shaders["atmosphere"] = rsl(description_.picture.atmosphere);
@@ -184,8 +196,6 @@ std::string GltfExport::finish() {
         in_extras("the scene", "its atmosphere and imagers");
     }
     if (!extras.empty()) json_["scenes"][0]["extras"] = extras;
-    if (!channels_.empty())
-        json_["animations"].push_back({{"channels", channels_}, {"samplers", samplers_}});
     if (!extensions_.empty()) json_["extensionsUsed"] = extensions_;
     if (!buffer_.empty()) json_["buffers"].push_back({{"byteLength", buffer_.size()}});
     anim::TimeRange range = anim::time_range(description_.animation);
@@ -198,7 +208,7 @@ std::string GltfExport::finish() {
         }
     if (sampled_paths_)
         diagnostics_.report(Code::CONVERT_SAMPLED, Location{}, sampled_paths_, worst_error_);
-    std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = text_of(json_);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     std::string bin = buffer_;
     bin.resize((bin.size() + 3) / 4 * 4, '\0');
@@ -213,6 +223,10 @@ std::string GltfExport::finish() {
         out += bin;
     }
     return out;
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string export_glb(const SceneDescription& description, const GltfExportOptions& options,

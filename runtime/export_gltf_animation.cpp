@@ -25,16 +25,65 @@ std::vector<double> distinct(std::vector<double> times) {
 
 }  // namespace
 
+// Clips with an animation of their own (glTF's) stay apart; they may drive the same.
+void GltfExport::find_takes() {
+    for (const ClipDefinition& clip : description_.clips)
+        if (clip.animation) takes_.push_back({clip.name, clip.animation.get()});
+    if (takes_.empty()) takes_.push_back({"", &description_.animation});
+    take_ = &takes_.front();
+}
+
+// The values at that time, in at_time_.
+void GltfExport::evaluate(const std::vector<Channel>& channels, double time) {
+    for (const Channel& c : channels) {
+        const anim::Channel& to = *c.channel;
+        if (to.slot_step == 1)
+            anim::evaluate(*c.sampler, time, to.component,
+                           std::span(at_time_).subspan(to.slot, to.count));
+        for (uint32_t i = 0; to.slot_step != 1 && i < to.count; ++i)
+            anim::evaluate(*c.sampler, time, to.component + i,
+                           {&at_time_[to.slot + i * to.slot_step], 1});
+    }
+}
+
+// at_time_ as it is where nothing moves, for whoever evaluates next.
+void GltfExport::to_rest(const std::vector<Channel>& channels) {
+    for (const Channel& c : channels)
+        for (uint32_t i = 0; i < c.channel->count; ++i) {
+            uint32_t slot = c.channel->slot + i * c.channel->slot_step;
+            at_time_[slot] = description_.values[slot];
+        }
+}
+
 std::vector<GltfExport::Channel> GltfExport::channels_of(uint32_t first_value,
                                                          uint32_t count) const {
     std::vector<Channel> result;
-    const anim::Animation& animation = description_.animation;
+    const anim::Animation& animation = *take_->animation;
     for (const anim::Channel& c : animation.channels) {
         const anim::Sampler& sampler = animation.samplers[c.sampler];
-        if (c.slot < first_value + count && c.slot + c.count > first_value && !sampler.empty())
+        uint32_t end = c.slot + (c.count - 1) * c.slot_step + 1;
+        if (c.slot < first_value + count && end > first_value && !sampler.empty())
             result.push_back({&sampler, &c});
     }
     return result;
+}
+
+std::vector<GltfExport::Channel> GltfExport::channels_of(std::span<const Transform> stack) const {
+    std::vector<Channel> all;
+    for (const Transform& t : stack) {
+        std::vector<Channel> own = channels_of(t.value, 16);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
+}
+
+bool GltfExport::is_moved(std::span<const Transform> stack) {
+    bool moved = false;
+    for (Take& take : takes_) {
+        take_ = &take;
+        moved = moved || !channels_of(stack).empty();
+    }
+    return moved;
 }
 
 // All times at which a channel has a key, more within pieces where a turn passes 90 degrees; the
@@ -86,9 +135,9 @@ void GltfExport::add_channel(uint32_t node, const char* path, const std::vector<
     auto [input, fresh] = key_accessors_.try_emplace(times, 0);
     if (fresh) input->second = accessor(std::vector<float>(times.begin(), times.end()), 1, 0, true);
     uint32_t output = accessor(std::vector<float>(numbers.begin(), numbers.end()), width, 0, false);
-    channels_.push_back(
-        {{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});
-    samplers_.push_back(
+    take_->channels.push_back(
+        {{"sampler", take_->samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+    take_->samplers.push_back(
         {{"input", input->second}, {"interpolation", interpolation}, {"output", output}});
 }
 
@@ -163,7 +212,8 @@ void GltfExport::add_sampled(uint32_t node, const Path& path) {
     add_channel(node, path.name, keys.times, keys.numbers, path.element_width(), "LINEAR");
 }
 
-// A path that stays where it is needs no keys: it is written into the node.
+// A path that stays where it is needs no keys: it is written into the node, or is one key where
+// another take may move the node elsewhere.
 void GltfExport::add_path(uint32_t node, Path path) {
     if (path.times.empty()) return;
     uint32_t width = path.width;
@@ -180,8 +230,18 @@ void GltfExport::add_path(uint32_t node, Path path) {
         if (k + 1 < path.times.size())
             for (double s : kProbes) look(path.times[k] + s * (path.times[k + 1] - path.times[k]));
     }
-    if (moves <= 1e-12 * std::max(size, 1e-12)) {
-        json_["nodes"][node][path.name] = first;
+    double still = 1e-12 * std::max(size, 1e-12);
+    if (moves <= still) {
+        Json& own = json_["nodes"][node];
+        if (takes_.size() == 1) {
+            own[path.name] = first;
+            return;
+        }
+        std::vector<double> rest(width, path.name == std::string_view("scale") ? 1.0 : 0.0);
+        if (path.rotation) rest[3] = 1;
+        if (own.contains(path.name)) rest = own[path.name].get<std::vector<double>>();
+        if (path.distance(rest.data(), first.data()) > still)
+            add_channel(node, path.name, {path.times[0]}, first, path.element_width(), "STEP");
         return;
     }
     path.tolerance = options_.animation_error;
@@ -214,9 +274,7 @@ const Transform* GltfExport::only_mover(std::span<const Transform> stack,
 void GltfExport::move_node(uint32_t node, std::span<const Transform> stack, const dmat4& conversion,
                            const std::vector<Channel>& channels) {
     auto trs_at = [this, stack, conversion, channels](double time) {
-        for (const Channel& c : channels)
-            anim::evaluate(*c.sampler, time, c.channel->component,
-                           std::span(at_time_).subspan(c.channel->slot, c.channel->count));
+        evaluate(channels, time);
         dmat4 m = conversion;
         for (const Transform& t : stack) m = m * transform_matrix(t.kind, &at_time_[t.value]);
         Trs trs;
@@ -257,25 +315,25 @@ void GltfExport::move_node(uint32_t node, std::span<const Transform> stack, cons
         std::copy(q.begin(), q.end(), out);
     };
     add_path(node, path);
-    for (const Channel& c : channels)  // back to rest for whoever evaluates next
-        for (uint32_t i = 0; i < c.channel->count; ++i)
-            at_time_[c.channel->slot + i] = description_.values[c.channel->slot + i];
+    to_rest(channels);
 }
 
 void GltfExport::move_weights(uint32_t node, const MorphDefinition& morph) {
-    if (!is_animated(morph.weights)) return;
-    Path path;
-    path.name = "weights";
-    path.width = morph.weights.count;
-    path.channels = channels_of(morph.weights.offset, morph.weights.count);
-    path.times = key_times({}, path.channels);
-    path.at = [&](double time, double* out) {
-        for (const Channel& c : path.channels)
-            anim::evaluate(*c.sampler, time, c.channel->component,
-                           std::span(at_time_).subspan(c.channel->slot, c.channel->count));
-        std::copy_n(&at_time_[morph.weights.offset], morph.weights.count, out);
-    };
-    if (!add_spline(node, path, morph.weights.offset)) add_path(node, path);
+    for (Take& take : takes_) {
+        take_ = &take;
+        Path path;
+        path.name = "weights";
+        path.width = morph.weights.count;
+        path.channels = channels_of(morph.weights.offset, morph.weights.count);
+        if (path.channels.empty()) continue;
+        path.times = key_times({}, path.channels);
+        path.at = [&](double time, double* out) {
+            evaluate(path.channels, time);
+            std::copy_n(&at_time_[morph.weights.offset], morph.weights.count, out);
+        };
+        if (!add_spline(node, path, morph.weights.offset)) add_path(node, path);
+        to_rest(path.channels);
+    }
 }
 
 }  // namespace kinora

@@ -6,7 +6,6 @@
 
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
-#include "runtime/shader_library.h"
 
 namespace kinora {
 
@@ -153,54 +152,95 @@ Json GltfExport::common_material(const MaterialDefinition& definition, const Sha
     return material;
 }
 
-// What import_gltf makes of glTF's own materials, written back.
-Json GltfExport::pbr_material(const MaterialDefinition&, const ShaderUse& shader,
-                              const MaterialUse& use, const PrimitiveGroup& group) {
+namespace {
+
+// KHR_texture_transform from the rows that import_gltf_texture makes of it: uv' = offset +
+// R(rotation) (scale uv) in s = u, t = 1 - v. Null for the identity; `is_all` false where the
+// rows are no such transform.
+Json texture_transform(const UsedParams& p, const std::string& slot, bool& is_all) {
+    auto row = [&](const char* name, double otherwise) { return p.number(slot + name, otherwise); };
+    double ss = row("_ss", 1), st = row("_st", 0), so = row("_so", 0);
+    double ts = row("_ts", 0), tt = row("_tt", 1), to = row("_to", 0);
+    double sx = std::hypot(ss, ts), sy = std::hypot(st, tt);
+    if (ss * tt - st * ts < 0) sy = -sy;
+    double angle = sx > 0 ? std::atan2(ts, ss) : std::atan2(-st, tt);
+    double off = std::abs(st + std::sin(angle) * sy) + std::abs(tt - std::cos(angle) * sy);
+    is_all &= off <= 1e-6 * (sx + std::abs(sy));
+    Json transform = Json::object();
+    double ox = so + st, oy = 1 - tt - to;
+    if (ox != 0 || oy != 0) transform["offset"] = {ox, oy};
+    if (angle != 0) transform["rotation"] = angle;
+    if (sx != 1 || sy != 1) transform["scale"] = {sx, sy};
+    return transform.empty() ? Json() : transform;
+}
+
+}  // namespace
+
+// What import_gltf makes of glTF's own materials, written back; `is_all` false where they say more
+// than glTF does.
+Json GltfExport::pbr_material(const ShaderUse& shader, const MaterialUse& use,
+                              const PrimitiveGroup& group, bool& is_all) {
     UsedParams p{shader, description_.values};
+    is_all = use.params.empty();
+    auto unit = [&](double x) {
+        is_all &= x >= 0 && x <= 1;
+        return clamp01(x);
+    };
     dvec3 base = p.color("base_color", 1), emissive = p.color("emissive", 0);
-    Json pbr = {
-        {"baseColorFactor",
-         {clamp01(base.x), clamp01(base.y), clamp01(base.z), clamp01(p.number("base_alpha", 1))}}};
+    Json pbr = {{"baseColorFactor",
+                 {unit(base.x), unit(base.y), unit(base.z), unit(p.number("base_alpha", 1))}}};
     Json material = Json::object();
-    auto map = [&](const std::string& slot) -> Json {
+    auto extend = [&](const char* extension, Json value) {
+        material["extensions"][extension] = std::move(value);
+        use_extension(extension);
+    };
+    auto map = [&](const std::string& slot, bool data) -> Json {
         const ParamSource* source = find_source(shader, slot + "_map");
         if (!source || source->strings.empty() || source->strings[0].empty()) return nullptr;
-        return texture_info(source->strings[0], *source, use, group);
+        Json info = texture_info(source->strings[0], *source, use, group);
+        TextureName look = parse_texture_name(source->strings[0]);
+        Json transform = texture_transform(p, slot, is_all);
+        bool placed_twice = !transform.is_null() && look.uv != TextureName().uv;
+        is_all &= fits_gltf_sampler(look) && look.data == data && !placed_twice;
+        if (info.is_null() || transform.is_null() || placed_twice) return info;
+        info["extensions"]["KHR_texture_transform"] = transform;
+        use_extension("KHR_texture_transform");
+        return info;
     };
     auto set = [](Json& place, const char* name, Json info) {
         if (!info.is_null()) place[name] = std::move(info);
     };
-    set(pbr, "baseColorTexture", map("base_color"));
-    bool unlit = shader.shader->name == "gltf_unlit";
-    if (!unlit) {
-        pbr["metallicFactor"] = clamp01(p.number("metallic", 1));
-        pbr["roughnessFactor"] = clamp01(p.number("roughness", 1));
-        set(pbr, "metallicRoughnessTexture", map("metallic_roughness"));
-        if (Json info = map("normal"); !info.is_null()) {
+    set(pbr, "baseColorTexture", map("base_color", false));
+    if (shader.shader->name == "gltf_unlit") {
+        extend("KHR_materials_unlit", Json::object());
+    } else {
+        pbr["metallicFactor"] = unit(p.number("metallic", 1));
+        pbr["roughnessFactor"] = unit(p.number("roughness", 1));
+        set(pbr, "metallicRoughnessTexture", map("metallic_roughness", true));
+        if (Json info = map("normal", true); !info.is_null()) {
             info["scale"] = p.number("normal_scale", 1);
             material["normalTexture"] = info;
         }
-        if (Json info = map("occlusion"); !info.is_null()) {
-            info["strength"] = clamp01(p.number("occlusion_strength", 1));
+        if (Json info = map("occlusion", true); !info.is_null()) {
+            info["strength"] = unit(p.number("occlusion_strength", 1));
             material["occlusionTexture"] = info;
         }
-        set(material, "emissiveTexture", map("emissive"));
+        set(material, "emissiveTexture", map("emissive", false));
         double most = std::max({emissive.x, emissive.y, emissive.z, 1.0});
         if (emissive != dvec3(0.0))
             material["emissiveFactor"] = {emissive.x / most, emissive.y / most, emissive.z / most};
-        if (most > 1) {
-            material["extensions"]["KHR_materials_emissive_strength"] = {
-                {"emissiveStrength", most}};
-            use_extension("KHR_materials_emissive_strength");
-        }
-        double r = std::sqrt(std::clamp(p.number("dielectric_F0", 0.04), 0.0, 0.99));
-        if (std::abs(r - 0.2) > 1e-9) {
-            material["extensions"]["KHR_materials_ior"] = {{"ior", (1 + r) / (1 - r)}};
-            use_extension("KHR_materials_ior");
-        }
-    } else {
-        material["extensions"]["KHR_materials_unlit"] = Json::object();
-        use_extension("KHR_materials_unlit");
+        if (most > 1) extend("KHR_materials_emissive_strength", {{"emissiveStrength", most}});
+        // KHR_materials_ior: an ior of 0 reflects all.
+        double r = std::sqrt(unit(p.number("dielectric_F0", 0.04)));
+        if (std::abs(r - 0.2) > 1e-9)
+            extend("KHR_materials_ior", {{"ior", r < 1 ? (1 + r) / (1 - r) : 0.0}});
+        dvec3 tint = p.color("specular_color", 1);
+        double specular = p.number("specular", 1);
+        if (specular != 1 || tint != dvec3(1.0))
+            extend("KHR_materials_specular",
+                   {{"specularFactor", unit(specular)},
+                    {"specularColorFactor",
+                     {std::max(tint.x, 0.0), std::max(tint.y, 0.0), std::max(tint.z, 0.0)}}});
     }
     material["pbrMetallicRoughness"] = pbr;
     std::string mode = p.text("alpha_mode");
@@ -210,48 +250,38 @@ Json GltfExport::pbr_material(const MaterialDefinition&, const ShaderUse& shader
 }
 
 uint32_t GltfExport::material(const MeshUse& use, const PrimitiveGroup& group) {
-    const MaterialUse* bound = nullptr;
-    for (const MaterialUse& m : use.materials)
-        if (m.symbol == group.symbol) bound = &m;
-    // What has no material wears default_surface, which glTF's own default (a metal) is far from.
-    MaterialUse unbound;
-    MaterialDefinition plain;
-    bool is_plain = !bound || bound->material == kNone;
-    if (is_plain) {
-        plain.surfaces.emplace_back().shader =
-            description_.default_surface ? description_.default_surface
-                                         : library_shader("default_surface", diagnostics_);
-        if (!bound) bound = &unbound;
-    }
-    const MaterialDefinition& definition =
-        is_plain ? plain : description_.materials[bound->material];
+    GltfLook look = look_of(use, group);
+    const MaterialDefinition& definition = look.definition;
     const ShaderUse* top = definition.surfaces.empty() ? nullptr : &definition.surfaces.back();
     Json result = Json::object();
-    bool common = false, pbr = false;
-    for (const char* model : kModels) common |= top && is_library_shader(*top, model);
-    pbr = top && (is_library_shader(*top, "gltf_pbr") || is_library_shader(*top, "gltf_unlit"));
-    if (common)
-        result = common_material(definition, *top, *bound, group);
-    else if (pbr)
-        result = pbr_material(definition, *top, *bound, group);
-    else
+    const char* extras = "its RSL shaders";
+    bool is_all = false;  // what is not in extras
+    if (look.is_gltf) {
+        result = pbr_material(*top, look.bound, group, is_all);
+        extras = "its shader's parameters (pbrMetallicRoughness comes near them)";
+    } else if (top && std::any_of(std::begin(kModels), std::end(kModels),
+                                  [&](auto* model) { return is_library_shader(*top, model); })) {
+        result = common_material(definition, *top, look.bound, group);
+        extras = "its shading model (pbrMetallicRoughness comes near it)";
+    } else {
         result["pbrMetallicRoughness"] = {{"metallicFactor", 0},
                                           {"baseColorFactor", {0.8, 0.8, 0.8, 1}}};
+    }
     if (!definition.id.empty()) result["name"] = definition.id;
     bool double_sided = !definition.hide_backfaces && description_.meshes[use.mesh].double_sided;
     if (double_sided) result["doubleSided"] = true;
-    Json shaders = rsl_of(definition, *bound, group);
-    if (!shaders.empty() && !(pbr && shaders.size() == 1)) result["extras"]["kinora_rsl"] = shaders;
-    auto [found, fresh] = materials_.try_emplace(result.dump(), uint32_t(materials_.size()));
+    Json shaders = rsl_of(look, group);
+    bool has_extras = !shaders.empty() && !(is_all && shaders.size() == 1);
+    if (has_extras) result["extras"]["kinora_rsl"] = shaders;
+    auto [found, fresh] = materials_.try_emplace(text_of(result), uint32_t(materials_.size()));
     if (fresh) {
         json_["materials"].push_back(result);
-        if (!is_plain) tell_losses(definition, common, pbr, !shaders.empty());
+        if (!look.is_plain) tell_losses(definition, has_extras ? extras : "");
     }
     return found->second;
 }
 
-void GltfExport::tell_losses(const MaterialDefinition& definition, bool common, bool pbr,
-                             bool shaders) {
+void GltfExport::tell_losses(const MaterialDefinition& definition, const char* extras) {
     if (!told_materials_.insert(&definition).second) return;
     std::string name = fmt::format("material '{}'", definition.id);
     Location where;
@@ -267,9 +297,7 @@ void GltfExport::tell_losses(const MaterialDefinition& definition, bool common, 
     look(definition.displacements);
     look(definition.transformations);
     if (moves) lost(name, "its animated parameters", where);
-    if (shaders && !common && !pbr) in_extras(name, "its RSL shaders", where);
-    if (shaders && common)
-        in_extras(name, "its shading model (pbrMetallicRoughness comes near it)", where);
+    if (*extras) in_extras(name, extras, where);
 }
 
 Location GltfExport::material_place(const ShaderUse& use) const {

@@ -31,17 +31,18 @@ void push(std::vector<float>& numbers, vec3 v) {
     numbers.insert(numbers.end(), {v.x, v.y, v.z});
 }
 
-// The attributes that are written besides POSITION and NORMAL, in the order of their sets.
-std::vector<const VertexAttribute*> other_attributes(const PrimitiveGroup& group) {
-    std::vector<const VertexAttribute*> result;
-    for (const VertexAttribute& a : group.attributes) {
-        bool texcoord = a.semantic == "TEXCOORD" && a.stride >= 2;
-        bool color = a.semantic == "COLOR" && (a.stride == 3 || a.stride == 4);
-        if (texcoord || color) result.push_back(&a);
+// The numbers as glTF has them: t grows upwards, v downwards; tangents have length 1, their last
+// number is a sign.
+void push(std::vector<float>& numbers, const GltfAttribute& a, uint32_t corner) {
+    const float* v =
+        &a.attribute->values[size_t(a.attribute->corners[corner]) * a.attribute->stride];
+    if (a.name == "TANGENT") {
+        push(numbers, unit_normal(vec3(v[0], v[1], v[2])));
+        numbers.push_back(v[3] < 0 ? -1.0f : 1.0f);
+        return;
     }
-    std::stable_sort(result.begin(), result.end(),
-                     [](auto* a, auto* b) { return a->set < b->set; });
-    return result;
+    for (uint32_t i = 0; i < a.width; ++i) numbers.push_back(std::isfinite(v[i]) ? v[i] : 0.0f);
+    if (a.name.starts_with("TEXCOORD_")) numbers.back() = 1.0f - numbers.back();
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ uint32_t GltfExport::mesh(const MeshUse& use) {
 Json GltfExport::primitive(const MeshUse& use, const PrimitiveGroup& group, const Mesh& built,
                            uint32_t group_index) {
     const MeshDefinition& definition = description_.meshes[use.mesh];
-    std::vector<const VertexAttribute*> others = other_attributes(group);
+    std::vector<GltfAttribute> others = attributes_of(look_of(use, group), group);
     // A normal's number names its position too (build_mesh); each further attribute splits on.
     std::vector<uint32_t> vertex = built.groups[group_index].normal_corners;
     auto renumber = [&](const std::vector<uint32_t>& entries) {
@@ -82,7 +83,7 @@ Json GltfExport::primitive(const MeshUse& use, const PrimitiveGroup& group, cons
         return next;
     };
     uint32_t count = renumber(group.triangles);
-    for (const VertexAttribute* a : others) count = renumber(a->corners);
+    for (const GltfAttribute& a : others) count = renumber(a.attribute->corners);
     std::vector<uint32_t> corners(count);  // the first corner of each vertex
     for (size_t c = vertex.size(); c-- > 0;) corners[vertex[c]] = uint32_t(c);
 
@@ -96,19 +97,10 @@ Json GltfExport::primitive(const MeshUse& use, const PrimitiveGroup& group, cons
     }
     Json attributes = {{"POSITION", accessor(positions, 3, kVertexTarget, true)},
                        {"NORMAL", accessor(normals, 3, kVertexTarget, false)}};
-    uint32_t texcoords = 0, colors = 0;
-    for (const VertexAttribute* a : others) {
-        bool color = a->semantic == "COLOR";
-        uint32_t width = color ? a->stride : 2;
+    for (const GltfAttribute& a : others) {
         std::vector<float> numbers;
-        for (uint32_t c : corners) {
-            const float* v = &a->values[size_t(a->corners[c]) * a->stride];
-            for (uint32_t i = 0; i < width; ++i) numbers.push_back(v[i]);
-            if (!color) numbers.back() = 1.0f - numbers.back();  // t grows upwards, v downwards
-        }
-        std::string name =
-            color ? fmt::format("_COLOR_{}", colors++) : fmt::format("TEXCOORD_{}", texcoords++);
-        attributes[name] = accessor(numbers, width, kVertexTarget, false);
+        for (uint32_t c : corners) push(numbers, a, c);
+        attributes[a.name] = accessor(numbers, a.width, kVertexTarget, false);
     }
     if (use.skin != kNone) add_influences(use, position_index, attributes);
     Json result = {{"attributes", attributes}};

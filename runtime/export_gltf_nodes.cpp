@@ -160,54 +160,66 @@ uint32_t GltfExport::static_nodes(const dmat4& matrix, uint32_t parent) {
 // those that stand still together.
 uint32_t GltfExport::stack_nodes(const NodeDefinition& definition, const dmat4& conversion,
                                  uint32_t parent) {
-    std::vector<std::vector<Channel>> channels;
-    std::vector<Channel> all;
-    for (const Transform& t : definition.transforms) {
-        channels.push_back(channels_of(t.value, 16));
-        all.insert(all.end(), channels.back().begin(), channels.back().end());
-    }
-    if (all.empty())
+    std::span<const Transform> all = definition.transforms;
+    if (!is_moved(all))
         return static_nodes(conversion * node_matrix(definition, description_.values), parent);
-    // Whether a matrix is translation, rotation and scale at all times that matter.
-    auto holds = [this](std::span<const Transform> stack, const std::vector<Channel>& moving,
-                        auto&& matrix_at) {
+    auto matrix_of = [this](const dmat4& before, std::span<const Transform> stack) {
+        dmat4 m = before;
+        for (const Transform& t : stack) m = m * transform_matrix(t.kind, &at_time_[t.value]);
+        return m;
+    };
+    // Whether a matrix is translation, rotation and scale at rest, at all keys and between them.
+    auto holds = [&](const dmat4& before, std::span<const Transform> stack) {
         Trs trs;
-        bool all_hold = true;
-        for (double time : key_times(stack, moving)) {
-            for (const Channel& c : moving)
-                anim::evaluate(*c.sampler, time, c.channel->component,
-                               std::span(at_time_).subspan(c.channel->slot, c.channel->count));
-            all_hold = all_hold && decompose_trs(matrix_at(), trs);
+        bool all_hold = decompose_trs(matrix_of(before, stack), trs);
+        for (Take& take : takes_) {
+            take_ = &take;
+            std::vector<Channel> moving = channels_of(stack);
+            std::vector<double> times = key_times(stack, moving);
+            auto look = [&](double time) {
+                evaluate(moving, time);
+                all_hold = all_hold && decompose_trs(matrix_of(before, stack), trs);
+            };
+            for (size_t k = 0; k < times.size(); ++k) {
+                look(times[k]);
+                for (double s : kProbes)
+                    if (k + 1 < times.size()) look(times[k] + s * (times[k + 1] - times[k]));
+            }
+            to_rest(moving);
         }
         return all_hold;
     };
-    bool simple = holds(definition.transforms, all,
-                        [&] { return conversion * node_matrix(definition, at_time_); });
-    if (simple) {
-        uint32_t node = static_nodes(conversion * node_matrix(definition, at_time_), parent);
-        move_node(node, definition.transforms, conversion, all);
+    auto move = [&](uint32_t node, std::span<const Transform> stack, const dmat4& before) {
+        for (Take& take : takes_) {
+            take_ = &take;
+            std::vector<Channel> moving = channels_of(stack);
+            if (!moving.empty()) move_node(node, stack, before, moving);
+        }
+    };
+    if (holds(conversion, all)) {
+        uint32_t node = static_nodes(matrix_of(conversion, all), parent);
+        move(node, all, conversion);
         return node;
     }
     dmat4 still = conversion;
     uint32_t node = parent;
-    for (size_t t = 0; t < definition.transforms.size(); ++t) {
-        const Transform& transform = definition.transforms[t];
-        dmat4 matrix = transform_matrix(transform.kind, &description_.values[transform.value]);
-        if (channels[t].empty()) {
+    for (const Transform& transform : all) {
+        std::span<const Transform> own(&transform, 1);
+        dmat4 matrix = matrix_of(dmat4(1.0), own);
+        if (!is_moved(own)) {
             still = still * matrix;
             continue;
         }
         if (!is_identity(still, 1e-15)) node = static_nodes(still, node);
         still = dmat4(1.0);
-        if (!holds({&transform, 1}, channels[t],
-                   [&] { return transform_matrix(transform.kind, &at_time_[transform.value]); }))
+        if (!holds(dmat4(1.0), own))
             lost(fmt::format("node '{}'", definition.id), "animated shear");
         Trs trs;
         decompose_trs(matrix, trs);
         Json part = Json::object();
         write_trs(trs, part);
         node = add_node(std::move(part), node);
-        move_node(node, std::span(&transform, 1), dmat4(1.0), channels[t]);
+        move(node, own, dmat4(1.0));
     }
     return is_identity(still, 1e-15) ? node : static_nodes(still, node);
 }
@@ -371,6 +383,29 @@ void GltfExport::hang_content(uint32_t place) {
     }
 }
 
+// The joints of a skin have a common root (glTF 2.0, 3.7.3.1), which a scene's roots are not: where
+// they need one, all that is no skinned mesh hangs below a node that does nothing.
+void GltfExport::give_skins_a_root() {
+    if (!json_.contains("skins")) return;
+    Json& nodes = json_["nodes"];
+    std::vector<uint32_t> top(nodes.size());  // the scene's root above each; parents come first
+    for (uint32_t n = 0; n < nodes.size(); ++n) top[n] = n;
+    for (uint32_t n = 0; n < nodes.size(); ++n)
+        if (nodes[n].contains("children"))
+            for (uint32_t child : nodes[n]["children"]) top[child] = top[n];
+    bool apart = false;
+    for (const Json& skin : json_["skins"])
+        for (uint32_t joint : skin["joints"])
+            apart |= top[joint] != top[skin["joints"][0].get<uint32_t>()];
+    if (!apart) return;
+    Json below = Json::array(), roots = Json::array();
+    roots.push_back(nodes.size());
+    for (const Json& root : json_["scenes"][0]["nodes"])
+        (nodes[root.get<uint32_t>()].contains("skin") ? roots : below).push_back(root);
+    nodes.push_back({{"name", "root of the joints"}, {"children", below}});
+    json_["scenes"][0]["nodes"] = roots;
+}
+
 // At rest, in glTF's space: for what needs a length, near planes and lights without falloff.
 void GltfExport::set_bounds(const dmat4& axes) {
     dvec3 low(1e300), high(-1e300);
@@ -390,6 +425,7 @@ std::string GltfExport::glb() {
     json_["scene"] = 0;
     json_["scenes"] = Json::array({Json::object()});
     at_time_ = description_.values;
+    find_takes();
     dmat4& axes = axes_ = y_up_from(description_.up_axis);
     for (int c = 0; c < 3; ++c) axes[c] = axes[c] * description_.meter;
     if (!is_identity(axes)) {
@@ -406,6 +442,7 @@ std::string GltfExport::glb() {
     for (uint32_t root : description_.roots) unroll(root, kNone, dmat4(1.0));
     set_bounds(axes);
     for (uint32_t p = 0; p < placed_.size(); ++p) hang_content(p);
+    give_skins_a_root();
     return finish();
 }
 

@@ -28,6 +28,20 @@ bool decompose_trs(const dmat4& m, Trs& trs);
 // Any affine matrix as two nodes, outer * inner, exactly.
 void split_shear(const dmat4& m, Trs& outer, Trs& inner);
 
+// What a primitive wears.
+struct GltfLook {
+    const MaterialDefinition& definition;
+    const MaterialUse& bound;
+    bool is_plain;  // it has no material
+    bool is_gltf;   // one of glTF's own, as import_gltf makes them
+};
+
+struct GltfAttribute {
+    std::string name;  // "TEXCOORD_0", "_HEAT"
+    const VertexAttribute* attribute;
+    uint32_t width;  // numbers an element
+};
+
 class GltfExport {
   public:
     GltfExport(const SceneDescription& description, const GltfExportOptions& options,
@@ -47,6 +61,12 @@ class GltfExport {
     struct Channel {  // one that moves some number of a stack of transforms
         const anim::Sampler* sampler;
         const anim::Channel* channel;
+    };
+    // What becomes an animation of glTF: the scene's, or a clip's own.
+    struct Take {
+        std::string name;
+        const anim::Animation* animation;
+        Json channels = Json::array(), samplers = Json::array();
     };
     // A curve of glTF: what it is at any time, and how near its keys must come.
     struct Path : Curve {
@@ -76,13 +96,19 @@ class GltfExport {
                          uint32_t parent);
     uint32_t static_nodes(const dmat4& matrix, uint32_t parent);
     void hang_content(uint32_t placed);
+    void give_skins_a_root();
     void set_bounds(const dmat4& axes);
     uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
     uint32_t skin(const MeshUse& use, uint32_t placed);
     uint32_t stand_again(uint32_t place, uint32_t above, uint32_t top,
                          std::map<uint32_t, uint32_t>& again);
 
-    // export_gltf_animation.cpp
+    // export_gltf_animation.cpp: of take_, if not said otherwise
+    void find_takes();
+    void evaluate(const std::vector<Channel>& channels, double time);
+    void to_rest(const std::vector<Channel>& channels);
+    std::vector<Channel> channels_of(std::span<const Transform> stack) const;
+    bool is_moved(std::span<const Transform> stack);  // by any take
     std::vector<Channel> channels_of(uint32_t first_value, uint32_t count) const;
     const Transform* only_mover(std::span<const Transform> stack, TransformKind kind) const;
     void move_node(uint32_t node, std::span<const Transform> stack, const dmat4& conversion,
@@ -97,6 +123,10 @@ class GltfExport {
     void add_channel(uint32_t node, const char* path, const std::vector<double>& times,
                      const std::vector<double>& numbers, uint32_t width, const char* interpolation);
 
+    // export_gltf_attributes.cpp
+    GltfLook look_of(const MeshUse& use, const PrimitiveGroup& group);
+    std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGroup& group);
+
     // export_gltf_mesh.cpp
     uint32_t mesh(const MeshUse& use);
     Json primitive(const MeshUse& use, const PrimitiveGroup& group, const Mesh& built,
@@ -110,20 +140,19 @@ class GltfExport {
     uint32_t material(const MeshUse& use, const PrimitiveGroup& group);
     Json common_material(const MaterialDefinition& definition, const ShaderUse& shader,
                          const MaterialUse& use, const PrimitiveGroup& group);
-    Json pbr_material(const MaterialDefinition& definition, const ShaderUse& shader,
-                      const MaterialUse& use, const PrimitiveGroup& group);
+    Json pbr_material(const ShaderUse& shader, const MaterialUse& use, const PrimitiveGroup& group,
+                      bool& is_all);
     Json texture_info(const std::string& name, const ParamSource& source, const MaterialUse& use,
                       const PrimitiveGroup& group);
     uint32_t texcoord_index(const std::string& name, const MaterialUse& use,
                             const PrimitiveGroup& group) const;
-    void tell_losses(const MaterialDefinition& definition, bool common, bool pbr, bool shaders);
+    void tell_losses(const MaterialDefinition& definition, const char* extras);
     Location material_place(const ShaderUse& use) const;
     uint32_t texture(const std::string& name);
     uint32_t image(const std::string& path);
     Json rsl(const std::vector<ShaderUse>& uses);
     Json rsl(const ShaderUse& use);
-    Json rsl_of(const MaterialDefinition& definition, const MaterialUse& bound,
-                const PrimitiveGroup& group);
+    Json rsl_of(const GltfLook& look, const PrimitiveGroup& group);
 
     // export_gltf_rsl.cpp: lights
     uint32_t light(const LightDefinition& definition, const dmat4& world);
@@ -132,7 +161,10 @@ class GltfExport {
     const GltfExportOptions& options_;
     Diagnostics& diagnostics_;
     Json json_;
-    Json channels_ = Json::array(), samplers_ = Json::array();
+    std::vector<Take> takes_;
+    Take* take_ = nullptr;
+    MaterialDefinition plain_;  // what has no material
+    MaterialUse unbound_;
     std::string buffer_;
     std::vector<Placed> placed_;
     std::vector<double> start_values_;  // at the first keys
@@ -175,5 +207,9 @@ struct UsedParams {
     }
 };
 bool is_library_shader(const ShaderUse& use, std::string_view name);
+// Whether a glTF sampler, "data" and "uv" say all of it.
+bool fits_gltf_sampler(const TextureName& look);
+// Json's text, whatever bytes its strings hold.
+std::string text_of(const Json& json);
 
 }  // namespace kinora

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "collada/edit.h"
 #include "runtime/export_gltf_p.h"
 #include "runtime/findings.h"
 #include "runtime/image_io.h"
@@ -83,7 +84,7 @@ uint32_t GltfExport::image(const std::string& path) {
         lost(fmt::format("image '{}'", path), "it lies outside the scene's folder");
         return kNone;
     }
-    bytes = read_bytes(file.path);
+    bytes = read_bytes(FileToOpen(file.path).path());
     const char* type = mime_type(bytes);
     if (!type) {
         bytes = as_png(file.path, error, loss);
@@ -108,7 +109,7 @@ uint32_t GltfExport::texture(const std::string& name) {
                     {"minFilter", min_filter(look)},
                     {"wrapS", kWraps[size_t(look.wrap_s)]},
                     {"wrapT", kWraps[size_t(look.wrap_t)]}};
-    std::string key = fmt::format("{} {}", source, sampler.dump());
+    std::string key = fmt::format("{} {}", source, text_of(sampler));
     auto [found, fresh] = textures_.try_emplace(key, uint32_t(textures_.size()));
     if (!fresh) return found->second;
     if (look.wrap_s == TextureWrap::Border || look.wrap_t == TextureWrap::Border)
@@ -118,8 +119,7 @@ uint32_t GltfExport::texture(const std::string& name) {
     return found->second;
 }
 
-// Can a glTF sampler, "data" and "uv" say all of it?
-static bool fits_gltf_sampler(const TextureName& look) {
+bool fits_gltf_sampler(const TextureName& look) {
     return look.wrap_s != TextureWrap::Border && look.wrap_t != TextureWrap::Border &&
            look.turn == TextureName().turn && look.mip_bias == 0 && look.mip_max_level == 0;
 }
@@ -131,7 +131,7 @@ Json GltfExport::rsl(const ShaderUse& use) {
     if (is_library_shader(use, use.shader->name)) {
         result["library"] = use.shader->name;
     } else {
-        result["code"] = rsl::print_ast(*use.shader->ast);
+        result["code"] = collada::utf8_text(rsl::print_ast(*use.shader->ast));
         result["shader"] = use.shader->name;
     }
     Json params = Json::object();
@@ -140,7 +140,7 @@ Json GltfExport::rsl(const ShaderUse& use) {
             std::error_code code;
             std::string path = parse_texture_name(p.strings[0]).path;
             uint32_t index = kNone;
-            if (p.strings.size() == 1 && fs::is_regular_file(path, code))
+            if (p.strings.size() == 1 && (is_memory_file(path) || fs::is_regular_file(path, code)))
                 index = texture(p.strings[0]);
             if (index != kNone) {
                 TextureName look = parse_texture_name(p.strings[0]);
@@ -171,8 +171,9 @@ Json GltfExport::rsl(const std::vector<ShaderUse>& uses) {
     return list;
 }
 
-Json GltfExport::rsl_of(const MaterialDefinition& m, const MaterialUse& bound,
-                        const PrimitiveGroup& group) {
+Json GltfExport::rsl_of(const GltfLook& look, const PrimitiveGroup& group) {
+    const MaterialDefinition& m = look.definition;
+    const MaterialUse& bound = look.bound;
     Json result = Json::object();
     auto add = [&](const char* stage, const std::vector<ShaderUse>& uses) {
         if (uses.empty()) return;
@@ -198,15 +199,17 @@ Json GltfExport::rsl_of(const MaterialDefinition& m, const MaterialUse& bound,
     add("exterior", m.exterior);
     add("light", m.lights);
     if (result.contains("light") && m.light_samples) result["light_samples"] = m.light_samples;
-    // Vertex inputs of RSL parameters.
-    for (const VertexBinding& b : bound.vertex_bindings) {
-        uint32_t set = b.set == kNone ? 0 : b.set, index = 0;
-        for (const VertexAttribute& a : group.attributes)
-            if (a.semantic == b.semantic && a.set < set) ++index;
-        const char* prefix = b.semantic == "COLOR" ? "_" : "";
-        if (!result.empty() && (b.semantic == "COLOR" || b.semantic == "TEXCOORD"))
-            result["inputs"][b.param] = fmt::format("{}{}_{}", prefix, b.semantic, index);
-    }
+    // Vertex inputs of RSL parameters; import_gltf binds TEXCOORD_n by itself.
+    if (result.empty()) return result;
+    std::vector<GltfAttribute> attributes = attributes_of(look, group);
+    for (const VertexBinding& b : bound.vertex_bindings)
+        for (const GltfAttribute& a : attributes) {
+            bool same = a.attribute->semantic == b.semantic &&
+                        (b.set == kNone || b.set == a.attribute->set);
+            if (!same) continue;
+            if (a.name != b.param) result["inputs"][b.param] = a.name;
+            break;
+        }
     return result;
 }
 

@@ -86,6 +86,28 @@ std::vector<GltfBuffer> gltf_buffers(std::string_view json) {
     return buffers;
 }
 
+void cut_gltf_data(std::span<char> json) {
+    std::string_view whole(json.data(), json.size());
+    for (JsonRange range : json_elements(whole, "/buffers")) {
+        std::string_view text = part(whole, range);
+        double bytes = json_number(text, "/byteLength", 0);
+        std::optional<JsonRange> uri = json_find(text, "/uri");
+        if (!uri || !(bytes > 0 && bytes < 1e15)) continue;
+        size_t at = text.find(";base64,", uri->begin), quote = uri->end - 1;
+        if (at >= quote || !part(text, *uri).starts_with("\"data:")) continue;
+        size_t wanted = (size_t(bytes) * 8 + 5) / 6, letters = 0, end = quote;
+        for (at += 8; at < quote && text[at] != '='; ++letters) {
+            if (letters == wanted) end = at;
+            // JSON may write the slash among the letters as "\/" or "\u002F".
+            at += text[at] != '\\' ? 1 : text[at + 1] == 'u' ? 6 : 2;
+        }
+        if (letters * 6 / 8 <= size_t(bytes)) continue;
+        char* chars = &json[range.begin];
+        chars[end] = '"';
+        std::fill(chars + end + 1, chars + uri->end, ' ');
+    }
+}
+
 std::string check_gltf_json(std::string_view json, size_t bytes, bool binary) {
     std::string error = check_shape(json, bytes);
     if (!error.empty()) return error;

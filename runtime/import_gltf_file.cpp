@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "runtime/findings.h"
 #include "runtime/import_gltf_check.h"
@@ -161,12 +162,18 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
     return true;
 }
 
+constexpr size_t kQuotedData = 40;  // characters of a data URI that a message holds
+
 // tinygltf's or the JSON parser's words as one line, and the place that the parser names.
 Location error_place(const GltfFile& file, std::string& error) {
     while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
     for (char& c : error)
         if (c == '\n') c = ' ';
     if (error.starts_with("[json.exception")) error.erase(0, error.find("] ") + 2);
+    for (size_t at = 0; (at = error.find("data:", at)) != error.npos; at += kQuotedData) {
+        size_t end = std::min(error.find(' ', at), error.size());
+        if (end - at > kQuotedData) error.replace(at + kQuotedData, end - at - kQuotedData, "...");
+    }
     if (error.size() > 300) error.resize(300);
     size_t at = error.find("at line ");
     int line = 0, column = 0;
@@ -179,19 +186,19 @@ Location error_place(const GltfFile& file, std::string& error) {
     return {file.file, uint32_t(offset), uint32_t(offset)};
 }
 
-bool load_model(const std::vector<unsigned char>& bytes, Guard& guard, std::string& error) {
+bool load_model(const std::vector<unsigned char>& bytes, std::span<const char> json, Guard& guard,
+                std::string& error) {
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks({file_exists, same_path, read_file, write_nothing, &guard});
     loader.SetImageLoader(keep_image, nullptr);
     std::string warning;
     GltfFile& file = guard.file;
     try {
-        bool loaded =
-            is_binary(bytes)
-                ? loader.LoadBinaryFromMemory(&file.model, &error, &warning, bytes.data(),
-                                              unsigned(bytes.size()), file.directory)
-                : loader.LoadASCIIFromString(&file.model, &error, &warning, file.json.data(),
-                                             unsigned(file.json.size()), file.directory);
+        bool loaded = is_binary(bytes)
+                          ? loader.LoadBinaryFromMemory(&file.model, &error, &warning, bytes.data(),
+                                                        unsigned(bytes.size()), file.directory)
+                          : loader.LoadASCIIFromString(&file.model, &error, &warning, json.data(),
+                                                       unsigned(json.size()), file.directory);
         if (!loaded && error.empty()) error = "it cannot be read";
         return loaded;
     } catch (const std::bad_alloc&) {
@@ -300,7 +307,11 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     Guard guard{options, diagnostics, file, {}};
     for (const GltfBuffer& buffer : gltf_buffers(file.json))
         if (!buffer.uri.empty()) guard.sizes[gltf_path(file, buffer.uri)] = buffer.bytes;
-    if (!load_model(bytes, guard, error)) return fail(error);
+    // As it stands in `bytes`, a .glb's among its other chunks.
+    size_t begin = size_t(json.data() - reinterpret_cast<const char*>(bytes.data()));
+    std::span<char> own(reinterpret_cast<char*>(bytes.data()) + begin, json.size());
+    cut_gltf_data(own);
+    if (!load_model(bytes, own, guard, error)) return fail(error);
     return file;
 }
 

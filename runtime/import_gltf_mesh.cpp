@@ -59,6 +59,12 @@ GltfImport::Numbered GltfImport::numbered(const std::string& semantic) {
     return {semantic.substr(0, bar), set};
 }
 
+GltfImport::Numbered GltfImport::own_attribute(const std::string& name) {
+    Numbered own = numbered(name.substr(1));
+    bool has_set = own.name == "COLOR" || own.name == "TEXCOORD";
+    return has_set ? own : Numbered{name.substr(1), 0};
+}
+
 void GltfImport::import_meshes() {
     out_.meshes.resize(model_.meshes.size());
     plans_.resize(model_.meshes.size());
@@ -185,7 +191,9 @@ std::vector<float> GltfImport::add_attributes(const tinygltf::Primitive& primiti
             int m = primitive.material;
             bool bent = m >= 0 && size_t(m) < model_.materials.size() &&
                         model_.materials[size_t(m)].normalTexture.index >= 0;
-            if (bent && read(kTangent)) tangents = std::move(numbers.values);
+            if (!bent || !read(kTangent)) continue;
+            tangents = numbers.values;
+            add("TANGENT", 0, 4, std::move(numbers.values));
         } else if (of_set.name == "TEXCOORD") {
             if (!read(kTexcoord)) continue;
             for (size_t i = 1; i < numbers.values.size(); i += 2)
@@ -202,11 +210,8 @@ std::vector<float> GltfImport::add_attributes(const tinygltf::Primitive& primiti
             add("COLOR", of_set.set, numbers.width, std::move(numbers.values));
         } else if (name.starts_with('_') && name.size() > 1) {  // the application's own
             if (!read(kAny)) continue;
-            // Colours and coordinates that glTF's own would give a meaning: _COLOR_0, _TEXCOORD_1.
-            Numbered own = numbered(name.substr(1));
-            bool set = own.name == "COLOR" || own.name == "TEXCOORD";
-            add(set ? own.name : name.substr(1), set ? own.set : 0, numbers.width,
-                std::move(numbers.values));
+            Numbered own = own_attribute(name);
+            add(std::move(own.name), own.set, numbers.width, std::move(numbers.values));
         }
     }
     return tangents;

@@ -82,6 +82,9 @@ class GltfImport {
     };
     // "TEXCOORD_2" as name and set; nothing for other names.
     static Numbered numbered(const std::string& semantic);
+    // The application's own, "_HEAT": colours and coordinates that glTF's own would give a meaning
+    // have sets, "_COLOR_0"; all else is a name.
+    static Numbered own_attribute(const std::string& name);
     void import_meshes();
     void import_primitive(uint32_t mesh, uint32_t primitive);
     bool place_vertices(uint32_t mesh, uint32_t primitive, const std::string& pointer);

@@ -238,8 +238,8 @@ void GltfImport::import_rsl(uint32_t index) {
     if (const tinygltf::Value* inputs = member(rsl, "inputs"))
         for (const std::string& param : keys_of(*inputs)) {
             std::string semantic = text_of(*inputs, param.c_str());
-            if (semantic.starts_with('_')) semantic.erase(0, 1);
-            Numbered of_set = numbered(semantic);
+            Numbered of_set =
+                semantic.starts_with('_') ? own_attribute(semantic) : numbered(semantic);
             inputs_[index].push_back({param, of_set.name.empty() ? semantic : of_set.name,
                                       of_set.name.empty() ? kNone : of_set.set});
         }

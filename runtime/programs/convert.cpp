@@ -140,6 +140,11 @@ class Conversion {
         if (options_.up_axis || options_.meter)
             result.text = canonical(
                 change_axes(options_.output, result.text, options_.up_axis, options_.meter, diag_));
+        if (result.text.empty()) {
+            fmt::print(stderr, "kinora: error: cannot write '{}': no reader would take it\n",
+                       options_.output);
+            return kExitUnwritable;
+        }
         for (const auto& [name, bytes] : result.files)
             if (int failed =
                     write_whole((fs::path(options_.output).parent_path() / name).string(), bytes))
