@@ -294,10 +294,10 @@ uint32_t GltfExport::skin(const MeshUse& use, uint32_t placed) {
         shared_ancestor(placed, places, kNone, [&](uint32_t n) { return placed_[n].parent; });
     if (shared != kNone) rest.shared = placed_[shared].world;
     if (shared != kNone) start.shared = placed_[shared].start;
-    SkinPlace place;
-    if (!definition.in_world) place = skin_place(bind_shape, rest, start);
-    SkinSpace space = place.space;
-    if (space == SkinSpace::BindsNode) bind_shape = place.bind;
+    SkinPlace stands;
+    if (!definition.in_world) stands = skin_place(bind_shape, rest, start);
+    SkinSpace space = stands.space;
+    if (space == SkinSpace::BindsNode) bind_shape = stands.bind;
     if (space == SkinSpace::Node || space == SkinSpace::NodeBelow) {  // the joints stand below it
         uint32_t top = space == SkinSpace::Node ? kNone : shared;
         above = static_nodes(use.conversion, placed_[placed].node);

@@ -7,7 +7,7 @@ import struct
 import unittest
 
 import programs
-from convert_test import SAME, Convert, convert, glb_json, mesh_scene, png, validated
+from convert_test import PICTURE, SAME, Convert, convert, glb_json, mesh_scene, png, validated
 from programs import render
 
 SCHEMA = 'xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"'
@@ -64,8 +64,16 @@ class GltfConvert(Convert):
 
     def image(self, name, texels):
         side = int(len(texels) ** 0.5)
-        png.write(self.folder / name, side, side, [bytes(t) for t in texels])
+        rows = [b"".join(map(bytes, texels[y * side:(y + 1) * side])) for y in range(side)]
+        png.write(self.folder / name, side, side, rows)
         return self.folder / name
+
+    def picture(self, scene, *words):
+        out = self.folder / f"{scene.stem}-{len(list(self.folder.iterdir()))}.png"
+        result = render(scene, "-o", out, *PICTURE, *words)
+        self.expect(result, 0)
+        self.assertNotIn("IMAGE_UNREADABLE", result.err)
+        return png.read(out)
 
     def valid(self, *files):
         for name, report in (validated(files) or {}).items():
