@@ -227,7 +227,10 @@ const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distanc
         own(out.u)[k] = own(out.v)[k] = 0;
         float square = 0;
         for (int c = 0; c < 3; ++c) square += rays.dir[c][ray] * rays.dir[c][ray];
-        const float t = std::min(rays.tfar[ray], distance / std::sqrt(square));
+        // The camera's end is a plane, farther away along rays at the picture's corners.
+        const bool to_plane = hits.depth == 0 && std::isfinite(rays.tfar[ray]);
+        const float t =
+            to_plane ? rays.tfar[ray] : std::min(rays.tfar[ray], distance / std::sqrt(square));
         own(out.t)[k] = t;
         for (int c = 0; c < 3; ++c) {
             const float P = rays.org[c][ray] + t * rays.dir[c][ray];

@@ -109,8 +109,9 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
                       HitStore& store, TraceCounters& counters);
 
 // The rays of the batch that `hits` (of trace()) has no hit of, as hits at their far end: at tfar,
-// or at `distance` from org where that is nearer. geometry, instance and primitive are kNone, Ng is
-// 0; the footprint is as wide as a surface across the ray would have it.
+// or at `distance` from org where that is nearer (a camera's ray, of depth 0, ends at its tfar
+// where that is finite). geometry, instance and primitive are kNone, Ng is 0; the footprint is as
+// wide as a surface across the ray would have it.
 const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance, HitStore& store);
 
 // For each ray: blocked[i] = 1 if opaque geometry lies in (tnear, tfar], else 0. The first step of

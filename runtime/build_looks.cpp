@@ -342,7 +342,7 @@ uint32_t SceneBuilder::vertex_look(LookKind kind, Surface& surface, const Materi
 void SceneBuilder::bind_displaced(Surface& surface, Look& look) {
     for (uint32_t l = 0; l < look.done_layers; ++l)
         for (const rsl::ShaderParameter& p : look.layers[l].shader->parameters) {
-            if (!p.output || p.type.is_array() || p.type.base == rsl::BaseType::String) continue;
+            if (!p.output) continue;
             for (size_t k = look.varying.size(); k-- > 0;)
                 if (look.varying[k].layer == l && look.varying[k].name == p.name) {
                     look.varying.erase(look.varying.begin() + ptrdiff_t(k));
@@ -352,7 +352,10 @@ void SceneBuilder::bind_displaced(Surface& surface, Look& look) {
             varying.name = std::string(p.name);
             varying.semantic = "vertex:" + varying.name;
             varying.layer = l;
-            varying.components = uint32_t(rsl::component_count(p.type.base));
+            varying.text = p.type.base == rsl::BaseType::String;
+            varying.array = p.type.is_array();
+            varying.components = uint32_t(rsl::component_count(p.type.base) *
+                                          (varying.array ? p.type.array_length : 1));
             look.varying.push_back(std::move(varying));
             surface.varying.push_back(nullptr);  // until the mesh is diced
         }

@@ -69,7 +69,7 @@ void displace_mesh(Scene& scene, Shape& shape, double& ms) {
 void displace_skin(Scene& scene, Shape& shape, double& ms) {
     StageTimer timer(ms);
     shape.vertex_work->run(scene, shape.node, glm::inverse(scene.nodes[shape.node].world),
-                           scene.origin, shape.positions, shape.normals);
+                           scene.origin, shape.positions, shape.normals, shape.mirrored);
 }
 
 void deform_shape(Scene& scene, Shape& shape, double& displace_ms) {

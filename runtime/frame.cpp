@@ -182,11 +182,19 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
 
     prepare_planes(scene, film);
     scene.shading->stop_by(settings.stop);
-    scene.shading->begin_frame(time, settings.shutter, settings.integrator.seed);
+    scene.shading->begin_frame(time, settings.shutter, settings.integrator.seed,
+                               settings.integrator.max_layers);
     raytrace::IntegratorCounters counters;
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
                                      settings.integrator, scene.scratch, counters, progress);
-    if (whole && scene.imager != kNone) scene.shading->run_imager(film);
+    if (whole && scene.imager != kNone) {
+        size_t bad = scene.shading->run_imager(film, settings.integrator.nan);
+        film.non_finite += bad;
+        stats.non_finite = bad;
+        if (bad)
+            diagnostics.report(Code::SHADER_NON_FINITE, Location{}, bad,
+                               scene.looks[scene.imager]->name);
+    }
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
@@ -194,7 +202,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     stats.rays = counters.trace.rays + counters.trace.shadow_rays + shading.trace.rays +
                  shading.trace.shadow_rays;
     stats.shading_points = shading.points;
-    stats.non_finite = counters.non_finite;
+    stats.non_finite += counters.non_finite;
     if (counters.non_finite) {
         uint32_t row = counters.non_finite_geometry;  // kNone: where there is no surface
         diagnostics.report(

@@ -165,42 +165,41 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
     rays.count = 0;
     uint8_t lane_of[kGridPoints];
     uint32_t sample_of[kGridPoints];
+    int32_t label = 0;  // of the rays that wait
     auto flush = [&] {
         size_t n = rays.count;
         if (n > 0 && shoots)
-            shade_gathered({grid,
-                            results,
-                            records,
-                            {lane_of, n},
-                            {sample_of, n},
-                            lanes.integer(Row::Label, any)},
-                           rays);
+            shade_gathered({grid, results, records, {lane_of, n}, {sample_of, n}, label}, rays);
         rays.count = 0;
     };
-    for (int lane = 0; lane < kLanes; ++lane) {
-        int n = counts.samples[lane];
-        for (int k = n; k < counts.most; ++k)
+    for (int lane = 0; lane < kLanes; ++lane)
+        for (int k = counts.samples[lane]; k < counts.most; ++k)
             records.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
-        if (n == 0) continue;
-        uint32_t seed = lanes.seed(lane);
-        float angle = lanes.number(Row::Angle, lane), reach = lanes.number(Row::Maxdist, lane);
-        vec3 P = lanes.triple(Row::P, lane);
-        Cone cone(accel_from_camera * lanes.triple(Row::D, lane), angle,
-                  flags & rsl::kGatherCosine);
-        RayStart start = ray_start(grid, lanes.point(lane), P);
-        for (uint32_t k = 0; k < uint32_t(n); ++k) {
-            // A cone without width is its axis.
-            vec3 dir = angle > 0 ? cone.direction(k, seed) : cone.z;
-            record_ray(records, of_ray, k, lane, P, camera_from_accel_ * dir, reach);
-            if (counts.share[lane] == 0) continue;
-            lane_of[rays.count] = uint8_t(lane);
-            sample_of[rays.count] = k;
-            add_ray(rays, grid, start, dir, reach, lanes.number(Row::Bias, lane),
-                    raytrace::hash(seed, k), uint32_t(rays.count), counts.share[lane]);
-            if (rays.count == kGridPoints) flush();
+    lanes.for_each_text(Row::Label, [&](const Lanes& alike) {
+        label = alike.integer(Row::Label, alike.first());
+        for (int lane = 0; lane < kLanes; ++lane) {
+            int n = alike.asks(lane) ? counts.samples[lane] : 0;
+            if (n == 0) continue;
+            uint32_t seed = lanes.seed(lane);
+            float angle = lanes.number(Row::Angle, lane), reach = lanes.number(Row::Maxdist, lane);
+            vec3 P = lanes.triple(Row::P, lane);
+            Cone cone(accel_from_camera * lanes.triple(Row::D, lane), angle,
+                      flags & rsl::kGatherCosine);
+            RayStart start = ray_start(grid, lanes.point(lane), P);
+            for (uint32_t k = 0; k < uint32_t(n); ++k) {
+                // A cone without width is its axis.
+                vec3 dir = angle > 0 ? cone.direction(k, seed) : cone.z;
+                record_ray(records, of_ray, k, lane, P, camera_from_accel_ * dir, reach);
+                if (counts.share[lane] == 0) continue;
+                lane_of[rays.count] = uint8_t(lane);
+                sample_of[rays.count] = k;
+                add_ray(rays, grid, start, dir, reach, lanes.number(Row::Bias, lane),
+                        raytrace::hash(seed, k), uint32_t(rays.count), counts.share[lane]);
+                if (rays.count == kGridPoints) flush();
+            }
         }
-    }
-    flush();
+        flush();
+    });
     own.arena.release(mark);
     int32_t handle = int32_t(kGatherSets) + level;
     grid.record_sets[size_t(handle)] = {counts.most, memory.records.data()};

@@ -65,6 +65,28 @@ Parameters parameters(const Corner& c) {
     return p;
 }
 
+// A number of a varying parameter at the three corners.
+void corner_values(const Corner& c, const VaryingParam& param, const VertexAttribute* attribute,
+                   uint32_t component, float x[3]) {
+    for (int corner = 0; corner < 3; ++corner) {
+        x[corner] = 0;
+        if (attribute) {
+            uint32_t from = std::min(param.component + component, attribute->stride - 1);
+            x[corner] = c.attribute(*attribute, corner)[from];
+        } else if (param.semantic == "Pref") {
+            x[corner] = c.mesh.positions[c.position(corner)][int(component)] +
+                        float(c.mesh.anchor[int(component)]);
+        }
+    }
+}
+
+// Between the corners; a text is the nearest corner's, bit for bit.
+float between(const Corner& c, const VaryingParam& param, const float x[3]) {
+    if (!param.text) return x[0] + c.u * (x[1] - x[0]) + c.v * (x[2] - x[0]);
+    float w = 1 - c.u - c.v;
+    return w >= c.u && w >= c.v ? x[0] : c.u >= c.v ? x[1] : x[2];
+}
+
 // The footprint in u, v of a displacement dP on the surface: least squares on dPdu, dPdv.
 vec2 footprint(vec3 dPdu, vec3 dPdv, vec3 dP) {
     float a = glm::dot(dPdu, dPdu), b = glm::dot(dPdu, dPdv), c = glm::dot(dPdv, dPdv);
@@ -267,23 +289,15 @@ class Gather {
     void varying(size_t i, const Corner& c, const AffineMap& map) const {
         for (size_t k = 0; k < grid_.look->varying.size(); ++k) {
             const VaryingParam& param = grid_.look->varying[k];
-            const VertexAttribute* attribute = surface_->varying[k];
+            if (param.column == kNoColumn) continue;  // no kernel reads it
             for (uint32_t j = 0; j < param.components; ++j) {
-                float x[3] = {0, 0, 0};
-                for (int corner = 0; corner < 3; ++corner) {
-                    if (attribute) {
-                        uint32_t from = std::min(param.component + j, attribute->stride - 1);
-                        x[corner] = c.attribute(*attribute, corner)[from];
-                    } else if (param.semantic == "Pref") {
-                        x[corner] = mesh_->positions[c.position(corner)][int(j)] +
-                                    float(mesh_->anchor[int(j)]);
-                    }
-                }
+                float x[3];
+                corner_values(c, param, surface_->varying[k], j, x);
                 float d1 = x[1] - x[0], d2 = x[2] - x[0];
                 auto put = [&](uint32_t which, float value) {
                     if (float* row = column(param.column + which)) row[i] = value;
                 };
-                put(j, x[0] + c.u * d1 + c.v * d2);
+                put(j, between(c, param, x));
                 put(param.components + j, map.along_u(d1, d2));
                 put(2 * param.components + j, map.along_v(d1, d2));
             }
@@ -335,6 +349,19 @@ void gather(Grid& grid) {
     for (float* column : grid.columns)
         if (column)
             for (size_t i = grid.count(); i < padded(grid.count()); ++i) column[i] = column[last];
+}
+
+float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hit, size_t which,
+                 uint32_t component) {
+    const Surface& surface = scene.surfaces[hits.instance[hit]];
+    const Shape& shape = scene.shapes[surface.shape];
+    const Mesh& mesh = scene.meshes[shape.mesh];
+    Corner c{surface,     shape,      mesh, mesh.groups[surface.group], hits.primitive[hit],
+             hits.u[hit], hits.v[hit]};
+    const VaryingParam& param = scene.looks[surface.look]->varying[which];
+    float x[3];
+    corner_values(c, param, surface.varying[which], component, x);
+    return between(c, param, x);
 }
 
 }  // namespace kinora

@@ -72,7 +72,8 @@ struct Grid {
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null
     // in lights and volumes: each point's own surface.
     const Look* surface = nullptr;
-    const Grid* lit = nullptr;  // a light's: the grid of the surface, point by point the same
+    const Grid* lit = nullptr;  // a light's: the grid of the surface
+    size_t lit_first = 0;       // whose point that of point 0 is
 
     size_t count() const { return points.size(); }
 };
@@ -83,5 +84,10 @@ void want_triple(Grid& grid, uint16_t first);
 
 // Fills every non-null column from the hits.
 void gather(Grid& grid);
+
+// Number `component` of Look::varying[which] of the look that a hit's surface wears: the bits that
+// its column would have.
+float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hit, size_t which,
+                 uint32_t component);
 
 }  // namespace kinora

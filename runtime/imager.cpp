@@ -4,6 +4,7 @@
 // all components: the film keeps no more. alpha becomes the picture's; an imager that leaves alpha
 // alone and writes Oi sets it to the mean of Oi.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -74,6 +75,17 @@ ImagerOutputs find_outputs(const jit::Kernel& kernel) {
     return result;
 }
 
+// Replaces what is not finite; returns whether all was.
+bool mend(vec4& pixel, raytrace::NanPolicy nan) {
+    bool finite = true;
+    for (int k = 0; k < 4; ++k) finite &= std::isfinite(pixel[k]);
+    if (finite || nan == raytrace::NanPolicy::Keep) return finite;
+    for (int k = 0; k < 4; ++k)
+        if (!std::isfinite(pixel[k])) pixel[k] = 0;
+    if (nan == raytrace::NanPolicy::Magenta) pixel = vec4(1, 0, 1, 1);
+    return false;
+}
+
 bool writes(const Look& look, rsl::Global global) {
     for (const ShaderUse& use : look.layers)
         for (const rsl::GlobalInfo* info : use.shader->globals_written)
@@ -83,7 +95,8 @@ bool writes(const Look& look, rsl::Global global) {
 
 }  // namespace
 
-void Shading::image_pixels(raytrace::Film& film, size_t first, size_t count) {
+size_t Shading::image_pixels(raytrace::Film& film, size_t first, size_t count,
+                             raytrace::NanPolicy nan) {
     const Look& look = *scene_.looks[scene_.imager];
     int thread_id = thread_index();
     Arena& arena = thread(thread_id).arena;
@@ -120,10 +133,10 @@ void Shading::image_pixels(raytrace::Film& film, size_t first, size_t count) {
     ImagerOutputs outputs = find_outputs(look.full.kernel());
     bool mean_of_Oi =
         writes(look, rsl::Global::Oi) && !writes(look, rsl::Global::alpha) && outputs.Oi[0] >= 0;
+    size_t bad = 0;
     for (size_t i = 0; i < count; ++i) {
         auto value = [&](int output, float otherwise) {
-            float x = output < 0 ? otherwise : out[size_t(output)][i];
-            return std::isfinite(x) ? x : 0.0f;
+            return output < 0 ? otherwise : out[size_t(output)][i];
         };
         vec4& pixel = film.rgba[first + i];
         float alpha = value(outputs.alpha, pixel.w);
@@ -132,19 +145,23 @@ void Shading::image_pixels(raytrace::Film& film, size_t first, size_t count) {
                 (value(outputs.Oi[0], 1) + value(outputs.Oi[1], 1) + value(outputs.Oi[2], 1)) / 3;
         for (int k = 0; k < 3; ++k) pixel[k] = value(outputs.Ci[k], pixel[k]);
         pixel.w = alpha;
+        bad += !mend(pixel, nan);
     }
     arena.release(mark);
+    return bad;
 }
 
-void Shading::run_imager(raytrace::Film& film) {
+size_t Shading::run_imager(raytrace::Film& film, raytrace::NanPolicy nan) {
     size_t runs = (film.rgba.size() + kGridPoints - 1) / kGridPoints;
+    std::atomic<size_t> bad = 0;
     parallel_for(0, runs, 1, [&](size_t begin, size_t end) {
         std::optional<raytrace::DenormalGuard> flush;
         if (scene_.options.math == jit::math::Tier::Fast) flush.emplace();
         for (size_t r = begin; r < end; ++r)
-            image_pixels(film, r * kGridPoints,
-                         std::min(kGridPoints, film.rgba.size() - r * kGridPoints));
+            bad += image_pixels(film, r * kGridPoints,
+                                std::min(kGridPoints, film.rgba.size() - r * kGridPoints), nan);
     });
+    return bad;
 }
 
 }  // namespace kinora

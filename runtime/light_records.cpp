@@ -89,14 +89,18 @@ bool has_category(std::string_view own, std::string_view wanted) {
     });
 }
 
-float constant_param(const Look& light, const Scene& scene, std::string_view name) {
+// A light's float parameter: bound to a value, which may be animated, or its constant default.
+Shading::LightNumber number_of(const Look& light, std::string_view name) {
     for (const ParamSource& source : light.layers[0].params)
-        if (source.name == name && source.value.present())
-            return float(scene.values[source.value.offset]);
+        if (source.name == name && source.value.present()) return {source.value.offset, 0};
     for (const rsl::ShaderParameter& p : light.shader().parameters)
         if (p.name == name && p.constant && !p.constant->numbers.empty())
-            return p.constant->numbers[0];
-    return 0;
+            return {kNone, p.constant->numbers[0]};
+    return {};
+}
+
+float present(const Shading::LightNumber& number, const Scene& scene) {
+    return number.value == kNone ? number.fixed : float(scene.values[number.value]);
 }
 
 }  // namespace
@@ -148,13 +152,13 @@ int find_component(const jit::Kernel& kernel, const std::string& name, rsl::Base
 }
 
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.
-LightBinding binding_of(const Look& surface, const Look& light, const Scene& scene) {
+LightBinding binding_of(const Look& surface, const Look& light) {
     LightBinding binding;
     std::string own = categories_of(light);
     for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
         binding.categories |= int32_t(has_category(own, surface.lowered.categories[c])) << c;
-    binding.nondiffuse = constant_param(light, scene, "__nondiffuse");
-    binding.nonspecular = constant_param(light, scene, "__nonspecular");
+    binding.nondiffuse = number_of(light, "__nondiffuse");
+    binding.nonspecular = number_of(light, "__nonspecular");
     const jit::Kernel& kernel = light.full.kernel();
     for (size_t m = 0; m < surface.lowered.light_messages.size(); ++m) {
         rsl::Type type = surface.lowered.light_message_types[m];
@@ -198,7 +202,7 @@ void Shading::bind_lights() {
         auto& row = bindings_.emplace_back();
         if (scene_.looks[l]->kind == LookKind::Light) continue;
         for (const LightSource& light : scene_.lights)
-            row.push_back(binding_of(*scene_.looks[l], *scene_.looks[light.look], scene_));
+            row.push_back(binding_of(*scene_.looks[l], *scene_.looks[light.look]));
     }
 }
 
@@ -259,7 +263,8 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
         lit.ray = grid.ray;
         lit.shadows = grid.shadows;
         lit.surface = grid.look->kind == LookKind::Surface ? grid.look : nullptr;
-        lit.lit = at.first == 0 && at.count == grid.count() ? &grid : nullptr;
+        lit.lit = &grid;
+        lit.lit_first = at.first;
         lit.thread = grid.thread;
         lit.shading = this;
         lit.arena = &arena;
@@ -318,8 +323,8 @@ jit::Record Shading::make_record(Grid& grid, const LightPoints& at, const Statem
         grid.arena->allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
     uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
     uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
-    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse;
-    uniforms[rsl::kLightNonspecular] = binding.nonspecular;
+    uniforms[rsl::kLightNondiffuse] = present(binding.nondiffuse, scene_);
+    uniforms[rsl::kLightNonspecular] = present(binding.nonspecular, scene_);
     for (size_t m = 0; m < binding.known.size(); ++m)
         uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
     // Columns are read at the grid's point, so those of a part of it start before it.

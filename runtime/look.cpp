@@ -222,7 +222,8 @@ void bind_kernel(BoundKernel& bound, Look& look) {
 
 void place_varying(Look& look) {
     for (VaryingParam& varying : look.varying) {
-        varying.column = look.column_count;
+        varying.column = varying.array ? kNoColumn : look.column_count;
+        if (varying.array) continue;
         look.column_count = uint16_t(look.column_count + 3 * varying.components);
     }
 }
@@ -263,7 +264,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
         lower.aovs.clear();
         for (const ShaderUse& use : look.layers)
             for (const rsl::ShaderParameter& p : use.shader->parameters)
-                if (p.output && !p.type.is_array()) lower.aovs.emplace_back(p.name);
+                if (p.output) lower.aovs.emplace_back(p.name);
     }
     lower.area_light = look.area_light;
     jit::CompileOptions compile;
@@ -291,6 +292,23 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     }
     look.current_from_space.resize(look.spaces.size(), dmat4(1.0));
     return true;
+}
+
+int output_component(std::string_view suffix) {
+    auto number = [&](size_t at, uint32_t& out) {
+        const char* end = suffix.data() + suffix.size();
+        return size_t(std::from_chars(suffix.data() + at, end, out).ptr - suffix.data());
+    };
+    uint32_t element = 0, component = 0, width = 1;
+    if (suffix.starts_with('[')) suffix.remove_prefix(number(1, element) + 1);
+    if (suffix.empty()) return int(element);
+    if (suffix[0] != '.' || suffix.size() < 2) return -1;
+    if (int letter = component_of(suffix[1]); letter >= 0) {
+        component = uint32_t(letter), width = 3;
+    } else {
+        number(1, component), width = 16;
+    }
+    return int(element * width + component);
 }
 
 void Look::update_for_vertices(const FrameContext& context, uint32_t object) {

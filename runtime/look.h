@@ -81,7 +81,10 @@ struct VaryingParam {
     uint32_t layer = 0;
     uint32_t components = 1;
     uint32_t component = 0;  // first component of the vertex input (1 for the t of a texcoord)
-    uint16_t column = 0;     // value; du at column + components, dv at column + 2 * components
+    bool text = false;       // values are ids of interned texts, bit for bit
+    bool array = false;  // of `components` numbers in all: no kernel reads it, shaders ask for it
+    // Value; du at column + components, dv at column + 2 * components. kNoColumn: an array's.
+    uint16_t column = 0;
 };
 
 struct Look {
@@ -120,6 +123,10 @@ struct LookOptions {
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
 };
+
+// Which number of a parameter a kernel's output is whose name goes on behind the parameter's with
+// `suffix`: "", ".x", ".b", ".15", "[2]", "[2].y"; -1: it is another parameter's.
+int output_component(std::string_view suffix);
 
 // A point-like parameter, given in shader space, in current space.
 dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, const double* value);

@@ -13,7 +13,6 @@ namespace kinora {
 
 namespace {
 
-constexpr int kSeenLayers = 16;       // surfaces one ray sees through (DESIGN.md decision 6)
 constexpr float kLeastLight = 1e-4f;  // of what lies behind them, still worth a ray
 // Each call of a point divides its ray's share by its number and 0.29, so that a way of one ray a
 // hit still goes 16 deep, and two a hit end at some 400 rays instead of 2^16. Hits near the eye may
@@ -133,7 +132,7 @@ void Shading::see_beyond(int thread_id, const raytrace::RayBatch& rays,
     for (size_t k = 0; k < ends.count; ++k) {
         Seen& at = seen[rays.slot[ends.ray[k]]];
         at.color += at.open * triple(result.Ci, k);
-        at.open *= vec3(1.0f) - triple(result.Oi, k);
+        at.open *= vec3(1.0f) - stopped_by(triple(result.Oi, k));
     }
     own.arena.release(mark);
 }
@@ -147,13 +146,18 @@ void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const
     RayTag outer = std::exchange(own.ray, tag);
     const HitOutputs* outputs = std::exchange(own.outputs, nullptr);
     Arena::Mark mark = own.arena.mark();
-    for (int layer = 0; layer < kSeenLayers && rays.count > 0; ++layer) {
+    for (int layer = 0; rays.count > 0; ++layer) {
         NestedWavefront nested(own);
         nested->hits.reserve(kGridPoints);
         const raytrace::HitBatch& hits = raytrace::trace(scene_.accel, rays, raytrace::kMaskAll,
                                                          depth, nested->hits, own.counters.trace);
         if (miss_distance() > 0 && hits.count < rays.count) see_beyond(thread_id, rays, hits, seen);
         if (hits.count == 0) break;
+        if (layer == max_layers_) {  // what is left is not seen
+            for (size_t h = 0; h < hits.count; ++h) seen[rays.slot[hits.ray[h]]].open = vec3(0.0f);
+            own.counters.too_deep += hits.count;
+            break;
+        }
         raytrace::ShadeResult result = take_colors(own.arena, hits.count);
         shade(hits, thread_id, result);
         size_t kept = 0;
@@ -161,7 +165,7 @@ void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const
             uint32_t r = hits.ray[h], slot = rays.slot[r];
             Seen& at = seen[slot];
             at.color += at.open * triple(result.Ci, h);
-            at.open *= vec3(1.0f) - triple(result.Oi, h);
+            at.open *= vec3(1.0f) - stopped_by(triple(result.Oi, h));
             at.distance = std::min(at.distance, hits.t[h]);
             if (std::max(at.open.x, std::max(at.open.y, at.open.z)) < kLeastLight) {
                 at.open = vec3(0.0f);

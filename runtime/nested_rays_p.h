@@ -2,6 +2,8 @@
 // batches they go in; for the files that answer ray services only.
 #pragma once
 
+#include <bit>
+
 #include "runtime/shading_p.h"
 
 namespace kinora {
@@ -48,8 +50,8 @@ raytrace::ShadeResult take_colors(Arena& arena, size_t count);
 // Lanes of a service call, by name of the argument row.
 class Lanes {
   public:
-    explicit Lanes(const jit::ServiceCall& call) : call_(call) {}
-    bool asks(int lane) const { return call_.mask >> lane & 1; }
+    explicit Lanes(const jit::ServiceCall& call) : call_(call), mask_(call.mask) {}
+    bool asks(int lane) const { return mask_ >> lane & 1; }
     float number(int row, int lane) const { return call_.args[row * jit::kMaxLanes + lane]; }
     int32_t integer(int row, int lane) const { return jit::bits_of(number(row, lane)); }
     vec3 triple(int row, int lane) const {
@@ -62,6 +64,23 @@ class Lanes {
         for (int k = 0; k < 3; ++k) set(row + k, lane, v[k]);
     }
     size_t point(int lane) const { return size_t(call_.first + lane); }
+    // These lanes only, where they ask.
+    Lanes(const Lanes& all, uint32_t lanes) : call_(all.call_), mask_(all.mask_ & lanes) {}
+    // Calls f(lanes) for the lanes of each text that argument `row` has, one text after the other:
+    // rays that go together share their label.
+    template <class F>
+    void for_each_text(int row, F&& f) const {
+        for (uint32_t left = mask_; left;) {
+            int32_t text = integer(row, std::countr_zero(left));
+            uint32_t same = 0;
+            for (uint32_t rest = left; rest; rest &= rest - 1)
+                if (int lane = std::countr_zero(rest); integer(row, lane) == text)
+                    same |= 1u << lane;
+            f(Lanes(*this, same));
+            left &= ~same;
+        }
+    }
+    int first() const { return std::countr_zero(mask_); }
     int samples(int row, int lane) const {
         float n = number(row, lane);
         return n >= 1 ? int(std::min(n + 0.5f, float(kMostSamples))) : 1;
@@ -71,6 +90,7 @@ class Lanes {
 
   private:
     const jit::ServiceCall& call_;
+    uint32_t mask_;
 };
 
 }  // namespace kinora

@@ -26,19 +26,28 @@ bool fits(const Question& question, rsl::Type type) {
                                     : question.element < 0);
 }
 
-// Bound to a vertex input: the value is at hand where the surface's own kernel reads it.
-bool from_column(const Asker& asker, const Look& look, uint32_t layer, const Question& question,
-                 Answer& answer, bool* varying) {
+// Bound to a vertex input: at hand where the surface's own kernel reads it, else made here.
+bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Question& question,
+                   Answer& answer, bool* varying) {
     *varying = false;
-    for (const VaryingParam& v : look.varying) {
+    for (size_t which = 0; which < look.varying.size(); ++which) {
+        const VaryingParam& v = look.varying[which];
         if (v.layer != layer || v.name != question.name) continue;
         *varying = true;
-        const Grid* grid = asker.grid && asker.grid->lit ? asker.grid->lit : asker.grid;
-        if (!grid || grid->look != &look || grid->columns.size() <= v.column) return false;
-        for (uint32_t c = 0; c < v.components; ++c) {
-            const float* column = grid->columns[v.column + c];
-            if (!column) return false;
-            answer[c] = column[asker.point];
+        if (!asker.grid) return false;
+        const Grid& grid = asker.grid->lit ? *asker.grid->lit : *asker.grid;
+        size_t point = asker.point + asker.grid->lit_first;
+        uint32_t hit = grid.points[point], row = grid.hits.instance[hit];
+        if (row == kNone || asker.scene.looks[asker.scene.surfaces[row].look].get() != &look)
+            return false;
+        uint32_t count = uint32_t(question.components());
+        uint32_t first = question.element > 0 ? uint32_t(question.element) * count : 0;
+        for (uint32_t c = 0; c < count; ++c) {
+            bool read = grid.look == &look && v.column != kNoColumn &&
+                        grid.columns.size() > size_t(v.column + first + c);
+            const float* column = read ? grid.columns[v.column + first + c] : nullptr;
+            answer[c] =
+                column ? column[point] : varying_at(asker.scene, grid.hits, hit, which, first + c);
         }
         return true;
     }
@@ -173,7 +182,7 @@ bool answer_parameter(const Asker& asker, const Look& look, rsl::ShaderKind kind
             if (parameter.name != question.name) continue;
             if (!fits(question, parameter.type)) return false;
             bool varying;
-            if (from_column(asker, look, uint32_t(l), question, answer, &varying)) return true;
+            if (from_vertices(asker, look, uint32_t(l), question, answer, &varying)) return true;
             if (varying) return false;
             for (const ParamSource& source : use.params)
                 if (source.name == parameter.name &&

@@ -15,18 +15,21 @@ namespace {
 // Numbers in a row or one text; `kind` 'p' (point) and 'v' (vector) are in current space.
 struct Fact {
     std::array<double, 4> numbers{};
+    std::span<const double> list;  // instead of `numbers`, where there may be more
     int count = 0;
     std::string_view text;
     bool is_text = false;
 
     Fact() = default;
     Fact(double x) : numbers{x}, count(1) {}
-    Fact(std::initializer_list<double> list) : count(int(list.size())) {
-        std::copy(list.begin(), list.end(), numbers.begin());
+    Fact(std::initializer_list<double> few) : count(int(few.size())) {
+        std::copy(few.begin(), few.end(), numbers.begin());
     }
+    explicit Fact(std::span<const double> many) : list(many), count(int(many.size())) {}
     Fact(vec3 v) : Fact({double(v.x), double(v.y), double(v.z)}) {}
     Fact(std::string_view s) : text(s), is_text(true) {}
     bool known() const { return count > 0 || is_text; }
+    float number(int k) const { return float(list.empty() ? numbers[size_t(k)] : list[size_t(k)]); }
 };
 
 using Find = Fact (*)(const Asker& asker);
@@ -50,8 +53,12 @@ const Look& look_of(const Asker& asker) {
     return *asker.scene.looks[asker.surface().look];
 }
 
+// The material or the mesh may say so.
+bool one_sided(const Asker& asker) {
+    return asker.scene.geometry[asker.grid->hits.instance[asker.hit()]].hide_backfaces;
+}
 Fact sides(const Asker& asker) {
-    return look_of(asker).hide_backfaces ? 1.0 : 2.0;
+    return one_sided(asker) ? 1.0 : 2.0;
 }
 Fact node_name(const Asker& asker) {
     const NodeDefinition& node = node_of(asker);
@@ -61,8 +68,9 @@ Fact material_name(const Asker& asker) {
     return std::string_view(look_of(asker).name);
 }
 Fact mesh_name(const Asker& asker) {
-    const Shape& shape = asker.scene.shapes[asker.surface().shape];
-    return std::string_view(asker.scene.description->meshes[shape.mesh].id);
+    const Scene& scene = asker.scene;
+    uint32_t mesh = scene.shapes[asker.surface().shape].mesh;
+    return std::string_view(scene.description->meshes[scene.meshes[mesh].definition].id);
 }
 Fact row_number(const Asker& asker) {
     return double(asker.grid->hits.instance[asker.hit()]);
@@ -74,7 +82,7 @@ Fact diffuse_depth(const Asker& asker) {
     return double(asker.scene.options.diffuse_depth);
 }
 Fact backfacing(const Asker& asker) {
-    return look_of(asker).hide_backfaces ? 1.0 : 0.0;
+    return one_sided(asker) ? 1.0 : 0.0;
 }
 Fact transmission_mode(const Asker& asker) {
     return std::string_view(look_of(asker).opaque() ? "opaque" : "shader");
@@ -131,7 +139,9 @@ Fact clipping(const Asker& asker) {
     return {asker.scene.view.znear, asker.scene.view.zfar};
 }
 Fact frame(const Asker& asker) {
-    return std::round(asker.scene.time * play_range(*asker.scene.description).rate);
+    double asked = asker.scene.options.frame_rate;
+    double rate = asked > 0 ? asked : play_range(*asker.scene.description).rate;
+    return std::round(asker.scene.time * rate);
 }
 Fact projection(const Asker& asker) {
     return std::string_view(asker.scene.view.orthographic ? "orthographic" : "perspective");
@@ -252,7 +262,8 @@ std::span<const Row> rows_of(rsl::QueryKind kind_asked) {
     }
 }
 
-// Several numbers are read as an array no longer than they are, or three as a triple.
+// Several numbers are read as an array no longer than they are, three as a triple, sixteen as a
+// matrix.
 bool read(const Fact& fact, const Question& question, Answer& answer) {
     if (fact.is_text) {
         if (question.type != 's' || question.element >= 0) return false;
@@ -262,12 +273,12 @@ bool read(const Fact& fact, const Question& question, Answer& answer) {
     bool array = question.element >= 0;
     if (question.type == 'f' && array) {
         if (question.length > fact.count) return false;
-        answer[0] = float(fact.numbers[size_t(question.element)]);
+        answer[0] = fact.number(question.element);
         return true;
     }
-    int wanted = question.triple() ? 3 : 1;
-    if (array || question.type == 'm' || question.type == 's' || fact.count != wanted) return false;
-    for (int k = 0; k < wanted; ++k) answer[size_t(k)] = float(fact.numbers[size_t(k)]);
+    int wanted = question.components();
+    if (array || question.type == 's' || fact.count != wanted) return false;
+    for (int k = 0; k < wanted; ++k) answer[size_t(k)] = fact.number(k);
     return true;
 }
 
@@ -282,10 +293,7 @@ bool user_attribute(const Asker& asker, const Question& question, Answer& answer
             if (user.numbers.empty()) {
                 return read(Fact(std::string_view(user.text)), question, answer);
             }
-            Fact fact;
-            fact.count = int(std::min(user.numbers.size(), fact.numbers.size()));
-            std::copy_n(user.numbers.begin(), fact.count, fact.numbers.begin());
-            return read(fact, question, answer);
+            return read(Fact(std::span<const double>(user.numbers)), question, answer);
         }
     }
     return false;

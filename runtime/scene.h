@@ -153,6 +153,7 @@ struct SceneOptions {
     bool decode_textures = true;    // 8-bit colours from sRGB; false: --color legacy
     uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
+    double frame_rate = 0;          // frames a second that option("Frame") counts; 0: the file's
     // Range played, seconds: frames the default camera, and its views tell how fine to dice.
     double start_time = 0, end_time = 0;
     DisplacementMode displacement = DisplacementMode::True;  // Bump: only N is bent

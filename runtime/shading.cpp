@@ -15,6 +15,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     points += o.points;
     light_points += o.light_points;
     opacity_points += o.opacity_points;
+    too_deep += o.too_deep;
 }
 
 Shading::Shading(Scene& scene) : scene_(scene) {
@@ -23,8 +24,9 @@ Shading::Shading(Scene& scene) : scene_(scene) {
 }
 Shading::~Shading() = default;
 
-void Shading::begin_frame(double time, double shutter, uint32_t seed) {
+void Shading::begin_frame(double time, double shutter, uint32_t seed, int max_layers) {
     seed_ = seed;
+    max_layers_ = max_layers;
     time_ = time;
     shutter_ = shutter;
     while (threads_.size() < size_t(thread_count())) threads_.push_back(std::make_unique<Thread>());
@@ -68,6 +70,8 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     for (auto& thread : threads_) total += thread->counters;
     flush_prints();
     flush_bakes(whole, diagnostics);
+    if (total.too_deep)
+        diagnostics.report(Code::LAYER_LIMIT, Location{}, total.too_deep, max_layers_);
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         const BoundKernel* kernels[] = {&scene_.looks[l]->full, scene_.looks[l]->opacity
                                                                     ? &*scene_.looks[l]->opacity
@@ -212,16 +216,10 @@ void Shading::copy_outputs(const HitOutputs& wanted, const jit::Kernel& kernel,
                 else if (name != "N")
                     continue;
                 if (!full.starts_with(name)) continue;
-                std::string_view suffix = full.substr(name.size());
-                constexpr std::string_view kSuffixes = "xyzrgb";
-                size_t k = 0;
-                if (suffix.size() == 2 && suffix[0] == '.' &&
-                    kSuffixes.find(suffix[1]) != std::string_view::npos)
-                    k = kSuffixes.find(suffix[1]) % 3;
-                else if (!suffix.empty())
-                    continue;
-                for (size_t i = 0; k < components && i < points.size(); ++i)
-                    wanted.columns[column + k][points[i]] = out[o][i];
+                int k = output_component(full.substr(name.size()));
+                if (k < 0 || size_t(k) >= components) continue;
+                for (size_t i = 0; i < points.size(); ++i)
+                    wanted.columns[column + size_t(k)][points[i]] = out[o][i];
             }
         }
         column += components;
@@ -256,8 +254,12 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
             own.counters.opacity_points += grid.count();
             float* Oi[3];
             find_color(look.opacity->kernel(), out, "Oi", Oi);
-            for (size_t i = 0; i < part.size(); ++i)
-                for (int k = 0; k < 3; ++k) result[part[i]][k] = Oi[k] ? Oi[k][i] : 1.0f;
+            for (size_t i = 0; i < part.size(); ++i) {
+                vec3 given(1.0f);
+                for (int k = 0; k < 3; ++k)
+                    if (Oi[k]) given[k] = Oi[k][i];
+                result[part[i]] = stopped_by(given);
+            }
             own.arena.release(grid_mark);
         }
     }

@@ -21,6 +21,7 @@ struct ShadingCounters {
     uint64_t points = 0;            // surface kernels
     uint64_t light_points = 0;      // light kernels
     uint64_t opacity_points = 0;    // opacity kernels
+    uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
     void operator+=(const ShadingCounters& o);
 };
 
@@ -31,8 +32,9 @@ class Shading : public raytrace::SurfaceShading {
     explicit Shading(Scene& scene);
     ~Shading() override;
 
-    // Before a frame's first shade(): sizes the threads' memory, runs the frame kernels.
-    void begin_frame(double time, double shutter, uint32_t seed);
+    // Before a frame's first shade(): sizes the threads' memory, runs the frame kernels. Rays see
+    // through max_layers surfaces, as those of the camera do.
+    void begin_frame(double time, double shutter, uint32_t seed, int max_layers);
     // The frame ends as soon as it can once this is not 0; null: never.
     void stop_by(const std::atomic<int>* flag) { stop_ = flag; }
     bool stopped() const override { return stop_ && stop_->load(std::memory_order_relaxed) != 0; }
@@ -50,7 +52,8 @@ class Shading : public raytrace::SurfaceShading {
     uint32_t nested_medium(const raytrace::HitBatch& hits, size_t k, vec3 dir) const;
 
     // imager.cpp: runs the scene's imager over the finished picture, after integrate().
-    void run_imager(raytrace::Film& film);
+    // The number of its pixels that were not finite; they become what `nan` says.
+    size_t run_imager(raytrace::Film& film, raytrace::NanPolicy nan);
 
     // The services that shoot rays (rsl/renderer_services.h), for one lane group of a grid.
     void trace(Grid& grid, const jit::ServiceCall& call);
@@ -82,10 +85,15 @@ class Shading : public raytrace::SurfaceShading {
         bool casts_shadow = false;
         int L[3], Cl[3], Ol[3], lit = -1;
     };
+    // A number of a light that may be animated: in Scene::values, or fixed (`value` is kNone).
+    struct LightNumber {
+        uint32_t value = kNone;
+        float fixed = 0;
+    };
     // What one surface look reads of one light.
     struct LightBinding {
         int32_t categories = 0;
-        float nondiffuse = 0, nonspecular = 0;
+        LightNumber nondiffuse, nonspecular;
         std::vector<int> messages;   // output columns
         std::vector<int32_t> known;  // per message: the light has that parameter
     };
@@ -109,7 +117,7 @@ class Shading : public raytrace::SurfaceShading {
                       raytrace::ShadeResult& result);
     void apply_volumes(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result);
     void pass_volumes(const raytrace::HitBatch& hits, int thread, vec3* Oi);
-    void image_pixels(raytrace::Film& film, size_t first, size_t count);
+    size_t image_pixels(raytrace::Film& film, size_t first, size_t count, raytrace::NanPolicy nan);
     // area_light.cpp
     struct AreaLight;
     struct LightSamples;
@@ -160,6 +168,7 @@ class Shading : public raytrace::SurfaceShading {
     std::set<std::string> reported_points_;  // point files that could not be read
     const std::atomic<int>* stop_ = nullptr;
     uint32_t seed_ = 0;
+    int max_layers_ = 32;
     double time_ = 0, shutter_ = 0;
     bool any_transparent_ = false;
     bool has_exteriors_ = false;

@@ -2,6 +2,8 @@
 // transmission.cpp and services.cpp only.
 #pragma once
 
+#include <algorithm>
+
 #include "raytrace/sampling.h"
 #include "runtime/point_file.h"
 #include "runtime/scene.h"
@@ -112,6 +114,12 @@ struct Shading::LightSamples {
     float *u, *v;
     raytrace::Accel::SurfacePoints place;
 };
+
+// The share of light that something of opacity Oi stops, as the camera has it; NaN stays NaN.
+inline vec3 stopped_by(vec3 Oi) {
+    for (int k = 0; k < 3; ++k) Oi[k] = std::clamp(Oi[k], 0.0f, 1.0f);
+    return Oi;
+}
 
 inline vec3 triple(const float* const columns[3], size_t i) {
     return {columns[0][i], columns[1][i], columns[2][i]};

@@ -89,7 +89,17 @@ std::string refuse_size(uint64_t width, uint64_t height) {
     return "it is too large, " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
-std::string read_plain_png(const std::string& path, TextureImage& image) {
+// Of a PNG file by its colour type (PNG specification, 11.2.2); one more where it has tRNS.
+int png_channels(const Header& header, const std::vector<uint8_t>& rgba) {
+    constexpr int kGreyAlpha = 4, kRgba = 6;
+    int type = header[25];
+    int colors = type == 0 || type == kGreyAlpha ? 1 : 3;
+    bool alpha = type == kGreyAlpha || type == kRgba;
+    for (size_t i = 3; !alpha && i < rgba.size(); i += 4) alpha = rgba[i] != 255;
+    return colors + alpha;
+}
+
+std::string read_plain_png(const std::string& path, const Header& header, TextureImage& image) {
     std::optional<Image8> pixels = read_png(path);
     if (!pixels) return "the PNG file is damaged";
     image.width = pixels->width;
@@ -97,7 +107,7 @@ std::string read_plain_png(const std::string& path, TextureImage& image) {
     image.encoded = true;
     image.bytes = std::move(pixels->rgba);
     image.facts.width = image.width, image.facts.height = image.height;
-    image.facts.channels = 4;
+    image.facts.channels = png_channels(header, image.bytes);
     return "";
 }
 
@@ -180,7 +190,8 @@ std::string read_texture_image(const std::string& name, TextureImage& image) {
             uint64_t width = big_endian_32(&header[16]), height = big_endian_32(&header[20]);
             if (std::string error = refuse_size(width, height); !error.empty()) return error;
         }
-        return is_plain_png(header) ? read_plain_png(path, image) : read_by_module(path, image);
+        return is_plain_png(header) ? read_plain_png(path, header, image)
+                                    : read_by_module(path, image);
     } catch (const std::bad_alloc&) {
         return "not enough memory";
     }

@@ -114,32 +114,33 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
         std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
         mat3 accel_from_camera = glm::transpose(camera_from_accel_);
         NestedWavefront nested(own);
-        in_batches(
-            lanes, nested->rays,
-            [&](int lane) {
-                if (!has_direction(lanes.triple(R, lane))) return 0;
-                int n = lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
-                share[lane] = ray_share(grid, lanes.point(lane), n);
-                return share[lane] > 0 ? n : 0;
-            },
-            [&](int lane, uint32_t k, uint32_t slot) {
-                uint32_t seed = lanes.seed(lane);
-                vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
-                if (float spread = lanes.number(Spread, lane); spread > 0)
-                    dir = Cone(dir, spread, false).direction(k, seed);
-                RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
-                add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
-                        lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
-            },
-            [&](std::span<const uint8_t> lane_of) {
-                int32_t label = lanes.integer(Label, lane_of[0]);
-                see(grid.thread, nested->rays, grid.depth + 1,
-                    deeper(grid, RayKind::Specular, label), seen);
-                for (size_t i = 0; i < lane_of.size(); ++i) {
-                    color[lane_of[i]] += seen[i].color;
-                    distance[lane_of[i]] = std::min(distance[lane_of[i]], seen[i].distance);
-                }
-            });
+        lanes.for_each_text(Label, [&](const Lanes& alike) {
+            in_batches(
+                alike, nested->rays,
+                [&](int lane) {
+                    if (!has_direction(lanes.triple(R, lane))) return 0;
+                    int n = lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
+                    share[lane] = ray_share(grid, lanes.point(lane), n);
+                    return share[lane] > 0 ? n : 0;
+                },
+                [&](int lane, uint32_t k, uint32_t slot) {
+                    uint32_t seed = lanes.seed(lane);
+                    vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
+                    if (float spread = lanes.number(Spread, lane); spread > 0)
+                        dir = Cone(dir, spread, false).direction(k, seed);
+                    RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+                    add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
+                            lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
+                },
+                [&](std::span<const uint8_t> lane_of) {
+                    RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, lane_of[0]));
+                    see(grid.thread, nested->rays, grid.depth + 1, tag, seen);
+                    for (size_t i = 0; i < lane_of.size(); ++i) {
+                        color[lane_of[i]] += seen[i].color;
+                        distance[lane_of[i]] = std::min(distance[lane_of[i]], seen[i].distance);
+                    }
+                });
+        });
         own.arena.release(mark);
     }
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -8,12 +8,6 @@
 
 namespace kinora {
 
-namespace {
-
-constexpr int kTransparentRounds = 16;  // DESIGN.md decision 6
-
-}  // namespace
-
 void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
                     const raytrace::HitBatch& from, uint32_t hit) {
     set_ray(rays, i, org, dir, tfar);
@@ -32,20 +26,26 @@ void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, floa
     rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
 }
 
-// Closest hits on what is not opaque, each round shaded as grids; `through` is what passes.
+// Closest hits on what is not opaque, each round shaded as grids; `through` is what passes. The
+// round after the last only asks whether anything is left: that lets nothing through.
 void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* through) {
     Thread& own = thread(thread_id);
     for (size_t r = 0; r < rays.count; ++r) through[r] = vec3(1.0f);
     RayTag outer = own.ray;
     own.ray.kind = RayKind::Transmission;
     Arena::Mark mark = own.arena.mark();
-    for (int round = 0; round < kTransparentRounds && rays.count > 0; ++round) {
+    for (int round = 0; rays.count > 0; ++round) {
         NestedWavefront nested(own);
         nested->hits.reserve(kGridPoints);
         const raytrace::HitBatch& hits = raytrace::trace(
             scene_.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits, own.counters.trace);
         if (!scene_.volumes.empty()) pass_ends(thread_id, rays, hits, through);
         if (hits.count == 0) break;
+        if (round == max_layers_) {
+            for (size_t h = 0; h < hits.count; ++h) through[rays.slot[hits.ray[h]]] = vec3(0.0f);
+            own.counters.too_deep += hits.count;
+            break;
+        }
         std::span<vec3> Oi = own.arena.allocate_span<vec3>(hits.count);
         opacity(hits, thread_id, Oi.data());
         if (!scene_.volumes.empty()) pass_volumes(hits, thread_id, Oi.data());

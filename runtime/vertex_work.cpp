@@ -67,7 +67,8 @@ bool is_finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Puts outputs "aov:NAME[.c]" of a kernel into the attribute "vertex:NAME".
+// Puts outputs "aov:NAME" and what follows (output_component) of a kernel into the attribute
+// "vertex:NAME".
 void store_outputs(const jit::Kernel& kernel, std::span<float* const> out, size_t first,
                    size_t count, PrimitiveGroup& group) {
     for (size_t o = 0; o < kernel.outputs.size(); ++o) {
@@ -78,12 +79,11 @@ void store_outputs(const jit::Kernel& kernel, std::span<float* const> out, size_
             std::string_view semantic = a.semantic;
             if (!semantic.starts_with("vertex:")) continue;
             semantic.remove_prefix(7);
-            bool whole = name == semantic;
-            bool component = name.size() == semantic.size() + 2 && name.starts_with(semantic) &&
-                             name[semantic.size()] == '.';
-            if (!whole && !component) continue;
-            size_t c = whole ? 0 : std::string_view("xyzrgb").find(name.back()) % 3;
-            for (size_t i = 0; i < count; ++i) a.values[(first + i) * a.stride + c] = out[o][i];
+            if (!name.starts_with(semantic)) continue;
+            int c = output_component(name.substr(semantic.size()));
+            if (c < 0 || c >= int(a.stride)) continue;
+            for (size_t i = 0; i < count; ++i)
+                a.values[(first + i) * a.stride + size_t(c)] = out[o][i];
         }
     }
 }
@@ -96,6 +96,7 @@ struct VertexWork::Pass {
     uint32_t node;
     VertexSpace space;
     std::span<vec4> positions, normals;
+    float winding = 1;  // -1: triangles are seen from their front as clockwise
     size_t stage = 0;
 };
 
@@ -166,9 +167,10 @@ void VertexWork::weld_normals(const Mesh& mesh) {
 }
 
 void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor,
-                     std::span<vec4> positions, std::span<vec4> normals) {
+                     std::span<vec4> positions, std::span<vec4> normals, bool mirrored) {
     while (arenas_.size() < size_t(thread_count())) arenas_.emplace_back();
-    Pass pass{scene, node, VertexSpace(scene, node, object_from_mesh, anchor), positions, normals};
+    Pass pass{scene,     node,    VertexSpace(scene, node, object_from_mesh, anchor),
+              positions, normals, mirrored ? -1.0f : 1.0f};
     for (pass.stage = 0; pass.stage < kStages; ++pass.stage)
         if (std::any_of(groups_.begin(), groups_.end(),
                         [&](const Group& group) { return group.use.looks[pass.stage]; }))
@@ -176,17 +178,18 @@ void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from
 }
 
 void VertexWork::run_stage(Pass& pass) {
-    find_faces(pass.positions);
+    find_faces(pass);
     parallel_for(0, before_.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t k = begin; k < end; ++k) before_[k] = face_sum(same_normal_.of(k));
     });
     for (Group& group : groups_) run_group(pass, group);
     move_positions(pass);
-    find_faces(pass.positions);
+    find_faces(pass);
     turn_normals(pass);
 }
 
-void VertexWork::find_faces(std::span<const vec4> positions) {
+void VertexWork::find_faces(const Pass& pass) {
+    std::span<const vec4> positions = pass.positions;
     for (const Group& group : groups_) {
         const std::vector<uint32_t>&c = group.made.corners, &p = group.made.position;
         parallel_for(0, c.size() / 3, kGrain, [&](size_t begin, size_t end) {
@@ -194,7 +197,7 @@ void VertexWork::find_faces(std::span<const vec4> positions) {
                 vec3 p0(positions[p[c[3 * t]]]);
                 vec3 e1 = vec3(positions[p[c[3 * t + 1]]]) - p0;
                 vec3 e2 = vec3(positions[p[c[3 * t + 2]]]) - p0;
-                faces_[group.first_triangle + t] = vec4(glm::cross(e1, e2), 0.0f);
+                faces_[group.first_triangle + t] = vec4(pass.winding * glm::cross(e1, e2), 0.0f);
             }
         });
     }

@@ -44,10 +44,11 @@ class VertexWork {
     VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::vector<Use> uses);
 
     // Moves the vertices of a mesh whose present positions (minus `anchor`) and unit normals these
-    // are. object_from_mesh takes them, anchor included, to the space of scene node `node`. The
-    // result does not depend on the threads. Allocates nothing after the first time.
+    // are. object_from_mesh takes them, anchor included, to the space of scene node `node`.
+    // `mirrored`: what brought them here turned the triangles' winding. The result does not depend
+    // on the threads. Allocates nothing after the first time.
     void run(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor,
-             std::span<vec4> positions, std::span<vec4> normals);
+             std::span<vec4> positions, std::span<vec4> normals, bool mirrored = false);
 
     // Faults and results that were not finite (their vertices stay), once each; forgets them.
     void report(std::string_view name, Diagnostics& diagnostics);
@@ -73,7 +74,7 @@ class VertexWork {
     void run_group(Pass& pass, Group& group);
     void run_wedges(const Pass& pass, Group& group, size_t begin, size_t end, uint8_t* faults,
                     std::string& prints);
-    void find_faces(std::span<const vec4> positions);
+    void find_faces(const Pass& pass);
     vec3 face_sum(std::span<const uint32_t> wedges) const;
     void move_positions(const Pass& pass);
     void turn_normals(const Pass& pass);

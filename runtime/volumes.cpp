@@ -181,7 +181,7 @@ void Shading::pass_volumes(const raytrace::HitBatch& hits, int thread_id, vec3* 
         own.counters.opacity_points += points.size();
     });
     for (uint32_t h : order.points)
-        Oi[h] = vec3(1.0f) - (vec3(1.0f) - Oi[h]) * (vec3(1.0f) - triple(result.Oi, h));
+        Oi[h] = vec3(1.0f) - (vec3(1.0f) - Oi[h]) * (vec3(1.0f) - stopped_by(triple(result.Oi, h)));
     own.arena.release(mark);
 }
 

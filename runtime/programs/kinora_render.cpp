@@ -196,6 +196,7 @@ int Render::load() {
         range.end = clip->end;
         play_clip(*description, *clip);
     }
+    scene_options.frame_rate = rate_.value();
     scene_options.start_time = range.start;
     scene_options.end_time = range.end;
     if (exit_code_of_findings(0) == 0)

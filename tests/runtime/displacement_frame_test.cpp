@@ -300,5 +300,93 @@ TEST(TrueDisplacement, KeepsStOfMeshesWithoutTextureCoordinates) {
     EXPECT_LT(difference(a.film, b.film), 1e-4);
 }
 
+TEST(TrueDisplacement, LeavesTextsMatricesAndArraysToTheSurfaceAsBumpDoes) {
+    const char* displacement =
+        "displacement d(output varying matrix m = 1; output varying string side = \"none\";"
+        " output varying float ar[2] = {0.1, 0.2}; output varying color cs[2] = {0, 0};"
+        " output varying string words[2] = {\"a\", \"b\"}) {"
+        " m = matrix(.01, .02, .03, .04, .05, .06, .07, .08, .09, .10, .11, .12, .13, .14, .15, "
+        ".16);"
+        " side = \"right\"; if (s < 0.5) side = \"left\"; ar[0] = s; ar[1] = t;"
+        " cs[1] = color(t, 0.75, s); words[1] = \"set\"; P += 1e-4 * N; }\n";
+    struct Row {
+        const char* body;
+        dvec3 (*want)(double s, double t);
+    };
+    const Row rows[] = {
+        {"matrix q = 0; float k = displacement(\"m\", q);"
+         " Ci = color(comp(q, 0, 1), comp(q, 2, 1), k * comp(q, 3, 3));",
+         [](double, double) { return dvec3(0.02, 0.10, 0.16); }},
+        {"string q = \"?\"; float k = displacement(\"side\", q); if (q == \"left\") Ci = color(1, "
+         "0, k);"
+         " if (q == \"right\") Ci = color(0, 1, k);",
+         [](double s, double) { return s < 0.5 ? dvec3(1, 0, 1) : dvec3(0, 1, 1); }},
+        {"float q[2] = {7, 7}; float k = displacement(\"ar\", q); Ci = color(q[0], q[1], k);",
+         [](double s, double t) { return dvec3(s, t, 1); }},
+        {"color q[2] = {7, 7}; float k = displacement(\"cs\", q); Ci = q[1] + k * q[0];",
+         [](double s, double t) { return dvec3(t, 0.75, s); }},
+        {"string q[2] = {\"\", \"\"}; float k = displacement(\"words\", q);"
+         " if (q[0] == \"a\" && q[1] == \"set\") Ci = k;",
+         [](double, double) { return dvec3(1); }},
+    };
+    for (const Row& row : rows)
+        for (DisplacementMode mode : {DisplacementMode::True, DisplacementMode::Bump}) {
+            SCOPED_TRACE(fmt::format("{} {}", row.body, int(mode)));
+            SceneText scene;
+            scene.square("floor").look(
+                "look",
+                displacement + fmt::format("surface show() {{ Oi = 1; Ci = 0; {} }}", row.body),
+                kDisplaced);
+            scene.place("floor", "look");
+            SceneOptions options = dice_of(2, 64);
+            options.displacement = mode;
+            Rendering r(scene.text(), options);
+            r.frame();
+            ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+            EXPECT_EQ(r.scene->looks[0]->done_layers, mode == DisplacementMode::True ? 1u : 0u);
+            for (int y = 0; y < 16; ++y)
+                for (int x = 0; x < 16; ++x) {
+                    dvec2 p = r.place(x, y);
+                    dvec3 want = row.want((p.x + 1) / 2, (p.y + 1) / 2);
+                    for (int k = 0; k < 3; ++k)
+                        ASSERT_NEAR(r.color(x, y)[k], want[k], 1e-4) << x << "," << y << "," << k;
+                }
+        }
+}
+
+TEST(TrueDisplacement, OfASkinThatItsJointsMirrorGoesOutwards) {
+    SceneText scene;
+    scene.look("look", std::string("displacement d() { P += 0.25 * normalize(Ng); }\n") + kPlain,
+               kDisplaced);
+    scene.bending_strip("strip", "look", 8);
+    std::string root = "<translate>0 -1 0</translate>";
+    scene.nodes.insert(scene.nodes.find(root) + root.size(), "<scale>-1 1 1</scale>");
+    Rendering r(scene.text(), dice_of(8));
+    r.frame();
+    ASSERT_TRUE(r.scene->shapes[0].mirrored);
+    // The strip's normals are +z, whichever way its triangles are wound.
+    for (dvec3 p : world_positions(r)) EXPECT_NEAR(p.z, 0.25, 1e-5);
+    for (const vec4& n : r.scene->shapes[0].normals) EXPECT_NEAR(n.z, 1, 1e-4);
+}
+
+TEST(TrueDisplacement, TellsTheMeshsNameToItsSurface) {
+    SceneText scene;
+    for (std::string id : {"first", "second"}) {
+        scene.square(id, 0.5).look(id + "-look",
+                                   "displacement d() { P += 1e-3 * N; }\nsurface show() { string o "
+                                   "= \"?\"; Oi = 1; Ci = 0;"
+                                   " float k = attribute(\"identifier:object\", o); if (o == \"" +
+                                       id + "\") Ci = k; }",
+                                   kDisplaced);
+        scene.place(
+            id, id + "-look",
+            id == "first" ? "<translate>-0.5 0 0</translate>" : "<translate>0.5 0 0</translate>");
+    }
+    Rendering r(scene.text(), dice_of(8));
+    r.frame();
+    EXPECT_EQ(r.color(4, 8), vec3(1)) << r.findings();
+    EXPECT_EQ(r.color(12, 8), vec3(1)) << r.findings();
+}
+
 }  // namespace
 }  // namespace kinora

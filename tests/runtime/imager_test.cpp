@@ -212,5 +212,27 @@ TEST(OverrideImager, TakesAStandardNameAFileOrNone) {
     EXPECT_EQ(imagers("nosuch", false), "i");
 }
 
+TEST(Imager, WhatIsNotFiniteIsCountedAndNamed) {
+    SceneText scene = sheet_scene();
+    scene.scene_effect("burn", "imager b() { if (xcomp(P) < 8) Ci = (1e30 + xcomp(P)) * 1e30; }",
+                       kImager);
+    struct Row {
+        raytrace::NanPolicy policy;
+        vec4 want;
+    };
+    for (const Row& row : {Row{raytrace::NanPolicy::Zero, {0, 0, 0, 0.5}},
+                           Row{raytrace::NanPolicy::Magenta, {1, 0, 1, 1}}}) {
+        Rendering r(scene.text());
+        r.settings.integrator.nan = row.policy;
+        r.frame();
+        expect_pixel(r, 4, 8, row.want);
+        expect_pixel(r, 12, 8, {0, 0, 0, 0});
+        EXPECT_EQ(r.stats.non_finite, 128u);
+        ASSERT_EQ(r.count("SHADER_NON_FINITE"), 1) << r.findings();
+        EXPECT_NE(r.findings().find("128 shading results"), std::string::npos) << r.findings();
+        EXPECT_NE(r.findings().find("burn"), std::string::npos) << r.findings();
+    }
+}
+
 }  // namespace
 }  // namespace kinora

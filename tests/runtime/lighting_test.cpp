@@ -264,5 +264,33 @@ TEST(Transparency, ReflectionsAreTracedAndEndAtTheDepthLimit) {
     EXPECT_LE(got, 2.0f);
 }
 
+TEST(Lights, SharesThatAreAnimatedAreThoseOfTheFrame) {
+    for (const char* name : {"__nondiffuse", "__nonspecular"}) {
+        SceneText scene = floor_scene(
+            "surface s() { Oi = 1; vector up = vector \"world\" (0, 0, 1);"
+            " Ci = color(comp(diffuse(normalize(N)), 0), comp(specular(normalize(N), up, 0.1), 0),"
+            " 0); }");
+        scene.look("lamp-look",
+                   fmt::format("light l(float {} = 0;) {{ solar(vector \"world\" (0, 0, -1), 0)"
+                               " Cl = 1; }}",
+                               name),
+                   fmt::format("<shader stage=\"LIGHT\"><bind symbol=\"{}\"><param ref=\"share\"/>"
+                               "</bind></shader>",
+                               name),
+                   "<newparam sid=\"share\"><float>0</float></newparam>");
+        scene.light("lamp", "<point><color>1 1 1</color></point>", "",
+                    rsl_extra("<instance_effect url=\"#lamp-look-fx\"/>"));
+        scene.animate("lamp-look-fx/share", {0, 1}, {0, 1});
+        Rendering r(scene.text());
+        bool diffuse = std::string(name) == "__nondiffuse";
+        for (double time : {0.0, 1.0, 0.25}) {
+            dvec3 want(1, 1, 0);
+            want[diffuse ? 0 : 1] = 1 - time;
+            expect_colors(
+                r.frame(time), [&](dvec2) { return want; }, 1e-5);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace kinora

@@ -217,5 +217,123 @@ TEST(Shadername, NamesTheOthersOfThePoint) {
     EXPECT_EQ(middle(scene), vec3(1));
 }
 
+// ---- of each point, whichever it is shaded with
+
+// Pictures of many sizes on all targets, whose red is what `want` says of a point.
+template <class Want>
+void expect_red_everywhere(const SceneText& scene, Want&& want) {
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        for (int size : {3, 4, 16}) {
+            SceneOptions options;
+            options.target = &target;
+            Rendering r(scene.text(), options);
+            r.frame(size, size);
+            EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x)
+                    ASSERT_NEAR(r.color(x, y).x, want(r.place(x, y)), 1e-6)
+                        << target.name << " " << size << ": " << x << "," << y;
+        }
+    }
+}
+
+TEST(SurfaceQuestion, OfALightFindsVertexInputsAtEachPoint) {
+    const char* bound =
+        "<bind_vertex_input semantic=\"w\" input_semantic=\"TEXCOORD\" input_set=\"0\"/>";
+    for (const char* reads : {"", " if (w < -5) Ci = 0;"})
+        for (const char* at : {"P", "Q"}) {
+            SCOPED_TRACE(fmt::format("{} {}", at, reads));
+            SceneText scene;
+            scene.square("floor", 1.5)
+                .look("look", fmt::format("surface s(varying float w = 0;) {{ Oi = 1; Ci = 0;"
+                                          " point Q = P + normalize(N) * (0.1 + 0.001 * t);"
+                                          " illuminance({}) {{ Ci += Cl; }} {} }}",
+                                          at, reads))
+                .place("floor", "look", "", "", bound);
+            scene.rsl_light("lamp",
+                            "light lamp() { float q = 7; float k = surface(\"w\", q);"
+                            " solar(vector \"world\" (0, 0, -1), 0) Cl = color(q, k, 1); }");
+            expect_red_everywhere(scene, [](dvec2 p) { return (p.x + 1.5) / 3; });
+        }
+}
+
+TEST(SurfaceQuestion, OfALightOnGeometryIsAboutTheSurfaceItLights) {
+    SceneText scene;
+    scene.square("floor", 1.5)
+        .look("look",
+              "surface s(varying float w = 0; float k = 5;) { Oi = 1; Ci = 0;"
+              " illuminance(P) { Ci += Cl; } }")
+        .place("floor", "look", "", "",
+               "<bind_vertex_input semantic=\"w\" input_semantic=\"TEXCOORD\" input_set=\"0\"/>");
+    scene.look(
+        "lamp",
+        "surface bulb(float k = 3;) { Oi = 1; Ci = 1; }\n"
+        "light l() { float q = 7, k = 7; float known = surface(\"w\", q) + surface(\"k\", k);"
+        " illuminate(P) Cl = q * known * k / 10; }",
+        "<shader stage=\"SURFACE\"/><shader stage=\"LIGHT\"/>");
+    scene.square("panel", 0.5).place("panel", "lamp", "<translate>0 0 20</translate>");
+    expect_red_everywhere(scene, [](dvec2 p) { return (p.x + 1.5) / 3; });
+}
+
+TEST(Rayinfo, LabelsAreThoseOfEachPointsRay) {
+    const char* rays[] = {
+        "Ci = trace(P, up, \"label\", side);",
+        "color c = 0; gather(\"illuminance\", P, up, 0, 1, \"surface:Ci\", c, \"label\", side) { }"
+        " Ci = c;"};
+    for (const char* ray : rays) {
+        SceneText scene = floor_scene(
+            surface(std::string("vector up = vector \"world\" (0, 0, 1); string side = \"right\";"
+                                " if (s < 0.4) side = \"left\"; ") +
+                    ray));
+        scene.square("roof", 5).look(
+            "roof-look", surface("string l = \"\"; float k = rayinfo(\"label\", l);"
+                                 " if (l == \"left\") Ci = 1; if (l == \"right\") Ci = 2;"));
+        scene.place("roof", "roof-look", "<translate>0 0 20</translate>");
+        expect_red_everywhere(scene, [](dvec2 p) { return (p.x + 1.5) / 3 < 0.4 ? 1 : 2; });
+    }
+}
+
+// ---- facts
+
+TEST(Attribute, SidesAreOneWhereTheMeshSaysSo) {
+    std::string code = surface(
+        "float n = 7, b = 7; attribute(\"Sides\", n);"
+        " attribute(\"cull:backfacing\", b); Ci = color(n, b, 0);");
+    SceneText scene = floor_scene(code);
+    EXPECT_EQ(middle(scene), vec3(2, 0, 0));
+    std::string end = "</mesh></geometry>";
+    scene.geometries.replace(scene.geometries.find(end), end.size(),
+                             "</mesh><extra><technique profile=\"MAYA\"><double_sided>0"
+                             "</double_sided></technique></extra></geometry>");
+    EXPECT_EQ(middle(scene), vec3(1, 1, 0));
+}
+
+TEST(Attribute, OfTheUserMayBeALongArrayOrAMatrix) {
+    SceneText scene;
+    scene.square("floor", 1.5)
+        .look("oak", surface("float five[5] = {7, 7, 7, 7, 7}; matrix m = 0; float four[4] = {7, 7,"
+                             " 7, 7}; float ok = attribute(\"user:five\", five) +"
+                             " attribute(\"user:m\", m) + attribute(\"user:five\", four);"
+                             " Ci = color(ok, five[0] + 10 * five[4] + 100 * four[3],"
+                             " comp(m, 0, 1) + 100 * comp(m, 3, 2));"));
+    scene.nodes +=
+        "<node><instance_geometry url=\"#floor\"><bind_material><technique_common>"
+        "<instance_material symbol=\"skin\" target=\"#oak\"/></technique_common></bind_material>"
+        "</instance_geometry><extra><technique profile=\"RSL\"><attribute name=\"user:five\">"
+        "1 2 3 4 5</attribute><attribute name=\"user:m\">0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15"
+        "</attribute></technique></extra></node>";
+    EXPECT_EQ(middle(scene), vec3(3, 451, 1401));
+}
+
+TEST(Option, FrameCountsByTheRateThatIsAskedFor) {
+    SceneText scene = floor_scene(surface("float f = 7; option(\"Frame\", f); Ci = f;"));
+    EXPECT_EQ(middle(scene), vec3(12));
+    SceneOptions options;
+    options.frame_rate = 30;
+    Rendering r(scene.text(), options);
+    EXPECT_EQ(r.frame(4, 4, 0.5).color(1, 1), vec3(15));
+}
+
 }  // namespace
 }  // namespace kinora

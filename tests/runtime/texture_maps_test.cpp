@@ -94,6 +94,15 @@ TEST(TextureInfo, KnowsWhatTheFileSays) {
     EXPECT_EQ(info(rsl::intern("/no/such/file.exr"), "exists")[1], 0);
 }
 
+TEST(TextureInfo, ChannelsArePngsOwn) {
+    for (int channels : {1, 2, 3, 4}) {
+        Exr image((std::to_string(channels) + ".png").c_str(),
+                  OIIO::ImageSpec(4, 4, channels, OIIO::TypeDesc::UINT8),
+                  std::vector<float>(size_t(16 * channels), 0.5f));
+        EXPECT_EQ(info(image.name(), "channels")[1], float(channels));
+    }
+}
+
 float shadow_at(int32_t name, vec3 p, float bias = -1, float blur = 0, float samples = 16) {
     static dmat4 identity(1);
     auto service = [](const jit::ServiceCall& c) {

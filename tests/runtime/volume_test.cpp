@@ -401,5 +401,21 @@ TEST(Medium, EntersAndLeavesInAnyOrder) {
     EXPECT_EQ(leave_volume(leave_volume(leave_volume(deep, 2), 1023), 7), 0u);
 }
 
+TEST(Atmosphere, ReachesToTheFarPlaneAtTheCornersToo) {
+    SceneText scene;
+    scene.cameras =
+        "<camera id=\"eye\"><optics><technique_common><perspective><xfov>90</xfov>"
+        "<aspect_ratio>1</aspect_ratio><znear>0.1</znear><zfar>10</zfar></perspective>"
+        "</technique_common></optics></camera>";
+    scene.scene_effect("way", "volume way() { Ci = length(I); Oi = 1; }", kVolume);
+    Rendering r(scene.text());
+    r.frame();
+    for (int y : {0, 5, 15})
+        for (int x : {0, 8, 15}) {
+            double right = (x + 0.5) / 8 - 1, up = (y + 0.5) / 8 - 1;
+            expect_near(r.color(x, y), dvec3(10 * std::sqrt(1 + right * right + up * up)), 1e-4);
+        }
+}
+
 }  // namespace
 }  // namespace kinora
