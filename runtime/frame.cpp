@@ -193,7 +193,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
         stats.non_finite = bad;
         if (bad)
             diagnostics.report(Code::SHADER_NON_FINITE, Location{}, bad,
-                               scene.looks[scene.imager]->name);
+                               scene.looks[scene.imager]->shader().name);
     }
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     scene.textures->report(diagnostics);

@@ -214,7 +214,7 @@ TEST(OverrideImager, TakesAStandardNameAFileOrNone) {
 
 TEST(Imager, WhatIsNotFiniteIsCountedAndNamed) {
     SceneText scene = sheet_scene();
-    scene.scene_effect("burn", "imager b() { if (xcomp(P) < 8) Ci = (1e30 + xcomp(P)) * 1e30; }",
+    scene.scene_effect("burn", "imager burn() { if (xcomp(P) < 8) Ci = (1e30 + xcomp(P)) * 1e30; }",
                        kImager);
     struct Row {
         raytrace::NanPolicy policy;
