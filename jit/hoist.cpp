@@ -3,7 +3,8 @@
 // A walk back from what the point kernel does stops at every value of frame rate outside of loops:
 // these become slots of the frame block, and nothing behind them is needed here any more. The
 // frame kernel is a copy of the kernel that keeps what the slots need. All pure ops are total, so
-// the copy takes values out of their Ifs and makes every Merge a Select.
+// the copy takes values out of their Ifs and makes every Merge a Select. Functions that are called
+// keep their work, but read frame inputs from slots.
 #include <algorithm>
 
 #include "jit/analysis.h"
@@ -63,21 +64,40 @@ class Hoister {
         next_slot_ = m_.frame_slots;
         for (Value v = 0; v < m_.kernel().insts.size(); ++v) {
             if (!live.is_live(v)) continue;
-            if (is_frame_gather(v)) add_row(m_.kernel().insts[v]);
+            const Inst& inst = m_.kernel().insts[v];
+            if (is_frame_gather(v)) add_row(inst.imm, inst.imm2);
             if (!may_be_slot(v)) continue;
             slot_of_[v] = next_slot_++;
             slots_.push_back(v);
         }
+        each_called([&](const Inst& inst) {
+            if (int32_t count = frame_inputs(inst)) add_row(inst.imm, count);
+        });
     }
 
-    void add_row(const Inst& gather) {
-        if (find_row(gather) != nullptr) return;
-        rows_.push_back({gather.imm, gather.imm2, next_slot_});
-        next_slot_ += gather.imm2;
+    // The instructions of all functions but the kernel.
+    template <class Each>
+    void each_called(Each&& each) {
+        for (Function& function : m_.functions)
+            if (&function != &m_.kernel())
+                for (Inst& inst : function.insts) each(inst);
     }
-    const SlotRow* find_row(const Inst& gather) const {
+    // How many frame inputs the instruction reads; 0 if there is a point input among them.
+    int32_t frame_inputs(const Inst& inst) const {
+        int32_t count = inst.op == Op::Input ? 1 : inst.op == Op::InputGather ? inst.imm2 : 0;
+        for (int32_t k = 0; k < count; ++k)
+            if (input(inst.imm + k).rate == Rate::Point) return 0;
+        return count;
+    }
+
+    void add_row(int32_t first, int32_t count) {
+        if (find_row(first, count) != nullptr) return;
+        rows_.push_back({first, count, next_slot_});
+        next_slot_ += count;
+    }
+    const SlotRow* find_row(int32_t first, int32_t count) const {
         for (const SlotRow& row : rows_)
-            if (row.first == gather.imm && row.count == gather.imm2) return &row;
+            if (row.first == first && row.count == count) return &row;
         return nullptr;
     }
 
@@ -195,12 +215,18 @@ class Hoister {
         Function& kernel = m_.kernel();
         for (Inst& inst : kernel.insts) rewrite_gather(inst);
         load_slots(kernel, live);
+        each_called([&](Inst& inst) {
+            int32_t count = frame_inputs(inst);
+            if (count == 0) return;
+            inst.imm = find_row(inst.imm, count)->slot;
+            inst.op = inst.op == Op::Input ? Op::FrameLoad : Op::FrameGather;
+        });
         m_.frame_slots = next_slot_;
     }
 
     void rewrite_gather(Inst& inst) {
         if (inst.op != Op::InputGather) return;
-        const SlotRow* row = find_row(inst);
+        const SlotRow* row = find_row(inst.imm, inst.imm2);
         if (row == nullptr || input(inst.imm).rate == Rate::Point) return;
         inst.op = Op::FrameGather;
         inst.imm = row->slot;

@@ -197,7 +197,9 @@ TokenKind Lexer::scan(size_t begin) {
             bool blank = at(position_) == kNoBreakLead && at(position_ + 1) == kNoBreak;
             bool latin =
                 at(position_) == kNoBreak && position_ > begin && !(at(position_ - 1) & 0x80);
-            if (blank || latin || typographic_length(position_)) break;
+            bool mark = at(position_) == kByteOrderMark[0] &&
+                        text_.substr(position_).starts_with(kByteOrderMark);
+            if (blank || latin || mark || typographic_length(position_)) break;
             ++position_;
         }
         return TokenKind::Identifier;

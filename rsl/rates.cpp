@@ -188,6 +188,7 @@ class RateWalk {
         Flow f = flow(e.channel);
         for (size_t i = 0; i < e.args.size(); ++i) f = join(f, flow(e.args[i]));
         uint32_t effects = e.builtin->effects;
+        if (effects & kConstantResult) f = kConstant;
         if (effects & kVaryingResult) f = kVaryingFlow;
         // "uniform float r = random()", and lightsource() into a uniform, as real shaders have it.
         if (effects == kVaryingResult || (effects & kMessage)) f.illegal = false;

@@ -63,12 +63,17 @@ class RowWriter {
     void argument(size_t k, const Signature::Argument& argument) {
         if (!call_.empty()) call_ += ", ";
         BaseType type = argument.type.base;
-        if (type == BaseType::String) {
+        bool array = argument.type.is_array();
+        if (type == BaseType::String && !array) {
             call_ += std::string("\"") + sample_text(row_.name) + "\"";
             return;
         }
         std::string name = "a" + std::to_string(k);
-        bool array = argument.type.is_array();
+        if (type == BaseType::String) {
+            parameters_ += "string " + name + "[6] = {\"a\"}; ";
+            call_ += name;
+            return;
+        }
         parameters_ += std::string(array ? "uniform " : "varying ") + type_name(type) + " " + name +
                        (array ? "[6] = {0}" : " = 0") + "; ";
         shader_.params.push_back(

@@ -53,6 +53,25 @@ TEST(Recursion, ComputesAFactorialPerPoint) {
     }
 }
 
+// Matrices, the eye, clipping planes and arrays of parameters, named in the function itself.
+TEST(Recursion, ReadsFrameInputsInTheFunction) {
+    const char* source =
+        "surface t(uniform float table[4] = {1, 2, 3, 4};) { float f(float n) {"
+        " if (n <= 0) return 0; point w = transform(\"world\", point(n, 0, 0));"
+        " return xcomp(w) + table[mod(n, 4)] + f(n - 1); }"
+        " Ci = f(mod(s, 5)); }";
+    auto got = values_of(source);
+    const float kSums[] = {0, 3, 8, 15, 20};
+    for (int n = 0; n < kPoints; ++n) EXPECT_EQ(got[size_t(n)], kSums[n % 5]) << n;
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        RunShader run(source, {}, {}, false, target.name);
+        ASSERT_TRUE(run.ok()) << run.findings();
+        for (const jit::InputInfo& input : run.kernels.point->inputs)
+            EXPECT_EQ(input.rate, jit::Rate::Point) << input.name;
+    }
+}
+
 TEST(Recursion, CallsItselfTwice) {
     auto got = values_of(
         "float fib(float n) { return n < 2 ? n : fib(n - 1) + fib(n - 2); }"
