@@ -112,12 +112,14 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
     const ContentModel& model = type.rules().content;
     if (foreign(child) || types_.has_element(child.name) ||
         other_version_.has_element(child.name)) {
-        if (first(Code::SCHEMA_UNEXPECTED, &type, child.name))
-            diag_.report(Code::SCHEMA_UNEXPECTED, document_.location(child), child.name,
-                         element.name,
-                         model.places[at].next.empty()
-                             ? ""
-                             : ", expected " + one_of(model, model.places[at].next));
+        if (!first(Code::SCHEMA_UNEXPECTED, &type, child.name)) return;
+        Finding& finding = diag_.report(
+            Code::SCHEMA_UNEXPECTED, document_.location(child), child.name, element.name,
+            model.places[at].next.empty() ? ""
+                                          : ", expected " + one_of(model, model.places[at].next));
+        if (foreign(child) && child.name.find(':') == child.name.npos)
+            finding.help =
+                fmt::format("it is of the namespace '{}', not COLLADA's", namespaces_.of(child));
         return;
     }
     if (!first(Code::SCHEMA_UNKNOWN_ELEMENT, &type, child.name)) return;

@@ -17,7 +17,7 @@ ElementChecker::ElementChecker(const Document& document, Diagnostics& diag, Vers
       diag_(diag),
       types_(ElementTypes::of(version)),
       other_version_(ElementTypes::of(other(version))),
-      namespaces_(document.root()) {}
+      namespaces_(document.root(), diag.files.text(document.file())) {}
 
 void ElementChecker::run() {
     const Element& root = document_.root();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collada/numbers_p.h"
+
 namespace kinora::collada {
 
 namespace {
@@ -29,8 +31,38 @@ Room DocumentBuilder::room() const {
     return Room::Enough;
 }
 
+// Prefixes of COLLADA's namespace, and others that hide them.
+void DocumentBuilder::bind_prefixes(std::span<const Attribute> attributes) {
+    constexpr std::string_view kXmlns = "xmlns:";
+    for (const Attribute& a : attributes) {
+        if (!a.name.starts_with(kXmlns)) continue;
+        bool own = a.value == name_space_ && !name_space_.empty();
+        if (own || !bindings_.empty())
+            bindings_.push_back({a.name.substr(kXmlns.size()), own, open_.size()});
+    }
+}
+
 std::string_view DocumentBuilder::local_name(std::string_view name) const {
-    return !prefix_.empty() && name.starts_with(prefix_) ? name.substr(prefix_.size()) : name;
+    size_t colon = bindings_.empty() ? name.npos : name.find(':');
+    if (colon == name.npos) return name;
+    for (size_t i = bindings_.size(); i-- > 0;)
+        if (bindings_[i].prefix == name.substr(0, colon))
+            return bindings_[i].own ? name.substr(colon + 1) : name;
+    return name;
+}
+
+// Its prefix is taken for COLLADA's, whatever it stands for: check_root speaks of that.
+void DocumentBuilder::start_root(std::string_view file_name,
+                                 std::span<const Attribute> attributes) {
+    size_t colon = file_name.find(':');
+    std::string xmlns = "xmlns";
+    if (colon != std::string_view::npos) {
+        prefix_ = file_name.substr(0, colon + 1);
+        bindings_.push_back({file_name.substr(0, colon), true, 0});
+        xmlns += ":" + std::string(file_name.substr(0, colon));
+    }
+    for (const Attribute& a : attributes)
+        if (a.name == xmlns) name_space_ = a.value;
 }
 
 void DocumentBuilder::start_element(ByteRange tag, std::string_view file_name,
@@ -38,13 +70,16 @@ void DocumentBuilder::start_element(ByteRange tag, std::string_view file_name,
     Element* element = new (pool_.take(sizeof(Element))) Element;
     if (!root_) {
         root_ = element;
-        size_t colon = file_name.find(':');
-        if (colon != std::string_view::npos) prefix_ = file_name.substr(0, colon + 1);
+        start_root(file_name, attributes);
     }
+    bind_prefixes(attributes);
     auto* kept = static_cast<Attribute*>(pool_.take(attributes.size_bytes()));
     std::uninitialized_copy(attributes.begin(), attributes.end(), kept);
-    if (!prefix_.empty())
-        for (size_t i = 0; i < attributes.size(); ++i) kept[i].name = local_name(kept[i].name);
+    for (size_t i = 0; i < attributes.size(); ++i) {
+        kept[i].name = local_name(kept[i].name);
+        // XML Schema's ID and NCName: white space around them is none of theirs.
+        if (kept[i].name == "id" || kept[i].name == "sid") kept[i].value = trim(kept[i].value);
+    }
     element->name = local_name(file_name);
     element->attributes = {kept, attributes.size()};
     element->start_tag = tag;
@@ -119,6 +154,8 @@ void DocumentBuilder::end_element(uint32_t end) {
     pieces_.resize(open.first_piece);
     scratch_.resize(open.first_scratch);
     open_.pop_back();
+    while (!bindings_.empty() && bindings_.back().depth >= open_.size() && !open_.empty())
+        bindings_.pop_back();
 }
 
 void DocumentBuilder::close_after_error() {

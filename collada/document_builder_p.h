@@ -50,6 +50,14 @@ class DocumentBuilder {
     Pool& pool() { return pool_; }
 
   private:
+    // What a prefix stands for inside an element.
+    struct Binding {
+        std::string_view prefix;
+        bool own;      // the root's namespace
+        size_t depth;  // of the element that declares it
+    };
+    void start_root(std::string_view file_name, std::span<const Attribute> attributes);
+    void bind_prefixes(std::span<const Attribute> attributes);
     std::string_view local_name(std::string_view name) const;
     void finish_text(const OpenElement& open);
     void register_id(Element& element);
@@ -63,6 +71,8 @@ class DocumentBuilder {
     std::unordered_map<std::string_view, Element*> last_with_id_;  // of those used more than once
     Element* root_ = nullptr;
     std::string_view prefix_;
+    std::string_view name_space_;    // the root's
+    std::vector<Binding> bindings_;  // of the open elements
 };
 
 inline bool is_xml_space(char c) {

@@ -160,6 +160,51 @@ std::string cdata(std::string_view code) {
     return out + "]]>";
 }
 
+std::string_view prefix_of(std::string_view original, const Element& element) {
+    std::string_view name = original.substr(element.start_tag.begin + 1);
+    name = name.substr(0, name.find_first_of(" \t\r\n/>"));
+    size_t colon = name.find(':');
+    return colon == name.npos ? std::string_view{} : name.substr(0, colon + 1);
+}
+
+std::string prefixed(std::string_view markup, std::string_view prefix) {
+    constexpr std::pair<std::string_view, std::string_view> kVerbatim[] = {
+        {"<![CDATA[", "]]>"}, {"<!--", "-->"}, {"<?", "?>"}};
+    std::string out;
+    while (!prefix.empty()) {
+        size_t tag = markup.find('<');
+        if (tag == markup.npos) break;
+        out += markup.substr(0, tag);
+        markup.remove_prefix(tag);
+        size_t length = 0;
+        for (auto [open, close] : kVerbatim)
+            if (markup.starts_with(open))
+                length = std::min(markup.find(close, open.size()), markup.size() - close.size()) +
+                         close.size();
+        if (length == 0) {
+            length = markup.starts_with("</") ? 2 : 1;
+            out += markup.substr(0, length);
+            markup.remove_prefix(length);
+            length = std::min(markup.find_first_of(" \t\r\n/>"), markup.size());
+            if (markup.substr(0, length).find(':') == markup.npos) out += prefix;
+        }
+        out += markup.substr(0, length);
+        markup.remove_prefix(length);
+    }
+    return out.append(markup);
+}
+
+std::string declared_utf8(std::string_view text) {
+    std::string out(text);
+    size_t end = text.starts_with("<?xml") ? text.find("?>") : text.npos;
+    size_t at = end == text.npos ? text.npos : text.substr(0, end).find("encoding");
+    if (at == text.npos) return out;
+    size_t open = text.find_first_of("'\"", at);
+    size_t close = open < end ? text.find(text[open], open + 1) : text.npos;
+    if (close < end) out.replace(open + 1, close - open - 1, "utf-8");
+    return out;
+}
+
 Edit erase_element(std::string_view original, const Element& element) {
     uint32_t begin = element.bytes.begin;
     while (begin > 0 && (original[begin - 1] == ' ' || original[begin - 1] == '\t')) --begin;

@@ -43,6 +43,15 @@ std::string attribute_text(std::string_view name, std::string_view value);
 // stand in one (XML makes line feeds of them).
 std::string cdata(std::string_view code);
 
+// The prefix of an element's name as the file has it, with its colon: "c:" of <c:COLLADA>; or "".
+std::string_view prefix_of(std::string_view original, const Element& element);
+
+// Markup whose element names without a prefix have this one; comments and CDATA stay.
+std::string prefixed(std::string_view markup, std::string_view prefix);
+
+// A text that was read from another encoding, its XML declaration saying UTF-8.
+std::string declared_utf8(std::string_view text);
+
 // --- common edits of elements
 // ---------------------------------------------------------------------
 

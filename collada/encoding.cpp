@@ -1,6 +1,9 @@
 // collada/encoding.cpp: from the bytes of a file to UTF-8 text.
+#include <array>
 #include <cctype>
 #include <cstdint>
+#include <numeric>
+#include <span>
 
 #include "collada/encoding_p.h"
 
@@ -24,11 +27,52 @@ void append_utf8(std::string& out, uint32_t c) {
     }
 }
 
-std::string utf8_from_latin1(std::string_view bytes) {
+namespace {
+
+// Where an encoding of one byte a character differs from Latin-1, whose bytes are the code points.
+struct Override {
+    uint8_t byte;
+    uint16_t character;
+};
+
+// Windows' code page 1252 has letters for 0x80 to 0x9F, but for five that are free.
+constexpr Override kWindows1252[] = {
+    {0x80, 0x20AC}, {0x82, 0x201A}, {0x83, 0x0192}, {0x84, 0x201E}, {0x85, 0x2026}, {0x86, 0x2020},
+    {0x87, 0x2021}, {0x88, 0x02C6}, {0x89, 0x2030}, {0x8A, 0x0160}, {0x8B, 0x2039}, {0x8C, 0x0152},
+    {0x8E, 0x017D}, {0x91, 0x2018}, {0x92, 0x2019}, {0x93, 0x201C}, {0x94, 0x201D}, {0x95, 0x2022},
+    {0x96, 0x2013}, {0x97, 0x2014}, {0x98, 0x02DC}, {0x99, 0x2122}, {0x9A, 0x0161}, {0x9B, 0x203A},
+    {0x9C, 0x0153}, {0x9E, 0x017E}, {0x9F, 0x0178}};
+// ISO 8859-15 (Latin-9): the euro and letters that Latin-1 lacks.
+constexpr Override kLatin9[] = {{0xA4, 0x20AC}, {0xA6, 0x0160}, {0xA8, 0x0161}, {0xB4, 0x017D},
+                                {0xB8, 0x017E}, {0xBC, 0x0152}, {0xBD, 0x0153}, {0xBE, 0x0178}};
+
+struct SingleByte {
+    std::string_view name;
+    std::span<const Override> overrides;
+};
+constexpr SingleByte kSingleByte[] = {{"iso-8859-1", {}},
+                                      {"latin1", {}},
+                                      {"latin-1", {}},
+                                      {"iso8859-1", {}},
+                                      {"us-ascii", {}},
+                                      {"iso-8859-15", kLatin9},
+                                      {"windows-1252", kWindows1252},
+                                      {"cp1252", kWindows1252}};
+
+std::string utf8_from(std::string_view bytes, std::span<const Override> overrides) {
+    std::array<uint16_t, 256> characters;
+    std::iota(characters.begin(), characters.end(), uint16_t(0));
+    for (Override o : overrides) characters[o.byte] = o.character;
     std::string out;
     out.reserve(bytes.size() + bytes.size() / 16);
-    for (char b : bytes) append_utf8(out, uint8_t(b));
+    for (char b : bytes) append_utf8(out, characters[uint8_t(b)]);
     return out;
+}
+
+}  // namespace
+
+std::string utf8_from_latin1(std::string_view bytes) {
+    return utf8_from(bytes, {});
 }
 
 namespace {
@@ -113,8 +157,6 @@ constexpr Magic kNotXml[] = {
     {std::string_view("\0\0\xfe\xff", 4), "UTF-32 is not read"},
 };
 
-constexpr std::string_view kSingleByte[] = {"iso-8859-1",   "latin1", "latin-1", "iso-8859-15",
-                                            "windows-1252", "cp1252", "us-ascii"};
 constexpr std::string_view kUnicode[] = {"", "utf-8", "utf8", "utf-16", "utf-16le", "utf-16be"};
 
 template <size_t N>
@@ -140,7 +182,8 @@ DecodedText decode_text(std::string bytes) {
     }
     std::string encoding = declared_encoding(view);
     if (contains(kUnicode, encoding)) return {std::move(bytes), {}, {}};
-    if (contains(kSingleByte, encoding)) return {utf8_from_latin1(view), {}, {}};
+    for (const SingleByte& row : kSingleByte)
+        if (row.name == encoding) return {utf8_from(view, row.overrides), {}, {}};
     if (valid_utf8(view)) return {std::move(bytes), {}, {}};
     return {
         utf8_from_latin1(view), {}, "Latin-1, since the encoding '" + encoding + "' is unknown"};

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "collada/extract_p.h"
+#include "collada/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -74,7 +75,9 @@ void reserve_lists(Extraction& x, const Document& document) {
 // <evaluate_scene> that is not switched off (1.5).
 void read_evaluated_camera(Extraction& x, Link scene) {
     for (const Element& evaluate : scene.element->children()) {
-        if (evaluate.name != "evaluate_scene" || evaluate.value("enable") == "false") continue;
+        if (evaluate.name != "evaluate_scene" ||
+            !parse_bool(evaluate.value("enable")).value_or(true))
+            continue;
         for (const Element& render : evaluate.children()) {
             if (render.name != "render" || render.value("camera_node").empty()) continue;
             Link node = resolve(x, {scene.doc, &render}, "camera_node", {"node"});

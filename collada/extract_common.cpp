@@ -117,7 +117,7 @@ void read_extras(Extraction& x, Link owner, CommonShading& common, Effect& effec
         if (extra.name != "extra") continue;
         for (const Element& technique : extra.children()) {
             if (const Element* flag = technique.child("double_sided"))
-                common.double_sided = trim(flag->text) != "0" && trim(flag->text) != "false";
+                common.double_sided = parse_bool(flag->text).value_or(true);
             for (std::string_view name : {"bump", "normalmap", "normal"})
                 if (const Element* bump = technique.child(name))
                     if (bump->child("texture")) read_bump(x, {owner.doc, bump}, common, effect);

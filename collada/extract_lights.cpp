@@ -63,8 +63,7 @@ std::optional<bool> read_shadows(const Element& owner) {
     const Element* technique = extra_technique(owner, "RSL");
     const Element* shadows = technique ? technique->child("shadows") : nullptr;
     if (!shadows) return std::nullopt;
-    std::string_view text = trim(shadows->text);
-    return !(text == "0" || text == "false");
+    return parse_bool(shadows->text).value_or(true);
 }
 
 uint32_t light_index(Extraction& x, Link link) {

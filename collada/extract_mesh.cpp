@@ -70,7 +70,7 @@ bool read_double_sided(const Element& geometry) {
         if (extra.name == "extra")
             for (const Element& technique : extra.children())
                 if (const Element* flag = technique.child("double_sided"))
-                    return trim(flag->text) != "0" && trim(flag->text) != "false";
+                    return parse_bool(flag->text).value_or(true);
     return true;
 }
 

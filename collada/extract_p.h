@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "collada/findings.h"
+#include "collada/links.h"
 #include "collada/scene.h"
 #include "runtime/base/file_trees.h"
 
@@ -140,8 +141,6 @@ void read_time_range(Extraction& x, Link visual_scene);
 // extract_paths.cpp -------------------------------------------------------------------------------
 
 std::string percent_decode(std::string_view text);
-// The path a URI means for a document, not checked to exist: schemes, %xx and backslashes undone.
-std::string path_of_uri(const Document& document, std::string_view uri);
 // Reports what is unportable about the spelling of a file's URI.
 void check_file_uri(Extraction& x, std::string_view uri, Location where);
 // True when `path` (existing or not) lies in the folder tree of the root document, or all may.
@@ -199,6 +198,8 @@ struct SourceView {
     const Element* array = nullptr;
 };
 // Reads accessor and counts of a <source>; array->text is not parsed. False: reported, unusable.
+// How many numbers of the array the <param>s of an accessor cover.
+uint64_t accessor_width(const Element& accessor);
 bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& view);
 // All values of a numeric source as doubles, entry by entry. Empty when unusable.
 struct DoubleSource {

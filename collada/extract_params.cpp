@@ -33,7 +33,7 @@ std::vector<double> read_numbers(Extraction& x, Link link, ParamType type) {
     if (type != ParamType::Bool) return read_doubles(x.document(link.doc), *link.element, x.diag);
     std::vector<double> numbers;
     for (std::string_view word : split_words(link.element->text))
-        numbers.push_back(word == "true" || word == "TRUE" || word == "1");
+        numbers.push_back(parse_bool(word).value_or(false));
     return numbers;
 }
 

@@ -93,8 +93,7 @@ void read_placement(const Element& texture, TextureSampler& sampler) {
             auto flag = [&](std::string_view name, bool& out) {
                 const Element* e = technique.child(name);
                 if (!e) return false;
-                std::string_view text = trim(e->text);
-                out = text == "TRUE" || text == "true" || text == "1";
+                out = parse_bool(e->text).value_or(false);
                 return true;
             };
             number("repeatU", sampler.repeat.x);

@@ -85,6 +85,12 @@ void read_columns(const Element& accessor, SourceView& view) {
 
 }  // namespace
 
+uint64_t accessor_width(const Element& accessor) {
+    SourceView view;
+    read_columns(accessor, view);
+    return view.columns.empty() ? 1 : view.columns.back() + 1;
+}
+
 bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& view) {
     const Element* element = find_accessor(*source.element);
     if (!element) {

@@ -22,6 +22,7 @@ const std::vector<Fixer>& fixers() {
     static const std::vector<Fixer> kFixers = {
         {&Code::SRC_COMMA_DECIMAL, fix_comma_decimals},
         {&Code::SRC_COUNT, fix_array_count},
+        {&Code::SRC_PARAM, fix_accessor_stride},
         {&Code::SRC_ACCESSOR_COUNT, fix_accessor_count},
         {&Code::PRIM_COUNT, fix_primitive_count},
         {&Code::LINK_NO_HASH, fix_missing_hash},
@@ -80,18 +81,6 @@ void add_counts(std::vector<FixCount>& sum, const std::vector<FixCount>& counts)
         else
             known->count += one.count;
     }
-}
-
-// <?xml version="1.0" encoding="UTF-16"?> of a text that is UTF-8 by now.
-std::string declared_utf8(std::string_view text) {
-    std::string out(text);
-    size_t end = text.starts_with("<?xml") ? text.find("?>") : text.npos;
-    size_t at = end == text.npos ? text.npos : text.substr(0, end).find("encoding");
-    if (at == text.npos) return out;
-    size_t open = text.find_first_of("'\"", at);
-    size_t close = open < end ? text.find(text[open], open + 1) : text.npos;
-    if (close < end) out.replace(open + 1, close - open - 1, "utf-8");
-    return out;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // collada/fix_counts.cpp: count attributes set to what is there.
 #include <algorithm>
 
+#include "collada/extract_p.h"
 #include "collada/fix_p.h"
 #include "collada/numbers_p.h"
 
@@ -50,6 +51,27 @@ constexpr PrimitiveCount kPrimitives[] = {
      }},
 };
 
+// The array that an accessor reads; null where its stride cannot be told.
+struct AccessorView {
+    const Element* array = nullptr;
+    uint64_t stride = 1;  // as written
+    uint64_t room = 0;    // numbers behind the offset
+};
+
+AccessorView view_of(const Document& document, const Element& accessor) {
+    std::string_view source = accessor.value("source");
+    AccessorView view;
+    if (accessor.attribute("stride") &&
+        (!parse_count(accessor.value("stride"), view.stride) || view.stride == 0))
+        return view;
+    view.array = source.starts_with('#') ? document.find(source.substr(1)) : nullptr;
+    uint64_t offset = 0;
+    parse_count(accessor.value("offset"), offset);
+    uint64_t words = view.array ? split_words(view.array->text).size() : 0;
+    view.room = words > offset ? words - offset : 0;
+    return view;
+}
+
 }  // namespace
 
 void fix_array_count(FixContext& context) {
@@ -59,20 +81,28 @@ void fix_array_count(FixContext& context) {
     }
 }
 
+// Where stride and count do not agree with the array, the <param>s are right.
+void fix_accessor_stride(FixContext& context) {
+    for (const Finding* finding : context.findings) {
+        const Element& accessor = context.elements.at(finding->where.begin);
+        AccessorView view = view_of(context.document, accessor);
+        uint64_t width = accessor_width(accessor), count = 0;
+        parse_count(accessor.value("count"), count);
+        bool agree = view.room % view.stride == 0 && count == view.room / view.stride;
+        if (!view.array || view.stride >= width || agree) continue;
+        context.edits.push_back(
+            set_attribute(context.text, accessor, "stride", std::to_string(width)));
+    }
+}
+
 // To the entries that its array holds.
 void fix_accessor_count(FixContext& context) {
     for (const Finding* finding : context.findings) {
         const Element& accessor = context.elements.at(finding->where.begin);
-        std::string_view source = accessor.value("source");
-        const Element* array =
-            source.starts_with('#') ? context.document.find(source.substr(1)) : nullptr;
-        uint64_t stride = 1, offset = 0;
-        if (!array || (accessor.attribute("stride") &&
-                       (!parse_count(accessor.value("stride"), stride) || stride == 0)))
-            continue;
-        parse_count(accessor.value("offset"), offset);
-        uint64_t words = split_words(array->text).size();
-        set_count(context, accessor, words > offset ? (words - offset) / stride : 0);
+        AccessorView view = view_of(context.document, accessor);
+        if (view.array)
+            set_count(context, accessor,
+                      view.room / std::max(view.stride, accessor_width(accessor)));
     }
 }
 

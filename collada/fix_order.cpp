@@ -53,15 +53,15 @@ void fix_order(FixContext& context) {
     }
 }
 
-// One with an asset, an extra or a comment says something: it stays.
+// One with an asset, an extra, a comment or an instruction says something: it stays.
 void fix_empty_libraries(FixContext& context) {
     for (const Element& library : context.document.root().children()) {
         if (!library.name.starts_with("library_") || library.first_child) continue;
         std::string_view bytes =
             context.text.substr(library.start_tag.end, library.bytes.end - library.start_tag.end);
-        size_t inside = bytes.find('<');
-        bool has_comment = inside != bytes.npos && bytes.substr(inside).starts_with("<!");
-        if (only_space(library.text) && !has_comment)
+        size_t end = library.bytes.end == library.start_tag.end ? 0 : bytes.rfind("</");
+        bool only_tags = bytes.substr(0, end).find('<') == bytes.npos;  // no comment, no <?...?>
+        if (only_space(library.text) && only_tags)
             context.edits.push_back(erase_element(context.text, library));
     }
 }

@@ -24,6 +24,7 @@ void fix_order(FixContext& context);
 void fix_empty_libraries(FixContext& context);
 // fix_counts.cpp
 void fix_array_count(FixContext& context);
+void fix_accessor_stride(FixContext& context);
 void fix_accessor_count(FixContext& context);
 void fix_primitive_count(FixContext& context);
 // fix_text.cpp

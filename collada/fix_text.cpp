@@ -7,27 +7,22 @@
 
 #include "collada/fix_p.h"
 #include "collada/numbers_p.h"
+#include "collada/write.h"
 
 namespace kinora::collada {
 
 namespace {
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-// As reading has it: a word with one comma between digits and no point is a number.
 void fix_commas_of_word(std::string_view word, uint32_t begin, std::vector<Edit>& edits) {
-    size_t comma = word.find(',');
-    bool decimal = comma != word.npos && comma + 1 < word.size() && is_digit(word[comma + 1]) &&
-                   word.find(',', comma + 1) == word.npos && word.find('.') == word.npos;
-    if (!decimal) return;
-    uint32_t at = begin + uint32_t(comma);
+    double value = 0;
+    if (!comma_decimal(word, value)) return;
+    uint32_t at = begin + uint32_t(word.find(','));
     edits.push_back({{at, at + 1}, "."});
 }
 
+// Also what would be markup in a text or between quotes: & and '.
 std::string percent_encode(std::string_view path) {
-    constexpr std::string_view kPlain = "-._~/!$&'()*+,;=@";
+    constexpr std::string_view kPlain = "-._~/!$()*+,;=@";
     std::string out;
     for (char c : path) {
         bool plain =
@@ -96,6 +91,7 @@ void fix_missing_hash(FixContext& context) {
         places.insert(at);
     }
     for (const Element* element : context.elements.all()) {
+        if (in_private_data(*element)) continue;
         const Attribute* source = element->attribute("source");
         bool link = source && (element->name == "input" || element->name == "accessor" ||
                                element->name == "channel");

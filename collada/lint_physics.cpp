@@ -158,7 +158,7 @@ void check_masses(Lint& lint) {
             const Element* owner = value->parent;
             if (owner->name != "shape" && owner->name != "technique_common") continue;
             const Element* dynamic = owner->child("dynamic");
-            bool moved = dynamic && (trim(dynamic->text) == "true" || trim(dynamic->text) == "1");
+            bool moved = dynamic && parse_bool(dynamic->text).value_or(false);
             for (double v : numbers_of(lint, *value))
                 if (!(v >= 0) || (v == 0 && name == "mass" && moved)) {
                     lint.diag.report(Code::PHYS_MASS, lint.where(*value), name, v);

@@ -3,16 +3,19 @@
 
 #include <string>
 
+#include "collada/edit.h"
 #include "collada/numbers_p.h"
 
 namespace kinora::collada {
 
-Namespaces::Namespaces(const Element& root) {
+Namespaces::Namespaces(const Element& root, std::string_view text) {
+    if (!text.empty() && !prefix_of(text, root).empty()) text_ = text;
     for (const Attribute& a : root.attributes) {
         bool declares = a.name == "xmlns" || a.name.starts_with("xmlns:");
         if (!declares || a.value.find("collada.org") == a.value.npos) continue;
         xmlns_ = a.name;
         name_space_ = a.value;
+        if (a.name == "xmlns") break;  // elements without a prefix speak of this one
     }
     if (xmlns_.empty()) name_space_ = root.value("xmlns");
 }
@@ -39,6 +42,7 @@ std::string_view Namespaces::of(const Element& element) {
 
 bool Namespaces::foreign(const Element& element) {
     if (element.name.find(':') != element.name.npos) return of(element) != name_space_;
+    if (!text_.empty() && prefix_of(text_, element).empty()) return of(element) != name_space_;
     for (const Attribute& a : element.attributes)
         if (a.name == xmlns_) return a.value != name_space_;
     return false;

@@ -40,7 +40,8 @@ bool below_one(std::string_view word) {
 
 // A word that from_chars reads whole.
 bool exact_double(std::string_view word, double& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
+    if (word.starts_with("+-")) return false;
+    word.remove_prefix(word.starts_with('+'));
     auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (stop != word.data() + word.size()) return false;
     if (error == std::errc::result_out_of_range) {
@@ -58,17 +59,6 @@ bool windows_nan(std::string_view word, double& value) {
     value = word.starts_with("1.#INF") ? kInfinity : kNan;
     if (negative) value = -value;
     return true;
-}
-
-// "1,5" under a comma locale; not "1,2,3".
-bool comma_decimal(std::string_view word, double& value) {
-    size_t comma = word.find(',');
-    if (comma == word.npos || comma + 1 == word.size() || word.find(',', comma + 1) != word.npos ||
-        word.find('.') != word.npos)
-        return false;
-    std::string point(word);
-    point[comma] = '.';
-    return exact_double(point, value);
 }
 
 // The first trouble of each kind in one text: words of it, length 0 for none.
@@ -199,6 +189,16 @@ std::vector<T> read_list(const Document& document, const Element& element, Diagn
 
 }  // namespace
 
+bool comma_decimal(std::string_view word, double& value) {
+    size_t comma = word.find(',');
+    if (comma == word.npos || comma + 1 == word.size() || word.find(',', comma + 1) != word.npos ||
+        word.find('.') != word.npos)
+        return false;
+    std::string point(word);
+    point[comma] = '.';
+    return exact_double(point, value);
+}
+
 size_t count_words(std::string_view text) {
     size_t words = 0, i = 0;
     bool inside = false;
@@ -253,6 +253,13 @@ std::string_view trim(std::string_view text) {
 bool parse_double(std::string_view text, double& value) {
     text = trim(text);
     return !text.empty() && exact_double(text, value) && std::isfinite(value);
+}
+
+std::optional<bool> parse_bool(std::string_view text) {
+    text = trim(text);
+    if (text == "true" || text == "TRUE" || text == "1") return true;
+    if (text == "false" || text == "FALSE" || text == "0") return false;
+    return std::nullopt;
 }
 
 bool parse_count(std::string_view text, uint64_t& value) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "collada/document.h"
@@ -22,6 +23,10 @@ size_t written_count(const Element& element);
 
 // One number alone; false when the text (trimmed) is anything else or not finite.
 bool parse_double(std::string_view text, double& value);
+// "1,5" under a comma locale; not "1,2,3".
+bool comma_decimal(std::string_view word, double& value);
+// xs:boolean, of either case; nothing where the text is anything else.
+std::optional<bool> parse_bool(std::string_view text);
 // A count-like attribute; false when it is no whole number >= 0 of 64 bits.
 bool parse_count(std::string_view text, uint64_t& value);
 

@@ -18,12 +18,47 @@ constexpr bool is_letter(char c) {
 bool is_hex(char c) {
     return is_digit(c) || ((c | 32) >= 'a' && (c | 32) <= 'f');
 }
-// Letters beyond ASCII are taken as they come.
-bool starts_name(char c) {
-    return is_letter(c) || c == '_' || (c & 0x80);
+constexpr bool starts_name(char c) {
+    return is_letter(c) || c == '_';
 }
-bool is_name_char(char c) {
-    return starts_name(c) || is_digit(c) || c == '-' || c == '.';
+constexpr auto kNameBytes = [] {  // ASCII that may follow
+    std::array<bool, 256> t{};
+    for (int c = 0; c < 128; ++c)
+        t[size_t(c)] = starts_name(char(c)) || is_digit(char(c)) || c == '-' || c == '.';
+    return t;
+}();
+
+// A character of two bytes or more, which `p` moves behind; 0 where it is none.
+uint32_t take_character(const char*& p, const char* end) {
+    uint8_t lead = uint8_t(*p);
+    int length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+    if (lead < 0xC0 || end - p < length) return 0;
+    uint32_t c = lead & (0x7F >> length);
+    for (int i = 1; i < length; ++i) c = c << 6 | (uint8_t(p[i]) & 0x3F);
+    p += length;
+    return c;
+}
+
+// A letter, then letters, digits and the like; `colons`: ':' anywhere, too.
+bool is_name_of(std::string_view word, bool colons) {
+    const char *p = word.data(), *end = p + word.size();
+    if (p == end) return false;
+    if (uint8_t(*p) >= 0x80) {
+        if (!is_letter_beyond_ascii(take_character(p, end))) return false;
+    } else if (!starts_name(*p) && !(colons && *p == ':')) {
+        return false;
+    }
+    while (true) {
+        while (p < end && kNameBytes[uint8_t(*p)]) ++p;
+        if (p == end) return true;
+        if (uint8_t(*p) >= 0x80) {
+            if (!follows_in_name_beyond_ascii(take_character(p, end))) return false;
+        } else if (colons && *p == ':') {
+            ++p;
+        } else {
+            return false;
+        }
+    }
 }
 
 // What a segment of a path may hold, what an IRI may hold besides, and what anyURI lets be written
@@ -154,17 +189,11 @@ bool is_zone(std::string_view text) {
 }  // namespace
 
 bool is_ncname(std::string_view word) {
-    if (word.empty() || !starts_name(word[0])) return false;
-    for (char c : word)
-        if (!is_name_char(c)) return false;
-    return true;
+    return is_name_of(word, false);
 }
 
 bool is_name(std::string_view word) {
-    if (word.empty() || !(starts_name(word[0]) || word[0] == ':')) return false;
-    for (char c : word)
-        if (!is_name_char(c) && c != ':') return false;
-    return true;
+    return is_name_of(word, true);
 }
 
 bool is_uri(std::string_view word) {

@@ -75,7 +75,8 @@ bool only_space(std::string_view text) {
 }
 
 bool is_number(std::string_view word, double& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
+    if (word.starts_with("+-")) return false;
+    word.remove_prefix(word.starts_with('+'));
     auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     bool inside = error == std::errc() && end == word.data() + word.size();
     return inside && value - value == 0;  // neither NaN nor infinite
@@ -315,10 +316,15 @@ std::string shortest_number(std::string_view token) {
     return minus ? "-" + std::string(token) : std::string(token);
 }
 
-bool holds_numbers(const Element& element) {
+bool in_private_data(const Element& element) {
     for (const Element* e = element.parent; e; e = e->parent)
-        if (is_private(*e)) return false;
-    return std::binary_search(std::begin(kNumberElements), std::end(kNumberElements), element.name);
+        if (is_private(*e)) return true;
+    return false;
+}
+
+bool holds_numbers(const Element& element) {
+    return !in_private_data(element) &&
+           std::binary_search(std::begin(kNumberElements), std::end(kNumberElements), element.name);
 }
 
 std::string write(const Document& document, const SourceFiles& files) {

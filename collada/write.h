@@ -23,6 +23,9 @@ std::string write(const Document& document, const SourceFiles& files);
 // and it is not inside private data (<extra>, <technique profile>).
 bool holds_numbers(const Element& element);
 
+// Inside <extra> or <technique profile>: another maker's, whatever its name.
+bool in_private_data(const Element& element);
+
 // The same elements, attributes (in any order) and text. Number lists are compared as doubles, text
 // that is only white space counts as none. `difference`, if given, says where they part.
 bool equal(const Document& a, const Document& b, std::string* difference = nullptr);

@@ -185,7 +185,9 @@ std::optional<std::string> embed_shader(const std::string& path, const std::stri
         }
         if (!done.insert(effect).second) continue;
         std::string markup = with_profile(
-            own, *effect, profile(shaders, code, own, *effect, rsl_params(own, *effect)));
+            own, *effect,
+            collada::prefixed(profile(shaders, code, own, *effect, rsl_params(own, *effect)),
+                              collada::prefix_of(own, document->root())));
         bool keeps_its_look = std::any_of(all.begin(), all.end(), [&](const Element* other) {
             return effect_url(*other) == url && !chosen(other);
         });

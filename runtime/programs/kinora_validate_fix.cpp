@@ -50,6 +50,8 @@ class FileFix {
   public:
     FileFix(const ValidateSettings& settings, OutputFile& out) : settings_(settings), out_(out) {}
 
+    bool wrote() const { return wrote_; }  // to `out`, if only that there is nothing to change
+
     int run(const std::string& file) {
         name_ = file == "-" ? "<stdin>" : file;
         // What cannot be repaired is reported as without --fix.
@@ -74,6 +76,7 @@ class FileFix {
     // `recoded`: what `before` says in UTF-8, if it is none.
     int write(const std::string& file, const std::string& before, const std::string& after,
               const std::string& recoded) {
+        wrote_ = !settings_.in_place;
         if (settings_.diff) {
             out_.write(unified_diff(recoded.empty() ? before : recoded, after, name_, name_));
         } else if (!settings_.in_place) {
@@ -105,6 +108,7 @@ class FileFix {
     const ValidateSettings& settings_;
     OutputFile& out_;
     std::string name_;
+    bool wrote_ = false;
 };
 
 }  // namespace
@@ -120,14 +124,18 @@ int fix_batch(const ValidateSettings& settings, const std::vector<std::string>& 
     }
     OutputFile out(settings.output);
     int worst = kExitOk;
+    bool wrote = false;
     for (const std::string& file : files) {
         if (file == "-" && settings.in_place) {
             std::fputs("kinora-validate: --in-place cannot write to stdin\n", stderr);
             return kExitUsage;
         }
-        worst = std::max(worst, FileFix(settings, out).run(file));
+        FileFix fix(settings, out);
+        worst = std::max(worst, fix.run(file));
+        wrote = wrote || fix.wrote();
     }
-    if (!out.close()) return kExitUnwritable;
+    // What nothing was written to stays as it was.
+    if (wrote && !out.close()) return kExitUnwritable;
     return worst;
 }
 

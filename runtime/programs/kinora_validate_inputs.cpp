@@ -25,8 +25,10 @@ void add_directory(const std::string& directory, std::vector<std::string>& files
                                         error);
     for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
         std::error_code ignored;
-        if (is_scene_name(at->path()) && !at->is_directory(ignored))
-            found.push_back(at->path().string());
+        // Pipes and devices may never end; a link that leads nowhere is reported.
+        fs::file_type type = at->status(ignored).type();
+        bool file = type == fs::file_type::regular || type == fs::file_type::not_found;
+        if (is_scene_name(at->path()) && file) found.push_back(at->path().string());
     }
     std::sort(found.begin(), found.end());
     files.insert(files.end(), found.begin(), found.end());

@@ -1,5 +1,6 @@
 // runtime/programs/kinora_validate_options.cpp: kinora-validate's command line.
 #include <cmath>
+#include <set>
 
 #include "collada/schema.h"
 #include "runtime/programs/command_line.h"
@@ -36,10 +37,16 @@ const FindingInfo& known_rule(const std::string& code, const char* option) {
                              : fmt::format("knows no code '{}'; did you mean {}?", code, near));
 }
 
-bool is_prefix_of_some_rule(std::string_view prefix) {
-    return std::any_of(
-        validate_rules().begin(), validate_rules().end(),
-        [&](const FindingInfo* row) { return std::string_view(row->code).starts_with(prefix); });
+// A prefix that some code has, or which groups there are.
+void known_prefix(const std::string& prefix, const char* option) {
+    std::set<std::string_view> groups;
+    for (const FindingInfo* row : validate_rules()) {
+        std::string_view code = row->code;
+        if (code.starts_with(prefix)) return;
+        groups.insert(code.substr(0, code.find('_') + 1));
+    }
+    throw CLI::ValidationError(option, fmt::format("no code begins with '{}'; there are {}", prefix,
+                                                   fmt::join(groups, " ")));
 }
 
 void add_severity(const std::string& text, ValidateSettings& s) {
@@ -48,7 +55,10 @@ void add_severity(const std::string& text, ValidateSettings& s) {
     code = upper(code);
     auto severity = parse_severity(name);
     if (!severity) throw CLI::ValidationError("--severity", none_of(name, kSeverities));
-    if (!code.ends_with('*')) known_rule(code, "--severity");
+    if (code.ends_with('*'))
+        known_prefix(code.substr(0, code.size() - 1), "--severity");
+    else
+        known_rule(code, "--severity");
     s.severities.emplace_back(code, *severity);
 }
 
@@ -65,8 +75,7 @@ void add_budget(const std::string& text, ValidateSettings& s) {
 void add_only(const std::string& text, ValidateSettings& s) {
     std::string prefix = upper(text);
     while (prefix.ends_with('*')) prefix.pop_back();
-    if (!is_prefix_of_some_rule(prefix))
-        throw CLI::ValidationError("--only", fmt::format("no code begins with '{}'", prefix));
+    known_prefix(prefix, "--only");
     s.only.push_back(prefix);
 }
 
@@ -108,7 +117,8 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
     app.add_flag("--in-place", s.in_place, "write them into the files")->needs(fix)->excludes(diff);
     app.add_flag("--list-rules", w.list_rules, "every code, its severity and text");
     app.add_option("--explain", w.explain, "what a code means and what to do; all for all");
-    app.add_option("--print-schema", w.schema, "an XSD with profile_RSL: 1.4.1 or 1.5");
+    app.add_option("--print-schema", w.schema, "an XSD with profile_RSL: 1.4.1 or 1.5")
+        ->check(one_of({"1.4", "1.4.0", "1.4.1", "1.5", "1.5.0"}));
     add_list(app, "--allow-external", s.validate.extract.allow_external,
              "DIR: read files there too, outside the scene's folder");
     add_list(app, "-I", s.include_directories, "DIR: where shaders find #include files");
@@ -146,8 +156,6 @@ std::optional<int> answer(const Words& w, const ValidateSettings& s) {
     }
     if (!w.schema.empty()) {
         bool is_15 = w.schema.starts_with("1.5");
-        if (!is_15 && !w.schema.starts_with("1.4"))
-            throw CLI::ValidationError("--print-schema", "knows 1.4.1 and 1.5");
         auto version = is_15 ? collada::Version::V1_5_0 : collada::Version::V1_4_1;
         std::fputs(collada::print_schema(version).c_str(), stdout);
         return kExitOk;

@@ -7,7 +7,9 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 
 namespace kinora {
 
@@ -83,7 +85,11 @@ bool OutputFile::close() {
     return error_ == 0;
 }
 
-int replace_file(const std::string& path, std::string_view text) {
+int replace_file(const std::string& name, std::string_view text) {
+    // Not the link to a file, but the file.
+    std::unique_ptr<char, decltype(&std::free)> real(::realpath(name.c_str(), nullptr), std::free);
+    if (!real) return errno;
+    std::string path = real.get();
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return errno;
     if (::access(path.c_str(), W_OK) != 0) return errno;

@@ -26,7 +26,8 @@ class OutputFile {
     void flush();
 };
 
-// Replaces a file by the text, at once; permissions stay. 0, or errno of what failed.
+// Replaces a file (what a link leads to) by the text, at once; permissions stay. 0, or errno of
+// what failed.
 int replace_file(const std::string& path, std::string_view text);
 
 std::string read_stdin();  // up to its end

@@ -49,8 +49,8 @@ std::string json_head(const ValidateSettings&) {
 std::string json_file(const FileResult& result, const ValidateSettings& settings) {
     std::string text = fmt::format(
         "{{\"file\": {}, \"valid\": {}, \"readable\": {}, {}, \"hidden\": {}, \"findings\": [",
-        json_string(result.name), result.at_least(settings.fail_on) == 0, !result.unreadable,
-        counts_json(result.counts), result.hidden);
+        json_string(result.name), !result.unreadable && result.at_least(settings.fail_on) == 0,
+        !result.unreadable, counts_json(result.counts), result.hidden);
     for (const Finding& finding : result.findings)
         text += (&finding == &result.findings.front() ? "" : ", ") +
                 finding_json(finding, result.files());

@@ -22,6 +22,17 @@ std::string failing_case(const FileResult& result, const Finding& finding) {
         xml_text(format_finding(finding, result.files())), result.unreadable ? "error" : "failure");
 }
 
+// Why a file fails beyond the findings shown: --max-issues and --only may leave none of them.
+std::string hidden_case(const FileResult& result, size_t hidden) {
+    std::string what = hidden ? counted(hidden, "more finding") + " not shown (--max-issues)"
+                              : "the file cannot be read";
+    const char* kind = result.unreadable ? "error" : "failure";
+    return fmt::format(
+        "    <testcase classname=\"{}\" name=\"{}\">\n"
+        "      <{} message=\"{}\"/>\n    </testcase>\n",
+        xml_text(result.name), hidden ? "not shown" : "unreadable", kind, what);
+}
+
 std::string junit_file(const FileResult& result, const ValidateSettings& settings) {
     std::string cases, remarks;
     size_t failing = 0;
@@ -32,6 +43,11 @@ std::string junit_file(const FileResult& result, const ValidateSettings& setting
         }
         ++failing;
         cases += failing_case(result, finding);
+    }
+    size_t hidden = result.at_least(settings.fail_on) - failing;
+    if (hidden || (result.unreadable && !failing)) {
+        ++failing;
+        cases += hidden_case(result, hidden);
     }
     if (cases.empty())
         cases =

@@ -124,6 +124,57 @@ TEST(Document, ReadsBomLatin1AndBrokenUtf8) {
     EXPECT_EQ(broken.count("XML_RECODED"), 1u);
 }
 
+TEST(Document, EncodingsOfOneByteHaveTheirOwnCharacters) {
+    struct Row {
+        const char *encoding, *bytes, *text;
+    };
+    const Row rows[] = {{"windows-1252", "\x80\x92\x9f\xe9", "\u20ac\u2019\u0178\u00e9"},
+                        {"CP1252", "\x93\x94", "\u201c\u201d"},
+                        {"ISO-8859-15", "\xa4\xbd\xe9", "\u20ac\u0153\u00e9"},
+                        {"ISO-8859-1", "\xa4\xbd\xe9", "\u00a4\u00bd\u00e9"}};
+    for (const Row& row : rows) {
+        Reading r;
+        r.document =
+            read_document_text("t.dae",
+                               std::string("<?xml version=\"1.0\" encoding=\"") + row.encoding +
+                                   "\"?>" + kRoot + "<extra>" + row.bytes + "</extra></COLLADA>",
+                               r.diag);
+        ASSERT_TRUE(r.document);
+        EXPECT_EQ(r.document->root().child("extra")->text, row.text) << row.encoding;
+    }
+}
+
+TEST(Document, ElementsAreColladasByTheirNamespaceNotTheirPrefix) {
+    constexpr const char* kUri = "http://www.collada.org/2005/11/COLLADASchema";
+    std::string c = std::string(" xmlns:c=\"") + kUri + "\"";
+    Reading r;
+    r.document = read_document_text(
+        "t.dae",
+        kRoot + "<c:asset" + c + "><c:unit/></c:asset><c:extra/><extra" + c +
+            "><c:technique xmlns:c=\"urn:x\"><c:node/></c:technique><c:technique/></extra>" +
+            "</COLLADA>",
+        r.diag);
+    ASSERT_TRUE(r.document) << r.all();
+    const Element& root = r.document->root();
+    ASSERT_TRUE(root.child("asset"));
+    EXPECT_TRUE(root.child("asset")->child("unit"));
+    EXPECT_TRUE(root.child("c:extra"));  // the prefix ended with <c:asset>
+    const Element& extra = *root.child("extra");
+    ASSERT_TRUE(extra.child("c:technique"));
+    EXPECT_TRUE(extra.child("c:technique")->child("c:node"));  // hidden by another's
+    EXPECT_TRUE(extra.child("technique"));
+}
+
+TEST(Document, SpaceAroundAnIdIsNoPartOfIt) {
+    Reading r;
+    r.document = read_document_text(
+        "t.dae", kRoot + "<library_nodes id=\" g\t\"><node sid=' s '/></library_nodes></COLLADA>",
+        r.diag);
+    ASSERT_TRUE(r.document);
+    ASSERT_TRUE(r.document->find("g"));
+    EXPECT_EQ(r.document->find("g")->child("node")->value("sid"), "s");
+}
+
 TEST(Document, RefusesEntitiesAndDepth) {
     Reading r;
     std::string bomb = "<!DOCTYPE COLLADA [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>" + kRoot +

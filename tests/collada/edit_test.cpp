@@ -68,6 +68,21 @@ TEST(Edit, EscapedTextReadsAsItWas) {
     EXPECT_EQ(technique->child("c")->text, nasty);
 }
 
+TEST(Edit, MarkupTakesAPrefixWhereItHasNone) {
+    EXPECT_EQ(prefixed("<a b=\"<\"/>", ""), "<a b=\"<\"/>");
+    EXPECT_EQ(prefixed("x<a b='1'><c/></a ><d>1 2</d>", "p:"),
+              "x<p:a b='1'><p:c/></p:a ><p:d>1 2</p:d>");
+    EXPECT_EQ(prefixed("<p:a/><q:b/><!-- <c> --><d><![CDATA[if (a<b)]]></d><?e <f ?>", "p:"),
+              "<p:a/><q:b/><!-- <c> --><p:d><![CDATA[if (a<b)]]></p:d><?e <f ?>");
+}
+
+TEST(Edit, ATextIsDeclaredUtf8) {
+    EXPECT_EQ(declared_utf8("<?xml version=\"1.0\" encoding='ISO-8859-1'?><a encoding=\"x\"/>"),
+              "<?xml version=\"1.0\" encoding='utf-8'?><a encoding=\"x\"/>");
+    for (const char* as_is : {"<a encoding=\"x\"/>", "<?xml version='1.0'?><a/>"})
+        EXPECT_EQ(declared_utf8(as_is), as_is);
+}
+
 TEST(Edit, ElementsAreErasedAppendedToAndGivenAttributes) {
     const std::string text =
         "<COLLADA version='1.4.1'>\n  <asset/>\n  <extra type=\"t\" ><technique/><x>1</x></extra>\n"

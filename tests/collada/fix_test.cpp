@@ -50,6 +50,8 @@ std::vector<Case> cases() {
         {&Code::SRC_COUNT, replaced(good, "count=\"9\"", "count='8'"), "count='8'", "count='9'"},
         {&Code::SRC_ACCESSOR_COUNT, replaced(good, "count=\"3\"", "count=\"4\""), "count=\"4\"",
          "count=\"3\""},
+        {&Code::SRC_PARAM, replaced(good, "stride=\"3\"", "stride=\"1\""), "stride=\"1\"",
+         "stride=\"3\""},
         {&Code::PRIM_COUNT, replaced(good, "<triangles count=\"1\"", "<triangles  count=\"7\""),
          "count=\"7\"", "count=\"1\""},
         {&Code::SRC_COMMA_DECIMAL, replaced(good, "0 0 0 1 0 0", "0 0 0 1,25 0 0"), "1,25", "1.25"},
@@ -108,6 +110,37 @@ TEST(Fix, KeepsWhatTheSceneMeans) {
     EXPECT_EQ(before.scene->geometries[0].groups[0].indices,
               after.scene->geometries[0].groups[0].indices);
     EXPECT_EQ(before.scene->nodes.size(), after.scene->nodes.size());
+}
+
+// Three columns a step of one: were the count made to fit the step, the mesh would fall apart.
+TEST(Fix, AnAccessorIsAsWideAsItsParams) {
+    std::string good = triangle(kTriangle), accessor = "count=\"3\" stride=\"3\"";
+    for (const char* wrong : {"count=\"20\" stride=\"1\"", "count=\"20\""}) {
+        FixResult result = fixed(replaced(good, accessor, wrong));
+        EXPECT_NE(result.text.find("count=\"3\""), std::string::npos) << result.text;
+        EXPECT_NE(result.text.find("stride=\"3\""), std::string::npos) << result.text;
+    }
+    // Numbers of one column that were given three names are read one by one: they stay.
+    std::string single = replaced(good, accessor, "count=\"9\" stride=\"1\"");
+    EXPECT_EQ(fixed(single).text, single);
+}
+
+TEST(Fix, LeavesWhatIsOthersOrNoDeviation) {
+    std::string good = triangle(kTriangle);
+    for (const char* library : {"<library_lights><?keep me?></library_lights>",
+                                "<library_lights>\n<?keep me?><!-- mine --></library_lights>",
+                                "<library_lights><!-- mine --></library_lights>"}) {
+        std::string text =
+            replaced(good, "<library_geometries>", std::string(library) + "\n<library_geometries>");
+        EXPECT_EQ(fixed(text).text, text);
+    }
+    std::string word = replaced(good, "0 0 0 1 0 0", "0 0 0 1,25 x,5 0");
+    EXPECT_EQ(fixed(word).text, replaced(word, "1,25", "1.25"));
+    std::string extra = replaced(
+        good, "</mesh>",
+        "<extra><technique profile=\"X\"><input source=\"pos\"/></technique></extra></mesh>");
+    std::string both = replaced(extra, "source=\"#pos\"", "source=\"pos\"");
+    EXPECT_EQ(fixed(both).text, extra);
 }
 
 TEST(Fix, LeavesATextThatIsNoWholeXmlAlone) {

@@ -176,6 +176,9 @@ TEST(Numbers, WhatIsNoNumberIsNamedWithItsPlace) {
     EXPECT_EQ(n.values, (std::vector<double>{1, 2, 0, 0, 4}));
     EXPECT_EQ(n.r.pointed("SRC_NUMBER"), "0x1p3");
     EXPECT_EQ(n.r.place("SRC_NUMBER"), "2:2");
+    Numbers signs("+2 +-2 -+2");
+    EXPECT_EQ(signs.values, (std::vector<double>{2, 0, 0}));
+    EXPECT_EQ(signs.r.pointed("SRC_NUMBER"), "+-2");
 }
 
 TEST(Numbers, DecimalCommasAreUnderstoodInAnyLocale) {

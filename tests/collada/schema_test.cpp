@@ -2,11 +2,13 @@
 // what it says of a document.
 #include "collada/schema.h"
 
+#include <expat.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "collada/element_types_p.h"
+#include "collada/encoding_p.h"
 #include "collada/validate.h"
 #include "tests/collada/reading.h"
 
@@ -179,6 +181,25 @@ TEST(SimpleType, WordsAreAsXmlSchemaWritesThem) {
 }
 
 // Long texts are scanned in four parts at once: the same verdict as word by word.
+// expat's tables of names are those of XML 1.0's fourth edition, too: a tag that it reads.
+TEST(SimpleType, NamesBeyondAsciiAreThoseOfXml) {
+    for (uint32_t c = 0x80; c < 0x11000; ++c) {
+        if (c >= 0xD800 && c < 0xE000) continue;
+        std::string letter;
+        append_utf8(letter, c);
+        for (const std::string& name : {letter, "a" + letter, "a" + letter + "b"}) {
+            std::string text = "<" + name + "/>";
+            XML_Parser parser = XML_ParserCreate("UTF-8");
+            bool tag = XML_Parse(parser, text.data(), int(text.size()), 1) == XML_STATUS_OK;
+            XML_ParserFree(parser);
+            ASSERT_EQ(is_ncname(name), tag) << std::hex << c;
+            ASSERT_EQ(is_name(name), tag) << std::hex << c;
+        }
+    }
+    for (const char* cut : {"a\xc3", "\xe4\xb8", "a\x80", "\xf0\x90\x80\x80"})
+        EXPECT_FALSE(is_ncname(cut));
+}
+
 TEST(SimpleType, ListsAreCheckedAsTheirWordsAre) {
     std::mt19937 random(5);
     const char* words[] = {"1", "-2.5", "3e7", ".25", "1.e-3", "NaN", "12", "+7", "INF", "-INF"};

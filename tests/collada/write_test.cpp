@@ -63,7 +63,7 @@ TEST(Write, NumbersAreShortestWithTheSameValue) {
     EXPECT_EQ(shortest_number("100000000"), "100000000");  // an int knows no exponent
     EXPECT_EQ(shortest_number("12345678901234567890"), "12345678901234567890");
     EXPECT_EQ(shortest_number("0.1000000000000000055511151231257827"), "0.1");
-    for (const char* kept : {"NaN", "INF", "1,5", "1e999", "-1.#QNAN", "abc", ""})
+    for (const char* kept : {"NaN", "INF", "1,5", "1e999", "-1.#QNAN", "+-2", "abc", ""})
         EXPECT_EQ(shortest_number(kept), kept);
     uint64_t state = 1;
     for (int i = 0; i < 20000; ++i) {

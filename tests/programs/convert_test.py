@@ -52,6 +52,45 @@ def mesh_scene(body="", effects="", asset="<asset><created>2026-01-01T00:00:00Z<
 """
 
 
+def skin_scene(inverse_bind, bind_shape="", influences="0 0 0 0 0 0", up="Y_UP", meter="1"):
+    """A triangle on a joint that turns and wanders, instanced below another node; seen from the front."""
+    identity = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
+
+    def source(name, kind, values, param, stride=1):
+        count = len(values.split())
+        return (f'<source id="{name}"><{kind} id="{name}a" count="{count}">{values}</{kind}><technique_common>'
+                f'<accessor source="#{name}a" count="{count // stride}" stride="{stride}">{param}</accessor>'
+                "</technique_common></source>")
+
+    def channel(name, target, values):
+        return (f'<animation id="{name}">' + source(name + "i", "float_array", "0 1", '<param name="TIME" type="float"/>') +
+                source(name + "o", "float_array", values, '<param name="X" type="float"/>') +
+                f'<sampler id="{name}s"><input semantic="INPUT" source="#{name}i"/><input semantic="OUTPUT" '
+                f'source="#{name}o"/></sampler><channel source="#{name}s" target="{target}"/></animation>')
+    xyz = "".join(f'<param name="{c}" type="float"/>' for c in "XYZ")
+    return f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><created>2026-01-01T00:00:00Z</created>
+<modified>2026-01-01T00:00:00Z</modified><unit meter="{meter}"/><up_axis>{up}</up_axis></asset>
+<library_animations>{channel("a", "j/t.X", "1 1.5")}{channel("b", "j/r.ANGLE", "0 50")}</library_animations>
+<library_cameras><camera id="c"><optics><technique_common><orthographic><xmag>3</xmag><ymag>3</ymag><znear>.1</znear>
+<zfar>100</zfar></orthographic></technique_common></optics></camera></library_cameras>
+<library_geometries><geometry id="g"><mesh>{source("p", "float_array", "0 0 0 1 0 0 0 1 0", xyz, 3)}
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
+<library_controllers><controller id="k"><skin source="#g">{bind_shape and f"<bind_shape_matrix>{bind_shape}</bind_shape_matrix>"}
+{source("kj", "Name_array", "j", '<param name="JOINT" type="name"/>')}
+{source("kb", "float_array", inverse_bind or identity, '<param name="TRANSFORM" type="float4x4"/>', 16)}
+{source("kw", "float_array", "1", '<param name="WEIGHT" type="float"/>')}
+<joints><input semantic="JOINT" source="#kj"/><input semantic="INV_BIND_MATRIX" source="#kb"/></joints>
+<vertex_weights count="3"><input semantic="JOINT" source="#kj" offset="0"/><input semantic="WEIGHT" source="#kw" offset="1"/>
+<vcount>1 1 1</vcount><v>{influences}</v></vertex_weights></skin></controller></library_controllers>
+<library_visual_scenes><visual_scene id="s"><node id="j" sid="j" type="JOINT"><translate sid="t">1 0 0</translate>
+<rotate sid="r">0 0 1 0</rotate></node><node id="sk"><translate>0.5 1 0.2</translate><instance_controller url="#k">
+<skeleton>#j</skeleton></instance_controller></node><node id="cam"><translate>0 0 10</translate><instance_camera url="#c"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+"""
+
+
 def glb_json(path):
     data = Path(path).read_bytes()
     magic, version, size, length, kind = struct.unpack("<IIIII", data[:20])
@@ -130,6 +169,56 @@ class ToDae(Convert):
                 after = self.picture(out, "--time", time)
                 self.assertLess(self.difference(before, after), LIKE)
 
+    def same_picture_with_other_axes(self, scene):
+        for words in (("--up", "Z"), ("--up", "X"), ("--unit", "0.01")):
+            out = self.converted(scene, f"{scene.stem}{words[1]}.dae", *words)
+            for time in ("0", "1"):
+                with self.subTest(f"{scene.name} {words} {time}"):
+                    before = self.picture(scene, "--time", time)
+                    self.assertGreater(sum(map(sum, before[2])), 10000)
+                    self.assertLess(self.difference(before, self.picture(out, "--time", time)), SAME)
+
+    def test_a_skin_without_a_bind_shape_stands_where_it_stood(self):
+        for name, inverse_bind in (("binds_node", "1 0 0 -1 0 1 0 0 0 0 1 0 0 0 0 1"),
+                                   ("at_node", "1 0 0 -2 0 1 0 0 0 0 1 0 0 0 0 1"),
+                                   ("world", "1 0 0 -0.5 0 1 0 1 0 0 1 0.2 0 0 0 1")):
+            self.same_picture_with_other_axes(self.write(f"{name}.dae", skin_scene(inverse_bind)))
+
+    def test_vertices_of_no_joint_come_along(self):
+        shape = "0 -1 0 .3 1 0 0 .1 0 0 1 0 0 0 0 1"
+        self.same_picture_with_other_axes(self.write("some.dae", skin_scene("", shape, "0 0 -1 0 0 0")))
+        self.same_picture_with_other_axes(self.write("all.dae", skin_scene("", shape, "-1 0 -1 0 -1 0")))
+        lost = self.write("lost.dae", skin_scene("", "", "0 0 -1 0 0 0"))
+        self.expect(convert(lost, self.folder / "o.dae", "--up", "Z", "--strict"), 1, "CONVERT_LOST", "no joint")
+
+    def test_other_encodings_are_read_once(self):
+        text = mesh_scene().replace('"1.0"?>', '"1.0" encoding="ISO-8859-1"?>').replace('"Red"', '"Kopf\u00e9"')
+        scene = self.folder / "a.dae"
+        scene.write_bytes(text.encode("latin-1"))
+        for words in ((), ("--up", "Z"), ("--shader", f"red={SHADERS / 'matte.sl'}")):
+            for name in ("b.dae", "deep/b.dae"):
+                self.assertIn('name="Kopf\u00e9"', self.converted(scene, name, *words).read_text())
+
+    def test_the_asset_of_1_5_keeps_its_order(self):
+        scene = self.write("a.dae", mesh_scene().replace("2005/11", "2008/03").replace('"1.4.1"', '"1.5.0"').replace(
+            "<asset>", '<asset><coverage><geographic_location><longitude>1</longitude><latitude>2</latitude>'
+            '<altitude mode="absolute">0</altitude></geographic_location></coverage>').replace('<unit meter="1"/>', ""))
+        for words in (("--up", "Z"), ("--unit", "0.1")):
+            out = self.converted(scene, "b.dae", *words)
+            self.expect(run("kinora-validate", "--profile", "strict", "--only", "SCHEMA_", out), 0)
+
+    def test_a_prefix_is_kept_by_what_is_added(self):
+        text = re.sub(r"<(/?)(?=\w)", r"<\1c:", mesh_scene()).replace("xmlns=", "xmlns:c=")
+        self.assertIn("<c:COLLADA xmlns:c=", text)
+        scene = self.write("a.dae", text)
+        for words in (("--up", "Z"), ("--unit", "0.1"), ("--shader", f"red={SHADERS / 'matte.sl'}")):
+            out = self.converted(scene, "b.dae", *words)
+            markup = re.sub(r"(?s)<!\[CDATA\[.*?\]\]>", "", out.read_text())
+            self.assertEqual(re.findall(r"</?(?!c:)\w+", markup), [], words)
+            self.expect(run("kinora-validate", "--profile", "strict", "--only", "SCHEMA_,XML_,DOC_", out), 0)
+            self.assertLess(self.difference(self.picture(scene, *(words if "--shader" in words else ())),
+                                            self.picture(out)), LIKE)
+
     def test_shader_code_that_measures_in_world_space_is_named_as_lost(self):
         self.expect(convert(SCENES / "walker.dae", self.folder / "a.dae", "--up", "Y", "--strict"), 1,
                     "CONVERT_LOST", "world")
@@ -175,6 +264,44 @@ class ToDae(Convert):
         self.assertIn("<init_from>../../pictures/a%20b.png</init_from>", out.read_text())
         self.expect(convert(scene, out), 0, "1 of the files it links to", "'../../pictures/a b.png'", "--allow-external")
         self.assertNotIn("CONVERT_OUTSIDE", str(convert(scene, self.folder / "c.dae")))
+
+    def test_links_are_moved_from_where_xml_base_says_they_are(self):
+        body = "<library_images><image id=\"i\"><init_from>a.png</init_from></image></library_images>"
+        self.write("in/tex/a.png", "x")
+        scene = self.write("in/a.dae", mesh_scene(body).replace(' version="1.4', ' xml:base="tex/" version="1.4'))
+        text = self.converted(scene, "out/b.dae").read_text()
+        self.assertIn("<init_from>../in/tex/a.png</init_from>", text)
+        self.assertNotIn("xml:base", text)
+        self.assertIn('xml:base="tex/"', self.converted(scene, "in/c.dae").read_text())
+
+    def test_all_links_of_the_element_table_are_moved(self):
+        body = """<library_controllers><controller id="k"><skin source="it&apos;s.dae#g"/></controller></library_controllers>
+<library_nodes><node id="x"><instance_controller url='it&apos;s.dae#k'><skeleton>rig.dae#j</skeleton><skeleton>#n</skeleton>
+</instance_controller></node></library_nodes>
+<library_physics_models><physics_model id="pm"><rigid_body sid="rb"><technique_common/></rigid_body></physics_model>
+</library_physics_models>
+<library_physics_scenes><physics_scene id="ps"><instance_physics_model url="rig.dae#pm" parent="rig.dae#j"/></physics_scene>
+</library_physics_scenes>"""
+        text = mesh_scene(body).replace("<mesh>", '<convex_mesh convex_hull_of="rig.dae#g"/><mesh>').replace(
+            "</visual_scene>", '<evaluate_scene><render camera_node="rig.dae#j"/></evaluate_scene></visual_scene>').replace(
+            "</asset>", "<contributor><source_data>rig.max</source_data></contributor></asset>")
+        out = self.converted(self.write("a.dae", text), "deep/b.dae").read_text()
+        self.assertEqual(re.findall(r"(?<!/)(?:rig|it's)\.dae", out), [])
+        for link in ('"../it\'s.dae#g"', '"../it\'s.dae#k"', "<skeleton>../rig.dae#j<", "<skeleton>#n<", 'url="../rig.dae#pm"',
+                     'parent="../rig.dae#j"', 'convex_hull_of="../rig.dae#g"', 'camera_node="../rig.dae#j"', ">rig.max<"):
+            self.assertIn(link, out)
+
+    def test_headers_of_shader_code_are_found_again(self):
+        self.write("in/x.h", "#define RED color(1, 0, 0)\n")
+        code = '#include "x.h"\nsurface s() { Ci = RED; Oi = 1; }\n'
+        effect = (f'<effect id="e"><profile_RSL><technique sid="t"><code>{{}}</code><pass><shader stage="SURFACE">'
+                  "<name>s</name></shader></pass></technique></profile_RSL></effect>")
+        for name, text in (("cdata", f"<![CDATA[{code}]]>"), ("plain", code.replace("<", "&lt;"))):
+            scene = self.write(f"in/{name}.dae", mesh_scene(effects=effect.format(text)).replace('"#red-fx"', '"#e"'))
+            out = self.converted(scene, f"o&ut/{name}/b.dae")
+            self.assertEqual(self.picture(out, "--allow-external", self.folder), self.picture(scene))
+            again = self.converted(out, f"in/again_{name}.dae")
+            self.assertIn('#include "x.h"', again.read_text())
 
     def test_comments_and_private_data_stay(self):
         body = '<!-- keep me -->\n<library_nodes><node id="x"><extra><technique profile="v"><a b="1">&lt;2</a>' \

@@ -196,6 +196,25 @@ class Agreement(ProgramTest):
             invalid = [p for p, v in self.table_says(paths).items() if not v[0]]
             self.assertGreater(len(invalid), MUTANTS // 3)
 
+    def test_names_beyond_ascii_and_namespaces(self):
+        uri = "http://www.collada.org/2005/11/COLLADASchema"
+        asset = "<{0}asset><{0}created>2026-01-01T00:00:00Z</{0}created><{0}modified>2026-01-01T00:00:00Z</{0}modified></{0}asset>"
+        plain = f'<COLLADA xmlns="{uri}" version="1.4.1">{asset.format("")}{{}}</COLLADA>'
+        nodes = '<library_nodes><node id="{}"/></library_nodes>'
+        texts = [plain.format(nodes.format(name)) for name in (
+            "\u00e0", "a\u00b7", "\u00b7", "a\u2192b", "a\u00d7b", "a\U0001f600b", "\u0300a", "a\u0300", "a\u037eb", "\u4e2d\u6587",
+            " g ", "g h", "\u0660", "a\u0660", "\u3007", "a:b")]
+        inner = "<{0}library_nodes {1}><{0}node/></{0}library_nodes>"
+        texts += [plain.format(inner.format(prefix, declared)) for prefix, declared in (
+            ("c:", f'xmlns:c="{uri}"'), ("c:", 'xmlns:c="urn:x"'), ("", 'xmlns="urn:x"'))]
+        texts += [f'<c:COLLADA xmlns:c="{uri}" {more} version="1.4.1">{asset.format("c:")}{inner.format(prefix, "")}</c:COLLADA>'
+                  for prefix in ("c:", "", "d:") for more in ("", f'xmlns="{uri}"', f'xmlns:d="{uri}"') if prefix != "d:" or "d=" in more]
+        paths = [self.write(f"{i}.dae", '<?xml version="1.0" encoding="utf-8"?>' + text) for i, text in enumerate(texts)]
+        verdicts = [valid for valid, _ in self.xmllint_says(self.ours["V14"], paths).values()]
+        self.assertGreater(min(verdicts.count(True), verdicts.count(False)), 5)
+        for says in (self.table_says, self.program_says):
+            self.assertEqual(self.compare("V14", self.ours["V14"], paths, says=says), [])
+
     def test_the_official_schemas_lose_the_content_of_restricted_types(self):
         """The differences above are all, and real: it refuses what the specification shows."""
         writer = self.writer("V15")

@@ -135,7 +135,13 @@ class Options(ProgramTest):
         for version in ("1.4.1", "1.5"):
             schema = ET.fromstring(validate("--print-schema", version).out)
             self.assertTrue(schema.tag.endswith("}schema"))
-        self.assertEqual(validate("--print-schema", "2.0").code, 2)
+        for word in ("2.0", "1.5x", "1.4.7"):
+            self.expect(validate("--print-schema", word), 2, "1.4.1", "1.5")
+
+    def test_prefixes_of_no_code_are_refused(self):
+        for option in (("--severity", "FOO*=off"), ("--only", "FOO")):
+            self.expect(validate(*option, MATTE), 2, "'FOO'", "SCHEMA_")
+        self.expect(validate("--severity", "schema_*=off", MATTE), 0)
 
     def test_info_and_budgets(self):
         found = json.loads(validate("--info", "--format", "json", MATTE).out)["files"][0]["info"]
@@ -417,6 +423,33 @@ class Fix(ProgramTest):
         self.expect(validate("--fix", "--in-place", whole), 0, "nothing to repair")
         self.assertEqual(whole.read_bytes(), before)
 
+    def test_an_output_file_that_nothing_is_written_to_stays(self):
+        keep = self.write("keep.dae", EMPTY)
+        archive = self.folder / "a.zae"
+        with zipfile.ZipFile(archive, "w") as z:
+            z.writestr("bad.dae", BAD)
+        for file, code in ((self.folder / "none.dae", 3), (archive, 1), (self.write("empty.dae", ""), 1)):
+            for words in ([], ["--diff"]):
+                self.expect(validate("--fix", *words, file, "-o", keep), code)
+                self.assertEqual(keep.read_text(), EMPTY)
+        self.expect(validate("--fix", self.scene, "-o", keep), 0)
+        self.assertIn("stone.png", keep.read_text())
+
+    def test_a_link_stays_one_and_its_file_is_repaired(self):
+        link = self.folder / "link.dae"
+        link.symlink_to("bad.dae")
+        self.expect(validate("--fix", "--in-place", link), 0, "repaired")
+        self.assertTrue(link.is_symlink())
+        self.assertIn("stone.png", self.scene.read_text())
+
+    def test_letters_of_markup_in_a_file_s_name_stay_encoded(self):
+        for name, uri in (("a&b.png", "a%26b.png"), ("it's.png", "it%27s.png")):
+            (self.folder / name).write_bytes(b"\x89PNG\r\n\x1a\n" + b"\0" * 30)
+            scene = self.image(f"file:///C:/t/{uri}")
+            self.expect(validate("--fix", "--in-place", scene), 0, "repaired")
+            self.assertIn(f"<init_from>{uri}</init_from>", scene.read_text())
+            ET.parse(scene)
+
     def test_an_archive_is_not_repaired_and_that_is_said(self):
         path = self.folder / "a.zae"
         with zipfile.ZipFile(path, "w") as archive:
@@ -561,6 +594,20 @@ class Reports(ProgramTest):
         self.assertEqual(int(broken.get("failures")), len(broken.findall("testcase/failure")))
         self.assertTrue(any(f.get("type") == "XML_SYNTAX" for f in broken.iter("failure")))
 
+    def test_a_file_that_fails_by_what_is_not_shown_is_no_success(self):
+        # A warning is shown, the error behind it is not.
+        scene = self.write("ju.dae", EMPTY.replace("<up_axis>", '<unit name="inch" meter="1"/><up_axis>')[:-3])
+        for words, code in ((("--max-issues", "1", scene), 1), (("--only", "PRIM_", self.folder / "none.dae"), 3)):
+            done = validate("--format", "junit", *words)
+            self.assertEqual(done.code, code)
+            suite = ET.fromstring(done.out)[0]
+            failing = suite.findall("testcase/failure") + suite.findall("testcase/error")
+            self.assertEqual(int(suite.get("failures")) + int(suite.get("errors")), len(failing))
+            self.assertEqual(int(suite.get("tests")), len(suite.findall("testcase")))
+            self.assertEqual(len(failing), 1)
+            report = json.loads(validate("--format", "json", *words).out)
+            self.assertFalse(report["files"][0]["valid"])
+
     def test_html_needs_nothing_else(self):
         page = self.report("html").out
         self.assertNotRegex(page, r"(?i)(src|href)\s*=|@import|url\(|https?://(?!www\.collada)")
@@ -615,6 +662,11 @@ class Batches(ProgramTest):
         self.assertTrue(report["good.dae"]["valid"])
         self.assertFalse(report["link.dae"]["readable"])
         self.assertFalse(report["bytes.dae"]["valid"])
+
+    def test_pipes_in_folders_are_passed_over(self):
+        os.mkfifo(self.folder / "x.dae")
+        self.write("good.dae", EMPTY)
+        self.expect(validate("-r", self.folder), 0, "1 file:")
 
     def test_devices_are_refused(self):
         self.expect(validate("/dev/zero"), 3, "XML_OPEN")

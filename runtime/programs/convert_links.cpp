@@ -1,0 +1,173 @@
+// runtime/programs/convert_links.cpp: a document's relative links, as seen from another folder.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "collada/edit.h"
+#include "collada/links.h"
+#include "runtime/findings.h"
+#include "runtime/programs/convert.h"
+
+namespace kinora {
+
+namespace fs = std::filesystem;
+using collada::Document;
+using collada::Edit;
+using collada::Element;
+
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n";
+
+std::string_view trimmed(std::string_view text) {
+    size_t begin = text.find_first_not_of(kSpace);
+    if (begin == text.npos) return {};
+    return text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
+}
+
+bool is_relative(std::string_view file) {
+    return !file.empty() && file[0] != '/' && file[0] != '\\' && file.find(':') == file.npos;
+}
+
+bool is_file(const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+}
+
+std::string encoded(const std::string& name) {
+    std::string link;
+    for (char c : name)
+        link += uint8_t(c) <= ' ' || std::string_view("%#?\"<>").find(c) != std::string_view::npos
+                    ? fmt::format("%{:02X}", uint8_t(c))
+                    : std::string(1, c);
+    return link;
+}
+
+// Elements whose links are of files as a whole; others name an element behind '#'.
+bool names_file(const Element& e) {
+    return e.name == "init_from" || e.name == "ref" || e.name == "include";
+}
+
+// Names between quotes of #include lines, as ranges of `code`.
+std::vector<collada::ByteRange> included_names(std::string_view code) {
+    std::vector<collada::ByteRange> names;
+    for (size_t at = 0; (at = code.find('#', at)) != code.npos;) {
+        size_t word = code.find_first_not_of(" \t", ++at);
+        if (word == code.npos || !code.substr(word).starts_with("include")) continue;
+        size_t open = code.find_first_not_of(" \t", word + 7);
+        if (open == code.npos || code[open] != '"') continue;
+        size_t close = code.find_first_of("\"\n", open + 1);
+        if (close == code.npos || code[close] != '"') continue;
+        names.push_back({uint32_t(open + 1), uint32_t(close)});
+    }
+    return names;
+}
+
+class LinkMove {
+  public:
+    LinkMove(const Document& document, std::string_view text) : document_(document), text_(text) {}
+
+    // False: the documents share a folder.
+    bool between(const std::string& path, const std::string& new_path, const std::string& archive) {
+        std::error_code code;
+        from_ = fs::weakly_canonical(fs::absolute(path), code).parent_path();
+        to_ = fs::weakly_canonical(fs::absolute(new_path), code).parent_path();
+        if (from_ == to_) return false;
+        if (archive.empty()) return true;
+        // Out of an archive everything comes along, into a folder beside the new document.
+        archive_ = fs::weakly_canonical(archive, code);
+        unpacked_ = fs::path(new_path).stem().string() + "_files";
+        fs::copy(archive, to_ / unpacked_,
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
+        return true;
+    }
+
+    std::string run(Diagnostics& diag) {
+        for (const collada::UriPlace& place : collada::uri_places(document_)) move_uri(place);
+        visit_code(document_.root());
+        // Links were taken as it says, and say so themselves now.
+        if (const collada::Attribute* base = document_.root().attribute("xml:base"))
+            edits_.push_back({base->bytes, ""});
+        if (!outside_.empty())
+            diag.report(Code::CONVERT_OUTSIDE, Location{}, outside_.size(), *outside_.begin());
+        return collada::apply_edits(text_, std::move(edits_));
+    }
+
+  private:
+    // Where a file of the old document is, as seen from the new one.
+    std::string moved(const fs::path& file) {
+        fs::path path = archive_.empty()
+                            ? file.lexically_relative(to_)
+                            : (unpacked_ / file.lexically_relative(archive_)).lexically_normal();
+        if (path.begin() != path.end() && *path.begin() == "..")
+            outside_.insert(path.generic_string());
+        return path.generic_string();
+    }
+
+    // The file of a relative path of path_of_uri.
+    fs::path found(const std::string& path) const {
+        fs::path folder = document_.directory().empty() ? "." : document_.directory();
+        fs::path below = fs::path(path).lexically_relative(folder.lexically_normal());
+        return (from_ / (below.empty() ? fs::path(path) : below)).lexically_normal();
+    }
+
+    void move_uri(const collada::UriPlace& place) {
+        std::string_view link = trimmed(place.value);
+        size_t hash = std::min(link.find('#'), link.size());
+        if (!is_relative(trimmed(link.substr(0, hash)))) return;
+        fs::path file = found(collada::path_of_uri(document_, link.substr(0, hash)));
+        // A fragment without its '#' is no file.
+        if (hash == link.size() && !names_file(*place.element) && !is_file(file)) return;
+        std::string name = encoded(moved(file)) + std::string(link.substr(hash));
+        if (place.attribute)
+            edits_.push_back(
+                collada::set_attribute(text_, *place.element, place.attribute->name, name));
+        else
+            edits_.push_back({{place.element->start_tag.end,
+                               uint32_t(text_.rfind("</", place.element->bytes.end - 1))},
+                              collada::escape_text(name)});
+    }
+
+    // A shader's code includes files beside the document.
+    void visit_code(const Element& e) {
+        if (e.name == "code")
+            for (collada::ByteRange name : included_names(e.text)) move_include(e, name);
+        for (const Element& child : e.children()) visit_code(child);
+    }
+
+    void move_include(const Element& code, collada::ByteRange range) {
+        std::string name(code.text.substr(range.begin, range.end - range.begin));
+        fs::path file = (from_ / name).lexically_normal();
+        if (!is_relative(name) || !is_file(file)) return;  // one of -I, or Kinora's own
+        Location where = document_.text_location(code, range.begin, range.end);
+        std::string new_name = moved(file);
+        std::string_view before =
+            text_.substr(code.start_tag.end, where.begin - code.start_tag.end);
+        size_t section = before.rfind("<![CDATA[");
+        bool escaped = section == before.npos || before.find("]]>", section) != before.npos;
+        edits_.push_back(
+            {{where.begin, where.end}, escaped ? collada::escape_text(new_name) : new_name});
+    }
+
+    const Document& document_;
+    std::string_view text_;
+    fs::path from_, to_, archive_, unpacked_;
+    std::set<std::string> outside_;
+    std::vector<Edit> edits_;
+};
+
+}  // namespace
+
+std::string move_links(const std::string& path, const std::string& text,
+                       const std::string& new_path, const std::string& archive, Diagnostics& diag) {
+    Diagnostics quiet;
+    std::optional<Document> document = collada::read_document_text(path, text, quiet);
+    if (!document || !document->whole()) return text;
+    LinkMove move(*document, quiet.files.text(document->file()));
+    return move.between(path, new_path, archive) ? move.run(diag) : text;
+}
+
+}  // namespace kinora
