@@ -3,27 +3,11 @@
 #include <cmath>
 
 #include "collada/lint_p.h"
-#include "runtime/base/skin_space.h"
-#include "runtime/base/transform_matrix.h"
+#include "collada/node_places.h"
 
 namespace kinora::collada {
 
 namespace {
-
-using MatrixOf = dmat4 (*)(const double*);
-constexpr MatrixOf kMatrixOf[] = {translation_matrix, rotation_matrix, scale_matrix, rows_matrix,
-                                  lookat_matrix,      skew_matrix};  // TransformKind
-
-dmat4 matrix_of(const std::vector<Transform>& transforms) {
-    dmat4 m(1.0);
-    for (const Transform& t : transforms) {
-        std::array<double, 16> v = t.slot.values;
-        if (t.kind == TransformKind::Matrix)  // slots are column-major
-            for (size_t i = 0; i < 16; ++i) v[i] = t.slot.values[i % 4 * 4 + i / 4];
-        m = m * kMatrixOf[size_t(t.kind)](v.data());
-    }
-    return m;
-}
 
 bool flattens(const dmat4& m) {
     dvec3 a(m[0]), b(m[1]), c(m[2]);
@@ -41,118 +25,25 @@ std::string label(const Node& node) {
 constexpr const char* kInstead[] = {"", "binds it with its matrix", "moves it with its matrix",
                                     "moves it with what its matrix has below the joints' ancestor"};
 
-// Where a node definition stands by the first way that leads to it; parents come first.
-struct Place {
-    uint32_t node;
-    uint32_t parent;     // a place, or kNone
-    dmat4 world, start;  // as the file leaves it, and at the first keys
-};
+void check_flat(Lint& lint, const NodePlaces& places, const NodePlace& place) {
+    const Node& node = lint.scene.nodes[place.node];
+    bool shows = !node.meshes.empty() || !node.children.empty() || !node.instances.empty();
+    if (shows && !places.animated(place.node) && flattens(place.local))
+        lint.diag.report(Code::NODE_SINGULAR, node.where, label(node));
+}
 
-// Without recursion, since instances may be chained as long as the file.
-class NodeWalk {
-  public:
-    explicit NodeWalk(Lint& lint)
-        : lint_(lint),
-          nodes_(lint.scene.nodes),
-          place_of_(nodes_.size(), kNone),
-          animated_(nodes_.size()) {
-        for (const Channel& channel : lint.scene.channels)
-            if (channel.ref.kind == Owner::Transform) start(channel);
-    }
-
-    void run() {
-        for (uint32_t root : lint_.scene.roots) walk(root);
-        for (uint32_t i = 0; i < nodes_.size(); ++i)
-            if (nodes_[i].parent == kNone) walk(i);
-        for (uint32_t place = 0; place < places_.size(); ++place)
-            for (const MeshInstance& mesh : nodes_[places_[place].node].meshes)
-                if (mesh.skin != kNone) check_skin(place, mesh);
-    }
-
-  private:
-    // The channel's first key into the node's transforms.
-    void start(const Channel& channel) {
-        const TargetRef& ref = channel.ref;
-        animated_[ref.owner] = true;
-        const Sampler& sampler = lint_.scene.samplers[channel.sampler];
-        auto& transforms =
-            started_.try_emplace(ref.owner, nodes_[ref.owner].transforms).first->second;
-        auto& values = transforms[ref.slot].slot.values;
-        for (uint32_t i = 0; i < ref.count && i < sampler.stride && i < sampler.values.size(); ++i)
-            if (ref.first + i < values.size()) values[ref.first + i] = sampler.values[i];
-    }
-
-    void walk(uint32_t root) {
-        std::vector<std::pair<uint32_t, uint32_t>> todo{{root, kNone}};
-        while (!todo.empty()) {
-            auto [at, parent] = todo.back();
-            todo.pop_back();
-            if (place_of_[at] != kNone) continue;
-            uint32_t place = place_of_[at] = uint32_t(places_.size());
-            const Node& node = nodes_[at];
-            dmat4 local = matrix_of(node.transforms), first = local;
-            check_flat(node, at, local);
-            if (auto moved = started_.find(at); moved != started_.end())
-                first = matrix_of(moved->second);
-            if (parent == kNone)
-                places_.push_back({at, parent, local, first});
-            else
-                places_.push_back(
-                    {at, parent, places_[parent].world * local, places_[parent].start * first});
-            for (uint32_t child : node.children) todo.emplace_back(child, place);
-            for (const NodeInstance& instance : node.instances)
-                todo.emplace_back(instance.node, place);
-        }
-    }
-
-    void check_flat(const Node& node, uint32_t number, const dmat4& local) {
-        bool shows = !node.meshes.empty() || !node.children.empty() || !node.instances.empty();
-        if (shows && !animated_[number] && flattens(local))
-            lint_.diag.report(Code::NODE_SINGULAR, node.where, label(node));
-    }
-
-    // As the scene is built (SceneBuilder::add_skin).
-    void check_skin(uint32_t place, const MeshInstance& mesh) {
-        const Skin& skin = lint_.scene.skins[mesh.skin];
-        std::vector<bool> used(skin.inverse_bind.size());
-        for (int32_t joint : skin.influence_joints)
-            if (joint >= 0) used[size_t(joint)] = true;
-        SkinPose rest, start;
-        std::vector<RestJoint> moving;
-        std::vector<uint32_t> joints;
-        for (size_t j = 0; j < mesh.joint_nodes.size() && j < used.size(); ++j) {
-            uint32_t node = mesh.joint_nodes[j];
-            if (node == kNone || place_of_[node] == kNone) continue;
-            joints.push_back(place_of_[node]);
-            rest.joints.push_back({places_[joints.back()].world, skin.inverse_bind[j]});
-            start.joints.push_back({places_[joints.back()].start, skin.inverse_bind[j]});
-            if (used[j]) moving.push_back(rest.joints.back());
-        }
-        dmat4 conversion(1.0);
-        if (mesh.conversion != kNone) conversion = lint_.scene.conversions[mesh.conversion];
-        rest.node = places_[place].world * conversion;
-        start.node = places_[place].start * conversion;
-        uint32_t shared =
-            shared_ancestor(place, joints, kNone, [&](uint32_t p) { return places_[p].parent; });
-        if (shared != kNone) rest.shared = places_[shared].world;
-        if (shared != kNone) start.shared = places_[shared].start;
-        SkinSpace space = skin_place(skin.bind_shape_matrix, rest, start).space;
-        if (space != SkinSpace::World)
-            lint_.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where,
-                              label(nodes_[places_[place].node]), skin.id, kInstead[size_t(space)]);
-        size_t mirroring = mirroring_joints(skin.bind_shape_matrix, moving);
-        if (mirroring && mirroring < moving.size())
-            lint_.diag.report(Code::SKIN_MIXED_MIRROR, mesh.where, mirroring, moving.size(),
-                              skin.id);
-    }
-
-    Lint& lint_;
-    const std::vector<Node>& nodes_;
-    std::vector<Place> places_;
-    std::vector<uint32_t> place_of_;  // by node definition
-    std::vector<bool> animated_;
-    std::unordered_map<uint32_t, std::vector<Transform>> started_;  // of nodes that channels move
-};
+void check_skin(Lint& lint, const NodePlaces& places, uint32_t place, const MeshInstance& mesh) {
+    const Skin& skin = lint.scene.skins[mesh.skin];
+    auto [rest, start, moving] = places.skin_poses(place, mesh);
+    SkinSpace space = skin_place(skin.bind_shape_matrix, rest, start).space;
+    if (space != SkinSpace::World)
+        lint.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where,
+                         label(lint.scene.nodes[places.places()[place].node]), skin.id,
+                         kInstead[size_t(space)]);
+    size_t mirroring = mirroring_joints(skin.bind_shape_matrix, moving);
+    if (mirroring && mirroring < moving.size())
+        lint.diag.report(Code::SKIN_MIXED_MIRROR, mesh.where, mirroring, moving.size(), skin.id);
+}
 
 void check_influences(Lint& lint, const Skin& skin) {
     constexpr uint32_t kUsual = 4;
@@ -168,7 +59,11 @@ void check_influences(Lint& lint, const Skin& skin) {
 }  // namespace
 
 void lint_nodes(Lint& lint) {
-    NodeWalk(lint).run();
+    NodePlaces places(lint.scene);
+    for (const NodePlace& place : places.places()) check_flat(lint, places, place);
+    for (uint32_t place = 0; place < places.places().size(); ++place)
+        for (const MeshInstance& mesh : lint.scene.nodes[places.places()[place].node].meshes)
+            if (mesh.skin != kNone) check_skin(lint, places, place, mesh);
     for (const Skin& skin : lint.scene.skins) check_influences(lint, skin);
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <set>
@@ -11,6 +10,7 @@
 #include "collada/write.h"
 #include "runtime/findings.h"
 #include "runtime/programs/convert.h"
+#include "runtime/programs/convert_axes_p.h"
 
 namespace kinora {
 
@@ -26,17 +26,6 @@ void for_each_element(const Element& root, F&& f) {
     for (const Element& child : root.children()) for_each_element(child, f);
 }
 
-std::string_view trimmed(std::string_view text) {
-    size_t begin = text.find_first_not_of(" \t\r\n");
-    if (begin == text.npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
-}
-
-Edit replace_text(const Element& e, const std::string& text, std::string_view original) {
-    uint32_t end = uint32_t(original.rfind("</", e.bytes.end - 1));
-    return {{e.start_tag.end, end}, collada::escape_text(text)};
-}
-
 constexpr const char* kAxisNames[] = {"X_UP", "Y_UP", "Z_UP"};
 
 // As collada's reader has it (COLLADA 1.4.1, chapter 5, up_axis).
@@ -46,48 +35,12 @@ dmat4 y_up_from(UpAxis up) {
     return dmat4(1.0);
 }
 
-// As COLLADA writes matrices: by rows.
-std::string numbers_text(const dmat4& m) {
-    std::string text;
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c)
-            text += (r || c ? " " : "") + collada::shortest_number(m[c][r] == 0 ? 0.0 : m[c][r]);
-    return text;
-}
-
-dmat4 matrix_of(const double* rows) {
-    dmat4 m;
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) m[c][r] = rows[r * 4 + c];
-    return m;
-}
-
-bool is_identity(const dmat4& m) {
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r)
-            if (!(std::abs(m[c][r] - (c == r)) <= 1e-9)) return false;
-    return true;
-}
-
-// Nothing where a word is no number.
-std::vector<double> numbers_of(std::string_view text) {
-    std::vector<double> numbers;
-    while (!(text = trimmed(text)).empty()) {
-        text.remove_prefix(text[0] == '+');
-        double value = 0;
-        auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc()) return {};
-        numbers.push_back(value);
-        text.remove_prefix(size_t(stop - text.data()));
-    }
-    return numbers;
-}
-
 // The edits that give a document other axes and another unit.
 class AxisChange {
   public:
-    AxisChange(const Document& document, std::string_view text, Diagnostics& diag)
-        : document_(document), text_(text), diag_(diag) {}
+    // `own` is what the document was read with.
+    AxisChange(const Document& document, Diagnostics& own, Diagnostics& diag)
+        : document_(document), text_(own.files.text(document.file())), own_(own), diag_(diag) {}
 
     std::string run(std::optional<UpAxis> up_axis, std::optional<double> meter) {
         read_asset();
@@ -99,6 +52,8 @@ class AxisChange {
         if (new_up == old_up_ && scale_ == 1) return collada::apply_edits(text_, edits_);
         for (int c = 0; c < 3; ++c) matrix_[c] = matrix_[c] * scale_;
         for_each_element(document_.root(), [this](const Element& e) { visit(e); });
+        for (Edit& edit : change_skins(document_, matrix_, own_, diag_))
+            edits_.push_back(std::move(edit));
         warn();
         return collada::apply_edits(text_, edits_);
     }
@@ -118,11 +73,13 @@ class AxisChange {
     void write_asset(UpAxis up, double meter) {
         std::string unit = collada::shortest_number(meter);
         std::string unit_markup =
-            own(fmt::format("<unit meter=\"{}\"{}/>", unit, unit_name(meter)));
-        std::string up_markup = own(fmt::format("<up_axis>{}</up_axis>", kAxisNames[size_t(up)]));
+            with_prefix(fmt::format("<unit meter=\"{}\"{}/>", unit, unit_name(meter)));
+        std::string up_markup =
+            with_prefix(fmt::format("<up_axis>{}</up_axis>", kAxisNames[size_t(up)]));
         if (!asset_) {
             uint32_t at = document_.root().start_tag.end;
-            edits_.push_back({{at, at}, own("<asset>" + unit_markup + up_markup + "</asset>")});
+            edits_.push_back(
+                {{at, at}, with_prefix("<asset>" + unit_markup + up_markup + "</asset>")});
             return;
         }
         // <unit> and <up_axis> stand at the end of <asset>, before the extras of 1.5.
@@ -153,13 +110,12 @@ class AxisChange {
     }
 
     // Markup under the prefix that the document's elements have.
-    std::string own(const std::string& markup) const {
+    std::string with_prefix(const std::string& markup) const {
         return collada::prefixed(markup, collada::prefix_of(text_, document_.root()));
     }
 
     void visit(const Element& e) {
         if (e.name == "visual_scene") return wrap_nodes(e);
-        if (e.name == "skin") change_unjointed(e);
         has_rsl_ |= e.name == "profile_RSL";
         // An included file may say anything; code in the document says it here.
         knows_world_ |= (e.name == "code" && e.text.find("\"world\"") != e.text.npos) ||
@@ -177,7 +133,7 @@ class AxisChange {
         for (const Row& row : kLengths) {
             if (e.name != row.name || !collada::holds_numbers(e)) continue;
             double value = std::strtod(std::string(trimmed(e.text)).c_str(), nullptr);
-            edits_.push_back(replace_text(
+            edits_.push_back(replace_content(
                 e, collada::shortest_number(value * std::pow(scale_, row.power)), text_));
             if (!e.value("sid").empty()) length_sids_.insert(std::string(e.value("sid")));
         }
@@ -190,78 +146,10 @@ class AxisChange {
         for (const Element* e = first; e; e = e->next_named("node")) last = e;
         std::string id = "axes_and_unit";
         while (document_.find(id) || !made_ids_.insert(id).second) id += "_";
-        edits_.push_back(
-            {{first->bytes.begin, first->bytes.begin},
-             own(fmt::format("<node id=\"{}\"><matrix>{}</matrix>", id, numbers_text(matrix_)))});
-        edits_.push_back({{last->bytes.end, last->bytes.end}, own("</node>")});
-    }
-
-    // A vertex of joint -1 is placed by the bind shape alone, which no node reaches. For its skin
-    // the change goes into the bind shape M B, and out of the joints' matrices again: (M J) (IBM
-    // inverse(M)) (M B) = M (J IBM B).
-    void change_unjointed(const Element& skin) {
-        if (!names_no_joint(skin)) return;
-        const Element* shape = skin.child("bind_shape_matrix");
-        std::vector<double> bind_shape = shape ? numbers_of(shape->text) : std::vector<double>{};
-        const Element* inverse_binds = inverse_bind_array(skin);
-        std::vector<double> inverse =
-            inverse_binds ? numbers_of(inverse_binds->text) : std::vector<double>{};
-        // Without a bind shape the joints' places decide what the node does (skin_space.h).
-        bool known = bind_shape.size() == 16 && !is_identity(matrix_of(bind_shape.data()));
-        if (!known || inverse.empty() || inverse.size() % 16 != 0) {
-            diag_.report(Code::CONVERT_LOST, Location{},
-                         fmt::format("skin of '{}'", skin.parent->value("id")),
-                         "the change of axes and unit for vertices of no joint");
-            return;
-        }
-        edits_.push_back(
-            replace_text(*shape, numbers_text(matrix_ * matrix_of(bind_shape.data())), text_));
-        std::string text;
-        for (size_t at = 0; at < inverse.size(); at += 16)
-            text += (at ? " " : "") + numbers_text(matrix_of(&inverse[at]) * glm::inverse(matrix_));
-        edits_.push_back(replace_text(*inverse_binds, text, text_));
-    }
-
-    // The numbers of INV_BIND_MATRIX, where they are this skin's own and lie one behind the other.
-    const Element* inverse_bind_array(const Element& skin) const {
-        const Element* joints = skin.child("joints");
-        const Element* input = joints ? input_of(*joints, "INV_BIND_MATRIX") : nullptr;
-        const Element* source = input ? target_of(input->value("source")) : nullptr;
-        const Element* technique = source ? source->child("technique_common") : nullptr;
-        const Element* accessor = technique ? technique->child("accessor") : nullptr;
-        const Element* array = accessor ? target_of(accessor->value("source")) : nullptr;
-        bool plain = array && source->parent == &skin && array->parent == source &&
-                     accessor->value("stride") == "16" && !accessor->attribute("offset");
-        return plain ? array : nullptr;
-    }
-
-    static const Element* input_of(const Element& parent, std::string_view semantic) {
-        const Element* input = parent.child("input");
-        while (input && input->value("semantic") != semantic) input = input->next_named("input");
-        return input;
-    }
-
-    const Element* target_of(std::string_view url) const {
-        return url.starts_with('#') ? document_.find(url.substr(1)) : nullptr;
-    }
-
-    static bool names_no_joint(const Element& skin) {
-        const Element* weights = skin.child("vertex_weights");
-        const Element* joint = weights ? input_of(*weights, "JOINT") : nullptr;
-        const Element* v = weights ? weights->child("v") : nullptr;
-        if (!joint || !v) return false;
-        size_t stride = 1;
-        for (const Element& input : weights->children())
-            if (input.name == "input") stride = std::max(stride, offset_of(input) + 1);
-        std::vector<double> indices = numbers_of(v->text);
-        for (size_t i = offset_of(*joint); i < indices.size(); i += stride)
-            if (indices[i] == -1) return true;
-        return false;
-    }
-
-    static size_t offset_of(const Element& input) {
-        std::vector<double> offset = numbers_of(input.value("offset"));
-        return offset.size() == 1 && offset[0] >= 0 && offset[0] < 256 ? size_t(offset[0]) : 0;
+        edits_.push_back({{first->bytes.begin, first->bytes.begin},
+                          with_prefix(fmt::format("<node id=\"{}\"><matrix>{}</matrix>", id,
+                                                  rows_text(matrix_)))});
+        edits_.push_back({{last->bytes.end, last->bytes.end}, with_prefix("</node>")});
     }
 
     void warn() {
@@ -284,6 +172,7 @@ class AxisChange {
 
     const Document& document_;
     std::string_view text_;
+    Diagnostics& own_;
     Diagnostics& diag_;
     const Element* asset_ = nullptr;
     const Element* external_ = nullptr;
@@ -304,8 +193,7 @@ std::string change_axes(const std::string& path, const std::string& text,
     Diagnostics quiet;
     std::optional<Document> document = collada::read_document_text(path, text, quiet);
     if (!document || !document->whole()) return text;
-    std::string_view own = quiet.files.text(document->file());
-    return AxisChange(*document, own, diag).run(up_axis, meter);
+    return AxisChange(*document, quiet, diag).run(up_axis, meter);
 }
 
 }  // namespace kinora

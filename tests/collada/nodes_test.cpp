@@ -183,5 +183,22 @@ TEST(Nodes, BlendersOrderOfTransformsIsMended) {
     EXPECT_EQ(other.node("ball").transforms[0].kind, TransformKind::Scale);
 }
 
+// xs:boolean has two words for each.
+TEST(Nodes, AnEvaluateSceneThatIsSwitchedOffSetsNoCamera) {
+    for (std::string enable : {"0", "false", " 0 ", "1", "true"}) {
+        bool on = enable == "1" || enable == "true";
+        Reading r;
+        read_text(r, with_scene("<library_cameras><camera id=\"c\"><optics><technique_common>"
+                                "<perspective><yfov>30</yfov><znear>1</znear><zfar>9</zfar>"
+                                "</perspective></technique_common></optics></camera>"
+                                "</library_cameras>",
+                                "<node id=\"a\"/><node id=\"b\"><instance_camera url=\"#c\"/>"
+                                "</node><evaluate_scene enable=\"" +
+                                    enable + "\"><render camera_node=\"#b\"/></evaluate_scene>"));
+        ASSERT_TRUE(r.scene);
+        EXPECT_EQ(r.scene->camera_node != kNone, on) << enable;
+    }
+}
+
 }  // namespace
 }  // namespace kinora::collada

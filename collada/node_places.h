@@ -1,0 +1,44 @@
+// collada/node_places.h: where the nodes of a scene stand, and the skins that they instance.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "collada/scene.h"
+#include "runtime/base/skin_space.h"
+
+namespace kinora::collada {
+
+// Where a node definition stands by the first way that leads to it; parents come first.
+struct NodePlace {
+    uint32_t node;
+    uint32_t parent;            // a place, or kNone
+    dmat4 local, world, start;  // as the file leaves it, in the world, and there at the first keys
+};
+
+class NodePlaces {
+  public:
+    explicit NodePlaces(const SceneData& scene);  // which must outlive it
+
+    const std::vector<NodePlace>& places() const { return places_; }
+    bool animated(uint32_t node) const { return started_.count(node) != 0; }
+
+    struct SkinPoses {
+        SkinPose rest, start;
+        std::vector<RestJoint> moving;  // at rest, those that some vertex follows
+    };
+    // Of a skin that the node at a place instances.
+    SkinPoses skin_poses(uint32_t place, const MeshInstance& mesh) const;
+
+  private:
+    void start(const Channel& channel);
+    void walk(uint32_t root);
+
+    const SceneData& scene_;
+    const std::vector<Node>& nodes_;
+    std::vector<NodePlace> places_;
+    std::vector<uint32_t> place_of_;                                // by node definition
+    std::unordered_map<uint32_t, std::vector<Transform>> started_;  // of nodes that channels move
+};
+
+}  // namespace kinora::collada
