@@ -10,8 +10,8 @@
 
 namespace kinora::jit {
 
-// The passes, one file each, in the order optimize() runs them; hoist() comes before schedule(), dce
-// again between. Each takes a verified module and leaves a verified one with the same meaning.
+// The passes, one file each, in the order optimize() runs them; hoist() comes before schedule(),
+// dce again between. Each takes a verified module and leaves a verified one with the same meaning.
 void differentiate(Module& module);  // Du, Dv -> dual numbers for the values that reach them
 void inline_calls(Module& module);   // one call site or under 40 instructions
 void dce(Module& module);            // what nothing needs

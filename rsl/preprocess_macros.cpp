@@ -198,6 +198,25 @@ std::optional<Token> Preprocessor::paste(const Token& left, const Token& right, 
     return token;
 }
 
+namespace {
+
+// Which parameter of the macro the token names, or -1.
+int parameter_index(const Macro& macro, const Token& token) {
+    if (token.kind != TokenKind::Identifier) return -1;
+    auto found = std::find(macro.parameters.begin(), macro.parameters.end(), token.text);
+    return found == macro.parameters.end() ? -1 : int(found - macro.parameters.begin());
+}
+
+// A token of an argument as it stands in the replacement, where `parameter` names the argument.
+Token in_place(Token token, bool first, const Token& parameter, uint32_t use) {
+    if (token.macro == 0) token.macro = use;
+    if (first) token.space_before = parameter.space_before;
+    token.line_start = false;
+    return token;
+}
+
+}  // namespace
+
 // The replacement with parameters replaced, # and ## done. Tokens of the replacement stand where
 // the macro is used; tokens of arguments stay where they are.
 Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
@@ -206,11 +225,6 @@ Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
     TokenList out;
     std::vector<TokenList> expanded(arguments.size());
     std::vector<bool> have(arguments.size(), false);
-    auto parameter = [&](const Token& token) -> int {
-        if (token.kind != TokenKind::Identifier) return -1;
-        auto found = std::find(macro.parameters.begin(), macro.parameters.end(), token.text);
-        return found == macro.parameters.end() ? -1 : int(found - macro.parameters.begin());
-    };
     Token at = name;
     at.macro = use;
     bool pasting = false;
@@ -235,13 +249,13 @@ Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
             pasting = true;
             continue;
         }
-        int next = i + 1 < body.size() ? parameter(body[i + 1]) : -1;
+        int next = i + 1 < body.size() ? parameter_index(macro, body[i + 1]) : -1;
         if (token.punct == Punct::Hash && macro.function_like && next >= 0) {
             add(stringise(arguments[size_t(next)], at));
             ++i;
             continue;
         }
-        int index = parameter(token);
+        int index = parameter_index(macro, token);
         if (index < 0) {
             add(token);
             continue;
@@ -254,14 +268,7 @@ Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
         }
         const TokenList& list = raw ? arguments[k] : expanded[k];
         if (!spend(list.size(), name)) break;
-        bool first = true;
-        for (Token t : list) {
-            if (t.macro == 0) t.macro = use;
-            if (first) t.space_before = token.space_before;
-            first = false;
-            t.line_start = false;
-            add(t);
-        }
+        for (size_t t = 0; t < list.size(); ++t) add(in_place(list[t], t == 0, token, use));
         if (list.empty() && raw) add(Token{});  // holds the place of an empty argument
     }
     std::erase_if(out, [](const Token& t) { return t.text.empty(); });

@@ -205,15 +205,15 @@ void isshadowray(RefCall<Real>& c) {  // it looks as the camera does
     c.set(Dual<Real>(0));
 }
 
-#define KINORA_ALL(F)                                                                              \
-    F(trace)                                                                                       \
-    F(transmission)                                                                                \
-    F(visibility)                                                                                  \
-    F(occlusion)                                                                                   \
-    F(indirectdiffuse) F(areashadow) F(photonmap) F(caustic) F(subsurface) F(bake3d) F(texture3d)  \
-        F(surface_message) F(displacement_message) F(atmosphere) F(incident) F(opposite)           \
-            F(attribute) F(option) F(rendererinfo) F(rayinfo) F(raydepth) F(raylabel) F(rayorigin) \
-                F(raydirection) F(raylength) F(isshadowray)
+// Laid out by hand: clang-format lays such lists out anew each time.
+// clang-format off
+#define KINORA_ALL(F) \
+    F(trace) F(transmission) F(visibility) F(occlusion) F(indirectdiffuse) F(areashadow) \
+    F(photonmap) F(caustic) F(subsurface) F(bake3d) F(texture3d) F(surface_message) \
+    F(displacement_message) F(atmosphere) F(incident) F(opposite) F(attribute) F(option) \
+    F(rendererinfo) F(rayinfo) F(raydepth) F(raylabel) F(rayorigin) F(raydirection) F(raylength) \
+    F(isshadowray)
+// clang-format on
 KINORA_ALL(KINORA_RSL_DEFINE_REF)
 
 }  // namespace kinora::rsl::ref
