@@ -12,6 +12,10 @@
 
 namespace kinora::rsl {
 
+// What specular() takes a smaller roughness for: a division by 0 gives 0 (EXTREMES.md row 47), and
+// x^0 would light the whole front of what shines in one direction only.
+constexpr float kLeastRoughness = 1e-6f;
+
 struct LowerCall;  // rsl/lower*.h: arguments in, IR values out
 template <class Real>
 struct RefCall;  // rsl/reference*.h: arguments in, numbers out; Real = float or double

@@ -61,6 +61,11 @@ void diffuse(LowerCall& c) {
     }));
 }
 
+// RI 3.2's 1/roughness; what is not rough at all shines in one direction only, though 1/0 is 0.
+Value exponent_of(LowerCall& c, Value roughness) {
+    return c.low.div(c.low.f(1), c.b.max(roughness, c.low.f(kLeastRoughness)));
+}
+
 // RI 3.2: pow(max(0, N . H), 1/roughness), H half-way between L and V.
 Value specular_term(Emitter& e, const V3& L, const V3& N, const V3& V, Value exponent) {
     V3 H = e.normalize(e.add(L, V));
@@ -70,7 +75,7 @@ Value specular_term(Emitter& e, const V3& L, const V3& N, const V3& V, Value exp
 void specular(LowerCall& c) {
     auto& e = c.low;
     V3 N = c.v3(0), V = c.v3(1);
-    Value exponent = e.div(e.f(1), c.f(2));
+    Value exponent = exponent_of(c, c.f(2));
     c.set(sum_of_lights(c, e.read_global(Global::P).v3(), false,
                         [&](Value set, Value record, const V3& sum) {
                             V3 L = e.normalize(e.record_triple(set, record, kLightL));
@@ -103,7 +108,8 @@ void phong(LowerCall& c) {
 
 void specularbrdf(LowerCall& c) {
     auto& e = c.low;
-    Value term = specular_term(e, e.normalize(c.v3(0)), c.v3(1), c.v3(2), e.div(e.f(1), c.f(3)));
+    Value exponent = exponent_of(c, c.f(3));
+    Value term = specular_term(e, e.normalize(c.v3(0)), c.v3(1), c.v3(2), exponent);
     c.set(V3{term, term, term});
 }
 

@@ -179,7 +179,7 @@ void filterstep(LowerCall& c) {
         high = b.max(c.f(1), c.f(2));
     }
     Value half = c.args.size() == 3 ? b.f(0) : b.mul(filter_width(c, c.f(1)), b.f(0.5f));
-    Value widen = c.pair("width", 1);
+    Value widen = b.mul(c.pair("width", 1), c.pair("swidth", 1));
     if (c.args.size() == 3) {
         Value centre = b.mul(b.add(low, high), b.f(0.5f));
         half = b.mul(b.sub(high, low), b.f(0.5f));

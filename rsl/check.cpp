@@ -45,20 +45,35 @@ void Checker::check_function(Function& f) {
         report(Code::RSL_MISSING_RETURN, f.place, f.name);
 }
 
+// A triple or number, perhaps with its sign.
+static bool is_written_out(const Expr& value) {
+    if (value.kind == ExprKind::Unary) {
+        const auto& unary = as<UnaryExpr>(value);
+        return unary.op == Op::Negate && is_written_out(*unary.operand);
+    }
+    return value.kind == ExprKind::Triple || value.kind == ExprKind::Number;
+}
+
 // Points, vectors and normals that are written as defaults of a shader's parameters are in "shader"
 // space unless they name another, as values given from outside are.
 void Checker::default_in_shader_space(Symbol& symbol) {
     if (symbol.kind != SymbolKind::Parameter || !is_spatial(symbol.type.base)) return;
-    Expr* value = symbol.initial;
-    if (!value || symbol.type.is_array()) return;
+    if (!symbol.initial) return;
+    if (symbol.initial->kind != ExprKind::ArrayLiteral)
+        return put_in_shader_space(symbol.initial, symbol.type.base);
+    for (Expr*& item : as<ArrayLiteralExpr>(*symbol.initial).items)
+        put_in_shader_space(item, symbol.type.base);
+}
+
+void Checker::put_in_shader_space(Expr*& value, BaseType base) {
     CastExpr* cast = value->kind == ExprKind::Cast ? &as<CastExpr>(*value) : nullptr;
     if (cast && (cast->space || !is_spatial(cast->to))) return;
-    if ((cast ? cast->operand : value)->kind != ExprKind::Triple) return;
+    if (!is_written_out(*(cast ? cast->operand : value))) return;
     if (!cast) {
         cast = ast_.make<CastExpr>(value->place);
-        cast->to = symbol.type.base;
+        cast->to = base;
         cast->operand = value;
-        symbol.initial = cast;
+        value = cast;
     }
     auto* space = ast_.make<StringExpr>(value->place);
     space->value = "shader";

@@ -57,6 +57,7 @@ class Checker {
     void check_function(Function& f);
     void check_parameters(std::span<Symbol*> parameters);
     void default_in_shader_space(Symbol& symbol);
+    void put_in_shader_space(Expr*& value, BaseType base);
     void check_initial(Symbol& symbol);
     void declare(Symbol& symbol);
     void declare_function(Function& f);

@@ -1,5 +1,7 @@
 // rsl/fold.cpp: values of parameter defaults that need no running.
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 
 #include "rsl/usage.h"
 
@@ -11,12 +13,12 @@ using Numbers = std::vector<float>;
 
 std::optional<Numbers> numbers(const Expr& expr) {
     std::optional<ConstantValue> value = fold_constant(expr);
-    if (!value || !value->strings.empty()) return {};
+    if (!value || !value->strings.empty() || value->in_shader_space) return {};
     return std::move(value->numbers);
 }
 
 std::optional<ConstantValue> of(Numbers values) {
-    return ConstantValue{std::move(values), {}};
+    return ConstantValue{std::move(values), {}, false};
 }
 
 std::optional<ConstantValue> fold(const Expr&) {
@@ -26,7 +28,7 @@ std::optional<ConstantValue> fold(const NumberExpr& e) {
     return of({float(e.value)});
 }
 std::optional<ConstantValue> fold(const StringExpr& e) {
-    return ConstantValue{{}, {std::string(e.value)}};
+    return ConstantValue{{}, {std::string(e.value)}, false};
 }
 std::optional<ConstantValue> fold(const VariableExpr& e) {
     bool pi = e.symbol && e.symbol->global && e.symbol->global->id == Global::PI;
@@ -57,7 +59,7 @@ std::optional<ConstantValue> fold(const BinaryExpr& e) {
                 x *= y;
                 break;
             case Op::Divide:
-                x /= y;
+                x = std::fabs(y) < FLT_MIN ? 0.0f : x / y;  // as shaders divide (EXTREMES.md row 47)
                 break;
             default:
                 return {};
@@ -71,6 +73,8 @@ std::optional<ConstantValue> fold_items(std::span<Expr* const> items) {
     for (const Expr* item : items) {
         std::optional<ConstantValue> value = fold_constant(*item);
         if (!value) return {};
+        if (item == items[0]) all.in_shader_space = value->in_shader_space;
+        if (value->in_shader_space != all.in_shader_space) return {};
         all.numbers.insert(all.numbers.end(), value->numbers.begin(), value->numbers.end());
         all.strings.insert(all.strings.end(), value->strings.begin(), value->strings.end());
     }
@@ -90,8 +94,18 @@ std::optional<ConstantValue> fold(const ArrayLiteralExpr& e) {
     all->strings.resize(zero.strings.size());
     return all;
 }
+std::optional<ConstantValue> in_shader_space(const CastExpr& e) {
+    if (!is_spatial(e.to) || e.space->kind != ExprKind::String ||
+        as<StringExpr>(*e.space).value != "shader")
+        return {};
+    std::optional<Numbers> values = numbers(*e.operand);
+    if (!values) return {};
+    if (values->size() == 1) values->resize(3, values->front());
+    return ConstantValue{*std::move(values), {}, true};
+}
 std::optional<ConstantValue> fold(const CastExpr& e) {
-    std::optional<ConstantValue> value = e.space ? std::nullopt : fold_constant(*e.operand);
+    if (e.space) return in_shader_space(e);
+    std::optional<ConstantValue> value = fold_constant(*e.operand);
     if (!value || e.operand->type.base == e.to) return value;
     if (e.operand->type.base != BaseType::Float)
         return is_triple(e.to) && value->numbers.size() == 3 ? value : std::nullopt;

@@ -63,7 +63,7 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"sblur", kNumber, "texture"},
     {"tblur", kNumber, "texture"},
     {"width", kNumber, "texture environment shadow areashadow filterstep"},
-    {"swidth", kNumber, "texture areashadow"},
+    {"swidth", kNumber, "texture areashadow filterstep"},
     {"twidth", kNumber, "texture areashadow"},
     {"fill", kNumber, "texture environment bump"},
     {"filter", kText, "texture bump filterstep"},

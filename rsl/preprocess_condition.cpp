@@ -1,4 +1,6 @@
 // rsl/preprocess_condition.cpp: the constant expressions of #if and #elif.
+#include <charconv>
+
 #include "rsl/preprocess.h"
 
 namespace kinora::rsl {
@@ -39,13 +41,23 @@ class ConditionParser {
         return 0;
     }
 
+    // What an operand that does not count divides by 0 is no fault (C11 6.5.13, 6.5.14, 6.6).
+    template <class Operand>
+    long long counted(bool counts, const Operand& operand) {
+        uncounted_ += !counts;
+        long long value = operand();
+        uncounted_ -= !counts;
+        return value;
+    }
+    long long divided_by_zero() { return uncounted_ ? 0 : fail(); }
+
     long long ternary() {
         if (++depth_ > kMostConditionNesting) return fail();
         long long value = binary(1);
         if (accept(Punct::Question)) {
-            long long yes = ternary();
+            long long yes = counted(value != 0, [&] { return ternary(); });
             if (!accept(Punct::Colon)) return fail();
-            long long no = ternary();
+            long long no = counted(value == 0, [&] { return ternary(); });
             value = value ? yes : no;
         }
         --depth_;
@@ -61,7 +73,9 @@ class ConditionParser {
                 if (row.punct == op) level = row.level;
             if (level < lowest || level == 0) break;
             ++next_;
-            left = apply(op, left, binary(level + 1));
+            bool counts = !(op == Punct::And && !left) && !(op == Punct::Or && left);
+            long long right = counted(counts, [&] { return binary(level + 1); });
+            left = apply(op, left, right);
         }
         return left;
     }
@@ -102,9 +116,9 @@ class ConditionParser {
             case Punct::Multiply:
                 return static_cast<long long>(ua * ub);
             case Punct::Divide:
-                return b == 0 ? fail() : b == -1 ? negate(a) : a / b;
+                return b == 0 ? divided_by_zero() : b == -1 ? negate(a) : a / b;
             case Punct::Modulo:
-                return b == 0 ? fail() : b == -1 ? 0 : a % b;
+                return b == 0 ? divided_by_zero() : b == -1 ? 0 : a % b;
             default:
                 return fail();
         }
@@ -131,6 +145,16 @@ class ConditionParser {
         return value;
     }
 
+    static bool is_octal(std::string_view text) {
+        return text.size() > 1 && text[0] == '0' &&
+               text.find_first_not_of("01234567") == text.npos;
+    }
+    static long long octal(std::string_view text) {
+        long long value = 0;
+        std::from_chars(text.data(), text.data() + text.size(), value, 8);
+        return value;
+    }
+
     long long primary() {
         if (accept(Punct::LeftParen)) {
             long long value = ternary();
@@ -140,6 +164,7 @@ class ConditionParser {
         const Token& token = tokens_[next_++];
         if (token.kind == TokenKind::Identifier) return 0;
         if (token.kind != TokenKind::Number) return fail();
+        if (is_octal(token.text)) return octal(token.text);
         bool too_large = false;
         double value = number_value(token.text, too_large);
         return !too_large && value < 9e18 ? static_cast<long long>(value) : 0;
@@ -147,7 +172,7 @@ class ConditionParser {
 
     const std::vector<Token>& tokens_;
     size_t next_ = 0;
-    int depth_ = 0;
+    int depth_ = 0, uncounted_ = 0;
     bool ok_ = true;
 };
 

@@ -267,6 +267,14 @@ Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
             have[k] = true;
         }
         const TokenList& list = raw ? arguments[k] : expanded[k];
+        // ", ## __VA_ARGS__" of GNU C: without arguments there is no comma either.
+        bool rest = pasting && macro.variadic && k + 1 == macro.parameters.size() &&
+                    !out.empty() && out.back().punct == Punct::Comma;
+        if (rest) pasting = false;
+        if (rest && list.empty()) {
+            out.pop_back();
+            continue;
+        }
         if (!spend(list.size(), name)) break;
         for (size_t t = 0; t < list.size(); ++t) add(in_place(list[t], t == 0, token, use));
         if (list.empty() && raw) add(Token{});  // holds the place of an empty argument

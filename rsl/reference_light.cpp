@@ -48,7 +48,8 @@ Dual<Real> highlight(const Vec<Real>& L, const Vec<Real>& N, const Vec<Real>& V,
                      const Dual<Real>& roughness) {
     using Number = Dual<Real>;
     Vec<Real> H = rsl::normalize(L + V);
-    return rsl::pow(rsl::max(Number(0), dot(N, H)), Number(1) / roughness);
+    Number exponent = Number(1) / rsl::max(roughness, Number(Real(kLeastRoughness)));
+    return rsl::pow(rsl::max(Number(0), dot(N, H)), exponent);
 }
 
 // Results of a service as a triple or float.

@@ -38,6 +38,7 @@ struct CompileOptions {
 struct ConstantValue {
     std::vector<float> numbers;
     std::vector<std::string> strings;
+    bool in_shader_space = false;  // numbers of points, vectors and normals that are still to be placed
 };
 
 struct ShaderParameter {
@@ -47,7 +48,7 @@ struct ShaderParameter {
     bool output = false;
     Symbol* symbol = nullptr;
     Expr* default_value = nullptr;          // null: zero
-    std::optional<ConstantValue> constant;  // the default when it folds (no space, no call)
+    std::optional<ConstantValue> constant;  // the default when it folds (no call)
 };
 
 // A checked shader. Shaders of one source share its Ast.

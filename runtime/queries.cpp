@@ -54,6 +54,14 @@ bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Q
     return false;
 }
 
+// A point, vector or normal in the look's "shader" space, in "current" space.
+void place(rsl::BaseType type, const Asker& asker, const Look& look, const double* values,
+           Answer& answer) {
+    dvec3 placed =
+        place_parameter(type, current_from_space(asker.scene, "shader", look.node), values);
+    for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
+}
+
 bool from_source(const Asker& asker, const Look& look, const ParamSource& source, rsl::Type type,
                  const Question& question, Answer& answer) {
     size_t element = size_t(std::max(question.element, 0));
@@ -69,17 +77,16 @@ bool from_source(const Asker& asker, const Look& look, const ParamSource& source
         return count == 1 ? values[0] : values[std::min(uint32_t(element) * width + c, count - 1)];
     };
     if (rsl::is_spatial(type.base) && count >= 3) {
-        dvec3 placed =
-            place_parameter(type.base, current_from_space(asker.scene, "shader", look.node),
-                            values + std::min(uint32_t(element) * width, count - 3));
-        for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
+        place(type.base, asker, look, values + std::min(uint32_t(element) * width, count - 3),
+              answer);
         return true;
     }
     for (uint32_t c = 0; c < width; ++c) answer[c] = float(number(c));
     return true;
 }
 
-bool from_default(const rsl::ShaderParameter& parameter, const Question& question, Answer& answer) {
+bool from_default(const Asker& asker, const Look& look, const rsl::ShaderParameter& parameter,
+                  const Question& question, Answer& answer) {
     if (!parameter.constant) return false;
     size_t element = size_t(std::max(question.element, 0));
     const rsl::ConstantValue& value = *parameter.constant;
@@ -90,7 +97,13 @@ bool from_default(const rsl::ShaderParameter& parameter, const Question& questio
     }
     size_t width = size_t(rsl::component_count(parameter.type.base));
     if ((element + 1) * width > value.numbers.size()) return false;
-    for (size_t c = 0; c < width; ++c) answer[c] = value.numbers[element * width + c];
+    const float* numbers = value.numbers.data() + element * width;
+    if (value.in_shader_space) {
+        const double values[] = {numbers[0], numbers[1], numbers[2]};
+        place(parameter.type.base, asker, look, values, answer);
+        return true;
+    }
+    for (size_t c = 0; c < width; ++c) answer[c] = numbers[c];
     return true;
 }
 
@@ -188,7 +201,7 @@ bool answer_parameter(const Asker& asker, const Look& look, rsl::ShaderKind kind
                 if (source.name == parameter.name &&
                     from_source(asker, look, source, parameter.type, question, answer))
                     return true;
-            return from_default(parameter, question, answer);
+            return from_default(asker, look, parameter, question, answer);
         }
     }
     return false;

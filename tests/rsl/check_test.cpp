@@ -107,12 +107,28 @@ TEST(Check, DefaultsFoldWhereNothingRuns) {
     EXPECT_EQ(p[1].constant->numbers, std::vector<float>({-3.14159265f}));
     EXPECT_EQ(p[2].constant->numbers, std::vector<float>({0.5f, 0.5f, 0.5f}));
     EXPECT_EQ(p[3].constant->numbers, std::vector<float>({0.5f, 1, 1.5f}));
-    EXPECT_FALSE(p[4].constant);
+    EXPECT_EQ(p[4].constant->numbers, std::vector<float>({1, 2, 3}));
+    EXPECT_TRUE(p[4].constant->in_shader_space);
     EXPECT_EQ(p[5].constant->strings, std::vector<std::string>({"a", "b", ""}));
     EXPECT_FALSE(p[6].constant);
     EXPECT_EQ(p[7].constant->numbers, std::vector<float>({0}));
     EXPECT_EQ(p[8].constant->numbers[5], 2);
     EXPECT_EQ(p[8].constant->numbers[1], 0);
+}
+
+TEST(Check, SpatialDefaultsThatAreWrittenOutAreInShaderSpace) {
+    TestSource source(
+        "light x(point a = 0, b = (1, 2, 3), c = -(1, 0, 0); vector d = 1;"
+        "point e[2] = {0, (1, 2, 3)}; point f = point \"world\" 1, g = (1, 0, 0) + 1; color h = 0;)"
+        "{ illuminate(a) Cl = 1; }");
+    auto shaders = compiled(source);
+    const auto& p = shaders[0]->parameters;
+    for (size_t i : {0, 1, 2, 3, 4}) EXPECT_TRUE(p[i].constant->in_shader_space) << p[i].name;
+    EXPECT_EQ(p[2].constant->numbers, std::vector<float>({-1, 0, 0}));
+    EXPECT_EQ(p[4].constant->numbers, std::vector<float>({0, 0, 0, 1, 2, 3}));
+    EXPECT_FALSE(p[5].constant);
+    EXPECT_FALSE(p[6].constant->in_shader_space);
+    EXPECT_FALSE(p[7].constant->in_shader_space);
 }
 
 TEST(Check, ListsTheGlobalsReadAndWritten) {

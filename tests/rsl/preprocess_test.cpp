@@ -63,6 +63,19 @@ TEST(Preprocess, EvaluatesConditionsAsCDoes) {
     EXPECT_TRUE(taken("-1 < 0 && ~0 == -1 && (1 << 4 | 1) == 17"));
     EXPECT_FALSE(taken("UNKNOWN_NAME"));
     EXPECT_FALSE(taken("ONE - 1 || 0"));
+    EXPECT_TRUE(taken("010 == 8 && 08 == 8 && 0 == 00"));
+}
+
+TEST(Preprocess, AnOperandThatDoesNotCountMayDivideByZero) {
+    EXPECT_EQ(expand("#if 0 && 100 / 0 > 3\na\n#else\nb\n#endif"), "b");
+    EXPECT_EQ(expand("#if 2 || 1 % 0\na\n#else\nb\n#endif"), "a");
+    EXPECT_EQ(expand("#if (1 ? 5 : 1 / 0) == 5\na\n#else\nb\n#endif"), "a");
+    EXPECT_EQ(expand("#if 0 ? 1 / 0 : 4\na\n#else\nb\n#endif"), "a");
+}
+
+TEST(Preprocess, ACommaBeforeNoRestOfArgumentsGoesAway) {
+    EXPECT_EQ(expand("#define PR(f, ...) printf(f, ## __VA_ARGS__)\nPR(\"y\"); PR(\"x\", 1, 2)"),
+              "printf ( \"y\" ) ; printf ( \"x\" , 1 , 2 )");
 }
 
 TEST(Preprocess, TakesOneGroupOfEachCondition) {
