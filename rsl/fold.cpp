@@ -59,7 +59,8 @@ std::optional<ConstantValue> fold(const BinaryExpr& e) {
                 x *= y;
                 break;
             case Op::Divide:
-                x = std::fabs(y) < FLT_MIN ? 0.0f : x / y;  // as shaders divide (EXTREMES.md row 47)
+                x = std::fabs(y) < FLT_MIN ? 0.0f
+                                           : x / y;  // as shaders divide (EXTREMES.md row 47)
                 break;
             default:
                 return {};

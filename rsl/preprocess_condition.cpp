@@ -146,8 +146,7 @@ class ConditionParser {
     }
 
     static bool is_octal(std::string_view text) {
-        return text.size() > 1 && text[0] == '0' &&
-               text.find_first_not_of("01234567") == text.npos;
+        return text.size() > 1 && text[0] == '0' && text.find_first_not_of("01234567") == text.npos;
     }
     static long long octal(std::string_view text) {
         long long value = 0;

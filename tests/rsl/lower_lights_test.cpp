@@ -44,6 +44,24 @@ TEST(LowerLights, NondiffuseAndNonspecularLightsAreLeftOut) {
     EXPECT_FLOAT_EQ(out["Ci.b"][0], 0.75f);
 }
 
+TEST(LowerLights, WhatIsNotRoughShinesInOneDirection) {
+    RunShader shader(
+        "surface m() { Ci = color(comp(specular(N, normalize(-I), 0), 0),"
+        " comp(specularbrdf(vector (0, 0.6, 0.8), N, normalize(-I), 0), 0),"
+        " comp(specularbrdf(vector (0, 0, 1), N, normalize(-I), 0), 0)); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    shader.set3("N", 0, 0, 1);
+    shader.set3("I", 0, 0, -1);
+    TestLight light;
+    light.L[1] = 0.6f;
+    light.L[2] = 0.8f;
+    shader.lights = {light};
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 0);
+    EXPECT_EQ(out["Ci.g"][0], 0);
+    EXPECT_EQ(out["Ci.b"][0], 1);
+}
+
 TEST(LowerLights, IlluminanceTestsConeLitAndCategory) {
     RunShader shader(
         "surface t() { color n = 0; illuminance(P, N, PI/2) n += color(1, 0, 0); "

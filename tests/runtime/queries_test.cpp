@@ -47,6 +47,31 @@ TEST(Lightsource, TellsArraysTextsAndMatrices) {
               vec3(1, 2, 3));
 }
 
+TEST(Lightsource, TellsPointsThatAreDefaultsWhereTheLightHasThem) {
+    auto asked = [](const std::string& code) {
+        SceneText scene =
+            floor_scene(surface("illuminance(P, normalize(N), PI/2) { " + code + " }"));
+        scene.rsl_light(
+            "lamp",
+            "light lamp(point at = (1, 2, 3), two[2] = {0, (4, 5, 6)}; vector way = 1;) {"
+            " solar(vector \"world\" (0, 0, -1), 0) Cl = 1; }",
+            "<translate>10 20 30</translate>");
+        return middle(scene);
+    };
+    auto near = [](const vec3& a, const vec3& b) {
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 1e-4f);
+    };
+    near(asked("point p = 0; float ok = lightsource(\"at\", p); Ci = ok * "
+               "color(transform(\"world\", p));"),
+         vec3(11, 22, 33));
+    near(asked("point p[2] = {0, 0}; float ok = lightsource(\"two\", p);"
+               " Ci = ok * color(transform(\"world\", p[1]));"),
+         vec3(14, 25, 36));
+    near(asked("vector v = 0; float ok = lightsource(\"way\", v);"
+               " Ci = ok * color(vtransform(\"world\", v));"),
+         vec3(1, 1, 1));
+}
+
 TEST(Lightsource, LeavesTheVariableWhereNameOrTypeIsAnother) {
     EXPECT_EQ(middle(lit("float x = 7; float a = lightsource(\"tint\", x);"
                          " float y = 8; float b = lightsource(\"none\", y);"
