@@ -20,6 +20,16 @@ void check_curves(Lint& lint) {
     if (first) lint.diag.report(Code::PORT_BEZIER, first->where, curved);
 }
 
+// Said of the longest sampler alone: who takes milliseconds for seconds does so everywhere.
+void check_length(Lint& lint) {
+    constexpr double kLong = 600;  // seconds
+    const Sampler* longest = nullptr;
+    for (const Sampler& s : lint.scene.samplers)
+        if (!s.times.empty() && s.times.back() > (longest ? longest->times.back() : kLong))
+            longest = &s;
+    if (longest) lint.diag.report(Code::ANIM_LONG, longest->where, longest->times.back());
+}
+
 void check_clips(Lint& lint) {
     if (!lint.scene.clips.empty())
         lint.diag.report(Code::PORT_CLIPS, lint.scene.clips.front().where, lint.scene.clips.size());
@@ -91,6 +101,7 @@ void check_stacks(Lint& lint) {
 
 void lint_port_animation(Lint& lint) {
     check_curves(lint);
+    check_length(lint);
     check_clips(lint);
     check_parts(lint);
     check_turns(lint);
