@@ -154,8 +154,10 @@ jit::Record* Shading::area_records(Grid& grid, const LightPoints& at, size_t l, 
     lit.depth = grid.depth;
     lit.shadows = grid.shadows;
     lit.surface = grid.look->kind == LookKind::Surface ? grid.look : nullptr;
-    if (lit.surface) lit.lit = &grid;
-    lit.lit_first = at.first;
+    if (lit.surface) {
+        lit.lit = &grid;
+        lit.lit_first = at.first;
+    }
     if (look.lowered.gathers.empty()) lit.record_sets = grid.record_sets;
     // The mesh's columns are gathered for each sample; those of the lit points stay.
     auto of_point = [&](uint16_t c) -> const float* {
