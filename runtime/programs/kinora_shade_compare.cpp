@@ -1,6 +1,7 @@
 // runtime/programs/kinora_shade_compare.cpp: differences to the interpreter and the reference.
 #include "runtime/programs/kinora_shade_compare.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -53,7 +54,9 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
                     results = k->services[s].results;
                 }
         if (!called) return {};  // the code does without: what it answers changes nothing
-        std::vector<float> in((arguments.size() + 1) * jit::kMaxLanes);
+        // Services read all that kernels hand them; the reference gives no derivatives.
+        size_t rows = std::max(arguments.size(), params.size()) + 1;
+        std::vector<float> in(rows * jit::kMaxLanes);
         std::vector<float> out((results.size() + 1) * jit::kMaxLanes);
         for (size_t a = 0; a < arguments.size(); ++a) {
             bool is_int = a < params.size() && params[a] == jit::Type::I;
