@@ -133,12 +133,16 @@ const char* TargetResolver::apply_index(std::string_view selector, TargetRef& re
     TransformKind kind =
         transform ? x_.scene.nodes[ref.owner].transforms[ref.slot].kind : TransformKind::Translate;
     bool matrix = transform && kind == TransformKind::Matrix;
-    uint64_t width = matrix ? 4 : 3;
+    bool param = ref.kind == Owner::EffectParam || ref.kind == Owner::MaterialParam;
+    bool rows = param && ref.count == 16;  // a <float4x4>, as written
+    uint64_t width = matrix || rows ? 4 : 3;
     for (uint64_t i : indices)
         if (i >= ref.count || (indices.size() == 2 && i >= width))
             return "its index is out of range";
     uint64_t component = indices[0];
-    if (indices.size() == 2)
+    if (indices.size() == 2 && rows)
+        component = indices[1] * width + indices[0];
+    else if (indices.size() == 2)
         component = indices[0] * width + indices[1];  // (column)(row), as stored
     else if (matrix)
         component = indices[0] % 4 * 4 + indices[0] / 4;  // (i) counts as the file does, by rows

@@ -83,6 +83,7 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
 
 void Updater::add_static_groups() {
     std::map<std::pair<bool, bool>, StaticGroup*> groups;
+    std::map<std::pair<const StaticGroup*, const vec4*>, uint32_t> bases;
     for (uint32_t i = 0; i < s.rows.size(); ++i) {
         const Row& row = s.rows[i];
         const Geometry& g = row.seen;
@@ -95,8 +96,12 @@ void Updater::add_static_groups() {
             s.map.slots.push_back({nullptr, i, g.hide_backfaces});
         }
         s.map.rows[i].first_primitive = uint32_t(group->owner.size());
-        const uint32_t base = uint32_t(group->positions.size());
-        group->positions.insert(group->positions.end(), g.positions.begin(), g.positions.end());
+        // Rows of one mesh share its positions.
+        auto [known, is_new] =
+            bases.try_emplace({group, g.positions.data()}, uint32_t(group->positions.size()));
+        const uint32_t base = known->second;
+        if (is_new)
+            group->positions.insert(group->positions.end(), g.positions.begin(), g.positions.end());
         const size_t corners = g.triangles.size() / 3 * 3;
         for (size_t k = 0; k < corners; ++k) group->triangles.push_back(base + g.triangles[k]);
         group->owner.insert(group->owner.end(), corners / 3, i);
@@ -154,6 +159,7 @@ bool Updater::update_deforming(uint32_t index, const Geometry& now) {
 
 void Updater::refit_or_rebuild(Row& row) {
     if (row.quality == BuildQuality::Medium) {  // always_rebuild
+        watch(row.seen);
         row.mesh.vertices_moved();
         ++s.report.rebuilds;
         return;

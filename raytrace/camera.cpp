@@ -76,7 +76,7 @@ bool repair_clip_range(double scene_size, Camera& camera) {
     if (camera.znear > camera.zfar && camera.zfar > 0) std::swap(camera.znear, camera.zfar);
     if (!(camera.znear > 0)) camera.znear = 1e-6 * size;
     if (!(camera.zfar > camera.znear && std::isfinite(camera.zfar)))
-        camera.zfar = std::max(1e3 * size, 2 * camera.znear);
+        camera.zfar = std::max(1e3 * size + 2 * length(camera.eye), 2 * camera.znear);
     return true;
 }
 

@@ -35,13 +35,19 @@ uint32_t SceneBuilder::add_node(NodeDefinition definition, uint32_t parent) {
     return uint32_t(scene.nodes.size() - 1);
 }
 
+// The node of the file that a node stands below.
+uint32_t SceneBuilder::named_node(uint32_t n) const {
+    while (description_.nodes[scene_->nodes[n].definition].reference) n = scene_->nodes[n].parent;
+    return n;
+}
+
 void SceneBuilder::place_cameras() {
     Scene& scene = *scene_;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         const NodeDefinition& node = description_.nodes[scene.nodes[n].definition];
+        const std::string& id = description_.nodes[scene.nodes[named_node(n)].definition].id;
         for (uint32_t camera : node.cameras)
-            scene.cameras.push_back(
-                {camera, n, node.id.empty() ? description_.cameras[camera].id : node.id});
+            scene.cameras.push_back({camera, n, id.empty() ? description_.cameras[camera].id : id});
     }
     if (!scene.cameras.empty()) return;
     DefaultCamera added =
@@ -71,10 +77,10 @@ bool SceneBuilder::choose_camera() {
     for (int pass = 0; pass < 2; ++pass)  // node path or id first, then camera id
         for (uint32_t c = 0; c < scene.cameras.size(); ++c) {
             const CameraDefinition& camera = description_.cameras[scene.cameras[c].definition];
-            const NodeDefinition& node =
-                description_.nodes[scene.nodes[scene.cameras[c].node].definition];
+            uint32_t named = named_node(scene.cameras[c].node);
+            const NodeDefinition& node = description_.nodes[scene.nodes[named].definition];
             std::string path;
-            for (uint32_t n = scene.cameras[c].node; n != kNone; n = scene.nodes[n].parent) {
+            for (uint32_t n = named; n != kNone; n = scene.nodes[n].parent) {
                 const NodeDefinition& step = description_.nodes[scene.nodes[n].definition];
                 path = (step.id.empty() ? step.name : step.id) + (path.empty() ? "" : "/" + path);
             }
@@ -241,16 +247,25 @@ bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, 
     return true;
 }
 
+static bool is_node_matrix(const SceneDescription& description, uint32_t value) {
+    for (const NodeDefinition& node : description.nodes)
+        for (const Transform& t : node.transforms)
+            if (t.value == value) return t.kind == TransformKind::Matrix;
+    return false;
+}
+
 void SceneBuilder::apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers,
                                std::string& key) {
     if (!use) return;
     for (const auto& [name, slot] : use->params) {
         key += fmt::format("|{}={}+{}", name, slot.offset, slot.count);
+        bool matrix = slot.count == 16 && is_node_matrix(description_, slot.offset);
         for (ShaderUse& layer : layers) {
             std::erase_if(layer.params, [&](const ParamSource& s) { return s.name == name; });
             ParamSource source;
             source.name = name;
             source.value = slot;
+            source.by_columns = matrix;
             layer.params.push_back(std::move(source));
         }
     }
@@ -373,6 +388,18 @@ bool SceneBuilder::compile(Look& look, const std::vector<std::string>& messages)
     return compile_look(look, description_, options, diagnostics_);
 }
 
+// COLLADA's attenuation is by distance in units of the light's file.
+void SceneBuilder::set_unit(const LightSource& light, ShaderUse& use) {
+    double unit = unit_of(path_conversion(*scene_, light.node));
+    if (unit == 1 || !use.shader->name.starts_with("collada_")) return;
+    ParamSource source;
+    source.name = "unit";
+    source.value = {uint32_t(description_.values.size()), 1};
+    description_.values.push_back(unit);
+    extend_values();
+    use.params.push_back(std::move(source));
+}
+
 bool SceneBuilder::make_looks() {
     Scene& scene = *scene_;
     for (const NodeDefinition& node : description_.nodes)
@@ -405,6 +432,7 @@ bool SceneBuilder::make_looks() {
         look->kind = LookKind::Light;
         look->name = definition.id.empty() ? definition.name : definition.id;
         look->layers = {definition.shader};
+        set_unit(light, look->layers.front());
         look->node = light.node;
         look->area_light = light.surface != kNone;
         ok &= compile(*look, messages);

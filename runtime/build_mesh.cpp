@@ -23,6 +23,13 @@ vec4 entry(const VertexAttribute& a, uint32_t index) {
     return {v[0], v[1], v[2], 0.0f};
 }
 
+// As baking leaves them: an instanced mesh is shaded like a still one.
+vec4 unit_entry(const VertexAttribute& a, uint32_t index) {
+    dvec3 n(entry(a, index));
+    double length = glm::length(n);
+    return vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f);
+}
+
 void add_given_normals(const PrimitiveGroup& group, const VertexAttribute& normals, bool deforms,
                        Mesh& mesh, MeshGroup& out) {
     out.normal_corners.resize(group.triangles.size());
@@ -30,7 +37,7 @@ void add_given_normals(const PrimitiveGroup& group, const VertexAttribute& norma
     if (!deforms) {
         mesh.normals.reserve(first + normals.values.size() / normals.stride);
         for (size_t i = 0; i < normals.values.size() / normals.stride; ++i)
-            mesh.normals.push_back(entry(normals, uint32_t(i)));
+            mesh.normals.push_back(unit_entry(normals, uint32_t(i)));
         for (size_t c = 0; c < normals.corners.size(); ++c)
             out.normal_corners[c] = first + normals.corners[c];
         mesh.normal_positions.resize(mesh.normals.size(), 0);

@@ -14,7 +14,7 @@
 
 namespace kinora {
 
-// Repeated static meshes are instanced when baking them would take more triangles than this: an
+// A repeated static mesh is instanced when all of it, baked, would be more triangles than this: an
 // instance level costs 20-29 % of the trace rate (DESIGN.md decision 19).
 inline constexpr size_t kBakedTriangles = 200'000;
 
@@ -33,11 +33,12 @@ class SceneBuilder {
     uint32_t nearest_occurrence(uint32_t definition, uint32_t from) const;
     std::span<const MeshUse> meshes_of(const Node& node) const;
     void place_meshes();
-    void place_mesh(const MeshUse& use, uint32_t node, bool repeated);
+    void place_mesh(const MeshUse& use, uint32_t node, size_t uses);
     void add_morph(const MeshUse& use, Shape& shape);
     std::vector<vec3> target_normals(const MeshDefinition& target, const Mesh& base,
                                      const MeshDefinition& base_definition, bool relative);
     void add_skin(const MeshUse& use, uint32_t node, Shape& shape);
+    void convert_skin(uint32_t node, Shape& shape);
     void build_skin_mesh(const MeshUse& use, Shape& shape, const std::vector<Stencil>* stencils,
                          skin::SkinRepairs& repairs);
     Bounds bounds_now() const;
@@ -48,6 +49,7 @@ class SceneBuilder {
 
     // build_looks.cpp: cameras, lights, materials
     void place_cameras();
+    uint32_t named_node(uint32_t node) const;
     bool choose_camera();
     void place_lights();
     bool needs_no_light() const;
@@ -55,6 +57,7 @@ class SceneBuilder {
     uint32_t add_node(NodeDefinition definition, uint32_t parent);
     void add_light(LightDefinition definition, uint32_t node);
     bool make_looks();
+    void set_unit(const LightSource& light, ShaderUse& use);
     uint32_t look_of(Surface& surface, const MeshUse& use);
     bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look,
                             std::vector<const VertexAttribute*>& varying);
@@ -65,8 +68,7 @@ class SceneBuilder {
                          const MaterialDefinition& definition, VertexUse& result);
     void bind_displaced(Surface& surface, Look& look);
     // Parameters that instance_material binds, put over the material's; `key` tells them apart.
-    static void apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers,
-                            std::string& key);
+    void apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers, std::string& key);
     // build_volumes.cpp
     void add_volumes(Surface& surface, const MaterialDefinition& material, const MaterialUse* use);
     uint32_t volume_look(const std::vector<ShaderUse>& layers, const std::string& name,

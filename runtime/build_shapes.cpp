@@ -8,6 +8,7 @@
 #include "runtime/build_mesh.h"
 #include "runtime/build_scene_p.h"
 #include "runtime/findings.h"
+#include "runtime/transforms.h"
 
 namespace kinora {
 
@@ -66,12 +67,11 @@ void SceneBuilder::place_meshes() {
                 diagnostics_.report(Code::SCENE_LIMIT, Location{}, kMostSurfaces);
                 return;
             }
-            bool repeated = uses[use.mesh] > 1;
-            place_mesh(use, n, repeated);
+            place_mesh(use, n, uses[use.mesh]);
         }
 }
 
-void SceneBuilder::place_mesh(const MeshUse& use, uint32_t node, bool repeated) {
+void SceneBuilder::place_mesh(const MeshUse& use, uint32_t node, size_t uses) {
     Scene& scene = *scene_;
     const Mesh& mesh = scene.meshes[use.mesh];
     uint32_t index = uint32_t(scene.shapes.size());
@@ -87,7 +87,7 @@ void SceneBuilder::place_mesh(const MeshUse& use, uint32_t node, bool repeated) 
         shape.kind = raytrace::GeometryKind::Deforming;
         if (use.morph != kNone) add_morph(use, shape);
         add_skin(use, node, shape);
-    } else if (scene.nodes[node].can_move || (repeated && triangles > kBakedTriangles)) {
+    } else if (scene.nodes[node].can_move || (uses > 1 && triangles > kBakedTriangles / uses)) {
         shape.kind = raytrace::GeometryKind::Instanced;
     }
     shape.world = scene.nodes[node].world * shape.conversion;
@@ -171,6 +171,23 @@ std::vector<vec3> SceneBuilder::target_normals(const MeshDefinition& target, con
     return result;
 }
 
+// A skin and its joints may come from files of different units and axes: what the inverse bind
+// matrices give is brought from the skin's document into that of each joint. Joints that are not
+// there leave the bind shape where it is, in the scene's.
+void SceneBuilder::convert_skin(uint32_t node, Shape& shape) {
+    dmat4 from_skin = path_conversion(*scene_, node) * shape.conversion;
+    for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
+        dmat4& inverse_bind = shape.skeleton.inverse_bind[j];
+        if (shape.joint_nodes[j] == kNone) {
+            inverse_bind = from_skin;
+            continue;
+        }
+        dmat4 from_joint = path_conversion(*scene_, shape.joint_nodes[j]);
+        if (from_joint != from_skin)
+            inverse_bind = glm::inverse(from_joint) * from_skin * inverse_bind;
+    }
+}
+
 void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
     Scene& scene = *scene_;
     std::string id = description_.meshes[use.mesh].id;
@@ -189,18 +206,21 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
             shape.joint_nodes.push_back(nearest_occurrence(joint, node));
         }
         shape.joint_world.resize(joints, dmat4(1.0));
+        convert_skin(node, shape);
         std::vector<bool> used(joints);
         for (int32_t joint : definition.joints)
             if (joint >= 0 && size_t(joint) < used.size()) used[size_t(joint)] = true;
         SkinPose rest, start;
         std::vector<RestJoint> moving;
-        rest.node = rest_world_[node] * shape.conversion;
-        start.node = start_world_[node] * shape.conversion;
+        rest.node = rest_world_[node];
+        start.node = start_world_[node];
+        dmat4 before = glm::inverse(shape.conversion);
         for (size_t j = 0; j < joints; ++j) {
             uint32_t joint = shape.joint_nodes[j];
             if (joint == kNone) continue;
-            rest.joints.push_back({rest_world_[joint], definition.inverse_bind[j]});
-            start.joints.push_back({start_world_[joint], definition.inverse_bind[j]});
+            dmat4 inverse_bind = shape.skeleton.inverse_bind[j] * before;
+            rest.joints.push_back({rest_world_[joint], inverse_bind});
+            start.joints.push_back({start_world_[joint], inverse_bind});
             if (used[j]) moving.push_back(rest.joints.back());
         }
         size_t mirroring = mirroring_joints(definition.bind_shape, moving);
@@ -214,8 +234,11 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         if (!definition.in_world) place = skin_place(definition.bind_shape, rest, start);
         SkinSpace space = place.space;
         if (space != SkinSpace::World) diagnostics_.report(Code::SKIN_NODE_TRANSFORM, where, id);
-        if (space == SkinSpace::BindsNode) shape.skeleton.bind_shape = place.bind;
+        if (space == SkinSpace::BindsNode)
+            shape.skeleton.bind_shape = before * place.bind * shape.conversion;
         shape.in_world = space == SkinSpace::World || space == SkinSpace::BindsNode;
+        for (size_t j = 0; j < joints && !shape.in_world; ++j)  // the node's matrix has the rest
+            if (shape.joint_nodes[j] == kNone) shape.skeleton.inverse_bind[j] = shape.conversion;
         if (space == SkinSpace::NodeBelow) shape.placed_below = shared;
     }
     skin::SkinRepairs repairs;

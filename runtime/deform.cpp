@@ -109,20 +109,19 @@ void pose(Scene& scene) {
             continue;
         }
         dmat4 place(1.0);
-        if (!shape.in_world) place = shape.world;
+        if (!shape.in_world) place = scene.nodes[shape.node].world;
         if (shape.placed_below != kNone)
             place = place * glm::inverse(scene.nodes[shape.placed_below].world);
         // The palette reads matrices by joint; unresolved joints stay with the bind shape.
         for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
             uint32_t node = shape.joint_nodes[j];
             dmat4& world = shape.joint_world[j];
-            world = node == kNone ? glm::inverse(shape.skeleton.inverse_bind[j])
-                                  : scene.nodes[node].world;
-            if (node == kNone && !is_finite(world)) world = dmat4(1.0);
+            world = node == kNone ? dmat4(1.0) : scene.nodes[node].world;
             if (!shape.in_world) world = place * world;
         }
-        skin::pose(shape.skeleton, shape.joint_world, anchors, shape.palette,
-                   shape.in_world ? dmat4(1.0) : shape.world);
+        skin::pose(
+            shape.skeleton, shape.joint_world, anchors, shape.palette,
+            shape.in_world ? path_conversion(scene, shape.node) * shape.conversion : shape.world);
         shape.mirrored = most_mirror(std::span(shape.palette).subspan(1));
     }
 }

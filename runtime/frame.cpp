@@ -17,7 +17,8 @@ namespace kinora {
 
 namespace {
 
-constexpr double kFarSizes = 1e5;  // DESIGN.md decision 18
+constexpr double kFarSizes = 1e5;                       // DESIGN.md decision 18
+constexpr double kLeastSize = 1e-12, kMostSize = 1e12;  // squares of areas are floats
 
 raytrace::CameraOptics optics_of(const Scene& scene) {
     const CameraDefinition& camera =
@@ -31,6 +32,10 @@ raytrace::CameraOptics optics_of(const Scene& scene) {
     optics.x = value(camera.x);
     optics.y = value(camera.y);
     optics.aspect = value(camera.aspect);
+    // Lengths are in units of the camera's file.
+    double unit = unit_of(path_conversion(scene, scene.cameras[scene.camera].node));
+    if (camera.orthographic && optics.x) *optics.x *= unit;
+    if (camera.orthographic && optics.y) *optics.y *= unit;
     optics.znear = value(camera.znear).value_or(0.0);
     optics.zfar = value(camera.zfar).value_or(0.0);
     if (!camera.orthographic) {
@@ -93,6 +98,8 @@ bool update_camera(Scene& scene, const FrameSettings& settings, Diagnostics& dia
         double distance = glm::length(scene.view.eye);
         if (scene.first_frame && distance > kFarSizes * scene.size)
             diagnostics.report(Code::SCENE_FAR, camera.where, distance);
+        if (scene.first_frame && !(scene.size >= kLeastSize && scene.size <= kMostSize))
+            diagnostics.report(Code::SCENE_SIZE, Location{}, scene.size);
         return true;
     }
     diagnostics.report(Code::CAMERA_OPTICS, camera.where, source.name, status_text(status));
@@ -103,22 +110,32 @@ const std::string& mesh_id(const Scene& scene, const Shape& shape) {
     return scene.description->meshes[scene.meshes[shape.mesh].definition].id;
 }
 
-void report_singular(const Scene& scene, const Shape& shape, Diagnostics& diagnostics) {
-    const NodeDefinition& node = scene.description->nodes[scene.nodes[shape.node].definition];
-    diagnostics.report(Code::NODE_SINGULAR, Location{}, node.id.empty() ? node.name : node.id);
+void report_singular(const Scene& scene, const Node& node, Diagnostics& diagnostics) {
+    const NodeDefinition& from = scene.description->nodes[node.definition];
+    diagnostics.report(Code::NODE_SINGULAR, Location{}, from.id.empty() ? from.name : from.id);
 }
 
-void report_geometry(const Scene& scene, const raytrace::AccelUpdate& update,
-                     Diagnostics& diagnostics) {
-    for (const Shape& shape : scene.shapes)  // those that move are the ray tracer's to tell
-        if (shape.kind == raytrace::GeometryKind::Static && is_singular(shape))
-            report_singular(scene, shape, diagnostics);
+// Each thing once, in the first frame that has it.
+void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnostics& diagnostics) {
+    for (Node& node : scene.nodes) {
+        if (scene.all_finite) break;
+        if (!node.finite && !node.told) report_singular(scene, node, diagnostics);
+        node.told |= !node.finite;
+    }
+    auto singular = [&](const Shape& shape) {
+        if (scene.nodes[shape.node].finite)
+            report_singular(scene, scene.nodes[shape.node], diagnostics);
+    };
+    if (scene.first_frame)
+        for (const Shape& shape : scene.shapes)  // those that move are the ray tracer's to tell
+            if (shape.kind == raytrace::GeometryKind::Static && is_singular(shape)) singular(shape);
     for (const auto& issue : update.issues) {
+        if (!scene.told_issues.insert({issue.geometry, issue.issue}).second) continue;
         const Shape& shape = scene.shapes[scene.surfaces[issue.geometry].shape];
         const std::string& mesh = mesh_id(scene, shape);
         switch (issue.issue) {
             case raytrace::GeometryIssue::SingularMatrix:
-                report_singular(scene, shape, diagnostics);
+                singular(shape);
                 break;
             case raytrace::GeometryIssue::BadVertices:
                 diagnostics.report(Code::GEOMETRY_ISSUE, Location{}, mesh,
@@ -175,7 +192,8 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
         const raytrace::AccelUpdate& update = scene.accel.update(scene.geometry);
         stats.refits = update.refits;
         stats.rebuilds = update.rebuilds + update.low_rebuilds;
-        if (scene.first_frame) report_geometry(scene, update, diagnostics);
+        if (scene.first_frame || !scene.all_finite || !update.issues.empty())
+            report_geometry(scene, update, diagnostics);
     }
     scene.first_frame = false;
     std::fill(scene.changed.begin(), scene.changed.end(), 0);

@@ -87,19 +87,53 @@ float between(const Corner& c, const VaryingParam& param, const float x[3]) {
     return w >= c.u && w >= c.v ? x[0] : c.u >= c.v ? x[1] : x[2];
 }
 
-// The footprint in u, v of a displacement dP on the surface: least squares on dPdu, dPdv.
-vec2 footprint(vec3 dPdu, vec3 dPdv, vec3 dP) {
-    float a = glm::dot(dPdu, dPdu), b = glm::dot(dPdu, dPdv), c = glm::dot(dPdv, dPdv);
-    float det = a * c - b * b;
-    if (!(det > 0)) return vec2(0);
-    float x = glm::dot(dPdu, dP), y = glm::dot(dPdv, dP);
-    return vec2((c * x - b * y) / det, (a * y - b * x) / det);
+// The footprint in u, v of displacements on the surface: least squares on dPdu, dPdv. In double:
+// the fourth power of a length is no float in scenes of kilometres or micrometres.
+class Footprint {
+  public:
+    Footprint(dvec3 dPdu, dvec3 dPdv)
+        : dPdu_(dPdu),
+          dPdv_(dPdv),
+          a_(glm::dot(dPdu, dPdu)),
+          b_(glm::dot(dPdu, dPdv)),
+          c_(glm::dot(dPdv, dPdv)) {
+        double det = a_ * c_ - b_ * b_;
+        inverse_ = det > 0 ? 1 / det : 0;
+    }
+    vec2 of(dvec3 dP) const {
+        double x = glm::dot(dPdu_, dP), y = glm::dot(dPdv_, dP);
+        return vec2(float((c_ * x - b_ * y) * inverse_), float((a_ * y - b_ * x) * inverse_));
+    }
+
+  private:
+    dvec3 dPdu_, dPdv_;
+    double a_, b_, c_, inverse_;
+};
+
+// Whether it keeps angles, so that mixed normals need not be made unit first.
+bool keeps_angles(const mat3& m) {
+    float x = glm::dot(m[0], m[0]), y = glm::dot(m[1], m[1]), z = glm::dot(m[2], m[2]);
+    float least = 1e-5f * std::max({x, y, z});
+    return std::abs(x - y) <= least && std::abs(x - z) <= least &&
+           std::abs(glm::dot(m[0], m[1])) <= least && std::abs(glm::dot(m[1], m[2])) <= least &&
+           std::abs(glm::dot(m[2], m[0])) <= least;
 }
 
-// Cofactor of the linear part: takes normals along (EXTREMES.md 1c), the mirror's sign taken out.
+vec3 unit_or_zero(vec3 v) {
+    float square = glm::dot(v, v);
+    return square > 0 && square < std::numeric_limits<float>::infinity() ? v / std::sqrt(square)
+                                                                         : vec3(0);
+}
+
+// Cofactor of the linear part: takes normals along (EXTREMES.md 1c), the mirror's sign taken out;
+// its largest entry 1, since squares of lengths are floats.
 mat3 normal_matrix(const dmat4& m, bool mirrored) {
     dmat3 l(m);
     dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
+    double largest = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(cofactor[c][r]));
+    if (largest > 0 && std::isfinite(largest)) cofactor /= largest;
     return mat3(mirrored ? -cofactor : cofactor);
 }
 
@@ -182,8 +216,10 @@ class Gather {
         if (shape_->kind == raytrace::GeometryKind::Instanced) {
             linear_ = rotation_ * mat3(dmat3(shape_->world));
             normals_ = rotation_ * normal_matrix(shape_->world, shape_->mirrored);
+            unit_corners_ = !keeps_angles(normals_);
         } else {
             linear_ = normals_ = rotation_;
+            unit_corners_ = false;
         }
     }
 
@@ -228,6 +264,12 @@ class Gather {
         for (size_t i = begin; i < end; ++i)
             Ng_.set(i, rotation_ * triple(hits_.Ng, grid_.points[i]));
     }
+    // Unit where the mixture would not come out as between the normals of a still, baked mesh.
+    vec3 placed_normal(vec3 entry) const {
+        vec3 n = normals_ * entry;
+        return unit_corners_ ? unit_or_zero(n) : n;
+    }
+    vec3 placed_normal(const vec4& entry) const { return placed_normal(vec3(entry)); }
     void normals(size_t begin, size_t end) const {
         const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
         const vec4* entries = shape_->rest_normals.data();
@@ -235,8 +277,11 @@ class Gather {
             uint32_t hit = grid_.points[i];
             const uint32_t* c = corners + 3 * size_t(hits_.primitive[hit]);
             float u = hits_.u[hit], v = hits_.v[hit];
-            vec3 N = normals_ *
-                     vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] + v * entries[c[2]]);
+            vec3 N = unit_corners_
+                         ? (1 - u - v) * placed_normal(entries[c[0]]) +
+                               u * placed_normal(entries[c[1]]) + v * placed_normal(entries[c[2]])
+                         : normals_ * vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] +
+                                           v * entries[c[2]]);
             float square = glm::dot(N, N);
             // A normal that vanishes gives way to the geometric one (EXTREMES row 9).
             bool sound = square > 0 && square < std::numeric_limits<float>::infinity();
@@ -267,15 +312,17 @@ class Gather {
         if (dIdv_) dIdv_.set(i, dPdv);
         if (!footprint_) return;
         uint32_t hit = grid_.points[i];
-        vec2 along_x = footprint(dPdu, dPdv, rotation_ * triple(hits_.dPdx, hit));
-        vec2 along_y = footprint(dPdu, dPdv, rotation_ * triple(hits_.dPdy, hit));
+        Footprint footprint{dvec3(dPdu), dvec3(dPdv)};
+        vec2 along_x = footprint.of(dvec3(rotation_ * triple(hits_.dPdx, hit)));
+        vec2 along_y = footprint.of(dvec3(rotation_ * triple(hits_.dPdy, hit)));
         put(kColDu, std::max(std::abs(along_x.x), std::abs(along_y.x)));
         put(kColDv, std::max(std::abs(along_x.y), std::abs(along_y.y)));
     }
 
     // Of the unit normal n = m / |m|: n_u = (m_u - n (n . m_u)) / |m|.
     void normal_partials(size_t i, const Corner& c, const AffineMap& map) const {
-        vec3 n0 = normals_ * c.normal(0), n1 = normals_ * c.normal(1), n2 = normals_ * c.normal(2);
+        vec3 n0 = placed_normal(c.normal(0)), n1 = placed_normal(c.normal(1)),
+             n2 = placed_normal(c.normal(2));
         vec3 m = (1 - c.u - c.v) * n0 + c.u * n1 + c.v * n2;
         float length = glm::length(m);
         vec3 n = length > 0 ? m / length : vec3(0);
@@ -332,7 +379,7 @@ class Gather {
     vec3 eye_;
     Triple P_, I_, N_, Ng_, dPdu_, dPdv_, dIdu_, dIdv_, dNdu_, dNdv_;
     bool footprint_ = false, partials_ = false, uv_ = false, parameters_ = false;
-    bool matrices_ = false;
+    bool matrices_ = false, unit_corners_ = false;
     bool volume_ = grid_.look->kind == LookKind::Volume;
     const Surface* surface_ = nullptr;
     const Shape* shape_ = nullptr;

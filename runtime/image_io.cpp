@@ -124,6 +124,11 @@ class ExrStream : public Imf::OStream {
     std::FILE* file_;
 };
 
+// What is finite stays finite: the largest half is 65504.
+float to_half(float x) {
+    return std::isfinite(x) ? std::clamp(x, -65504.0f, 65504.0f) : x;
+}
+
 // RGBA as half, and each plane of the film as a float channel of its name.
 void write_channels(Imf::OStream& stream, Imf::Header& header, const raytrace::Film& film,
                     std::vector<Imf::Rgba>& pixels) {
@@ -137,9 +142,14 @@ void write_channels(Imf::OStream& stream, Imf::Header& header, const raytrace::F
     add("G", Imf::HALF, &pixels[0].g, sizeof(Imf::Rgba));
     add("B", Imf::HALF, &pixels[0].b, sizeof(Imf::Rgba));
     add("A", Imf::HALF, &pixels[0].a, sizeof(Imf::Rgba));
+    // A parameter that is called like a channel of the picture is R.V there.
+    auto channel = [&](const std::string& name) {
+        return header.channels().findChannel(name) ? name + ".V" : name;
+    };
     for (const raytrace::AovPlane& plane : film.aovs)
         if (plane.in_file)
-            add(plane.name, Imf::FLOAT, const_cast<float*>(plane.values.data()), sizeof(float));
+            add(channel(plane.name), Imf::FLOAT, const_cast<float*>(plane.values.data()),
+                sizeof(float));
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(buffer);
     file.writePixels(film.height);
@@ -160,7 +170,7 @@ std::string write_exr_file(const std::string& path, const raytrace::Film& film,
         std::vector<Imf::Rgba> pixels(film.rgba.size());
         for (size_t i = 0; i < pixels.size(); ++i) {
             const vec4& p = film.rgba[i];
-            pixels[i] = Imf::Rgba(p.x, p.y, p.z, p.w);
+            pixels[i] = Imf::Rgba(to_half(p.x), to_half(p.y), to_half(p.z), to_half(p.w));
         }
         ExrStream exr(path, stream.get());
         if (film.aovs.empty()) {

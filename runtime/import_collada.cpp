@@ -61,14 +61,24 @@ void ColladaImport::run() {
     import_cameras();
     out_.picture = picture_shaders(data_.rsl_materials);
     import_nodes();
-    import_clips();
     import_animation();
+    import_clips();
 }
 
 uint32_t ColladaImport::append(const double* numbers, size_t count) {
     uint32_t offset = uint32_t(out_.values.size());
     out_.values.insert(out_.values.end(), numbers, numbers + count);
     return offset;
+}
+
+// COLLADA writes matrices for column vectors, RSL for row vectors.
+uint32_t ColladaImport::append(const collada::ParamValue& value) {
+    std::vector<double> numbers = value.numbers;
+    for (size_t m = 0; value.type == collada::ParamType::Float4x4 && m + 16 <= numbers.size();
+         m += 16)
+        for (size_t r = 0; r < 4; ++r)
+            for (size_t c = 0; c < 4; ++c) numbers[m + c * 4 + r] = value.numbers[m + r * 4 + c];
+    return append(numbers.data(), numbers.size());
 }
 
 void ColladaImport::allocate_values() {
@@ -94,8 +104,7 @@ void ColladaImport::allocate_values() {
         append_slots(camera.slots, camera_values_.emplace_back());
     for (const collada::Effect& effect : data_.effects) {
         auto& params = param_values_.emplace_back();
-        for (const collada::Param& param : effect.params)
-            params.push_back(append(param.value.numbers.data(), param.value.numbers.size()));
+        for (const collada::Param& param : effect.params) params.push_back(append(param.value));
         auto& common = common_values_.emplace_back();
         if (!effect.common) continue;
         for (const collada::CommonValue& value : effect.common->slots)
@@ -106,7 +115,7 @@ void ColladaImport::allocate_values() {
         auto& of_param = setparam_of_.emplace_back();  // the first of several wins
         for (const collada::SetParam& set : material.setparams) {
             of_param.try_emplace(set.param, uint32_t(setparams.size()));
-            setparams.push_back(append(set.value.numbers.data(), set.value.numbers.size()));
+            setparams.push_back(append(set.value));
         }
     }
     for (const collada::Morph& morph : data_.morphs)
@@ -141,7 +150,7 @@ ValueSlot ColladaImport::slot(const collada::TargetRef& ref) const {
 // Bits: node definitions, then morphs, then one for all looks (their frame blocks are made anew
 // each frame anyway).
 uint32_t ColladaImport::owner_bit(const collada::TargetRef& ref) const {
-    uint32_t nodes = uint32_t(data_.nodes.size());
+    uint32_t nodes = uint32_t(out_.nodes.size());
     uint32_t morphs = uint32_t(data_.morphs.size());
     if (ref.kind == collada::Owner::Transform) return ref.owner;
     if (ref.kind == collada::Owner::MorphWeight) return nodes + ref.owner;
@@ -201,11 +210,28 @@ void ColladaImport::import_nodes() {
         for (const collada::NodeInstance& instance : from.instances)
             to.children.push_back({instance.node, conversion(instance.conversion)});
         for (const collada::MeshInstance& mesh : from.meshes) to.meshes.push_back(mesh_use(mesh));
-        for (const collada::LightInstance& light : from.lights) to.lights.push_back(light.light);
+        for (const collada::LightInstance& light : from.lights)
+            if (light.conversion == collada::kNone) to.lights.push_back(light.light);
         for (const collada::CameraInstance& camera : from.cameras)
-            to.cameras.push_back(camera.camera);
+            if (camera.conversion == collada::kNone) to.cameras.push_back(camera.camera);
+    }
+    for (size_t n = 0; n < data_.nodes.size(); ++n) {
+        for (const collada::LightInstance& light : data_.nodes[n].lights)
+            if (light.conversion != collada::kNone)
+                add_reference(n, light.conversion).lights.push_back(light.light);
+        for (const collada::CameraInstance& camera : data_.nodes[n].cameras)
+            if (camera.conversion != collada::kNone)
+                add_reference(n, camera.conversion).cameras.push_back(camera.camera);
     }
     out_.roots = data_.roots;
+}
+
+// A node below the n-th for a light or camera in other units or axes: theirs is the matrix.
+NodeDefinition& ColladaImport::add_reference(size_t n, uint32_t conversion_index) {
+    out_.nodes[n].children.push_back({uint32_t(out_.nodes.size()), conversion(conversion_index)});
+    NodeDefinition& node = out_.nodes.emplace_back();
+    node.reference = true;
+    return node;
 }
 
 void ColladaImport::import_cameras() {
@@ -230,9 +256,22 @@ void ColladaImport::import_cameras() {
     }
 }
 
+// Its own animations move in a clip, and those that belong to none.
 void ColladaImport::import_clips() {
+    std::vector<bool> named(data_.channels.size(), false);
     for (const collada::Clip& clip : data_.clips)
-        out_.clips.push_back({clip.id.empty() ? clip.name : clip.id, clip.start, clip.end});
+        for (uint32_t channel : clip.channels) named[channel] = true;
+    for (const collada::Clip& clip : data_.clips) {
+        ClipDefinition& to = out_.clips.emplace_back();
+        to.name = clip.id.empty() ? clip.name : clip.id;
+        to.start = clip.start;
+        to.end = clip.end;
+        std::vector<bool> plays = named;
+        plays.flip();
+        for (uint32_t channel : clip.channels) plays[channel] = true;
+        if (std::find(plays.begin(), plays.end(), false) != plays.end())
+            to.animation = std::make_shared<anim::Animation>(animation_of(plays));
+    }
 }
 
 }  // namespace kinora

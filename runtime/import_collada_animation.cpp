@@ -56,30 +56,49 @@ anim::Sampler make_sampler(const collada::Sampler& from, bool matrix,
 }  // namespace
 
 void ColladaImport::import_animation() {
+    out_.animated.assign(out_.values.size(), false);
+    sampler_told_.assign(data_.samplers.size(), false);
+    out_.animation = animation_of(std::vector<bool>(data_.channels.size(), true));
+}
+
+// A <float4x4>, which `values` hold by columns (allocate_values).
+bool ColladaImport::is_matrix_param(const collada::TargetRef& ref) const {
+    if (ref.kind == collada::Owner::EffectParam)
+        return data_.effects[ref.owner].params[ref.slot].value.type == collada::ParamType::Float4x4;
+    return ref.kind == collada::Owner::MaterialParam &&
+           data_.materials[ref.owner].setparams[ref.slot].value.type ==
+               collada::ParamType::Float4x4;
+}
+
+anim::Animation ColladaImport::animation_of(const std::vector<bool>& wanted) {
     std::vector<anim::Sampler> samplers;
     std::vector<anim::Channel> channels;
     std::map<std::pair<uint32_t, bool>, uint32_t> made;  // one for each sampler and kind
-    out_.animated.assign(out_.values.size(), false);
-    for (const collada::Channel& from : data_.channels) {
+    for (size_t c = 0; c < data_.channels.size(); ++c) {
+        if (!wanted[c]) continue;
+        const collada::Channel& from = data_.channels[c];
         const collada::TargetRef& ref = from.ref;
         bool matrix = ref.whole_matrix;
         auto [place, is_new] = made.try_emplace({from.sampler, matrix}, uint32_t(samplers.size()));
         if (is_new) {
             anim::SamplerRepairs repairs;
             samplers.push_back(make_sampler(data_.samplers[from.sampler], matrix, repairs));
-            if (std::string text = to_text(repairs); !text.empty())
+            std::string text = to_text(repairs);
+            if (!text.empty() && !sampler_told_[from.sampler])
                 diagnostics_.report(Code::ANIM_KEYS_REPAIRED, data_.samplers[from.sampler].where,
                                     from.target, text);
+            sampler_told_[from.sampler] = true;
         }
         uint32_t base = slot(ref).offset - ref.first;
-        bool element =
-            ref.kind == collada::Owner::Transform && !matrix &&
-            data_.nodes[ref.owner].transforms[ref.slot].kind == collada::TransformKind::Matrix;
+        // Elements of a <matrix> are numbered by columns there and kept by rows here, those of a
+        // <float4x4> by rows there and kept by columns.
+        bool element = is_matrix_param(ref) || (ref.kind == collada::Owner::Transform && !matrix &&
+                                                data_.nodes[ref.owner].transforms[ref.slot].kind ==
+                                                    collada::TransformKind::Matrix);
         uint32_t stride = data_.samplers[from.sampler].stride;
         for (uint32_t k = 0; k < ref.count; ++k) {
-            // Elements of a <matrix> are numbered by columns there and kept by rows here.
             uint32_t number = ref.first + k;
-            if (element) number = anim::matrix_slot(number / 4, number % 4);
+            if (element) number = number / 16 * 16 + anim::matrix_slot(number % 16 / 4, number % 4);
             out_.animated[base + number] = true;
             if (matrix && k > 0) continue;
             anim::Channel channel;
@@ -91,7 +110,7 @@ void ColladaImport::import_animation() {
             channels.push_back(channel);
         }
     }
-    out_.animation = anim::make_animation(std::move(samplers), std::move(channels));
+    return anim::make_animation(std::move(samplers), std::move(channels));
 }
 
 }  // namespace kinora

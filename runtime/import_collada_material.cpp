@@ -75,19 +75,9 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
                 source.strings = {
                     image_name(data_.images[value.image], value.strings.back(), bind.where)};
             }
-        } else if (value.type == collada::ParamType::Float4x4) {
-            // COLLADA writes matrices for column vectors, RSL for row vectors.
-            std::vector<double> numbers = value.numbers;
-            for (size_t m = 0; m + 16 <= numbers.size(); m += 16)
-                for (size_t r = 0; r < 4; ++r)
-                    for (size_t c = 0; c < 4; ++c)
-                        numbers[m + c * 4 + r] = value.numbers[m + r * 4 + c];
-            source.value = {append(numbers.data(), numbers.size()), uint32_t(numbers.size())};
         } else {
-            source.value = from_param
-                               ? param_slot(material, effect_index, bind.param)
-                               : ValueSlot{append(value.numbers.data(), value.numbers.size()),
-                                           uint32_t(value.numbers.size())};
+            source.value = from_param ? param_slot(material, effect_index, bind.param)
+                                      : ValueSlot{append(value), uint32_t(value.numbers.size())};
         }
         check_named_files(value, out_.readable, bind.where, diagnostics_);
         if (!takes(*parameter, value)) {

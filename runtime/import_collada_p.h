@@ -26,11 +26,13 @@ class ColladaImport {
     // import_collada.cpp: every animatable number gets its place in values.
     void allocate_values();
     uint32_t append(const double* numbers, size_t count);
+    uint32_t append(const collada::ParamValue& value);
     ValueSlot slot(const collada::TargetRef& ref) const;
     uint32_t owner_bit(const collada::TargetRef& ref) const;
     void import_nodes();
     void import_cameras();
     void import_clips();
+    NodeDefinition& add_reference(size_t n, uint32_t conversion_index);
     MeshUse mesh_use(const collada::MeshInstance& instance) const;
     dmat4 conversion(uint32_t index) const;
 
@@ -60,6 +62,9 @@ class ColladaImport {
 
     // import_collada_animation.cpp
     void import_animation();
+    // Of those channels; SceneDescription::animated is told where they write.
+    anim::Animation animation_of(const std::vector<bool>& channels);
+    bool is_matrix_param(const collada::TargetRef& ref) const;
 
     collada::SceneData& data_;
     const ImportOptions& options_;
@@ -71,6 +76,7 @@ class ColladaImport {
     std::vector<std::vector<uint32_t>> transform_values_, light_values_, camera_values_,
         param_values_, common_values_, setparam_values_;
     std::vector<uint32_t> morph_values_;
+    std::vector<bool> sampler_told_;  // what was repaired in it
     std::map<const collada::Effect*, EffectShaders> compiled_;
 };
 

@@ -141,6 +141,8 @@ FrameInput resolve_param(Look& look, const ParamName& name) {
         input.type = parameter.type.base;
         input.component = uint8_t(name.component);
         uint32_t c = name.element * width + (placed ? 0 : name.component);
+        if (source->by_columns && width == 16)
+            c = name.element * width + name.component % 4 * 4 + name.component / 4;
         input.index = value_index(source->value, needed, c);
         if (placed) input.space = space_index(look, "shader");
         if (placed && source->value.count < 3) {  // one number for all three: no place to speak of

@@ -74,6 +74,7 @@ bool from_source(const Asker& asker, const Look& look, const ParamSource& source
     const double* values = &asker.scene.values[source.value.offset];
     uint32_t count = source.value.count, width = uint32_t(rsl::component_count(type.base));
     auto number = [&](uint32_t c) {
+        if (source.by_columns && width == 16) c = c % 4 * 4 + c / 4;
         return count == 1 ? values[0] : values[std::min(uint32_t(element) * width + c, count - 1)];
     };
     if (rsl::is_spatial(type.base) && count >= 3) {

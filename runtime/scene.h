@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct Node {
     bool moved = true;      // by the last update_transforms
     bool hidden = false;    // it or an ancestor is
     bool chosen = true;     // its meshes are there (SceneDescription::only_chosen)
+    bool finite = true;     // else `world` is all zero
+    bool told = false;      // that it is not finite
     dmat4 conversion{1.0};  // of the reference that brought it in
     dmat4 world{1.0};       // world_from_node
 };
@@ -221,6 +224,9 @@ struct Scene {
     std::shared_ptr<PointStore> points;
     std::unique_ptr<Shading> shading;
     SceneOptions options;
+
+    bool all_finite = true;  // the nodes' matrices, in this frame
+    std::set<std::pair<uint32_t, raytrace::GeometryIssue>> told_issues;  // of rows
 };
 
 // Unrolls the nodes, places meshes, lights and cameras, lowers and compiles every look. Errors (no

@@ -83,8 +83,9 @@ struct NodeDefinition {
     std::vector<MeshUse> meshes;
     std::vector<uint32_t> lights;
     std::vector<uint32_t> cameras;
-    bool hidden = false;  // --hide: nothing of it and below is there
-    bool chosen = false;  // --only: its meshes and those below are there
+    bool hidden = false;     // --hide: nothing of it and below is there
+    bool chosen = false;     // --only: its meshes and those below are there
+    bool reference = false;  // stands for what brings in the light or camera of another file
 };
 
 // One attribute of a mesh with its own index per corner: NORMAL, TEXCOORD n, COLOR n.
@@ -139,6 +140,7 @@ struct ParamSource {
     std::vector<std::string> strings;
     std::string texcoord;  // a texture parameter: the texcoord name it reads st by
     Location where;
+    bool by_columns = false;  // a node's <matrix>, written for column vectors: RSL's are for rows
 };
 
 struct ShaderUse {
@@ -184,7 +186,7 @@ struct CameraDefinition {
 struct ClipDefinition {
     std::string name;
     double start = 0, end = 0;
-    // What moves in the clip where that is not simply a range of the scene's animation (glTF).
+    // What moves in the clip where that is not simply a range of the scene's animation.
     std::shared_ptr<const anim::Animation> animation = nullptr;
 };
 

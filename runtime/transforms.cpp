@@ -2,6 +2,7 @@
 #include "runtime/transforms.h"
 
 #include <cmath>
+#include <glm/matrix.hpp>
 
 #include "runtime/base/transform_matrix.h"
 #include "runtime/scene.h"
@@ -35,16 +36,32 @@ bool is_finite(const dmat4& m) {
     return true;
 }
 
+dmat4 path_conversion(const Scene& scene, uint32_t node) {
+    dmat4 m(1.0);
+    for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent)
+        m = scene.nodes[n].conversion * m;
+    return m;
+}
+
+double unit_of(const dmat4& conversion) {
+    return std::cbrt(std::abs(glm::determinant(dmat3(conversion))));
+}
+
 void update_transforms(Scene& scene) {
+    scene.all_finite = true;
     for (Node& node : scene.nodes) {
         bool own = scene.changed[node.definition / 64] >> (node.definition % 64) & 1;
         bool above = node.parent != kNone && scene.nodes[node.parent].moved;
         node.moved = scene.first_frame || own || above;
+        scene.all_finite &= node.finite || node.moved;
         if (!node.moved) continue;
         dmat4 local =
             node.conversion * node_matrix(scene.description->nodes[node.definition], scene.values);
         dmat4 world = node.parent == kNone ? local : scene.nodes[node.parent].world * local;
-        if (is_finite(world)) node.world = world;
+        // Never the place of the frame before: all zero is singular, so it is told.
+        node.finite = is_finite(world);
+        node.world = node.finite ? world : dmat4(0.0);
+        scene.all_finite &= node.finite;
     }
 }
 

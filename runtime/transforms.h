@@ -19,7 +19,14 @@ dmat4 transform_matrix(TransformKind kind, const double* v);
 dmat4 node_matrix(const NodeDefinition& node, std::span<const double> values);
 
 // Brings Scene::nodes up to date: those whose definition's bit is set, and what hangs below them.
+// A matrix that is not finite becomes all zero.
 void update_transforms(Scene& scene);
+
+// The product of the conversions on the way to the node: from the document it is written in into
+// the scene's units and axes.
+dmat4 path_conversion(const Scene& scene, uint32_t node);
+// Units behind such a matrix in one unit before it.
+double unit_of(const dmat4& conversion);
 
 // Whether every entry is finite.
 bool is_finite(const dmat4& m);

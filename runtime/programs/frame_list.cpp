@@ -11,7 +11,6 @@ namespace kinora {
 
 namespace {
 
-constexpr int64_t kMostFrames = 10'000'000;
 constexpr int64_t kLargestFrame = 1'000'000'000'000;  // times kLargestRate it fits int64
 constexpr int64_t kLargestRate = 1'000'000;
 

@@ -9,6 +9,8 @@
 
 namespace kinora {
 
+inline constexpr int64_t kMostFrames = 10'000'000;  // of one run
+
 // "1-240x2,300,10-1x-1", also "1..240", "1:240x2", "1-240:2"; negative numbers allowed ("-5--1").
 // Nothing, with a text in `error`, when it is malformed or names no frame.
 std::optional<std::vector<int64_t>> parse_frames(std::string_view text, std::string& error);

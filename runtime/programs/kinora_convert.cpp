@@ -1,6 +1,7 @@
 // runtime/programs/kinora_convert.cpp: kinora-convert's command line.
 #include "runtime/programs/command_line.h"
 #include "runtime/programs/convert.h"
+#include "runtime/programs/finish.h"
 
 namespace kinora {
 
@@ -69,6 +70,7 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
 
 int main(int argc, char** argv) {
     kinora::ConvertOptions options;
-    if (std::optional<int> code = kinora::parse_convert_options(argc, argv, options)) return *code;
-    return kinora::convert(options);
+    if (std::optional<int> code = kinora::parse_convert_options(argc, argv, options))
+        return kinora::finish(*code, "kinora-convert");
+    return kinora::finish(kinora::convert(options), "kinora-convert");
 }

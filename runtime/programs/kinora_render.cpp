@@ -10,7 +10,9 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "rsl/renderer_services.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/shown_path.h"
 #include "runtime/findings.h"
@@ -20,8 +22,10 @@
 #include "runtime/override_shader.h"
 #include "runtime/programs/contact_sheet.h"
 #include "runtime/programs/exit_codes.h"
+#include "runtime/programs/finish.h"
 #include "runtime/programs/list_scene.h"
 #include "runtime/programs/render_options.h"
+#include "runtime/texture_name.h"
 
 namespace kinora {
 
@@ -87,7 +91,8 @@ class Render {
 
     const RenderOptions& options_;
     Diagnostics diagnostics_;
-    size_t shown_ = 0;  // findings printed so far
+    size_t shown_ = 0;      // findings printed so far
+    bool missing_ = false;  // assets, under --strict
     std::unique_ptr<Scene> scene_;
     FrameSettings settings_;
     raytrace::Film film_;
@@ -112,10 +117,15 @@ int Render::exit_code_of_findings(int otherwise) const {
     return otherwise;
 }
 
-// Prints what is new; returns the exit code that missing assets call for under --strict.
+bool is_missing_asset(std::string_view code) {
+    return code.starts_with("FILE_") || code.starts_with("IMAGE_") ||
+           code.starts_with("LINK_EXTERNAL_") || code == "POINT_FILE_UNREADABLE";
+}
+
+// Prints what is new; returns the exit code that missing assets call for under --strict: what is
+// told once is missing in all frames.
 int Render::flush_findings() {
     progress_.clear();
-    int code = kExitOk;
     const auto& findings = diagnostics_.findings();
     for (; shown_ < findings.size(); ++shown_) {
         const Finding& finding = findings[shown_];
@@ -123,12 +133,11 @@ int Render::flush_findings() {
                          : options_.verbose ? Severity::Hint
                                             : Severity::Warning;
         std::string_view id = finding.info->code;
-        if (options_.strict && (id.starts_with("FILE_") || id.starts_with("IMAGE_")))
-            code = kExitMissingAsset;
+        if (options_.strict && is_missing_asset(id)) missing_ = true;
         if (finding.severity >= least)
             std::fputs(format_finding(finding, diagnostics_.files).c_str(), stderr);
     }
-    return code;
+    return missing_ ? kExitMissingAsset : kExitOk;
 }
 
 SceneOptions Render::scene_options() const {
@@ -234,11 +243,25 @@ std::string Render::fingerprint(double time) const {
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
     text += fmt::format(" imager {} aovs {} light samples {} transparency {}", o.imager,
                         fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
-    text += fmt::format(" lights {} hide {} only {}", int(o.lights), fmt::join(o.hide, ","),
-                        fmt::join(o.only, ","));
+    text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
+                        fmt::join(o.only, ","), o.clip);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+// Files that strings of shaders name: parameters, their defaults, literals. Before the first frame:
+// then strings that shaders put together come to these.
+std::set<std::string> named_files(const SceneDescription& description) {
+    std::set<std::string> files;
+    for (int32_t id = 1; id < rsl::interned_count(); ++id) {
+        std::string name = parse_texture_name(rsl::interned(id)).path;
+        if (name.empty() || name.find('\0') != std::string::npos) continue;
+        auto [path, outside] = description.readable.find(name);
+        std::error_code code;
+        if (!outside && std::filesystem::is_regular_file(path, code)) files.insert(path);
+    }
+    return files;
 }
 
 XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription& description) {
@@ -262,6 +285,7 @@ XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription&
             for (const std::string& text : source.strings) add_file(text);
     });
     for (const std::string& file : description.inputs) add_file(file);
+    for (const std::string& file : named_files(description)) add_file(file);
     return hash;
 }
 
@@ -356,8 +380,19 @@ int Render::frames() {
     } else if (options_.frames) {
         for (int64_t frame : *options_.frames) list.emplace_back(frame, rate_.time(frame));
     } else {
-        int64_t first = std::llround(scene_->options.start_time * rate_.value());
-        int64_t last = std::llround(scene_->options.end_time * rate_.value());
+        double first_frame = std::round(scene_->options.start_time * rate_.value());
+        double last_frame = std::round(scene_->options.end_time * rate_.value());
+        // As far as --frames goes.
+        bool sound = std::abs(first_frame) < 1e12 && std::abs(last_frame) < 1e12;
+        if (!sound || last_frame - first_frame >= kMostFrames) {
+            std::fprintf(stderr,
+                         "kinora-render: the scene plays from %g to %g seconds, more than %lld "
+                         "frames; choose with --frames or --time\n",
+                         scene_->options.start_time, scene_->options.end_time,
+                         static_cast<long long>(kMostFrames));
+            return kExitUsage;
+        }
+        int64_t first = int64_t(first_frame), last = int64_t(last_frame);
         for (int64_t frame = first; frame <= last; ++frame)
             list.emplace_back(frame, rate_.time(frame));
     }
@@ -466,10 +501,11 @@ void Render::print_stats() const {
 
 int main(int argc, char** argv) {
     kinora::RenderOptions options;
-    if (std::optional<int> code = kinora::parse_render_options(argc, argv, options)) return *code;
+    if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
+        return kinora::finish(*code, "kinora-render");
     std::signal(SIGPIPE, SIG_IGN);
     try {
-        return kinora::Render(options).run();
+        return kinora::finish(kinora::Render(options).run(), "kinora-render");
     } catch (const std::bad_alloc&) {
         std::fputs("kinora-render: out of memory\n", stderr);
         return kinora::kExitRetry;

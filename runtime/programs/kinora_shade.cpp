@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "runtime/programs/exit_codes.h"
+#include "runtime/programs/finish.h"
 
 namespace kinora {
 
@@ -27,11 +28,13 @@ constexpr Command kCommands[] = {
 
 int main(int argc, char** argv) {
     kinora::ShadeOptions options;
-    if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options)) return *code;
+    if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options))
+        return kinora::finish(*code, "kinora-shade");
     std::signal(SIGPIPE, SIG_IGN);
     try {
         for (const kinora::Command& command : kinora::kCommands)
-            if (command.name == options.command) return command.run(options);
+            if (command.name == options.command)
+                return kinora::finish(command.run(options), "kinora-shade");
     } catch (const std::bad_alloc&) {
         std::fputs("kinora-shade: out of memory\n", stderr);
         return kinora::kExitRetry;

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "runtime/programs/exit_codes.h"
+#include "runtime/programs/finish.h"
 
 namespace {
 
@@ -27,10 +28,12 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away ends the report, not the process
     try {
         kinora::ValidateSettings settings;
-        if (auto code = kinora::parse_validate_options(argc, argv, settings)) return *code;
+        if (auto code = kinora::parse_validate_options(argc, argv, settings))
+            return kinora::finish(*code, "kinora-validate");
         std::vector<std::string> files = kinora::expand_inputs(settings);
-        return settings.fix ? kinora::fix_batch(settings, files)
-                            : kinora::validate_batch(settings, files);
+        return kinora::finish(settings.fix ? kinora::fix_batch(settings, files)
+                                           : kinora::validate_batch(settings, files),
+                              "kinora-validate");
     } catch (const std::bad_alloc&) {
         std::fputs("kinora-validate: out of memory\n", stderr);
         return kinora::kExitRetry;

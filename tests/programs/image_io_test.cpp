@@ -2,6 +2,7 @@
 // a whole file or for none.
 #include "runtime/image_io.h"
 
+#include <ImfChannelList.h>
 #include <ImfRgbaFile.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -81,6 +82,39 @@ TEST_F(ImageIo, ExrKeepsLinearHalfsAndTexts) {
     EXPECT_EQ(float(pixels[0].a), 0.5f);
     for (size_t i = 1; i < pixels.size(); ++i)
         EXPECT_NEAR(float(pixels[i].r), film.rgba[i].x, 0.5f / 1024) << i;
+}
+
+TEST_F(ImageIo, FiniteColoursStayFiniteInAnExr) {
+    raytrace::Film film(2, 1);
+    film.at(0, 0) = vec4(1e6f, -7e4f, 65503.0f, 1.0f);
+    film.at(1, 0) = vec4(std::numeric_limits<float>::infinity(), 0, 0, 1);
+    ASSERT_EQ(write_image(path("a.exr"), film, ColorEncoding::Srgb, {}), "");
+    Imf::RgbaInputFile file(path("a.exr").c_str());
+    std::vector<Imf::Rgba> pixels(2);
+    file.setFrameBuffer(pixels.data(), 1, 2);
+    file.readPixels(0, 0);
+    EXPECT_EQ(float(pixels[0].r), 65504.0f);
+    EXPECT_EQ(float(pixels[0].g), -65504.0f);
+    EXPECT_EQ(float(pixels[0].b), 65504.0f);  // halfs are 32 apart there
+    EXPECT_TRUE(std::isinf(float(pixels[1].r)));
+}
+
+TEST_F(ImageIo, AParameterCalledLikeAChannelDoesNotReplaceIt) {
+    raytrace::Film film = ramp(4, 1);
+    for (const char* name : {"R", "A", "dirt"}) film.add_aov(name);
+    for (raytrace::AovPlane& plane : film.aovs) plane.values.assign(4, 7.0f);
+    ASSERT_EQ(write_image(path("a.exr"), film, ColorEncoding::Srgb, {}), "");
+    Imf::RgbaInputFile file(path("a.exr").c_str());
+    std::vector<Imf::Rgba> pixels(4);
+    file.setFrameBuffer(pixels.data(), 1, 4);
+    file.readPixels(0, 0);
+    for (size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(float(pixels[i].r), film.rgba[i].x);
+        EXPECT_EQ(float(pixels[i].a), 1.0f);
+    }
+    for (const char* name : {"R", "A", "R.V", "A.V", "dirt"})
+        EXPECT_TRUE(file.header().channels().findChannel(name)) << name;
+    EXPECT_FALSE(file.header().channels().findChannel("dirt.V"));
 }
 
 // IEC 61966-2-1: linear 0.5 is 188, 0.21586 is 128 (of 255).

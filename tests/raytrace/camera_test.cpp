@@ -190,5 +190,18 @@ TEST(Camera, ClipRangesWithoutSenseAreRepaired) {
     }
 }
 
+TEST(Camera, WithoutAZfarSeesTheWholeSceneFromAnywhere) {
+    for (double distance : {0.0, 50.0, 4e3, 1e9}) {
+        CameraOptics o = perspective(40, {});
+        o.zfar = 0;
+        dmat4 node(1.0);
+        node[3] = dvec4(0, distance, 0, 1);
+        Camera c;
+        ASSERT_FALSE(is_error(make_camera(o, node, 10, 10, dvec3(0.0), 2, c)));
+        EXPECT_EQ(c.znear, 0.1);
+        EXPECT_GT(c.zfar, distance + 2);
+    }
+}
+
 }  // namespace
 }  // namespace kinora::raytrace

@@ -156,6 +156,28 @@ TEST(Frame, CountsRaysAndPoints) {
     EXPECT_EQ(r.stats.rays, 288u + 216u);
 }
 
+// 200 000 triangles may be baked: 10 times 20 000 are, 11 times are not.
+TEST(Frame, ARepeatedMeshIsInstancedWhereAllOfItWouldBeMuch) {
+    for (int times : {10, 11}) {
+        std::vector<dvec3> positions;
+        std::vector<int> triangles;
+        for (int y = 0; y <= 100; ++y)
+            for (int x = 0; x <= 100; ++x) positions.push_back({0.01 * x, 0.01 * y, 0});
+        for (int y = 0; y < 100; ++y)
+            for (int x = 0; x < 100; ++x)
+                for (int k : {0, 1, 102, 0, 102, 101}) triangles.push_back(101 * y + x + k);
+        SceneText scene;
+        scene.mesh("grid", positions, triangles).look("l", "surface s() { Ci = 1; Oi = 1; }");
+        for (int i = 0; i < times; ++i)
+            scene.place("grid", "l", "<translate>0 0 " + std::to_string(-i) + "</translate>");
+        Rendering r(scene.text());
+        ASSERT_TRUE(r.scene) << r.findings();
+        auto wanted =
+            times == 10 ? raytrace::GeometryKind::Static : raytrace::GeometryKind::Instanced;
+        for (const Shape& shape : r.scene->shapes) EXPECT_EQ(shape.kind, wanted) << times;
+    }
+}
+
 TEST(Frame, ACameraWithoutAPictureIsAnError) {
     SceneText scene;
     scene.square("floor").look("l", "surface s() { Ci = 1; }").place("floor", "l");

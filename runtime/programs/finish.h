@@ -1,0 +1,23 @@
+// runtime/programs/finish.h: the end of a program: what it printed has arrived, or it says so.
+#pragma once
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "runtime/programs/exit_codes.h"
+
+namespace kinora {
+
+// The exit code of a program that comes to `code`: kExitUnwritable where that is kExitOk and stdout
+// did not take everything. A reader that has gone away (head) wanted no more: no error.
+inline int finish(int code, const char* program) {
+    errno = 0;
+    bool flushed = std::fflush(stdout) == 0;
+    if ((flushed && !std::ferror(stdout)) || errno == EPIPE) return code;
+    std::fprintf(stderr, "%s: cannot write to stdout: %s\n", program,
+                 errno ? std::strerror(errno) : "write error");
+    return code == kExitOk ? int(kExitUnwritable) : code;
+}
+
+}  // namespace kinora
