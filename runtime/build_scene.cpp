@@ -228,6 +228,10 @@ Bounds SceneBuilder::played_bounds() {
     constexpr int kSamples = 12;
     const SceneOptions& options = scene_->options;
     Bounds bounds = bounds_now();
+    if (bounds.empty()) {  // what set_bounds takes for the scene
+        bounds.add(scene_->low);
+        bounds.add(scene_->high);
+    }
     if (description_.animation.channels.empty() || options.end_time <= options.start_time)
         return bounds;
     for (int s = 0; s <= kSamples; ++s) {

@@ -261,5 +261,14 @@ TEST(Extremes, ASceneWithoutSurfacesIsAnEmptyPictureAndAFinding) {
     EXPECT_EQ(r.film.at(8, 8), vec4(0.0f));
 }
 
+TEST(Extremes, ASceneWithNothingAtAllIsAnEmptyPicture) {
+    SceneText nothing;
+    nothing.cameras = nothing.camera_node = "";
+    Rendering r(nothing.text());
+    r.frame();
+    EXPECT_EQ(r.film.at(8, 8), vec4(0.0f));
+    EXPECT_EQ(r.count("CAMERA_OPTICS"), 0) << r.findings();
+}
+
 }  // namespace
 }  // namespace kinora
