@@ -172,6 +172,7 @@ class GltfExport {
     std::vector<double> at_time_;       // values while a path is evaluated
     std::map<std::string, uint32_t> meshes_, materials_, textures_, images_;
     std::set<const MaterialDefinition*> told_materials_;
+    std::set<std::string> told_;  // what is lost, each once
     std::map<uint32_t, Mesh> built_;
     std::map<uint32_t, uint32_t> cameras_, lights_;
     std::map<std::vector<double>, uint32_t> key_accessors_;

@@ -137,14 +137,14 @@ class Conversion {
     }
 
     int finish_collada(int code, const Stopwatch& watch, ColladaExport result) {
-        if (options_.up_axis || options_.meter)
-            result.text = canonical(
-                change_axes(options_.output, result.text, options_.up_axis, options_.meter, diag_));
         if (result.text.empty()) {
             fmt::print(stderr, "kinora: error: cannot write '{}': no reader would take it\n",
                        options_.output);
             return kExitUnwritable;
         }
+        if (options_.up_axis || options_.meter)
+            result.text = canonical(
+                change_axes(options_.output, result.text, options_.up_axis, options_.meter, diag_));
         for (const auto& [name, bytes] : result.files)
             if (int failed =
                     write_whole((fs::path(options_.output).parent_path() / name).string(), bytes))

@@ -148,6 +148,12 @@ class Attributes(GltfConvert):
         before, out = self.stays(self.write("warm.dae", text))
         self.assertGreater(self.brightest(before, 0), 150)
         self.assertIn("_HEAT", glb_json(out)["meshes"][0]["primitives"][0]["attributes"])
+        # Five numbers a vertex are more than an accessor has; none but the first is read.
+        wide = text.replace('count="3">0 0.5 1<', 'count="15">' + "0 1 2 3 4 " * 3 + "<").replace(
+            'source="#ha" count="3">', 'source="#ha" count="3" stride="5">' + '<param name="A" type="float"/>' * 4)
+        result = convert(self.write("wide.dae", wide), self.folder / "wide.glb", "--strict")
+        self.expect(result, 1, "CONVERT_LOST", "'HEAT' of 5 numbers")
+        self.assertEqual(result.err.count("CONVERT_LOST"), 1)
 
 
 class Materials(GltfConvert):
