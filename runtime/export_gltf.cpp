@@ -89,8 +89,7 @@ template uint32_t GltfExport::accessor(const std::vector<uint16_t>&, uint32_t, i
 template uint32_t GltfExport::accessor(const std::vector<uint32_t>&, uint32_t, int, bool);
 
 void GltfExport::lost(const std::string& what, const std::string& why, Location where) {
-    if (told_.insert(what + why).second)
-        diagnostics_.report(Code::CONVERT_LOST, where, what, why);
+    if (told_.insert(what + why).second) diagnostics_.report(Code::CONVERT_LOST, where, what, why);
 }
 
 void GltfExport::in_extras(const std::string& what, const std::string& why, Location where) {
