@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "anim/decompose.h"
 #include "runtime/export_gltf_p.h"
@@ -25,11 +26,30 @@ std::vector<double> distinct(std::vector<double> times) {
 
 }  // namespace
 
-// Clips with an animation of their own (glTF's) stay apart; they may drive the same.
+// Clips stay apart where each plays all of an animation of its own and import_gltf, which plays
+// together those that do not meet, makes the scene's animation of them again (glTF's own do). Other
+// clips (COLLADA's, of parts of the scene's animation) are ranges of it.
 void GltfExport::find_takes() {
-    for (const ClipDefinition& clip : description_.clips)
-        if (clip.animation) takes_.push_back({clip.name, clip.animation.get()});
-    if (takes_.empty()) takes_.push_back({"", &description_.animation});
+    std::set<uint32_t> driven, played;
+    bool whole = true;
+    for (const ClipDefinition& clip : description_.clips) {
+        if (!clip.animation) continue;
+        takes_.push_back({clip.name, clip.animation.get()});
+        anim::TimeRange range = anim::time_range(*clip.animation);
+        whole &= range.begin == clip.start && range.end == clip.end;
+        const std::vector<anim::Channel>& channels = clip.animation->channels;
+        bool meets = std::any_of(channels.begin(), channels.end(),
+                                 [&](const anim::Channel& c) { return driven.contains(c.slot); });
+        for (const anim::Channel& c : channels)
+            if (!meets) driven.insert(c.slot);
+    }
+    for (const anim::Channel& c : description_.animation.channels) played.insert(c.slot);
+    if (takes_.empty() || !whole || driven != played) {
+        for (const Take& take : takes_)
+            lost(fmt::format("clip '{}'", take.name),
+                 "that it moves a part of the scene (all of it)");
+        takes_ = {{"", &description_.animation}};
+    }
     take_ = &takes_.front();
 }
 
