@@ -71,6 +71,7 @@ class EarClipper {
     bool cut_stuck(uint32_t& start, uint32_t left);
 
     static constexpr uint64_t kBudget = 100'000'000;
+    static constexpr uint32_t kMostAtOnePlace = 256;  // corners; what has more crosses itself
     std::span<const dvec2> points_;
     std::vector<uint32_t>& triangles_;
     std::vector<uint32_t> ring_;                   // corner numbers around the (bridged) outline
@@ -79,6 +80,7 @@ class EarClipper {
     std::vector<uint32_t> next_, previous_;        // linked positions of ring_
     std::vector<uint32_t> reflex_;                 // positions that were reflex when last looked at
     uint64_t work_ = 0;
+    bool crosses_ = false;
 };
 
 bool EarClipper::bridge(std::span<const uint32_t> hole) {
@@ -163,11 +165,12 @@ void EarClipper::take_apart() {
     for (uint32_t first = 0, end; first < size; first = end) {
         for (end = first + 1; end < size && same(at(order[first]), at(order[end])); ++end) {
         }
-        work_ += uint64_t(end - first) * (end - first);
+        bool crowded = end - first > kMostAtOnePlace;
+        crosses_ |= crowded;
         for (uint32_t n = first; n < end; ++n) {
             uint32_t i = order[n], best = i;
             dvec2 before = at((i + size - 1) % size);
-            for (uint32_t m = first; m < end && work_ <= kBudget; ++m)
+            for (uint32_t m = first; m < end && !crowded; ++m)
                 if (turns_sooner(at(i), before, at((order[m] + 1) % size), at((best + 1) % size)))
                     best = order[m];
             follows[i] = (best + 1) % size;
@@ -186,7 +189,7 @@ void EarClipper::take_apart() {
 
 bool EarClipper::clip() {
     if (rings_.empty()) return clip_ring();
-    bool clean = true;
+    bool clean = !crosses_;
     for (std::vector<uint32_t>& ring : rings_) {
         ring_ = std::move(ring);
         clean = clip_ring() && clean;

@@ -99,7 +99,7 @@ constexpr ForeignRow kForeign[] = {
     {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture "
      "rayhittest irradiance stof sprintf strlen ",
      "other renderers"},
-    {" getvar getshader getshaders getlights resize reserve push pop capacity "
+    {" getvar getshader getshaders getlights arraylength resize reserve push pop capacity "
      "directlighting indirectspecular evaluateSamples generateSamples writeaov readaov ",
      "RSL 2.0"},
 };

@@ -214,10 +214,6 @@ void total_derivative(LowerCall& c) {
 
 void spline(LowerCall& c);  // rsl/builtins_spline.cpp
 
-void arraylength(LowerCall& c) {
-    c.set(c.b.f(float(c.low.array_values(*c.call.args[0]).size())));
-}
-
 }  // namespace lower_math
 
 namespace {
@@ -287,8 +283,6 @@ const Builtin kRows[] = {
      "v=fv[] n=fn[] f=sff[] c=sfc[] p=sfp[] v=sfv[] n=sfn[]",
      lower::spline, KINORA_RSL_REF(ref::spline), kPure, 4,
      "Value at x of the spline through the knots (Catmull-Rom unless a basis is named)."},
-    {"arraylength", "f=f[] f=c[] f=p[] f=v[] f=n[] f=m[] f=s[]", lower::arraylength,
-     KINORA_RSL_REF(ref::arraylength), kConstantResult, 0, "How many elements an array has."},
     {"Du", "f=f c=c v=p v=v v=n", lower::derivative<jit::Op::Du>, KINORA_RSL_REF(ref::Du),
      kDerivative, 8, "Derivative along u.", kSurface | kDisplacement | kVolume},
     {"Dv", "f=f c=c v=p v=v v=n", lower::derivative<jit::Op::Dv>, KINORA_RSL_REF(ref::Dv),

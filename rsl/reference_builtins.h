@@ -10,7 +10,6 @@
     F(radians) F(degrees) F(sin) F(cos) F(tan) F(asin) F(acos) F(atan) F(exp) F(log) F(sqrt)  \
     F(inversesqrt) F(pow) F(mod) F(abs) F(sign) F(floor) F(ceil) F(round) F(min) F(max)       \
     F(clamp) F(mix) F(step) F(smoothstep) F(filterstep) F(spline) F(Du) F(Dv) F(Deriv)        \
-    F(arraylength)                                                                            \
     F(xcomp) F(ycomp) F(zcomp) F(setxcomp) F(setycomp) F(setzcomp) F(length) F(normalize)     \
     F(distance) F(ptlined) F(rotate) F(area) F(faceforward) F(reflect) F(refract) F(fresnel)  \
     F(transform) F(vtransform) F(ntransform) F(mtransform) F(depth) F(calculatenormal)        \

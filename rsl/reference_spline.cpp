@@ -87,12 +87,6 @@ void spline(RefCall<Real>& c) {
     c.set(Number(high));
     if (falls ? at_low <= x.x : x.x <= at_low) c.set(Number(0));
 }
-template <class Real>
-void arraylength(RefCall<Real>& c) {
-    c.set(Dual<Real>(Real(c.arrays[0].size())));
-}
-
-KINORA_RSL_DEFINE_REF(arraylength)
 KINORA_RSL_DEFINE_REF(spline)
 
 }  // namespace kinora::rsl::ref

@@ -7,16 +7,9 @@ float total(float a[]; float n) {
 void fill(output color ramp[3]; color base) {
     ramp[0] = base; ramp[1] = base * 0.5; ramp[2] = 1 - base;
 }
-float mean(float a[]) {
-    uniform float i, n = arraylength(a), sum = 0;
-    for (i = 0; i < n; i += 1) sum += a[i];
-    return sum / n;
-}
-surface function_arrays(string maps[2] = {"a", "b"}) {
+surface function_arrays() {
     float w[5] = {1, 2, 3, 4, 5};
     color ramp[3];
     fill(ramp, Cs);
     Ci = (ramp[0] + ramp[1] + ramp[2]) * total(w, 5) * 0.05;
-    uniform float u[3] = {1, 2, 3};
-    Ci += mean(w) + mean(u) + arraylength(ramp) + arraylength(maps);
 }
