@@ -19,13 +19,13 @@ constexpr size_t kMaxBytes = 0x7fffffff;  // places are 32 bits
 std::optional<Document> read_document_text(const std::string& path, std::string bytes,
                                            Diagnostics& diag) {
     auto no_text = [&] { return Location{diag.files.add(path, {}), 0, 0}; };
-    if (trim(bytes).empty()) {
-        diag.report(Code::XML_EMPTY, no_text());
-        return std::nullopt;
-    }
     DecodedText decoded = decode_text(std::move(bytes));
     if (!decoded.error.empty()) {
         diag.report(Code::XML_ENCODING, no_text(), decoded.error);
+        return std::nullopt;
+    }
+    if (trim(decoded.text).empty()) {  // a byte order mark alone is nothing, either
+        diag.report(Code::XML_EMPTY, no_text());
         return std::nullopt;
     }
     if (decoded.text.size() > kMaxBytes) {

@@ -66,6 +66,8 @@ TEST(Document, KnowsWhatIsNoXml) {
         std::string bytes, code;
     } cases[] = {{"", "XML_EMPTY"},
                  {" \n\t", "XML_EMPTY"},
+                 {"\xef\xbb\xbf", "XML_EMPTY"},
+                 {"\xff\xfe", "XML_EMPTY"},
                  {"\x1f\x8b\x08...", "XML_ENCODING"},
                  {"PK\x03\x04...", "XML_ENCODING"},
                  {"version https://git-lfs.github.com/spec/v1\n", "XML_ENCODING"},
