@@ -67,6 +67,7 @@ void NodePlaces::walk(uint32_t root) {
 
 // As the scene is built (SceneBuilder::add_skin).
 NodePlaces::SkinPoses NodePlaces::skin_poses(uint32_t place, const MeshInstance& mesh) const {
+    constexpr size_t kMostAsked = 10'000;  // joints tell alike; a short file can name millions
     const Skin& skin = scene_.skins[mesh.skin];
     std::vector<bool> used(skin.inverse_bind.size());
     for (int32_t joint : skin.influence_joints)
@@ -78,6 +79,7 @@ NodePlaces::SkinPoses NodePlaces::skin_poses(uint32_t place, const MeshInstance&
         uint32_t node = mesh.joint_nodes[j];
         if (node == kNone || place_of_[node] == kNone) continue;
         joints.push_back(place_of_[node]);
+        if (rest.joints.size() == kMostAsked) continue;
         rest.joints.push_back({places_[joints.back()].world, skin.inverse_bind[j]});
         start.joints.push_back({places_[joints.back()].start, skin.inverse_bind[j]});
         if (used[j]) moving.push_back(rest.joints.back());
