@@ -1,8 +1,9 @@
 // rsl/fold.cpp: values of parameter defaults that need no running.
 #include <algorithm>
-#include <cfloat>
-#include <cmath>
 
+#include "rsl/builtin.h"
+#include "rsl/lower_analysis.h"
+#include "rsl/reference.h"
 #include "rsl/usage.h"
 
 namespace kinora::rsl {
@@ -21,52 +22,43 @@ std::optional<ConstantValue> of(Numbers values) {
     return ConstantValue{std::move(values), {}, false};
 }
 
-std::optional<ConstantValue> fold(const Expr&) {
-    return {};
+// What messages and queries may know before a kernel runs: no geometry, whose numbers depend on the
+// space they are asked from.
+bool is_plain(Type type) {
+    return !type.is_array() && (type.base == BaseType::Float || type.base == BaseType::Color ||
+                                type.base == BaseType::String || type.base == BaseType::Bool);
+}
+
+bool is_computed(const CallExpr& e) {
+    auto plain = [](const Expr* argument) { return is_plain(argument->type); };
+    return e.builtin && e.builtin->effects == kPure && !e.channel && is_plain(e.type) &&
+           std::all_of(e.args.begin(), e.args.end(), plain);
+}
+
+// Does the value follow from the expression alone?
+bool is_closed(const Expr& e) {
+    bool closed = true;
+    if (auto* variable = as_if<VariableExpr>(&e))
+        closed = variable->symbol->global && variable->symbol->global->id == Global::PI;
+    else if (auto* call = as_if<CallExpr>(&e))
+        closed = is_computed(*call);
+    else if (auto* cast = as_if<CastExpr>(&e))
+        closed = !cast->space || cast->to == BaseType::Color;
+    else
+        closed = e.kind != ExprKind::Assign && e.kind != ExprKind::Index &&
+                 e.kind != ExprKind::ArrayLiteral;
+    for_each_operand(e, [&](const Expr* operand) { closed = closed && is_closed(*operand); });
+    return closed;
+}
+
+std::optional<ConstantValue> fold(const Expr& e) {
+    return is_closed(e) ? evaluate_constant(e) : std::nullopt;
 }
 std::optional<ConstantValue> fold(const NumberExpr& e) {
     return of({float(e.value)});
 }
 std::optional<ConstantValue> fold(const StringExpr& e) {
     return ConstantValue{{}, {std::string(e.value)}, false};
-}
-std::optional<ConstantValue> fold(const VariableExpr& e) {
-    bool pi = e.symbol && e.symbol->global && e.symbol->global->id == Global::PI;
-    return pi ? of({3.14159265358979323846f}) : std::nullopt;
-}
-std::optional<ConstantValue> fold(const UnaryExpr& e) {
-    auto value = e.op == Op::Negate ? numbers(*e.operand) : std::nullopt;
-    if (!value) return {};
-    for (float& x : *value) x = -x;
-    return of(*std::move(value));
-}
-
-// Componentwise arithmetic; products of matrices are left to the compiler.
-std::optional<ConstantValue> fold(const BinaryExpr& e) {
-    if (e.type.base == BaseType::Matrix) return {};
-    auto a = numbers(*e.left), b = numbers(*e.right);
-    if (!a || !b || a->size() != b->size()) return {};
-    for (size_t i = 0; i < a->size(); ++i) {
-        float &x = (*a)[i], y = (*b)[i];
-        switch (e.op) {
-            case Op::Add:
-                x += y;
-                break;
-            case Op::Subtract:
-                x -= y;
-                break;
-            case Op::Multiply:
-                x *= y;
-                break;
-            case Op::Divide:
-                x = std::fabs(y) < FLT_MIN ? 0.0f
-                                           : x / y;  // as shaders divide (EXTREMES.md row 47)
-                break;
-            default:
-                return {};
-        }
-    }
-    return of(*std::move(a));
 }
 
 std::optional<ConstantValue> fold_items(std::span<Expr* const> items) {
@@ -105,6 +97,7 @@ std::optional<ConstantValue> in_shader_space(const CastExpr& e) {
     return ConstantValue{*std::move(values), {}, true};
 }
 std::optional<ConstantValue> fold(const CastExpr& e) {
+    if (e.space && e.to == BaseType::Color) return fold(static_cast<const Expr&>(e));
     if (e.space) return in_shader_space(e);
     std::optional<ConstantValue> value = fold_constant(*e.operand);
     if (!value || e.operand->type.base == e.to) return value;

@@ -164,6 +164,7 @@ void Lowering::enter_layer() {
     symbol_base_ = int(slots_.size());
     slots_.resize(slots_.size() + ast().symbol_count);
     array_of_.assign(ast().symbol_count, -1);
+    lent_slot_.assign(ast().symbol_count, -1);
     in_memory_ = memory_arrays(ast());
     inline_path = inline_path * 31 + 7;
     recursive_.clear();

@@ -296,7 +296,8 @@ Target* LowerCall::output_pair(std::string_view name) {
     return nullptr;
 }
 
-// The body in place of the call. Output arguments are copied in and out, arrays are shared.
+// The body in place of the call. A variable that is an output argument is the parameter while the
+// body runs; elements and components are copied in and out. Other parameters are values.
 Lowered Lowering::call_function(const CallExpr& e) {
     const Function& f = *e.function;
     CallArguments arguments{std::vector<Lowered>(e.args.size()), std::vector<Target>(e.args.size()),
@@ -305,8 +306,8 @@ Lowered Lowering::call_function(const CallExpr& e) {
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
         if (parameter.type.is_array()) {
-            arrays[k] = f.recursive ? array_of(*as<VariableExpr>(*e.args[k]).symbol)
-                                    : array_argument(*e.args[k], parameter);
+            arrays[k] =
+                f.recursive ? array_of(*as<VariableExpr>(*e.args[k]).symbol) : array_argument(e, k);
         } else if (parameter.output) {
             targets[k] = target(*e.args[k]);
             values[k] = load(targets[k]);
@@ -319,6 +320,8 @@ Lowered Lowering::call_function(const CallExpr& e) {
         const Symbol& parameter = *f.parameters[k];
         if (arrays[k] >= 0) {
             array_of_[parameter.id] = arrays[k];
+        } else if (targets[k].lends(parameter)) {
+            lent_slot_[parameter.id] = targets[k].slot;
         } else {
             values[k].type = parameter.type.base;
             write_slot(slot_of(parameter), values[k]);
@@ -331,21 +334,36 @@ Lowered Lowering::call_function(const CallExpr& e) {
     path_factor = factor;
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
-        Slot& slot = slots_[size_t(slot_of(parameter))];
-        if (arrays[k] < 0 && parameter.output) store(targets[k], slot.value);
-        if (arrays[k] < 0) slot.live = false;
-        array_of_[parameter.id] = -1;
+        if (arrays[k] >= 0) {
+            array_of_[parameter.id] = -1;
+        } else if (lent_slot_[parameter.id] >= 0) {
+            lent_slot_[parameter.id] = -1;
+        } else {
+            Slot& slot = slots_[size_t(slot_of(parameter))];
+            if (parameter.output) store(targets[k], slot.value);
+            slot.live = false;
+        }
     }
     return result;
 }
 
-// An array handed to a function: itself, or a copy where the function writes to a value parameter.
-int Lowering::array_argument(const Expr& argument, const Symbol& parameter) {
-    int array = array_of(*as<VariableExpr>(argument).symbol);
-    if (parameter.output || !parameter.assigned) return array;
+// An array handed to a function: itself, or a copy where the function writes to a value parameter
+// or to the same array by another name.
+int Lowering::array_argument(const CallExpr& e, size_t k) {
+    auto symbol = [&](const Expr* argument) {
+        auto* variable = as_if<VariableExpr>(argument);
+        return variable ? variable->symbol : nullptr;
+    };
+    const Expr& argument = *e.args[k];
+    const Symbol& parameter = *e.function->parameters[k];
+    bool written = parameter.assigned;
+    for (size_t i = 0; i < e.args.size(); ++i)
+        written |= e.function->parameters[i]->output && symbol(e.args[i]) == symbol(&argument);
+    int array = array_of(*symbol(&argument));
+    if (parameter.output || !written) return array;
     std::vector<Lowered> values = array_values(argument);
     int copy = make_array(parameter, {parameter.type.base, int(values.size())});
-    for (size_t k = 0; k < values.size(); ++k) store_element(copy, b.i(int(k)), values[k]);
+    for (size_t i = 0; i < values.size(); ++i) store_element(copy, b.i(int(i)), values[i]);
     return copy;
 }
 

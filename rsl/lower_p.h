@@ -40,6 +40,11 @@ struct Target {
     int array = -1;                  // index in Lowering's arrays
     Value index = jit::kNone;        // element, int
     Value component = jit::kNone;    // int 0..2, or none: all
+
+    // Is it a whole variable that may stand for this parameter?
+    bool lends(const Symbol& parameter) const {
+        return slot >= 0 && component == jit::kNone && type == parameter.type.base;
+    }
 };
 
 // A call to a built-in: what its row's `lower` function sees. It sets `result` (of the type that
@@ -332,7 +337,7 @@ class Lowering : public Emitter {
     int outside_slot(const Outside& outside) const;
     void store_outside(const Outside& outside, const std::vector<Lowered>& values);
     std::vector<Lowered> outside_values(const Outside& outside);
-    int array_argument(const Expr& argument, const Symbol& parameter);
+    int array_argument(const CallExpr& e, size_t k);
     void return_from(const ReturnStmt& stmt);
     Space variable_space(Value name);
     void unknown_space(const std::string& name, Location where);
@@ -350,6 +355,7 @@ class Lowering : public Emitter {
     int merge_number_ = 0;
     int symbol_base_ = int(Global::Count);  // slot of symbol 0 of this layer's Ast
     std::vector<int> array_of_;             // by Symbol::id, -1: none yet
+    std::vector<int> lent_slot_;  // by Symbol::id: an output parameter's argument; -1: its own
     std::vector<Array> arrays_;
     std::vector<uint8_t> in_memory_;  // by Symbol::id
     std::vector<Loop> loops_;

@@ -223,10 +223,12 @@ struct Lowering::Activation {
         : low(lowering),
           builder(std::move(lowering.b)),
           slots(lowering.slots_),
-          array_of(lowering.array_of_) {
+          array_of(lowering.array_of_),
+          lent_slot(lowering.lent_slot_) {
         low.b = jit::Builder(builder.module(), index);
         for (Slot& slot : low.slots_) slot.live = false;
         std::fill(low.array_of_.begin(), low.array_of_.end(), -1);
+        std::fill(low.lent_slot_.begin(), low.lent_slot_.end(), -1);
         swap();
         low.in_loop_ = false;
         low.current_set = low.current_record = low.path_handed_in = jit::kNone;
@@ -238,6 +240,7 @@ struct Lowering::Activation {
         swap();
         low.slots_ = std::move(slots);
         low.array_of_ = std::move(array_of);
+        low.lent_slot_ = std::move(lent_slot);
         low.in_loop_ = in_loop;
         low.current_set = set, low.current_record = record, low.path_handed_in = path;
         low.inline_path = inline_path;
@@ -257,7 +260,7 @@ struct Lowering::Activation {
     Lowering& low;
     jit::Builder builder;
     std::vector<Slot> slots;
-    std::vector<int> array_of;
+    std::vector<int> array_of, lent_slot;
     std::vector<Undo> trail;
     std::vector<Loop> loops;
     std::vector<FunctionFrame> frames;

@@ -6,6 +6,7 @@
 namespace kinora::rsl {
 
 int Lowering::slot_of(const Symbol& symbol) const {
+    if (int lent = lent_slot_[symbol.id]; lent >= 0) return lent;
     return symbol.global ? int(symbol.global->id) : symbol_base_ + int(symbol.id);
 }
 

@@ -18,8 +18,16 @@ auto Reference<Real>::global(Global id) -> Item& {
     return found->second;
 }
 
+// The variable that an output parameter stands for, or the variable itself.
 template <class Real>
-auto Reference<Real>::storage(const Symbol& symbol) -> Storage& {
+const Symbol& Reference<Real>::means(const Symbol& symbol) const {
+    auto found = stands_for_.find(&symbol);
+    return found == stands_for_.end() ? symbol : *found->second;
+}
+
+template <class Real>
+auto Reference<Real>::storage(const Symbol& named) -> Storage& {
+    const Symbol& symbol = means(named);
     Storage& items = variables_[&symbol];
     size_t length = symbol.type.is_array() ? size_t(std::max(symbol.type.array_length, 1)) : 1;
     if (items.size() < length) items.resize(length, Item(symbol.type.base));
@@ -63,7 +71,7 @@ auto Reference<Real>::place(const Expr& target, int* component) -> Item* {
         Storage& items = storage(*as<VariableExpr>(*node->array).symbol);
         return &items[index(*node->index, items.size())];
     }
-    const Symbol& symbol = *as<VariableExpr>(target).symbol;
+    const Symbol& symbol = means(*as<VariableExpr>(target).symbol);
     return symbol.global ? &global(symbol.global->id) : &storage(symbol)[0];
 }
 
@@ -260,6 +268,17 @@ void Reference<Real>::run_again(const Function& f) {
     loop_counters = std::move(counters);
 }
 
+// What an output parameter stands for while the body runs: a variable that is its argument. A
+// function that calls itself copies in and out, as elements and components do.
+template <class Real>
+const Symbol* Reference<Real>::lent(const CallExpr& e, size_t k) const {
+    const Symbol& parameter = *e.function->parameters[k];
+    auto* variable = as_if<VariableExpr>(e.args[k]);
+    if (!variable || !parameter.output || e.function->recursive) return nullptr;
+    const Symbol& symbol = means(*variable->symbol);
+    return symbol.type.base == parameter.type.base ? &symbol : nullptr;
+}
+
 // Arguments are copied in before the body runs and, if output, copied out after it.
 template <class Real>
 auto Reference<Real>::call_function(const CallExpr& e) -> Item {
@@ -273,7 +292,15 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
     if (f.recursive)
         for (auto& [symbol, items] : variables_)
             if (symbol->function && !encloses(symbol->function, f.parent)) kept[symbol] = items;
-    for (size_t k = 0; k < e.args.size(); ++k) variables_[f.parameters[k]] = values[k];
+    auto stood_for = stands_for_, stand_for = stands_for_;
+    for (size_t k = 0; k < e.args.size(); ++k) {
+        stand_for.erase(f.parameters[k]);
+        if (const Symbol* symbol = lent(e, k))
+            stand_for[f.parameters[k]] = symbol;
+        else
+            variables_[f.parameters[k]] = values[k];
+    }
+    stands_for_ = std::move(stand_for);
     uint32_t path = inline_path;
     inline_path = inline_path * 31 + e.site + 1;
     Item outer = std::exchange(returned_, Item(f.result.base));
@@ -283,8 +310,9 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
     std::vector<Storage> outputs;
     for (const Symbol* parameter : f.parameters) outputs.push_back(variables_[parameter]);
     for (auto& [symbol, items] : kept) variables_[symbol] = items;
+    stands_for_ = std::move(stood_for);
     for (size_t k = 0; k < e.args.size(); ++k) {
-        if (!f.parameters[k]->output) continue;
+        if (!f.parameters[k]->output || lent(e, k)) continue;
         Storage& after = outputs[k];
         if (e.args[k]->type.is_array())
             storage(*as<VariableExpr>(*e.args[k]).symbol) = after;
@@ -453,6 +481,18 @@ ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInpu
     if (layers.empty()) return {};
     return Reference<Real>(layers, inputs).run();
 }
+
+std::optional<ConstantValue> evaluate_constant(const Expr& expr) {
+    ReferenceInputs nothing;
+    Reference<float> reference({}, nothing);
+    RefValue<float> value = reference.expr(expr);
+    if (!reference.result.missing.empty()) return {};
+    if (value.type == BaseType::String) return ConstantValue{{}, {value.text()}, false};
+    ConstantValue constant;
+    for (size_t k = 0; k < value.size(); ++k) constant.numbers.push_back(value.c[k].x);
+    return constant;
+}
+
 #define KINORA_REFERENCE_METHODS(Real)                                         \
     template auto Reference<Real>::expr(const Expr&)->Item;                    \
     template auto Reference<Real>::convert(const Item&, BaseType) const->Item; \

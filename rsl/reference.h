@@ -59,4 +59,8 @@ struct ReferenceResult {
 template <class Real>
 ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInputs& inputs);
 
+// The value of an expression that names nothing but PI and calls pure built-ins only. Nothing where
+// a built-in has no reference meaning.
+std::optional<ConstantValue> evaluate_constant(const Expr& expr);
+
 }  // namespace kinora::rsl

@@ -57,6 +57,7 @@ template <class Real>
 auto Reference<Real>::first_value(Global id) -> Item {
     const GlobalInfo& info = global_info(id);
     BaseType type = info.type.base;
+    if (id == Global::PI) return spread(type, Real(3.14159265358979323846));
     bool light_shader = layer->shader->kind == ShaderKind::Light;
     if (!((info.readers | info.writers) & in_kind(layer->shader->kind))) return Item(type);
     for (const ParamBinding& bound : layer->params)  // Cs, Os
@@ -77,8 +78,6 @@ auto Reference<Real>::first_value(Global id) -> Item {
             return spread(type, Real(1));
         case Global::ncomps:
             return spread(type, Real(3));
-        case Global::PI:
-            return spread(type, Real(3.14159265358979323846));
         case Global::Ps:
             return light_shader ? input("Ps", type) : first_value(Global::P);
         case Global::Ns:

@@ -186,7 +186,8 @@ class Reference {
   private:
     using Storage = std::vector<Item>;
 
-    Storage& storage(const Symbol& symbol);
+    const Symbol& means(const Symbol& symbol) const;
+    Storage& storage(const Symbol& named);
     Item* place(const Expr& target, int* component);
     size_t index(const Expr& e, size_t length);
     Item binary(Op op, const Item& a, const Item& b);
@@ -201,6 +202,7 @@ class Reference {
     bool compare(Op op, const Item& a, const Item& b);
     Item cast(const CastExpr& e);
     Item assign(const AssignExpr& e);
+    const Symbol* lent(const CallExpr& e, size_t k) const;
     Item call_function(const CallExpr& e);
     bool may_call(const Function& f);
     void run_again(const Function& f);
@@ -226,6 +228,7 @@ class Reference {
     std::span<const Layer> layers_;
     uint64_t jitter_ = 0;  // calls of jittered() so far
     std::unordered_map<const Symbol*, Storage> variables_;
+    std::unordered_map<const Symbol*, const Symbol*> stands_for_;  // output parameters
     std::map<Global, Item> globals_;
     Item returned_;
     int call_depth_ = 0;  // calls of recursive functions

@@ -48,7 +48,7 @@ struct ShaderParameter {
     bool output = false;
     Symbol* symbol = nullptr;
     Expr* default_value = nullptr;          // null: zero
-    std::optional<ConstantValue> constant;  // the default when it folds (no call)
+    std::optional<ConstantValue> constant;  // the default when it folds
 };
 
 // A checked shader. Shaders of one source share its Ast.

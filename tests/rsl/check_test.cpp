@@ -100,7 +100,10 @@ TEST(Check, DefaultsFoldWhereNothingRuns) {
     TestSource source(
         "surface x(float a = 1 + 2 * 3, b = -PI; color c = 0.5, d = color(1, 2, 3) / 2;"
         "point p = point \"shader\" (1, 2, 3); string s[3] = {\"a\", \"b\"}; float e = radians(1);"
-        "float none; matrix m = 2) { Ci = a; }");
+        "float none; matrix m = 2; color hsv = color \"hsv\" (1 / 3.0, 1, 1);"
+        "string t = concat(\"a\", \".tx\"); float big = 2 > 1 ? max(3, 4) : 0, zero = 1 / 0,"
+        "place = xcomp(transform(\"world\", point 1)), time_of = time)"
+        "{ Ci = a; }");
     auto shaders = compiled(source);
     const auto& p = shaders[0]->parameters;
     EXPECT_EQ(p[0].constant->numbers, std::vector<float>({7}));
@@ -110,10 +113,18 @@ TEST(Check, DefaultsFoldWhereNothingRuns) {
     EXPECT_EQ(p[4].constant->numbers, std::vector<float>({1, 2, 3}));
     EXPECT_TRUE(p[4].constant->in_shader_space);
     EXPECT_EQ(p[5].constant->strings, std::vector<std::string>({"a", "b", ""}));
-    EXPECT_FALSE(p[6].constant);
+    EXPECT_FLOAT_EQ(p[6].constant->numbers.at(0), 0.01745329252f);
     EXPECT_EQ(p[7].constant->numbers, std::vector<float>({0}));
     EXPECT_EQ(p[8].constant->numbers[5], 2);
     EXPECT_EQ(p[8].constant->numbers[1], 0);
+    ASSERT_EQ(p[9].constant->numbers.size(), 3u);
+    for (size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(p[9].constant->numbers[k], k == 1 ? 1 : 0, 1e-6) << k;  // green
+    EXPECT_EQ(p[10].constant->strings, std::vector<std::string>({"a.tx"}));
+    EXPECT_EQ(p[11].constant->numbers, std::vector<float>({4}));
+    EXPECT_EQ(p[12].constant->numbers, std::vector<float>({0}));  // EXTREMES.md row 47
+    EXPECT_FALSE(p[13].constant);                                 // spaces are the renderer's
+    EXPECT_FALSE(p[14].constant);
 }
 
 TEST(Check, SpatialDefaultsThatAreWrittenOutAreInShaderSpace) {

@@ -102,6 +102,37 @@ TEST(LowerControl, OutputParametersAreCopiedBack) {
         "float twice(output float x;) { float old = x; x *= 2; return old; }\n");
 }
 
+TEST(LowerControl, OutputParametersAreTheVariablesGivenForThem) {
+    expect_each(
+        "float a = s; if (s > 4) both(a, a); r = a;", [](int s) { return s > 4 ? 6.f : float(s); },
+        "void both(output float x, y;) { y = 5; x += 1; }\n");
+    expect_each(
+        "float k = s; float f(output float x;) { extern float k; x = 5; k += 1; return k; }"
+        "float whole = f(k); r = 10 * whole + k;",
+        [](int) { return 66.f; });
+    // Through two calls and a loop, to a global; elements are copied in and out.
+    expect_each(
+        "float i; for (i = 0; i < 3; i += 1) outer(s, s); r = s;",
+        [](int s) { return float(s + 12); },
+        "void inner(output float x; output float y;) { float j; for (j = 0; j < 2; j += 1) { x += "
+        "1;"
+        " y += 1; } }\nvoid outer(output float x; output float y;) { inner(y, x); }\n");
+    expect_each(
+        "float a[2] = {1, 2}; swap(a[0], a[1]); r = 10 * a[0] + a[1] + s;",
+        [](int s) { return float(21 + s); },
+        "void swap(output float x, y;) { float old = x; x = y; y = old; }\n");
+}
+
+TEST(LowerControl, OtherParametersAreValues) {
+    expect_each(
+        "float a = s; twice(a, a); r = a;", [](int s) { return float(3 * s); },
+        "void twice(output float x; float y;) { x += y; x += y; }\n");
+    expect_each(
+        "float a[2]; a[0] = s; a[1] = 1; turn(a, a); r = 10 * a[0] + a[1];",
+        [](int s) { return float(10 + s); },
+        "void turn(output float x[2]; float y[2];) { x[0] = y[1]; x[1] = y[0]; }\n");
+}
+
 TEST(LowerControl, NestedFunctionsSeeTheirSurroundings) {
     expect_each(
         "float k = 3; float f(float x;) { extern float k; k += 1; return x * k; } r = f(s) "

@@ -133,6 +133,24 @@ TEST(SurfaceMessage, ShowsALightTheParametersOfWhatItLights) {
     EXPECT_EQ(middle(scene), vec3(5, 3, 4.25f));
 }
 
+TEST(SurfaceMessage, ShowsALightDefaultsThatAreComputed) {
+    SceneText scene = floor_scene(
+        "surface s(float angle = degrees(PI / 2); color green = color \"hsv\" (1 / 3.0, 1, 1);"
+        " string map = concat(\"oak\", \".tx\");) {"
+        " Oi = 1; illuminance(P, normalize(N), PI/2) Ci = Cl; }");
+    scene.rsl_light(
+        "lamp",
+        "light lamp() { solar(vector \"world\" (0, 0, -1), 0) { color c = 0; float a = 0;"
+        " string m = \"\"; float ok = surface(\"angle\", a); ok += surface(\"green\", c);"
+        " ok += surface(\"map\", m);"
+        " Cl = m == \"oak.tx\" ? color(ok, a, 2 * comp(c, 1) + comp(c, 0)) : color(0);"
+        " } }");
+    vec3 got = middle(scene);
+    EXPECT_EQ(got.x, 3);
+    EXPECT_NEAR(got.y, 90, 1e-4);
+    EXPECT_NEAR(got.z, 2, 1e-5);
+}
+
 TEST(SurfaceMessage, ShowsADisplacementTheSurfaceAboveIt) {
     SceneText scene = floor_scene(
         "displacement d(output float got = 0;) { float k = 0; float ok = surface(\"Kd\", k);"
