@@ -262,8 +262,13 @@ std::string ShaderWriter::user_call(BaseType type, int depth) {
     for (const UserFunction& f : functions_) {
         if (f.result != type || chance(30)) continue;
         std::string text;
+        Variable* given = nullptr;  // the last output argument: another may be the same variable
         for (const Signature::Argument& a : f.arguments) {
-            Variable* v = a.output ? output_variable(a.type.base, false, 1) : nullptr;
+            Variable* v = nullptr;
+            if (a.output && given && given->type == a.type.base && chance(40))
+                v = given;
+            else if (a.output)
+                v = given = output_variable(a.type.base, false, 1);
             if (a.output && !v) return "";
             text += (text.empty() ? "" : ", ") + (v ? v->name : value(a.type.base, depth - 1));
         }
