@@ -175,6 +175,13 @@ struct OutputPlane {
     bool in_file = true;  // false: only an imager reads it
 };
 
+// What dicing made at load.
+struct DiceStats {
+    double ms = 0;
+    size_t triangles = 0, vertices = 0;
+    double pixels = 0;  // edge length used; more than asked for where the limit bound
+};
+
 class Shading;  // runtime/shading.h
 
 struct Scene {
@@ -205,12 +212,7 @@ struct Scene {
 
     double time = 0, shutter = 0;  // of the last evaluate, seconds
 
-    // What dicing made at load.
-    struct {
-        double ms = 0;
-        size_t triangles = 0, vertices = 0;
-        double pixels = 0;  // edge length used; more than asked for where the limit bound
-    } dice;
+    DiceStats dice;
 
     dvec3 origin{0.0};
     double size = 1;  // diagonal of the first frame's bounds

@@ -1,20 +1,13 @@
 // runtime/programs/kinora_render.cpp: a scene to a sequence of pictures.
-#include <fmt/format.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <set>
 
-#include "rsl/renderer_services.h"
 #include "runtime/base/parallel.h"
-#include "runtime/base/shown_path.h"
 #include "runtime/findings.h"
 #include "runtime/frame.h"
 #include "runtime/import_scene.h"
@@ -23,9 +16,11 @@
 #include "runtime/programs/contact_sheet.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/finish.h"
+#include "runtime/programs/frames_to_render.h"
 #include "runtime/programs/list_scene.h"
+#include "runtime/programs/render_fingerprint.h"
 #include "runtime/programs/render_options.h"
-#include "runtime/texture_name.h"
+#include "runtime/programs/render_stats.h"
 
 namespace kinora {
 
@@ -42,14 +37,6 @@ void on_signal(int number) {
     g_signal = number;
     alarm(kStopSeconds);
 }
-
-struct FrameRecord {
-    int64_t frame;
-    std::string file;
-    FrameStats stats;
-    double write_ms = 0;
-    bool skipped = false;
-};
 
 class Render {
   public:
@@ -68,7 +55,8 @@ class Render {
         dump();
         if (options_.output.empty() && options_.contact_sheet.empty()) return flush_findings();
         int code = frames();
-        if (options_.stats) print_stats();
+        if (options_.stats)
+            print_stats(options_, {load_ms_, build_ms_, first_ray_ms_, scene_->dice}, records_);
         return code;
     }
 
@@ -82,8 +70,6 @@ class Render {
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
     int one_frame(int64_t frame, double time, size_t index);
-    std::string fingerprint(double time) const;
-    void print_stats() const;
     SceneOptions scene_options() const;
     int scaled(double pixels) const {
         return int(std::clamp(std::round(pixels * options_.scale), 1.0, 65536.0));
@@ -102,7 +88,7 @@ class Render {
     FrameRate rate_;
     Stopwatch since_start_;
     double load_ms_ = 0, build_ms_ = 0, first_ray_ms_ = 0;
-    XXH64_hash_t scene_hash_ = 0;
+    uint64_t scene_hash_ = 0;
 };
 
 int Render::exit_code_of_findings(int otherwise) const {
@@ -225,70 +211,6 @@ void Render::dump() const {
                 std::printf("; stage %s\n%s\n", stage.c_str(), text.c_str());
 }
 
-// What the picture depends on: all texts read, the options, the engine, the time.
-std::string Render::fingerprint(double time) const {
-    const RenderOptions& o = options_;
-    std::string text = fmt::format(
-        "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} rays {} {} filter {} {} "
-        "seed {} shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time "
-        "{:a}",
-        KINORA_VERSION, scene_hash_, settings_.width, settings_.height, o.quality.name,
-        o.quality.samples_per_pixel, int(o.quality.math), o.quality.robust,
-        o.quality.always_rebuild, o.quality.ray_depth, o.quality.diffuse_depth, o.filter,
-        o.filter_width, o.seed, int(o.shadows), int(o.nan), int(o.color), o.camera,
-        o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), int(o.quality.displacement),
-        o.quality.dice, o.dice_limit, time);
-    if (o.background)
-        text +=
-            fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
-    text += fmt::format(" imager {} aovs {} light samples {} transparency {}", o.imager,
-                        fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
-    text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
-                        fmt::join(o.only, ","), o.clip);
-    for (const auto* changes : {&o.shaders, &o.params})
-        for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
-    return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
-}
-
-// Files that strings of shaders name: parameters, their defaults, literals. Before the first frame:
-// then strings that shaders put together come to these.
-std::set<std::string> named_files(const SceneDescription& description) {
-    std::set<std::string> files;
-    for (int32_t id = 1; id < rsl::interned_count(); ++id) {
-        std::string name = parse_texture_name(rsl::interned(id)).path;
-        if (name.empty() || name.find('\0') != std::string::npos) continue;
-        auto [path, outside] = description.readable.find(name);
-        std::error_code code;
-        if (!outside && std::filesystem::is_regular_file(path, code)) files.insert(path);
-    }
-    return files;
-}
-
-XXH64_hash_t hash_inputs(const Diagnostics& diagnostics, const SceneDescription& description) {
-    XXH64_hash_t hash = 0;
-    for (FileId f = 0; f < diagnostics.files.count(); ++f) {
-        std::string_view text = diagnostics.files.text(f);
-        hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);
-    }
-    // Textures and buffers by name, size and time of change.
-    auto add_file = [&](const std::string& text) {
-        std::error_code code;
-        std::filesystem::path path(text.substr(0, text.find('\x1f')));
-        auto size = std::filesystem::file_size(path, code);
-        std::string stamp = shown_path(text) + (code ? "" : fmt::format("{}", size));
-        auto time = std::filesystem::last_write_time(path, code);
-        if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
-        hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
-    };
-    for_each_shader_use(description, [&](const ShaderUse& use) {
-        for (const ParamSource& source : use.params)
-            for (const std::string& text : source.strings) add_file(text);
-    });
-    for (const std::string& file : description.inputs) add_file(file);
-    for (const std::string& file : named_files(description)) add_file(file);
-    return hash;
-}
-
 int Render::report_unwritable(const std::string& file, const std::string& error, int number) {
     diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, file, error);
     flush_findings();
@@ -315,7 +237,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     FrameRecord& record = records_.emplace_back();
     record.frame = frame;
     if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
-    std::string print = fingerprint(time);
+    std::string print = fingerprint(options_, scene_hash_, settings_.width, settings_.height, time);
     bool wants_file = !record.file.empty();
     if (wants_file && options_.skip_existing &&
         read_image_text(record.file, "kinora/fingerprint") == print) {
@@ -364,7 +286,6 @@ void catch_signals() {
 
 int Render::frames() {
     catch_signals();
-    const SceneDescription& description = *scene_->description;
     double aspect = camera_aspect(*scene_).value_or(16.0 / 9.0);
     double width = options_.width ? options_.width : 640;
     settings_.width = scaled(width);
@@ -374,43 +295,17 @@ int Render::frames() {
     settings_.integrator.filter_width = options_.filter_width;
     settings_.integrator.background = options_.background;
     settings_.integrator.nan = options_.nan;
-    std::vector<std::pair<int64_t, double>> list;  // frame, time
-    if (options_.time) {
-        list.emplace_back(std::llround(*options_.time * rate_.value()), *options_.time);
-    } else if (options_.frames) {
-        for (int64_t frame : *options_.frames) list.emplace_back(frame, rate_.time(frame));
-    } else {
-        double first_frame = std::round(scene_->options.start_time * rate_.value());
-        double last_frame = std::round(scene_->options.end_time * rate_.value());
-        // As far as --frames goes.
-        bool sound = std::abs(first_frame) < 1e12 && std::abs(last_frame) < 1e12;
-        if (!sound || last_frame - first_frame >= kMostFrames) {
-            std::fprintf(stderr,
-                         "kinora-render: the scene plays from %g to %g seconds, more than %lld "
-                         "frames; choose with --frames or --time\n",
-                         scene_->options.start_time, scene_->options.end_time,
-                         static_cast<long long>(kMostFrames));
-            return kExitUsage;
-        }
-        int64_t first = int64_t(first_frame), last = int64_t(last_frame);
-        for (int64_t frame = first; frame <= last; ++frame)
-            list.emplace_back(frame, rate_.time(frame));
-    }
-    if (list.size() > 1 && !options_.output.empty() && !OutputName(options_.output).has_token()) {
-        std::fprintf(stderr,
-                     "kinora-render: %zu frames need a frame token in -o, like %s; or choose one "
-                     "with --frames\n",
-                     list.size(), "f.####.png");
-        return kExitUsage;
-    }
+    const SceneOptions& played = scene_->options;
+    auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
+    if (!list) return kExitUsage;
     if (!options_.contact_sheet.empty())
         if (int code = refuse_unwritable(options_.contact_sheet)) return code;
     if (!options_.output.empty()) remove_stale_images(options_.output);
-    scene_hash_ = hash_inputs(diagnostics_, description);
-    progress_ = ProgressReport(options_.progress, list.size());
+    scene_hash_ = hash_inputs(diagnostics_.files, *scene_->description);
+    progress_ = ProgressReport(options_.progress, list->size());
     int result = kExitOk;
-    for (size_t i = 0; i < list.size(); ++i) {
-        int code = one_frame(list[i].first, list[i].second, i);
+    for (size_t i = 0; i < list->size(); ++i) {
+        int code = one_frame((*list)[i].first, (*list)[i].second, i);
         if (code == kExitOk) continue;
         if (g_signal) {
             progress_.clear();
@@ -426,73 +321,6 @@ int Render::frames() {
         if (!error.empty()) return report_unwritable(options_.contact_sheet, error, number);
     }
     return result;
-}
-
-void Render::print_stats() const {
-    jit::CacheStats cache = jit::cache_stats();
-    const jit::Target& target = options_.target ? *options_.target : jit::best_target();
-    if (!options_.stats_json) {
-        for (const FrameRecord& r : records_) {
-            if (r.skipped) continue;
-            const FrameStats& s = r.stats;
-            std::printf(
-                "frame %lld: %.2f ms = animate %.2f skin %.2f refit %.2f trace %.2f shade %.2f; "
-                "write %.2f; %.2f Mrays/s, %.2f Mpoints/s\n",
-                static_cast<long long>(r.frame), s.total, s.animate, s.skin, s.refit, s.trace,
-                s.shade, r.write_ms, double(s.rays) / s.total * 1e-3,
-                double(s.shading_points) / s.total * 1e-3);
-        }
-        std::printf(
-            "target %s (%d lanes), %d threads; load %.1f ms, build %.1f ms, first ray after %.1f "
-            "ms; %zu kernels in %.2f ms, %zu bytes of code; peak memory %.1f MB\n",
-            target.name, target.lanes, thread_count(), load_ms_, build_ms_, first_ray_ms_,
-            cache.kernels, cache.total_ms, cache.code_bytes, double(peak_memory_bytes()) * 1e-6);
-        if (scene_->dice.triangles)
-            std::printf("diced to %zu triangles, %zu vertices of %.3g pixels in %.1f ms\n",
-                        scene_->dice.triangles, scene_->dice.vertices, scene_->dice.pixels,
-                        scene_->dice.ms);
-        return;
-    }
-    nlohmann::ordered_json json;
-    json["target"] = target.name;
-    json["lanes"] = target.lanes;
-    json["threads"] = thread_count();
-    json["load_ms"] = load_ms_;
-    json["build_ms"] = build_ms_;
-    json["first_ray_ms"] = first_ray_ms_;
-    json["kernels"] = cache.kernels;
-    json["compile_ms"] = cache.total_ms;
-    json["code_bytes"] = cache.code_bytes;
-    json["peak_memory_bytes"] = peak_memory_bytes();
-    json["dice_ms"] = scene_->dice.ms;
-    json["dice_triangles"] = scene_->dice.triangles;
-    json["dice_pixels"] = scene_->dice.pixels;
-    json["frames"] = nlohmann::ordered_json::array();
-    for (const FrameRecord& r : records_) {
-        const FrameStats& s = r.stats;
-        nlohmann::ordered_json frame = {{"frame", r.frame}, {"file", r.file}};
-        if (r.skipped) {
-            frame["skipped"] = true;
-        } else {
-            frame.update({{"total_ms", s.total},
-                          {"animate_ms", s.animate},
-                          {"skin_ms", s.skin},
-                          {"displace_ms", s.displace},
-                          {"refit_ms", s.refit},
-                          {"trace_ms", s.trace},
-                          {"shade_ms", s.shade},
-                          {"write_ms", r.write_ms},
-                          {"rays", s.rays},
-                          {"rays_per_second", double(s.rays) / s.total * 1e3},
-                          {"shading_points", s.shading_points},
-                          {"points_per_second", double(s.shading_points) / s.total * 1e3},
-                          {"refits", s.refits},
-                          {"rebuilds", s.rebuilds},
-                          {"non_finite", s.non_finite}});
-        }
-        json["frames"].push_back(std::move(frame));
-    }
-    std::printf("%s\n", json.dump(2).c_str());
 }
 
 }  // namespace

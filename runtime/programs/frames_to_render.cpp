@@ -1,0 +1,42 @@
+// runtime/programs/frames_to_render.cpp: frames by number, by time, or all that the scene plays.
+#include "runtime/programs/frames_to_render.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace kinora {
+
+std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
+    const RenderOptions& options, FrameRate rate, double start, double end) {
+    std::vector<std::pair<int64_t, double>> list;
+    if (options.time) {
+        list.emplace_back(std::llround(*options.time * rate.value()), *options.time);
+    } else if (options.frames) {
+        for (int64_t frame : *options.frames) list.emplace_back(frame, rate.time(frame));
+    } else {
+        double first_frame = std::round(start * rate.value());
+        double last_frame = std::round(end * rate.value());
+        // As far as --frames goes.
+        bool sound = std::abs(first_frame) < 1e12 && std::abs(last_frame) < 1e12;
+        if (!sound || last_frame - first_frame >= kMostFrames) {
+            std::fprintf(stderr,
+                         "kinora-render: the scene plays from %g to %g seconds, more than %lld "
+                         "frames; choose with --frames or --time\n",
+                         start, end, static_cast<long long>(kMostFrames));
+            return std::nullopt;
+        }
+        int64_t first = int64_t(first_frame), last = int64_t(last_frame);
+        for (int64_t frame = first; frame <= last; ++frame)
+            list.emplace_back(frame, rate.time(frame));
+    }
+    if (list.size() > 1 && !options.output.empty() && !OutputName(options.output).has_token()) {
+        std::fprintf(stderr,
+                     "kinora-render: %zu frames need a frame token in -o, like %s; or choose one "
+                     "with --frames\n",
+                     list.size(), "f.####.png");
+        return std::nullopt;
+    }
+    return list;
+}
+
+}  // namespace kinora

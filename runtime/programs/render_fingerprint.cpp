@@ -1,0 +1,82 @@
+// runtime/programs/render_fingerprint.cpp: hashes of what a picture depends on.
+#include "runtime/programs/render_fingerprint.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <filesystem>
+#include <set>
+
+#include "rsl/renderer_services.h"
+#include "runtime/base/shown_path.h"
+#include "runtime/texture_name.h"
+
+namespace kinora {
+
+namespace {
+
+// Files that strings of shaders name: parameters, their defaults, literals. Before the first frame:
+// then strings that shaders put together come to these.
+std::set<std::string> named_files(const SceneDescription& description) {
+    std::set<std::string> files;
+    for (int32_t id = 1; id < rsl::interned_count(); ++id) {
+        std::string name = parse_texture_name(rsl::interned(id)).path;
+        if (name.empty() || name.find('\0') != std::string::npos) continue;
+        auto [path, outside] = description.readable.find(name);
+        std::error_code code;
+        if (!outside && std::filesystem::is_regular_file(path, code)) files.insert(path);
+    }
+    return files;
+}
+
+}  // namespace
+
+uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description) {
+    XXH64_hash_t hash = 0;
+    for (FileId f = 0; f < texts.count(); ++f) {
+        std::string_view text = texts.text(f);
+        hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);
+    }
+    // Textures and buffers by name, size and time of change.
+    auto add_file = [&](const std::string& text) {
+        std::error_code code;
+        std::filesystem::path path(text.substr(0, text.find('\x1f')));
+        auto size = std::filesystem::file_size(path, code);
+        std::string stamp = shown_path(text) + (code ? "" : fmt::format("{}", size));
+        auto time = std::filesystem::last_write_time(path, code);
+        if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
+        hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
+    };
+    for_each_shader_use(description, [&](const ShaderUse& use) {
+        for (const ParamSource& source : use.params)
+            for (const std::string& text : source.strings) add_file(text);
+    });
+    for (const std::string& file : description.inputs) add_file(file);
+    for (const std::string& file : named_files(description)) add_file(file);
+    return hash;
+}
+
+std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int height,
+                        double time) {
+    std::string text = fmt::format(
+        "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} rays {} {} filter {} {} "
+        "seed {} shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time "
+        "{:a}",
+        KINORA_VERSION, inputs, width, height, o.quality.name, o.quality.samples_per_pixel,
+        int(o.quality.math), o.quality.robust, o.quality.always_rebuild, o.quality.ray_depth,
+        o.quality.diffuse_depth, o.filter, o.filter_width, o.seed, int(o.shadows), int(o.nan),
+        int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0),
+        int(o.quality.displacement), o.quality.dice, o.dice_limit, time);
+    if (o.background)
+        text +=
+            fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
+    text += fmt::format(" imager {} aovs {} light samples {} transparency {}", o.imager,
+                        fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
+    text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
+                        fmt::join(o.only, ","), o.clip);
+    for (const auto* changes : {&o.shaders, &o.params})
+        for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
+    return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+}  // namespace kinora

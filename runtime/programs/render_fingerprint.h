@@ -1,0 +1,21 @@
+// runtime/programs/render_fingerprint.h: what a picture depends on, for --skip-existing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/programs/render_options.h"
+
+namespace kinora {
+
+// A hash of what was read: the texts; textures, buffers and other files by name, size and time of
+// change. Before the first frame: the names that strings of shaders are then are the same at each
+// run.
+uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description);
+
+// Sixteen hexadecimal digits: what was read, the options, the engine, the picture's size, the time.
+std::string fingerprint(const RenderOptions& options, uint64_t inputs, int width, int height,
+                        double time);
+
+}  // namespace kinora

@@ -1,0 +1,94 @@
+// runtime/programs/render_stats.cpp: times and counts of a run, as text and as JSON.
+#include "runtime/programs/render_stats.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "runtime/base/parallel.h"
+#include "runtime/base/stats.h"
+
+namespace kinora {
+
+namespace {
+
+const jit::Target& target_of(const RenderOptions& options) {
+    return options.target ? *options.target : jit::best_target();
+}
+
+void print_text(const RenderOptions& options, const RunRecord& run,
+                const std::vector<FrameRecord>& frames) {
+    jit::CacheStats cache = jit::cache_stats();
+    const jit::Target& target = target_of(options);
+    for (const FrameRecord& r : frames) {
+        if (r.skipped) continue;
+        const FrameStats& s = r.stats;
+        std::printf(
+            "frame %lld: %.2f ms = animate %.2f skin %.2f refit %.2f trace %.2f shade %.2f; "
+            "write %.2f; %.2f Mrays/s, %.2f Mpoints/s\n",
+            static_cast<long long>(r.frame), s.total, s.animate, s.skin, s.refit, s.trace, s.shade,
+            r.write_ms, double(s.rays) / s.total * 1e-3, double(s.shading_points) / s.total * 1e-3);
+    }
+    std::printf(
+        "target %s (%d lanes), %d threads; load %.1f ms, build %.1f ms, first ray after %.1f "
+        "ms; %zu kernels in %.2f ms, %zu bytes of code; peak memory %.1f MB\n",
+        target.name, target.lanes, thread_count(), run.load_ms, run.build_ms, run.first_ray_ms,
+        cache.kernels, cache.total_ms, cache.code_bytes, double(peak_memory_bytes()) * 1e-6);
+    if (run.dice.triangles)
+        std::printf("diced to %zu triangles, %zu vertices of %.3g pixels in %.1f ms\n",
+                    run.dice.triangles, run.dice.vertices, run.dice.pixels, run.dice.ms);
+}
+
+void print_json(const RenderOptions& options, const RunRecord& run,
+                const std::vector<FrameRecord>& frames) {
+    jit::CacheStats cache = jit::cache_stats();
+    const jit::Target& target = target_of(options);
+    nlohmann::ordered_json json;
+    json["target"] = target.name;
+    json["lanes"] = target.lanes;
+    json["threads"] = thread_count();
+    json["load_ms"] = run.load_ms;
+    json["build_ms"] = run.build_ms;
+    json["first_ray_ms"] = run.first_ray_ms;
+    json["kernels"] = cache.kernels;
+    json["compile_ms"] = cache.total_ms;
+    json["code_bytes"] = cache.code_bytes;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    json["dice_ms"] = run.dice.ms;
+    json["dice_triangles"] = run.dice.triangles;
+    json["dice_pixels"] = run.dice.pixels;
+    json["frames"] = nlohmann::ordered_json::array();
+    for (const FrameRecord& r : frames) {
+        const FrameStats& s = r.stats;
+        nlohmann::ordered_json frame = {{"frame", r.frame}, {"file", r.file}};
+        if (r.skipped) {
+            frame["skipped"] = true;
+        } else {
+            frame.update({{"total_ms", s.total},
+                          {"animate_ms", s.animate},
+                          {"skin_ms", s.skin},
+                          {"displace_ms", s.displace},
+                          {"refit_ms", s.refit},
+                          {"trace_ms", s.trace},
+                          {"shade_ms", s.shade},
+                          {"write_ms", r.write_ms},
+                          {"rays", s.rays},
+                          {"rays_per_second", double(s.rays) / s.total * 1e3},
+                          {"shading_points", s.shading_points},
+                          {"points_per_second", double(s.shading_points) / s.total * 1e3},
+                          {"refits", s.refits},
+                          {"rebuilds", s.rebuilds},
+                          {"non_finite", s.non_finite}});
+        }
+        json["frames"].push_back(std::move(frame));
+    }
+    std::printf("%s\n", json.dump(2).c_str());
+}
+
+}  // namespace
+
+void print_stats(const RenderOptions& options, const RunRecord& run,
+                 const std::vector<FrameRecord>& frames) {
+    (options.stats_json ? print_json : print_text)(options, run, frames);
+}
+
+}  // namespace kinora

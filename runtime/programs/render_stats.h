@@ -1,0 +1,31 @@
+// runtime/programs/render_stats.h: what --stats tells of a run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/frame.h"
+#include "runtime/programs/render_options.h"
+
+namespace kinora {
+
+struct FrameRecord {
+    int64_t frame;
+    std::string file;
+    FrameStats stats;
+    double write_ms = 0;
+    bool skipped = false;
+};
+
+// Times in ms from the start of the program's work.
+struct RunRecord {
+    double load_ms = 0, build_ms = 0, first_ray_ms = 0;
+    DiceStats dice;
+};
+
+// To stdout, as text or JSON.
+void print_stats(const RenderOptions& options, const RunRecord& run,
+                 const std::vector<FrameRecord>& frames);
+
+}  // namespace kinora
