@@ -1,49 +1,18 @@
-// runtime/build_displacement.cpp: meshes whose shaders move vertices: diced for the closest view of
-// the range played, and moved, once or ready to be at each frame.
-//
-// How fine a mesh is diced depends on the scene, its camera, the range played and the size of the
-// picture, not on which frames are rendered: a frame is the same alone and in a sequence.
+// runtime/build_displacement.cpp: meshes whose shaders move vertices: found, diced, and moved, once
+// or ready to be at each frame.
 #include <algorithm>
 #include <array>
-#include <glm/matrix.hpp>
 #include <map>
 
 #include "runtime/base/stats.h"
+#include "runtime/build_displacement_p.h"
 #include "runtime/build_mesh.h"
-#include "runtime/build_scene_p.h"
 #include "runtime/deform.h"
-#include "runtime/findings.h"
-#include "runtime/frame.h"
 #include "runtime/vertex_work.h"
 
 namespace kinora {
 
 namespace {
-
-// A camera, and where the base mesh's vertices are for it.
-struct DiceView {
-    raytrace::Camera camera;
-    dmat4 accel_from_pose{1.0};
-    std::vector<vec4> pose;  // of deforming meshes; empty: the rest positions
-
-    bool same(const DiceView& o) const {
-        return pose.empty() && o.pose.empty() && accel_from_pose == o.accel_from_pose &&
-               camera.eye == o.camera.eye && camera.right == o.camera.right &&
-               camera.up == o.camera.up && camera.half_width == o.camera.half_width;
-    }
-};
-
-constexpr int kViewSamples = 8;    // of the range played, and its end
-constexpr double kCoarser = 1.25;  // from one try to the next where the limit binds
-constexpr double kCoarsest = 1e7;  // pixels: nothing is split any more
-// Halving leaves edges between half of the longest and the longest: their mean is to be as asked.
-constexpr double kLongest = 1.41421356;
-
-dvec3 point(std::span<const vec4> pose, const uint32_t corners[3], DicePoint at) {
-    dvec3 sum(0.0);
-    for (int k = 0; k < 3; ++k) sum += double(at.weight(k)) / kDiceOne * dvec3(pose[corners[k]]);
-    return sum;
-}
 
 const VertexAttribute* find_own(const PrimitiveGroup& group, std::string_view semantic) {
     for (const VertexAttribute& a : group.attributes)
@@ -53,20 +22,6 @@ const VertexAttribute* find_own(const PrimitiveGroup& group, std::string_view se
 
 }  // namespace
 
-// Shapes that share one displaced mesh: several only where it is displaced once and alike.
-struct SceneBuilder::Displaced {
-    std::vector<uint32_t> shapes;
-    std::vector<std::vector<uint32_t>> surfaces;  // by shape, by group
-    std::vector<uint8_t> diced;                   // by group
-    bool deforms = false;                         // a skin or morph
-    bool each_frame = false;
-    std::vector<DiceView> views;
-    Mesh base;
-    std::optional<DicedMesh> made;
-
-    bool any_diced() const { return std::find(diced.begin(), diced.end(), 1) != diced.end(); }
-};
-
 void SceneBuilder::displace() {
     std::vector<Displaced> all = find_displaced();
     if (all.empty()) return;
@@ -75,6 +30,7 @@ void SceneBuilder::displace() {
     bool any = std::any_of(all.begin(), all.end(), [](const auto& d) { return d.any_diced(); });
     if (any) find_views(all);
     dice(all);
+    watch_edges(all);
     for (Displaced& displaced : all) wear(displaced);
     bake_static(scene);
     deform_now();
@@ -128,105 +84,6 @@ std::vector<SceneBuilder::Displaced> SceneBuilder::find_displaced() {
         result.push_back(std::move(found));
     }
     return result;
-}
-
-void SceneBuilder::find_views(std::vector<Displaced>& all) {
-    Scene& scene = *scene_;
-    const SceneOptions& options = scene.options;
-    bool moves = !description_.animation.channels.empty() && options.end_time > options.start_time;
-    double aspect = camera_aspect(scene).value_or(16.0 / 9.0);
-    int width = std::max(options.width, 1);
-    int height = options.height > 0 ? options.height : std::max(1, int(width / aspect + 0.5));
-    for (int s = 0; s <= (moves ? kViewSamples : 0); ++s) {
-        if (moves) {
-            double along = double(s) / kViewSamples;
-            evaluate(options.start_time + (options.end_time - options.start_time) * along);
-            deform_now();
-        }
-        if (raytrace::is_error(place_camera(scene, width, height))) continue;
-        for (Displaced& displaced : all)
-            for (uint32_t h : displaced.shapes) {
-                const Shape& shape = scene.shapes[h];
-                DiceView view;
-                view.camera = scene.view;
-                if (displaced.deforms) {
-                    view.pose = shape.positions;
-                } else {
-                    view.accel_from_pose = scene.nodes[shape.node].world * shape.conversion;
-                    dmat4 from_anchor(1.0), to_accel(1.0);
-                    from_anchor[3] = dvec4(displaced.base.anchor, 1.0);
-                    to_accel[3] = dvec4(-scene.origin, 1.0);
-                    view.accel_from_pose = to_accel * view.accel_from_pose * from_anchor;
-                }
-                bool seen = std::any_of(displaced.views.begin(), displaced.views.end(),
-                                        [&](const DiceView& v) { return v.same(view); });
-                if (!seen) displaced.views.push_back(std::move(view));
-            }
-    }
-    if (!moves) return;
-    evaluate(options.start_time);
-    deform_now();
-    place_camera(scene, width, height);
-}
-
-// `pixels`, or more where a coarse try tells that it would take more than twice the limit: fine
-// tries that fail cost much more.
-double SceneBuilder::coarse_enough(std::vector<Displaced>& all, double pixels) {
-    constexpr double kProbe = 8;
-    double limit = double(scene_->options.dice_limit), base = 0, probed = 0;
-    while (pixels < kCoarsest && !dice_to(all, kProbe * pixels, scene_->options.dice_limit))
-        pixels *= kProbe;
-    for (const Displaced& displaced : all) {
-        if (!displaced.any_diced() || !displaced.made) continue;
-        for (const MeshGroup& group : displaced.base.groups)
-            base += double(group.triangles.size() / 3);
-        probed += double(displaced.made->triangles());
-    }
-    double added = (probed - base) * kProbe * kProbe;
-    for (; base + added > 2 * limit && pixels < kCoarsest; pixels *= kCoarser)
-        added /= kCoarser * kCoarser;
-    return pixels;
-}
-
-void SceneBuilder::dice(std::vector<Displaced>& all) {
-    Scene& scene = *scene_;
-    const SceneOptions& options = scene.options;
-    double pixels = coarse_enough(all, std::max(options.dice, 1e-3));
-    while (pixels < kCoarsest && !dice_to(all, pixels, options.dice_limit)) pixels *= kCoarser;
-    if (pixels >= kCoarsest) dice_to(all, pixels, ~size_t(0) / 2);
-    if (pixels > std::max(options.dice, 1e-3))
-        diagnostics_.report(Code::DICE_LIMIT, Location{}, pixels, options.dice, options.dice_limit);
-    scene.dice.pixels = pixels;
-    for (const Displaced& displaced : all) {
-        if (!displaced.any_diced()) continue;
-        scene.dice.triangles += displaced.made->triangles();
-        scene.dice.vertices += displaced.made->mesh.positions.size();
-    }
-}
-
-// False when all together come to more than `limit` triangles.
-bool SceneBuilder::dice_to(std::vector<Displaced>& all, double pixels, size_t limit) {
-    size_t used = 0;
-    for (Displaced& displaced : all) {
-        const Mesh& base = displaced.base;
-        auto too_long = [&](const uint32_t corners[3], DicePoint a, DicePoint b) {
-            if (pixels >= kCoarsest) return false;
-            return std::any_of(
-                displaced.views.begin(), displaced.views.end(), [&](const DiceView& view) {
-                    std::span<const vec4> pose = view.pose.empty() ? base.positions : view.pose;
-                    dvec3 from(view.accel_from_pose * dvec4(point(pose, corners, a), 1.0));
-                    dvec3 to(view.accel_from_pose * dvec4(point(pose, corners, b), 1.0));
-                    return edge_pixels(view.camera, from, to) > kLongest * pixels;
-                });
-        };
-        bool counts = displaced.any_diced();
-        displaced.made.reset();
-        displaced.made =
-            dice_mesh(base, displaced.diced, too_long, counts ? limit - used : ~size_t(0) / 2);
-        if (!displaced.made) return false;
-        if (counts) used += displaced.made->triangles();
-    }
-    return true;
 }
 
 namespace {
@@ -357,7 +214,7 @@ void SceneBuilder::wear(Displaced& from) {
         Shape& shape = scene.shapes[h];
         shape.mesh = index;
         if (!once)
-            make_deforming(shape, *uses_[from.surfaces[0][0]], made);
+            make_deforming(shape, *uses_[from.surfaces[0][0]], made, from.watched);
         else if (instanced)
             shape.kind = raytrace::GeometryKind::Instanced;
         bool own = shape.kind != raytrace::GeometryKind::Instanced;
@@ -369,10 +226,21 @@ void SceneBuilder::wear(Displaced& from) {
     first.vertex_work = std::move(work);
 }
 
-void SceneBuilder::make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced) {
+void SceneBuilder::make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced,
+                                  WatchedEdges* watched) {
     Scene& scene = *scene_;
+    bool was_deforming = shape.kind == raytrace::GeometryKind::Deforming;
     shape.kind = raytrace::GeometryKind::Deforming;
     const Mesh& mesh = scene.meshes[shape.mesh];
+    skin::SkinRepairs told;  // by the mesh as read
+    if (watched && was_deforming) {
+        const std::vector<Stencil>& vertices = watched->vertices;
+        if (shape.morph != kNone)
+            watched->morph = dice_morph(scene.morphs[shape.morph_data], vertices, {});
+        watched->skin = skin_mesh_of(use, vertices.size(), {}, &vertices, told);
+        watched->morphed.resize(vertices.size());
+        watched->posed.resize(vertices.size());
+    }
     if (shape.morph != kNone) {
         scene.morphs.push_back(dice_morph(scene.morphs[shape.morph_data], diced.position_stencils,
                                           diced.normal_stencils));
@@ -380,8 +248,8 @@ void SceneBuilder::make_deforming(Shape& shape, const MeshUse& use, const DicedM
         shape.morphed_positions.resize(mesh.positions.size());
         shape.morphed_normals.resize(mesh.normals.size());
     }
-    skin::SkinRepairs told;  // by the mesh as read
-    build_skin_mesh(use, shape, &diced.position_stencils, told);
+    shape.skin_mesh = skin_mesh_of(use, mesh.positions.size(), mesh.normal_positions,
+                                   &diced.position_stencils, told);
     if (shape.skin == kNone) {
         shape.palette.resize(2);  // joint -1, and the node's matrix
         shape.displaced_positions.resize(mesh.positions.size());

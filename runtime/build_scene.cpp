@@ -11,6 +11,7 @@
 #include "runtime/build_scene_p.h"
 #include "runtime/defaults.h"
 #include "runtime/deform.h"
+#include "runtime/dice_error.h"
 #include "runtime/findings.h"
 #include "runtime/point_store.h"
 #include "runtime/shading.h"
@@ -55,13 +56,18 @@ void play_clip(SceneDescription& description, const ClipDefinition& clip) {
 }
 
 SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
-                           const SceneOptions& options, Diagnostics& diagnostics)
-    : description_(*description), diagnostics_(diagnostics), scene_(std::make_unique<Scene>()) {
+                           const SceneOptions& options, Diagnostics& diagnostics,
+                           const BuildAgain* again)
+    : description_(*description),
+      diagnostics_(diagnostics),
+      again_(again),
+      scene_(std::make_unique<Scene>()) {
     scene_->description = std::move(description);
     scene_->options = options;
     scene_->accel = raytrace::Accel(options.accel);
     scene_->textures =
-        std::make_shared<TextureStore>(description_.readable, options.decode_textures);
+        again ? again->textures
+              : std::make_shared<TextureStore>(description_.readable, options.decode_textures);
     scene_->points = std::make_shared<PointStore>(description_.readable);
 }
 
@@ -75,17 +81,19 @@ std::unique_ptr<Scene> SceneBuilder::run() {
     place_cameras();
     if (!choose_camera()) return nullptr;
     place_lights();
-    if (!make_looks()) return nullptr;
-    preload_textures(description_, *scene_->textures);
+    if (stopped() || !make_looks()) return nullptr;
+    if (!again_) preload_textures(description_, *scene_->textures);
     displace();
+    if (stopped()) return nullptr;
     finish_rows();
     scene_->shading = std::make_unique<Shading>(*scene_);
     return std::move(scene_);
 }
 
 std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
-                                   const SceneOptions& options, Diagnostics& diagnostics) {
-    return SceneBuilder(std::move(description), options, diagnostics).run();
+                                   const SceneOptions& options, Diagnostics& diagnostics,
+                                   const BuildAgain* again) {
+    return SceneBuilder(std::move(description), options, diagnostics, again).run();
 }
 
 // ---- nodes

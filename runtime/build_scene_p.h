@@ -21,7 +21,7 @@ inline constexpr size_t kBakedTriangles = 200'000;
 class SceneBuilder {
   public:
     SceneBuilder(std::shared_ptr<SceneDescription> description, const SceneOptions& options,
-                 Diagnostics& diagnostics);
+                 Diagnostics& diagnostics, const BuildAgain* again);
     std::unique_ptr<Scene> run();
 
   private:
@@ -39,8 +39,9 @@ class SceneBuilder {
                                      const MeshDefinition& base_definition, bool relative);
     void add_skin(const MeshUse& use, uint32_t node, Shape& shape);
     void convert_skin(uint32_t node, Shape& shape);
-    void build_skin_mesh(const MeshUse& use, Shape& shape, const std::vector<Stencil>* stencils,
-                         skin::SkinRepairs& repairs);
+    skin::SkinMesh skin_mesh_of(const MeshUse& use, size_t vertices,
+                                std::span<const uint32_t> normal_positions,
+                                const std::vector<Stencil>* stencils, skin::SkinRepairs& repairs);
     Bounds bounds_now() const;
     Bounds played_bounds();
     void deform_now();
@@ -86,18 +87,24 @@ class SceneBuilder {
     const MaterialDefinition& default_material();
 
     // build_displacement.cpp: meshes diced, vertices moved
-    struct Displaced;
+    struct Displaced;  // build_displacement_p.h
     void displace();
     std::vector<Displaced> find_displaced();
+    void wear(Displaced& from);
+    void make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced,
+                        WatchedEdges* watched);
+    // build_dicing.cpp: for which views, how finely
     void find_views(std::vector<Displaced>& all);
+    void add_views(std::vector<Displaced>& all);
     void dice(std::vector<Displaced>& all);
     double coarse_enough(std::vector<Displaced>& all, double pixels);
     bool dice_to(std::vector<Displaced>& all, double pixels, size_t limit);
-    void wear(Displaced& from);
-    void make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced);
+    void watch_edges(std::vector<Displaced>& all);
+    bool stopped() const { return again_ && again_->stop && *again_->stop; }
 
     SceneDescription& description_;
     Diagnostics& diagnostics_;
+    const BuildAgain* again_;
     std::unique_ptr<Scene> scene_;
     std::vector<bool> definition_moves_;
     std::map<uint32_t, uint32_t> first_occurrence_;

@@ -242,7 +242,9 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         if (space == SkinSpace::NodeBelow) shape.placed_below = shared;
     }
     skin::SkinRepairs repairs;
-    build_skin_mesh(use, shape, nullptr, repairs);
+    const Mesh& mesh = scene.meshes[shape.mesh];
+    shape.skin_mesh =
+        skin_mesh_of(use, mesh.positions.size(), mesh.normal_positions, nullptr, repairs);
     shape.palette.resize(joints + 1);
     if (repairs.weight_sum)
         diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
@@ -251,19 +253,18 @@ void SceneBuilder::add_skin(const MeshUse& use, uint32_t node, Shape& shape) {
         diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
 }
 
-// The influences of the shape's mesh: as the file has them, or between its vertices where the mesh
-// was diced.
-void SceneBuilder::build_skin_mesh(const MeshUse& use, Shape& shape,
-                                   const std::vector<Stencil>* stencils,
-                                   skin::SkinRepairs& repairs) {
-    const Mesh& mesh = scene_->meshes[shape.mesh];
+// The influences of a mesh: as the file has them, or between its vertices where the mesh was diced.
+skin::SkinMesh SceneBuilder::skin_mesh_of(const MeshUse& use, size_t vertices,
+                                          std::span<const uint32_t> normal_positions,
+                                          const std::vector<Stencil>* stencils,
+                                          skin::SkinRepairs& repairs) {
     skin::InfluenceSource source;
-    std::vector<uint32_t> first(mesh.positions.size() + 1, 0);
+    std::vector<uint32_t> first(vertices + 1, 0);
     std::vector<int32_t> joints;
     std::vector<double> weights;
     if (use.skin == kNone) {  // a morph alone: one matrix moves everything
-        joints.assign(mesh.positions.size(), 0);
-        weights.assign(mesh.positions.size(), 1.0);
+        joints.assign(vertices, 0);
+        weights.assign(vertices, 1.0);
         for (size_t i = 0; i < first.size(); ++i) first[i] = uint32_t(i);
         source.joint_count = 1;
     } else {
@@ -277,7 +278,7 @@ void SceneBuilder::build_skin_mesh(const MeshUse& use, Shape& shape,
     source.first = first;
     source.joints = joints;
     source.weights = weights;
-    shape.skin_mesh = skin::build_skin(source, mesh.normal_positions, &repairs);
+    return skin::build_skin(source, normal_positions, &repairs);
 }
 
 }  // namespace kinora

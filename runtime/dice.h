@@ -25,6 +25,10 @@ struct DicePoint {
     }
 };
 
+// Halving leaves edges between half of the longest and the longest: for their mean to be as asked,
+// none may be longer than this times what is asked.
+inline constexpr double kLongestEdge = 1.41421356;
+
 // What one triangle becomes: points 0, 1, 2 are its corners; triangles wind as it does. Empty:
 // itself alone.
 struct DicedTriangle {

@@ -8,6 +8,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/deform.h"
+#include "runtime/dice_error.h"
 #include "runtime/findings.h"
 #include "runtime/texture_store.h"
 #include "runtime/transforms.h"
@@ -168,10 +169,8 @@ std::optional<double> camera_aspect(const Scene& scene) {
     return raytrace::picture_aspect(optics_of(scene));
 }
 
-bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
-                  FrameStats& stats, Diagnostics& diagnostics, const raytrace::Progress* progress) {
-    stats = {};
-    StageTimer total(stats.total);
+bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameStats& stats,
+                Diagnostics& diagnostics) {
     {
         StageTimer timer(stats.animate);
         anim::evaluate(scene.description->animation, time, scene.values, scene.changed);
@@ -183,6 +182,11 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     {
         StageTimer timer(stats.skin);
         pose(scene);
+        stats.dice_error = dice_error(scene);
+        stats.too_coarse =
+            settings.most_dice_error > 0 && stats.dice_error > settings.most_dice_error;
+        // What changed stays marked, so that the next frame moves it.
+        if (stats.too_coarse) return false;
         stats.displace = deform(scene);
         for (Shape& shape : scene.shapes)
             if (shape.vertex_work) shape.vertex_work->report(mesh_id(scene, shape), diagnostics);
@@ -197,7 +201,14 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     }
     scene.first_frame = false;
     std::fill(scene.changed.begin(), scene.changed.end(), 0);
+    return true;
+}
 
+bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
+                  FrameStats& stats, Diagnostics& diagnostics, const raytrace::Progress* progress) {
+    stats = {};
+    StageTimer total(stats.total);
+    if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
     prepare_planes(scene, film);
     scene.shading->stop_by(settings.stop);
     scene.shading->begin_frame(time, settings.shutter, settings.integrator.seed,

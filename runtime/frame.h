@@ -22,21 +22,30 @@ struct FrameStats {
     uint64_t shading_points = 0;
     uint64_t non_finite = 0;
     int refits = 0, rebuilds = 0;
+    double dice_error = 0;    // runtime/dice_error.h
+    bool too_coarse = false;  // the frame was let go for that
 };
 
 struct FrameSettings {
     int width = 640, height = 360;
     double shutter = 0;                      // seconds
+    double most_dice_error = 0;              // 0: any
     const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
     raytrace::IntegratorSettings integrator;
 };
 
 // Renders the scene at a time into the film (linear, associated alpha). Findings: camera errors,
-// shader faults, non-finite results. False when the camera makes no picture or `progress` or
-// `stop` stopped the frame. Allocates nothing once no new kernel or texture is met.
+// shader faults, non-finite results. False when the camera makes no picture, displaced meshes are
+// too coarse for it, or `progress` or `stop` stopped the frame. Allocates nothing once no new
+// kernel or texture is met.
 bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
                   FrameStats& stats, Diagnostics& diagnostics,
                   const raytrace::Progress* progress = nullptr);
+
+// What render_frame does before the first ray: brings all that moves to the time. False when the
+// camera makes no picture or displaced meshes are too coarse for it.
+bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameStats& stats,
+                Diagnostics& diagnostics);
 
 // Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
 raytrace::CameraStatus place_camera(Scene& scene, int width, int height);

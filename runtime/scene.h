@@ -6,6 +6,7 @@
 // "current" is camera space (x right, y up, z into the picture).
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <set>
@@ -26,9 +27,10 @@
 
 namespace kinora {
 
-class VertexWork;    // runtime/vertex_work.h
-class TextureStore;  // runtime/texture_store.h
-class PointStore;    // runtime/point_store.h
+class VertexWork;     // runtime/vertex_work.h
+class TextureStore;   // runtime/texture_store.h
+class PointStore;     // runtime/point_store.h
+struct WatchedEdges;  // runtime/dice_error.h
 
 // One occurrence of a node definition; parents come first.
 struct Node {
@@ -213,6 +215,7 @@ struct Scene {
     double time = 0, shutter = 0;  // of the last evaluate, seconds
 
     DiceStats dice;
+    std::vector<std::unique_ptr<WatchedEdges>> watched;  // by displaced mesh that was diced
 
     dvec3 origin{0.0};
     double size = 1;  // diagonal of the first frame's bounds
@@ -231,11 +234,27 @@ struct Scene {
     std::set<std::pair<uint32_t, raytrace::GeometryIssue>> told_issues;  // of rows
 };
 
+// A view that displaced meshes are to be fine enough for, beside those of the range played.
+struct CloserView {
+    double time = 0;                         // seconds: how deforming meshes stand
+    std::optional<raytrace::Camera> camera;  // accel space; none: the scene's own at that time
+};
+
+// A scene built again, from the same description (as import gave it) and options, for one view
+// more. Its accel space is that of the first.
+struct BuildAgain {
+    CloserView view;
+    std::shared_ptr<TextureStore> textures;   // of the first
+    const std::atomic<bool>* stop = nullptr;  // once it is true build_scene gives up
+};
+
 // Unrolls the nodes, places meshes, lights and cameras, lowers and compiles every look. Errors (no
 // such camera, a shader that cannot be compiled) are findings; nothing is returned when the scene
-// cannot be rendered.
+// cannot be rendered. The description is extended (default camera and lights), and loses what no
+// one reads again.
 std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
-                                   const SceneOptions& options, Diagnostics& diagnostics);
+                                   const SceneOptions& options, Diagnostics& diagnostics,
+                                   const BuildAgain* again = nullptr);
 
 // The range the scene plays by itself: MAYA/MAX3D/FCOLLADA extras, else the keys' range.
 struct PlayRange {

@@ -51,20 +51,20 @@ std::vector<uint32_t> find_line_starts(std::string_view text) {
 }  // namespace
 
 FileId SourceFiles::add(std::string name, std::string text) {
-    std::lock_guard lock(mutex_);
-    files_.push_back(std::make_unique<File>(File{std::move(name), std::move(text), {}}));
-    return FileId(files_.size() - 1);
+    std::lock_guard lock(texts_->mutex);
+    texts_->files.push_back(std::make_unique<File>(File{std::move(name), std::move(text), {}}));
+    return FileId(texts_->files.size() - 1);
 }
 
 FileId SourceFiles::count() const {
-    std::lock_guard lock(mutex_);
-    return FileId(files_.size());
+    std::lock_guard lock(texts_->mutex);
+    return FileId(texts_->files.size());
 }
 
 const SourceFiles::File& SourceFiles::at(FileId file) const {
-    std::lock_guard lock(mutex_);
-    CHECK_LT(file, files_.size());
-    return *files_[file];
+    std::lock_guard lock(texts_->mutex);
+    CHECK_LT(file, texts_->files.size());
+    return *texts_->files[file];
 }
 
 const std::string& SourceFiles::name(FileId file) const {
@@ -77,8 +77,8 @@ std::string_view SourceFiles::text(FileId file) const {
 LineColumn SourceFiles::line_column(FileId file, uint32_t offset) const {
     const File& f = at(file);
     {  // lines are looked for when the first finding of a file is printed: most files have none
-        std::lock_guard lock(mutex_);
-        std::vector<uint32_t>& starts = files_[file]->line_starts;
+        std::lock_guard lock(texts_->mutex);
+        std::vector<uint32_t>& starts = texts_->files[file]->line_starts;
         if (starts.empty()) starts = find_line_starts(f.text);
     }
     auto after = std::upper_bound(f.line_starts.begin(), f.line_starts.end(), offset);
@@ -149,6 +149,22 @@ void Diagnostics::sort_unique() {
         if (here.emplace(f.info->code, f.message).second) kept.push_back(std::move(f));
     }
     findings_ = std::move(kept);
+}
+
+void Diagnostics::drop_repeats(size_t first) {
+    std::lock_guard lock(mutex_);
+    for (size_t f = first; f < findings_.size();) {
+        const Finding& last = findings_[f];
+        auto same = [&](const Finding& other) {
+            return other.info == last.info && other.where.file == last.where.file &&
+                   other.where.begin == last.where.begin && other.message == last.message;
+        };
+        auto end = findings_.begin() + ptrdiff_t(f);
+        if (last.severity != Severity::Error && std::any_of(findings_.begin(), end, same))
+            findings_.erase(findings_.begin() + ptrdiff_t(f));
+        else
+            ++f;
+    }
 }
 
 int Diagnostics::count(Severity severity) const {

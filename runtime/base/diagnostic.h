@@ -56,7 +56,8 @@ struct LineColumn {
     int column = 0;  // from 1, in bytes
 };
 
-// The texts that locations speak of. Thread-safe; ids stay valid for the life of the object.
+// The texts that locations speak of. Thread-safe; ids stay valid for the life of the object and of
+// its copies, which share the texts.
 class SourceFiles {
   public:
     // Keeps a copy of `text`.
@@ -73,9 +74,12 @@ class SourceFiles {
         std::string text;
         std::vector<uint32_t> line_starts;
     };
+    struct Texts {
+        std::mutex mutex;
+        std::vector<std::unique_ptr<File>> files;
+    };
     const File& at(FileId file) const;
-    mutable std::mutex mutex_;
-    std::vector<std::unique_ptr<File>> files_;
+    std::shared_ptr<Texts> texts_ = std::make_shared<Texts>();
 };
 
 // A further place that explains a finding: "in expansion of macro 'X'", "first defined here".
@@ -115,6 +119,8 @@ class Diagnostics {
     // Orders findings by file and place (those of one place as reported) and drops all but the
     // first with the same code, place and message.
     void sort_unique();
+    // Drops findings from the `first` on that say what an earlier one says: code, place, message.
+    void drop_repeats(size_t first);
 
   private:
     mutable std::mutex mutex_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "runtime/base/check.h"
 
@@ -19,6 +20,7 @@ namespace {
 int g_threads = 0;  // 0: not set, the machine's count
 std::optional<tbb::global_control> g_limit;
 std::unique_ptr<tbb::task_arena> g_arena;
+thread_local bool t_serial = false;
 
 tbb::task_arena& arena() {
     if (!g_arena) g_arena = std::make_unique<tbb::task_arena>(thread_count());
@@ -44,9 +46,14 @@ int thread_index() {
     return index == tbb::task_arena::not_initialized ? 0 : std::min(index, thread_count() - 1);
 }
 
+SerialScope::SerialScope() : before_(std::exchange(t_serial, true)) {}
+SerialScope::~SerialScope() {
+    t_serial = before_;
+}
+
 void parallel_for(size_t first, size_t last, size_t grain, FunctionRef<void(size_t, size_t)> body) {
     if (first >= last) return;
-    if (thread_count() == 1 || last - first <= grain) return body(first, last);
+    if (t_serial || thread_count() == 1 || last - first <= grain) return body(first, last);
     arena().execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<size_t>(first, last, std::max<size_t>(grain, 1)),

@@ -43,4 +43,16 @@ int thread_index();
 void parallel_for(size_t first, size_t last, size_t grain,
                   FunctionRef<void(size_t begin, size_t end)> body);
 
+// For its scope, parallel_for runs inline on this thread: for work in the background, which must
+// neither wait for the threads of the frame nor be handed to them.
+class SerialScope {
+  public:
+    SerialScope();
+    ~SerialScope();
+    SerialScope(const SerialScope&) = delete;
+
+  private:
+    bool before_;
+};
+
 }  // namespace kinora

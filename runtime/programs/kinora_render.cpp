@@ -21,6 +21,7 @@
 #include "runtime/programs/render_fingerprint.h"
 #include "runtime/programs/render_options.h"
 #include "runtime/programs/render_stats.h"
+#include "runtime/redice.h"
 
 namespace kinora {
 
@@ -70,6 +71,7 @@ class Render {
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
     int one_frame(int64_t frame, double time, size_t index);
+    bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
     SceneOptions scene_options() const;
     int scaled(double pixels) const {
         return int(std::clamp(std::round(pixels * options_.scale), 1.0, 65536.0));
@@ -80,6 +82,7 @@ class Render {
     size_t shown_ = 0;      // findings printed so far
     bool missing_ = false;  // assets, under --strict
     std::unique_ptr<Scene> scene_;
+    std::unique_ptr<Redicer> redicer_;  // null where nothing is diced
     FrameSettings settings_;
     raytrace::Film film_;
     ProgressReport progress_;
@@ -194,9 +197,13 @@ int Render::load() {
     scene_options.frame_rate = rate_.value();
     scene_options.start_time = range.start;
     scene_options.end_time = range.end;
+    if (may_dice(*description, scene_options))
+        redicer_ = std::make_unique<Redicer>(*description, scene_options);
     if (exit_code_of_findings(0) == 0)
         scene_ = build_scene(std::make_shared<SceneDescription>(std::move(*description)),
                              scene_options, diagnostics_);
+    if (!scene_ || !scene_->dice.triangles) redicer_.reset();
+    if (redicer_) redicer_->share(*scene_, diagnostics_.files);
     build_ms_ = watch.ms();
     int strict = flush_findings();
     int code = exit_code_of_findings(scene_ ? kExitOk : kExitUnreadable);
@@ -256,8 +263,8 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     raytrace::Progress progress(on_tile);
     if (first_ray_ms_ == 0) first_ray_ms_ = since_start_.ms();
     ptrdiff_t unwritten = unwritable();
-    bool whole =
-        render_frame(*scene_, time, settings_, film_, record.stats, diagnostics_, &progress);
+    bool whole = picture(record, time, progress);
+    bool baked = unwritable() == unwritten;  // point files
     if (g_signal) return 128 + g_signal;
     if (int missing = flush_findings()) return missing;  // textures are read when they are seen
     if (!whole) return kExitSomeFailed;
@@ -272,7 +279,32 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
     record.write_ms = watch.ms();
     progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
-    return unwritable() == unwritten ? kExitOk : kExitSomeFailed;  // baked point files
+    return baked ? kExitOk : kExitSomeFailed;
+}
+
+// By the scene as loaded; where its displaced meshes are too coarse for the frame, by one diced for
+// it too, so that a picture depends on its frame alone, not on those before. Where the limit of
+// triangles leaves that no finer, by the first after all.
+bool Render::picture(FrameRecord& record, double time, const raytrace::Progress& progress) {
+    auto render = [&](Scene& scene, double most_dice_error) {
+        settings_.most_dice_error = most_dice_error;
+        return render_frame(scene, time, settings_, film_, record.stats, diagnostics_, &progress);
+    };
+    bool whole = render(*scene_, redicer_ ? kMostDiceError : 0);
+    record.dice_error = record.stats.dice_error;
+    if (!record.stats.too_coarse) return whole;
+    Stopwatch watch;
+    diagnostics_.report(Code::DICE_AGAIN, Location{}, time, record.dice_error);
+    std::unique_ptr<Scene> closer = redicer_->make({time, {}}, diagnostics_);
+    record.redice_ms = watch.ms();
+    if (g_signal) return false;
+    if (closer) {
+        double pixels = record.dice_error * scene_->dice.pixels;
+        size_t known = diagnostics_.findings().size();
+        whole = render(*closer, pixels / closer->dice.pixels);
+        diagnostics_.drop_repeats(known);  // a scene tells some things in its first frame
+    }
+    return closer && !record.stats.too_coarse ? whole : render(*scene_, 0);
 }
 
 // From here on a signal lets go of the frame under way; before, it just ends the process.

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
@@ -13,6 +14,16 @@ namespace {
 
 const jit::Target& target_of(const RenderOptions& options) {
     return options.target ? *options.target : jit::best_target();
+}
+
+// Frames that meshes were diced again for, and the ms that took.
+std::pair<size_t, double> rediced(const std::vector<FrameRecord>& frames) {
+    std::pair<size_t, double> sum{0, 0.0};
+    for (const FrameRecord& r : frames) {
+        sum.first += r.redice_ms > 0;
+        sum.second += r.redice_ms;
+    }
+    return sum;
 }
 
 void print_text(const RenderOptions& options, const RunRecord& run,
@@ -36,6 +47,8 @@ void print_text(const RenderOptions& options, const RunRecord& run,
     if (run.dice.triangles)
         std::printf("diced to %zu triangles, %zu vertices of %.3g pixels in %.1f ms\n",
                     run.dice.triangles, run.dice.vertices, run.dice.pixels, run.dice.ms);
+    if (auto [frames_again, ms] = rediced(frames); frames_again)
+        std::printf("diced again for %zu frames in %.1f ms\n", frames_again, ms);
 }
 
 void print_json(const RenderOptions& options, const RunRecord& run,
@@ -56,6 +69,9 @@ void print_json(const RenderOptions& options, const RunRecord& run,
     json["dice_ms"] = run.dice.ms;
     json["dice_triangles"] = run.dice.triangles;
     json["dice_pixels"] = run.dice.pixels;
+    auto [frames_again, again_ms] = rediced(frames);
+    json["redices"] = frames_again;
+    json["redice_ms"] = again_ms;
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& r : frames) {
         const FrameStats& s = r.stats;
@@ -77,7 +93,9 @@ void print_json(const RenderOptions& options, const RunRecord& run,
                           {"points_per_second", double(s.shading_points) / s.total * 1e3},
                           {"refits", s.refits},
                           {"rebuilds", s.rebuilds},
-                          {"non_finite", s.non_finite}});
+                          {"non_finite", s.non_finite},
+                          {"dice_error", r.dice_error},
+                          {"redice_ms", r.redice_ms}});
         }
         json["frames"].push_back(std::move(frame));
     }

@@ -15,6 +15,8 @@ struct FrameRecord {
     std::string file;
     FrameStats stats;
     double write_ms = 0;
+    double dice_error = 0;  // with the scene as loaded
+    double redice_ms = 0;   // 0: that one was fine enough
     bool skipped = false;
 };
 

@@ -91,6 +91,37 @@ TEST(Diagnostics, SeveritiesCanBeOverriddenByCode) {
     EXPECT_EQ(diagnostics.count(Severity::Warning), 1);
 }
 
+TEST(Diagnostics, DropRepeatsKeepsWhatIsNewAndErrors) {
+    Diagnostics diagnostics;
+    Location there{0, 5, 6};
+    diagnostics.report(kOdd, {}, "a", 1);
+    diagnostics.report(kOdd, there, "a", 1);
+    size_t first = diagnostics.findings().size();
+    diagnostics.report(kOdd, {}, "a", 1);
+    diagnostics.report(kOdd, {}, "a", 2);
+    diagnostics.report(kOdd, there, "a", 1);
+    diagnostics.report(kOdd, {}, "a", 2);
+    diagnostics.drop_repeats(first);
+    ASSERT_EQ(diagnostics.findings().size(), 3u);
+    EXPECT_NE(diagnostics.findings()[2].message, diagnostics.findings()[0].message);
+    diagnostics.set_severity("TEST_ODD", Severity::Error);
+    diagnostics.report(kOdd, {}, "a", 1);
+    diagnostics.report(kOdd, {}, "a", 1);
+    diagnostics.drop_repeats(3);
+    EXPECT_EQ(diagnostics.findings().size(), 5u);
+}
+
+TEST(SourceFiles, CopiesShareTheTexts) {
+    SourceFiles files;
+    FileId a = files.add("a", "one\ntwo");
+    SourceFiles copy = files;
+    FileId b = copy.add("b", "three");
+    EXPECT_EQ(files.text(b), "three");
+    EXPECT_EQ(copy.name(a), "a");
+    EXPECT_EQ(copy.line_column(a, 5).line, 2);
+    EXPECT_EQ(files.count(), 2u);
+}
+
 TEST(Diagnostics, TakeReportsFromManyThreads) {
     Diagnostics diagnostics;
     std::vector<std::thread> threads;

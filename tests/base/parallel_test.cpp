@@ -52,6 +52,21 @@ TEST_P(ParallelFor, ThreadIndicesStayBelowTheCountAndAreNotShared) {
     EXPECT_FALSE(shared);
 }
 
+TEST_P(ParallelFor, RunsInlineWhereItsThreadSaysSo) {
+    std::thread background([] {
+        SerialScope serial;
+        std::thread::id own = std::this_thread::get_id();
+        size_t done = 0;
+        parallel_for(0, 1000, 1, [&](size_t begin, size_t end) {
+            EXPECT_EQ(std::this_thread::get_id(), own);
+            EXPECT_EQ(thread_index(), 0);
+            done += end - begin;
+        });
+        EXPECT_EQ(done, 1000u);
+    });
+    background.join();
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 4));
 
 TEST(FunctionRef, CallsWhatItSees) {

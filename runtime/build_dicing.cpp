@@ -1,0 +1,159 @@
+// runtime/build_dicing.cpp: displaced meshes diced for the closest view of the range played.
+//
+// How fine a mesh is diced depends on the scene, its camera, the range played and the size of the
+// picture, not on which frames are rendered: a frame is the same alone and in a sequence.
+#include <algorithm>
+
+#include "runtime/build_displacement_p.h"
+#include "runtime/deform.h"
+#include "runtime/findings.h"
+#include "runtime/frame.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kViewSamples = 8;    // of the range played, and its end
+constexpr double kCoarser = 1.25;  // from one try to the next where the limit binds
+constexpr double kCoarsest = 1e7;  // pixels: nothing is split any more
+
+dvec3 point(std::span<const vec4> pose, const uint32_t corners[3], DicePoint at) {
+    dvec3 sum(0.0);
+    for (int k = 0; k < 3; ++k) sum += double(at.weight(k)) / kDiceOne * dvec3(pose[corners[k]]);
+    return sum;
+}
+
+}  // namespace
+
+// Where the displaced meshes are for the camera, as both stand.
+void SceneBuilder::add_views(std::vector<Displaced>& all) {
+    Scene& scene = *scene_;
+    for (Displaced& displaced : all)
+        for (uint32_t h : displaced.shapes) {
+            const Shape& shape = scene.shapes[h];
+            DiceView view;
+            view.camera = scene.view;
+            if (displaced.deforms) {
+                view.pose = shape.positions;
+            } else {
+                view.accel_from_pose = accel_from_rest(scene, shape, displaced.base.anchor);
+            }
+            bool seen = std::any_of(displaced.views.begin(), displaced.views.end(),
+                                    [&](const DiceView& v) { return v.same(view); });
+            if (!seen) displaced.views.push_back(std::move(view));
+        }
+}
+
+void SceneBuilder::find_views(std::vector<Displaced>& all) {
+    Scene& scene = *scene_;
+    const SceneOptions& options = scene.options;
+    bool moves = !description_.animation.channels.empty() && options.end_time > options.start_time;
+    double aspect = camera_aspect(scene).value_or(16.0 / 9.0);
+    int width = std::max(options.width, 1);
+    int height = options.height > 0 ? options.height : std::max(1, int(width / aspect + 0.5));
+    auto place = [&] { return !raytrace::is_error(place_camera(scene, width, height)); };
+    for (int s = 0; s <= (moves ? kViewSamples : 0) && !stopped(); ++s) {
+        if (moves) {
+            double along = double(s) / kViewSamples;
+            evaluate(options.start_time + (options.end_time - options.start_time) * along);
+            deform_now();
+        }
+        if (place()) add_views(all);
+    }
+    if (again_) {
+        evaluate(again_->view.time);
+        deform_now();
+        bool placed = place();
+        if (again_->view.camera) scene.view = *again_->view.camera;
+        if (placed || again_->view.camera) add_views(all);
+    }
+    if (!moves && !again_) return;
+    evaluate(options.start_time);
+    deform_now();
+    place();
+}
+
+// `pixels`, or more where a coarse try tells that it would take more than twice the limit: fine
+// tries that fail cost much more.
+double SceneBuilder::coarse_enough(std::vector<Displaced>& all, double pixels) {
+    constexpr double kProbe = 8;
+    double limit = double(scene_->options.dice_limit), base = 0, probed = 0;
+    while (pixels < kCoarsest && !dice_to(all, kProbe * pixels, scene_->options.dice_limit))
+        pixels *= kProbe;
+    for (const Displaced& displaced : all) {
+        if (!displaced.any_diced() || !displaced.made) continue;
+        for (const MeshGroup& group : displaced.base.groups)
+            base += double(group.triangles.size() / 3);
+        probed += double(displaced.made->triangles());
+    }
+    double added = (probed - base) * kProbe * kProbe;
+    for (; base + added > 2 * limit && pixels < kCoarsest; pixels *= kCoarser)
+        added /= kCoarser * kCoarser;
+    return pixels;
+}
+
+void SceneBuilder::dice(std::vector<Displaced>& all) {
+    Scene& scene = *scene_;
+    const SceneOptions& options = scene.options;
+    double pixels = coarse_enough(all, std::max(options.dice, 1e-3));
+    while (pixels < kCoarsest && !dice_to(all, pixels, options.dice_limit)) pixels *= kCoarser;
+    if (pixels >= kCoarsest) dice_to(all, pixels, ~size_t(0) / 2);
+    auto told = [](const Finding& finding) { return finding.info == &Code::DICE_LIMIT; };
+    bool known = again_ && std::ranges::any_of(diagnostics_.findings(), told);
+    if (pixels > std::max(options.dice, 1e-3) && !known)
+        diagnostics_.report(Code::DICE_LIMIT, Location{}, pixels, options.dice, options.dice_limit);
+    scene.dice.pixels = pixels;
+    for (const Displaced& displaced : all) {
+        if (!displaced.any_diced()) continue;
+        scene.dice.triangles += displaced.made->triangles();
+        scene.dice.vertices += displaced.made->mesh.positions.size();
+    }
+}
+
+// False when all together come to more than `limit` triangles.
+bool SceneBuilder::dice_to(std::vector<Displaced>& all, double pixels, size_t limit) {
+    size_t used = 0;
+    for (Displaced& displaced : all) {
+        const Mesh& base = displaced.base;
+        auto too_long = [&](const uint32_t corners[3], DicePoint a, DicePoint b) {
+            if (pixels >= kCoarsest || stopped()) return false;
+            return std::any_of(
+                displaced.views.begin(), displaced.views.end(), [&](const DiceView& view) {
+                    std::span<const vec4> pose = view.pose.empty() ? base.positions : view.pose;
+                    dvec3 from(view.accel_from_pose * dvec4(point(pose, corners, a), 1.0));
+                    dvec3 to(view.accel_from_pose * dvec4(point(pose, corners, b), 1.0));
+                    return edge_pixels(view.camera, from, to) > kLongestEdge * pixels;
+                });
+        };
+        bool counts = displaced.any_diced();
+        displaced.made.reset();
+        displaced.made =
+            dice_mesh(base, displaced.diced, too_long, counts ? limit - used : ~size_t(0) / 2);
+        if (!displaced.made) return false;
+        if (counts) used += displaced.made->triangles();
+    }
+    return true;
+}
+
+// Edges of what was diced are kept, so that a frame can tell whether they are short enough for it.
+void SceneBuilder::watch_edges(std::vector<Displaced>& all) {
+    Scene& scene = *scene_;
+    size_t triangles = 0;
+    for (const Displaced& displaced : all)
+        if (displaced.any_diced())
+            triangles += displaced.made->triangles() * displaced.shapes.size();
+    for (Displaced& displaced : all) {
+        if (!displaced.any_diced() || stopped()) continue;
+        const Shape& first = scene.shapes[displaced.shapes[0]];
+        auto watched = std::make_unique<WatchedEdges>();
+        watched->shapes = displaced.shapes;
+        watched->anchor = displaced.base.anchor;
+        dmat3 world(scene.nodes[first.node].world * first.conversion);
+        choose_edges(displaced.base, *displaced.made, displaced.diced, world, displaced.deforms,
+                     triangles, *watched);
+        displaced.watched = watched.get();
+        scene.watched.push_back(std::move(watched));
+    }
+}
+
+}  // namespace kinora

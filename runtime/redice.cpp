@@ -1,0 +1,102 @@
+// runtime/redice.cpp: scenes built again, here or in the background.
+#include "runtime/redice.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/base/parallel.h"
+#include "runtime/findings.h"
+#include "runtime/frame.h"
+
+namespace kinora {
+
+bool may_dice(const SceneDescription& description, const SceneOptions& options) {
+    return options.displacement == DisplacementMode::True &&
+           std::ranges::any_of(description.materials, [](const MaterialDefinition& material) {
+               return !material.displacements.empty();
+           });
+}
+
+Redicer::Redicer(SceneDescription description, const SceneOptions& options)
+    : description_(std::move(description)), options_(options) {
+    options_.want_dumps = false;
+}
+
+Redicer::~Redicer() {
+    give_up();
+}
+
+void Redicer::share(const Scene& first, const SourceFiles& texts) {
+    textures_ = first.textures;
+    points_ = first.points;
+    texts_ = texts;
+}
+
+std::unique_ptr<Scene> Redicer::build(const CloserView& view, Diagnostics& diagnostics,
+                                      const std::atomic<bool>* stop) const {
+    BuildAgain again{view, textures_, stop};
+    return build_scene(std::make_shared<SceneDescription>(description_), options_, diagnostics,
+                       &again);
+}
+
+std::unique_ptr<Scene> Redicer::make(const CloserView& view, Diagnostics& diagnostics) {
+    size_t known = diagnostics.findings().size();
+    std::unique_ptr<Scene> scene = build(view, diagnostics, nullptr);
+    diagnostics.drop_repeats(known);
+    if (scene) scene->points = points_;
+    return scene;
+}
+
+void Redicer::start(const CloserView& view) {
+    give_up();
+    findings_ = std::make_unique<Diagnostics>();
+    findings_->files = texts_;
+    thread_ = std::thread([this, view] {
+        SerialScope serial;
+        try {
+            scene_ = build(view, *findings_, &stop_);
+            if (scene_ && !stop_) {
+                FrameSettings settings;
+                settings.width = scene_->view.width;
+                settings.height = scene_->view.height;
+                FrameStats stats;
+                pose_frame(*scene_, view.time, settings, stats, *findings_);
+            }
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        done_ = true;
+    });
+}
+
+void Redicer::give_up() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+    stop_ = done_ = false;
+    scene_.reset();
+    failure_ = nullptr;
+}
+
+std::unique_ptr<Scene> Redicer::take(Diagnostics& diagnostics) {
+    if (!thread_.joinable()) return nullptr;
+    thread_.join();
+    std::unique_ptr<Scene> scene = std::move(scene_);
+    std::exception_ptr failure = failure_;
+    give_up();
+    if (failure) std::rethrow_exception(failure);
+    size_t known = diagnostics.findings().size();
+    auto limit = [](const Finding& f) { return f.info == &Code::DICE_LIMIT; };
+    bool limit_told = std::ranges::any_of(diagnostics.findings(), limit);
+    for (const Finding& finding : findings_->findings()) {
+        if (limit_told && limit(finding)) continue;
+        Finding& told = diagnostics.add(*finding.info, finding.where, finding.message);
+        told.id_path = finding.id_path;
+        told.help = finding.help;
+        told.notes = finding.notes;
+    }
+    diagnostics.drop_repeats(known);
+    if (scene) scene->points = points_;  // from here on no other scene looks anything up
+    return scene;
+}
+
+}  // namespace kinora
