@@ -119,7 +119,8 @@ class Diagnostics {
     // Orders findings by file and place (those of one place as reported) and drops all but the
     // first with the same code, place and message.
     void sort_unique();
-    // Drops findings from the `first` on that say what an earlier one says: code, place, message.
+    // Drops findings from the `first` on that say what an earlier one says (code, place, message);
+    // never errors.
     void drop_repeats(size_t first);
 
   private:
