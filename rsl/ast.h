@@ -137,7 +137,8 @@ struct UnaryExpr : Expr {
     Expr* operand = nullptr;
 };
 // a op b. After check both sides have the same type, except the sides of And/Or (both Bool).
-// And and Or evaluate both sides (no short cut is visible: RSL leaves the order open).
+// The right side of And and Or runs only where the left one does not tell (RSL leaves it open; it
+// shows where the right side assigns, calls or indexes).
 struct BinaryExpr : Expr {
     static constexpr ExprKind kKind = ExprKind::Binary;
     Op op = Op::None;

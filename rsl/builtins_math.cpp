@@ -158,16 +158,21 @@ constexpr StepFilter kStepFilters[] = {{"box", below_box},
                                        {"gaussian", below_gaussian},
                                        {"catmull-rom", below_catmull_rom}};
 
+// Where none is named, and in place of one that is not known.
+const StepFilter& filter_of(LowerCall& c) {
+    if (!c.has_pair("filter")) return kStepFilters[0];
+    const std::string* text = c.low.constant_text(c.text_pair("filter"));
+    for (const StepFilter& filter : kStepFilters)
+        if (text && filter.name == *text) return filter;
+    c.low.diagnostics.report(Code::RSL_FILTER_UNKNOWN, c.where(), text ? *text : "", c.call.name);
+    return kStepFilters[0];
+}
+
 Value filtered(LowerCall& c, Value share) {
-    for (auto& [name, value] : c.pairs) {
-        const std::string* text = name == "filter" ? c.low.constant_text(value.c[0]) : nullptr;
-        for (const StepFilter& filter : kStepFilters) {
-            if (!text || filter.name != *text || filter.below == below_box) continue;
-            Value u = c.low.clamp(c.b.fma(share, c.b.f(2), c.b.f(-1)), c.b.f(-1), c.b.f(1));
-            return filter.below(c, u);
-        }
-    }
-    return share;
+    const StepFilter& filter = filter_of(c);
+    if (filter.below == below_box) return share;
+    Value u = c.low.clamp(c.b.fma(share, c.b.f(2), c.b.f(-1)), c.b.f(-1), c.b.f(1));
+    return filter.below(c, u);
 }
 
 // The step averaged over a box: how much of [low, high] lies above the edge.
@@ -179,7 +184,8 @@ void filterstep(LowerCall& c) {
         high = b.max(c.f(1), c.f(2));
     }
     Value half = c.args.size() == 3 ? b.f(0) : b.mul(filter_width(c, c.f(1)), b.f(0.5f));
-    Value widen = b.mul(c.pair("width", 1), c.pair("swidth", 1));
+    // As in texture(), the one that names the direction counts where both are given.
+    Value widen = c.has_pair("swidth") ? c.pair("swidth", 1) : c.pair("width", 1);
     if (c.args.size() == 3) {
         Value centre = b.mul(b.add(low, high), b.f(0.5f));
         half = b.mul(b.sub(high, low), b.f(0.5f));
@@ -275,7 +281,7 @@ const Builtin kRows[] = {
     {"filterstep", "f=ff~ f=fff~", lower::filterstep, KINORA_RSL_REF(ref::filterstep), kDerivative,
      4,
      "step filtered over the width of s, or from s1 to s2: filterstep(edge, s1 [, s2]); \"filter\" "
-     "box (if none is named) triangle gaussian catmull-rom, \"width\".",
+     "box (if none is named) triangle gaussian catmull-rom, \"width\" or, before it, \"swidth\".",
      kSurface | kDisplacement | kVolume},
     {"spline",
      "f=ffffff* c=fccccc* p=fppppp* v=fvvvvv* n=fnnnnn* f=sffffff* "

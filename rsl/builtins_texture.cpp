@@ -42,12 +42,6 @@ Lookup of_corners(LowerCall& c) {
             edge(1, 1, 3, 5, 7), edge(0, 1, 5, 3, 7), edge(1, 1, 5, 3, 7)};
 }
 
-bool has_pair(const LowerCall& c, std::string_view name) {
-    for (auto& [key, value] : c.pairs)
-        if (key == name) return true;
-    return false;
-}
-
 Value channel(LowerCall& c) {
     return c.call.channel ? c.low.value(*c.call.channel) : c.b.f(0);
 }
@@ -95,7 +89,7 @@ void blur_apart(LowerCall& c, Lookup& at, Value& swidth, Value& twidth) {
         y = b.mul(y, width);
         width = b.f(1);
     };
-    if (!has_pair(c, "sblur") && !has_pair(c, "tblur")) return;
+    if (!c.has_pair("sblur") && !c.has_pair("tblur")) return;
     widen(at.dsdx, at.dsdy, swidth, "sblur");
     widen(at.dtdy, at.dtdx, twidth, "tblur");
 }
@@ -111,7 +105,7 @@ void texture(LowerCall& c) {
                               c.low.read_global(Global::t).c[0]);
     Value width = c.pair("width", 1);
     auto width_of = [&](std::string_view name) {
-        return has_pair(c, name) ? c.pair(name, 0) : width;
+        return c.has_pair(name) ? c.pair(name, 0) : width;
     };
     Lookup where = at;
     Value swidth = width_of("swidth"), twidth = width_of("twidth");

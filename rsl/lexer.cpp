@@ -43,6 +43,9 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // also where texts
 constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
+constexpr bool is_octal_digit(char c) {
+    return c >= '0' && c <= '7';
+}
 constexpr bool is_hex_digit(char c) {
     return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
@@ -218,9 +221,29 @@ TokenKind Lexer::scan(size_t begin) {
         punct_ = row.punct;
         return TokenKind::Punctuator;
     }
-    ++position_;
+    position_ += std::max<size_t>(1, character_length(begin));
     punct_ = Punct::Other;
     return TokenKind::Other;
+}
+
+// Of one character or escape sequence between single quotes; 0 where there is none.
+size_t Lexer::character_length(size_t i) const {
+    constexpr char kQuote = '\'';
+    if (at(i) != kQuote) return 0;
+    size_t end = i + 1;
+    if (at(end) == '\\') {
+        ++end;
+        auto more = [&](auto&& is_one, int most) {
+            for (int k = 0; k < most && is_one(at(end)); ++k) ++end;
+        };
+        bool hex = at(end) == 'x', octal = is_octal_digit(at(end));
+        if (!octal) ++end;
+        if (octal) more(is_octal_digit, 3);
+        if (hex) more(is_hex_digit, 8);
+    } else if (at(end) != kQuote && at(end) >= ' ' && at(end) <= '~') {
+        ++end;
+    }
+    return at(end) == kQuote && end > i + 1 ? end + 1 - i : 0;
 }
 
 void Lexer::scan_number() {
@@ -230,6 +253,7 @@ void Lexer::scan_number() {
     bool hex = at(position_) == '0' && (at(position_ + 1) == 'x' || at(position_ + 1) == 'X');
     if (hex && is_hex_digit(at(position_ + 2))) {
         for (position_ += 2; is_hex_digit(at(position_));) ++position_;
+        scan_suffix("uUlL");
         return;
     }
     digits();
@@ -246,10 +270,15 @@ void Lexer::scan_number() {
             digits();
         }
     }
-    // C's suffixes, tolerated: 0.5f, 16u, 10L
-    constexpr std::string_view kSuffixes = "fFuUlL";
-    bool suffix = position_ < text_.size() && kSuffixes.find(at(position_)) != kSuffixes.npos;
-    if (suffix && !is_letter(at(position_ + 1)) && !is_digit(at(position_ + 1))) ++position_;
+    scan_suffix("fFuUlL");
+}
+
+// C's suffixes, tolerated: 0.5f, 16u, 10L, 1ull
+void Lexer::scan_suffix(std::string_view letters) {
+    size_t end = position_;
+    while (end < text_.size() && end < position_ + 3 && letters.find(at(end)) != letters.npos)
+        ++end;
+    if (!is_letter(at(end)) && !is_digit(at(end))) position_ = end;
 }
 
 void Lexer::scan_string() {
@@ -306,7 +335,7 @@ namespace {
 
 int octal_value(std::string_view text, size_t& i) {
     int value = 0;
-    for (int n = 0; n < 3 && i < text.size() && text[i] >= '0' && text[i] <= '7'; ++n)
+    for (int n = 0; n < 3 && i < text.size() && is_octal_digit(text[i]); ++n)
         value = value * 8 + (text[i++] - '0');
     --i;
     return value & 0xff;
@@ -329,7 +358,7 @@ std::string string_value(std::string_view quoted) {
         size_t escape = kEscapes.find(c);
         if (escape != std::string_view::npos) {
             value += kMeanings[escape];
-        } else if (c >= '0' && c <= '7') {
+        } else if (is_octal_digit(c)) {
             value += char(octal_value(quoted, i));
         } else if (c == '\n' || c == '\r' || c == ' ' || c == '\t') {
             size_t end = quoted.find('\n', i);  // a continued line
@@ -339,6 +368,19 @@ std::string string_value(std::string_view quoted) {
         }
     }
     return value;
+}
+
+// Escapes are those of strings, besides C's \a, \? and \xnn.
+int character_value(std::string_view quoted) {
+    std::string_view inside = quoted.substr(1, quoted.size() - 2);
+    if (inside.starts_with("\\a")) return 7;
+    if (inside.starts_with("\\x")) {
+        unsigned value = 0;
+        std::from_chars(inside.data() + 2, inside.data() + inside.size(), value, 16);
+        return static_cast<signed char>(value);
+    }
+    std::string text = string_value('"' + std::string(inside) + '"');
+    return static_cast<signed char>(inside[0] == '\\' && !text.empty() ? text[0] : inside[0]);
 }
 
 }  // namespace kinora::rsl

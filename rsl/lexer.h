@@ -34,7 +34,9 @@ class Lexer {
     size_t typographic_length(size_t at) const;
     size_t string_end_below(size_t at) const;
     TokenKind scan(size_t begin);
+    size_t character_length(size_t at) const;
     void scan_number();
+    void scan_suffix(std::string_view letters);
     void scan_string();
     Location locate(size_t begin, size_t end) const;
     char at(size_t i) const { return i < text_.size() ? text_[i] : '\0'; }
@@ -57,6 +59,12 @@ const char* plain_character(std::string_view text);
 
 // The value of a Number token, which may be hexadecimal and have a suffix of C.
 double number_value(std::string_view text, bool& too_large);
+
+// A character between single quotes, as C writes it; only #if has a meaning for it.
+inline bool is_character_constant(const Token& token) {
+    return token.kind == TokenKind::Other && token.text.size() > 2 && token.text[0] == '\'';
+}
+int character_value(std::string_view quoted);
 
 // The value of a String token: quotes off, escapes (\n \t \\ \" \nnn ...) decoded, continued lines
 // joined.

@@ -164,6 +164,7 @@ bool Lowering::as_product(const Expr& e, BaseType type, Lowered& x, Lowered& y) 
 
 // a * b + c of one expression rounds once (DESIGN.md decision 13).
 Lowered Lowering::sum(const BinaryExpr& e) {
+    if (e.op == Op::And || e.op == Op::Or) return logical_expr(e);
     bool sums = e.op == Op::Add || e.op == Op::Subtract;
     Lowered x, y;
     if (sums && as_product(*e.left, e.type.base, x, y)) {
@@ -189,16 +190,39 @@ Lowered Lowering::sum_of(Op op, const Lowered& left, const Expr& right) {
 }
 
 // Sides that call functions run only for their lanes; other sides are cheaper computed for all.
+bool Lowering::runs_apart(std::initializer_list<const Expr*> sides, uint32_t effects) const {
+    ChangeFinder finder(ast());
+    for (const Expr* side : sides) finder.add(side);
+    const Changes& changes = finder.changes;
+    return !changes.symbols.empty() || (changes.effects & effects) || changes.calls;
+}
+
+// && and ||: the right side is asked for where the left one does not tell.
+Lowered Lowering::logical_expr(const BinaryExpr& e) {
+    bool asked_when = e.op == Op::And;
+    Value left = value(*e.left);
+    bool known;
+    if (b.constant_m(left, &known))
+        return known == asked_when ? expr(*e.right) : lowered(BaseType::Bool, left);
+    if (!runs_apart({e.right}, kService | kLights | kTraces | kPrints)) {
+        Value right = asking(left, asked_when, [&] { return value(*e.right); });
+        return binary(e.op, lowered(BaseType::Bool, left), lowered(BaseType::Bool, right));
+    }
+    int slot = new_slot(lowered(BaseType::Bool, left));
+    Value asked = asked_when ? b.logical_and(running, left) : b.and_not(running, left);
+    guarded(asked, [&] { write_slot(slot, lowered(BaseType::Bool, value(*e.right))); });
+    free_slot(slot);
+    return read_slot(slot);
+}
+
 Lowered Lowering::select_expr(const SelectExpr& e) {
     Value condition = value(*e.condition);
     bool known;
     if (b.constant_m(condition, &known)) return expr(known ? *e.yes : *e.no);
-    ChangeFinder finder(ast());
-    finder.add(e.yes);
-    finder.add(e.no);
     Lowered r = zero(e.type.base);
-    if (finder.changes.symbols.empty() && finder.changes.effects == 0 && !finder.changes.calls) {
-        Lowered yes = expr(*e.yes), no = expr(*e.no);
+    if (!runs_apart({e.yes, e.no}, ~0u)) {
+        Lowered yes = asking(condition, true, [&] { return expr(*e.yes); });
+        Lowered no = asking(condition, false, [&] { return expr(*e.no); });
         for (size_t c = 0; c < size_t(r.size()); ++c)
             r.c[c] = b.select(condition, yes.c[c], no.c[c]);
         return r;
@@ -268,6 +292,12 @@ const std::string* LowerCall::text(int i) const {
     if (!text)
         low.error(Code::RSL_STRING_NOT_CONSTANT, call.args[size_t(i)]->place.where, call.name);
     return text;
+}
+
+bool LowerCall::has_pair(std::string_view name) const {
+    for (auto& [key, value] : pairs)
+        if (key == name) return true;
+    return false;
 }
 
 Value LowerCall::pair(std::string_view name, float otherwise) const {

@@ -68,6 +68,7 @@ struct LowerCall {
     void set(const V3& v) { result = lowered(result_type(), v); }
     // The text of a string argument, or null if it is not known at compile time (then reported).
     const std::string* text(int i) const;
+    bool has_pair(std::string_view name) const;
     // The value of a pair that the callee's row of optional parameters has (rsl/pairs.h).
     Value pair(std::string_view name, float otherwise) const;
     Value text_pair(std::string_view name) const;  // its string id, that of "" if absent
@@ -306,6 +307,11 @@ class Lowering : public Emitter {
     bool as_product(const Expr& e, BaseType type, Lowered& x, Lowered& y);
     Lowered sum(const BinaryExpr& e);
     Lowered select_expr(const SelectExpr& e);
+    Lowered logical_expr(const BinaryExpr& e);
+    bool runs_apart(std::initializer_list<const Expr*> sides, uint32_t effects) const;
+    // body() where a value is asked for only if `condition` is `when`.
+    template <class Body>
+    auto asking(Value condition, bool when, Body&& body);
     Lowered assign(const AssignExpr& e);
     Lowered cast(const CastExpr& e);
     Lowered sum_of(Op op, const Lowered& x, const Expr& right);
@@ -369,6 +375,13 @@ class Lowering : public Emitter {
     Value call_depth_ = jit::kNone;  // calls of recursive functions around; none outside them
     int calls_left_ = -1;            // slot: how many more such calls this one may make
     bool in_loop_ = false;
+    // Conditions of ?:, && and || around, whose other side all running lanes compute though not all
+    // ask for it: only those that do report faults.
+    struct Asked {
+        Value condition;
+        bool when;
+    };
+    std::vector<Asked> asked_;
     // The lanes of the innermost If or Loop. Where a statement begins, running is the same.
     Value region_ = running;
     Location where_;
@@ -387,6 +400,14 @@ void Lowering::guarded(Value mask, Body&& body) {
     b.end_if();
     region_ = outer_region;
     merge_changes(mark, mask, outer);
+}
+
+template <class Body>
+auto Lowering::asking(Value condition, bool when, Body&& body) {
+    asked_.push_back({condition, when});
+    auto result = body();
+    asked_.pop_back();
+    return result;
 }
 
 template <class Body>

@@ -251,6 +251,7 @@ struct Lowering::Activation {
     void swap() {
         std::swap(low.trail_, trail);
         std::swap(low.loops_, loops);
+        std::swap(low.asked_, asked);
         std::swap(low.frames_, frames);
         std::swap(low.light_sources_, sources);
         std::swap(low.loop_counters, counters);
@@ -263,6 +264,7 @@ struct Lowering::Activation {
     std::vector<int> array_of, lent_slot;
     std::vector<Undo> trail;
     std::vector<Loop> loops;
+    std::vector<Asked> asked;
     std::vector<FunctionFrame> frames;
     std::vector<LightSource> sources;
     std::vector<Value> counters;

@@ -221,6 +221,9 @@ void Lowering::set_array(const Expr& e, std::span<const Lowered> values) {
 void Lowering::check_index(Value x, int length, Location where) {
     Value inside = b.logical_and(b.le(b.f(0), x), b.lt(x, b.f(float(length))));
     Value outside = b.and_not(running, inside);
+    for (const Asked& asked : asked_)
+        outside = asked.when ? b.logical_and(outside, asked.condition)
+                             : b.and_not(outside, asked.condition);
     bool known;
     if (b.constant_m(outside, &known) && !known) return;
     b.fault(b.fault_site(where, "array index out of range"), outside);

@@ -49,7 +49,7 @@ constexpr ForeignPunct kForeign[] = {
 };
 
 std::string character_help(std::string_view text) {
-    if (text == "'") return "write strings between \" and \"";
+    if (text.starts_with("'")) return "write strings between \" and \"";
     const char* plain = plain_character(text);
     return *plain ? fmt::format("write a plain {}", plain) : "";
 }

@@ -2,6 +2,8 @@
 // directives.
 #include "rsl/preprocess.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace kinora::rsl {
@@ -17,16 +19,23 @@ std::string_view Preprocessor::keep(std::string text) {
     return out_.texts.back();
 }
 
-void Preprocessor::define_text(std::string_view name, std::string_view value) {
-    Macro macro;
-    macro.name = keep(std::string(name));
+Preprocessor::TokenList Preprocessor::text_tokens(std::string text) {
     maps_.emplace_back();
-    Lexer lexer(keep(std::string(value)), maps_.back());
+    Lexer lexer(keep(std::move(text)), maps_.back());
+    TokenList tokens;
     for (Token token = lexer.next(); token.kind != TokenKind::End; token = lexer.next()) {
         token.spelling = {};
-        macro.replacement.push_back(token);
+        tokens.push_back(token);
     }
-    macros_.insert_or_assign(macro.name, std::move(macro));
+    return tokens;
+}
+
+// As "#define NAME VALUE", where NAME may have parameters.
+void Preprocessor::define_text(std::string_view name, std::string_view value) {
+    TokenList line = text_tokens(fmt::format("{} {}", name, value));
+    Token define;
+    define.text = "define";
+    run_define(define, line);
 }
 
 void Preprocessor::define_from_options() {

@@ -65,6 +65,7 @@ class Preprocessor {
     // preprocess.cpp
     void define_from_options();
     void define_text(std::string_view name, std::string_view value);
+    TokenList text_tokens(std::string text);
     void read_file();
     Token raw_next();
     Token peek_raw();
@@ -100,6 +101,7 @@ class Preprocessor {
     void run_nothing(const Token& name, Line line);
     void open_condition(const Token& name, bool value);
     bool condition_value(const Token& name, Line line);
+    Token defined_operator(Token token);
     bool defined_argument(const Token& name, Line line);
     Condition* inner_condition(const Token& name);
     bool skipping() const { return !conditions_.empty() && !conditions_.back().active; }
@@ -130,8 +132,9 @@ class Preprocessor {
     std::vector<File> files_;
     std::vector<Condition> conditions_;
     std::vector<Pending> pending_;
-    size_t floor_ = 0;       // pending_ below it is out of reach (argument expansion)
-    bool isolated_ = false;  // reading a list, not the file
+    size_t floor_ = 0;           // pending_ below it is out of reach (argument expansion)
+    bool isolated_ = false;      // reading a list, not the file
+    bool in_condition_ = false;  // of an #if: "defined" is an operator
     int nesting_ = 0;
     size_t spent_ = 0;
     size_t includes_ = 0;
@@ -140,8 +143,8 @@ class Preprocessor {
     std::vector<std::string> once_;  // paths of files with #pragma once
 };
 
-// The value of an #if expression whose macros are expanded and whose defined() are 0 or 1; unknown
-// names are 0. Reports RSL_BAD_CONDITION and returns 0 when it is malformed.
-long long evaluate_condition(const std::vector<Token>& tokens, const Token& at, Reporter& reporter);
+// Is an #if expression not 0 whose macros are expanded and whose defined() are 0 or 1? Unknown
+// names are 0. Reports RSL_BAD_CONDITION and returns false when it is malformed.
+bool evaluate_condition(const std::vector<Token>& tokens, const Token& at, Reporter& reporter);
 
 }  // namespace kinora::rsl

@@ -7,7 +7,18 @@ namespace kinora::rsl {
 
 namespace {
 
-// Operators by how tight they bind; results are computed in unsigned arithmetic, which wraps.
+// A value of C's intmax_t or uintmax_t: what #if computes with (C11 6.10.1). Its bits are kept as
+// the unsigned one's, whose arithmetic wraps.
+struct Integer {
+    unsigned long long bits = 0;
+    bool is_unsigned = false;
+
+    static Integer of(long long x) { return {static_cast<unsigned long long>(x), false}; }
+    long long as_signed() const { return static_cast<long long>(bits); }
+    explicit operator bool() const { return bits != 0; }
+};
+
+// Operators by how tight they bind.
 struct OperatorRow {
     Punct punct;
     int level;
@@ -24,8 +35,8 @@ class ConditionParser {
   public:
     explicit ConditionParser(const std::vector<Token>& tokens) : tokens_(tokens) {}
 
-    bool parse(long long& value) {
-        value = ternary();
+    bool parse(bool& value) {
+        value = bool(ternary());
         return ok_ && next_ == tokens_.size();
     }
 
@@ -36,36 +47,36 @@ class ConditionParser {
         ++next_;
         return true;
     }
-    long long fail() {
+    Integer fail() {
         ok_ = false;
-        return 0;
+        return {};
     }
 
     // What an operand that does not count divides by 0 is no fault (C11 6.5.13, 6.5.14, 6.6).
     template <class Operand>
-    long long counted(bool counts, const Operand& operand) {
+    Integer counted(bool counts, const Operand& operand) {
         uncounted_ += !counts;
-        long long value = operand();
+        Integer value = operand();
         uncounted_ -= !counts;
         return value;
     }
-    long long divided_by_zero() { return uncounted_ ? 0 : fail(); }
+    Integer divided_by_zero() { return uncounted_ ? Integer() : fail(); }
 
-    long long ternary() {
+    Integer ternary() {
         if (++depth_ > kMostConditionNesting) return fail();
-        long long value = binary(1);
+        Integer value = binary(1);
         if (accept(Punct::Question)) {
-            long long yes = counted(value != 0, [&] { return ternary(); });
+            Integer yes = counted(bool(value), [&] { return ternary(); });
             if (!accept(Punct::Colon)) return fail();
-            long long no = counted(value == 0, [&] { return ternary(); });
-            value = value ? yes : no;
+            Integer no = counted(!value, [&] { return ternary(); });
+            value = {value ? yes.bits : no.bits, yes.is_unsigned || no.is_unsigned};
         }
         --depth_;
         return value;
     }
 
-    long long binary(int lowest) {
-        long long left = unary();
+    Integer binary(int lowest) {
+        Integer left = unary();
         while (ok_) {
             int level = 0;
             Punct op = punct();
@@ -74,99 +85,121 @@ class ConditionParser {
             if (level < lowest || level == 0) break;
             ++next_;
             bool counts = !(op == Punct::And && !left) && !(op == Punct::Or && left);
-            long long right = counted(counts, [&] { return binary(level + 1); });
+            Integer right = counted(counts, [&] { return binary(level + 1); });
             left = apply(op, left, right);
         }
         return left;
     }
 
-    long long apply(Punct op, long long a, long long b) {
-        auto ua = static_cast<unsigned long long>(a), ub = static_cast<unsigned long long>(b);
+    // Logic and shifts take their operands as they are; all others make both unsigned if one is
+    // (C11 6.3.1.8).
+    Integer apply(Punct op, Integer a, Integer b) {
+        bool is_unsigned = a.is_unsigned || b.is_unsigned;
+        auto whole = [&](unsigned long long bits) { return Integer{bits, is_unsigned}; };
         switch (op) {
             case Punct::Or:
-                return a || b;
+                return Integer::of(a || b);
             case Punct::And:
-                return a && b;
+                return Integer::of(a && b);
             case Punct::BitOr:
-                return a | b;
+                return whole(a.bits | b.bits);
             case Punct::Cross:
-                return a ^ b;
+                return whole(a.bits ^ b.bits);
             case Punct::BitAnd:
-                return a & b;
+                return whole(a.bits & b.bits);
             case Punct::Equal:
-                return a == b;
+                return Integer::of(a.bits == b.bits);
             case Punct::NotEqual:
-                return a != b;
+                return Integer::of(a.bits != b.bits);
             case Punct::Less:
-                return a < b;
+                return Integer::of(less(a, b));
             case Punct::LessEqual:
-                return a <= b;
+                return Integer::of(!less(b, a));
             case Punct::Greater:
-                return a > b;
+                return Integer::of(less(b, a));
             case Punct::GreaterEqual:
-                return a >= b;
+                return Integer::of(!less(a, b));
             case Punct::ShiftLeft:
-                return static_cast<long long>(ua << (ub & 63));
+                return {a.bits << (b.bits & 63), a.is_unsigned};
             case Punct::ShiftRight:
-                return a >> (ub & 63);
+                if (a.is_unsigned) return {a.bits >> (b.bits & 63), true};
+                return Integer::of(a.as_signed() >> (b.bits & 63));
             case Punct::Add:
-                return static_cast<long long>(ua + ub);
+                return whole(a.bits + b.bits);
             case Punct::Subtract:
-                return static_cast<long long>(ua - ub);
+                return whole(a.bits - b.bits);
             case Punct::Multiply:
-                return static_cast<long long>(ua * ub);
+                return whole(a.bits * b.bits);
             case Punct::Divide:
-                return b == 0 ? divided_by_zero() : b == -1 ? negate(a) : a / b;
+                if (!b) return divided_by_zero();
+                if (is_unsigned) return whole(a.bits / b.bits);
+                return b.as_signed() == -1 ? negated(a)
+                                           : Integer::of(a.as_signed() / b.as_signed());
             case Punct::Modulo:
-                return b == 0 ? divided_by_zero() : b == -1 ? 0 : a % b;
+                if (!b) return divided_by_zero();
+                if (is_unsigned) return whole(a.bits % b.bits);
+                return Integer::of(b.as_signed() == -1 ? 0 : a.as_signed() % b.as_signed());
             default:
                 return fail();
         }
     }
 
-    static long long negate(long long a) {
-        return static_cast<long long>(0ull - static_cast<unsigned long long>(a));
+    static bool less(Integer a, Integer b) {
+        return a.is_unsigned || b.is_unsigned ? a.bits < b.bits : a.as_signed() < b.as_signed();
     }
+    static Integer negated(Integer a) { return {0 - a.bits, a.is_unsigned}; }
 
-    long long unary() {
+    Integer unary() {
         if (++depth_ > kMostConditionNesting) return fail();
-        long long value = 0;
+        Integer value;
         if (accept(Punct::Not))
-            value = !unary();
+            value = Integer::of(!unary());
         else if (accept(Punct::Subtract))
-            value = negate(unary());
+            value = negated(unary());
         else if (accept(Punct::Add))
             value = unary();
         else if (accept(Punct::Complement))
-            value = ~unary();
+            value = complement(unary());
         else
             value = primary();
         --depth_;
         return value;
     }
+    static Integer complement(Integer a) { return {~a.bits, a.is_unsigned}; }
 
-    static bool is_octal(std::string_view text) {
-        return text.size() > 1 && text[0] == '0' && text.find_first_not_of("01234567") == text.npos;
-    }
-    static long long octal(std::string_view text) {
-        long long value = 0;
-        std::from_chars(text.data(), text.data() + text.size(), value, 8);
-        return value;
-    }
-
-    long long primary() {
+    Integer primary() {
         if (accept(Punct::LeftParen)) {
-            long long value = ternary();
+            Integer value = ternary();
             return accept(Punct::RightParen) ? value : fail();
         }
         if (next_ >= tokens_.size()) return fail();
         const Token& token = tokens_[next_++];
-        if (token.kind == TokenKind::Identifier) return 0;
-        if (token.kind != TokenKind::Number) return fail();
-        if (is_octal(token.text)) return octal(token.text);
+        if (token.kind == TokenKind::Identifier) return {};
+        if (is_character_constant(token)) return Integer::of(character_value(token.text));
+        return token.kind == TokenKind::Number ? number(token.text) : fail();
+    }
+
+    // Decimal, octal (if all its digits are) or hexadecimal; what no integer is loses its fraction.
+    static Integer number(std::string_view text) {
+        bool hex = text.size() > 2 && (text[1] == 'x' || text[1] == 'X');
+        bool octal = !hex && text.size() > 1 && text[0] == '0';
+        size_t end = text.find_first_not_of(hex     ? "0123456789abcdefABCDEF"
+                                            : octal ? "01234567"
+                                                    : "0123456789",
+                                            hex ? 2 : 0);
+        std::string_view suffix = end == text.npos ? "" : text.substr(end);
+        if (suffix.find_first_not_of("uUlL") != suffix.npos) return rounded(text);
+        Integer value;
+        const char* begin = text.data() + (hex ? 2 : 0);
+        std::from_chars(begin, text.data() + text.size(), value.bits, hex ? 16 : octal ? 8 : 10);
+        // Too large for the signed type: as other preprocessors read it.
+        value.is_unsigned = suffix.find_first_of("uU") != suffix.npos || value.as_signed() < 0;
+        return value;
+    }
+    static Integer rounded(std::string_view text) {
         bool too_large = false;
-        double value = number_value(token.text, too_large);
-        return !too_large && value < 9e18 ? static_cast<long long>(value) : 0;
+        double value = number_value(text, too_large);
+        return Integer::of(!too_large && value < 9e18 ? static_cast<long long>(value) : 0);
     }
 
     const std::vector<Token>& tokens_;
@@ -177,12 +210,11 @@ class ConditionParser {
 
 }  // namespace
 
-long long evaluate_condition(const std::vector<Token>& tokens, const Token& at,
-                             Reporter& reporter) {
-    long long value = 0;
+bool evaluate_condition(const std::vector<Token>& tokens, const Token& at, Reporter& reporter) {
+    bool value = false;
     if (ConditionParser(tokens).parse(value)) return value;
     reporter.report(Code::RSL_BAD_CONDITION, tokens.empty() ? at : tokens[0], at.text);
-    return 0;
+    return false;
 }
 
 }  // namespace kinora::rsl

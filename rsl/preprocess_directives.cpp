@@ -219,21 +219,30 @@ void Preprocessor::open_condition(const Token& name, bool value) {
 }
 
 bool Preprocessor::condition_value(const Token& name, Line line) {
-    TokenList tokens;
-    for (size_t i = 0; i < line.size(); ++i) {
-        if (line[i].text != "defined") {
-            tokens.push_back(line[i]);
-            continue;
-        }
-        bool open = i + 1 < line.size() && line[i + 1].punct == Punct::LeftParen;
-        size_t at = i + 1 + open;
-        Token value = line[i];
-        value.kind = TokenKind::Number;
-        value.text = at < line.size() && is_defined(line[at].text) ? "1" : "0";
-        tokens.push_back(value);
-        i = at + (open && at + 1 < line.size() && line[at + 1].punct == Punct::RightParen);
-    }
-    return evaluate_condition(expand_list(tokens), name, reporter_) != 0;
+    in_condition_ = true;
+    TokenList tokens = expand_list(line);
+    in_condition_ = false;
+    auto reported = [](const Token& token) { return token.lost; };
+    if (std::any_of(tokens.begin(), tokens.end(), reported)) return false;
+    return evaluate_condition(tokens, name, reporter_);
+}
+
+// "defined NAME" or "defined(NAME)", of the line or of a macro that it names, as other
+// preprocessors take it (C11 6.10.1 leaves the latter open).
+Token Preprocessor::defined_operator(Token token) {
+    bool open = peek_unexpanded().punct == Punct::LeftParen;
+    if (open) next_unexpanded();
+    Token name = peek_unexpanded();
+    bool named = name.kind == TokenKind::Identifier;
+    if (named)
+        next_unexpanded();
+    else
+        reporter_.report(Code::RSL_BAD_DIRECTIVE, token, "if defined", "a macro name");
+    token.lost = !named;
+    if (open && peek_unexpanded().punct == Punct::RightParen) next_unexpanded();
+    token.kind = TokenKind::Number;
+    token.text = named && is_defined(name.text) ? "1" : "0";
+    return token;
 }
 
 bool Preprocessor::defined_argument(const Token& name, Line line) {

@@ -48,6 +48,7 @@ Token Preprocessor::next_expanded() {
     while (true) {
         Token token = next_unexpanded();
         if (exhausted_ || token.kind != TokenKind::Identifier || skipping()) return token;
+        if (in_condition_ && token.text == "defined") return defined_operator(token);
         if (!try_expand(token)) return token;
     }
 }
@@ -169,7 +170,7 @@ Token Preprocessor::stringise(const TokenList& tokens, const Token& at) {
     std::string text = "\"";
     for (size_t i = 0; i < tokens.size(); ++i) {
         if (i > 0 && (tokens[i].space_before || tokens[i].line_start)) text += ' ';
-        bool quoted = tokens[i].kind == TokenKind::String;
+        bool quoted = tokens[i].kind == TokenKind::String || is_character_constant(tokens[i]);
         for (char c : tokens[i].text) {
             if (quoted && (c == '"' || c == '\\')) text += '\\';
             text += c;
@@ -268,8 +269,8 @@ Preprocessor::TokenList Preprocessor::substitute(const Macro& macro,
         }
         const TokenList& list = raw ? arguments[k] : expanded[k];
         // ", ## __VA_ARGS__" of GNU C: without arguments there is no comma either.
-        bool rest = pasting && macro.variadic && k + 1 == macro.parameters.size() &&
-                    !out.empty() && out.back().punct == Punct::Comma;
+        bool rest = pasting && macro.variadic && k + 1 == macro.parameters.size() && !out.empty() &&
+                    out.back().punct == Punct::Comma;
         if (rest) pasting = false;
         if (rest && list.empty()) {
             out.pop_back();

@@ -165,8 +165,23 @@ class RateWalk {
     Flow at(IndexExpr& e) { return join(flow(e.array), flow(e.index)); }
     Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
     Flow at(UnaryExpr& e) { return flow(e.operand); }
-    Flow at(BinaryExpr& e) { return join(flow(e.left), flow(e.right)); }
-    Flow at(SelectExpr& e) { return join(flow(e.condition), join(flow(e.yes), flow(e.no))); }
+    // A side that some points skip may assign.
+    Flow flow_under(Expr* side, bool varying) {
+        bool before = std::exchange(control_, control_ || varying);
+        Flow f = flow(side);
+        control_ = before;
+        return f;
+    }
+    Flow at(BinaryExpr& e) {
+        Flow left = flow(e.left);
+        bool logical = e.op == Op::And || e.op == Op::Or;
+        return join(left, flow_under(e.right, logical && left.varying));
+    }
+    Flow at(SelectExpr& e) {
+        Flow condition = flow(e.condition);
+        Flow yes = flow_under(e.yes, condition.varying), no = flow_under(e.no, condition.varying);
+        return join(condition, join(yes, no));
+    }
     Flow at(AssignExpr& e) {
         Flow value = flow(e.value);
         if (e.op != Op::None) value = join(value, flow(e.target));

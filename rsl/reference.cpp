@@ -114,6 +114,8 @@ auto Reference<Real>::expr(const Expr& e) -> Item {
         case ExprKind::Binary: {
             auto& node = as<BinaryExpr>(e);
             Item left = expr(*node.left);
+            bool logical = node.op == Op::And || node.op == Op::Or;
+            if (logical && decide(left.truth()) == (node.op == Op::Or)) return left;
             Item r = binary(node.op, left, expr(*node.right));
             if (is_triple(r.type) && is_triple(e.type.base)) r.type = e.type.base;
             return r;

@@ -160,7 +160,9 @@ void filterstep(RefCall<Real>& c) {
         low = s - Number(width / 2), high = s + Number(width / 2);
     }
     Number middle = Real(0.5) * (low + high);
-    Number half = Real(0.5) * (high - low) * c.pair("width", 1) * c.pair("swidth", 1);
+    bool apart = false;  // "swidth" counts before "width"
+    for (auto& [name, value] : c.pairs) apart = apart || name == "swidth";
+    Number half = Real(0.5) * (high - low) * c.pair(apart ? "swidth" : "width", 1);
     low = middle - half, high = middle + half;
     Number edge = c.f(0);
     if ((high - low).x < Real(FLT_MIN)) return c.set(whole(c, Real(s.x < edge.x ? 0 : 1)));

@@ -286,6 +286,17 @@ TEST(Filterstep, HasTheFiltersOfTheInterface) {
             for (float value : got) EXPECT_NEAR(value, got.back(), 1e-3f) << filter << " " << edge;
         }
 }
+// A ramp of 4 beside the edge is 1/4 above it, of 2 not at all: the width of the direction counts.
+TEST(Filterstep, TheWidthThatNamesItsDirectionCounts) {
+    auto step = [](const std::string& pairs) {
+        return "filterstep(x, y, z, \"width\", " + pairs + ")";
+    };
+    expect(step("2"), {1, -1, 1}, 0.25f);
+    expect(step("1"), {1, -1, 1}, 0);
+    expect(step("2, \"swidth\", 1"), {1, -1, 1}, 0);
+    expect(step("1, \"swidth\", 2"), {1, -1, 1}, 0.25f);
+    expect("filterstep(x, y, z, \"swidth\", 2, \"width\", 9)", {1, -1, 1}, 0.25f);
+}
 // In the mode that fast kernels run in (DESIGN.md decision 13); precise ones keep denormals.
 TEST(Extremes, Row77DenormalsAre0InTheFastTierOnly) {
     for (bool fast : {true, false})

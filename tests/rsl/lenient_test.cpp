@@ -34,6 +34,22 @@ TEST(Lenient, UnknownResultsOfGatherAreLeftAlone) {
     EXPECT_TRUE(finds(run, "surface:Ci")) << run.findings();
 }
 
+TEST(Lenient, AFilterThatIsNotKnownIsTheBox) {
+    for (const char* name : {"box", "triangle", "gaussian", "catmull-rom", "sinc", "Box"}) {
+        RunShader run(std::string("surface t() { Ci = filterstep(0.75, 0, 1, \"filter\", \"") +
+                      name + "\"); }");
+        bool known = std::string("sinc Box").find(name) == std::string::npos;
+        EXPECT_EQ(finds(run, "RSL_FILTER_UNKNOWN"), !known) << name << run.findings();
+        EXPECT_EQ(run.diagnostics.findings().size(), known ? 0u : 1u) << run.findings();
+        bool box = !known || std::string(name) == "box";
+        EXPECT_EQ(red(run) == 0.25f, box) << name;
+    }
+    RunShader varies(
+        "surface t() { string f = s > 0 ? \"box\" : \"triangle\"; "
+        "Ci = filterstep(0.75, 0, 1, \"filter\", f); }");
+    EXPECT_TRUE(finds(varies, "RSL_FILTER_UNKNOWN")) << varies.findings();
+}
+
 TEST(Lenient, OptionalParametersThatACalleeDoesNotKnowAreNamed) {
     struct Case {
         const char *call, *unknown;  // "" where all are known

@@ -64,6 +64,107 @@ TEST(Preprocess, EvaluatesConditionsAsCDoes) {
     EXPECT_FALSE(taken("UNKNOWN_NAME"));
     EXPECT_FALSE(taken("ONE - 1 || 0"));
     EXPECT_TRUE(taken("010 == 8 && 08 == 8 && 0 == 00"));
+    EXPECT_TRUE(taken("0x10 == 16 && 0xFFu == 255 && 1ull == 1L"));
+}
+
+// C11 6.3.1.8: if one operand is unsigned, so is the other.
+TEST(Preprocess, UnsignedNumbersMakeConditionsUnsigned) {
+    const char* kTrue[] = {"-1 < 0",
+                           "-1 > 0u",
+                           "-1 / 2u > 0",
+                           "(-1 >> 1) == -1",
+                           "(-1u >> 1) > 0",
+                           "(0 ? 0u : -1) > 0",
+                           "~0u > 0",
+                           "-5 % 3 == -2",
+                           "0xFFFFFFFFFFFFFFFF == -1",
+                           "18446744073709551615 > 0",
+                           "(-1 && 1u) == 1",
+                           "-9223372036854775807 - 1 < 0"};
+    for (std::string condition : kTrue)
+        EXPECT_EQ(expand("#if " + condition + "\nyes\n#else\nno\n#endif"), "yes") << condition;
+    const char* kFalse[] = {"-1 < 0u", "-1 <= 1u", "(1 ? -1 : 0u) < 0", "-(1u) < 0", "!0u < 0"};
+    for (std::string condition : kFalse)
+        EXPECT_EQ(expand("#if " + condition + "\nyes\n#else\nno\n#endif"), "no") << condition;
+}
+
+TEST(Preprocess, ConditionsKnowCharacters) {
+    const char* kTrue[] = {"'a' == 97",      "' ' == 32",    "'\\n' == 10",  "'\\'' == 39",
+                           "'\"' == 34",     "'\\\"' == 34", "'\\\\' == 92", "'\\x41' == 'A'",
+                           "'\\101' == 'A'", "'\\0' == 0",   "'\\a' == 7",   "LETTER == 'L'",
+                           "'a' < 'b'"};
+    for (std::string condition : kTrue)
+        EXPECT_EQ(expand("#define LETTER 'L'\n#define a 3\n#if " + condition +
+                         "\nyes\n#else\nno\n#endif"),
+                  "yes")
+            << condition;
+    EXPECT_NE(expand("#if 'ab' == 1\n#endif").find("RSL_BAD_CONDITION"), std::string::npos);
+    // Elsewhere quotes mean nothing, and macros apply between two of them.
+    EXPECT_EQ(expand("#define a 3\n#if 0\ndon't 'a'\n#endif\nisn't a can't"), "isn ' t 3 can ' t");
+    EXPECT_EQ(expand("#define S(x) #x\nS('\"' + '\\n')"), "\"'\\\"' + '\\\\n'\"");
+}
+
+TEST(Preprocess, MacrosMayAskWhatIsDefined) {
+    const std::string macros =
+        "#define FOO 7\n#define HAVE defined(FOO)\n#define HAVE_BAR (defined BAR)\n"
+        "#define IS(x) (defined(x) && x > 5)\n";
+    auto taken = [&](const std::string& condition) {
+        return expand(macros + "#if " + condition + "\nyes\n#else\nno\n#endif");
+    };
+    EXPECT_EQ(taken("HAVE"), "yes");
+    EXPECT_EQ(taken("HAVE_BAR"), "no");
+    EXPECT_EQ(taken("HAVE && !HAVE_BAR && !defined BAR"), "yes");
+    EXPECT_EQ(taken("defined(HAVE) && defined HAVE_BAR"), "yes");
+    EXPECT_EQ(taken("IS(BAR)"), "no");
+    EXPECT_EQ(expand("defined(FOO)"), "defined ( FOO )");
+}
+
+TEST(Preprocess, DefinedNeedsAName) {
+    for (std::string condition : {"defined", "defined()", "defined(3) + 1", "1 && defined +"}) {
+        TestSource source("#if " + condition + "\n#endif\n");
+        preprocess(source.source, {}, source.diagnostics);
+        EXPECT_EQ(source.diagnostics.findings().size(), 1u) << condition << source.messages();
+    }
+}
+
+TEST(Preprocess, OptionsDefineMacrosWithParameters) {
+    CompileOptions options;
+    options.defines = {{"F(x)", "x*2"}, {"G(a, b)", "a-b"}, {"H (x)", "x"}, {"E()", ""}};
+    EXPECT_EQ(expand("F(3) G(1, F(2)) F H E() ;", options), "3 * 2 1 - 2 * 2 F ( x ) x ;");
+    for (const char* wrong : {"2x", "", "F(", "F(1)"}) {
+        options.defines = {{wrong, "1"}};
+        EXPECT_NE(expand("ok", options).find("RSL_BAD_DIRECTIVE"), std::string::npos) << wrong;
+    }
+}
+
+// The lines that `cpp` makes of the same text, for what people's macros do.
+TEST(Preprocess, AgreesWithTheSystemsPreprocessor) {
+    if (std::system("cpp --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no cpp";
+    const char* kTexts[] = {
+        "#define HAVE defined(FOO)\n#define FOO 3\n#if HAVE && FOO(1) == 3\n#else\nb\n#endif\n",
+        "#define HAVE defined(FOO)\n#if HAVE\na\n#else\nb\n#endif\n",
+        "#define HAVE defined FOO\n#define FOO bar\n#if HAVE\na FOO\n#else\nb\n#endif\n",
+        "#if -1 < 0u\na\n#elif 'a' == 97 && '\\n' == 10\nc\n#endif\n",
+        "#if (2 || 1 / 0) && -1 / 2u > 1 && (-1 >> 63) == -1 && 1 << 4 == 16\na\n#endif\n",
+        "#define f(x) <x>\n#define g f\nf (1) g(2) f\n(3) f f(f(4))\n",
+        "#define cat(a, b) a ## b\n#define xcat(a, b) cat(a, b)\n#define N 3\n"
+        "xcat(v, N) cat(v, N) xcat(cat(1, 2), 3)\n",
+        "#define s(x) #x\n#define xs(x) s(x)\n#define N 3 +  4\nxs(N) s(N) s( a  b )\n",
+        "#define EMPTY\n#define D(x) EMPTY x EMPTY\n-D(-1) D() D(D(2))\n",
+    };
+    std::string folder = ::testing::TempDir();
+    for (std::string text : kTexts) {
+        std::ofstream(folder + "/in.h") << text;
+        std::string command = "cpp -P -w " + folder + "/in.h > " + folder + "/out.h 2>/dev/null";
+        bool accepted = std::system(command.c_str()) == 0;
+        std::ifstream out(folder + "/out.h");
+        std::string theirs(std::istreambuf_iterator<char>(out), {});
+        std::string ours = expand(text);
+        if (!accepted)
+            EXPECT_NE(ours.find("error"), std::string::npos) << text;
+        else
+            EXPECT_EQ(ours, expand(theirs)) << text;  // token by token
+    }
 }
 
 TEST(Preprocess, AnOperandThatDoesNotCountMayDivideByZero) {
