@@ -6,8 +6,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <span>
+#include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "rsl/builtin.h"
@@ -387,6 +391,22 @@ class NodeArena {
     size_t size_ = 0;
 };
 
+// What lowering has said of a source: many kernels are made of one, with many copies of a function.
+class ReportedOnce {
+  public:
+    // True the first time that this is said to the sink. Thread-safe.
+    bool first(const Diagnostics& sink, const FindingInfo& info, Location where,
+               const std::string& message) {
+        std::lock_guard lock(mutex_);
+        return said_.emplace(&sink, &info, where.file, where.begin, message).second;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::set<std::tuple<const Diagnostics*, const FindingInfo*, FileId, uint32_t, std::string>>
+        said_;
+};
+
 // One translation unit. Shaders made from it share it.
 struct Ast {
     NodeArena arena;
@@ -396,6 +416,7 @@ struct Ast {
     uint32_t symbol_count = 0;    // of Symbol::id
     uint32_t function_count = 0;  // of Function::id
     uint32_t site_count = 0;      // of CallExpr::site
+    mutable ReportedOnce reported;
 
     template <class Node>
     Node* make(Place place) {

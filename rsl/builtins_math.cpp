@@ -164,7 +164,7 @@ const StepFilter& filter_of(LowerCall& c) {
     const std::string* text = c.low.constant_text(c.text_pair("filter"));
     for (const StepFilter& filter : kStepFilters)
         if (text && filter.name == *text) return filter;
-    c.low.diagnostics.report(Code::RSL_FILTER_UNKNOWN, c.where(), text ? *text : "", c.call.name);
+    c.low.report(Code::RSL_FILTER_UNKNOWN, c.where(), text ? *text : "", c.call.name);
     return kStepFilters[0];
 }
 

@@ -10,7 +10,7 @@ namespace lower_string {
 
 void check_count(LowerCall& c, size_t wanted) {
     if (wanted != c.args.size() - 1)
-        c.low.diagnostics.report(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
+        c.low.report(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
 }
 
 Value join(LowerCall& c, Value a, Value b) {

@@ -117,8 +117,13 @@ void Checker::check(Expr*&, ArrayLiteralExpr& e, BaseType wanted) {
 
 void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
     condition(e.condition);
-    BaseType yes = value(e.yes, wanted);
-    BaseType no = value(e.no, wanted == BaseType::Invalid ? yes : wanted);
+    // Where nothing is wanted, the side of fixed type says what the other one is asked to be.
+    bool no_first = wanted == BaseType::Invalid && is_flexible(*e.yes) && !is_flexible(*e.no);
+    Expr*& first = no_first ? e.no : e.yes;
+    Expr*& second = no_first ? e.yes : e.no;
+    BaseType type = value(first, wanted);
+    value(second, wanted == BaseType::Invalid ? type : wanted);
+    BaseType yes = e.yes->type.base, no = e.no->type.base;
     if (yes == BaseType::Invalid || no == BaseType::Invalid) return;
     BaseType common = common_type(yes, no);
     if (common == BaseType::Invalid) {

@@ -134,7 +134,8 @@ void Checker::check(IlluminanceStmt& s) {
     if (!sort_illuminance(s, first)) {
         report(Code::RSL_ARGUMENT_FORM, s.place, "illuminance",
                "([category,] position [, axis, angle] [, \"name\", value ...])");
-        return;
+        Within<const char*> within(light_statement_, "illuminance");
+        return loop_body(s, *s.body);
     }
     bring_to(s.position, {BaseType::Point, -1}, "position of illuminance");
     if (s.axis) bring_to(s.axis, {BaseType::Vector, -1}, "axis of illuminance");
@@ -179,10 +180,8 @@ bool Checker::sort_illuminance(IlluminanceStmt& s, size_t next) {
 void Checker::check(IlluminateStmt& s) {
     convert_to(s.position, {BaseType::Point, -1}, "position of illuminate");
     cone(s.axis, s.angle, "illuminate");
-    if (light_statement_) {
+    if (light_statement_)
         report(Code::RSL_NESTED_ILLUMINATE, s.place, "illuminate", light_statement_);
-        return;
-    }
     Within<const char*> within(light_statement_, "illuminate");
     Within<std::vector<Stmt*>> no_loops(loops_, {});
     statement(*s.body);
@@ -191,10 +190,7 @@ void Checker::check(IlluminateStmt& s) {
 void Checker::check(SolarStmt& s) {
     if (s.axis && !s.angle) s.angle = assumed_angle(s, "solar", 0, "0");
     cone(s.axis, s.angle, "solar");
-    if (light_statement_) {
-        report(Code::RSL_NESTED_ILLUMINATE, s.place, "solar", light_statement_);
-        return;
-    }
+    if (light_statement_) report(Code::RSL_NESTED_ILLUMINATE, s.place, "solar", light_statement_);
     Within<const char*> within(light_statement_, "solar");
     Within<std::vector<Stmt*>> no_loops(loops_, {});
     statement(*s.body);
@@ -212,6 +208,8 @@ void Checker::check(GatherStmt& s) {
     if (!named) {
         report(Code::RSL_ARGUMENT_FORM, s.place, "gather",
                "(category, position, direction, angle, samples [, \"name\", value ...])");
+        loop_body(s, *s.body);
+        if (s.missed) loop_body(s, *s.missed);
         return;
     }
     Expr** wanted[] = {&s.category, &s.position, &s.direction, &s.angle, &s.samples};

@@ -317,7 +317,7 @@ Value LowerCall::text_pair(std::string_view name) const {
 void LowerCall::report_unknown_pairs() const {
     for (auto& [key, value] : pairs)
         if (!takes_option(call.name, key))
-            low.diagnostics.report(Code::RSL_PAIR_UNKNOWN, where(), key, call.name);
+            low.report(Code::RSL_PAIR_UNKNOWN, where(), key, call.name);
 }
 
 Target* LowerCall::output_pair(std::string_view name) {

@@ -85,7 +85,7 @@ void Lowering::gather(const GatherStmt& stmt) {
             const Known* known = find_known(name);
             bool parameter = !known && name.starts_with("surface:");
             if ((!known && !parameter) || (known && !fits(known->type, given.type.base))) {
-                diagnostics.report(Code::RSL_GATHER_OUTPUT, given.place.where, name);
+                report(Code::RSL_GATHER_OUTPUT, given.place.where, name);
                 continue;
             }
             wanted.push_back({name, given.type.base});
@@ -101,7 +101,7 @@ void Lowering::gather(const GatherStmt& stmt) {
             const std::string* text = constant_text(value(given));
             if (text && *text == "cosine") flags |= kGatherCosine;
         } else if (!takes_option("gather", name)) {
-            diagnostics.report(Code::RSL_PAIR_UNKNOWN, given.place.where, name, "gather");
+            report(Code::RSL_PAIR_UNKNOWN, given.place.where, name, "gather");
         }
     }
     auto seed = sample_seed(uint32_t(out.gathers.size()) * 2654435761u + 77);

@@ -169,7 +169,7 @@ void Lowering::light_pairs(const IlluminanceStmt& stmt) {
     for (size_t k = 1; k < stmt.pairs.size(); k += 2) {
         std::string_view name = pair_name(stmt.pairs, k);
         if (name.starts_with("send:"))
-            diagnostics.report(Code::RSL_LIGHT_PAIR, stmt.pairs[k]->place.where, name);
+            report(Code::RSL_LIGHT_PAIR, stmt.pairs[k]->place.where, name);
         if (!is_light_output(name)) continue;
         Target to = target(*stmt.pairs[k]);
         Lowered before = load(to);

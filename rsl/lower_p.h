@@ -97,9 +97,16 @@ class Lowering : public Emitter {
     ShaderKind kind() const { return layer->shader->kind; }
     const Ast& ast() const { return *layer->shader->ast; }
 
+    // Null if that has been said of the source.
+    template <class... Args>
+    Finding* report(const FindingInfo& info, Location where, const Args&... args) {
+        std::string message = fmt::vformat(info.text, fmt::make_format_args(args...));
+        if (!ast().reported.first(diagnostics, info, where, message)) return nullptr;
+        return &diagnostics.add(info, where, std::move(message));
+    }
     template <class... Args>
     void error(const FindingInfo& info, Location where, const Args&... args) {
-        diagnostics.report(info, where, args...);
+        report(info, where, args...);
         failed = true;
     }
     bool failed = false;
@@ -353,7 +360,7 @@ class Lowering : public Emitter {
     jit::InputInfo element_input(std::string_view name, BaseType type, const ParamBinding& bound,
                                  int element, int component);
     Value pick(const V3& v, Value component);
-    void check_size(const Symbol& symbol, Type type);
+    bool check_size(const Symbol& symbol, Type type);
 
     std::vector<Slot> slots_;
     std::vector<Undo> trail_;

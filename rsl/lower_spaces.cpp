@@ -48,9 +48,9 @@ void Lowering::unknown_space(const std::string& name, Location where) {
     known.push_back("camera");
     known.insert(known.end(), options.spaces->begin(), options.spaces->end());
     failed = true;
-    Finding& finding = diagnostics.report(Code::RSL_SPACE_UNKNOWN, where, name);
-    if (auto near = nearest_name(name, known); !near.empty())
-        finding.help = "did you mean '" + std::string(near) + "'?";
+    Finding* finding = report(Code::RSL_SPACE_UNKNOWN, where, name);
+    if (auto near = nearest_name(name, known); finding && !near.empty())
+        finding->help = "did you mean '" + std::string(near) + "'?";
 }
 
 Lowering::Space Lowering::variable_space(Value name) {

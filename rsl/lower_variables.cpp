@@ -95,19 +95,19 @@ void Lowering::end_scope(std::span<Stmt* const> body) {
 
 // ---- arrays -------------------------------------------------------------------------------------
 
-void Lowering::check_size(const Symbol& symbol, Type type) {
+bool Lowering::check_size(const Symbol& symbol, Type type) {
     constexpr int64_t kLimit = 1 << 20;  // DESIGN.md decision 16
     int64_t bytes = int64_t(type.array_length) * component_count(type.base) * 4 * jit::kMaxLanes;
     if (bytes > kLimit)
         error(Code::RSL_ARRAY_TOO_LARGE, symbol.place.where, symbol.name, bytes >> 10);
+    return bytes <= kLimit;
 }
 
 int Lowering::make_array(const Symbol& symbol, Type type) {
-    check_size(symbol, type);
+    bool fits = check_size(symbol, type);
     Array array;
     array.element = type.base;
-    array.length = std::max(type.array_length, 1);
-    if (failed) array.length = 1;
+    array.length = fits ? std::max(type.array_length, 1) : 1;
     if (in_memory_[symbol.id]) {
         for (int c = 0; c < component_count(type.base); ++c)
             array.memory.push_back(

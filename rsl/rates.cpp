@@ -140,7 +140,8 @@ class RateWalk {
                 break;
             }
         }
-        if (const auto* v = as_if<VariableExpr>(target)) store(*v->symbol, value, selector, at);
+        const auto* v = as_if<VariableExpr>(target);
+        if (v && v->symbol) store(*v->symbol, value, selector, at);
     }
 
     // ---- expressions
@@ -161,7 +162,7 @@ class RateWalk {
 
     Flow at(NumberExpr&) { return kConstant; }
     Flow at(StringExpr&) { return kConstant; }
-    Flow at(VariableExpr& e) { return read(*e.symbol); }
+    Flow at(VariableExpr& e) { return e.symbol ? read(*e.symbol) : kConstant; }
     Flow at(IndexExpr& e) { return join(flow(e.array), flow(e.index)); }
     Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
     Flow at(UnaryExpr& e) { return flow(e.operand); }
@@ -197,7 +198,9 @@ class RateWalk {
     Flow at(TripleExpr& e) { return flow_all(e.items); }
     Flow at(SixteenExpr& e) { return flow_all(e.items); }
     Flow at(ArrayLiteralExpr& e) { return flow_all(e.items); }
-    Flow at(CallExpr& e) { return e.function ? user_call(e) : builtin_call(e); }
+    Flow at(CallExpr& e) {
+        return e.function ? user_call(e) : e.builtin ? builtin_call(e) : kConstant;
+    }
 
     Flow builtin_call(CallExpr& e) {
         Flow f = flow(e.channel);

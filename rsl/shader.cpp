@@ -43,6 +43,18 @@ std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& as
     return shaders;
 }
 
+// What the later stages have to say of a source that has errors.
+void find_further_errors(Ast& ast, Reporter& reporter) {
+    std::unordered_set<const void*> reported;
+    for (const ShaderDefinition* definition : ast.shaders) {
+        Shader shader;
+        shader.kind = definition->kind;
+        shader.definition = definition;
+        find_usage(shader, ast, reporter, reported);
+    }
+    infer_rates(ast, reporter);
+}
+
 }  // namespace
 
 TokenStream preprocess(const ShaderSource& source, const CompileOptions& options,
@@ -72,12 +84,16 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     bool lacks_text = reporter.errors() > 0;
     Parser parser(*ast, reporter);
     parser.run();
+    bool parsed = reporter.errors() == 0;
     Checker(*ast, reporter, options, lacks_text || parser.broken()).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {
         Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
         if (!ast->functions.empty()) finding.help = "write its kind, as 'surface', before its name";
     }
-    if (reporter.errors() > 0) return {};
+    if (reporter.errors() > 0) {
+        if (parsed) find_further_errors(*ast, reporter);
+        return {};
+    }
     auto shaders = make_shaders(ast, reporter);
     infer_rates(*ast, reporter);
     if (reporter.errors() > 0) return {};

@@ -15,6 +15,7 @@ class UsageWalk {
               std::unordered_set<const void*>& reported)
         : shader_(shader), ast_(ast), reporter_(reporter), reported_(reported) {}
 
+    // Nodes that have an error may lack what the checker completes.
     void run() {
         for (const Symbol* p : shader_.definition->parameters)
             if (p->initial) walk(p->initial);
@@ -236,7 +237,7 @@ class UsageWalk {
     void at(const GatherStmt& s) {
         constexpr uint8_t kGatherers = kSurface | kVolume | kLight;
         legal(s, kGatherers & in_kind(shader_.kind), "gather");
-        walk_all(s.args.first(5));
+        walk_all(s.args.first(std::min<size_t>(s.args.size(), 5)));
         for (size_t k = 0; k < s.pairs.size(); ++k)
             argument(s.pairs[k], k % 2 == 1 && is_gather_output(pair_name(s.pairs, k)));
         walk(*s.body);

@@ -20,7 +20,7 @@ void find_usage(Shader& shader, Ast& ast, Reporter& reporter,
 std::optional<ConstantValue> fold_constant(const Expr& expr);
 ConstantValue zero_constant(Type type);
 
-// Infers the rates of all checked shaders: fills Expr::rate and Symbol::varying (joined over calls
+// Infers the rates of all checked shaders (those with errors as well, as far as they are known): fills Expr::rate and Symbol::varying (joined over calls
 // and shaders), and reports varying values that meet uniform variables.
 void infer_rates(Ast& ast, Reporter& reporter);
 

@@ -70,7 +70,7 @@ int check_source(const ShadeOptions& options, Json& list) {
     for (const auto& shader : source.shaders) {
         rsl::Layer layer{shader.get(), {}};
         // Lowering finds what only it knows: unknown spaces, arrays too large.
-        if (has_code(*shader)) rsl::lower({&layer, 1}, {}, source.diagnostics);
+        rsl::lower({&layer, 1}, {}, source.diagnostics);
     }
     source.print_findings(silent);
     if (options.json)

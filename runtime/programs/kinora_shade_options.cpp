@@ -54,7 +54,7 @@ void add_telling(CLI::App& app, ShadeOptions& o) {
 
 void add_compile(CLI::App& command, ShadeOptions& o, Texts& texts) {
     add_list(command, "-I", o.compile.include_directories, "DIR: where #include files are sought");
-    add_list(command, "-D", texts.defines, "NAME or NAME=VALUE: define a macro");
+    add_list(command, "-D", texts.defines, "NAME, NAME=VALUE or NAME(X)=VALUE: define a macro");
     add_list(command, "-U", o.compile.undefines, "NAME: undefine a macro");
     add_list(command, "--allow-external", o.allow_external,
              "DIR: a scene's shader may read files there too, outside its folder");

@@ -50,6 +50,35 @@ TEST(Lenient, AFilterThatIsNotKnownIsTheBox) {
     EXPECT_TRUE(finds(varies, "RSL_FILTER_UNKNOWN")) << varies.findings();
 }
 
+// A function's body stands wherever it is called, and a source is lowered more than once.
+TEST(Lenient, WhatLoweringFindsIsSaidOnce) {
+    RunShader run(
+        "float f(float x) { return filterstep(x, 0, 1, \"filter\", \"none\"); } "
+        "color g(point p) { return trace(p, p, \"none\", 3); } "
+        "surface t() { printf(\"%f\", f(s) + f(t), 1); Ci = g(P) * f(u) + g(N); }");
+    ASSERT_TRUE(run.ok()) << run.findings();
+    EXPECT_EQ(run.diagnostics.findings().size(), 3u) << run.findings();
+    Layer layer{run.shaders[0].get(), {}};
+    lower({&layer, 1}, {}, run.diagnostics);
+    EXPECT_EQ(run.diagnostics.findings().size(), 3u) << run.findings();
+    Diagnostics other;
+    lower({&layer, 1}, {}, other);
+    EXPECT_EQ(other.findings().size(), 3u);
+}
+
+TEST(Lenient, AnErrorOfLoweringCausesNoOthers) {
+    RunShader knots(
+        "surface t() { float a[3] = {1, 2, 3}; color b[4] = {0, 1, 0.5, 1}; float c[4] = {1, 2, "
+        "3, 4}; Ci = spline(s, a) + spline(s, b) + spline(\"bspline\", s, c); }");
+    EXPECT_EQ(knots.diagnostics.findings().size(), 1u) << knots.findings();
+    EXPECT_TRUE(finds(knots, "RSL_SPLINE_KNOTS")) << knots.findings();
+    RunShader twice(
+        "color f(float x) { return ctransform(\"no\", color x) + spline(\"no\", x, 1, 2, 3, 4); } "
+        "surface t() { Ci = f(s) + f(t); float a[9] = {1, 2}; float b[4] = {1, 2, 3, 4}; "
+        "Oi = a[3] + spline(t, b); }");
+    EXPECT_EQ(twice.diagnostics.findings().size(), 2u) << twice.findings();
+}
+
 TEST(Lenient, OptionalParametersThatACalleeDoesNotKnowAreNamed) {
     struct Case {
         const char *call, *unknown;  // "" where all are known
