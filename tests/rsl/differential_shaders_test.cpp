@@ -1,156 +1,143 @@
-// tests/rsl/differential_shaders_test.cpp: every shader of ours at random points: lowered code
-// against the reference, and every target against the interpreter.
+// tests/rsl/differential_shaders_test.cpp: every shader of assets, of every kind, and those of our
+// tests: lowered code against the reference at random points, every target against the interpreter
+// at random ones and at edges.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "tests/rsl/differential.h"
-#include "tests/rsl/shading_world.h"
+#include "tests/rsl/edge_world.h"
+#include "tests/rsl/shader_difference.h"
 
 namespace kinora::rsl {
 namespace {
 
-constexpr size_t kPoints = 48;
+namespace fs = std::filesystem;
 
-std::string read_file(const std::filesystem::path& path) {
+struct File {
+    fs::path path;
+    std::string text;
+};
+
+std::string read_file(const fs::path& path) {
     std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::vector<std::filesystem::path> shader_files() {
-    std::vector<std::filesystem::path> files;
-    std::filesystem::path root = KINORA_SOURCE_DIR;
-    // Volumes and imagers change what is there already, which these runs do not give them.
-    auto add = [&](const std::filesystem::path& path) {
-        if (path.extension() != ".sl") return;
-        std::string text = "\n" + read_file(path);
-        if (text.find("\nvolume ") == text.npos && text.find("\nimager ") == text.npos)
-            files.push_back(path);
-    };
-    for (auto& entry : std::filesystem::directory_iterator(root / "assets/shaders"))
-        add(entry.path());
-    for (auto& entry : std::filesystem::directory_iterator(root / "tests/rsl/files"))
-        if (entry.path().filename().string().rfind("good", 0) == 0) add(entry.path());
-    for (auto& entry : std::filesystem::directory_iterator(root / "tests/rsl/constructs"))
-        add(entry.path());
-    std::sort(files.begin(), files.end());
+// Sources of a folder and of those in it.
+std::vector<File> sources_of(const char* folder, const char* prefix = "") {
+    std::vector<File> files;
+    for (auto& entry : fs::recursive_directory_iterator(fs::path(KINORA_SOURCE_DIR) / folder)) {
+        bool named = entry.path().filename().string().rfind(prefix, 0) == 0;
+        if (entry.path().extension() == ".sl" && named)
+            files.push_back({entry.path(), read_file(entry.path())});
+    }
+    std::sort(files.begin(), files.end(),
+              [](const File& a, const File& b) { return a.path < b.path; });
     return files;
+}
+
+// Every shader of assets.
+std::vector<File> assets() {
+    return sources_of("assets");
+}
+
+// Those of our tests, but for what is wrong and two that include what lies beside them: here
+// sources have no place.
+std::vector<File> shaders_of_tests() {
+    std::vector<File> files = sources_of("tests/rsl/files", "good");
+    for (File& file : sources_of("tests/rsl/constructs")) {
+        std::string name = file.path.filename().string();
+        bool includes = name == "preprocessor_include.sl" || name == "preprocessor_other_case.sl";
+        bool wrong = file.path.parent_path().filename() == "rejected";
+        if (!includes && !wrong) files.push_back(std::move(file));
+    }
+    return files;
+}
+
+std::vector<File> all_shaders() {
+    std::vector<File> files = assets();
+    for (File& file : shaders_of_tests()) files.push_back(std::move(file));
+    return files;
+}
+
+TEST(Shaders, OfAssetsAreOfEveryKind) {
+    std::set<ShaderKind> kinds;
+    std::vector<File> files = assets();
+    for (const File& file : files) {
+        RunShader run(file.text);
+        ASSERT_TRUE(run.ok()) << file.path << "\n" << run.findings();
+        EXPECT_EQ(run.shaders.size(), 1u) << file.path << ": only the last would be run";
+        kinds.insert(run.shaders.back()->kind);
+    }
+    EXPECT_EQ(kinds.size(), 6u);
+    EXPECT_GE(files.size(), 156u);
+}
+
+// Of shader_difference's worlds, those of 13, 37, 24 and 1 points.
+TEST(Shaders, AgreeWithTheReferenceAndOnEveryTargetAtRandomPoints) {
+    DifferenceCounts counts;
+    std::vector<File> files = all_shaders();
+    for (size_t k = 0; k < files.size(); ++k)
+        for (uint64_t world : {37 * k + 12, 37 * k + 36, 37 * k + 23, 37 * k})
+            EXPECT_EQ(shader_difference(files[k].text, world, counts), "")
+                << files[k].path << " in world " << world;
+    std::printf(
+        "%zu files, %zu values compared with the reference, %zu undecided, %zu extreme, "
+        "%zu unstable, %zu without reference; %zu bits\n",
+        files.size(), counts.values, counts.undecided, counts.extreme, counts.unstable,
+        counts.no_reference, counts.bits);
+    EXPECT_EQ(counts.rejected, 0u) << counts.first_rejection;
+    EXPECT_EQ(counts.shaders, 4 * files.size());
+    EXPECT_LT(counts.undecided + counts.extreme + counts.unstable, counts.values / 20);
+    EXPECT_LT(counts.no_reference, counts.values / 10);
 }
 
 LowerOptions all_outputs(const Shader& shader) {
     LowerOptions options;
     options.want_N = shader.kind != ShaderKind::Light;
+    options.want_P = options.want_N;
     for (const ShaderParameter& p : shader.parameters)
         if (p.output && !p.type.is_array() && p.type.base != BaseType::String)
             options.aovs.emplace_back(p.name);
     return options;
 }
 
-// A file's last shader, compiled once to learn its outputs, then with all of them.
-std::unique_ptr<RunShader> compile_shader(const std::filesystem::path& path, const char* target) {
-    std::string source = read_file(path);
-    RunShader first(source);
-    if (!first.ok()) return nullptr;
-    return std::make_unique<RunShader>(source, all_outputs(*first.shaders.back()),
-                                       std::vector<ParamBinding>{}, false, target);
-}
+// Loops whose rounds a wild parameter sets end with a fault, which is compared too.
+constexpr int kLoopBudget = 60;
 
-struct Outcome {
-    int compared = 0, undecided = 0;
-    double worst = 0;  // absolute and relative error, whichever is less
-    std::string where;
-    std::string missing;  // a built-in without reference
-};
-
-Outcome compare_shader(RunShader& run) {
-    Outcome outcome;
-    Columns columns = random_point(7, kPoints);
-    ReferenceInputs shared;
-    add_lights(run, shared);
-    add_services(run);
+// One shader at `points` edges, its parameters bound to edges or as written.
+std::string edge_difference(const File& file, uint64_t seed, size_t points, bool bound,
+                            DifferenceCounts& counts) {
+    RunShader plain(file.text);
+    if (!plain.ok()) return plain.findings() + " does not compile";
+    const Shader& shader = *plain.shaders.back();
+    Random random{seed};
+    std::vector<ParamBinding> params;
+    Columns columns = edge_points(seed, points);
+    if (bound) bind_edges(shader, random, points, params, columns);
+    RunShader run(file.text, all_outputs(shader), params);
+    if (!run.ok()) return run.findings() + run.verdict + " does not compile when bound";
+    run.lowered.module.loop_budget = kLoopBudget;
+    run.kernels = jit::compile(run.lowered.module, {jit::find_target("interp"), nullptr});
     run.inputs = columns;
-    auto got = run.run(int(kPoints));
-    Layer layer{run.shaders.back().get(), {}};
-    for (size_t i = 0; i < kPoints; ++i) {
-        ReferenceInputs inputs = at_point(columns, {"rng"}, i);
-        inputs.lights = shared.lights;
-        inputs.service = reference_service;
-        ReferenceResult exact = run_reference<double>({&layer, 1}, inputs);
-        ReferenceResult single = run_reference<float>({&layer, 1}, inputs);
-        if (exact.decisions != single.decisions || !exact.missing.empty()) {
-            ++outcome.undecided;
-            outcome.missing = exact.missing;
-            continue;
-        }
-        for (auto& [name, values] : got) {
-            if (name.find(":lit") != std::string::npos) {
-                bool lit = std::bit_cast<int32_t>(values[i]) != 0;
-                EXPECT_EQ(lit, exact.values.at(name) != 0);
-                continue;
-            }
-            double want = exact.values.at(name), lost = std::fabs(single.values.at(name) - want);
-            double error = std::fabs(double(values[i]) - want);
-            double excess = std::max(0.0, error - 4 * lost) / (1 + std::fabs(want));
-            if (std::isnan(want) && std::isnan(values[i])) excess = 0;
-            ++outcome.compared;
-            if (!(excess <= outcome.worst)) {
-                outcome.worst = std::isnan(excess) ? 1e30 : excess;
-                outcome.where = name + " float " + std::to_string(single.values.at(name)) +
-                                " got " + std::to_string(values[i]) + ", exactly " +
-                                std::to_string(want) + " at point " + std::to_string(i);
-            }
-        }
-    }
-    return outcome;
+    add_edge_world(run, seed, points);
+    ++counts.shaders;
+    return target_difference(run, points, counts);
 }
 
-TEST(Shaders, LoweredCodeAgreesWithTheReference) {
-    int files = 0, left_out = 0, points = 0, undecided = 0;
-    for (auto& path : shader_files()) {
-        auto run = compile_shader(path, "interp");
-        if (!run || !run->ok()) {
-            std::printf("left out: %s\n", path.filename().c_str());
-            ++left_out;
-            continue;
-        }
-        Outcome outcome = compare_shader(*run);
-        if (!outcome.missing.empty())
-            std::printf("%s: no reference for %s\n", path.filename().c_str(),
-                        outcome.missing.c_str());
-        ++files, points += outcome.compared, undecided += outcome.undecided;
-        EXPECT_LE(outcome.worst, 2e-5) << path.filename() << " " << outcome.where;
-    }
-    std::printf("%d shaders, %d left out, %d values compared, %d points undecided\n", files,
-                left_out, points, undecided);
-    EXPECT_GT(files, 20);
-}
-
-TEST(Shaders, GiveTheSameBitsOnEveryTarget) {
-    for (const jit::Target& target : jit::targets()) {
-        if (!target.supported() || std::string_view(target.name) == "interp") continue;
-        int values = 0;
-        for (auto& path : shader_files()) {
-            auto one = compile_shader(path, "interp"), other = compile_shader(path, target.name);
-            if (!one || !one->ok()) continue;
-            ASSERT_TRUE(other && other->ok()) << path.filename() << " " << target.name;
-            for (RunShader* run : {one.get(), other.get()}) {
-                ReferenceInputs unused;
-                add_lights(*run, unused);
-                add_services(*run);
-                run->inputs = random_point(11, kPoints);
+TEST(Shaders, GiveTheSameBitsOnEveryTargetAtEdges) {
+    DifferenceCounts counts;
+    std::vector<File> files = all_shaders();
+    for (size_t k = 0; k < files.size(); ++k)
+        for (bool bound : {false, true})
+            for (size_t points : {size_t(41), size_t(8 + k % 8), size_t(1 + k % 7)}) {
+                uint64_t seed = 1000 * k + points;
+                EXPECT_EQ(edge_difference(files[k], seed, points, bound, counts), "")
+                    << files[k].path << " at " << points << " points" << (bound ? ", bound" : "");
             }
-            auto expected = one->run(int(kPoints)), got = other->run(int(kPoints));
-            for (auto& [name, column] : expected)
-                for (size_t i = 0; i < column.size(); ++i, ++values)
-                    ASSERT_TRUE(same_bits(column[i], got.at(name)[i]))
-                        << path.filename() << " " << target.name << " " << name << " at " << i;
-        }
-        std::printf("%s: %d values\n", target.name, values);
-    }
+    std::printf("%zu files, %zu values the same on each target\n", files.size(), counts.bits);
+    EXPECT_EQ(counts.shaders, 6 * files.size());
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ struct TestLight {
     float nondiffuse = 0;
     float nonspecular = 0;
     std::vector<float> messages = {};  // components in the order of LoweredShader::light_messages
+    // If given: the first kLightMessages columns (LightColumn), a value a point, in place of L to
+    // lit.
+    std::vector<std::vector<float>> columns = {};
 };
 
 // A stack of shaders from source text to outputs. Inputs are named as in renderer_services.h and 0
@@ -111,6 +114,12 @@ class RunShader {
         return data;
     }
 
+    const float* column_of(const std::vector<float>& points) {
+        float* data = column(points.back(), 256);
+        std::copy_n(points.begin(), std::min<size_t>(points.size(), 256), data);
+        return data;
+    }
+
     // "space:x:to_current:RC" is 1 where R is C; "1" is 1.
     static float missing(const std::string& name) {
         if (name == "1") return 1;
@@ -139,6 +148,8 @@ class RunShader {
                 columns[kLightOl + c] = column(light.Ol[c], 256);
             }
             columns[kLightLit] = column(std::bit_cast<float>(light.lit), 256);
+            for (size_t c = 0; c < light.columns.size(); ++c)
+                columns[c] = column_of(light.columns[c]);
             for (size_t c = 0; c < kMessages; ++c)
                 columns[kLightMessages + c] =
                     column(c < light.messages.size() ? light.messages[c] : 0, 256);

@@ -177,13 +177,15 @@ std::string against_reference(RunShader& run, const Setting& setting,
     return "";
 }
 
-std::string against_targets(RunShader& run, const Setting& setting, DifferenceCounts& counts) {
-    auto want = run.run(int(setting.points));
+}  // namespace
+
+std::string target_difference(RunShader& run, size_t points, DifferenceCounts& counts) {
+    auto want = run.run(int(points));
     int want_faults = run.faults;
     for (const jit::Target& target : jit::targets()) {
         if (!target.supported() || std::string_view(target.name) == "interp") continue;
         run.kernels = jit::compile(run.lowered.module, {&target, nullptr});
-        auto got = run.run(int(setting.points));
+        auto got = run.run(int(points));
         if (run.faults != want_faults) return std::string(target.name) + ": faults differ";
         for (auto& [name, column] : want)
             for (size_t i = 0; i < column.size(); ++i, ++counts.bits) {
@@ -197,8 +199,6 @@ std::string against_targets(RunShader& run, const Setting& setting, DifferenceCo
     }
     return "";
 }
-
-}  // namespace
 
 std::string shader_difference(const std::string& source, uint64_t world, DifferenceCounts& counts) {
     ++counts.shaders;
@@ -227,7 +227,7 @@ std::string shader_difference(const std::string& source, uint64_t world, Differe
     run.lowered.module.loop_budget = kLoopBudget;
     run.kernels = jit::compile(run.lowered.module, {jit::find_target("interp"), nullptr});
     std::string wrong = against_reference(run, setting, shared.lights, counts);
-    if (wrong.empty()) wrong = against_targets(run, setting, counts);
+    if (wrong.empty()) wrong = target_difference(run, setting.points, counts);
     if (wrong.empty()) wrong = emission_difference(run.lowered.module);
     if (counts.shaders % 64 == 0) jit::clear_cache();
     return wrong;

@@ -33,6 +33,10 @@ struct DifferenceCounts {
 // (extreme), unless a comparison swallows the NaN, which would be reported as a difference.
 std::string shader_difference(const std::string& source, uint64_t world, DifferenceCounts& counts);
 
+// Every target of this CPU against interp, bit for bit, on the inputs that `run` has (its kernels
+// are interp's, then those of the last target). "" or what differs; values are counted as bits.
+std::string target_difference(RunShader& run, size_t points, DifferenceCounts& counts);
+
 // "" if emitting the shader's kernels twice gives the same bytes on every target.
 std::string emission_difference(const jit::Module& lowered);
 

@@ -1,0 +1,211 @@
+// tests/rsl/edge_world.cpp: points, parameters, lights and services with anything that a float can
+// be.
+#include "tests/rsl/edge_world.h"
+
+#include <utility>
+
+#include "rsl/service_table.h"
+#include "runtime/base/check.h"
+#include "tests/rsl/shading_world.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+bool one_of(std::string_view name, std::initializer_list<std::string_view> stems) {
+    return std::find(stems.begin(), stems.end(), name.substr(0, name.find('.'))) != stems.end();
+}
+
+float signed_zero(Random& random) {
+    return random.next() % 4 ? 0.0f : -0.0f;
+}
+
+// What becomes of a number of the input `name` at a point.
+using Turn = float (*)(Random& random, std::string_view name, float x);
+
+float as_it_is(Random&, std::string_view, float x) {
+    return x;
+}
+float some_wild(Random& random, std::string_view, float x) {
+    return random.next() % 4 ? x : random.wild();
+}
+float all_wild(Random& random, std::string_view, float) {
+    return random.wild();
+}
+float coincident(Random& random, std::string_view name, float x) {
+    return one_of(name, {"P", "Ps", "I", "E"}) ? signed_zero(random) : x;
+}
+float without_length(Random& random, std::string_view name, float x) {
+    return one_of(name, {"N", "Ng", "Ns", "I"}) ? signed_zero(random) : x;
+}
+float without_slope(Random& random, std::string_view name, float x) {
+    return one_of(name, {"dPdu", "dPdv", "dNdu", "dNdv", "dIdu", "dIdv", "dsdu", "dsdv", "dtdu",
+                         "dtdv", "du", "dv"})
+               ? signed_zero(random)
+               : x;
+}
+float huge(Random& random, std::string_view, float x) {
+    return x * (random.next() % 2 ? 1e30f : 3e38f);
+}
+float denormal(Random& random, std::string_view, float x) {
+    return x * (random.next() % 2 ? 1e-40f : 1e-38f);
+}
+
+constexpr Turn kTurns[] = {as_it_is,       some_wild,     all_wild, coincident,
+                           without_length, without_slope, huge,     denormal};
+
+bool is_int(std::string_view name) {
+    return name == "rng";
+}
+
+}  // namespace
+
+Columns edge_points(uint64_t seed, size_t points) {
+    Random random{seed * 77 + 13};
+    Columns columns = random_point(seed, points);
+    for (auto& [name, values] : columns)
+        for (size_t i = 0; i < values.size() && !is_int(name); ++i)
+            values[i] = kTurns[(seed + i) % std::size(kTurns)](random, name, values[i]);
+    return columns;
+}
+
+std::vector<float> edge_column(Random& random, size_t points) {
+    std::vector<float> values;
+    for (size_t i = 0; i < points; ++i)
+        values.push_back(kTurns[i % std::size(kTurns)](random, "", random.argument(false)));
+    return values;
+}
+
+void bind_edges(const Shader& shader, Random& random, size_t points,
+                std::vector<ParamBinding>& params, Columns& columns) {
+    for (const ShaderParameter& p : shader.parameters) {
+        if (p.type.base == BaseType::String) continue;
+        bool varying = p.detail == Detail::Varying && !p.type.is_array();
+        auto kind = varying ? ParamBinding::Kind::Varying : ParamBinding::Kind::Frame;
+        params.push_back({std::string(p.name), kind, {}, {}});
+        int components = component_count(p.type.base);
+        for (int e = 0; e < (p.type.is_array() ? p.type.array_length : 1); ++e)
+            for (int c = 0; c < components; ++c) {
+                std::string name = "param:0:" + std::string(p.name);
+                if (p.type.is_array()) name += "[" + std::to_string(e) + "]";
+                if (p.type.base == BaseType::Color)
+                    name += std::string(".") + "rgb"[c];
+                else if (components == 3)
+                    name += std::string(".") + "xyz"[c];
+                else if (components > 3)
+                    name += "." + std::to_string(c);
+                std::vector<float> one = {random.next() % 2 ? random.wild()
+                                                            : random.argument(false)};
+                columns[name] = varying ? edge_column(random, points) : one;
+            }
+    }
+}
+
+// ---- what else the kernels read -----------------------------------------------------------------
+
+namespace {
+
+void add_missing_inputs(RunShader& run, Random& random, size_t points) {
+    for (const jit::Kernel* kernel : {run.kernels.point.get(), run.kernels.frame.get()})
+        for (size_t k = 0; kernel && k < kernel->inputs.size(); ++k) {
+            const std::string& name = kernel->inputs[k].name;
+            if (name == "1" || is_int(name) || run.inputs.count(name)) continue;
+            bool matrix = name.rfind("space:", 0) == 0;
+            if (kernel == run.kernels.frame.get() || matrix)
+                run.inputs[name] = {random.next() % 8 ? random.uniform(-2, 2) : random.wild()};
+            else
+                run.inputs[name] = edge_column(random, points);
+        }
+}
+
+void add_edge_lights(RunShader& run, Random& random, size_t points) {
+    for (int k = 0; k < 4; ++k) {
+        TestLight light;
+        light.kind = k == 0 ? kLightAmbient : k == 1 ? kLightSolar : kLightIlluminate;
+        for (int column = 0; column < kLightLit; ++column)
+            light.columns.push_back(edge_column(random, points));
+        for (size_t i = size_t(k); i < points; i += 3)  // as a gather reads it
+            light.columns[kLightL][i] = std::bit_cast<float>(int32_t(kGatherHit));
+        std::vector<float> lit;
+        for (size_t i = 0; i < points; ++i)
+            lit.push_back(std::bit_cast<float>(int32_t(random.next() % 3) - 1));
+        light.columns.push_back(lit);
+        light.categories = random.next();
+        light.nondiffuse = k == 2 ? random.wild() : 0;
+        light.nonspecular = k == 3 ? random.wild() : 0;
+        for (size_t j = 0; j < run.lowered.light_messages.size(); ++j) {
+            bool text = run.lowered.light_message_types[j].base == BaseType::String;
+            for (int c = 0; c < run.lowered.light_message_components[j]; ++c)
+                light.messages.push_back(text ? std::bit_cast<float>(intern("world"))
+                                              : random.wild());
+        }
+        run.lights.push_back(light);
+    }
+}
+
+const jit::ServiceInfo& service_of(const RunShader& run, std::string_view name) {
+    for (const jit::Kernel* kernel : {run.kernels.point.get(), run.kernels.frame.get()})
+        for (size_t k = 0; kernel && k < kernel->services.size(); ++k)
+            if (kernel->services[k].name == name) return kernel->services[k];
+    check_failed("tests/rsl/edge_world.cpp", 0, "unknown service " + std::string(name));
+}
+
+// Results that are ints: how many values follow, handles of record sets, ids of strings.
+void repair_ints(std::string_view name, int32_t type, Random& random, std::span<float> results) {
+    auto whole = [&](size_t k, int32_t value) { results[k] = std::bit_cast<float>(value); };
+    if (name == "lights" || name == "gather") {
+        whole(0, 0);  // one answer for all lanes: the lights
+    } else if (name == "query" && type == 's') {
+        whole(0, int32_t(random.next() % 2));
+        for (size_t k = 1; k < results.size(); ++k) whole(k, intern("world"));
+    } else if (name == "textureinfo") {
+        whole(0, int32_t(random.next() % 18) - 1);
+        if (std::bit_cast<int32_t>(results[0]) < 0) whole(1, intern("texture"));
+    } else if (name == "query" || name == "texture3d") {
+        whole(0, int32_t(random.next() % 4));
+    }
+}
+
+// The same for the same bits of the arguments; any NaN is one.
+template <size_t service>
+void edge_service(const jit::ServiceCall& call) {
+    std::string_view name = kServiceNames[service];
+    const jit::ServiceInfo& info = service_of(*static_cast<const RunShader*>(call.grid), name);
+    std::vector<float> results(info.results.size());
+    for (int lane = 0; lane < call.lanes; ++lane) {
+        if (!(call.mask >> lane & 1)) continue;
+        Random random{service + 1};
+        int32_t type = 0;
+        for (size_t k = 0; k < info.params.size(); ++k) {
+            float x = call.args[k * jit::kMaxLanes + size_t(lane)];
+            bool number = info.params[k] == jit::Type::F;
+            uint32_t bits = number && x != x ? 0x7fc00000 : std::bit_cast<uint32_t>(x);
+            random.state = (random.state ^ bits) * 0x9e3779b97f4a7c15u;
+            if (k == 2) type = int32_t(bits);
+        }
+        for (float& x : results) x = random.next() % 2 ? random.uniform(0, 1) : random.wild();
+        repair_ints(name, type, random, results);
+        for (size_t k = 0; k < results.size(); ++k)
+            call.results[k * jit::kMaxLanes + size_t(lane)] = results[k];
+    }
+}
+
+template <size_t... service>
+void add_services_of(RunShader& run, std::index_sequence<service...>) {
+    auto add = [&](size_t k, jit::ServiceFn function) {
+        if (!string_service(kServiceNames[k]))
+            run.services[std::string(kServiceNames[k])] = function;
+    };
+    (add(service, edge_service<service>), ...);
+}
+
+}  // namespace
+
+void add_edge_world(RunShader& run, uint64_t seed, size_t points) {
+    Random random{seed * 31 + 7};
+    add_missing_inputs(run, random, points);
+    add_edge_lights(run, random, points);
+    add_services_of(run, std::make_index_sequence<std::size(kServiceNames)>());
+}
+
+}  // namespace kinora::rsl
