@@ -60,7 +60,11 @@ Value Emitter::pow_positive(Value x, Value y) {
 }
 
 Value Emitter::mod(Value x, Value y) {
-    Value r = b.fma(b.neg(y), b.floor(b.div(x, y)), x);  // the last line has an eye on y = 0
+    Value turns = b.floor(b.div(x, y));  // the last line has an eye on y = 0
+    Value r = b.fma(b.neg(y), turns, x);
+    // An infinite y times no turn is 0, not NaN: mod(x, infinity) is x.
+    float divisor;
+    if (!b.constant_f(y, &divisor) || std::isinf(divisor)) r = b.select(b.eq(turns, b.f(0)), x, r);
     // A quotient beyond 2^24 has no fraction and leaves junk: keep the result in [0, y).
     Value below = b.select(b.lt(y, b.f(0)), b.lt(b.f(0), r), b.lt(r, b.f(0)));
     Value beyond = b.le(b.abs(y), b.abs(r));

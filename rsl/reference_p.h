@@ -247,7 +247,11 @@ class Reference {
 template <class Real>
 bool Reference<Real>::in_cone(const Vec<Real>& L, const Vec<Real>* axis, const Number& angle) {
     if (!axis || angle.x >= Real(3.14159)) return true;
-    return decide(std::cos(angle.x) * length(*axis).x * length(L).x <= dot(L, *axis).x);
+    Real lengths = length(*axis).x * length(L).x, along = dot(L, *axis).x;
+    Real side = std::cos(angle.x) * lengths;
+    // On the cone itself (a point on the axis of one without width) rounding decides.
+    if (std::fabs(side - along) < Real(0x1p-21) * lengths) no_promise();
+    return decide(side <= along);
 }
 
 template <class Real>

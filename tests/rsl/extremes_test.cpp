@@ -153,6 +153,10 @@ TEST(Extremes, Row52ModHasTheSignOfTheDivisor) {
 }
 TEST(Extremes, Row53ModBy0Is0) {
     expect("mod(x, y)", {5, 0}, 0);
+    // By x - y floor(x / y); -1 would be just below infinity: 0, as what rounds to a finite y is.
+    expect("mod(x, y)", {5, HUGE_VALF}, 5);
+    expect("mod(x, y)", {-1, HUGE_VALF}, 0);
+    expect("mod(x, y)", {-1, -HUGE_VALF}, -1);
 }
 TEST(Extremes, Row54ModOfSomethingHugeStaysBelowTheDivisor) {
     expect_between("mod(x, y)", {1e20f, 0.1f}, 0, 0.0999999940f);
