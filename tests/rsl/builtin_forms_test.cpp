@@ -5,7 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/rsl/run_shader.h"
+#include "tests/rsl/edge_world.h"
+#include "tests/rsl/shading_world.h"
 
 namespace kinora::rsl {
 namespace {
@@ -95,7 +96,7 @@ jit::ServiceFn answer_of(size_t results, std::index_sequence<k...>) {
     return kAnswers[results];
 }
 
-std::map<std::string, std::vector<float>> run_on(const char* target, const Form& form) {
+std::map<std::string, std::vector<float>> run_on(const char* target, const Form& form, bool edges) {
     std::vector<std::string> outputs;
     LowerOptions options;
     std::string source = source_of(form, outputs);
@@ -105,6 +106,11 @@ std::map<std::string, std::vector<float>> run_on(const char* target, const Form&
                           << form.text << "\n"
                           << run.findings();
     if (!run.ok()) return {};
+    if (edges) {
+        run.inputs = edge_points(uint64_t(form.line), kPoints);
+        add_edge_world(run, uint64_t(form.line), kPoints);
+        return run.run(kPoints);
+    }
     for (const jit::Kernel* kernel : {run.kernels.point.get(), run.kernels.frame.get()})
         for (size_t k = 0; kernel && k < kernel->services.size(); ++k)
             if (!string_service(kernel->services[k].name))
@@ -123,26 +129,25 @@ std::map<std::string, std::vector<float>> run_on(const char* target, const Form&
     return run.run(kPoints);
 }
 
-bool same_bits(float x, float y) {
-    return std::bit_cast<int32_t>(x) == std::bit_cast<int32_t>(y) || (x != x && y != y);
+// The calls' arguments follow from s and t: these at mild points and at edges.
+void compare(const Form& form, bool edges, int& compared) {
+    auto expected = run_on("interp", form, edges);
+    for (const jit::Target& target : jit::targets()) {
+        if (std::string_view(target.name) == "interp" || !target.supported()) continue;
+        auto got = run_on(target.name, form, edges);
+        for (auto& [name, values] : expected)
+            for (size_t i = 0; i < values.size(); ++i, ++compared)
+                EXPECT_TRUE(same_bits(values[i], got[name][i]))
+                    << "builtins.txt:" << form.line << " " << name << " on " << target.name << ": "
+                    << got[name][i] << ", interp " << values[i] << (edges ? " at edges" : "");
+    }
 }
 
 TEST(BuiltinForms, CompileAndGiveTheSameBitsOnEveryTarget) {
     int compared = 0;
-    for (const Form& form : forms()) {
-        auto expected = run_on("interp", form);
-        if (expected.empty()) continue;
-        for (const jit::Target& target : jit::targets()) {
-            if (std::string_view(target.name) == "interp" || !target.supported()) continue;
-            auto got = run_on(target.name, form);
-            for (auto& [name, values] : expected)
-                for (size_t i = 0; i < values.size(); ++i, ++compared)
-                    EXPECT_TRUE(same_bits(values[i], got[name][i]))
-                        << "builtins.txt:" << form.line << " " << name << " on " << target.name
-                        << ": " << got[name][i] << ", interp " << values[i];
-        }
-    }
-    EXPECT_GT(compared, 1000);
+    for (const Form& form : forms())
+        for (bool edges : {false, true}) compare(form, edges, compared);
+    EXPECT_GT(compared, 2000);
 }
 
 }  // namespace

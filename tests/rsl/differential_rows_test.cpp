@@ -1,5 +1,5 @@
-// tests/rsl/differential_rows_test.cpp: every built-in row over edge and random values: lowered
-// code against the reference.
+// tests/rsl/differential_rows_test.cpp: pure built-in rows over edge and random values: lowered
+// code against the reference. Bits on the targets: row_edges_test.cpp.
 #include <gtest/gtest.h>
 
 #include "tests/rsl/differential.h"
@@ -32,8 +32,8 @@ struct RowShader {
 
 class RowWriter {
   public:
-    RowWriter(const Builtin& row, const Signature& signature, uint64_t seed, bool wild = false)
-        : row_(row), signature_(signature), random_{seed}, wild_(wild) {}
+    RowWriter(const Builtin& row, const Signature& signature, uint64_t seed)
+        : row_(row), signature_(signature), random_{seed} {}
 
     RowShader write() {
         std::vector<Signature::Argument> arguments = signature_.arguments;
@@ -94,12 +94,11 @@ class RowWriter {
         for (int c = 0; c < component_count(type); ++c)
             for (size_t i = 0; i < (one ? 1 : kPoints); ++i)
                 shader_.columns[name + suffix(type, c)].push_back(
-                    wild_ ? random_.wild() : random_.argument(moderate(row_.name)));
+                    random_.argument(moderate(row_.name)));
     }
 
     // Directions that the row expects to have length 1.
     void make_unit(const std::string& name) {
-        if (wild_) return;
         auto& columns = shader_.columns;
         for (size_t i = 0; i < kPoints; ++i) {
             float* v[] = {&columns[name + ".x"][i], &columns[name + ".y"][i],
@@ -128,7 +127,6 @@ class RowWriter {
     const Builtin& row_;
     const Signature& signature_;
     Random random_;
-    bool wild_;
     RowShader shader_;
     std::string parameters_, body_, call_, after_;
 };
@@ -215,61 +213,6 @@ RowReport run_row(const Builtin& row, const Signature& signature) {
                     condition.at(name), row, report, point_text(inputs));
     }
     return report;
-}
-
-// Overloads that give numbers from numbers.
-template <class F>
-void for_each_pure_overload(F&& f) {
-    for (std::span<const Builtin> group : builtin_groups())
-        for (const Builtin& row : group) {
-            bool pure = (row.effects & ~uint32_t(kDerivative)) == 0;
-            if (!row.lower || !pure || row.signature[0] == 's') continue;
-            for (const Signature& signature : parse_signatures(row.signature)) f(row, signature);
-        }
-}
-
-using Outputs = std::map<std::string, std::vector<float>>;
-
-Outputs run_on(const char* target, const RowShader& shader) {
-    LowerOptions options;
-    options.aovs = shader.aovs;
-    RunShader run(shader.source, options, shader.params, false, target);
-    EXPECT_TRUE(run.ok()) << shader.source << "\n" << run.findings();
-    if (!run.ok()) return {};
-    run.inputs = shader.columns;
-    run.set("camera:near", 0.5f), run.set("camera:far", 100);
-    return run.run(int(RowWriter::kPoints));
-}
-
-bool same_bits(float a, float b) {
-    return std::bit_cast<int32_t>(a) == std::bit_cast<int32_t>(b) || (a != a && b != b);
-}
-
-std::string arguments_at(const RowShader& shader, size_t i) {
-    return point_text(at_point(shader.columns, {}, i));
-}
-
-TEST(Rows, GiveTheSameBitsOnEveryTargetForAnyFloats) {
-    int overloads = 0, values = 0;
-    for_each_pure_overload([&](const Builtin& row, const Signature& signature) {
-        for (bool wild : {false, true}) {
-            RowShader shader = RowWriter(row, signature, 7 + overloads, wild).write();
-            Outputs expected = run_on("interp", shader);
-            for (const jit::Target& target : jit::targets()) {
-                if (!target.supported() || std::string_view(target.name) == "interp") continue;
-                Outputs got = run_on(target.name, shader);
-                for (const std::string& name : shader.outputs)
-                    for (size_t i = 0; i < RowWriter::kPoints; ++i, ++values)
-                        EXPECT_TRUE(same_bits(expected[name][i], got[name][i]))
-                            << row.name << " overload " << signature.overload << " " << target.name
-                            << " " << name << ": " << got[name][i] << ", interp "
-                            << expected[name][i] << " at " << arguments_at(shader, i);
-            }
-        }
-        ++overloads;
-    });
-    std::printf("%d overloads, %d values the same\n", overloads, values);
-    EXPECT_GT(overloads, 100);
 }
 
 TEST(Rows, LoweredCodeAgreesWithTheReference) {

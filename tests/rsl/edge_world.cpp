@@ -170,7 +170,8 @@ void repair_ints(std::string_view name, int32_t type, Random& random, std::span<
 template <size_t service>
 void edge_service(const jit::ServiceCall& call) {
     std::string_view name = kServiceNames[service];
-    const jit::ServiceInfo& info = service_of(*static_cast<const RunShader*>(call.grid), name);
+    RunShader& run = *static_cast<RunShader*>(call.grid);
+    const jit::ServiceInfo& info = service_of(run, name);
     std::vector<float> results(info.results.size());
     for (int lane = 0; lane < call.lanes; ++lane) {
         if (!(call.mask >> lane & 1)) continue;
@@ -183,6 +184,9 @@ void edge_service(const jit::ServiceCall& call) {
             random.state = (random.state ^ bits) * 0x9e3779b97f4a7c15u;
             if (k == 2) type = int32_t(bits);
         }
+        // A sum, as lanes have no order.
+        uint64_t told = random.state ^ uint64_t(call.first + lane);
+        if (!info.pure) run.told += told * 0xbf58476d1ce4e5b9u;
         for (float& x : results) x = random.next() % 2 ? random.uniform(0, 1) : random.wild();
         repair_ints(name, type, random, results);
         for (size_t k = 0; k < results.size(); ++k)

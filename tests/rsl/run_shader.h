@@ -75,7 +75,7 @@ class RunShader {
     // Runs `count` points; outputs by name.
     std::map<std::string, std::vector<float>> run(int count = 1) {
         arena.reset();
-        faults = 0;
+        faults = 0, told = 0;
         std::vector<float> frame;
         if (kernels.frame) frame = run_kernel(*kernels.frame, 1, nullptr, nullptr);
         const jit::RecordSet records[] = {light_records(), {}};  // kNoRecords: what a gather finds
@@ -102,6 +102,9 @@ class RunShader {
     std::map<std::string, jit::ServiceFn> services;
     static constexpr int32_t kNoRecords = 1;  // the handle of a record set without records
     int faults = 0;  // sites that reported in the last run, of the frame kernel too
+    // For services with effects, which get this RunShader as their grid: a hash of all they were
+    // told in the last run.
+    uint64_t told = 0;
 
   private:
     static constexpr size_t kPad = jit::kMaxLanes;

@@ -182,11 +182,14 @@ std::string against_reference(RunShader& run, const Setting& setting,
 std::string target_difference(RunShader& run, size_t points, DifferenceCounts& counts) {
     auto want = run.run(int(points));
     int want_faults = run.faults;
+    uint64_t want_told = run.told;
     for (const jit::Target& target : jit::targets()) {
         if (!target.supported() || std::string_view(target.name) == "interp") continue;
         run.kernels = jit::compile(run.lowered.module, {&target, nullptr});
         auto got = run.run(int(points));
         if (run.faults != want_faults) return std::string(target.name) + ": faults differ";
+        if (run.told != want_told)
+            return std::string(target.name) + ": services are told other things";
         for (auto& [name, column] : want)
             for (size_t i = 0; i < column.size(); ++i, ++counts.bits) {
                 if (same_bits(column[i], got.at(name)[i])) continue;
