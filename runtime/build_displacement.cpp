@@ -31,6 +31,11 @@ void SceneBuilder::displace() {
     if (any) find_views(all);
     dice(all);
     watch_edges(all);
+    if (any && refine_views(all)) {
+        dice(all);
+        watch_edges(all);
+    }
+    report_dice_limit();
     for (Displaced& displaced : all) wear(displaced);
     bake_static(scene);
     deform_now();

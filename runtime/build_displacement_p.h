@@ -20,7 +20,9 @@ struct DiceView {
     bool same(const DiceView& o) const {
         return pose.empty() && o.pose.empty() && accel_from_pose == o.accel_from_pose &&
                camera.eye == o.camera.eye && camera.right == o.camera.right &&
-               camera.up == o.camera.up && camera.half_width == o.camera.half_width;
+               camera.up == o.camera.up && camera.half_width == o.camera.half_width &&
+               camera.half_height == o.camera.half_height && camera.width == o.camera.width &&
+               camera.znear == o.camera.znear;
     }
 };
 

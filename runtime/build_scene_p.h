@@ -95,8 +95,13 @@ class SceneBuilder {
                         WatchedEdges* watched);
     // build_dicing.cpp: for which views, how finely
     void find_views(std::vector<Displaced>& all);
+    bool place_dice_camera();
+    void add_view(std::vector<Displaced>& all, double time);
     void add_views(std::vector<Displaced>& all);
+    bool refine_views(std::vector<Displaced>& all);
+    void back_to_start();
     void dice(std::vector<Displaced>& all);
+    void report_dice_limit();
     double coarse_enough(std::vector<Displaced>& all, double pixels);
     bool dice_to(std::vector<Displaced>& all, double pixels, size_t limit);
     void watch_edges(std::vector<Displaced>& all);
@@ -114,6 +119,7 @@ class SceneBuilder {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> shape_numbers_;
     std::map<std::string, uint32_t> looks_by_key_;
     std::vector<std::string> space_names_;
+    std::vector<double> view_times_;         // that meshes are diced for; none where nothing moves
     std::vector<std::string> output_names_;  // parameters behind Scene::outputs
     std::vector<std::string> gathered_;      // outputs that gather statements read of what they hit
     MaterialDefinition default_material_;

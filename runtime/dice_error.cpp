@@ -151,6 +151,7 @@ double dice_error(Scene& scene) {
     for (const auto& watched : scene.watched)
         for (uint32_t h : watched->shapes) {
             const Shape& shape = scene.shapes[h];
+            if (!watched->ends.empty() && watched->posed.empty()) continue;  // no scene yet
             most = std::max(most, watched->posed.empty() ? longest_rigid(scene, *watched, shape)
                                                          : longest_posed(scene, *watched, shape));
         }

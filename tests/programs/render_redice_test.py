@@ -16,8 +16,9 @@ LOOK = ('<library_effects><effect id="fx"><profile_RSL><technique sid="t"><code>
 CAMERA = camera("<perspective><xfov>60</xfov><aspect_ratio>1</aspect_ratio><znear>0.01</znear><zfar>100</zfar>"
                 "</perspective>")[0]
 EYE = '<node id="eye"><translate sid="t">0.3 0.2 8</translate><instance_camera url="#cam"/></node>'
-# Frames 10 and 11 of 24 lie between those that are looked at while the scene is loaded (0, 3, 6, ...).
-DIVE = animation("dive", "eye/t.Z", [0, 9 / 24, 10 / 24, 11 / 24, 12 / 24, 1], [8, 8, 0.9, 0.9, 8, 8])
+# Frames 10 and 11 of 24 lie between the 64 times that are looked at while the scene is loaded.
+KEYS = [(0, 8)] + [key for n in (10, 11) for key in ((n / 24 - 0.004, 8), (n / 24, 0.9), (n / 24 + 0.004, 8))] + [(1, 8)]
+DIVE = animation("dive", "eye/t.Z", [t for t, _ in KEYS], [z for _, z in KEYS])
 CLIP = ('<library_animation_clips><animation_clip id="near" start="{0}" end="{0}"><instance_animation url="#dive"/>'
         '</animation_clip></library_animation_clips>').format(repr(10 / 24))
 DIVING = document(CAMERA + LOOK + geometries(square(half=3)) + animations(DIVE) + CLIP, EYE + place())
@@ -68,6 +69,13 @@ class Redice(ProgramTest):
         coarse = self.rmse(self.folder / "coarse" / name, self.folder / "clip" / name)
         self.assertLess(near, 2)
         self.assertGreater(coarse, 3 * near)
+
+    def test_frames_that_loading_sees_need_none(self):
+        slow = animation("dive", "eye/t.Z", [0, 9 / 24, 10 / 24, 11 / 24, 12 / 24, 1], [8, 8, 0.9, 0.9, 8, 8])
+        _, stats = self.frames("slow", "8-13", text=DIVING.replace(DIVE, slow))
+        self.assertEqual(stats["redices"], 0)
+        for frame in stats["frames"]:
+            self.assertLess(frame["dice_error"], 1.5)
 
     def test_frames_outside_the_range_are_too(self):
         text = document(CAMERA + LOOK + geometries(square(half=3)) + animations(DIVE) +
