@@ -227,7 +227,10 @@ const Builtin kRows[] = {
     {"depth", "f=p", lower::depth, KINORA_RSL_REF(ref::depth), kPure, 8,
      "0 at the near, 1 at the far clipping plane."},
     {"calculatenormal", "n=p", lower::calculatenormal, KINORA_RSL_REF(ref::calculatenormal),
-     kDerivative, 16, "Normal of the surface with positions p: Du(p) ^ Dv(p), oriented as Ng.",
+     kDerivative | kMakesNormals, 16,
+     "Normal of the surface with positions p: Du(p) ^ Dv(p), oriented as Ng. In shaders that call "
+     "it "
+     "P changes as on a surface with the normal N: no faces show.",
      kSurface | kDisplacement | kVolume, "Ng"},
 };
 

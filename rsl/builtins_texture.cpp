@@ -1,6 +1,4 @@
 // rsl/builtins_texture.cpp: rows of the built-in table: textures and maps.
-#include <algorithm>
-
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
@@ -53,26 +51,22 @@ void set_texels(LowerCall& c, const std::vector<Value>& rgba) {
         c.set(V3{rgba[0], rgba[1], rgba[2]});
 }
 
-// Whether the shader makes normals of what it reads: then a texture has a derivative, which costs
-// two more lookups.
-bool bends_normals(LowerCall& c) {
-    if (c.low.kind() == ShaderKind::Displacement) return true;
-    const std::vector<Token>& tokens = c.low.ast().tokens.tokens;
-    return std::any_of(tokens.begin(), tokens.end(),
-                       [](const Token& token) { return token.text == "calculatenormal"; });
-}
-
-// The value here, with the differences to the lookups beside it as its derivatives: what a grid of
-// small faces sees. Answers of services have no slope, so slope * u has this one along u.
-Value with_differences(LowerCall& c, Value here, Value along_u, Value along_v) {
+// The texels here, with the differences to the lookups beside as their derivatives: what a grid of
+// small faces sees. Answers of services have no slope, so slope * u has this one along u. Where
+// nothing takes the derivative the lookups beside are dropped: they are pure.
+void set_with_differences(LowerCall& c, std::vector<Value> here, const std::vector<Value>& along_u,
+                          const std::vector<Value>& along_v) {
     auto& b = c.b;
-    auto term = [&](Value beside, Global parameter, Global width) {
+    auto term = [&](Value beside, Value texel, Global parameter, Global width) {
         Value x = c.low.global_input(parameter).c[0], w = c.low.global_input(width).c[0];
-        Value slope = b.op(jit::Op::Div, b.sub(beside, here), b.op(jit::Op::Max, w, b.f(1e-12f)));
+        Value slope = b.op(jit::Op::Div, b.sub(beside, texel), b.op(jit::Op::Max, w, b.f(1e-12f)));
         return b.mul(slope, x);
     };
-    return b.op(jit::Op::WithSlope, here,
-                b.add(term(along_u, Global::u, Global::du), term(along_v, Global::v, Global::dv)));
+    for (size_t k = 0; k < here.size(); ++k)
+        here[k] = b.op(jit::Op::WithSlope, here[k],
+                       b.add(term(along_u[k], here[k], Global::u, Global::du),
+                             term(along_v[k], here[k], Global::v, Global::dv)));
+    set_texels(c, here);
 }
 
 std::vector<Value> look_up(LowerCall& c, const Lookup& at, Value blur, Value swidth, Value twidth) {
@@ -115,15 +109,10 @@ void texture(LowerCall& c) {
         moved.s = s, moved.t = t;
         return look_up(c, moved, c.pair("blur", 0), swidth, twidth);
     };
-    std::vector<Value> texels = lookup(at.s, at.t);
-    if (bends_normals(c)) {
-        auto& b = c.b;
-        std::vector<Value> u = lookup(b.add(at.s, where.dsdx), b.add(at.t, where.dtdx));
-        std::vector<Value> v = lookup(b.add(at.s, where.dsdy), b.add(at.t, where.dtdy));
-        for (size_t k = 0; k < texels.size(); ++k)
-            texels[k] = with_differences(c, texels[k], u[k], v[k]);
-    }
-    set_texels(c, texels);
+    auto& b = c.b;
+    set_with_differences(c, lookup(at.s, at.t),
+                         lookup(b.add(at.s, where.dsdx), b.add(at.t, where.dtdx)),
+                         lookup(b.add(at.s, where.dsdy), b.add(at.t, where.dtdy)));
 }
 
 // A place or direction and how it changes across the shading point; of four, their middle.
@@ -164,10 +153,13 @@ void environment(LowerCall& c) {
     if (is_scene(c)) return trace_environment(c);
     Footprint f = footprint(c);
     Value width = c.pair("width", 1);
-    V3 R = f.at, dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
-    set_texels(c, e.service("environment",
-                            std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2],
-                                       dy[0], dy[1], dy[2], c.pair("blur", 0), c.pair("fill", 0)}));
+    V3 dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
+    auto lookup = [&](const V3& R) {
+        return e.service("environment",
+                         std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2],
+                                    dy[0], dy[1], dy[2], c.pair("blur", 0), c.pair("fill", 0)});
+    };
+    set_with_differences(c, lookup(f.at), lookup(e.add(f.at, f.dx)), lookup(e.add(f.at, f.dy)));
 }
 
 // Where the light is that the point is asked about: the light shader's own, inside illuminate or
@@ -216,7 +208,8 @@ void shadow(LowerCall& c) {
 }
 
 // J. F. Blinn, Simulation of Wrinkled Surfaces, 1978: the surface P + h n has the normal
-// dPds ^ dPdt + h_s (n ^ dPdt) + h_t (dPds ^ n). Slopes are differences over the footprint.
+// dPds ^ dPdt + h_s (n ^ dPdt) + h_t (dPds ^ n). Slopes are differences over the footprint. Here
+// n |dPds ^ dPdt| is the first term: the N given is bent, not the face's.
 void bump(LowerCall& c) {
     auto& e = c.low;
     auto& b = c.b;
@@ -234,8 +227,10 @@ void bump(LowerCall& c) {
     Value slope_s = e.div(b.sub(height(0.5f, 0), height(-0.5f, 0)), ds);
     Value slope_t = e.div(b.sub(height(0, 0.5f), height(0, -0.5f)), dt);
     V3 n = e.normalize(N), flat = e.cross(along_s, along_t);
-    V3 bent = e.fma(e.cross(n, along_t), slope_s, e.fma(e.cross(along_s, n), slope_t, flat));
-    bent = e.select(b.lt(e.dot(flat, N), e.f(0)), e.neg(bent), bent);
+    Value behind = b.lt(e.dot(flat, N), e.f(0));
+    Value side = b.select(behind, e.f(-1), e.f(1));
+    V3 terms = e.fma(e.cross(n, along_t), slope_s, e.scale(e.cross(along_s, n), slope_t));
+    V3 bent = e.fma(terms, side, e.scale(n, e.length(flat)));
     V3 result = e.scale(e.normalize(bent), e.length(N));
     c.set(e.select(b.eq(e.dot(bent, bent), e.f(0)), N, result));
 }

@@ -21,6 +21,8 @@ struct CallEdge {
     const CallExpr* call;
 };
 
+using TypeSet = uint32_t;  // a bit each BaseType
+
 class Checker {
   public:
     // With `broken` (the parser found errors), unknown names are no news and are not reported.
@@ -164,13 +166,14 @@ class Checker {
     // check_convert.cpp
     bool convert(Expr*& slot, BaseType to);
     bool can_be(const Expr& expr, BaseType type) const;
+    TypeSet possible_types(const Expr& part) const;
+    TypeSet possible_results(const CallExpr& e) const;
     bool is_flexible(const Expr& expr) const;
     bool is_picture(const Expr& expr) const;
     bool is_flexible_call(const CallExpr& e) const;
     BaseType natural_type(const Expr& expr) const;
     BaseType natural_call_type(const CallExpr& e) const;
     static bool is_result(std::span<const Overload> overloads, BaseType type);
-    bool fixed_fits(const Expr& part, BaseType type) const;
 
     Ast& ast_;
     Reporter& reporter_;

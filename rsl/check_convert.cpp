@@ -160,42 +160,77 @@ bool Checker::is_result(std::span<const Overload> overloads, BaseType type) {
                        [&](const Overload& o) { return o.signature.result.base == type; });
 }
 
-// Whether a part of fixed type lets the whole be of the type: what it is must convert to it.
-bool Checker::fixed_fits(const Expr& part, BaseType type) const {
-    BaseType natural = natural_type(part);
-    return natural == BaseType::Invalid || conversion_cost(natural, type) >= 0;
+// ---- what a flexible expression may be ----------------------------------------------------------
+
+namespace {
+
+constexpr TypeSet one(BaseType type) {
+    return 1u << unsigned(type);
+}
+constexpr TypeSet kTriples =
+    one(BaseType::Color) | one(BaseType::Point) | one(BaseType::Vector) | one(BaseType::Normal);
+
+// The types that one of the set converts to.
+TypeSet convertible(TypeSet from) {
+    TypeSet set = 0;
+    for (int f = 0; f < int(BaseType::Invalid); ++f)
+        for (int t = 0; from >> f & 1 && t < int(BaseType::Invalid); ++t)
+            if (conversion_cost(BaseType(f), BaseType(t)) >= 0) set |= 1u << t;
+    return set;
 }
 
-// Whether a flexible expression can have exactly this type.
+}  // namespace
+
+// The types that a part lets the whole have: those that it may have itself, or, where its type is
+// fixed, those that this converts to.
+TypeSet Checker::possible_types(const Expr& part) const {
+    if (!is_flexible(part)) {
+        BaseType natural = natural_type(part);
+        return natural == BaseType::Invalid ? ~TypeSet(0) : convertible(one(natural));
+    }
+    switch (part.kind) {
+        case ExprKind::Triple:
+            return kTriples;
+        case ExprKind::Unary:
+            return possible_types(*as<UnaryExpr>(part).operand);
+        case ExprKind::Binary:
+            return possible_types(*as<BinaryExpr>(part).left) &
+                   possible_types(*as<BinaryExpr>(part).right);
+        case ExprKind::Select:
+            return possible_types(*as<SelectExpr>(part).yes) &
+                   possible_types(*as<SelectExpr>(part).no);
+        case ExprKind::Call:
+            return possible_results(as<CallExpr>(part));
+        default:
+            return 0;
+    }
+}
+
+// Results of the overloads that the arguments may fit: max(noise(P), Cs) is no float.
+TypeSet Checker::possible_results(const CallExpr& e) const {
+    std::span<const Overload> overloads = find_builtin(e.name);
+    bool by_context = chosen_by_context(overloads);
+    std::vector<TypeSet> arguments;
+    for (const Expr* argument : e.args)
+        arguments.push_back(by_context ? ~TypeSet(0) : convertible(possible_types(*argument)));
+    TypeSet results = 0;
+    for (const Overload& o : overloads) {
+        const Signature& s = o.signature;
+        bool fits = true;
+        for (size_t i = 0; i < arguments.size() && (i < s.arguments.size() || s.repeats); ++i) {
+            Type type = i < s.arguments.size() ? s.arguments[i].type : s.repeated.type;
+            bool any = type.base == BaseType::Invalid || type.is_array();
+            fits = fits && (any || arguments[i] & one(type.base));
+        }
+        if (fits) results |= one(s.result.base);
+    }
+    return results;
+}
+
+// Whether the unchecked, flexible expression can have exactly this type.
 bool Checker::can_be(const Expr& expr, BaseType type) const {
     if (!is_flexible(expr)) return conversion_cost(expr.type.base, type) == 0;
-    auto part = [&](const Expr& e) {
-        return is_flexible(e) ? can_be(e, type) : fixed_fits(e, type);
-    };
-    switch (expr.kind) {
-        case ExprKind::Triple:
-            return is_triple(type);
-        case ExprKind::Unary:
-            return can_be(*as<UnaryExpr>(expr).operand, type);
-        case ExprKind::Binary: {
-            const auto& e = as<BinaryExpr>(expr);
-            return part(*e.left) && part(*e.right);
-        }
-        case ExprKind::Select: {
-            const auto& e = as<SelectExpr>(expr);
-            return part(*e.yes) && part(*e.no);
-        }
-        case ExprKind::Call: {
-            const auto& e = as<CallExpr>(expr);
-            std::span<const Overload> overloads = find_builtin(e.name);
-            if (!is_result(overloads, type)) return false;
-            // max(noise(P), Cs) is no float.
-            return type != BaseType::Float || chosen_by_context(overloads) ||
-                   !is_triple(natural_call_type(e));
-        }
-        default:
-            return false;
-    }
+    return possible_types(expr) & one(type);
 }
 
 // Whether a flexible expression shows a picture: beside a color those are colors, where noise()

@@ -91,12 +91,34 @@ Value Lowering::scalar_input(const std::string& name, jit::Type type, jit::Rate 
 
 bool Lowering::is_input(const V3& v, const char* name) {
     for (int c = 0; c < 3; ++c) {
-        const jit::Inst& inst = b.inst(v[size_t(c)]);
-        if (inst.op != jit::Op::Input) return false;
-        if (b.module().inputs[size_t(inst.imm)].name != name + component_suffix(BaseType::Point, c))
+        const jit::Inst* inst = &b.inst(v[size_t(c)]);
+        if (inst->op == jit::Op::WithSlope) inst = &b.inst(inst->a);
+        if (inst->op != jit::Op::Input) return false;
+        if (b.module().inputs[size_t(inst->imm)].name !=
+            name + component_suffix(BaseType::Point, c))
             return false;
     }
     return true;
+}
+
+// P whose slopes lie in the plane that N is normal to, not in that of the face: what
+// calculatenormal() makes of it is N bent, and shows no faces.
+Lowered Lowering::smooth_P() {
+    auto fixed = [&](const V3& v) {  // without slopes of its own
+        return V3{b.op(jit::Op::WithSlope, v[0], b.f(0)), b.op(jit::Op::WithSlope, v[1], b.f(0)),
+                  b.op(jit::Op::WithSlope, v[2], b.f(0))};
+    };
+    V3 P = global_input(Global::P).v3();
+    V3 n = fixed(normalize(read_global(Global::N).v3()));
+    V3 way{b.f(0), b.f(0), b.f(0)};  // its slopes are those of P
+    for (auto [edge, along] :
+         {std::pair(Global::dPdu, Global::u), std::pair(Global::dPdv, Global::v)}) {
+        V3 d = global_input(edge).v3();
+        d = fixed(sub(d, scale(n, dot(n, d))));
+        way = fma(d, global_input(along).c[0], way);
+    }
+    for (size_t c = 0; c < 3; ++c) P[c] = b.op(jit::Op::WithSlope, P[c], way[c]);
+    return lowered(BaseType::Point, P);
 }
 
 // What a light sees of itself: it stands at the origin of its space.

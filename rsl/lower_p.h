@@ -119,6 +119,7 @@ class Lowering : public Emitter {
     // lower_variables.cpp, lower_inputs.cpp: slots, arrays, targets.
     Lowered read(const Symbol& symbol);
     Lowered read_global(Global id);
+    Lowered smooth_P();
     void write_slot(int slot, const Lowered& value);
     Lowered read_slot(int slot) { return slots_[size_t(slot)].value; }
     bool live(Global id) const { return slots_[size_t(id)].live; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rsl/lower_analysis.h"
 #include "rsl/pairs.h"
 #include "rsl/reference_p.h"
 #include "runtime/base/check.h"
@@ -390,6 +391,18 @@ void Reference<Real>::output(const std::string& name, const Item& value) {
 }
 
 // Displacements hand N and P to each other and N to surfaces; surfaces lie over those before.
+// For calculatenormal(): the slopes of P lie in the plane that N is normal to, not in the face.
+template <class Real>
+void Reference<Real>::smooth_P() {
+    Item& P = global(Global::P);
+    Vec<Real> n = rsl::normalize(vec(global(Global::N)));
+    for (Real Number::*slope : {&Number::u, &Number::v}) {
+        Real along = 0;
+        for (size_t k = 0; k < 3; ++k) along += n[k].x * (P.c[k].*slope);
+        for (size_t k = 0; k < 3; ++k) P.c[k].*slope -= n[k].x * along;
+    }
+}
+
 template <class Real>
 void Reference<Real>::run_layer(const Layer& next) {
     const Shader& shader = *next.shader;
@@ -407,6 +420,12 @@ void Reference<Real>::run_layer(const Layer& next) {
     for (const ShaderParameter& p : shader.parameters)
         variables_[p.symbol] =
             p.type.is_array() ? array_parameter(*p.symbol) : Storage{parameter(*p.symbol, -1)};
+    ChangeFinder finder(*shader.ast);
+    finder.add(shader.definition->body);
+    for (const ShaderParameter& p : shader.parameters) finder.add(p.default_value);
+    bool bends = layers_.back().shader->kind == ShaderKind::Surface;
+    if (bends && (finder.changes.effects & kMakesNormals) && !globals_.contains(Global::P))
+        smooth_P();
     block(shader.definition->body->body);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {

@@ -99,20 +99,42 @@ void specularbrdf(RefCall<Real>& c) {
     c.set({k, k, k});
 }
 
-// Maps are asked without filter widths, the reference knows no footprint; four corners by their
-// middle.
+// What a map shows, and as its derivatives the differences to what it shows one footprint further
+// along u and along v: `ask` is given how many footprints.
+template <class Real, class Ask>
+void from_map(RefCall<Real>& c, Ask&& ask) {
+    std::vector<double> here = ask(Real(0), Real(0)), u = ask(Real(1), Real(0)),
+                        v = ask(Real(0), Real(1));
+    from_service(c, here);
+    Real du = std::max(c.eval.global(Global::du).c[0].x, Real(1e-12f));
+    Real dv = std::max(c.eval.global(Global::dv).c[0].x, Real(1e-12f));
+    for (size_t k = 0; k < c.result.size() && k < here.size(); ++k) {
+        c.result.c[k].u = (Real(u[k]) - Real(here[k])) / du;
+        c.result.c[k].v = (Real(v[k]) - Real(here[k])) / dv;
+    }
+}
+
+// Maps are asked without filter widths, the reference knows none; four corners by their middle.
 template <class Real>
 void texture(RefCall<Real>& c) {
-    bool own = c.args.size() < 3;
-    Dual<Real> at_s = own ? c.eval.global(Global::s).c[0] : c.f(1);
-    Dual<Real> at_t = own ? c.eval.global(Global::t).c[0] : c.f(2);
-    if (c.args.size() == 9) {
-        at_s = Real(0.25) * ((c.f(1) + c.f(3)) + (c.f(5) + c.f(7)));
-        at_t = Real(0.25) * ((c.f(2) + c.f(4)) + (c.f(6) + c.f(8)));
-    }
-    double s = double(at_s.x), t = double(at_t.x);
+    bool own = c.args.size() < 3, corners = c.args.size() == 9;
+    Real du = c.eval.global(Global::du).c[0].x, dv = c.eval.global(Global::dv).c[0].x;
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
-    from_service(c, c.eval.service("texture", {double(c.f(0).x), channel, s, t}));
+    // Along x from corners 1, 3 to 2, 4; along y from 1, 2 to 3, 4.
+    auto coordinate = [&](Global global, size_t k, Real x, Real y) {
+        if (!corners) {
+            Dual<Real> at = own ? c.eval.global(global).c[0] : c.f(k);
+            return at.x + (at.u * du) * x + (at.v * dv) * y;
+        }
+        Real a = c.f(k).x, b = c.f(k + 2).x, d = c.f(k + 4).x, e = c.f(k + 6).x;
+        return Real(0.25) * ((a + b) + (d + e)) + Real(0.5) * ((b - a) + (e - d)) * x +
+               Real(0.5) * ((d - a) + (e - b)) * y;
+    };
+    from_map(c, [&](Real x, Real y) {
+        return c.eval.service("texture",
+                              {double(c.f(0).x), channel, double(coordinate(Global::s, 1, x, y)),
+                               double(coordinate(Global::t, 2, x, y))});
+    });
 }
 // The point or direction of a map, or the middle of four.
 template <class Real>
@@ -140,9 +162,19 @@ void environment(RefCall<Real>& c) {
         return from_service(c, c.eval.service("trace", args));
     }
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
-    Vec<Real> R = middle(c);
-    from_service(c, c.eval.service("environment", {double(c.f(0).x), channel, double(R[0].x),
-                                                   double(R[1].x), double(R[2].x)}));
+    Real du = c.eval.global(Global::du).c[0].x, dv = c.eval.global(Global::dv).c[0].x;
+    bool corners = c.args.size() == 5;
+    auto component = [&](size_t k, Real x, Real y) {
+        Dual<Real> at = middle(c)[k];
+        if (!corners) return at.x + (at.u * du) * x + (at.v * dv) * y;
+        Real p = c.v(1)[k].x, q = c.v(2)[k].x, r = c.v(3)[k].x, s = c.v(4)[k].x;
+        return at.x + Real(0.5) * ((q - p) + (s - r)) * x + Real(0.5) * ((r - p) + (s - q)) * y;
+    };
+    from_map(c, [&](Real x, Real y) {
+        return c.eval.service("environment",
+                              {double(c.f(0).x), channel, double(component(0, x, y)),
+                               double(component(1, x, y)), double(component(2, x, y))});
+    });
 }
 // By rays to the light of this turn of illuminance, or of this light shader.
 template <class Real>
@@ -198,8 +230,9 @@ void bump(RefCall<Real>& c) {
     Number slope_t = (height(0, Real(0.5)) - height(0, Real(-0.5))) / dt;
     Vec<Real> N = c.v(1), n = rsl::normalize(N), along_s = c.v(2), along_t = c.v(3);
     Vec<Real> flat = c.eval.cross(along_s, along_t);
-    Vec<Real> bent = flat + slope_s * cross(n, along_t) + slope_t * cross(along_s, n);
-    if (c.eval.decide(dot(flat, N).x < 0)) bent = Number(-1) * bent;
+    Number side(Real(c.eval.decide(dot(flat, N).x < 0) ? -1 : 1));
+    Vec<Real> terms = slope_s * cross(n, along_t) + slope_t * cross(along_s, n);
+    Vec<Real> bent = rsl::length(flat) * n + side * terms;
     bool none = c.eval.decide(dot(bent, bent).x == 0);
     c.set(none ? N : rsl::length(N) * rsl::normalize(bent));
 }

@@ -221,6 +221,7 @@ class Reference {
     // Has the flow reached this loop? Then whether to go on with the next turn.
     bool ends_loop(RefFlow& flow, const Stmt& stmt, bool& leave);
 
+    void smooth_P();
     void run_layer(const Layer& next);
     void output(const std::string& name, const Item& value);
     void light_outputs();

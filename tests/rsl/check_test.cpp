@@ -96,6 +96,33 @@ TEST(Check, ReportsPlacesInTheFileThatHoldsTheText) {
     EXPECT_EQ(diagnostics.findings()[0].where.begin, file.find("bad"));
 }
 
+// RenderMan Interface 3.2 has only float forms of these: what noise() gives inside them follows
+// from what is wanted of the whole, however deep it stands.
+TEST(Check, TheTypeWantedReachesThroughNestedCalls) {
+    const char* kInner[] = {"noise(P)", "cellnoise(P)", "pnoise(P, point 2)", "trace(P, N)",
+                            "(2 * noise(P) - 1)"};
+    const char* kOuter[] = {"abs(%s)",      "pow(%s, 2)", "clamp(%s, 0, 1)", "mix(.2, .8, %s)",
+                            "max(0, %s)",   "min(1, %s)", "mod(%s, 1)",      "smoothstep(0, 1, %s)",
+                            "step(.5, %s)", "floor(%s)",  "sqrt(%s)"};
+    auto inside = [](std::string_view outer, const std::string& inner) {
+        size_t at = outer.find("%s");
+        return std::string(outer.substr(0, at)) + inner + std::string(outer.substr(at + 2));
+    };
+    for (const char* inner : kInner)
+        for (const char* middle : kOuter)
+            for (const char* outer : kOuter) {
+                std::string x = inside(outer, inside(middle, inner));
+                TestSource source("surface x(string map = \"\";) { float f = " + x +
+                                  ", g[2]; f += " + x + "; g[0] = " + x + "; if (" + x +
+                                  " > .5) Ci = " + x + "; Ci += color(" + x + ", 0, log(" + x +
+                                  ")) + texture(map, " + x + ", 0, \"blur\", " + x + ") + spline(" +
+                                  x + ", color 0, color 1, color 0, color 1); color c = " + x +
+                                  "; }");
+                EXPECT_EQ(compiled(source).size(), 1u) << x;
+                EXPECT_TRUE(source.diagnostics.findings().empty()) << x;
+            }
+}
+
 TEST(Check, DefaultsFoldWhereNothingRuns) {
     TestSource source(
         "surface x(float a = 1 + 2 * 3, b = -PI; color c = 0.5, d = color(1, 2, 3) / 2;"

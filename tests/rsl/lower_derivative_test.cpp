@@ -63,6 +63,56 @@ TEST(LowerDerivative, CalculatednormalTakesItsSideFromNg) {
     EXPECT_EQ(shader.value("Ci.r"), -1);
 }
 
+// The faces of a smooth mesh do not show: where N leans, so does what is made of P. The plane with
+// the normal n = (3/5, 0, 4/5) and the height 0.5 u over it.
+TEST(LowerDerivative, CalculatednormalBendsTheNormalThatIsInterpolated) {
+    const char* kShow =
+        "{ normal n = normalize(calculatenormal(Q)); Ci = color(n.vector(1, 0, 0),"
+        " n.vector(0, 1, 0), n.vector(0, 0, 1)); }";
+    for (bool bumped : {false, true}) {
+        std::string Q = bumped ? "P + 0.5 * v * normalize(N)" : "P";
+        OnPlane shader("surface t() { point Q = " + Q + "; " + kShow + " }");
+        shader.set3("N", 1.2f, 0, 1.6f);
+        auto out = shader.run();
+        // Slopes (1, 0, 0) - n 3/5 and (0, 1, 0) [+ n / 2]: their product is n 4/5 [- (0, 2/5, 0)].
+        double length = bumped ? std::sqrt(0.64 + 0.16) : 0.8;
+        EXPECT_NEAR(out["Ci.r"][0], 0.48 / length, 1e-6);
+        EXPECT_NEAR(out["Ci.g"][0], bumped ? -0.4 / length : 0, 1e-6);
+        EXPECT_NEAR(out["Ci.b"][0], 0.64 / length, 1e-6);
+    }
+    OnPlane stack(
+        "displacement d() { N = calculatenormal(P); } surface t() { Ci = zcomp(N) / length(N); }",
+        true);
+    stack.set3("N", 1.2f, 0, 1.6f);
+    EXPECT_NEAR(stack.value("Ci.r"), 0.8, 1e-6);
+    OnPlane plain("surface t() { Ci = color(Du(xcomp(P)), area(P), 0); }");
+    plain.set3("N", 1.2f, 0, 1.6f);
+    EXPECT_EQ(plain.value("Ci.r"), 1);
+}
+
+// DESIGN.md decision 8: texture and environment return their gradients.
+TEST(LowerDerivative, MapsHaveDerivatives) {
+    auto shows_coordinate = [](const jit::ServiceCall& call) {
+        for (int k = 0; k < jit::kMaxLanes; ++k) {
+            call.results[k] = call.args[2 * jit::kMaxLanes + k];
+            call.results[jit::kMaxLanes + k] = 3 * call.args[3 * jit::kMaxLanes + k];
+        }
+    };
+    OnPlane shader(
+        "surface t() { color a = texture(\"a\", 2 * s, v + s), e = environment(\"e\", P + 4 * v * "
+        "N);"
+        " color u = Du(a), w = Dv(a); Ci = color(comp(u, 0), comp(u, 1), comp(w, 1));"
+        " Oi = color(comp(Du(e), 0), comp(Dv(e), 1), comp(Dv(e), 0)); }");
+    shader.services["texture"] = shader.services["environment"] = shows_coordinate;
+    auto out = shader.run();
+    EXPECT_NEAR(out["Ci.r"][0], 2, 1e-5);
+    EXPECT_NEAR(out["Ci.g"][0], 3, 1e-5);
+    EXPECT_NEAR(out["Ci.b"][0], 3, 1e-5);
+    EXPECT_NEAR(out["Oi.r"][0], 1, 1e-5);
+    EXPECT_NEAR(out["Oi.g"][0], 3, 1e-5);
+    EXPECT_NEAR(out["Oi.b"][0], 0, 1e-5);
+}
+
 // DESIGN.md decision 8: the slope of a normal is that of the N that came in.
 TEST(LowerDerivative, CalculatednormalCarriesTheSlopeOfN) {
     OnPlane shader(
