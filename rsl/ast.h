@@ -355,6 +355,7 @@ struct Function {
     bool recursive = false;      // checker: on a circle of calls; each circle has at least one
     bool typed = true;           // its result type is written
     bool returns = false;        // a return with a value stands in it
+    bool damaged = false;        // something of it was skipped after a syntax error
 };
 
 struct ShaderDefinition {

@@ -1,7 +1,9 @@
 // rsl/builtins_spline.cpp: how spline() is lowered: cubic curves through or near knots.
 #include <array>
 #include <string_view>
+#include <vector>
 
+#include "rsl/literal_names.h"
 #include "rsl/lower_p.h"
 
 namespace kinora::rsl {
@@ -50,14 +52,20 @@ const Basis* basis_named(std::string_view name) {
     return nullptr;
 }
 
+// "solve" before a basis asks for x instead of the value.
+bool cut_solve(std::string_view& name) {
+    bool solve = name.starts_with(kSolve);
+    if (solve) name.remove_prefix(kSolve.size());
+    return solve;
+}
+
 // The basis of a call, and whether it asks for x instead of the value.
 const Basis* find_basis(LowerCall& c, bool named, bool* solve) {
     if (!named) return &kBases[0];
     const std::string* text = c.text(0);
     if (!text) return nullptr;
     std::string_view name = *text;
-    *solve = name.substr(0, kSolve.size()) == kSolve;
-    if (*solve) name.remove_prefix(kSolve.size());
+    *solve = cut_solve(name);
     const Basis* basis = *solve || !name.empty() ? basis_named(name) : nullptr;
     if (!basis) c.low.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->place.where, *text);
     return basis;
@@ -154,5 +162,16 @@ void spline(LowerCall& c) {
 }
 
 }  // namespace lower_math
+
+bool is_spline_basis(std::string_view name) {
+    bool solve = cut_solve(name);
+    return (solve || !name.empty()) && basis_named(name);
+}
+
+std::vector<std::string_view> spline_basis_names() {
+    std::vector<std::string_view> names;
+    for (const Basis& basis : kBases) names.push_back(basis.name);
+    return names;
+}
 
 }  // namespace kinora::rsl

@@ -5,11 +5,11 @@
 
 namespace kinora::rsl {
 
-Checker::Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, bool broken)
+Checker::Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, const Damage& damage)
     : ast_(ast),
       reporter_(reporter),
       options_(options),
-      broken_(broken),
+      damage_(damage),
       globals_(size_t(Global::Count)) {}
 
 void Checker::run() {
@@ -41,7 +41,7 @@ void Checker::check_function(Function& f) {
     ScopeGuard scope(*this);
     check_parameters(f.parameters);
     statement(*f.body);
-    if (f.result.base != BaseType::Void && !returned_ && !broken_)
+    if (f.result.base != BaseType::Void && !returned_ && !f.damaged)
         report(Code::RSL_MISSING_RETURN, f.place, f.name);
 }
 

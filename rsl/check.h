@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "rsl/damage.h"
 #include "rsl/globals.h"
 #include "rsl/reporter.h"
 #include "rsl/shader.h"
@@ -25,8 +26,8 @@ using TypeSet = uint32_t;  // a bit each BaseType
 
 class Checker {
   public:
-    // With `broken` (the parser found errors), unknown names are no news and are not reported.
-    Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, bool broken);
+    // Names that `damage` hides are not reported.
+    Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, const Damage& damage);
     void run();
 
   private:
@@ -178,7 +179,7 @@ class Checker {
     Ast& ast_;
     Reporter& reporter_;
     const CompileOptions& options_;
-    bool broken_;
+    const Damage& damage_;
     std::vector<Scope> scopes_;
     std::vector<Symbol*> globals_;  // by Global, made when first named
     std::vector<Stmt*> loops_;      // around the statement, outermost first

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rsl/check.h"
+#include "rsl/meant_name.h"
 #include "rsl/pairs.h"
 #include "rsl/standard_headers.h"
 
@@ -45,6 +46,9 @@ constexpr HintRow kHints[] = {
     {"unit", "use normalize(v)"},
     {"vec3", "write 'vector(x, y, z)'"},
     {"rgb", "write 'color(r, g, b)'"},
+    {"not", "write '!'"},
+    {"ln", "use log(x)"},
+    {"log10", "use log(x, 10)"},
     {"print", "use printf(\"...\", x)"},
 };
 
@@ -176,7 +180,7 @@ void Checker::call_function(CallExpr& e, std::span<Function* const> functions, B
     Function& only = *functions[0];
     if (only.parameters.size() == e.args.size()) return bind_function(e, only);
     e.type = only.result;
-    if (broken_) return;  // its parameters may be among what is missing
+    if (only.damaged) return;  // its parameters may be among what is missing
     report(Code::RSL_ARGUMENT_COUNT, e.place, e.name, only.parameters.size(), e.args.size())
         .notes.push_back({only.place.where, "defined here"});
 }
@@ -331,7 +335,7 @@ void Checker::no_overload(CallExpr& e) {
 }
 
 void Checker::unknown_function(CallExpr& e) {
-    if (broken_ || !unknown_functions_.insert(e.name).second) return;
+    if (damage_.hides(e.name, e.place.token) || !unknown_functions_.insert(e.name).second) return;
     std::string_view place = foreign_builtin(e.name);
     if (place == "RSL 2.0") {
         report(Code::RSL_2, e.place, fmt::format("'{}()'", e.name));
@@ -362,8 +366,8 @@ void Checker::unknown_function(CallExpr& e) {
     std::vector<std::string_view> names = builtin_names();
     for (const Scope& scope : scopes_)
         for (const Function* f : scope.functions) names.push_back(f->name);
-    std::string_view near = nearest_name(e.name, names);
-    if (near.size() > 1) finding.help = fmt::format("did you mean '{}'?", near);
+    for (int k = 0; k < int(BaseType::Void); ++k) names.push_back(type_name(BaseType(k)));
+    finding.help = meant_help(e.name, names);
 }
 
 }  // namespace kinora::rsl

@@ -1,5 +1,6 @@
 // rsl/check_expression.cpp: values, variables, l-values and conversions that the context asks for.
 #include "rsl/check.h"
+#include "rsl/meant_name.h"
 
 namespace kinora::rsl {
 
@@ -175,17 +176,25 @@ constexpr struct {
 
 void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     e.symbol = find_variable(e.name, false);
+    bool global = e.symbol && e.symbol->global;  // perhaps hidden by what was skipped
+    if (global && damage_.declares(e.name, e.place.token)) e.symbol = nullptr;
     if (e.symbol) {
         e.type = e.symbol->type;
         return;
     }
-    if (broken_ || !unknown_.insert(e.name).second) return;
+    if (damage_.hides(e.name, e.place.token) || !unknown_.insert(e.name).second) return;
     Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.place, e.name);
     for (const auto& row : kVariableHints)
         if (row.name == e.name) finding.help = row.help;
     if (!finding.help.empty()) return;
-    std::string_view near = nearest_name(e.name, variable_names());
-    if (near.size() > 1) finding.help = fmt::format("did you mean '{}'?", near);
+    if (!visible_functions(e.name).empty() || !find_builtin(e.name).empty()) {
+        finding.help = fmt::format("it is a function, which is called as '{}(...)'", e.name);
+        return;
+    }
+    std::vector<std::string_view> names = variable_names();
+    names.insert(names.end(), {"return", "break", "continue"});  // alone in a statement
+    finding.help = meant_help(e.name, names);
+    returned_ = returned_ || meant_name(e.name, names) == "return";
 }
 
 // array[i], or a component of a triple.

@@ -28,7 +28,8 @@ void Checker::check(ExternStmt& s) {
     for (Symbol*& symbol : s.symbols) {
         Symbol* outer = find_variable(symbol->name, true);
         if (!outer) {
-            if (!broken_) report(Code::RSL_EXTERN_UNKNOWN, symbol->place, symbol->name);
+            if (!damage_.hides(symbol->name, symbol->place.token))
+                report(Code::RSL_EXTERN_UNKNOWN, symbol->place, symbol->name);
             outer = symbol;
         } else if (outer->type.base != symbol->type.base &&
                    !(is_triple(outer->type) && is_triple(symbol->type))) {
@@ -49,7 +50,7 @@ void Checker::check(ExpressionStmt& s) {
     expression(s.expression, BaseType::Invalid);
     ExprKind kind = written->kind;
     if (kind != ExprKind::Assign && kind != ExprKind::Call && kind != ExprKind::Cast &&
-        s.expression->type.base != BaseType::Invalid && !broken_)
+        s.expression->type.base != BaseType::Invalid && !damage_.touches(s.place.token))
         report(Code::RSL_NO_EFFECT, s.place);
 }
 

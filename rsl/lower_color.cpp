@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rsl/color_matrices.h"
+#include "rsl/literal_names.h"
 #include "rsl/lower_p.h"
 
 namespace kinora::rsl {
@@ -123,6 +124,17 @@ const ColorSpace kSpaces[] = {
 };
 
 }  // namespace
+
+bool is_color_space(std::string_view name) {
+    return std::any_of(std::begin(kSpaces), std::end(kSpaces),
+                       [&](const ColorSpace& space) { return same_name(space.name, name); });
+}
+
+std::vector<std::string_view> color_space_names() {
+    std::vector<std::string_view> names;
+    for (const ColorSpace& space : kSpaces) names.push_back(space.name);
+    return names;
+}
 
 Lowered Lowering::color_space(const Lowered& color, std::string_view from, std::string_view to,
                               Location where) {

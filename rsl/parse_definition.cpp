@@ -40,8 +40,9 @@ bool Parser::file_variable() {
                 is(Punct::Comma, type + 2) || is(Punct::LeftBracket, type + 2);
     if (!is_type(type) || token(type + 1).kind != TokenKind::Identifier || !ends) return false;
     reporter_.report(Code::RSL_FILE_VARIABLE, token(type + 1), token(type + 1).text);
-    broken_ = true;
+    uint32_t begin = next_;
     while (!at_end() && !is(Punct::Semicolon) && !is_shader_word(token().word)) advance();
+    damage_.lose(ast_.tokens.tokens, begin, next_, true, true);
     return true;
 }
 
@@ -189,16 +190,18 @@ std::span<Symbol*> Parser::parameters(SymbolKind kind) {
     if (is(Word::Void) && is(Punct::RightParen, 1)) advance();  // as in C
     Declaration head{{BaseType::Float, -1}, Detail::Unspecified, false};
     bool have_type = false;
+    uint32_t begin = next_;  // of the parameter being read
     while (!panic_ && !is(Punct::RightParen) && !is(Punct::LeftBrace)) {
         if (is(Punct::Comma) || is(Punct::Semicolon)) {
             have_type = have_type && !is(Punct::Semicolon);
             advance();
+            begin = next_;
             continue;
         }
         if (((is_type() || is_detail()) && !(have_type && word_as_name())) || at_foreign_type() ||
             shader_handle()) {
             if (!declaration_head(head)) {
-                if (stopped_ || !resume_parameters()) break;
+                if (stopped_ || !resume_parameters(begin)) break;
                 continue;
             }
             have_type = true;
@@ -209,14 +212,15 @@ std::span<Symbol*> Parser::parameters(SymbolKind kind) {
         }
         Symbol* symbol = declarator(head, kind);
         if (symbol) symbols.push_back(symbol);
-        if (panic_ && !resume_parameters()) break;
+        if (panic_ && !resume_parameters(begin)) break;
         bool separated = is(Punct::Comma) || is(Punct::Semicolon);
         if (separated || is(Punct::RightParen) || is(Punct::LeftBrace)) continue;
         if (is_type() || is_detail())
             missing_behind("';'");
         else
             syntax_error("',' or ')'");
-        if (panic_ && !resume_parameters()) break;
+        if (panic_ && !resume_parameters(begin)) break;
+        begin = next_;
     }
     if (!panic_) end_of_parameters();
     return ast_.arena.copy(symbols);
@@ -238,7 +242,7 @@ bool Parser::is_parameter(uint32_t index) const {
 
 // After an error among parameters: to the next ';' or ',' between them, or to the ')' before the
 // body. False where the body comes first.
-bool Parser::resume_parameters() {
+bool Parser::resume_parameters(uint32_t begin) {
     if (after_reported()) return false;
     const auto& tokens = ast_.tokens.tokens;
     bool in_list = false;
@@ -254,6 +258,7 @@ bool Parser::resume_parameters() {
         if (!last && !between) continue;
         next_ = i;
         panic_ = false;
+        lose(begin, true);
         return true;
     }
     return false;

@@ -117,10 +117,15 @@ Expr* Parser::binary(int lowest) {
     Expr* left = unary();
     while (!panic_) {
         const OperatorRow* row = find_operator(token().punct);
+        bool word = !row && word_operator() != Punct::None;
+        if (word) row = find_operator(word_operator());
         bool doubled = !row && at_doubled_sign();
         if (doubled) row = find_operator(Punct::Subtract);
         if (!row || row->level < lowest) break;
         uint32_t at = next_;
+        if (word)
+            reporter_.report(Code::RSL_NOT_RSL, token(), fmt::format("'{}'", token().text)).help =
+                fmt::format("write '{}'", op_text(row->op));
         int left_height = height_;
         if (!doubled) advance();
         auto* node = make<BinaryExpr>(left->place);
@@ -159,7 +164,8 @@ Expr* Parser::unary() {
     if (panic_) return bad_expression();
     uint32_t at = next_;
     if (accept(Punct::Add)) return unary();
-    Op op = is(Punct::Subtract) ? Op::Negate : is(Punct::Not) ? Op::Not : Op::None;
+    bool negates = is(Punct::Not) || word_not();
+    Op op = is(Punct::Subtract) ? Op::Negate : negates ? Op::Not : Op::None;
     if (op != Op::None) {
         advance();
         auto* node = make<UnaryExpr>({});

@@ -1,5 +1,7 @@
 // rsl/parse_foreign.cpp: what belongs to other languages or is misspelt: reported by what is meant,
 // and parsed as that where it can be, so that nothing else is said of it.
+#include <algorithm>
+
 #include "rsl/lexer.h"
 #include "rsl/parser.h"
 
@@ -9,7 +11,7 @@ namespace kinora::rsl {
 bool Parser::newer_language(const Token& at, const char* feature) {
     if (stopped_) return true;
     error(Code::RSL_2, at, feature);
-    panic_ = broken_ = stopped_ = true;
+    panic_ = stopped_ = true;
     next_ = uint32_t(ast_.tokens.tokens.size() - 1);
     reporter_.stop();
     return true;
@@ -180,6 +182,39 @@ std::string Parser::decimal_comma() const {
         whole.text.find('.') == whole.text.npos && token().text.find('.') == token().text.npos;
     if (comma.punct != Punct::Comma || whole.kind != TokenKind::Number || !whole_numbers) return "";
     return fmt::format("{}.{}", whole.text, token().text);
+}
+
+// "a and b", "a or b" of other languages.
+Punct Parser::word_operator() const {
+    bool operand = token(1).kind == TokenKind::Identifier || token(1).kind == TokenKind::Number ||
+                   token(1).kind == TokenKind::String || is(Punct::LeftParen, 1) ||
+                   is(Punct::Not, 1) || is(Punct::Subtract, 1);
+    if (token().kind != TokenKind::Identifier || !operand) return Punct::None;
+    return token().text == "and" ? Punct::And : token().text == "or" ? Punct::Or : Punct::None;
+}
+
+// "not a", where no function or variable of the name can be meant.
+bool Parser::word_not() {
+    bool operand = token(1).kind == TokenKind::Identifier || token(1).kind == TokenKind::Number;
+    bool word = token(1).text == "and" || token(1).text == "or";
+    if (token().kind != TokenKind::Identifier || token().text != "not" || !operand || word)
+        return false;
+    reporter_.report(Code::RSL_NOT_RSL, token(), "'not'").help = "write '!'";
+    return true;
+}
+
+// A letter that no keyword has, where the grammar is broken: most likely a slip of the hand.
+bool Parser::foreign_character() {
+    for (uint32_t k : {next_, next_ > 0 ? next_ - 1 : 0}) {
+        const Token& at = ast_.tokens.tokens[k];
+        bool foreign =
+            at.kind == TokenKind::Identifier &&
+            std::any_of(at.text.begin(), at.text.end(), [](char c) { return (c & 0x80) != 0; });
+        if (!foreign) continue;
+        error(Code::RSL_BAD_CHARACTER, at, fmt::format("'{}'", at.text));
+        return true;
+    }
+    return false;
 }
 
 // "elseif" and its kin of other languages, behind the statement of an if.

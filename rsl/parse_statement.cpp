@@ -11,23 +11,26 @@ BlockStmt* Parser::block() {
     auto* node = make<BlockStmt>(Place{token().where, at});
     // A body whose '{' is left out goes on with a declaration or statement.
     bool whole = token().kind == TokenKind::Identifier && next_ > 0 && !begins_definition();
-    if (!is(Punct::LeftBrace) && whole)
+    if (!is(Punct::LeftBrace) && whole) {
         missing_behind("'{'");
-    else if (!expect(Punct::LeftBrace, "'{'"))
+        mark_broken();
+        unclosed_ = true;  // which '}' ends what nobody knows
+    } else if (!expect(Punct::LeftBrace, "'{'")) {
         return node;
+    }
     std::vector<Stmt*> body;
     while (!is(Punct::RightBrace) && !at_end() && !begins_shader() && !reporter_.full()) {
         uint32_t before = next_;
         Stmt* stmt = statement();
         skipped_ = panic_;
-        if (panic_) skip_statement();
+        leave_statement(before);
         if (stmt) body.push_back(stmt);
         if (next_ == before && !is(Punct::RightBrace)) advance();
     }
     if (!accept(Punct::RightBrace) && !std::exchange(unclosed_, true)) {
         Finding& finding = reporter_.report(Code::RSL_UNCLOSED, ast_.tokens.tokens[at], '{');
         if (!at_end()) finding.help = fmt::format("before {} '{}'", token().text, token(1).text);
-        broken_ = true;
+        mark_broken();
     }
     node->body = ast_.arena.copy(body);
     node->place = place_from(at);
@@ -90,8 +93,9 @@ Stmt* Parser::statement_unguarded() {
 
 // The statement that another one governs; empty where it is broken.
 Stmt* Parser::body_statement() {
+    uint32_t begin = next_;
     Stmt* stmt = statement();
-    if (panic_) skip_statement();
+    leave_statement(begin);
     return stmt ? stmt : empty_statement();
 }
 
@@ -100,9 +104,11 @@ void Parser::leave_header(uint32_t open) {
     const auto& tokens = ast_.tokens.tokens;
     if (!panic_ || stopped_ || after_reported() || tokens[open].punct != Punct::LeftParen) return;
     uint32_t behind = after_parens(open);
-    if (behind + 1 >= tokens.size() || behind < next_) return;
-    next_ = behind;
+    bool closed = behind + 1 < tokens.size() && behind >= next_;
+    if (!closed && !is(Punct::LeftBrace)) return;
+    if (closed) next_ = behind;
     panic_ = false;
+    lose(open);
 }
 
 Stmt* Parser::empty_statement() {
@@ -153,7 +159,10 @@ Stmt* Parser::expression_statement() {
         if (panic_) break;
         node->place = place_from(begin);
         bool lost = next_ == begin + 1 && ast_.tokens.tokens[begin].lost;
-        if (!lost) parts.push_back(node);
+        if (lost)
+            damage_.lose_any_name();
+        else
+            parts.push_back(node);
     } while (accept(Punct::Comma));
     expect_semicolon();
     meant_.clear();

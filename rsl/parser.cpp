@@ -60,9 +60,11 @@ void Parser::syntax_error(const char* expected) {
     if (panic_) return;
     const Token& at = token();
     if (after_reported()) {  // and it has swallowed what is missed here
-        panic_ = broken_ = true;
+        panic_ = true;
+        mark_broken();
         return;
     }
+    if (foreign_character()) return;
     if (at.punct == Punct::Arrow) {
         newer_language(at, "'->' (calls and members of shader objects)");
         return;
@@ -200,6 +202,16 @@ Place Parser::place_from(const Place& first, uint32_t token) const {
 
 // ---- recovery -----------------------------------------------------------------------------------
 
+void Parser::mark_broken() {
+    damage_.break_definition();
+    for (Function* f = function_; f; f = f->parent) f->damaged = true;
+}
+
+// The tokens from `begin` on to here are not in the tree.
+void Parser::lose(uint32_t begin, bool parameters) {
+    damage_.lose(ast_.tokens.tokens, begin, next_, parameters, false);
+}
+
 void Parser::skip_balanced(Punct open, Punct close) {
     int depth = 0;
     do {
@@ -231,6 +243,13 @@ void Parser::skip_statement() {
         }
         advance();
     }
+}
+
+// After an error in the statement that begins at the token.
+void Parser::leave_statement(uint32_t begin) {
+    if (!panic_) return;
+    skip_statement();
+    lose(begin);
 }
 
 // A line that surely begins another shader.
@@ -271,11 +290,15 @@ uint32_t Parser::after_parens(uint32_t open) const {
 
 void Parser::run() {
     while (!at_end() && !reporter_.full()) {
-        uint32_t before = next_;
+        uint32_t begin = next_;
         panic_ = false;
+        damage_.begin_definition(begin);
         definition();
-        if (panic_) skip_definition();
-        if (next_ == before) advance();
+        if (panic_) {
+            skip_definition();
+            damage_.lose(ast_.tokens.tokens, begin, next_, false, true);
+        }
+        if (next_ == begin) advance();
     }
 }
 

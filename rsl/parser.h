@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rsl/ast.h"
+#include "rsl/damage.h"
 #include "rsl/reporter.h"
 
 namespace kinora::rsl {
@@ -18,8 +19,8 @@ class Parser {
   public:
     Parser(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
     void run();
-    // Whether the tree lacks parts of the source, so that unknown names are no news.
-    bool broken() const { return broken_; }
+    // What of the source is not in the tree.
+    Damage& damage() { return damage_; }
 
   private:
     // parser.cpp: tokens, errors, recovery
@@ -50,12 +51,16 @@ class Parser {
     template <class... Args>
     Finding* error(const FindingInfo& info, const Token& at, const Args&... args) {
         if (panic_) return nullptr;
-        panic_ = broken_ = true;
+        panic_ = true;
+        mark_broken();
         return &reporter_.report(info, at, args...);
     }
     Place place_from(uint32_t first) const;
     Place place_from(const Place& first, uint32_t token) const;
+    void mark_broken();
     void skip_statement();
+    void leave_statement(uint32_t begin);
+    void lose(uint32_t begin, bool parameters = false);
     void skip_definition();
     void skip_balanced(Punct open, Punct close);
     uint32_t after_parens(uint32_t open) const;
@@ -73,7 +78,7 @@ class Parser {
     std::span<Symbol*> parameters(SymbolKind kind);
     void end_of_parameters();
     bool is_parameter(uint32_t index) const;
-    bool resume_parameters();
+    bool resume_parameters(uint32_t begin);
     struct Declaration {
         Type type;
         Detail detail = Detail::Unspecified;
@@ -141,6 +146,9 @@ class Parser {
     bool foreign_statement();
     std::string_view resembled_word() const;
     std::string decimal_comma() const;
+    Punct word_operator() const;
+    bool word_not();
+    bool foreign_character();
     bool misspelt_statement();
     bool else_if_word() const;
     Stmt* lonely_else();
@@ -153,7 +161,7 @@ class Parser {
     Ast& ast_;
     Reporter& reporter_;
     uint32_t next_ = 0;
-    bool broken_ = false;    // some text was skipped: names may be missing
+    Damage damage_;
     bool panic_ = false;     // an error was reported and nothing has been skipped to yet
     bool unclosed_ = false;  // the end of the file or shader was met inside a block, and said
     bool skipped_ = false;   // the statement before was broken: it may have been an if

@@ -2,6 +2,8 @@
 // until no variable changes; calls are walked as if expanded, once for each pattern of argument
 // rates.
 //
+// In a source with errors, what could not be typed is uniform, so that nothing follows from it.
+//
 // Two questions are answered at once. `varying`: does the value differ between points? It decides
 // Symbol::varying and Expr::rate. `illegal`: may a declared-uniform variable not take it? A uniform
 // that is assigned under varying control is varying, but still legal to assign to another uniform:
@@ -162,7 +164,7 @@ class RateWalk {
 
     Flow at(NumberExpr&) { return kConstant; }
     Flow at(StringExpr&) { return kConstant; }
-    Flow at(VariableExpr& e) { return e.symbol ? read(*e.symbol) : kConstant; }
+    Flow at(VariableExpr& e) { return e.symbol ? read(*e.symbol) : kUniform; }
     Flow at(IndexExpr& e) { return join(flow(e.array), flow(e.index)); }
     Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
     Flow at(UnaryExpr& e) { return flow(e.operand); }
@@ -199,7 +201,10 @@ class RateWalk {
     Flow at(SixteenExpr& e) { return flow_all(e.items); }
     Flow at(ArrayLiteralExpr& e) { return flow_all(e.items); }
     Flow at(CallExpr& e) {
-        return e.function ? user_call(e) : e.builtin ? builtin_call(e) : kConstant;
+        if (e.function) return user_call(e);
+        if (e.builtin) return builtin_call(e);
+        flow_all(e.args);  // nobody knows what is called: reported
+        return kUniform;
     }
 
     Flow builtin_call(CallExpr& e) {

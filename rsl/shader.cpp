@@ -1,6 +1,7 @@
 // rsl/shader.cpp: the stages of the front end in order.
 #include "rsl/shader.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -27,7 +28,7 @@ std::vector<ShaderParameter> shader_parameters(const ShaderDefinition& definitio
 }
 
 std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& ast,
-                                                  Reporter& reporter) {
+                                                  Reporter& reporter, const Damage& damage) {
     std::vector<std::unique_ptr<Shader>> shaders;
     std::unordered_set<const void*> reported;
     for (const ShaderDefinition* definition : ast->shaders) {
@@ -36,23 +37,21 @@ std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& as
         shader->kind = definition->kind;
         shader->ast = ast;
         shader->definition = definition;
-        find_usage(*shader, *ast, reporter, reported);
-        shader->parameters = shader_parameters(*definition);
+        find_usage(*shader, *ast, reporter, damage, reported);
+        if (reporter.errors() == 0) shader->parameters = shader_parameters(*definition);
         shaders.push_back(std::move(shader));
     }
     return shaders;
 }
 
-// What the later stages have to say of a source that has errors.
-void find_further_errors(Ast& ast, Reporter& reporter) {
-    std::unordered_set<const void*> reported;
-    for (const ShaderDefinition* definition : ast.shaders) {
-        Shader shader;
-        shader.kind = definition->kind;
-        shader.definition = definition;
-        find_usage(shader, ast, reporter, reported);
-    }
-    infer_rates(ast, reporter);
+// Whether the preprocessor's errors, those from `first` on, say that whole lines are missing: what
+// is wrong inside a string or a macro's arguments stays where it is.
+bool lacks_text(const Diagnostics& diagnostics, size_t first) {
+    const auto& findings = diagnostics.findings();
+    return std::any_of(findings.begin() + ptrdiff_t(first), findings.end(), [](const Finding& f) {
+        return f.severity == Severity::Error && f.info != &Code::RSL_UNTERMINATED_STRING &&
+               f.info != &Code::RSL_MACRO_ARGUMENTS;
+    });
 }
 
 }  // namespace
@@ -79,22 +78,18 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
                                              Diagnostics& diagnostics) {
     auto ast = std::make_shared<Ast>();
     Reporter reporter(diagnostics, ast->tokens, options.max_errors);
+    size_t before = diagnostics.findings().size();
     Preprocessor(options, diagnostics, ast->tokens, reporter).run(source);
     if (ast->tokens.truncated) return {};
-    bool lacks_text = reporter.errors() > 0;
     Parser parser(*ast, reporter);
+    if (lacks_text(diagnostics, before)) parser.damage().lose_everything();
     parser.run();
-    bool parsed = reporter.errors() == 0;
-    Checker(*ast, reporter, options, lacks_text || parser.broken()).run();
+    Checker(*ast, reporter, options, parser.damage()).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {
         Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
         if (!ast->functions.empty()) finding.help = "write its kind, as 'surface', before its name";
     }
-    if (reporter.errors() > 0) {
-        if (parsed) find_further_errors(*ast, reporter);
-        return {};
-    }
-    auto shaders = make_shaders(ast, reporter);
+    auto shaders = make_shaders(ast, reporter, parser.damage());
     infer_rates(*ast, reporter);
     if (reporter.errors() > 0) return {};
     return shaders;

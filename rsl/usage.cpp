@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "rsl/literal_names.h"
+#include "rsl/meant_name.h"
 #include "rsl/pairs.h"
 
 namespace kinora::rsl {
@@ -11,9 +13,9 @@ namespace {
 
 class UsageWalk {
   public:
-    UsageWalk(Shader& shader, Ast& ast, Reporter& reporter,
+    UsageWalk(Shader& shader, Ast& ast, Reporter& reporter, const Damage& damage,
               std::unordered_set<const void*>& reported)
-        : shader_(shader), ast_(ast), reporter_(reporter), reported_(reported) {}
+        : shader_(shader), ast_(ast), reporter_(reporter), damage_(damage), reported_(reported) {}
 
     // Nodes that have an error may lack what the checker completes.
     void run() {
@@ -29,12 +31,13 @@ class UsageWalk {
   private:
     enum class Inside : uint8_t { Nothing, Illuminance, Light, Function };
 
+    // Null where the node has a finding.
     template <class... Args>
-    void report(const FindingInfo& info, const void* node, const Place& place,
-                const Args&... args) {
-        if (!reported_.insert(node).second) return;
+    Finding* report(const FindingInfo& info, const void* node, const Place& place,
+                    const Args&... args) {
+        if (!reported_.insert(node).second) return nullptr;
         const Token& token = ast_.tokens.tokens[place.token];
-        reporter_.report(info, place.where, token.macro, token.spelling, args...);
+        return &reporter_.report(info, place.where, token.macro, token.spelling, args...);
     }
     void lights(const void* node, const Place& place, const std::string& name) {
         if (shader_.kind == ShaderKind::Displacement)
@@ -58,6 +61,7 @@ class UsageWalk {
     // L, Cl and Ol of a surface exist inside illuminance, L of a light inside illuminate and solar.
     // Functions are called from inside, or hold the statement themselves.
     void check_inside(const VariableExpr& e, Global id) {
+        if (damage_.touches(e.place.token)) return;  // where illuminance ends may be unknown
         bool of_light = id == Global::L || id == Global::Cl || id == Global::Ol;
         bool surface = shader_.kind == ShaderKind::Surface;
         if (surface && (of_light || id == Global::Ps) && inside_ == Inside::Nothing)
@@ -123,7 +127,10 @@ class UsageWalk {
         return triple && is_zero(*triple->items[0]) && is_zero(*triple->items[1]) &&
                is_zero(*triple->items[2]);
     }
-    void at(const CastExpr& e) { walk(e.space), walk(e.operand); }
+    void at(const CastExpr& e) {
+        if (e.to == BaseType::Color) color_space(e.space);
+        walk(e.space), walk(e.operand);
+    }
     void at(const TripleExpr& e) { walk_all(e.items); }
     void at(const SixteenExpr& e) { walk_all(e.items); }
     void at(const ArrayLiteralExpr& e) { walk_all(e.items); }
@@ -135,6 +142,8 @@ class UsageWalk {
             for (size_t i = 0; i < e.args.size(); ++i)
                 argument(e.args[i], e.function->parameters[i]->output);
             reach(*e.function);
+        } else {
+            walk_all(e.args);  // nobody knows what is called
         }
     }
     void argument(const Expr* e, bool output) {
@@ -151,7 +160,26 @@ class UsageWalk {
         if ((kinds & kSurface) && !(row.effects & (kLights | kDerivative))) kinds |= kLight;
         return kinds;
     }
+    // Of names that only the renderer knows nothing is said here.
+    void color_space(const Expr* e) {
+        const auto* name = as_if<StringExpr>(e);
+        if (!name || is_color_space(name->value)) return;
+        Finding* finding = report(Code::RSL_COLOR_SPACE_UNKNOWN, e, e->place, name->value);
+        if (finding) finding->help = meant_help(name->value, color_space_names());
+    }
+    void spline_basis(const Expr* e) {
+        const auto* name = as_if<StringExpr>(e);
+        if (!name || is_spline_basis(name->value)) return;
+        Finding* finding = report(Code::RSL_SPLINE_BASIS, e, e->place, name->value);
+        if (finding) finding->help = meant_help(name->value, spline_basis_names());
+    }
+    void literal_names(const CallExpr& e) {
+        if (e.name == "ctransform")
+            for (const Expr* argument : e.args) color_space(argument);
+        if (e.name == "spline" && !e.args.empty()) spline_basis(e.args[0]);
+    }
     void builtin_call(const CallExpr& e) {
+        literal_names(e);
         if (!(legal_kinds(*e.builtin) & in_kind(shader_.kind))) {
             bool derives = e.builtin->effects & kDerivative;
             report(derives ? Code::RSL_NO_DERIVATIVES : Code::RSL_NOT_LEGAL_HERE, &e, e.place,
@@ -237,7 +265,7 @@ class UsageWalk {
     void at(const GatherStmt& s) {
         constexpr uint8_t kGatherers = kSurface | kVolume | kLight;
         legal(s, kGatherers & in_kind(shader_.kind), "gather");
-        walk_all(s.args.first(std::min<size_t>(s.args.size(), 5)));
+        walk_all(s.args.first(s.args.size() - s.pairs.size()));
         for (size_t k = 0; k < s.pairs.size(); ++k)
             argument(s.pairs[k], k % 2 == 1 && is_gather_output(pair_name(s.pairs, k)));
         walk(*s.body);
@@ -247,6 +275,7 @@ class UsageWalk {
     Shader& shader_;
     Ast& ast_;
     Reporter& reporter_;
+    const Damage& damage_;
     std::unordered_set<const void*>& reported_;
     std::unordered_set<const Function*> seen_;
     std::array<bool, size_t(Global::Count)> read_{}, written_{};
@@ -255,9 +284,9 @@ class UsageWalk {
 
 }  // namespace
 
-void find_usage(Shader& shader, Ast& ast, Reporter& reporter,
+void find_usage(Shader& shader, Ast& ast, Reporter& reporter, const Damage& damage,
                 std::unordered_set<const void*>& reported) {
-    UsageWalk(shader, ast, reporter, reported).run();
+    UsageWalk(shader, ast, reporter, damage, reported).run();
 }
 
 }  // namespace kinora::rsl

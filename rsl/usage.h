@@ -5,15 +5,17 @@
 #include <unordered_set>
 #include <vector>
 
+#include "rsl/damage.h"
 #include "rsl/reporter.h"
 #include "rsl/shader.h"
 
 namespace kinora::rsl {
 
-// Fills shader.globals_read, globals_written and functions, and reports what its kind must not use.
-// `reported` holds the nodes that have a finding already: functions are walked once for each
-// shader.
-void find_usage(Shader& shader, Ast& ast, Reporter& reporter,
+// Fills shader.globals_read, globals_written and functions, and reports what its kind must not use,
+// and literals that name no color space or spline. The tree may hold what could not be typed; in
+// what `damage` touches, nothing is said that a lost brace would explain. `reported` holds the
+// nodes that have a finding already: functions are walked once for each shader.
+void find_usage(Shader& shader, Ast& ast, Reporter& reporter, const Damage& damage,
                 std::unordered_set<const void*>& reported);
 
 // The value of a checked expression that needs no running; empty when it does.

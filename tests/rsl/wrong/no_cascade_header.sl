@@ -13,3 +13,4 @@ surface x() {
 //! 6:25 error RSL_SYNTAX expected ';'
 //! 7:17 error RSL_SYNTAX expected ')'
 //! 8:20 error RSL_SYNTAX expected an expression
+//! 4:38 error RSL_UNKNOWN_VARIABLE nosuch
