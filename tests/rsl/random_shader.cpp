@@ -22,9 +22,12 @@ ShaderWriter::ShaderWriter(uint64_t seed, bool all_rows)
       policy_(kShaderPolicies[seed % uint64_t(kShaderPolicyCount)]) {
     for (int k = 0; k < 4; ++k) random_.next();
     int dice = below(100);
-    kind_ = dice < 70   ? ShaderKind::Surface
-            : dice < 85 ? ShaderKind::Displacement
-                        : ShaderKind::Light;
+    kind_ = dice < 60   ? ShaderKind::Surface
+            : dice < 73 ? ShaderKind::Displacement
+            : dice < 86 ? ShaderKind::Light
+            : dice < 92 ? ShaderKind::Volume
+            : dice < 96 ? ShaderKind::Imager
+                        : ShaderKind::Transformation;
     find_rows(all_rows);
 }
 
@@ -65,6 +68,9 @@ std::string ShaderWriter::write() {
     } else if (kind_ == ShaderKind::Displacement) {
         line("P += " + value(BaseType::Vector, 2) + ";");
         line("N = calculatenormal(P);");
+    } else if (kind_ == ShaderKind::Transformation) {
+        line("P += " + value(BaseType::Vector, 2) + ";");
+        line("N = " + value(BaseType::Normal, 2) + ";");
     } else {
         finish_surface();
     }
@@ -75,8 +81,7 @@ std::string ShaderWriter::write() {
 
 // Some parameters are bound to frame inputs, some to point inputs, some keep their defaults.
 std::string ShaderWriter::shader_head() {
-    static const char* const kKinds[] = {"surface", "displacement", "light"};
-    std::string head = std::string(kKinds[int(kind_)]) + " fuzz(";
+    std::string head = std::string(shader_kind_name(kind_)) + " fuzz(";
     auto add = [&](const char* detail, const char* stem) {
         BaseType type = chance(60) ? BaseType::Float : value_type();
         if (type == BaseType::Matrix || type == BaseType::String) type = BaseType::Color;
@@ -308,7 +313,8 @@ void ShaderWriter::while_loop() {
 }
 
 void ShaderWriter::light_loop() {
-    if (kind_ != ShaderKind::Surface || in_illuminance_ || depth_ > 3) return assignment();
+    bool sees_lights = kind_ == ShaderKind::Surface || kind_ == ShaderKind::Volume;
+    if (!sees_lights || in_illuminance_ || depth_ > 3) return assignment();
     std::string cone = chance(60) ? ", " + value(BaseType::Vector, 1) + ", " +
                                         (chance(50) ? "PI / 2" : value(BaseType::Float, 1))
                                   : "";

@@ -75,7 +75,8 @@ Setting setting_of(const Shader& shader, uint64_t world) {
     add_spaces(random, setting);
     setting.columns["camera:near"] = {0.5f}, setting.columns["camera:far"] = {100};
     setting.options.want_N = shader.kind != ShaderKind::Light;
-    setting.options.want_P = shader.kind == ShaderKind::Displacement;  // as these leave it
+    setting.options.want_P = shader.kind == ShaderKind::Displacement ||
+                             shader.kind == ShaderKind::Transformation;  // as these leave it
     return setting;
 }
 
