@@ -177,6 +177,7 @@ Value filtered(LowerCall& c, Value share) {
 
 // The step averaged over a box: how much of [low, high] lies above the edge.
 void filterstep(LowerCall& c) {
+    c.report_unknown_pairs();
     auto& b = c.b;
     Value low = c.f(1), high = c.f(1);
     if (c.args.size() == 3) {

@@ -88,7 +88,13 @@ void blur_apart(LowerCall& c, Lookup& at, Value& swidth, Value& twidth) {
     widen(at.dtdy, at.dtdx, twidth, "tblur");
 }
 
+// "swidth" and "twidth" count before "width".
+Value width(LowerCall& c, std::string_view direction) {
+    return c.pair(c.has_pair(direction) ? direction : "width", 1);
+}
+
 void texture(LowerCall& c) {
+    c.report_unknown_pairs();
     Lookup at;
     if (c.args.size() == 9)
         at = of_corners(c);
@@ -97,12 +103,8 @@ void texture(LowerCall& c) {
     else
         at = with_derivatives(c, c.low.read_global(Global::s).c[0],
                               c.low.read_global(Global::t).c[0]);
-    Value width = c.pair("width", 1);
-    auto width_of = [&](std::string_view name) {
-        return c.has_pair(name) ? c.pair(name, 0) : width;
-    };
     Lookup where = at;
-    Value swidth = width_of("swidth"), twidth = width_of("twidth");
+    Value swidth = width(c, "swidth"), twidth = width(c, "twidth");
     blur_apart(c, at, swidth, twidth);
     auto lookup = [&](Value s, Value t) {
         Lookup moved = at;
@@ -148,12 +150,13 @@ void trace_environment(LowerCall& c) {
                                              c.pair("samples", 1), c.pair("blur", 0), c.b.i(0)}));
 }
 
+// The footprint's sides are those along u and v: maps of directions and depths have no s and t.
 void environment(LowerCall& c) {
+    c.report_unknown_pairs();
     auto& e = c.low;
     if (is_scene(c)) return trace_environment(c);
     Footprint f = footprint(c);
-    Value width = c.pair("width", 1);
-    V3 dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
+    V3 dx = e.scale(f.dx, width(c, "swidth")), dy = e.scale(f.dy, width(c, "twidth"));
     auto lookup = [&](const V3& R) {
         return e.service("environment",
                          std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2],
@@ -195,13 +198,13 @@ void trace_shadow(LowerCall& c) {
 
 // 0 lit, 1 in shadow.
 void shadow(LowerCall& c) {
+    c.report_unknown_pairs();
     auto& e = c.low;
     if (!e.options.want_Ci && e.kind() != ShaderKind::Light) return;
     if (is_scene(c)) return trace_shadow(c);
     Footprint f = footprint(c);
     V3 P = f.at;
-    Value width = c.pair("width", 1);
-    V3 dx = e.scale(f.dx, width), dy = e.scale(f.dy, width);
+    V3 dx = e.scale(f.dx, width(c, "swidth")), dy = e.scale(f.dy, width(c, "twidth"));
     set_texels(c, e.service("shadow", std::array{c.f(0), P[0], P[1], P[2], dx[0], dx[1], dx[2],
                                                  dy[0], dy[1], dy[2], c.pair("bias", -1),
                                                  c.pair("blur", 0), c.pair("samples", 16)}));
@@ -211,6 +214,7 @@ void shadow(LowerCall& c) {
 // dPds ^ dPdt + h_s (n ^ dPdt) + h_t (dPds ^ n). Slopes are differences over the footprint. Here
 // n |dPds ^ dPdt| is the first term: the N given is bent, not the face's.
 void bump(LowerCall& c) {
+    c.report_unknown_pairs();
     auto& e = c.low;
     auto& b = c.b;
     V3 N = c.v3(1), along_s = c.v3(2), along_t = c.v3(3);

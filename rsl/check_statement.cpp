@@ -167,12 +167,12 @@ bool Checker::sort_illuminance(IlluminanceStmt& s, size_t next) {
     s.position = s.args[next++];
     if (next < count && !is_string(next)) {
         s.axis = s.args[next++];
-        bool given = next < count && !is_string(next);
-        s.angle = given ? s.args[next++] : assumed_angle(s, "illuminance", kHalfPi, "PI/2");
+        if (next < count && !is_string(next)) s.angle = s.args[next++];
     }
     for (size_t k = next; k < count; k += 2)
         if (!is_string(k)) return false;
     if ((count - next) % 2 != 0) return false;
+    if (s.axis && !s.angle) s.angle = assumed_angle(s, "illuminance", kHalfPi, "PI/2");
     drop_unfit(s.args, next, "illuminance");
     s.pairs = s.args.subspan(next);
     return true;

@@ -28,7 +28,7 @@ constexpr BaseType kText = BaseType::String;
 constexpr OptionalParameter kOptionalParameters[] = {
     // Rays.
     {"samples", kNumber,
-     "trace transmission visibility areashadow environment shadow texture3d " PHOTONS},
+     "trace transmission visibility areashadow texture environment shadow bump texture3d " PHOTONS},
     {"samplecone", kNumber, "trace transmission visibility"},
     {"bias", kNumber, RAYS " gather environment shadow"},
     {"maxdist", kNumber, "trace occlusion indirectdiffuse gather environment " PHOTONS},
@@ -63,10 +63,10 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"sblur", kNumber, "texture"},
     {"tblur", kNumber, "texture"},
     {"width", kNumber, "texture environment shadow areashadow filterstep"},
-    {"swidth", kNumber, "texture areashadow filterstep"},
-    {"twidth", kNumber, "texture areashadow"},
+    {"swidth", kNumber, "texture environment shadow areashadow filterstep"},
+    {"twidth", kNumber, "texture environment shadow areashadow"},
     {"fill", kNumber, "texture environment bump"},
-    {"filter", kText, "texture bump filterstep"},
+    {"filter", kText, "texture environment shadow areashadow bump filterstep"},
     // Point files.
     {"filename", kText, RAYS " " PHOTONS},
     {"radius", kNumber, POINTS},
@@ -76,7 +76,8 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"filterradius", kAny, "texture3d"},
     {"filterscale", kAny, "texture3d"},
     {"maxdepth", kAny, "texture3d"},
-    {"lerp", kAny, "texture3d"},
+    {"lerp", kAny, "texture environment shadow bump texture3d"},
+    {"expandborders", kAny, "texture environment shadow bump"},
     {"estimator", kNumber, PHOTONS},
     {"lookup", kAny, PHOTONS},
     {"mindist", kAny, PHOTONS},

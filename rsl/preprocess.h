@@ -20,6 +20,7 @@ inline constexpr size_t kMostTokens = 1'000'000;  // made by expansion, in one c
 inline constexpr size_t kMostIncludeDepth = 64;
 inline constexpr size_t kMostIncludes = 1000;
 inline constexpr uintmax_t kMostIncludeBytes = 64 << 20;  // of one file
+inline constexpr size_t kMostParameterTokens = 2000;      // of a function, looked through
 inline constexpr int kMostMacroNesting = 200;             // of macro calls inside arguments
 inline constexpr int kMostConditionNesting = 200;         // of parentheses in #if
 
@@ -29,6 +30,7 @@ struct Macro {
     bool function_like = false;
     bool variadic = false;
     bool special = false;    // __FILE__, __LINE__
+    bool standard = false;   // of a customary header of ours
     bool undefined = false;  // by #undef: the node stays, since expansions may point to it
     bool expanding = false;  // its replacement is being read: its name is no macro inside
     std::vector<std::string_view> parameters;
@@ -48,6 +50,7 @@ class Preprocessor {
         FileId id = kNoFile;
         std::string path;
         size_t conditions = 0;  // open #if of the includers
+        bool standard = false;  // a customary header of ours
     };
     // An open #if.
     struct Condition {
@@ -111,6 +114,7 @@ class Preprocessor {
     Token next_unexpanded();
     Token peek_unexpanded();
     bool try_expand(Token& token);
+    bool names_definition() const;
     bool expand_special(Token& token, const Macro& macro);
     bool read_arguments(const Token& name, const Macro& macro, std::vector<TokenList>& arguments);
     bool fit_arguments(const Token& name, const Macro& macro, std::vector<TokenList>& arguments);

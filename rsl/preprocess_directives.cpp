@@ -73,6 +73,7 @@ void Preprocessor::run_define(const Token& name, Line line) {
     Macro macro;
     macro.name = line[0].text;
     macro.definition = line[0].where;
+    macro.standard = !files_.empty() && files_.back().standard;
     size_t next = 1;
     bool opens = line.size() > 1 && line[1].punct == Punct::LeftParen && !line[1].space_before;
     if (opens && !define_parameters(macro, line, next)) return;
@@ -205,6 +206,7 @@ bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) 
         maps_.emplace_back();
         maps_.back().file = diagnostics_.files.add("include/" + file, std::string(text));
         enter_text(text, maps_.back(), file);
+        files_.back().standard = true;
         return true;
     }
     reporter_.report(outside ? Code::RSL_INCLUDE_OUTSIDE : Code::RSL_INCLUDE_NOT_FOUND, at, file);

@@ -69,6 +69,10 @@ bool Preprocessor::try_expand(Token& token) {
         Token open = peek_unexpanded();
         // A '#' line may stand between the name and '(': that is no call.
         if (open.punct != Punct::LeftParen) return false;
+        if (macro.standard && names_definition()) {
+            macro.undefined = true;
+            return false;
+        }
         if (nesting_ > kMostMacroNesting) {
             give_up(token);
             return true;
@@ -89,6 +93,22 @@ bool Preprocessor::try_expand(Token& token) {
     }
     push(std::move(replacement), &macro);
     return true;
+}
+
+// "NAME(...) {": the source has a function of its own where our header has a macro. Nothing but a
+// definition has a brace there: no macro of ours begins a statement.
+bool Preprocessor::names_definition() const {
+    if (isolated_ || pending_.size() > floor_) return false;
+    Lexer ahead = files_.back().lexer;
+    int depth = 0;
+    for (size_t n = 0; n < kMostParameterTokens; ++n) {
+        Token token = ahead.next();
+        if (token.kind == TokenKind::End) return false;
+        depth += token.punct == Punct::LeftParen;
+        depth -= token.punct == Punct::RightParen;
+        if (depth == 0) return ahead.next().punct == Punct::LeftBrace;
+    }
+    return false;
 }
 
 bool Preprocessor::expand_special(Token& token, const Macro& macro) {

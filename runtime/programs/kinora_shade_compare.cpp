@@ -73,14 +73,17 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
     };
 }
 
-rsl::ReferenceInputs frame_inputs(const ShadeStack& stack, const Patch& patch) {
+rsl::ReferenceInputs frame_inputs(const ShadeStack& stack, const Patch& patch,
+                                  const ShadeKernel& kernel) {
     rsl::ReferenceInputs inputs;
     for (const auto& [name, value] : stack.values) inputs.values[name] = double(value);
-    for (const char* space : {"world", "object", "shader", "screen", "NDC", "raster"})
+    std::vector<std::string> spaces = kernel.unknown_spaces();
+    spaces.insert(spaces.end(), {"world", "object", "shader", "screen", "NDC", "raster"});
+    for (const std::string& space : spaces)
         for (const char* way : {":to_current:", ":from_current:"})
             for (char row = '0'; row < '4'; ++row)
                 for (char column = '0'; column < '4'; ++column) {
-                    std::string name = std::string("space:") + space + way + row + column;
+                    std::string name = "space:" + space + way + row + column;
                     float value = 0;
                     if (space_entry(patch, name, value)) inputs.values[name] = double(value);
                 }
@@ -120,7 +123,7 @@ void compare_with_interpreter(const ShadeStack& stack, const Patch& patch,
 
 void compare_with_reference(const ShadeStack& stack, const Patch& patch,
                             const ShadeKernel& kernel) {
-    rsl::ReferenceInputs inputs = frame_inputs(stack, patch);
+    rsl::ReferenceInputs inputs = frame_inputs(stack, patch, kernel);
     inputs.service = reference_service(patch, kernel);
     std::vector<std::pair<std::string, PatchInput>> columns;
     for (const std::string& name : patch_input_names())

@@ -186,6 +186,27 @@ ShadeOutputs ShadeKernel::illumination() const {
     return illuminate(outputs(), lowered_, *patch_);
 }
 
+std::vector<std::string> ShadeKernel::unknown_spaces() const {
+    constexpr std::string_view kStandard[] = {"world",  "object", "shader",
+                                              "screen", "NDC",    "raster"};
+    std::vector<std::string> unknown;
+    auto look = [&](const jit::Kernel& kernel) {
+        for (const jit::InputInfo& input : kernel.inputs) {
+            if (!input.name.starts_with("space:")) continue;
+            std::string_view way = std::string_view(input.name).substr(6);
+            way = way.substr(0, way.rfind(':'));
+            std::string space(way.substr(0, way.rfind(':')));
+            bool known = std::count(std::begin(kStandard), std::end(kStandard), space) +
+                             std::count(unknown.begin(), unknown.end(), space) >
+                         0;
+            if (!known) unknown.push_back(space);
+        }
+    };
+    look(*pair_.point);
+    if (pair_.frame) look(*pair_.frame);
+    return unknown;
+}
+
 void ShadeKernel::report_faults(Diagnostics& diagnostics) const {
     auto report = [&](const jit::Kernel& kernel, const std::vector<uint8_t>& faults) {
         for (size_t i = 0; i < kernel.fault_sites.size(); ++i)

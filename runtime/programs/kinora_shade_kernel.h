@@ -48,6 +48,8 @@ class ShadeKernel {
     ShadeOutputs outputs() const;
     // What a light gives a white matte patch, as Ci.
     ShadeOutputs illumination() const;
+    // Coordinate systems that the shader names and no scene gives: here they are the world.
+    std::vector<std::string> unknown_spaces() const;
     // One finding for each place in the shader that reported a fault while running.
     void report_faults(Diagnostics& diagnostics) const;
 

@@ -105,6 +105,12 @@ int shade_run(const ShadeOptions& options) {
     kernel.report_faults(source.diagnostics);
     patch.textures->report(source.diagnostics);
     source.print_findings(options);
+    for (const std::string& space : kernel.unknown_spaces())
+        if (!options.quiet)
+            std::fprintf(stderr,
+                         "kinora-shade: there is no scene that has a coordinate system '%s': here "
+                         "it is the world\n",
+                         space.c_str());
     ShadeOutputs outputs = stack.light ? kernel.illumination() : kernel.outputs();
     std::vector<std::string> names = columns_of(options.output, outputs);
     if (!options.quiet) {

@@ -184,6 +184,13 @@ class Run(ProgramTest):
                     worst = re.search(r"largest difference (\S+):", result.out)
                     self.assertLess(float(worst[1]) if worst else 0, 1e-4, result)
 
+    def test_a_coordinate_system_of_no_scene_is_the_world_and_said_so(self):
+        source = 'surface x() { Ci = color transform("hand", P) + color transform("world", P); }'
+        words = ("run", "-", "--size", "4x4", "--compare", "reference")
+        result = self.expect(shade(*words, stdin=source), 0, "16 points compared", "no difference")
+        self.assertEqual(result.err.count("'hand'"), 1, result.err)
+        self.assertNotIn("'world'", result.err)
+
     def test_the_reference_is_asked_where_the_code_needs_no_service(self):
         folded = 'surface x(string a = "a.tif") { Ci = 0 * color texture(a); }'
         gathers = ('surface x() { color c = 0; float n = 0; gather("illuminance", P, N, 1, 4, '

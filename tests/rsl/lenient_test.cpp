@@ -91,6 +91,14 @@ TEST(Lenient, OptionalParametersThatACalleeDoesNotKnowAreNamed) {
         {"indirectdiffuse(P, N, 4, \"samples\", 2)", "'samples' of indirectdiffuse"},
         {"transmission(P, P + N, \"sample\", 2)", "'sample' of transmission"},
         {"photonmap(\"a.ptc\", P, N, \"estimator\", 9)", ""},
+        {"texture(\"a\", s, t, \"blurr\", 1)", "'blurr' of texture"},
+        {"texture(\"a\", \"swidth\", 1, \"lerp\", 1, \"samples\", 4, \"filter\", \"box\")", ""},
+        {"environment(\"a\", N, \"blurr\", 1)", "'blurr' of environment"},
+        {"environment(\"a\", N, \"swidth\", 1, \"twidth\", 2, \"filter\", \"box\")", ""},
+        {"environment(\"raytrace\", N, \"maxdist\", 1, \"bla\", 2)", "'bla' of environment"},
+        {"shadow(\"a\", P, \"blr\", 1, \"bias\", 0.1, \"swidth\", 2)", "'blr' of shadow"},
+        {"color(bump(\"a\", N, dPdu, dPdv, \"hight\", 1))", "'hight' of bump"},
+        {"filterstep(0, s, \"wide\", 1)", "'wide' of filterstep"},
         {"photonmap(\"a.ptc\", P, N, \"radius\", 9)", "'radius' of photonmap"},
     };
     for (const Case& c : kCases) {

@@ -137,6 +137,34 @@ TEST(Preprocess, OptionsDefineMacrosWithParameters) {
     }
 }
 
+// As functions of the source hide built-in ones.
+TEST(Preprocess, AFunctionOfTheSourceHidesTheMacroOfACustomaryHeader) {
+    auto behind_header = [](const std::string& text) {
+        std::string all = expand("#include <patterns.h>\nSTART " + text);
+        return all.substr(all.find("START ") + 6);
+    };
+    EXPECT_EQ(behind_header("sqr(2) float sqr(float x) { return x; } sqr(2)"),
+              "( ( 2 ) * ( 2 ) ) float sqr ( float x ) { return x ; } sqr ( 2 )");
+    // A typed call is none, and neither is a macro of the source's own.
+    EXPECT_EQ(behind_header("if (float sqr(vector (s)) > 1) { }"),
+              "if ( float ( ( vector ( s ) ) * ( vector ( s ) ) ) > 1 ) { }");
+    EXPECT_EQ(expand("#define each(i) for (i = 0; i < 3; i += 1)\neach(k) { }"),
+              "for ( k = 0 ; k < 3 ; k += 1 ) { }");
+    for (const char* text :
+         {"#include \"patterns.h\"\nfloat sqr(float x) { return x * x; }\nsurface a() { Ci = "
+          "sqr(s); }",
+          "#include \"noises.h\"\nfloat snoise(point p) { return 2 * noise(p) - 1; }\n"
+          "surface a() { Ci = filteredsnoise(P, 0.5); }",
+          "#include \"filterwidth.h\"\nfloat filterwidth(float x) { return max(abs(Du(x) * du), "
+          "MINFILTWIDTH); }\nsurface a() { Ci = filterwidth(s); }",
+          "#include \"util.h\"\nfloat bias(float a, b) { return pow(a, b); }\n"
+          "surface a() { Ci = bias(s, t) + union(s, t); }"}) {
+        TestSource source(text);
+        EXPECT_FALSE(compile(source.source, {}, source.diagnostics).empty()) << source.messages();
+        EXPECT_TRUE(source.diagnostics.findings().empty()) << source.messages();
+    }
+}
+
 // The lines that `cpp` makes of the same text, for what people's macros do.
 TEST(Preprocess, AgreesWithTheSystemsPreprocessor) {
     if (std::system("cpp --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no cpp";
