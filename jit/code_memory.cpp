@@ -24,8 +24,9 @@ CodeMemory::~CodeMemory() {
     munmap(pages_, bytes_);
 }
 
-std::shared_ptr<const CodeMemory> make_executable(std::span<const uint8_t> code) {
-    if (denied || code.empty()) return nullptr;
+namespace {
+
+std::shared_ptr<const CodeMemory> map_code(std::span<const uint8_t> code) {
     size_t bytes = whole_pages(code.size());
     void* pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (pages == MAP_FAILED) return nullptr;
@@ -39,6 +40,21 @@ std::shared_ptr<const CodeMemory> make_executable(std::span<const uint8_t> code)
     auto* begin = static_cast<char*>(pages);
     __builtin___clear_cache(begin, begin + bytes);
     return std::make_shared<const CodeMemory>(pages, bytes);
+}
+
+}  // namespace
+
+std::shared_ptr<const CodeMemory> make_executable(std::span<const uint8_t> code) {
+    if (denied || code.empty()) return nullptr;
+    return map_code(code);
+}
+
+bool may_execute() {
+    static const bool may = [] {
+        constexpr uint8_t kBytes[8] = {};
+        return map_code(kBytes) != nullptr;
+    }();
+    return may;
 }
 
 void deny_executable_memory(bool deny) {

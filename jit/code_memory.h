@@ -29,6 +29,9 @@ class CodeMemory {
 // page.
 std::shared_ptr<const CodeMemory> make_executable(std::span<const uint8_t> code);
 
+// Does the system let this process make memory executable at all? Asked of it once.
+bool may_execute();
+
 // For tests of the fallback: while set, make_executable gives null.
 void deny_executable_memory(bool deny);
 

@@ -4,57 +4,11 @@
 #include <cstring>
 
 #include "jit/code_tools.h"
+#include "jit/dwarf_bytes_p.h"
 
 namespace kinora::jit {
 
 namespace {
-
-class Bytes {
-  public:
-    template <class T>
-    void put(T value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        size_t at = data.size();
-        data.resize(at + sizeof value);
-        std::memcpy(data.data() + at, &value, sizeof value);
-    }
-    void byte(int value) { put(static_cast<uint8_t>(value)); }
-    void text(const std::string& s) {
-        for (char c : s) put(c);
-        byte(0);
-    }
-    void unsigned_leb(uint64_t value) {
-        do {
-            int low = static_cast<int>(value & 0x7f);
-            value >>= 7;
-            byte(value != 0 ? low | 0x80 : low);
-        } while (value != 0);
-    }
-    void signed_leb(int64_t value) {
-        for (;;) {
-            int low = static_cast<int>(value & 0x7f);
-            value >>= 7;
-            bool done = (value == 0 && (low & 0x40) == 0) || (value == -1 && (low & 0x40) != 0);
-            byte(done ? low : low | 0x80);
-            if (done) return;
-        }
-    }
-    void patch(size_t at, uint32_t value) { std::memcpy(data.data() + at, &value, sizeof value); }
-    size_t size() const { return data.size(); }
-
-    std::vector<std::byte> data;
-};
-
-// A length word, filled in when what follows is done.
-class Unit {
-  public:
-    explicit Unit(Bytes& bytes) : bytes_(bytes), at_(bytes.size()) { bytes.put<uint32_t>(0); }
-    ~Unit() { bytes_.patch(at_, static_cast<uint32_t>(bytes_.size() - at_ - 4)); }
-
-  private:
-    Bytes& bytes_;
-    size_t at_;
-};
 
 uint64_t address_of(const Kernel& kernel) {
     return reinterpret_cast<uintptr_t>(kernel.machine_code.data());
@@ -182,6 +136,9 @@ std::vector<std::byte> debug_object(const Kernel& kernel, const SourceFiles* fil
     sections.push_back({".debug_info", SHT_PROGBITS, 0, info(kernel)});
     sections.push_back({".debug_abbrev", SHT_PROGBITS, 0, std::move(abbreviations)});
     sections.push_back({".debug_line", SHT_PROGBITS, 0, lines(kernel, files)});
+    Bytes unwind;
+    unwind.data = kernel.eh_frame;
+    sections.push_back({".eh_frame", SHT_PROGBITS, SHF_ALLOC, std::move(unwind)});
     sections.push_back({".shstrtab", SHT_STRTAB, 0, {}});
 
     Bytes names, out;

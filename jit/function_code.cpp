@@ -68,19 +68,19 @@ bool FunctionCode::is_zero(Value v) const {
 }
 
 void FunctionCode::lay_out(int lanes) {
-    auto round_up = [](size_t bytes) {
-        return static_cast<int32_t>((bytes + kRow - 1) / kRow * kRow);
-    };
+    auto round_up = [](size_t bytes) { return (bytes + kRow - 1) / kRow * kRow; };
+    auto offset = [&] { return static_cast<int32_t>(std::min(frame_bytes_, kMostFrameBytes)); };
     auto take = [&](size_t bytes) {
-        int32_t at = layout_.bytes;
-        layout_.bytes += round_up(bytes);
+        int32_t at = offset();
+        frame_bytes_ += round_up(bytes);
         return at;
     };
+    auto lane_bytes = static_cast<size_t>(4 * lanes);
     // The caller fills in parameters at the frame's start and finds the results behind them.
     layout_.params = take(is_kernel_ ? 0 : f_.params.size() * kRow);
     layout_.results = take(is_kernel_ ? 0 : f_.results.size() * kRow);
-    layout_.vectors = take(static_cast<size_t>(allocation_.slots[0] * 4 * lanes));
-    layout_.masks = take(static_cast<size_t>(allocation_.slots[1] * 8));
+    layout_.vectors = take(static_cast<size_t>(allocation_.slots[0]) * lane_bytes);
+    layout_.masks = take(static_cast<size_t>(allocation_.slots[1]) * 8);
     layout_.swap = take(2 * kRow);
     layout_.lanes_a = take(kRow);
     layout_.lanes_b = take(kRow);
@@ -89,10 +89,11 @@ void FunctionCode::lay_out(int lanes) {
     layout_.service_args = take(most.args * kRow);
     layout_.service_results = take(most.results * kRow);
     for (const ArrayInfo& array : f_.arrays) {  // one behind the other: one fill zeroes them
-        layout_.arrays.push_back(layout_.bytes);
-        layout_.bytes += array.length * 4 * lanes;
+        layout_.arrays.push_back(offset());
+        frame_bytes_ += static_cast<size_t>(array.length) * lane_bytes;
     }
-    layout_.bytes = round_up(static_cast<size_t>(layout_.bytes));
+    frame_bytes_ = round_up(frame_bytes_);
+    layout_.bytes = offset();
 }
 
 std::vector<LoopUpdate> FunctionCode::loop_updates(Value loop) const {

@@ -20,7 +20,10 @@ struct CodeRules {
     int lanes;
 };
 
-// Where things lie in a function's frame, in bytes.
+// The largest frame that code can reach into: offsets in it, and in those behind it, are int32.
+inline constexpr size_t kMostFrameBytes = size_t{1} << 30;
+
+// Where things lie in a function's frame, in bytes; of no use if it takes more than kMostFrameBytes.
 struct FrameLayout {
     int32_t params = 0, results = 0;   // rows
     int32_t vectors = 0, masks = 0;    // spill slots
@@ -43,8 +46,9 @@ class FunctionCode {
   public:
     FunctionCode(const Module& module, size_t function_index, const CodeRules& rules);
 
-    // Frame size is known before code is written.
-    int32_t frame_bytes() const { return layout_.bytes; }
+    // Frame size is known before code is written, which is done for frames that fit alone.
+    size_t frame_bytes() const { return frame_bytes_; }
+    bool fits() const { return frame_bytes_ <= kMostFrameBytes; }
     // Something asks which lanes of a group hold points.
     bool uses_valid_lanes() const;
     // For tests: "" if the register allocation is proven right.
@@ -78,6 +82,7 @@ class FunctionCode {
     FunctionPlan plan_;
     Allocation allocation_;
     FrameLayout layout_;
+    size_t frame_bytes_ = 0;
     Value at_ = 0;                     // the instruction in work
     Value saved_[2] = {kNone, kNone};  // variables whose old value lies in the swap rows
 

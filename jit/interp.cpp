@@ -31,10 +31,10 @@ Code prepare(const Function& function) {
     code.function = &function;
     uint32_t carried = 0;
     match_regions(function, code, &carried);
-    code.rows = static_cast<uint32_t>(function.insts.size());
+    code.rows = function.insts.size();
     for (const ArrayInfo& array : function.arrays) {
         code.array_row.push_back(code.rows);
-        code.rows += static_cast<uint32_t>(array.length);
+        code.rows += static_cast<size_t>(array.length);
     }
     code.swap_row = code.rows;
     code.rows += carried;

@@ -20,10 +20,10 @@ struct alignas(64) Row {
 // A function made ready to walk.
 struct Code {
     const Function* function = nullptr;
-    std::vector<Value> match;         // If, Loop -> their end; EndLoop -> its Loop
-    std::vector<uint32_t> array_row;  // first row of each array
-    uint32_t swap_row = 0;            // room for one loop's next values
-    uint32_t rows = 0;                // of one activation: values, arrays, swap rows
+    std::vector<Value> match;       // If, Loop -> their end; EndLoop -> its Loop
+    std::vector<size_t> array_row;  // first row of each array
+    size_t swap_row = 0;            // room for one loop's next values
+    size_t rows = 0;                // of one activation: values, arrays, swap rows
 };
 
 struct Program {

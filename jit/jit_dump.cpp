@@ -10,6 +10,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <mutex>
 #include <type_traits>
 
@@ -90,8 +93,9 @@ std::string code(const Kernel& kernel, uint64_t index) {
 class DumpFile {
   public:
     explicit DumpFile(const std::string& folder)
-        : file_(open(fmt::format("{}/jit-{}.dump", folder, getpid()).c_str(),
-                     O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, 0666)) {
+        : name_(fmt::format("{}/jit-{}.dump", folder, getpid())),
+          file_(open(name_.c_str(), O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, 0666)) {
+        if (file_ < 0) complain();
         std::string head;
         for (uint32_t word :
              {kMagic, kVersion, kHeaderBytes, kMachine, 0u, static_cast<uint32_t>(getpid())})
@@ -113,9 +117,17 @@ class DumpFile {
 
   private:
     void write(const std::string& bytes) {
-        if (file_ >= 0 && ::write(file_, bytes.data(), bytes.size()) < 0) file_ = -1;
+        if (file_ < 0 || ::write(file_, bytes.data(), bytes.size()) >= 0) return;
+        complain();
+        file_ = -1;
     }
 
+    // Who asks for the file is at the terminal.
+    void complain() const {
+        fmt::print(stderr, "KINORA_JITDUMP: cannot write '{}': {}\n", name_, strerror(errno));
+    }
+
+    std::string name_;
     int file_;
     uint64_t index_ = 0;
     std::mutex mutex_;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "jit/code_memory.h"
 #include "runtime/base/check.h"
 
@@ -17,6 +19,7 @@ struct CodeKernel final : Kernel {
     }
 
     std::shared_ptr<const CodeMemory> memory;
+    std::optional<UnwindRegistration> unwind;
     KernelFn entry = nullptr;
     bool runs_here = false;
 };
@@ -55,6 +58,8 @@ std::shared_ptr<Kernel> finish_kernel(const Module& module, const char* target, 
     kernel->code_bytes = code.bytes.size();
     kernel->machine_code = {kernel->memory->data(), code.bytes.size()};
     kernel->places = std::move(code.places);
+    kernel->eh_frame = code.unwind.eh_frame(kernel->memory->data(), code.bytes.size());
+    if (code.runs_here) kernel->unwind.emplace(kernel->eh_frame);
     kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
     kernel->runs_here = code.runs_here;
     std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - code.begun;

@@ -9,6 +9,7 @@
 
 #include "jit/ir.h"
 #include "jit/target.h"
+#include "jit/unwind.h"
 
 namespace kinora::jit {
 
@@ -20,6 +21,7 @@ struct FinishedCode {
     std::span<const uint8_t> bytes;  // entry first
     size_t scratch_bytes;
     std::vector<CodePlace> places;
+    UnwindWriter unwind;
     std::chrono::steady_clock::time_point begun;
     bool runs_here;  // false: other machines' code, made to be looked at
 };

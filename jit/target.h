@@ -73,6 +73,7 @@ struct Kernel {
     size_t code_bytes = 0;                    // 0 for the interpreter
     std::span<const std::byte> machine_code;  // with its constants; entry first
     std::vector<CodePlace> places;      // its lines, by offset; the last row is where code ends
+    std::vector<std::byte> eh_frame;    // the rules of its stack (jit/unwind.h)
     std::shared_ptr<const void> shown;  // keeps the code known to a debugger (jit/code_tools.h)
     double compile_ms = 0;              // IR to code, passes apart
     const char* target = "";            // "avx2"
@@ -84,8 +85,8 @@ struct Target {
     const char* name;  // "interp", "avx2", "avx512", "neon"
     int lanes;
     bool (*supported)();  // by the running CPU
-    // Turns a verified, optimised module into a kernel; null if executable memory cannot be had
-    // (callers fall back to the interpreter). `assembly`, if given, receives a listing.
+    // A kernel of a verified, optimised module; null if executable memory cannot be had or a frame
+    // takes over 1 GiB (callers fall back to the interpreter). `assembly`, if given: a listing.
     std::shared_ptr<Kernel> (*emit)(const Module& module, std::string* assembly);
     // For tests, on any CPU: encodes a verified module and proves its register allocations; "" or
     // the first fault. Null: there is nothing to prove.

@@ -52,7 +52,11 @@ void Emit::emit_kernel(bool listing) {
     const Gp sp = arm::sp;
     int32_t saved = kSavedGp + (state_.saves_registers ? kSavedVectors : 0);
     a_.bind(state_.entries[index_]);
+    state_.unwind.begin_function(a_.offset());
     a_.stp(arm::x29, arm::x30, arm::ptr_pre(sp, -saved));
+    state_.unwind.frame_bytes(a_.offset(), saved);
+    state_.unwind.saved(29, saved);
+    state_.unwind.saved(30, saved - 8);
     a_.mov(arm::x29, sp);
     a_.stp(arm::x19, arm::x20, arm::ptr(sp, 16));
     a_.stp(arm::x21, arm::x22, arm::ptr(sp, 32));
@@ -61,6 +65,7 @@ void Emit::emit_kernel(bool listing) {
     // The low halves of v8..v15 are the caller's.
     for (uint32_t k = 0; state_.saves_registers && k < 8; k += 2)
         a_.stp(arm::d(8 + k), arm::d(9 + k), arm::ptr(sp, kSavedGp + static_cast<int32_t>(8 * k)));
+    note_saved(saved);
 
     a_.mov(kArgs, arm::x0);
     a_.mov(kPool, arm::x9);
@@ -89,16 +94,33 @@ void Emit::emit_kernel(bool listing) {
     a_.ldp(arm::x21, arm::x22, arm::ptr(sp, 32));
     a_.ldp(arm::x19, arm::x20, arm::ptr(sp, 16));
     a_.ldp(arm::x29, arm::x30, arm::ptr_post(sp, saved));
+    state_.unwind.begin_function(a_.offset());  // all is as it was
     a_.ret(arm::x30);
+}
+
+// Where emit_kernel has put the caller's registers; 72 is DWARF's number of d8.
+void Emit::note_saved(int32_t bytes) {
+    state_.unwind.frame_bytes(a_.offset(), bytes);
+    for (int k = 0; k < 7; ++k) state_.unwind.saved(19 + k, bytes - 16 - 8 * k);
+    for (int k = 0; state_.saves_registers && k < 8; ++k)
+        state_.unwind.saved(72 + k, bytes - kSavedGp - 8 * k);
 }
 
 // A function of the module: same registers, its own frame behind the caller's in scratch. On the
 // machine stack a call takes 16 bytes, so nothing needs probing.
 void Emit::emit_local(bool listing) {
     a_.bind(state_.entries[index_]);
-    if (plan_.calls) a_.stp(arm::x29, arm::x30, arm::ptr_pre(arm::sp, -16));
+    UnwindWriter& unwind = state_.unwind;
+    unwind.begin_function(a_.offset());
+    if (plan_.calls) {
+        a_.stp(arm::x29, arm::x30, arm::ptr_pre(arm::sp, -16));
+        unwind.frame_bytes(a_.offset(), 16);
+        unwind.saved(29, 16);
+        unwind.saved(30, 8);
+    }
     emit_body(listing);
     if (plan_.calls) a_.ldp(arm::x29, arm::x30, arm::ptr_post(arm::sp, 16));
+    unwind.begin_function(a_.offset());
     a_.ret(arm::x30);
 }
 

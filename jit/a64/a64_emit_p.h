@@ -15,6 +15,7 @@
 #include "jit/a64/a64_pool_p.h"
 #include "jit/function_code_p.h"
 #include "jit/planted_fault.h"
+#include "jit/unwind.h"
 
 namespace kinora::jit::a64 {
 
@@ -47,6 +48,7 @@ struct ModuleState {
     bool uses_valid = false;       // something asks which lanes hold points
     bool saves_registers = false;  // something uses v8..v15
     std::vector<CodePlace> places = {};
+    UnwindWriter unwind{kUnwindA64};
 };
 
 class Emit : public FunctionCode {
@@ -73,6 +75,7 @@ class Emit : public FunctionCode {
     // a64_emit.cpp
     void emit_kernel(bool listing);
     void emit_local(bool listing);
+    void note_saved(int32_t bytes);
     void emit_body(bool listing);
     void find_valid_lanes();
 

@@ -6,6 +6,7 @@
 #include "jit/a64/a64.h"
 #include "jit/a64/a64_emit_p.h"
 #include "jit/analysis.h"
+#include "jit/code_memory.h"
 #include "jit/module_code_p.h"
 
 namespace kinora::jit {
@@ -27,7 +28,9 @@ struct Emitted {
     asmjit::CodeHolder code;
     asmjit::StringLogger log;
     size_t scratch_bytes = 0;
+    bool fits = true;  // false: a frame is too large for code, which is not written
     std::vector<CodePlace> places;
+    UnwindWriter unwind{kUnwindA64};
     std::string fault;  // of the register allocation, if asked for
 };
 
@@ -46,18 +49,21 @@ void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
     std::vector<size_t> frames(module.functions.size(), 0);
     for (size_t index : functions) {
         const Emit& emit = emits.emplace_back(state, index);
-        frames[index] = static_cast<size_t>(emit.frame_bytes());
+        frames[index] = emit.frame_bytes();
+        out.fits = out.fits && emit.fits();
         state.uses_valid = state.uses_valid || emit.uses_valid_lanes();
         state.saves_registers = state.saves_registers || emit.uses_saved_registers();
         if (check && out.fault.empty()) out.fault = emit.check();
     }
     out.scratch_bytes = kGlobalsBytes + deepest_stack(module, frames);
+    if (!out.fits) return;
     // The code is entered at its start, by way of its end: there adr reaches the pool, however long
     // the code is.
     Label end = a.newLabel(), pool = a.newLabel();
     a.b(end);
     for (Emit& emit : emits) emit.emit_function(listing);
     a.bind(end);
+    state.unwind.begin_function(a.offset());
     a.adr(arm::x9, pool);
     a.b(state.entries[0]);
     state.places.push_back({static_cast<uint32_t>(a.offset()), Location{}});
@@ -65,6 +71,7 @@ void emit_module(const Module& module, bool listing, bool check, Emitted& out) {
     a.bind(pool);
     state.pool.place(a);
     out.places = std::move(state.places);
+    out.unwind = std::move(state.unwind);
 }
 
 std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
@@ -73,12 +80,13 @@ std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
     emit_module(module, assembly != nullptr, false, emitted);
     if (assembly != nullptr) *assembly = emitted.log.data();
     // The interpreter serves rather than code with a hole.
-    if (!emitted.error.text.empty()) return nullptr;
+    if (!emitted.fits || !emitted.error.text.empty()) return nullptr;
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
     return finish_kernel(module, "neon",
                          {{bytes.data(), bytes.size()},
                           emitted.scratch_bytes,
                           std::move(emitted.places),
+                          std::move(emitted.unwind),
                           start,
                           neon_supported()});
 }
@@ -89,7 +97,7 @@ std::shared_ptr<Kernel> emit(const Module& module, std::string* assembly) {
 
 bool neon_supported() {
 #if defined(__aarch64__)
-    return true;
+    return may_execute();
 #else
     return false;
 #endif

@@ -9,7 +9,8 @@
 
 namespace kinora::jit {
 
-// Does the running CPU (and system) have AVX2, FMA and BMI2; and AVX-512 F, DQ, VL and BW.
+// Does the running CPU (and system) have AVX2, FMA and BMI2; and AVX-512 F, DQ, VL and BW; and may
+// code be made here (may_execute).
 bool avx2_supported();
 bool avx512_supported();
 

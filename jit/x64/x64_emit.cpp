@@ -6,6 +6,16 @@
 
 namespace kinora::jit::x64 {
 
+namespace {
+
+// A register that the caller keeps, and its number in DWARF (System V ABI, AMD64, figure 3.36).
+struct Saved {
+    x86::Gp gp;
+    int dwarf;
+};
+
+}  // namespace
+
 const Emit::Member Emit::kMembers[] = {
 #define OP(name, operands, result, flags, meaning) &Emit::op_##name,
 #include "jit/ops.def"
@@ -26,10 +36,18 @@ void Emit::emit_function(bool listing) {
 }
 
 void Emit::emit_kernel(bool listing) {
-    static constexpr x86::Gp kSaved[] = {x86::rbx, x86::rbp, x86::r12,
-                                         x86::r13, x86::r14, x86::r15};
-    for (const x86::Gp& gp : kSaved) a_.push(gp);
+    static constexpr Saved kSaved[] = {{x86::rbx, 3},  {x86::rbp, 6},  {x86::r12, 12},
+                                       {x86::r13, 13}, {x86::r14, 14}, {x86::r15, 15}};
+    UnwindWriter& unwind = state_.unwind;
+    unwind.begin_function(a_.offset());
+    int frame = kUnwindX64.entry_bytes;
+    for (const Saved& saved : kSaved) {
+        a_.push(saved.gp);
+        unwind.frame_bytes(a_.offset(), frame += 8);
+        unwind.saved(saved.dwarf, frame);
+    }
     a_.sub(x86::rsp, 8);  // calls find the stack aligned to 16
+    unwind.frame_bytes(a_.offset(), frame + 8);
     a_.mov(x86::rbx, x86::rdi);
     a_.mov(x86::r12, x86::ptr(x86::rbx, offsetof(KernelArgs, in)));
     a_.mov(x86::r14, x86::ptr(x86::rbx, offsetof(KernelArgs, frame)));
@@ -49,17 +67,32 @@ void Emit::emit_kernel(bool listing) {
     a_.jb(group);
     a_.vzeroupper();
     a_.add(x86::rsp, 8);
-    for (size_t k = std::size(kSaved); k-- > 0;) a_.pop(kSaved[k]);
+    unwind.frame_bytes(a_.offset(), frame);
+    for (size_t k = std::size(kSaved); k-- > 0;) {
+        a_.pop(kSaved[k].gp);
+        unwind.frame_bytes(a_.offset(), frame -= 8);
+        unwind.restored(kSaved[k].dwarf);
+    }
     a_.ret();
 }
 
 // A function of the module: same registers, its own frame behind the caller's.
 void Emit::emit_local(bool listing) {
     a_.bind(state_.entries[index_]);
-    if (plan_.calls) a_.sub(x86::rsp, 8);
+    state_.unwind.begin_function(a_.offset());
+    if (plan_.calls) move_stack(-8);
     emit_body(listing);
-    if (plan_.calls) a_.add(x86::rsp, 8);
+    if (plan_.calls) move_stack(8);
     a_.ret();
+}
+
+// Of a function that keeps nothing on the stack but its own frame, or has given it back.
+void Emit::move_stack(int bytes) {
+    if (bytes < 0)
+        a_.sub(x86::rsp, -bytes);
+    else
+        a_.add(x86::rsp, bytes);
+    state_.unwind.frame_bytes(a_.offset(), kUnwindX64.entry_bytes + (bytes < 0 ? -bytes : 0));
 }
 
 // Which lanes of this group hold points: those before `count`.

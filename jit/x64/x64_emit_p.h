@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "jit/planted_fault.h"
+#include "jit/unwind.h"
 #include "jit/x64/x64_isa_p.h"
 #include "jit/x64/x64_pool_p.h"
 
@@ -42,6 +43,7 @@ struct ModuleState {
     int32_t globals_bytes = kFrameRows;
     bool uses_valid = false;  // something asks which lanes hold points
     std::vector<CodePlace> places = {};
+    UnwindWriter unwind{kUnwindX64};
 };
 
 class Emit : public FunctionCode {
@@ -67,6 +69,7 @@ class Emit : public FunctionCode {
     // x64_emit.cpp
     void emit_kernel(bool listing);
     void emit_local(bool listing);
+    void move_stack(int bytes);
     void emit_body(bool listing);
     void find_valid_lanes();
     void broadcast_frame();

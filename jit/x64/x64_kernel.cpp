@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "jit/analysis.h"
+#include "jit/code_memory.h"
 #include "jit/module_code_p.h"
 #include "jit/x64/x64.h"
 #include "jit/x64/x64_emit_p.h"
@@ -34,7 +35,9 @@ struct Emitted {
     asmjit::CodeHolder code;
     asmjit::StringLogger log;
     size_t scratch_bytes = 0;
+    bool fits = true;  // false: a frame is too large for code, which is not written
     std::vector<CodePlace> places;
+    UnwindWriter unwind{kUnwindX64};
     std::string fault;  // of the register allocation, if asked for
 };
 
@@ -53,27 +56,32 @@ void emit_module(const Module& module, const Isa& isa, bool listing, bool check,
     std::vector<size_t> frames(module.functions.size(), 0);
     for (size_t index : functions) {
         const Emit& emit = emits.emplace_back(state, index);
-        frames[index] = static_cast<size_t>(emit.frame_bytes());
+        frames[index] = emit.frame_bytes();
+        out.fits = out.fits && emit.fits();
         state.uses_valid = state.uses_valid || emit.uses_valid_lanes();
         if (check && out.fault.empty()) out.fault = emit.check();
     }
     out.scratch_bytes = static_cast<size_t>(state.globals_bytes) + deepest_stack(module, frames);
+    if (!out.fits) return;
     for (Emit& emit : emits) emit.emit_function(listing);
     state.places.push_back({static_cast<uint32_t>(a.offset()), Location{}});
     pool.place(a);
     out.places = std::move(state.places);
+    out.unwind = std::move(state.unwind);
 }
 
 std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* assembly) {
     auto start = std::chrono::steady_clock::now();
     Emitted emitted;
     emit_module(module, isa, assembly != nullptr, false, emitted);
+    if (!emitted.fits) return nullptr;
     if (assembly != nullptr) *assembly = emitted.log.data();
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
     return finish_kernel(module, isa.name,
                          {{bytes.data(), bytes.size()},
                           emitted.scratch_bytes,
                           std::move(emitted.places),
+                          std::move(emitted.unwind),
                           start,
                           true});
 }
@@ -98,7 +106,7 @@ std::string check_avx512(const Module& module) {
 
 bool avx2_supported() {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && may_execute();
 }
 
 bool avx512_supported() {

@@ -67,7 +67,7 @@ TEST(DebugObject, HoldsTheSymbolAndTheLines) {
         return std::string(reinterpret_cast<const char*>(object.data() + section.sh_offset + at));
     };
     const Elf64_Shdr& names = sections[header.e_shstrndx];
-    bool symbol = false, lines = false, code = false;
+    bool symbol = false, lines = false, code = false, unwind = false;
     for (const Elf64_Shdr& section : sections) {
         std::string name = text_at(names, section.sh_name);
         if (name == ".strtab")
@@ -75,6 +75,8 @@ TEST(DebugObject, HoldsTheSymbolAndTheLines) {
         if (name == ".text")
             code = section.sh_addr == reinterpret_cast<uintptr_t>(c.kernel->machine_code.data()) &&
                    section.sh_size == c.kernel->machine_code.size();
+        if (name == ".eh_frame")  // ends with an empty record
+            unwind = section.sh_size > 64 && section.sh_size % 8 == 4;
         if (name == ".debug_line") {
             std::string bytes(reinterpret_cast<const char*>(object.data() + section.sh_offset),
                               section.sh_size);
@@ -84,6 +86,7 @@ TEST(DebugObject, HoldsTheSymbolAndTheLines) {
     EXPECT_TRUE(symbol);
     EXPECT_TRUE(code);
     EXPECT_TRUE(lines);
+    EXPECT_TRUE(unwind);
 }
 
 }  // namespace

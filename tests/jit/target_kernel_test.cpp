@@ -303,6 +303,29 @@ TEST(TargetKernel, PlacesFarFromTheirBase) {
     expect_same(m, in);
 }
 
+// 2^32 bytes and more of arrays, which 32 bits would hold as few.
+TEST(TargetKernel, FramesBeyondReachGiveNoKernelAndTellTheInterpreterTheirSize) {
+    Module m = one_function();
+    Builder b(m, 0);
+    Value x = b.input(point("x"));
+    Value sum = x;
+    constexpr int kArrays = 5, kLength = 1 << 24;  // 1 GiB each at 16 lanes
+    for (int k = 0; k < kArrays * 4; ++k) {
+        int array = b.declare_array("a" + std::to_string(k), Type::F, kLength);
+        b.op(Op::ArrayStore, b.ftoi(x), x, b.m(true), array);
+        sum = b.add(sum, b.op(Op::ArrayLoad, b.ftoi(sum), kNone, kNone, array));
+    }
+    b.output({"y", Type::F}, sum);
+    b.finish();
+    ASSERT_EQ(verify(m), "");
+    for (const Target* target : machines()) {
+        EXPECT_EQ(target->emit(m, nullptr), nullptr) << target->name;
+        EXPECT_EQ(target->check(m), "") << target->name;
+    }
+    EXPECT_GE(find_target("interp")->emit(m, nullptr)->scratch_bytes,
+              size_t{kArrays} * 4 * kLength * 64);
+}
+
 TEST(TargetKernel, NoExecutableMemoryGivesNoKernel) {
     Module m = one_function();
     Builder b(m, 0);
