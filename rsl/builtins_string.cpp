@@ -1,4 +1,6 @@
 // rsl/builtins_string.cpp: rows of the built-in table: strings and printing.
+#include <fmt/format.h>
+
 #include "rsl/builtin.h"
 #include "rsl/lower_p.h"
 #include "rsl/reference_builtins.h"
@@ -13,13 +15,29 @@ void check_count(LowerCall& c, size_t wanted) {
         c.low.report(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
 }
 
+void too_long(LowerCall& c) {
+    if (!c.low.failed) c.low.error(Code::RSL_STRING_TOO_LONG, c.where(), kMostText);
+}
+
+// A service that makes a string; one that is too long is reported where the shader runs.
+Value make_text(LowerCall& c, std::string_view name, std::span<const Value> args) {
+    Value text = c.low.service(name, args)[0];
+    Value bad = c.b.op(jit::Op::IEq, text, c.b.i(intern(kTooLong)));
+    c.b.fault(c.b.fault_site(c.where(), fmt::format("a string of more than {} bytes", kMostText)),
+              c.b.logical_and(c.low.running, bad));
+    return text;
+}
+
 Value join(LowerCall& c, Value a, Value b) {
     const std::string* first = c.low.constant_text(a);
     const std::string* second = c.low.constant_text(b);
-    if (first && second) return c.b.i(intern(*first + *second));
+    if (first && second) {
+        if (first->size() + second->size() > kMostText) return too_long(c), a;
+        return c.b.i(intern(*first + *second));
+    }
     if (first && first->empty()) return b;
     if (second && second->empty()) return a;
-    return c.low.service("concat", std::array{a, b})[0];
+    return make_text(c, "concat", std::array{a, b});
 }
 
 void concat(LowerCall& c) {
@@ -70,7 +88,7 @@ struct Piece {
 // The format in pieces; values known when the shader is compiled become text.
 std::vector<Piece> pieces_of(LowerCall& c, const std::string& format) {
     std::vector<Piece> pieces(1);
-    size_t at = 0;
+    size_t at = 0, length = 0;
     std::vector<Conversion> parts = conversions(format);
     for (size_t k = 0; k < parts.size(); ++k) {
         pieces.back().format += format.substr(at, parts[k].begin - at);
@@ -92,7 +110,13 @@ std::vector<Piece> pieces_of(LowerCall& c, const std::string& format) {
             all_known = all_known && (string || c.b.constant_f(values[i], &known[i]));
         }
         if (all_known) {
-            pieces.back().format += escape_format(format_text(conversion, known));
+            std::string text = escape_format(format_text(conversion, known));
+            length += text.size();
+            if (length > kMostText) {
+                too_long(c);
+                break;
+            }
+            pieces.back().format += text;
             continue;
         }
         if (pieces.back().values.size() + values.size() > size_t(kMostFormatValues))
@@ -126,7 +150,7 @@ void format(LowerCall& c) {
     if (!text) {
         Piece all;
         if (unknown_format(c, all))
-            c.set(c.low.service("format", service_arguments(c, c.f(0), all.values))[0]);
+            c.set(make_text(c, "format", service_arguments(c, c.f(0), all.values)));
         return;
     }
     check_count(c, conversions(*text).size());
@@ -135,7 +159,7 @@ void format(LowerCall& c) {
         Value format = c.b.i(intern(piece.format));
         Value part = piece.values.empty()
                          ? c.b.i(intern(format_text(piece.format, {})))
-                         : c.low.service("format", service_arguments(c, format, piece.values))[0];
+                         : make_text(c, "format", service_arguments(c, format, piece.values));
         result = join(c, result, part);
     }
     c.set(result);
@@ -182,10 +206,10 @@ namespace lower = lower_string;
 
 const Builtin kRows[] = {
     {"concat", "s=sss*", lower::concat, KINORA_RSL_REF(ref::concat), kPure, 0,
-     "Its arguments, one after the other."},
+     "Its arguments, one after the other. A string has 65536 bytes at most."},
     {"format", "s=s?*", lower::format, KINORA_RSL_REF(ref::format), kPure, 0,
      "Text with %f %d (floats) %c %p %v %n (triples) %m (matrices) %s (strings) replaced by the "
-     "arguments; C's width and precision may stand after the %."},
+     "arguments; C's width and precision may stand after the %. A string has 65536 bytes at most."},
     {"match", "f=ss", lower::match, KINORA_RSL_REF(ref::match), kPure, 0,
      "1 if the pattern, a regular expression, occurs in the string: match(pattern, string)."},
     {"printf", "x=s?*", lower::print, KINORA_RSL_REF(ref::printf), kPrints, 0,

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "rsl/renderer_services.h"
+#include "rsl/string_functions.h"
 #include "runtime/base/check.h"
 
 namespace kinora::rsl {
@@ -14,6 +15,7 @@ struct Table {
     std::mutex mutex;
     std::deque<std::string> texts = {""};  // stable addresses
     std::unordered_map<std::string_view, int32_t> ids = {{"", 0}};
+    size_t bytes = 0;
 };
 
 Table& table() {
@@ -30,7 +32,14 @@ int32_t intern(std::string_view text) {
     const std::string& kept = t.texts.emplace_back(text);
     int32_t id = int32_t(t.texts.size()) - 1;
     t.ids.emplace(kept, id);
+    t.bytes += text.size();
     return id;
+}
+
+size_t interned_bytes() {
+    Table& t = table();
+    std::lock_guard lock(t.mutex);
+    return t.bytes;
 }
 
 int32_t interned_count() {

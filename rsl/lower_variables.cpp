@@ -95,12 +95,32 @@ void Lowering::end_scope(std::span<Stmt* const> body) {
 
 // ---- arrays -------------------------------------------------------------------------------------
 
+namespace {
+
+// Of all arrays of a module together: each thread has this memory, and nested rays once more.
+constexpr int64_t kMostArrayBytes = 16 << 20;
+
+int64_t array_bytes(Type type) {
+    return int64_t(type.array_length) * component_count(type.base) * 4 * jit::kMaxLanes;
+}
+
+}  // namespace
+
 bool Lowering::check_size(const Symbol& symbol, Type type) {
-    constexpr int64_t kLimit = 1 << 20;  // DESIGN.md decision 16
-    int64_t bytes = int64_t(type.array_length) * component_count(type.base) * 4 * jit::kMaxLanes;
-    if (bytes > kLimit)
+    constexpr int64_t kMost = 1 << 20;  // DESIGN.md decision 16
+    int64_t bytes = array_bytes(type);
+    if (bytes > kMost) {
         error(Code::RSL_ARRAY_TOO_LARGE, symbol.place.where, symbol.name, bytes >> 10);
-    return bytes <= kLimit;
+        return false;
+    }
+    // Of a function that calls itself as many activations as may be.
+    if (call_depth_ != jit::kNone) bytes *= b.module().call_depth;
+    bool fitted = array_bytes_ <= kMostArrayBytes;
+    array_bytes_ += bytes;
+    if (fitted && array_bytes_ > kMostArrayBytes)
+        error(Code::RSL_ARRAYS_TOO_LARGE, symbol.place.where, symbol.name, array_bytes_ >> 10,
+              kMostArrayBytes >> 10);
+    return array_bytes_ <= kMostArrayBytes;
 }
 
 int Lowering::make_array(const Symbol& symbol, Type type) {

@@ -277,7 +277,7 @@ void shadername(RefCall<Real>& c) {
 template <class Real>
 void concat(RefCall<Real>& c) {
     std::string all;
-    for (size_t i = 0; i < c.args.size(); ++i) all += c.text(i);
+    for (size_t i = 0; i < c.args.size(); ++i) all = limited_text(all + c.text(i));
     c.set(Dual<Real>(Real(intern(all))));
 }
 template <class Real>
@@ -295,7 +295,7 @@ void format(RefCall<Real>& c) {
                                  ? std::bit_cast<float>(int32_t(value.c[k].x))
                                  : float(value.c[k].x));
     }
-    c.set(Dual<Real>(Real(intern(format_text(c.text(0), values)))));
+    c.set(Dual<Real>(Real(intern(limited_text(format_text(c.text(0), values))))));
 }
 template <class Real>
 void printf(RefCall<Real>&) {}  // what is printed is no value of the point

@@ -112,6 +112,7 @@ std::string format_text(std::string_view format, std::span<const float> values) 
     size_t at = 0, next = 0;
     auto value = [&] { return next < values.size() ? values[next++] : 0.0f; };
     for (const Conversion& c : conversions(format)) {
+        if (out.size() > kMostText) return out;
         append_plain(out, format.substr(at, c.begin - at));
         std::string_view flags = format.substr(c.begin + 1, c.end - c.begin - 2);
         at = c.end;
@@ -132,9 +133,11 @@ namespace {
 
 constexpr int kLanes = jit::kMaxLanes;
 constexpr int32_t kMostStrings = 1 << 20;
+constexpr size_t kMostBytes = 256 << 20;  // of all strings
 
 int32_t intern_result(const std::string& text) {
-    return interned_count() < kMostStrings ? intern(text) : 0;
+    bool room = interned_count() < kMostStrings && interned_bytes() < kMostBytes;
+    return room ? intern(limited_text(text)) : 0;
 }
 
 int32_t id_of(const jit::ServiceCall& call, int argument, int lane) {

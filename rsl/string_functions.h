@@ -25,8 +25,18 @@ inline constexpr int kMostFormatValues = 16;
 
 // The format with its conversions replaced, a float at a time; strings are interned ids bit for
 // bit, missing values 0. A float without precision is the shortest decimal that reads back; %d
-// truncates.
+// truncates. No longer than kMostText by more than one value: then it ends.
 std::string format_text(std::string_view format, std::span<const float> values);
+
+// The most bytes of a string that a shader makes, and what stands for longer ones.
+inline constexpr size_t kMostText = 64 * 1024;
+inline constexpr std::string_view kTooLong = "(a string of more than 65536 bytes)";
+inline std::string_view limited_text(std::string_view text) {
+    return text.size() <= kMostText ? text : kTooLong;
+}
+
+// What all strings of the process take (rsl/renderer_services.h, intern).
+size_t interned_bytes();
 
 // The text as part of a format.
 std::string escape_format(std::string_view text);
@@ -38,7 +48,9 @@ bool matches(std::string_view pattern, std::string_view text);
 
 // The services "concat", "format" and "match" (rsl/renderer_services.h), the same for every
 // renderer; null for other names. Each does its work once for each distinct set of arguments of a
-// call. Once a million strings exist no new ones are made: the result is "".
+// call. Once a million strings or 256 MB of them exist no new ones are made: the result is "". A
+// string of more than kMostText bytes is not made: the result is kTooLong instead, which lowered
+// code reports.
 inline constexpr std::string_view kStringServices[] = {"concat", "format", "match"};
 jit::ServiceFn string_service(std::string_view name);
 

@@ -110,5 +110,36 @@ TEST(LowerExpression, ReportsWhatItCannotCompile) {
         << large.findings();
 }
 
+// `count` arrays of 1000 KiB at 16 points, each read and written at varying indices.
+std::string many_arrays(int count) {
+    std::string body;
+    for (int k = 0; k < count; ++k) {
+        std::string a = "a" + std::to_string(k);
+        body += "float " + a + "[16000]; " + a + "[s * 9] = t; r += " + a + "[t * 9];\n";
+    }
+    return "surface t() { float r = 0;\n" + body + "Ci = r; }";
+}
+
+TEST(LowerExpression, ArraysThatAreTooLargeTogetherAreOneErrorThatNamesTheOneTooMany) {
+    EXPECT_TRUE(RunShader(many_arrays(16)).ok());
+    RunShader large(many_arrays(40));
+    EXPECT_FALSE(large.ok());
+    std::string findings = large.findings();
+    EXPECT_NE(findings.find("test.sl:18"), std::string::npos) << findings;
+    EXPECT_NE(findings.find("array 'a16' brings"), std::string::npos) << findings;
+    EXPECT_EQ(findings.find("array 'a17'"), std::string::npos) << findings;
+}
+
+TEST(LowerExpression, ArraysOfFunctionsThatCallThemselvesCountOftener) {
+    auto shader = [](int length) {
+        return "float f(float n) { float a[" + std::to_string(length) +
+               "]; a[n * 3] = s; if (n < 1) return a[0]; return f(n - 1) + a[n]; }\n"
+               "surface t() { Ci = f(60 * s); }";
+    };
+    EXPECT_TRUE(RunShader(shader(1000)).ok());
+    RunShader large(shader(16000));
+    EXPECT_NE(large.findings().find("array 'a' brings"), std::string::npos) << large.findings();
+}
+
 }  // namespace
 }  // namespace kinora::rsl

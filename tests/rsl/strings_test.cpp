@@ -52,6 +52,42 @@ TEST(Strings, AreFormattedWhenCompiledAndWhenRun) {
     EXPECT_EQ(texts("format(VS, s)"), (Two{"ab", "xy"}));
 }
 
+// A string doubled `rounds` times; what becomes of it is its length, as far as a pattern tells.
+TEST(Strings, OfMoreThan64KiBAreNotMadeAndTheShaderSaysSo) {
+    for (std::string make : {"concat(a, a)", "format(\"%s%s\", a, a)"})
+        for (int rounds : {16, 17, 40})
+            for (const jit::Target& target : jit::targets()) {
+                if (!target.supported()) continue;
+                SCOPED_TRACE(make + " " + std::to_string(rounds) + " " + target.name);
+                LowerOptions options;
+                options.aovs = {"r"};
+                RunShader run(
+                    "surface t(output varying string r = \"\";) { string a = \"x\";"
+                    " float i; for (i = 0; i < " +
+                        std::to_string(rounds) + " + s; i += 1) { a = " + make +
+                        "; if (match(\"more\", a)) break; }"
+                        " r = a; Ci = 1; }",
+                    options, {}, false, target.name);
+                ASSERT_TRUE(run.ok()) << run.findings();
+                run.set("s", std::vector<float>{0, 0});
+                auto outputs = run.run(2);
+                const std::string& made = interned(std::bit_cast<int32_t>(outputs["aov:r"][0]));
+                EXPECT_EQ(run.faults, rounds > 16 ? 1 : 0);
+                EXPECT_EQ(made, rounds > 16 ? std::string(kTooLong) : std::string(65536, 'x'));
+            }
+}
+
+TEST(Strings, OfMoreThan64KiBThatAreKnownWhenTheShaderIsCompiledAreErrors) {
+    std::string big(40000, 'y');
+    for (std::string make : {"concat(\"" + big + "\", \"" + big + "\")",
+                             "format(\"%s%s\", \"" + big + "\", \"" + big + "\")"}) {
+        RunShader run("surface t(output varying string r = \"\";) {\n r = " + make + "; }");
+        EXPECT_FALSE(run.ok());
+        EXPECT_NE(run.findings().find("test.sl:2"), std::string::npos);
+        EXPECT_NE(run.findings().find("a string of more than 65536 bytes"), std::string::npos);
+    }
+}
+
 TEST(Strings, OfMoreNumbersThanAServiceTakesAreMadeInParts) {
     std::string matrix = "matrix(s,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15)";
     std::string tail = "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15";
