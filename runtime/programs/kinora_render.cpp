@@ -158,6 +158,8 @@ int Render::load() {
     if (!options_.target_missing.empty())
         diagnostics_.report(Code::TARGET_UNAVAILABLE, Location{}, options_.target_missing,
                             jit::best_target().name);
+    else if (!options_.target && jit::best_target().name == std::string_view("interp"))
+        diagnostics_.report(Code::TARGET_INTERPRETED, Location{});
     Stopwatch watch;
     ImportOptions import;
     import.allow_external = options_.allow_external;

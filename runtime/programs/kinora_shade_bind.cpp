@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <glm/matrix.hpp>
 
+#include "runtime/findings.h"
 #include "runtime/override_scene.h"
 #include "runtime/programs/exit_codes.h"
 #include "runtime/programs/kinora_shade_kernel.h"
@@ -179,6 +180,9 @@ std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, 
     if (std::optional<int> code = compile_shade_source(options, source)) return code;
     const rsl::Shader* shader = choose_shader(options, source);
     if (!shader || !can_run(*shader)) return kExitUsage;
+    if (!options.target && jit::best_target().name == std::string_view("interp"))
+        source.diagnostics.report(Code::TARGET_INTERPRETED, Location{});
+    source.print_findings(options);
     patch.textures = std::make_shared<TextureStore>(options.compile.files);
     if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
     if (int code = bind_stack(options, source, *shader, patch, stack)) return code;

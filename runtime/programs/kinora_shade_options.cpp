@@ -27,7 +27,7 @@ void choose_target(const std::string& name, ShadeOptions& o) {
         if (t.supported()) names += fmt::format(" {}", t.name);
     if (!target) throw CLI::ValidationError("--target", "'" + name + "' is none of" + names);
     if (!target->supported())
-        throw CLI::ValidationError("--target", "this CPU cannot run " + name + "; it has" + names);
+        throw CLI::ValidationError("--target", name + " cannot run here; what can:" + names);
     o.target = target;
 }
 

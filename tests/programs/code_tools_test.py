@@ -1,5 +1,6 @@
 """Generated code as other tools see it: beside source lines, in perf's map, in GDB."""
 
+import ctypes
 import os
 import re
 import shutil
@@ -9,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from programs import ProgramTest, command, main, shade, supported_targets, SHADERS
+from programs import ProgramTest, command, main, run, shade, supported_targets, SCENES, SHADERS
 
 MATTE = SHADERS / "matte.sl"
 
@@ -156,13 +157,111 @@ class CodeTools(ProgramTest):
         name = f"kinora_matte_{target}"
         _, out = self.run_with("KINORA_GDB", "gdb", "-batch", "-nx", "-iex",
                                "set debuginfod enabled off", "-ex", "set breakpoint pending on",
-                               "-ex", f"break {name}", "-ex", "run", "-ex", "backtrace 1",
+                               "-ex", f"break {name}", "-ex", "run", "-ex", "backtrace",
                                "--args", *command("kinora-shade", "run", "--target", target, "--size",
                                                   "4x4", MATTE))
         if re.search(r"ptrace|Couldn't|not permitted|personality", out) and "Breakpoint 1," not in out:
             self.skipTest("gdb may not run programs here")
         self.assertRegex(out, rf"#0\s.*{name}", out)
         self.assertIn("matte.sl", out)
+        self.expect_whole_backtrace(out, name)
+
+    def expect_whole_backtrace(self, out, name):
+        """From the kernel by way of what ran it to main."""
+        self.assertNotIn("??", out)
+        self.assertRegex(out, rf"(?s)#\d+\s[^\n]*{name}.*Kernel::run.*#\d+\s[^\n]*\bmain \(", out)
+
+    def test_gdb_finds_its_way_out_of_the_middle_of_a_kernel(self):
+        """At a line of the shader, at each instruction of the entry, and in a service."""
+        target = self.compiled_target()
+        if shutil.which("gdb") is None:
+            self.skipTest("gdb is not installed")
+        name = f"kinora_waves_{target}"
+        shader = self.write("waves.sl", "surface waves() {\n  float x = sin(s * 9);\n"
+                            "  Ci = texture(\"none.tex\", s + x, t);\n  Oi = 1;\n}\n")
+        stops = []
+        for text in ("break waves.sl:2", "run", "backtrace", "delete", f"break *{name}", "run"):
+            stops += ["-ex", text]
+        for _ in range(12):
+            stops += ["-ex", "backtrace", "-ex", "stepi"]
+        stops += ["-ex", "delete", "-ex", "rbreak ^.*texture.*ServiceCall", "-ex", "continue",
+                  "-ex", "backtrace"]
+        _, out = self.run_with("KINORA_GDB", "gdb", "-batch", "-nx", "-iex",
+                               "set debuginfod enabled off", "-iex", "set confirm off",
+                               "-iex", "set breakpoint pending on", *stops, "--args",
+                               *command("kinora-shade", "run", "--target", target, "--size", "4x4",
+                                        shader))
+        if re.search(r"ptrace|Couldn't|not permitted|personality", out) and "Breakpoint 1," not in out:
+            self.skipTest("gdb may not run programs here")
+        self.expect_whole_backtrace(out, name)
+        self.assertEqual(len(re.findall(r"#\d+\s[^\n]*\bmain \(", out)) >= 13, True, out)
+
+    def test_a_jitdump_that_cannot_be_written_is_told(self):
+        target = self.compiled_target()
+        process, out = self.run_with("KINORA_JITDUMP", *command(
+            "kinora-shade", "run", "--target", target, "--size", "4x4", MATTE),
+            value=str(self.folder / "nowhere"))
+        self.assertEqual(process.returncode, 0, out)
+        self.assertEqual(out.count("KINORA_JITDUMP: cannot write"), 1, out)
+        self.assertIn("No such file or directory", out)
+
+
+PR_SET_MDWE, MDWE_REFUSE_EXEC_GAIN = 65, 1  # linux/prctl.h
+
+
+def refuse_executable_memory():
+    ctypes.CDLL(None, use_errno=True).prctl(PR_SET_MDWE, MDWE_REFUSE_EXEC_GAIN, 0, 0, 0)
+
+
+class Interpreted(ProgramTest):
+    """Where no code can run, shaders are interpreted, and whoever waits for them is told why."""
+
+    def setUp(self):
+        super().setUp()
+        if supported_targets() == ["interp"]:
+            self.skipTest("this CPU runs the interpreter only")
+
+    def refused(self, program, *words):
+        result = run(program, *words, preexec_fn=refuse_executable_memory)
+        if "interpreted" not in result.err and "cannot" not in result.err:
+            bench = run("kinora-shade", "bench", SHADERS / "constant.sl", "--size", "16x1",
+                        "--iterations", "1", preexec_fn=refuse_executable_memory)
+            if "avx" in bench.out or "neon" in bench.out:
+                self.skipTest("this system does not know PR_SET_MDWE")
+        return result
+
+    def test_shade_says_that_no_memory_can_be_executable(self):
+        result = self.refused("kinora-shade", "run", "--size", "4x4", MATTE)
+        self.expect(result, 0, " on interp: ")
+        self.assertEqual(result.err.count("TARGET_INTERPRETED"), 1, result)
+        meant = self.refused("kinora-shade", "run", "--target", "interp", "--size", "4x4", MATTE)
+        self.assertNotIn("TARGET_INTERPRETED", meant.err)
+
+    def test_bench_has_no_rows_of_targets_that_cannot_run(self):
+        result = self.refused("kinora-shade", "bench", "--size", "16x1", "--iterations", "1", MATTE)
+        self.expect(result, 0, "interp: ms", "TARGET_INTERPRETED")
+        self.assertNotRegex(result.out, r"(?m)^(avx2|avx512|neon):")
+
+    def test_render_says_so_once(self):
+        picture = self.folder / "a.png"
+        words = (SCENES / "matte.dae", "--size", "16x16", "-o", picture)
+        result = self.refused("kinora-render", *words)
+        self.expect(result, 0)
+        self.assertEqual((result.out + result.err).count("TARGET_INTERPRETED"), 1, result)
+        result = self.refused("kinora-render", *words, "--target", "avx2")
+        self.expect(result, 0, "target avx2 cannot be used here; running on interp")
+
+    def test_an_older_cpu_is_told(self):
+        emulator = shutil.which("qemu-x86_64-static") or shutil.which("qemu-x86_64")
+        if emulator is None or os.uname().machine != "x86_64":
+            self.skipTest("qemu's user mode is not installed")
+        done = subprocess.run([emulator, "-cpu", "Nehalem", *command(
+            "kinora-shade", "run", "--size", "4x4", MATTE)], capture_output=True, text=True, timeout=300)
+        if done.returncode in (126, 127) or "Segmentation" in done.stderr:
+            self.skipTest(f"qemu cannot run it: {done.stderr[-200:]}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("TARGET_INTERPRETED"), 1, done.stderr)
+        self.assertIn(" on interp: ", done.stdout)
 
 
 if __name__ == "__main__":

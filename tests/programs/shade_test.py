@@ -1,9 +1,11 @@
 """tests/programs/shade_test.py: kinora-shade, the shader writer's tool."""
 import json
 import re
+import resource
 
 from programs import MATTE, SCENES, SHADERS, ProgramTest, main, shade, supported_targets
 
+MATTE_SHADER = SHADERS / "matte.sl"
 BROKEN = "surface x(float Kd = 1;)\n{\n    Ci = Kd * diffus(N);\n}\n"
 
 
@@ -268,6 +270,41 @@ class DumpBenchManual(ProgramTest):
         self.expect(shade(), 2)
         self.expect(shade("chek", "x.sl"), 2, "did you mean 'check'")
         self.expect(shade("check"), 2, "source")
+
+
+def little_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (300_000_000, 300_000_000))
+
+
+class Limits(ProgramTest):
+    def test_arrays_beyond_32_bits_are_an_error_on_every_target(self):
+        arrays = "".join(f" float a{k}[16000]; a{k}[s * 16000] = t + {k}; r += a{k}[t * 16000];\n"
+                         for k in range(4195))
+        file = self.write("arrays.sl", f"surface arrays() {{ float r = 0;\n{arrays}Ci = r; Oi = 1; }}\n")
+        self.expect(shade("check", file), 4, "arrays.sl:18:8: error: array 'a16' brings", "1 error")
+        for target in supported_targets():
+            self.expect(shade("run", file, "--size", "3x3", "--target", target), 4, "RSL_ARRAYS_TOO_LARGE")
+
+    def test_a_string_that_is_doubled_for_ever_is_told(self):
+        file = self.write("long.sl", "surface doubled() { string a = \"x\"; float i;\n"
+                          "for (i = 0; i < 36; i += 1)\n a = concat(a, a);\n"
+                          "if (a == \"y\") Ci = 1; else Ci = s; Oi = 1; }\n")
+        for target in supported_targets():
+            result = self.expect(shade("run", file, "--size", "3x3", "--target", target), 0)
+            self.assertEqual(result.err.count("long.sl:3:"), 1, result)
+            self.assertIn("a string of more than 65536 bytes", result.err)
+
+    def test_out_of_memory_in_a_service_ends_the_program_on_every_target(self):
+        """The exception passes through the kernel."""
+        file = self.write("many.sl", "surface many() { string a = \"x\"; float i;\n"
+                          "for (i = 0; i < 15; i += 1) a = concat(a, a);\n"
+                          "Ci = match(\"y$\", format(\"%s%f %f\", a, s, t)); Oi = 1; }\n")
+        if shade("run", MATTE_SHADER, "--size", "4x4", preexec_fn=little_memory).code != 0:
+            self.skipTest("the program does not start in so little memory")
+        for target in supported_targets():
+            with self.subTest(target=target):
+                self.expect(shade("run", file, "--size", "128x128", "--target", target,
+                                  preexec_fn=little_memory), 75, "kinora-shade: out of memory")
 
 
 if __name__ == "__main__":
