@@ -86,6 +86,7 @@ void rescale(RayPacket16& rays, uint32_t which, double length[kPacket]) {
         rays.dir_z[i] = float(z / length[i]);
         rays.tnear[i] = float(double(rays.tnear[i]) * length[i]);
         rays.tfar[i] = float(double(rays.tfar[i]) * length[i]);
+        if (rays.passing) rays.window[i] = float(double(rays.window[i]) * length[i]);
     }
 }
 
@@ -124,6 +125,10 @@ uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) con
     double length[kPacket];
     rescale(copy, lanes.rescale, length);
     return s.top.occluded16(copy);
+}
+
+uint32_t Accel::body(uint32_t row) const {
+    return state_->map.rows[row].body;
 }
 
 const AccelPolicy& Accel::policy() const {

@@ -31,6 +31,12 @@ struct alignas(64) RayPacket16 {
     uint32_t mask[kPacket];
     float time[kPacket];       // 0..1 of the shutter; one motion key is held today, so unused
     uint32_t active = 0xffff;  // bit i = lane i
+    // Rays that go on behind a hit (fixed_winner only; see pass_through()): up to t = window they
+    // meet bodies in the order of their numbers, and neither passed_first nor those up to
+    // passed_last (kNone: no more). Heeded by intersect16 where `passing`.
+    bool passing = false;
+    float window[kPacket];
+    uint32_t passed_first[kPacket], passed_last[kPacket];
     // A hint to intersect16 that the rays are neighbours (camera rays): up to 3 times the rate, the
     // same answers; slower for rays that scatter.
     bool coherent = false;
@@ -132,6 +138,9 @@ class Accel {
     };
     void surface_points(size_t count, const uint32_t* instance, const uint32_t* primitive,
                         const float* u, const float* v, const SurfacePoints& out) const;
+
+    // Geometry::body of a row, its own number where it has none.
+    uint32_t body(uint32_t row) const;
 
     // Blocks until a rebuild under way in the background is done (it is taken up by the next
     // update). For tests and for programs that want each frame to depend on its time alone.

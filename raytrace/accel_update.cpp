@@ -52,6 +52,7 @@ void Updater::map_row(uint32_t row) {
     const Row& r = s.rows[row];
     HitMap::Row& m = s.map.rows[row];
     m.id = r.seen.id;
+    m.body = r.seen.body == kNone ? row : r.seen.body;
     m.mirrored = r.seen.mirrored;
     m.instanced = r.seen.kind == GeometryKind::Instanced;
     std::copy_n(r.placement.normal, 9, m.normal);

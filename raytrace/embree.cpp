@@ -44,6 +44,7 @@ constexpr RTCBuildQuality kQualities[] = {RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALI
 struct QueryContext {
     RTCIntersectContext rtc;  // first: Embree's pointer to it is ours
     const HitMap* map;
+    const RayPacket16* rays;
     bool fixed_winner;
     alignas(64) float best_t[kPacket];
     uint32_t best_slot[kPacket];
@@ -71,11 +72,36 @@ bool is_hidden_backface(const HitMap& map, const Candidate& c, RTCRayN* ray, RTC
     return map.rows[row_of(slot, c.primitive)].mirrored ? facing < 0 : facing > 0;
 }
 
-// Whether `c` comes before the lane's best so far in the order (t, row, primitive).
+// Whether a hit at t lies where the ray goes on from.
+bool in_window(const QueryContext& query, float t, unsigned lane) {
+    return query.rays->passing && t <= query.rays->window[lane];
+}
+
+uint32_t body_of(const HitMap& map, uint32_t slot, uint32_t primitive) {
+    return map.rows[row_of(map.slots[slot], primitive)].body;
+}
+
+bool is_passed(const QueryContext& query, const Candidate& c, unsigned lane) {
+    if (!in_window(query, c.t, lane)) return false;
+    const uint32_t body = body_of(*query.map, c.slot, c.primitive);
+    const uint32_t last = query.rays->passed_last[lane];
+    return body == query.rays->passed_first[lane] || (last != kNone && body <= last);
+}
+
+// Whether `c` comes before the lane's best so far in the order (t, row, primitive); within the
+// window in the order (body, row, primitive).
 bool comes_first(const QueryContext& query, const Candidate& c, unsigned lane) {
     if (query.best_primitive[lane] == kNone) return true;
-    if (c.t != query.best_t[lane]) return c.t < query.best_t[lane];
     const HitMap& map = *query.map;
+    const bool near = in_window(query, c.t, lane);
+    if (near != in_window(query, query.best_t[lane], lane)) return near;
+    if (near) {
+        const uint32_t body = body_of(map, c.slot, c.primitive);
+        const uint32_t best = body_of(map, query.best_slot[lane], query.best_primitive[lane]);
+        if (body != best) return body < best;
+    } else if (c.t != query.best_t[lane]) {
+        return c.t < query.best_t[lane];
+    }
     uint32_t best_slot = query.best_slot[lane];
     uint32_t row = row_of(map.slots[c.slot], c.primitive);
     uint32_t best_row = row_of(map.slots[best_slot], query.best_primitive[lane]);
@@ -99,14 +125,19 @@ void choose_hit(const RTCFilterFunctionNArguments* args) {
             RTCHitN_primID(args->hit, n, i), RTCRayN_tfar(args->ray, n, i)};
         unsigned lane = RTCRayN_id(args->ray, n, i);
         if (is_hidden_backface(*query.map, c, args->ray, args->hit, n, i) ||
-            (query.fixed_winner && !comes_first(query, c, lane))) {
+            (query.fixed_winner && (is_passed(query, c, lane) || !comes_first(query, c, lane)))) {
             args->valid[i] = 0;
             continue;
         }
         query.best_t[lane] = c.t;
         query.best_slot[lane] = c.slot;
         query.best_primitive[lane] = c.primitive;
-        if (query.fixed_winner) RTCRayN_tfar(args->ray, n, i) = c.t * kTieWindow;
+        if (!query.fixed_winner) continue;
+        float& tfar = RTCRayN_tfar(args->ray, n, i);
+        tfar = c.t * kTieWindow;
+        // Bodies of lower numbers may still lie farther off within the window.
+        if (in_window(query, c.t, lane))
+            tfar = std::max(tfar, std::min(query.rays->window[lane], query.rays->tfar[lane]));
     }
 }
 
@@ -243,6 +274,7 @@ uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bo
     rtcInitIntersectContext(&query.rtc);
     if (rays.coherent) query.rtc.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query.map = &map;
+    query.rays = &rays;
     query.fixed_winner = fixed_winner;
     for (int i = 0; i < kPacket; ++i) {
         rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;

@@ -22,6 +22,7 @@ struct HitMap {
     };
     struct Row {
         uint32_t id = 0;
+        uint32_t body = 0;
         uint32_t first_primitive = 0;  // within its slot
         bool mirrored = false;
         bool instanced = false;

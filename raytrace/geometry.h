@@ -28,6 +28,9 @@ struct Geometry {
     bool hide_backfaces = false;  // camera rays pass through the side Ng points away from
     bool mirrored = false;        // positions were baked through a mirroring matrix: Ng is negated
 
+    // Rows of one body share edges, where a ray meets it once. kNone: the row is a body.
+    uint32_t body = kNone;
+
     // Accel space (Static, Deforming) or local space (Instanced). The fourth float is padding.
     std::span<const vec4> positions;
     std::span<const uint32_t> triangles;  // three indices a triangle

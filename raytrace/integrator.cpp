@@ -18,6 +18,7 @@ void IntegratorCounters::operator+=(const IntegratorCounters& o) {
     shading_points += o.shading_points;
     non_finite += o.non_finite;
     non_finite_geometry = std::min(non_finite_geometry, o.non_finite_geometry);
+    too_deep += o.too_deep;
     trace_ms += o.trace_ms;
     shade_ms += o.shade_ms;
 }

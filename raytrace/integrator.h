@@ -40,7 +40,7 @@ struct IntegratorSettings {
     const PixelFilter* filter = nullptr;  // nullptr: box
     double filter_width = 0;              // pixels; 0: the filter's own
     uint32_t seed = 0;                    // of the frame
-    int max_layers = 32;                  // surfaces one ray may pass where Oi < 1
+    int max_layers = 256;                 // surfaces one ray may pass where Oi < 1
     std::optional<vec3> background;       // nothing: transparent
     NanPolicy nan = NanPolicy::Zero;
     float opaque_above = 0.9999f;  // a ray ends when its opacity exceeds this in all components
@@ -53,7 +53,8 @@ struct IntegratorCounters {
     uint64_t shading_points = 0;
     uint64_t non_finite = 0;               // results replaced by IntegratorSettings::nan
     uint32_t non_finite_geometry = kNone;  // Geometry::id of the lowest row that gave one
-    double trace_ms = 0;                   // summed over threads
+    uint64_t too_deep = 0;  // rays that met more than IntegratorSettings::max_layers surfaces
+    double trace_ms = 0;    // summed over threads
     double shade_ms = 0;
     void operator+=(const IntegratorCounters& o);
 };

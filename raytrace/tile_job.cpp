@@ -53,6 +53,7 @@ void TileJob::begin_tile() {
 
 void TileJob::make_rays(int first_sample, int end_sample) {
     m_.rays.count = 0;
+    m_.rays.passing = false;
     for (int sample = first_sample; sample < end_sample; ++sample)
         for (int by = tile_.y0; by < tile_.y1; by += kBlock)
             for (int bx = tile_.x0; bx < tile_.x1; bx += kBlock)
@@ -105,11 +106,14 @@ void TileJob::follow_layers() {
         m_.counters.trace_ms += watch.restart();
         if (shading_.miss_distance() > 0) shade_misses(hits);
         if (hits.count == 0) return;
+        if (layer == settings_.max_layers) {  // what is left is not seen
+            m_.counters.too_deep += hits.count;
+            return;
+        }
         shade(hits);
         m_.counters.shade_ms += watch.ms();
         if (layer == 0) keep_aovs(hits);
         composite(hits);
-        if (layer + 1 >= settings_.max_layers) return;
     }
 }
 
@@ -194,47 +198,19 @@ void TileJob::composite(const HitBatch& hits) {
     size_t going_on = 0;
     for (size_t k = 0; k < hits.count; ++k) {
         lay_behind(hits, k);
-        if (passes(m_.rays.slot[hits.ray[k]])) continue_ray(going_on++, hits, k);
+        if (!passes(m_.rays.slot[hits.ray[k]])) continue;
+        const uint32_t medium = shading_.medium_behind(hits, k);
+        pass_through(accel_, m_.rays, going_on, hits, k);
+        m_.rays.medium[going_on++] = medium;
     }
     m_.rays.count = going_on;
+    m_.rays.passing = true;
 }
 
 bool TileJob::passes(size_t slot) const {
     const float least = 1.0f - settings_.opaque_above;
     return m_.through[0][slot] > least || m_.through[1][slot] > least ||
            m_.through[2][slot] > least;
-}
-
-// `to` never lies behind the ray's old place: hits come in the order of rays.
-void TileJob::continue_ray(size_t to, const HitBatch& hits, size_t k) {
-    RayBatch& r = m_.rays;
-    const size_t from = hits.ray[k];
-    const vec3 dir{hits.dir[0][k], hits.dir[1][k], hits.dir[2][k]};
-    const vec3 origin =
-        offset_ray_origin({hits.P[0][k], hits.P[1][k], hits.P[2][k]},
-                          {hits.P_error[0][k], hits.P_error[1][k], hits.P_error[2][k]},
-                          {hits.Ng[0][k], hits.Ng[1][k], hits.Ng[2][k]}, dir);
-    const float step = hits.t[k] - r.t_passed[from];
-    for (int c = 0; c < 3; ++c) {
-        r.org[c][to] = origin[c];
-        r.first_org[c][to] = hits.org[c][k];
-        r.dir[c][to] = dir[c];
-        r.dOdx[c][to] = r.dOdx[c][from];
-        r.dOdy[c][to] = r.dOdy[c][from];
-        r.dDdx[c][to] = hits.dDdx[c][k];
-        r.dDdy[c][to] = hits.dDdy[c][k];
-    }
-    r.tnear[to] = 0;
-    r.tfar[to] = r.tfar[from] - step;
-    r.time[to] = hits.time[k];
-    r.t_passed[to] = hits.t[k];
-    r.pixel_x[to] = hits.pixel_x[k];
-    r.pixel_y[to] = hits.pixel_y[k];
-    r.sample[to] = hits.sample[k];
-    r.layer[to] = hits.layer[k] + 1;
-    r.medium[to] = shading_.medium_behind(hits, k);
-    r.share[to] = r.share[from];
-    r.slot[to] = r.slot[from];
 }
 
 void TileJob::finish_samples(size_t slots) {

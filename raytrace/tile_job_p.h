@@ -65,7 +65,6 @@ class TileJob {
     void composite(const HitBatch& hits);
     void lay_behind(const HitBatch& hits, size_t k);
     bool passes(size_t slot) const;
-    void continue_ray(size_t to, const HitBatch& hits, size_t k);
     void finish_samples(size_t slots);
     void write_tile() const;
 

@@ -53,6 +53,7 @@ class Carver {
 void carve(RayBatch& b, Carver& carver) {
     carver(b.org), carver(b.dir), carver(b.tnear), carver(b.tfar), carver(b.time);
     carver(b.dOdx), carver(b.dOdy), carver(b.dDdx), carver(b.dDdy);
+    carver(b.window), carver(b.passed_first), carver(b.passed_last);
     carver(b.t_passed), carver(b.first_org);
     carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.medium);
     carver(b.share);
@@ -64,6 +65,7 @@ void carve(HitBatch& b, Carver& carver) {
     carver(b.t), carver(b.org), carver(b.dir), carver(b.P), carver(b.P_error), carver(b.Ng);
     carver(b.dPdx), carver(b.dPdy), carver(b.dDdx), carver(b.dDdy), carver(b.time);
     carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.ray);
+    carver(b.beside);
 }
 
 template <class Batch>
@@ -92,6 +94,12 @@ void load_packet(const RayBatch& rays, size_t first, uint32_t mask, RayPacket16&
     std::memcpy(packet.tfar, rays.tfar + first, bytes);
     std::memcpy(packet.time, rays.time + first, bytes);
     std::fill_n(packet.mask, kPacket, mask);
+    packet.passing = rays.passing;
+    if (rays.passing) {
+        std::memcpy(packet.window, rays.window + first, bytes);
+        std::memcpy(packet.passed_first, rays.passed_first + first, bytes);
+        std::memcpy(packet.passed_last, rays.passed_last + first, bytes);
+    }
     const size_t left = rays.count - first;
     packet.active = left >= kPacket ? 0xffffu : (1u << left) - 1;
 }
@@ -135,6 +143,8 @@ void footprint(const HitBatch& hits, float* const dO[3], float* const dD[3],
 }
 
 void fill_from_rays(const RayBatch& rays, const HitBatch& hits) {
+    for (size_t k = 0; k < hits.count; ++k)
+        own(hits.beside)[k] = rays.passing && hits.t[k] <= rays.window[hits.ray[k]];
     for (size_t k = 0; k < hits.count; ++k) own(hits.t)[k] += rays.t_passed[hits.ray[k]];
     for (int c = 0; c < 3; ++c) {
         pick<float>(hits, rays.first_org[c], hits.org[c]);
@@ -167,7 +177,7 @@ void pad_all(const HitBatch& b) {
     pad3(b.org), pad3(b.dir), pad3(b.P), pad3(b.P_error), pad3(b.Ng);
     pad3(b.dPdx), pad3(b.dPdy), pad3(b.dDdx), pad3(b.dDdy);
     pad(b.pixel_x, b.count), pad(b.pixel_y, b.count), pad(b.sample, b.count);
-    pad(b.layer, b.count), pad(b.ray, b.count);
+    pad(b.layer, b.count), pad(b.ray, b.count), pad(b.beside, b.count);
 }
 
 }  // namespace
@@ -242,6 +252,60 @@ const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distanc
     fill_from_rays(rays, out);
     pad_all(out);
     return out;
+}
+
+namespace {
+
+// How far before a hit a ray starts anew so as to meet its plane again for certain: 1.5 times what
+// the hit's error box (or, in planes through 0, the floats around it) has across the plane.
+float step_back(const HitBatch& hits, size_t k) {
+    float box = 0, cosine = 0, square = 0, largest = 0;
+    for (int c = 0; c < 3; ++c) {
+        box += std::abs(hits.Ng[c][k]) * hits.P_error[c][k];
+        cosine += hits.Ng[c][k] * hits.dir[c][k];
+        square += hits.dir[c][k] * hits.dir[c][k];
+        largest = std::max(largest, std::abs(hits.P[c][k]));
+    }
+    const float length = std::sqrt(square);
+    if (cosine == 0) cosine = length;  // a triangle without area
+    box = std::max({box, largest * 0x1p-22f, hits.t[k] * length * 0x1p-24f});
+    return 1.5f * box / std::max(std::abs(cosine), 1e-4f * length);
+}
+
+}  // namespace
+
+void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hits, size_t k) {
+    const size_t from = hits.ray[k];
+    auto move = [&](auto* column) { column[to] = column[from]; };
+    auto move3 = [&](float* const(&columns)[3]) {
+        for (float* column : columns) move(column);
+    };
+    move3(r.org), move3(r.dir), move3(r.dOdx), move3(r.dOdy), move3(r.dDdx), move3(r.dDdy);
+    move3(r.first_org);
+    move(r.tnear), move(r.tfar), move(r.time), move(r.t_passed), move(r.window);
+    move(r.passed_first), move(r.passed_last);
+    move(r.pixel_x), move(r.pixel_y), move(r.sample), move(r.share), move(r.medium), move(r.slot);
+    r.layer[to] = hits.layer[k] + 1;
+    const uint32_t body = accel.body(hits.instance[k]);
+    if (hits.beside[k]) {  // one more at the same place
+        r.passed_last[to] = body;
+        return;
+    }
+    const vec3 P{hits.P[0][k], hits.P[1][k], hits.P[2][k]};
+    const vec3 dir{r.dir[0][to], r.dir[1][to], r.dir[2][to]};
+    const bool ordered = accel.policy().fixed_winner;
+    const float back = ordered ? step_back(hits, k) : 0;
+    const vec3 org =
+        ordered ? P - back * dir
+                : offset_ray_origin(P, {hits.P_error[0][k], hits.P_error[1][k], hits.P_error[2][k]},
+                                    {hits.Ng[0][k], hits.Ng[1][k], hits.Ng[2][k]}, dir);
+    for (int c = 0; c < 3; ++c) r.org[c][to] = org[c];
+    r.tnear[to] = 0;
+    r.tfar[to] -= hits.t[k] - r.t_passed[to] - back;
+    r.t_passed[to] = hits.t[k] - back;
+    r.window[to] = ordered ? 2 * back : -1;
+    r.passed_first[to] = body;
+    r.passed_last[to] = kNone;
 }
 
 void occluded_by_opaque(const Accel& accel, const RayBatch& rays, uint8_t* blocked,

@@ -41,6 +41,7 @@ struct HitBatch {
     const uint32_t* sample;
     const uint32_t* layer;           // surfaces already passed by this ray
     const uint32_t* ray;             // index of the ray in the batch that was traced
+    const uint32_t* beside;          // 1: at the place of the surface that the ray went on from
     const RayBatch* rays = nullptr;  // that batch; rays->medium[ray[k]] is what hit k came through
 };
 
@@ -70,6 +71,10 @@ struct RayBatch {
     float* dOdy[3] = {};
     float* dDdx[3] = {};
     float* dDdy[3] = {};
+    bool passing = false;  // rays of pass_through(): the three columns count (RayPacket16)
+    float* window = nullptr;
+    uint32_t* passed_first = nullptr;
+    uint32_t* passed_last = nullptr;
     float* t_passed = nullptr;  // length already gone before org
     float* first_org[3] = {};   // where the ray began
     uint32_t* pixel_x = nullptr;
@@ -113,6 +118,13 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
 // where that is finite). geometry, instance and primitive are kNone, Ng is 0; the footprint is as
 // wide as a surface across the ray would have it.
 const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance, HitStore& store);
+
+// Ray `to` of the batch becomes the ray of hit k as it goes on behind it, its footprint, slot and
+// all; it meets what other bodies have at the very place of the hit before what lies behind, each
+// body once. `to` must not lie behind the ray's old place (hits come in the order of rays); the
+// layer counts on, the medium is the caller's to set. Afterwards RayBatch::passing must be set,
+// and all rays of the batch be such.
+void pass_through(const Accel& accel, RayBatch& rays, size_t to, const HitBatch& hits, size_t k);
 
 // For each ray: blocked[i] = 1 if opaque geometry lies in (tnear, tfar], else 0. The first step of
 // transmission; the caller goes on with trace(kMaskNotOpaque) for the rest. Uses org, dir, tnear,

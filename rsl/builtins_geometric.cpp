@@ -156,11 +156,13 @@ void transform(LowerCall& c) {
     c.result = x;
 }
 
-// 0 at the near, 1 at the far clipping plane; current space is camera space.
+// 0 at the near, 1 at the far clipping plane.
 void depth(LowerCall& c) {
+    auto camera = c.low.space(c.b.i(intern("camera")), c.where());
+    V3 p = c.low.from_current(lowered(BaseType::Point, c.v3(0)), camera).v3();
     Value near = c.low.scalar_input("camera:near", jit::Type::F, jit::Rate::Frame);
     Value far = c.low.scalar_input("camera:far", jit::Type::F, jit::Rate::Frame);
-    c.set(c.low.div(c.b.sub(c.v3(0)[2], near), c.b.sub(far, near)));
+    c.set(c.low.div(c.b.sub(p[2], near), c.b.sub(far, near)));
 }
 
 // Du(p) ^ Dv(p), turned so that for the unmodified P it points along Ng: the space may be mirrored,

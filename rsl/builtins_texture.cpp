@@ -239,8 +239,8 @@ void bump(LowerCall& c) {
     c.set(e.select(b.eq(e.dot(bent, bent), e.f(0)), N, result));
 }
 
-// bake(file, s, t, value): a point file of points (s, t, 0), with one channel. A negative radius
-// says that they are no places of the scene.
+// bake(file, s, t, value): a point file of points (s, t, 0), with one channel. A negative scale
+// says that they are no places in current space.
 void bake(LowerCall& c) {
     auto& e = c.low;
     auto& b = c.b;
@@ -253,9 +253,9 @@ void bake(LowerCall& c) {
     Value radius = b.max(b.mul(across, e.f(0.5f)), e.f(1e-6f));
     std::vector<Value> args = {c.f(0), b.i(intern(std::string(type_name(value.type)) + " value")),
                                e.scalar_input("rng", jit::Type::I, jit::Rate::Point)};
-    args.insert(args.end(), {at.s, at.t, e.f(0), e.f(0), e.f(0), e.f(0), b.neg(radius)});
+    args.insert(args.end(), {at.s, at.t, e.f(0), e.f(0), e.f(0), e.f(0), radius, e.f(-1)});
     args.insert(args.end(), value.c.begin(), value.c.begin() + value.size());
-    args.resize(10 + size_t(kPointFloats), e.f(0));
+    args.resize(11 + size_t(kPointFloats), e.f(0));
     e.service("bake3d", args);
 }
 

@@ -48,6 +48,8 @@ struct LowerOptions {
     bool want_Ci = true;  // colour
     bool want_Oi = true;  // opacity; with want_Ci false this is the opacity-only kernel, in which
                           // lights are unshadowed and trace and gather give 0 (decision 6)
+    // A kernel that moves vertices: "current" is the object's space, and "camera" another.
+    bool of_vertices = false;
     bool area_light = false;  // a light on geometry: its P, N, u, v, s, t are those of a sample
     bool want_N = false;      // the shading normal as the shaders leave it
     bool want_P = false;

@@ -258,6 +258,12 @@ Lowered Lowering::assign(const AssignExpr& e) {
 
 // ---- calls --------------------------------------------------------------------------------------
 
+void Lowering::report_idle_pair(std::string_view callee, std::string_view name,
+                                const Lowered& value, Location where) {
+    const std::string* text = value.type == BaseType::String ? constant_text(value.c[0]) : nullptr;
+    if (is_idle_option(callee, name, text)) report(Code::RSL_PAIR_IDLE, where, name, callee);
+}
+
 Lowered Lowering::call_builtin(const CallExpr& e) {
     LowerCall call{
         *this, b,  e,  {},
@@ -276,8 +282,10 @@ Lowered Lowering::call_builtin(const CallExpr& e) {
         const std::string* name = constant_text(value(*e.args[k]));
         if (name && is_output_pair(e, k + 1))
             call.output_pairs.push_back({*name, target(*e.args[k + 1])});
-        else if (name && !e.args[k + 1]->type.is_array())
+        else if (name && !e.args[k + 1]->type.is_array()) {
             call.pairs.push_back({*name, expr(*e.args[k + 1])});
+            report_idle_pair(e.name, *name, call.pairs.back().second, e.args[k]->place.where);
+        }
     }
     e.builtin->lower(call);
     return call.result;

@@ -81,6 +81,8 @@ void Lowering::gather(const GatherStmt& stmt) {
     for (size_t k = 1; k < stmt.pairs.size(); k += 2) {
         std::string name(pair_name(stmt.pairs, k));
         const Expr& given = *stmt.pairs[k];
+        if (takes_option("gather", name))
+            report_idle_pair("gather", name, expr(given), given.place.where);
         if (is_gather_output(name)) {
             const Known* known = find_known(name);
             bool parameter = !known && name.starts_with("surface:");

@@ -158,6 +158,9 @@ class Lowering : public Emitter {
     };
     Lowered call_recursive(const CallExpr& e, const CallArguments& arguments);
     const std::string* constant_text(Value string_id);
+    // Says so where an optional parameter is known and changes nothing.
+    void report_idle_pair(std::string_view callee, std::string_view name, const Lowered& value,
+                          Location where);
 
     // lower_control.cpp
     void statement(const Stmt& stmt);

@@ -22,8 +22,9 @@ bool contains(const List& list, std::string_view name) {
 Lowering::Space Lowering::space(Value name, Location where) {
     const std::string* text = constant_text(name);
     if (!text) return variable_space(name);
-    if (*text == "current" || *text == "camera") return {};
-    if (options.spaces && !contains(kStandard, *text) && !contains(*options.spaces, *text)) {
+    if (*text == "current" || (*text == "camera" && !options.of_vertices)) return {};
+    if (options.spaces && *text != "camera" && !contains(kStandard, *text) &&
+        !contains(*options.spaces, *text)) {
         unknown_space(*text, where);
         return {};
     }

@@ -15,6 +15,9 @@ struct OptionalParameter {
     BaseType type;            // what its value must be, whoever is called; Invalid: anything
     std::string_view takers;  // built-ins, and gather, that it is no news to, separated by spaces
     bool result = false;      // its value is a variable that the call sets
+    // It is known and changes nothing, which is no news where its value is one of these words (what
+    // is done anyway); null: it does what it should, or has nothing to change here.
+    const char* idle = nullptr;
 };
 
 constexpr BaseType kAny = BaseType::Invalid;
@@ -41,12 +44,12 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"volume", kAny, "gather"},
     {"lightcache", kAny, "gather"},
     {"source", kNumber, "areashadow"},
-    {"gapbias", kNumber, "areashadow"},
+    {"gapbias", kNumber, "areashadow", false, ""},
     // What the renderer does anyway, or hints for methods it has no need of.
     {"samplebase", kNumber, RAYS " gather"},
     {"label", kText, RAYS " gather"},
-    {"hitmode", kAny, RAYS " gather"},
-    {"hitsides", kAny, RAYS " gather"},
+    {"hitmode", kAny, RAYS " gather", false, "default shader"},
+    {"hitsides", kAny, RAYS " gather", false, "both"},
     {"minsamples", kAny, RAYS},
     {"maxvariation", kAny, RAYS},
     {"maxerror", kAny, RAYS},
@@ -72,9 +75,9 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"radius", kNumber, POINTS},
     {"coordsystem", kText, POINTS},
     {"interpolate", kAny, POINTS},
-    {"radiusscale", kAny, "bake3d"},
-    {"filterradius", kAny, "texture3d"},
-    {"filterscale", kAny, "texture3d"},
+    {"radiusscale", kNumber, "bake3d"},
+    {"filterradius", kAny, "texture3d", false, ""},
+    {"filterscale", kAny, "texture3d", false, ""},
     {"maxdepth", kAny, "texture3d"},
     {"lerp", kAny, "texture environment shadow bump texture3d"},
     {"expandborders", kAny, "texture environment shadow bump"},
@@ -125,6 +128,12 @@ BaseType option_type(std::string_view name) {
 bool takes_option(std::string_view callee, std::string_view name) {
     const OptionalParameter* option = find_option(name);
     return option && has_word(option->takers, callee);
+}
+
+bool is_idle_option(std::string_view callee, std::string_view name, const std::string* text) {
+    const OptionalParameter* option = find_option(name);
+    if (!option || !option->idle || !has_word(option->takers, callee)) return false;
+    return !text || text->empty() || !has_word(option->idle, *text);
 }
 
 bool is_output_pair(const CallExpr& call, size_t value) {

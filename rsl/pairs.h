@@ -24,6 +24,9 @@ BaseType option_type(std::string_view name);
 // Does the built-in of that name, or gather, know this optional parameter (if only to pass it by)?
 bool takes_option(std::string_view callee, std::string_view name);
 
+// Is it known and without effect? `text`: its value where that is a constant string, else null.
+bool is_idle_option(std::string_view callee, std::string_view name, const std::string* text);
+
 // The literal that names the pair whose value is args[value]; "" if it is no literal.
 std::string_view pair_name(std::span<Expr* const> args, size_t value);
 

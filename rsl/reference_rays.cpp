@@ -158,6 +158,7 @@ void texture3d(RefCall<Real>& c) {
     std::vector<double> args = {double(c.args[0].c[0].x), double(intern(channels))};
     add(args, c.args[1]);
     add(args, c.args[2]);
+    args.push_back(1);
     std::vector<double> answer = c.eval.service("texture3d", args);
     int bits = int(at(answer, 0)), all = 1;
     size_t next = 1;

@@ -83,9 +83,10 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //                  array or -1, int length, int rng or 0) -> int known, up to 16 numbers (ids of
 //                  strings bit for bit)
 //   bake3d        (int file, int channels "float a,color b", int rng, P xyz, N xyz, radius (0: not
-//                  given; < 0: P and N stay as they are), kPointFloats numbers) -> nothing
-//   texture3d     (int file, int channels, P xyz, N xyz) -> int bits of the channels found,
-//                  kPointFloats numbers
+//                  given), its scale (< 0: P and N are in the file's space, not in current),
+//                  kPointFloats numbers) -> nothing
+//   texture3d     (int file, int channels, P xyz, N xyz, scale as of bake3d) -> int bits of the
+//                  channels found, kPointFloats numbers
 //   photons       (int file, int PhotonKind, int number of photons, P xyz, N xyz) -> r g b
 //   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
 //   concat        (int, int) -> int; match (int pattern, int text) -> 1 or 0; format (as print) ->

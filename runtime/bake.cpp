@@ -104,8 +104,9 @@ void look_up_points(const KernelHost& host, const jit::ServiceCall& call) {
         PointStore::Lookup found =
             host.scene->points->find(rows.integer(0, lane), rows.integer(1, lane));
         if (!found.cloud) continue;
-        Mean mean(*found.cloud, to_world.place(rows.triple(2, lane)),
-                  to_world.direction(rows.triple(5, lane)));
+        vec3 P = rows.triple(2, lane), N = rows.triple(5, lane);
+        bool as_is = rows.number(8, lane) < 0;
+        Mean mean(*found.cloud, as_is ? P : to_world.place(P), as_is ? N : to_world.direction(N));
         if (mean.count == 0) continue;
         int32_t known = 0;
         int next = 1;
@@ -154,7 +155,7 @@ void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
 // One point a pixel: what its first sample sees, through transparent layers too. Rays that shaders
 // shoot bake nothing.
 void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
-    enum { File = 0, Channels, P = 3, N = 6, Radius = 9, Numbers };
+    enum { File = 0, Channels, P = 3, N = 6, Radius = 9, Scale, Numbers };
     if (grid.depth > 0 || !grid.shadows) return;
     Thread& own = thread(grid.thread);
     Rows rows{call};
@@ -171,15 +172,15 @@ void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
         point.pixel_x = grid.hits.pixel_x[hit];
         point.layer = grid.hits.layer[hit];
         point.order = uint32_t(own.bakes.size());
-        float radius = rows.number(Radius, lane);
-        bool as_is = radius < 0;
+        float radius = rows.number(Radius, lane), scale = rows.number(Scale, lane);
+        bool as_is = scale < 0;
         vec3 place = as_is ? rows.triple(P, lane) : to_world.place(rows.triple(P, lane));
         vec3 normal = as_is ? rows.triple(N, lane) : to_world.direction(rows.triple(N, lane));
-        if (as_is) radius = -radius;
         // Half the diagonal of the pixel's footprint, so that neighbours touch.
         if (!(radius > 0))
             radius = 0.70710678f * std::max(glm::length(kinora::triple(grid.hits.dPdx, hit)),
                                             glm::length(kinora::triple(grid.hits.dPdy, hit)));
+        radius *= std::abs(scale);
         float head[kPointHead] = {place.x, place.y, place.z, normal.x, normal.y, normal.z, radius};
         std::copy_n(head, kPointHead, point.numbers);
         for (int k = 0; k < rsl::kPointFloats; ++k)

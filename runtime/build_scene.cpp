@@ -265,6 +265,7 @@ void SceneBuilder::finish_rows() {
         shape.rest_normals = instanced ? mesh.normals : shape.normals;
         raytrace::Geometry& row = scene.geometry[s];
         row.id = uint32_t(s);
+        row.body = scene.surfaces[s].shape;
         row.kind = shape.kind;
         row.opaque = scene.looks[surface.look]->opaque();
         row.hide_backfaces = !mesh.double_sided || scene.looks[surface.look]->hide_backfaces;

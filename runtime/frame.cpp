@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "rsl/ast.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/deform.h"
@@ -150,6 +151,14 @@ void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnost
     }
 }
 
+// At the shader that gave them, the uppermost where layers are joined.
+void report_non_finite(uint64_t count, std::string_view name, const Look* look,
+                       Diagnostics& diagnostics) {
+    Location where;
+    if (look && look->shader().definition) where = look->shader().definition->place.where;
+    diagnostics.report(Code::SHADER_NON_FINITE, where, count, name);
+}
+
 // The film's planes are those of the scene's outputs.
 void prepare_planes(const Scene& scene, raytrace::Film& film) {
     bool same = film.aovs.size() == scene.outputs.size();
@@ -221,10 +230,12 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
         film.non_finite += bad;
         stats.non_finite = bad;
         if (bad)
-            diagnostics.report(Code::SHADER_NON_FINITE, Location{}, bad,
-                               scene.looks[scene.imager]->shader().name);
+            report_non_finite(bad, scene.looks[scene.imager]->shader().name,
+                              scene.looks[scene.imager].get(), diagnostics);
     }
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
+    if (uint64_t lost = shading.too_deep + counters.too_deep)
+        diagnostics.report(Code::LAYER_LIMIT, Location{}, lost, settings.integrator.max_layers);
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();
@@ -234,9 +245,9 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     stats.non_finite += counters.non_finite;
     if (counters.non_finite) {
         uint32_t row = counters.non_finite_geometry;  // kNone: where there is no surface
-        diagnostics.report(
-            Code::SHADER_NON_FINITE, Location{}, counters.non_finite,
-            row == kNone ? "the atmosphere" : scene.looks[scene.surfaces[row].look]->name);
+        const Look* look = row == kNone ? nullptr : scene.looks[scene.surfaces[row].look].get();
+        report_non_finite(counters.non_finite, look ? look->name : "the atmosphere", look,
+                          diagnostics);
     }
     return whole;
 }

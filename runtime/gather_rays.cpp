@@ -195,6 +195,7 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
                 sample_of[rays.count] = k;
                 add_ray(rays, grid, start, dir, reach, lanes.number(Row::Bias, lane),
                         raytrace::hash(seed, k), uint32_t(rays.count), counts.share[lane]);
+                spread_ray(rays, grid.hits, start.hit);
                 if (rays.count == kGridPoints) flush();
             }
         }

@@ -260,6 +260,7 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
         else
             lower.aovs.push_back(name);
     bool of_vertices = look.kind == LookKind::Displacement || look.kind == LookKind::Transformation;
+    lower.of_vertices = of_vertices;
     if (of_vertices) {
         lower.want_Ci = lower.want_Oi = false;
         lower.want_P = lower.want_N = true;

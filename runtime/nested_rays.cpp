@@ -61,6 +61,29 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
     rays.slot[i] = slot;
 }
 
+// Igehy, Tracing ray differentials, 1999, without what the surface's curvature adds: a ray that
+// goes back spreads as its mirror image, one that goes on as itself, turned. Lengths stay, so flat
+// mirrors and panes are exact.
+void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32_t hit) {
+    size_t i = rays.count - 1;
+    vec3 in = triple(from.dir, hit), out = triple(rays.dir, i), Ng = triple(from.Ng, hit);
+    float before = glm::length(in), after = glm::length(out);
+    if (!(before > 0 && after > 0)) return;
+    in /= before;
+    out /= after;
+    bool back = glm::dot(in, Ng) * glm::dot(out, Ng) < 0;
+    vec3 axis = back ? out - in : out + in;
+    float square = glm::dot(axis, axis);
+    auto turned = [&](vec3 d) {
+        vec3 mirrored = square > 1e-12f ? d - axis * (2 * glm::dot(axis, d) / square) : d;
+        // Mirrored at in + out and then along out, `in` comes to lie on `out`.
+        vec3 result = back ? mirrored : mirrored + out * (2 * glm::dot(in, d));
+        return result * (after / before);
+    };
+    set_triple(rays.dDdx, i, turned(triple(from.dDdx, hit)));
+    set_triple(rays.dDdy, i, turned(triple(from.dDdy, hit)));
+}
+
 // An orthonormal basis without a branch: Duff et al., Building an Orthonormal Basis, Revisited,
 // JCGT 2017.
 Cone::Cone(vec3 axis, float angle, bool cosine_weighted) : by_cosine(cosine_weighted) {
@@ -82,7 +105,10 @@ vec3 Cone::direction(uint32_t k, uint32_t seed) const {
     return float(out * std::cos(phi)) * x + float(out * std::sin(phi)) * y + float(up) * z;
 }
 
-float ray_share(Grid& grid, size_t point, int samples) {
+namespace {
+
+// What a point's next call has for all its rays.
+float share_left(Grid& grid, size_t point) {
     uint32_t hit = grid.points[std::min(point, grid.count() - 1)];
     float share = grid.hits.rays ? grid.hits.rays->share[grid.hits.ray[hit]] : 1.0f;
     float calls = 1;
@@ -91,11 +117,29 @@ float ray_share(Grid& grid, size_t point, int samples) {
         if (before < 0xffff) ++before;
         calls = before;
     }
-    share /= (calls + kCallCost) * std::sqrt(float(samples));
-    // Who asks for deeper rays gets them.
+    return share / (calls + kCallCost);
+}
+
+// Who asks for deeper rays gets them.
+float least_share(const Grid& grid) {
     int deeper = std::max(0, int(grid.shading->ray_depth()) - kUsualDepth);
-    float least = kLeastShare[std::min(grid.depth, 3u)] * std::pow(1 + kCallCost, -float(deeper));
-    return share < least ? 0 : share;
+    return kLeastShare[std::min(grid.depth, 3u)] * std::pow(1 + kCallCost, -float(deeper));
+}
+
+}  // namespace
+
+float ray_share(Grid& grid, size_t point, int samples) {
+    float share = share_left(grid, point) / std::sqrt(float(samples));
+    return share < least_share(grid) ? 0 : share;
+}
+
+float fit_samples(Grid& grid, size_t point, int& samples) {
+    float left = share_left(grid, point), least = least_share(grid);
+    if (left < least * std::sqrt(float(samples))) {
+        float fitting = left / least;
+        samples = std::max(1, int(fitting * fitting));
+    }
+    return std::max(1e-6f, left / std::sqrt(float(samples)));
 }
 
 uint32_t Lanes::seed(int lane) const {
@@ -158,6 +202,7 @@ void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const
             own.counters.too_deep += hits.count;
             break;
         }
+        Arena::Mark layer_mark = own.arena.mark();
         raytrace::ShadeResult result = take_colors(own.arena, hits.count);
         shade(hits, thread_id, result);
         size_t kept = 0;
@@ -171,21 +216,15 @@ void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const
                 at.open = vec3(0.0f);
                 continue;
             }
-            // Hits come in the order of their rays, so rays are packed in place.
-            vec3 dir = triple(rays.dir, r), first = triple(hits.org, h);
-            vec3 org = raytrace::offset_ray_origin(triple(hits.P, h), triple(hits.P_error, h),
-                                                   triple(hits.Ng, h), dir);
             uint32_t medium = medium_behind(hits, h);
-            float left = rays.tfar[r] - (hits.t[h] - rays.t_passed[r]);
-            set_nested_ray(rays, kept, org, dir, left, hits, uint32_t(h));
-            for (size_t k = 0; k < 3; ++k) rays.first_org[k][kept] = first[int(k)];
-            rays.t_passed[kept] = hits.t[h];
-            rays.layer[kept] = hits.layer[h] + 1;
-            rays.medium[kept] = medium;
-            rays.slot[kept++] = slot;
+            raytrace::pass_through(scene_.accel, rays, kept, hits, h);
+            rays.medium[kept++] = medium;
         }
+        rays.passing = true;
         rays.count = kept;
+        own.arena.release(layer_mark);
     }
+    rays.passing = false;
     own.arena.release(mark);
     own.ray = outer;
     own.outputs = outputs;

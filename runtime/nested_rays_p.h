@@ -27,10 +27,18 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
              float tfar, float bias, uint32_t path, uint32_t slot, float share = 1);
 
+// Gives the ray added last the spread of the ray that saw `hit`, as far as directions go: without
+// it the footprint stays as wide as it is at `hit`.
+void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32_t hit);
+
 // The share of the eye's ray that each ray of a point's next call of so many samples has, which
 // keeps shaders that shoot several rays a hit from multiplying them without end (BMRT and PRMan
 // stop such shaders at a depth of 2 to 4). 0: too little, no ray is shot.
 float ray_share(Grid& grid, size_t point, int samples);
+
+// The same for rays whose depth is counted apart (bounces): too little takes samples away, down to
+// one, which leaves the mean what it is. Never 0.
+float fit_samples(Grid& grid, size_t point, int& samples);
 
 // The axes of a cone and the direction of sample k of n stratified ones in it.
 struct Cone {

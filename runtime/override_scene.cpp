@@ -132,6 +132,16 @@ bool override_param(SceneDescription& description, const std::string& target,
         matched = true;
         change.apply(light.shader);
     }
+    auto on_imagers = [&](std::vector<ShaderUse>& imagers) {
+        for (ShaderUse& use : imagers) {
+            std::string shader(use.shader->name);
+            if (!glob_matches(pattern, shader, shader)) continue;
+            matched = true;
+            change.apply(use);
+        }
+    };
+    on_imagers(description.picture.imagers);
+    for (CameraDefinition& camera : description.cameras) on_imagers(camera.picture.imagers);
     if (!matched) {
         diagnostics.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
         return false;

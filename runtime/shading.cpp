@@ -70,8 +70,6 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     for (auto& thread : threads_) total += thread->counters;
     flush_prints();
     flush_bakes(whole, diagnostics);
-    if (total.too_deep)
-        diagnostics.report(Code::LAYER_LIMIT, Location{}, total.too_deep, max_layers_);
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         const BoundKernel* kernels[] = {&scene_.looks[l]->full, scene_.looks[l]->opacity
                                                                     ? &*scene_.looks[l]->opacity

@@ -168,7 +168,7 @@ class Shading : public raytrace::SurfaceShading {
     std::set<std::string> reported_points_;  // point files that could not be read
     const std::atomic<int>* stop_ = nullptr;
     uint32_t seed_ = 0;
-    int max_layers_ = 32;
+    int max_layers_ = 256;
     double time_ = 0, shutter_ = 0;
     bool any_transparent_ = false;
     bool has_exteriors_ = false;

@@ -133,7 +133,8 @@ inline void set_triple(float* const columns[3], size_t i, vec3 value) {
 // A hit's random number (DESIGN.md decision 10).
 inline uint32_t random_of(const raytrace::HitBatch& hits, size_t h) {
     uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]);
-    return raytrace::hash(pixel, hits.sample[h], hits.layer[h] + 64 * hits.depth);
+    uint32_t layer = hits.layer[h] % 64 + 64 * hits.depth + (hits.layer[h] / 64 << 16);
+    return raytrace::hash(pixel, hits.sample[h], layer);
 }
 
 // The way of a hit's ray since its last surface, or since it began; accel space.

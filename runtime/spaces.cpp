@@ -69,8 +69,6 @@ dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t obje
     if (name == "current" || name == "object" || name == "shader") return dmat4(1.0);
     dmat4 object_from_world = glm::inverse(scene.nodes[object].world);
     if (name == "world") return object_from_world;
-    for (const Node& n : scene.nodes)
-        if (scene.description->nodes[n.definition].id == name) return object_from_world * n.world;
     return object_from_world * scene.view.world_from_camera *
            current_from_space(scene, name, object);
 }

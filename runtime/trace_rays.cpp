@@ -92,6 +92,7 @@ class ConeRays {
         RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(kP, lane));
         add_ray(rays, grid_, start, dir, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane),
                 raytrace::hash(lanes_.seed(lane), k), slot, share);
+        spread_ray(rays, grid_.hits, start.hit);
     }
 
   private:
@@ -131,6 +132,7 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
                     RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
                     add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
                             lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
+                    spread_ray(nested->rays, grid.hits, start.hit);
                 },
                 [&](std::span<const uint8_t> lane_of) {
                     RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, lane_of[0]));
@@ -278,12 +280,14 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     vec3 sum[kLanes] = {};
     // What lies beyond the last bounce is black; a map alone costs no ray.
     bool bounces = grid.depth < ray_depth() && grid.ray.diffuse < diffuse_depth() && !stopped();
-    // The bounces are counted, so these rays are shot however small their share.
+    // The bounces are counted: all are followed, the later ones with fewer rays.
     float share[kLanes] = {};
-    for (int lane = 0; lane < kLanes; ++lane)
-        if (bounces && lanes.asks(lane))
-            share[lane] =
-                std::max(1e-6f, ray_share(grid, lanes.point(lane), lanes.samples(kSamples, lane)));
+    int samples[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        if (!lanes.asks(lane)) continue;
+        samples[lane] = lanes.samples(kSamples, lane);
+        if (bounces) share[lane] = fit_samples(grid, lanes.point(lane), samples[lane]);
+    }
     Arena::Mark mark = own.arena.mark();
     std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
     std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
@@ -291,7 +295,8 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     NestedWavefront nested(own);
     ConeRays cone(grid, lanes, glm::transpose(camera_from_accel_));
     auto count = [&](int lane) {
-        return bounces || lanes.integer(Map, lane) != 0 ? cone.count(lane) : 0;
+        bool shoots = bounces || lanes.integer(Map, lane) != 0;
+        return shoots && cone.count(lane) > 0 ? samples[lane] : 0;
     };
     in_batches(
         lanes, nested->rays, count,
@@ -309,8 +314,7 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
                 while (end < lane_of.size() && lane_of[end] == lane_of[begin]) ++end;
                 if (map != 0) {
                     // Each sample stands for its share of the hemisphere.
-                    float width =
-                        std::sqrt(2 * float(kPi) / float(lanes.samples(kSamples, lane_of[begin])));
+                    float width = std::sqrt(2 * float(kPi) / float(samples[lane_of[begin]]));
                     look_up(*scene_.textures, map, dirs.subspan(begin, end - begin), width,
                             light.data());
                     for (size_t i = begin; i < end; ++i)

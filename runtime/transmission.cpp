@@ -26,6 +26,22 @@ void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, floa
     rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
 }
 
+// A ray that goes on ends where it was to end, as exactly as it did: the surface that the light
+// lies on may be no part of its way.
+static void aim_at(raytrace::RayBatch& rays, size_t i, vec3 end) {
+    vec3 before = triple(rays.dir, i), org = triple(rays.org, i), dir = end - org;
+    if (!(glm::length(dir) > 0)) return;
+    float scale = glm::length(before) / glm::length(dir);  // lengths count in directions
+    set_triple(rays.dir, i, dir);
+    rays.tfar[i] = 1;
+    rays.window[i] *= scale;
+    rays.t_passed[i] *= scale;
+    for (size_t k = 0; k < 3; ++k) {
+        rays.dDdx[k][i] /= scale;
+        rays.dDdy[k][i] /= scale;
+    }
+}
+
 // Closest hits on what is not opaque, each round shaded as grids; `through` is what passes. The
 // round after the last only asks whether anything is left: that lets nothing through.
 void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* through) {
@@ -46,6 +62,7 @@ void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* th
             own.counters.too_deep += hits.count;
             break;
         }
+        Arena::Mark round_mark = own.arena.mark();
         std::span<vec3> Oi = own.arena.allocate_span<vec3>(hits.count);
         opacity(hits, thread_id, Oi.data());
         if (!scene_.volumes.empty()) pass_volumes(hits, thread_id, Oi.data());
@@ -55,21 +72,17 @@ void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* th
             vec3& light = through[rays.slot[r]];
             light *= vec3(1.0f) - Oi[h];
             if (light == vec3(0.0f)) continue;
-            // Hits come in the order of their rays, so rays are packed in place.
-            vec3 dir = triple(rays.dir, r);
-            vec3 end = triple(rays.org, r) + dir * rays.tfar[r];
-            vec3 org = raytrace::offset_ray_origin(triple(hits.P, h), triple(hits.P_error, h),
-                                                   triple(hits.Ng, h), dir);
-            bool bounded = std::isfinite(rays.tfar[r]);
-            uint32_t slot = rays.slot[r];
+            vec3 end = triple(rays.org, r) + triple(rays.dir, r) * rays.tfar[r];
             uint32_t medium = medium_behind(hits, h);
-            set_nested_ray(rays, kept, org, bounded ? end - org : dir,
-                           bounded ? 1.0f : rays.tfar[r], hits, uint32_t(h));
-            rays.medium[kept] = medium;
-            rays.slot[kept++] = slot;
+            raytrace::pass_through(scene_.accel, rays, kept, hits, h);
+            if (std::isfinite(rays.tfar[kept])) aim_at(rays, kept, end);
+            rays.medium[kept++] = medium;
         }
+        rays.passing = true;
         rays.count = kept;
+        own.arena.release(round_mark);
     }
+    rays.passing = false;
     own.arena.release(mark);
     own.ray = outer;
 }

@@ -175,11 +175,11 @@ int Render::load() {
     }
     for (const auto& [pattern, file] : options_.shaders)
         override_shader(*description, pattern, file, options_.include_directories, diagnostics_);
+    if (!options_.imager.empty())
+        override_imager(*description, options_.imager, options_.include_directories, diagnostics_);
     for (const auto& [target, value] : options_.params)
         override_param(*description, target, value, diagnostics_);
     override_visibility(*description, options_.hide, options_.only, diagnostics_);
-    if (!options_.imager.empty())
-        override_imager(*description, options_.imager, options_.include_directories, diagnostics_);
     load_ms_ = watch.restart();
     SceneOptions scene_options = this->scene_options();
     PlayRange range = play_range(*description);

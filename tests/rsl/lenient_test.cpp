@@ -84,7 +84,7 @@ TEST(Lenient, OptionalParametersThatACalleeDoesNotKnowAreNamed) {
         const char *call, *unknown;  // "" where all are known
     };
     const Case kCases[] = {
-        {"trace(P, N, \"maxdist\", 1, \"hitmode\", \"primitive\")", ""},
+        {"trace(P, N, \"maxdist\", 1, \"hitmode\", \"shader\")", ""},
         {"trace(P, N, \"falloff\", 1)", "'falloff' of trace"},
         {"occlusion(P, N, 4, \"falloff\", 1)", ""},
         {"occlusion(P, N, 4, \"distribution\", \"cosine\")", "'distribution' of occlusion"},
@@ -111,6 +111,28 @@ TEST(Lenient, OptionalParametersThatACalleeDoesNotKnowAreNamed) {
         "surface t() { gather(\"\", P, N, 0, 1, \"distribution\", \"cosine\", \"far\", 1) { } }");
     EXPECT_TRUE(finds(gather, "'far' of gather")) << gather.findings();
     EXPECT_FALSE(finds(gather, "'distribution' of")) << gather.findings();
+}
+
+TEST(Lenient, OptionalParametersWithoutEffectAreNamed) {
+    struct Case {
+        const char *call, *idle;  // "" where all do what they say
+    };
+    const Case kCases[] = {
+        {"trace(P, N, \"hitsides\", \"front\")", "'hitsides' of trace has no effect"},
+        {"trace(P, N, \"hitsides\", \"both\", \"hitmode\", \"default\")", ""},
+        {"trace(P, N, \"hitmode\", \"primitive\")", "'hitmode' of trace has no effect"},
+        {"occlusion(P, N, 4, \"hitsides\", \"back\")", "'hitsides' of occlusion has no effect"},
+        {"texture3d(\"a.ptc\", P, N, \"filterradius\", 1)", "'filterradius' of texture3d"},
+        {"texture3d(\"a.ptc\", P, N, \"coordsystem\", \"object\")", ""},
+    };
+    for (const Case& c : kCases) {
+        RunShader run(std::string("surface t() { Ci = ") + c.call + "; }");
+        EXPECT_TRUE(run.ok()) << c.call << "\n" << run.findings();
+        EXPECT_EQ(finds(run, "RSL_PAIR_IDLE"), *c.idle != 0) << c.call << run.findings();
+        EXPECT_TRUE(finds(run, c.idle)) << c.call << "\n" << run.findings();
+    }
+    RunShader gather("surface t() { gather(\"\", P, N, 0, 1, \"hitsides\", \"front\") { } }");
+    EXPECT_TRUE(finds(gather, "'hitsides' of gather has no effect")) << gather.findings();
 }
 
 TEST(Lenient, ShadowRaysOfBmrtAskForOpacityAlone) {

@@ -34,8 +34,11 @@ TEST(TrueDisplacement, RunsOnceUnlessItReadsWhatChanges) {
         {"E", "displacement d() { P += 0.01 * zcomp(E) * N; }\n", false, true},
         {"du", "displacement d() { P += 0.01 * du * N; }\n", false, true},
         {"area", "displacement d() { P += 0.01 * area(P) * N; }\n", false, true},
-        {"camera space", "displacement d() { P += 0.01 * zcomp(transform(\"NDC\", P)) * N; }\n",
+        {"NDC", "displacement d() { P += 0.01 * zcomp(transform(\"NDC\", P)) * N; }\n", false,
+         true},
+        {"camera space", "displacement d() { P += 0.01 * zcomp(transform(\"camera\", P)) * N; }\n",
          false, true},
+        {"depth", "displacement d() { P += 0.01 * depth(P) * N; }\n", false, true},
         {"world space, still",
          "displacement d() { P += 0.1 * noise(transform(\"world\", P)) * N; }\n", false, false},
         {"world space, moving",
@@ -260,6 +263,63 @@ TEST(TrueDisplacement, SurfacesSeeTheMovedPointAndTheShadersN) {
             EXPECT_NEAR(r.color(x, y).y, -slope / length, 1e-4);
             EXPECT_NEAR(r.color(x, y).z, 1 / length, 1e-4);
         }
+}
+
+// The camera stands at z = 10 and looks along -z; the sheet's z at x is 1 - x tan 30.
+TEST(TrueDisplacement, TellsCameraSpaceFromItsOwn) {
+    struct Row {
+        const char* given;
+        dvec3 (*want)(dvec3 p);
+    };
+    const Row rows[] = {
+        {"transform(\"camera\", P)", [](dvec3 p) { return dvec3(p.x, p.y, 10 - p.z); }},
+        {"transform(\"camera\", \"world\", point(0, 0, 0))", [](dvec3) { return dvec3(0, 0, 10); }},
+        {"transform(\"world\", point \"camera\" (1, 2, 3))", [](dvec3) { return dvec3(1, 2, 7); }},
+        {"vtransform(\"world\", \"camera\", vector(0, 1, 1))",
+         [](dvec3) { return dvec3(0, 1, -1); }},
+        {"transform(concat(\"cam\", \"era\"), P)",
+         [](dvec3 p) { return dvec3(p.x, p.y, 10 - p.z); }},
+        {"point(depth(P), 0, 0)", [](dvec3 p) { return dvec3((9.9 - p.z) / 99.9, 0, 0); }},
+    };
+    for (const Row& row : rows) {
+        SCOPED_TRACE(row.given);
+        SceneText scene;
+        scene.square("floor").look(
+            "look",
+            fmt::format("displacement d(output varying color q = 0;) {{ point c = {};"
+                        " q = color(xcomp(c), ycomp(c), zcomp(c)); P += 1e-9 * N; }}\n"
+                        "surface show() {{ Oi = 1; displacement(\"q\", Ci); }}",
+                        row.given),
+            kDisplaced);
+        scene.place("floor", "look",
+                    "<translate>0 0 1</translate><rotate>0 1 0 30</rotate><scale>2 2 2</scale>");
+        Rendering r(scene.text(), dice_of(4));
+        r.frame();
+        ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+        for (int y = 0; y < 16; y += 5)
+            for (int x = 0; x < 16; x += 5) {
+                dvec2 at = r.place(x, y);
+                dvec3 want = row.want({at.x, at.y, 1 - at.x * std::tan(kPi / 6)});
+                for (int k = 0; k < 3; ++k) EXPECT_NEAR(r.color(x, y)[k], want[k], 2e-5) << k;
+            }
+    }
+}
+
+TEST(Transformation, MovesInCameraSpace) {
+    SceneText scene;
+    scene.square("floor").look(
+        "look",
+        "transformation d() { point c = transform(\"camera\", P); c += vector(0, 0, -0.5);"
+        " P = transform(\"camera\", \"current\", c); }\n"
+        "surface show() { Oi = 1; Ci = zcomp(transform(\"world\", P)); }",
+        kTransformed);
+    scene.place("floor", "look",
+                "<translate>0 0 1</translate><rotate>0 1 0 30</rotate><scale>2 2 2</scale>");
+    Rendering r(scene.text(), dice_of(4));
+    r.frame();
+    for (int x = 0; x < 16; x += 5)
+        EXPECT_NEAR(r.color(x, 8).x, 1.5 - r.place(x, 8).x * std::tan(kPi / 6), 2e-5)
+            << r.findings();
 }
 
 TEST(TrueDisplacement, LeavesItsParametersToDisplacementOfTheSurface) {

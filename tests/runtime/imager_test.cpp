@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "runtime/override_scene.h"
 #include "runtime/override_shader.h"
 #include "scene_text.h"
 
@@ -212,6 +215,24 @@ TEST(OverrideImager, TakesAStandardNameAFileOrNone) {
     EXPECT_EQ(imagers("nosuch", false), "i");
 }
 
+TEST(OverrideImager, TakesParametersByTheNameOfItsShader) {
+    std::string path = ::testing::TempDir() + "override_imager_param.dae";
+    Diagnostics diagnostics;
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    std::fputs(sheet_scene().text().c_str(), file);
+    std::fclose(file);
+    auto description = import_collada(path, {}, diagnostics);
+    std::remove(path.c_str());
+    ASSERT_TRUE(override_imager(*description, "background", {}, diagnostics));
+    EXPECT_TRUE(override_param(*description, "background.background", "0.25,0,1", diagnostics));
+    EXPECT_FALSE(override_param(*description, "background.nosuch", "1", diagnostics));
+    const std::vector<ParamSource>& params = description->picture.imagers.at(0).params;
+    ASSERT_EQ(params.size(), 1u);
+    const double want[] = {0.25, 0, 1};
+    for (uint32_t k = 0; k < 3; ++k)
+        EXPECT_EQ(description->values[params[0].value.offset + k], want[k]);
+}
+
 TEST(Imager, WhatIsNotFiniteIsCountedAndNamed) {
     SceneText scene = sheet_scene();
     scene.scene_effect("burn", "imager burn() { if (xcomp(P) < 8) Ci = (1e30 + xcomp(P)) * 1e30; }",
@@ -231,6 +252,11 @@ TEST(Imager, WhatIsNotFiniteIsCountedAndNamed) {
         ASSERT_EQ(r.count("SHADER_NON_FINITE"), 1) << r.findings();
         EXPECT_NE(r.findings().find("128 shading results"), std::string::npos) << r.findings();
         EXPECT_NE(r.findings().find("burn"), std::string::npos) << r.findings();
+        // At its shader.
+        LineColumn at = r.where(*r.find("SHADER_NON_FINITE"));
+        size_t before = scene.text().find("imager burn");
+        std::string until = scene.text().substr(0, before);
+        EXPECT_EQ(int(at.line), 1 + int(std::count(until.begin(), until.end(), '\n')));
     }
 }
 

@@ -76,6 +76,42 @@ TEST(Transparency, SheetsCompositeInTheOrderOfDepthNotOfTheDocument) {
     }
 }
 
+// Pixels on the squares' diagonals, where a ray meets two triangles of one sheet, count once.
+TEST(Transparency, SheetsAtOnePlaceAllCount) {
+    const char* tilt = "<rotate>0 1 0 40</rotate><translate>0.1 0.3 0.7</translate>";
+    for (const char* place : {"", "<translate>0 0 0.3</translate>", tilt}) {
+        SCOPED_TRACE(place);
+        SceneText scene;
+        scene.square("s", 2.5).look("a", shader("a", kA)).look("b", shader("b", kB));
+        scene.look("c", shader("c", kC)).look("ground", shader("g", {dvec3(1), dvec3(1)}));
+        for (const char* look : {"a", "b", "c", "a", "b"}) scene.place("s", look, place);
+        scene.place("s", "ground", std::string(place) + "<translate>0 0 -1</translate>");
+        Rendering r(scene.text());
+        r.frame();
+        // In the order of the document.
+        Sheet some = over(kA, over(kB, over(kC, over(kA, kB))));
+        Sheet want = over(some, {dvec3(1), dvec3(1)});
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                for (int k = 0; k < 3; ++k)
+                    ASSERT_NEAR(r.film.at(x, y)[k], want.color[k], 2e-6) << x << "," << y << "\n"
+                                                                         << r.findings();
+    }
+}
+
+TEST(Transparency, SheetsAtOnePlaceAllDimLight) {
+    SceneText scene;
+    scene.square("s", 1.5)
+        .look("floor", "surface f() { Oi = 1; Ci = diffuse(normalize(N)); }")
+        .look("half", "surface b() { Oi = 0.5; Ci = 0; }")
+        .place("s", "floor");
+    for (int k = 0; k < 3; ++k) scene.place("s", "half", "<translate>0 0 11</translate>");
+    scene.light("sun", "<directional><color>1 1 1</color></directional>");
+    Rendering r(scene.text());
+    r.frame();
+    expect_pixel(r, {dvec3(0.125), dvec3(1)});
+}
+
 TEST(Transparency, OpacityIsConstantOrComputedAlike) {
     SceneText scene;
     scene.square("s", 1.5)

@@ -112,6 +112,57 @@ TEST_F(Points, ComeBackWhereTheyWereBaked) {
     for (int x = 2; x < 29; ++x) EXPECT_NEAR(r.color(x, 15).x, r.place(x, 15).x, 0.07) << x;
 }
 
+// A node at half the scale: its lengths are half as long in the file, too.
+TEST_F(Points, LieInTheSpaceThatCoordsystemNames) {
+    std::string file = path("o.pts");
+    const char* code =
+        "surface s() {{ Oi = 1; point o = transform(\"object\", P); color c = color(xcomp(o), "
+        "ycomp(o), zcomp(o)); {} Ci = c; }}";
+    auto frame = [&](const std::string& body, const char* place, auto&& judge) {
+        SceneText scene;
+        scene.square("sheet", 1.5).look("look", fmt::format(fmt::runtime(code), body));
+        scene.place("sheet", "look", std::string(place) + "<scale>2 2 2</scale>");
+        Rendering r(scene.text());
+        r.frame(8, 8);
+        ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+        judge(r);
+    };
+    struct Row {
+        const char* pairs;
+        double radius;
+    };
+    const double pixel = 0.25 * std::sqrt(0.5) / 2;
+    for (const Row& row :
+         {Row{"", pixel}, Row{", \"radius\", 0.5", 0.25}, Row{", \"radiusscale\", 3", 3 * pixel}}) {
+        std::string bake =
+            fmt::format("bake3d(\"{}\", \"\", P, N, \"_o\", c, \"coordsystem\", \"object\"{});",
+                        file, row.pairs);
+        frame(bake, "<translate>0.25 0.125 0</translate>", [&](Rendering& r) {
+            PointFile points = read(file);
+            ASSERT_EQ(points.count(), 64u) << r.findings();
+            for (size_t i = 0; i < 64; ++i) {
+                const float* p = points.point(i);
+                dvec2 at = r.place(int(i % 8), int(i / 8));
+                EXPECT_NEAR(p[0], (at.x - 0.25) / 2, 1e-6);
+                EXPECT_NEAR(p[1], (at.y - 0.125) / 2, 1e-6);
+                EXPECT_NEAR(p[2], 0, 1e-6);
+                EXPECT_NEAR(p[5], 1, 1e-6);
+                EXPECT_NEAR(p[6], row.radius, 1e-5);
+            }
+        });
+    }
+    // Seen two pixels farther left: its points go with the node.
+    std::string look = fmt::format(
+        "color k = -1; texture3d(\"{}\", P, N, \"_o\", k, \"coordsystem\", \"object\");"
+        " c = k - c;",
+        file);
+    frame(look, "<translate>-0.25 0.125 0</translate>", [&](Rendering& r) {
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 6; ++x)
+                for (int k = 0; k < 3; ++k) EXPECT_NEAR(r.color(x, y)[k], 0, 2e-6);
+    });
+}
+
 // bake() puts its value at s, t, wherever the surface and the camera are.
 TEST_F(Points, OfBakeLieAtTheirCoordinates) {
     std::string file = path("a.pts");

@@ -169,6 +169,55 @@ TEST(Trace, OfSeveralRaysAHitEndsBeforeTheyMultiply) {
     EXPECT_GT(r.color(0, 0).x, 5.0f);  // of at most 17
 }
 
+// Eight bounces of 16 rays would be 4e9 a pixel. Each gives half of what it sees and 0.5.
+TEST(IndirectDiffuse, OfManyBouncesEndsAndKeepsItsMean) {
+    SceneText scene;
+    const char* half =
+        "surface s() { normal n = faceforward(normalize(Ng), I); Oi = 1;"
+        " Ci = 0.5 + 0.5 * indirectdiffuse(P, n, 16); }";
+    scene.square("floor", 1.5).look("floor-look", half).place("floor", "floor-look");
+    add_box(scene, half);
+    SceneOptions options;
+    options.diffuse_depth = 8;
+    Rendering r(scene.text(), options);
+    r.frame(2, 2);
+    EXPECT_LT(r.stats.rays, 4u * 50000u);
+    EXPECT_GT(r.stats.rays, 4u * 4096u);
+    for (int k = 0; k < 4; ++k)
+        EXPECT_NEAR(r.color(k % 2, k / 2).x, 1 - std::pow(0.5, 9), 1e-5) << r.findings();
+}
+
+// A pixel of a camera of 40 degrees is 2 tan 20 / 16 high at distance 1. In the mirror and behind
+// the pane the wall is 10 + 20 away; du is a share of its 100.
+TEST(Rays, SpreadOnWithTheirDistanceInMirrorsAndPanes) {
+    const char* bodies[] = {
+        "Ci = trace(P, reflect(I, n));",
+        "Ci = trace(P, I);",
+        "color c = 0; gather(\"\", P, reflect(I, n), 0, 1, \"surface:Ci\", c) { Ci = c; }",
+        "Oi = 0; Ci = 0;",
+    };
+    for (const char* body : bodies) {
+        SCOPED_TRACE(body);
+        SceneText scene;
+        scene.cameras = R"(<camera id="eye"><optics><technique_common><perspective>
+            <yfov>40</yfov><aspect_ratio>1</aspect_ratio><znear>0.1</znear><zfar>100</zfar>
+            </perspective></technique_common></optics></camera>)";
+        scene.square("floor", 5)
+            .look("floor-look",
+                  fmt::format("surface s() {{ normal n = normalize(N); Oi = 1; {} }}", body));
+        scene.place("floor", "floor-look");
+        scene.square("wall", 50)
+            .look("wall-look", "surface w() { Oi = 1; Ci = color(du, dv, 1); }");
+        scene.place("wall", "wall-look", "<translate>0 0 20</translate><rotate>1 0 0 180</rotate>");
+        scene.place("wall", "wall-look", "<translate>0 0 -20</translate>");
+        Rendering r(scene.text());
+        r.frame();
+        double want = 30 * 2 * std::tan(kPi / 9) / 16 / 100;
+        EXPECT_NEAR(r.color(8, 8).x, want, 3e-3 * want) << r.findings();
+        EXPECT_NEAR(r.color(8, 8).y, want, 3e-3 * want);
+    }
+}
+
 TEST(Rays, AreNotShotForAFrameThatNobodyWaitsFor) {
     SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 256);"), kBlack, 0.8);
     Rendering r(scene.text());

@@ -91,13 +91,13 @@ const char* kClear = "surface pane() { Oi = 1e-30 * s; Ci = 0; }";
 const char* kCard = "surface card() { Oi = 1 + 1e-30 * s; Ci = 0.5; }";
 
 TEST(Layers, AsManyAsTheCameraSeesThroughLetLightPass) {
-    for (int n : {15, 16, 17, 31, 32}) {
+    for (int n : {16, 32, 33, 255, 256}) {
         SCOPED_TRACE(n);
         SceneText scene = panes(kMatte, kClear, n);
         Rendering clear(scene.text());
         expect_colors(clear.frame(), [](dvec2) { return dvec3(1); });
         EXPECT_EQ(clear.count("LAYER_LIMIT"), 0);
-        if (n == 32) continue;
+        if (n == 256) continue;
         Rendering blocked(add_last(scene, kCard).text());
         expect_colors(blocked.frame(), [](dvec2) { return dvec3(0); });
         EXPECT_EQ(blocked.count("LAYER_LIMIT"), 0);
@@ -106,7 +106,7 @@ TEST(Layers, AsManyAsTheCameraSeesThroughLetLightPass) {
 
 TEST(Layers, ThatAreTooManyLetNothingPassAndSaySoOnce) {
     for (const char* floor : {kMatte, kMirror}) {
-        SceneText scene = panes(floor, kClear, 33);
+        SceneText scene = panes(floor, kClear, 257);
         add_last(scene, "surface white() { Oi = 1 + 1e-30 * s; Ci = 1; }");
         Rendering r(scene.text());
         expect_colors(r.frame(), [](dvec2) { return dvec3(0); });
@@ -115,8 +115,25 @@ TEST(Layers, ThatAreTooManyLetNothingPassAndSaySoOnce) {
     }
 }
 
+TEST(Layers, OfTheCameraAreSeenThroughAndCountedWhereTheyAreTooMany) {
+    for (int n : {32, 33, 255, 256}) {
+        SCOPED_TRACE(n);
+        SceneText scene = floor_scene("surface white() { Oi = 1; Ci = 1; }");
+        scene.look("pane", kClear);
+        for (int k = 0; k < n; ++k)
+            scene.place("floor", "pane",
+                        fmt::format("<translate>0 0 {}</translate>", 1 + 0.01 * k));
+        Rendering r(scene.text());
+        r.frame();
+        bool seen = n < 256;
+        EXPECT_EQ(r.film.at(3, 5), vec4(seen ? 1.0f : 0.0f));
+        EXPECT_EQ(r.count("LAYER_LIMIT"), seen ? 0 : 1);
+        EXPECT_EQ(r.findings().find("256 rays") == std::string::npos, seen) << r.findings();
+    }
+}
+
 TEST(Layers, AreTracedAsDeepAsTheCameraSees) {
-    for (int n : {15, 16, 31}) {
+    for (int n : {16, 32, 255}) {
         SceneText scene = panes(kMirror, kClear, n);
         Rendering r(add_last(scene, kCard).text());
         expect_colors(r.frame(), [](dvec2) { return dvec3(0.5); });

@@ -7,5 +7,5 @@ volume tintedinterior(float distance = 1; color tint = color(0.75, 0.25, 0.08); 
     color through = color(pow(tint[0], way), pow(tint[1], way), pow(tint[2], way));
     float milk = 1 - exp(-murk * way);
     Ci = mix(Ci * through, murkcolor * tint, milk);
-    Oi = Oi + (color(1, 1, 1) - Oi) * milk;
+    Oi = 1 - (1 - Oi) * through * (1 - milk);
 }
