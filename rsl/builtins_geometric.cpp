@@ -230,9 +230,8 @@ const Builtin kRows[] = {
      "0 at the near, 1 at the far clipping plane."},
     {"calculatenormal", "n=p", lower::calculatenormal, KINORA_RSL_REF(ref::calculatenormal),
      kDerivative | kMakesNormals, 16,
-     "Normal of the surface with positions p: Du(p) ^ Dv(p), oriented as Ng. In shaders that call "
-     "it "
-     "P changes as on a surface with the normal N: no faces show.",
+     "Normal of the surface with positions p: Du(p) ^ Dv(p), oriented as Ng. Where a displacement "
+     "only bends normals P changes as on a surface with the normal N: no faces show.",
      kSurface | kDisplacement | kVolume, "Ng"},
 };
 

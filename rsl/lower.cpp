@@ -187,8 +187,8 @@ void Lowering::run_layer(const Layer& next) {
     ChangeFinder finder(ast());
     finder.add(shader.definition->body);
     for (const ShaderParameter& parameter : shader.parameters) finder.add(parameter.default_value);
-    bool bends_normals =
-        shader.kind == ShaderKind::Surface || layers.back().shader->kind == ShaderKind::Surface;
+    bool bends_normals = shader.kind == ShaderKind::Displacement &&
+                         layers.back().shader->kind == ShaderKind::Surface;
     if ((finder.changes.effects & kMakesNormals) && bends_normals && !live(Global::P))
         write_slot(int(Global::P), smooth_P());
     // What is written has a value from the start, so that every If can merge it.

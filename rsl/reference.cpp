@@ -391,7 +391,8 @@ void Reference<Real>::output(const std::string& name, const Item& value) {
 }
 
 // Displacements hand N and P to each other and N to surfaces; surfaces lie over those before.
-// For calculatenormal(): the slopes of P lie in the plane that N is normal to, not in the face.
+// For displacements that only bend normals: the slopes of P lie in the plane that N is normal to,
+// not in the face.
 template <class Real>
 void Reference<Real>::smooth_P() {
     Item& P = global(Global::P);
@@ -423,7 +424,7 @@ void Reference<Real>::run_layer(const Layer& next) {
     ChangeFinder finder(*shader.ast);
     finder.add(shader.definition->body);
     for (const ShaderParameter& p : shader.parameters) finder.add(p.default_value);
-    bool bends = layers_.back().shader->kind == ShaderKind::Surface;
+    bool bends = displacement && layers_.back().shader->kind == ShaderKind::Surface;
     if (bends && (finder.changes.effects & kMakesNormals) && !globals_.contains(Global::P))
         smooth_P();
     block(shader.definition->body->body);

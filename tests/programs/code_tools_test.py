@@ -172,7 +172,7 @@ class CodeTools(ProgramTest):
         self.assertRegex(out, rf"(?s)#\d+\s[^\n]*{name}.*Kernel::run.*#\d+\s[^\n]*\bmain \(", out)
 
     def test_gdb_finds_its_way_out_of_the_middle_of_a_kernel(self):
-        """At a line of the shader, at each instruction of the entry, and in a service."""
+        """At each instruction of the entry, at a line of the shader, and in a service."""
         target = self.compiled_target()
         if shutil.which("gdb") is None:
             self.skipTest("gdb is not installed")
@@ -180,11 +180,13 @@ class CodeTools(ProgramTest):
         shader = self.write("waves.sl", "surface waves() {\n  float x = sin(s * 9);\n"
                             "  Ci = texture(\"none.tex\", s + x, t);\n  Oi = 1;\n}\n")
         stops = []
-        for text in ("break waves.sl:2", "run", "backtrace", "delete", f"break *{name}", "run"):
+        for text in ("break waves.sl:2", "run"):
             stops += ["-ex", text]
         for _ in range(12):
             stops += ["-ex", "backtrace", "-ex", "stepi"]
-        stops += ["-ex", "delete", "-ex", "rbreak ^.*texture.*ServiceCall", "-ex", "continue",
+        for text in ("break waves.sl:3", "continue", "backtrace", "delete"):
+            stops += ["-ex", text]
+        stops += ["-ex", "rbreak ^.*texture.*ServiceCall", "-ex", "continue",
                   "-ex", "backtrace"]
         _, out = self.run_with("KINORA_GDB", "gdb", "-batch", "-nx", "-iex",
                                "set debuginfod enabled off", "-iex", "set confirm off",
@@ -194,7 +196,7 @@ class CodeTools(ProgramTest):
         if re.search(r"ptrace|Couldn't|not permitted|personality", out) and "Breakpoint 1," not in out:
             self.skipTest("gdb may not run programs here")
         self.expect_whole_backtrace(out, name)
-        self.assertEqual(len(re.findall(r"#\d+\s[^\n]*\bmain \(", out)) >= 13, True, out)
+        self.assertGreaterEqual(len(re.findall(r"#\d+\s[^\n]*\bmain \(", out)), 14, out)
 
     def test_a_jitdump_that_cannot_be_written_is_told(self):
         target = self.compiled_target()

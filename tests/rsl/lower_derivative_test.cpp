@@ -63,15 +63,15 @@ TEST(LowerDerivative, CalculatednormalTakesItsSideFromNg) {
     EXPECT_EQ(shader.value("Ci.r"), -1);
 }
 
-// The faces of a smooth mesh do not show: where N leans, so does what is made of P. The plane with
-// the normal n = (3/5, 0, 4/5) and the height 0.5 u over it.
-TEST(LowerDerivative, CalculatednormalBendsTheNormalThatIsInterpolated) {
-    const char* kShow =
-        "{ normal n = normalize(calculatenormal(Q)); Ci = color(n.vector(1, 0, 0),"
-        " n.vector(0, 1, 0), n.vector(0, 0, 1)); }";
+// A displacement that only bends normals shows no faces of a smooth mesh: where N leans, so does
+// what is made of P. N is along n = (3/5, 0, 4/5); without and with a height of v / 2 over it.
+TEST(LowerDerivative, BumpsBendTheNormalThatIsInterpolated) {
     for (bool bumped : {false, true}) {
-        std::string Q = bumped ? "P + 0.5 * v * normalize(N)" : "P";
-        OnPlane shader("surface t() { point Q = " + Q + "; " + kShow + " }");
+        std::string P = bumped ? "P + 0.5 * v * normalize(N)" : "P";
+        OnPlane shader("displacement d() { N = calculatenormal(" + P +
+                           "); } surface t() { normal n = normalize(N);"
+                           " Ci = color(xcomp(n), ycomp(n), zcomp(n)); }",
+                       true);
         shader.set3("N", 1.2f, 0, 1.6f);
         auto out = shader.run();
         // Slopes (1, 0, 0) - n 3/5 and (0, 1, 0) [+ n / 2]: their product is n 4/5 [- (0, 2/5, 0)].
@@ -80,14 +80,37 @@ TEST(LowerDerivative, CalculatednormalBendsTheNormalThatIsInterpolated) {
         EXPECT_NEAR(out["Ci.g"][0], bumped ? -0.4 / length : 0, 1e-6);
         EXPECT_NEAR(out["Ci.b"][0], 0.64 / length, 1e-6);
     }
-    OnPlane stack(
-        "displacement d() { N = calculatenormal(P); } surface t() { Ci = zcomp(N) / length(N); }",
-        true);
-    stack.set3("N", 1.2f, 0, 1.6f);
-    EXPECT_NEAR(stack.value("Ci.r"), 0.8, 1e-6);
-    OnPlane plain("surface t() { Ci = color(Du(xcomp(P)), area(P), 0); }");
-    plain.set3("N", 1.2f, 0, 1.6f);
-    EXPECT_EQ(plain.value("Ci.r"), 1);
+}
+
+// A flat map of heights leaves the normal that it is given; one that rises by 1 over s tilts it.
+TEST(LowerDerivative, BumpBendsTheNormalGiven) {
+    for (float rise : {0.0f, 1.0f}) {
+        OnPlane shader(
+            "surface t() { normal n = normalize(bump(\"a\", N, dPdu, dPdv, u, v));"
+            " Ci = color(xcomp(n), ycomp(n), zcomp(n)); }");
+        static float slope;
+        slope = rise;
+        shader.services["texture"] = [](const jit::ServiceCall& call) {
+            for (int k = 0; k < jit::kMaxLanes; ++k)
+                call.results[k] = slope * call.args[2 * jit::kMaxLanes + k];
+        };
+        shader.set3("N", 1.2f, 0, 1.6f);
+        auto out = shader.run();
+        // n + rise (n ^ dPdv), n = (3/5, 0, 4/5): n ^ (0, 1, 0) = (-4/5, 0, 3/5).
+        double length = std::sqrt(1.0 + rise);
+        EXPECT_NEAR(out["Ci.r"][0], (0.6 - 0.8 * rise) / length, 1e-5);
+        EXPECT_NEAR(out["Ci.g"][0], 0, 1e-6);
+        EXPECT_NEAR(out["Ci.b"][0], (0.8 + 0.6 * rise) / length, 1e-5);
+    }
+}
+
+TEST(LowerDerivative, SurfacesSeeTheFacesOfP) {
+    OnPlane shader("surface t() { Ci = color(zcomp(calculatenormal(P)), Du(xcomp(P)), area(P)); }");
+    shader.set3("N", 1.2f, 0, 1.6f);
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 1);
+    EXPECT_EQ(out["Ci.g"][0], 1);
+    EXPECT_EQ(out["Ci.b"][0], 0.125f);
 }
 
 // DESIGN.md decision 8: texture and environment return their gradients.

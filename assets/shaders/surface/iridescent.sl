@@ -4,7 +4,9 @@ surface iridescent(float Ka = 0.8; float Kd = 0.55; float Ks = 0.7; float roughn
                    float hue = 0.36; float range = 0.52; float saturation = 0.85;
                    float Kr = 0.4; float bumps = 0.02;) {
     point Q = transform("object", P);
-    normal Nn = calculatenormal(P + bumps * float noise(5 * Q) * normalize(N));
+    /* The bend of the faces, laid on the smooth normal. */
+    normal Nn = normalize(N) - normalize(calculatenormal(P)) +
+        normalize(calculatenormal(P + bumps * float noise(5 * Q) * normalize(N)));
     normal Nf = faceforward(normalize(Nn), I);
     vector In = normalize(I);
     float facing = clamp(-(Nf . In), 0, 1);

@@ -29,7 +29,8 @@ surface rustymetal(float Ka = 1; float Kd = 0.8; float Ks = 0.5; float rust = 0.
     float pits = float noise(38 * Q) * deep;
 
     /* Paint is a film with an edge; rust is a crust. */
-    normal Nn = calculatenormal(P + normalize(N) * (0.014 * (1 - bare) + 0.012 * deep * pits));
+    normal Nn = normalize(N) - normalize(calculatenormal(P)) +
+        normalize(calculatenormal(P + normalize(N) * (0.014 * (1 - bare) + 0.012 * deep * pits)));
     normal Nf = faceforward(normalize(Nn), I);
     vector V = -normalize(I);
 
