@@ -9,7 +9,9 @@ surface skin(float Ka = 1; float Kd = 0.95; float oil = 0.22; float roughness = 
              color frecklecolor = color(0.38, 0.17, 0.09);) {
     point Q = transform("shader", P);
     float fine = scaled_noise(Q, 70);
-    normal Np = calculatenormal(P - pores * fine * normalize(N));
+    /* The bend of the faces, laid on the smooth normal. */
+    normal Np = normalize(N) - normalize(calculatenormal(P)) +
+        normalize(calculatenormal(P - pores * fine * normalize(N)));
     normal Nf = faceforward(normalize(Np), I);
     normal Nsmooth = faceforward(normalize(N), I);
     vector V = -normalize(I);
