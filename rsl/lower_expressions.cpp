@@ -1,4 +1,6 @@
 // rsl/lower_expressions.cpp: expressions and calls as IR values.
+#include <fmt/format.h>
+
 #include "rsl/lower_p.h"
 #include "rsl/pairs.h"
 
@@ -334,10 +336,26 @@ Target* LowerCall::output_pair(std::string_view name) {
     return nullptr;
 }
 
+// Whether there is room for one more body in place of a call: functions that call others twice
+// double at each level.
+bool Lowering::may_grow(const CallExpr& e) {
+    constexpr size_t kMostOperations = 1 << 18;
+    size_t operations = 0;
+    for (const jit::Function& function : b.module().functions) operations += function.insts.size();
+    if (operations > kMostOperations && !failed)
+        error(
+            Code::RSL_NOT_COMPILED, e.place.where,
+            fmt::format("a shader of more than {} operations with its functions in place of their "
+                        "calls",
+                        kMostOperations));
+    return !failed;
+}
+
 // The body in place of the call. A variable that is an output argument is the parameter while the
 // body runs; elements and components are copied in and out. Other parameters are values.
 Lowered Lowering::call_function(const CallExpr& e) {
     const Function& f = *e.function;
+    if (!may_grow(e)) return zero(e.type.base == BaseType::Void ? BaseType::Float : e.type.base);
     CallArguments arguments{std::vector<Lowered>(e.args.size()), std::vector<Target>(e.args.size()),
                             std::vector<int>(e.args.size(), -1)};
     auto& [values, targets, arrays] = arguments;

@@ -354,6 +354,7 @@ class Lowering : public Emitter {
     int outside_slot(const Outside& outside) const;
     void store_outside(const Outside& outside, const std::vector<Lowered>& values);
     std::vector<Lowered> outside_values(const Outside& outside);
+    bool may_grow(const CallExpr& e);
     int array_argument(const CallExpr& e, size_t k);
     void return_from(const ReturnStmt& stmt);
     Space variable_space(Value name);

@@ -1,5 +1,6 @@
 // tests/rsl/lower_control_test.cpp: branches, loops, jumps, functions and arrays as compiled, with
 // lanes that go different ways.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -93,6 +94,17 @@ TEST(LowerControl, FunctionsReturnFromAnywhere) {
         },
         "float f(float x;) { float i; if (x < 3) return 10; for (i = 0; i < 100; i += 1) { "
         "if (i * i > x) return i; } return -1; }\n");
+}
+
+TEST(LowerControl, FunctionsThatDoubleAtEachLevelAreAnError) {
+    std::string source = "float f0(float x) { return x + 1; }\n";
+    for (int k = 1; k <= 40; ++k)
+        source += fmt::format("float f{0}(float x) {{ return f{1}(x * 0.5) + f{1}(x + 0.1); }}\n",
+                              k, k - 1);
+    RunShader deep(source + "surface t() { Ci = f40(s); }");
+    EXPECT_FALSE(deep.ok());
+    EXPECT_NE(deep.findings().find("functions in place of their calls"), std::string::npos);
+    EXPECT_TRUE(RunShader(source + "surface t() { Ci = f10(s); }").ok());
 }
 
 TEST(LowerControl, OutputParametersAreCopiedBack) {
