@@ -30,7 +30,8 @@ Place place(LowerCall& c, int at) {
     Value name = c.has_pair("coordsystem") ? c.text_pair("coordsystem") : c.b.i(intern("world"));
     const std::string* text = e.constant_text(name);
     // The renderer's own way to world space, in double, but that it takes current for the camera's.
-    if (text && (*text == "world" || text->empty()) && !e.options.of_vertices) return place;
+    bool of_camera = !e.options.of_vertices && !e.bends_normals();
+    if (text && (*text == "world" || text->empty()) && of_camera) return place;
     if (text && text->empty()) name = c.b.i(intern("world"));
     auto space = e.space(name, c.where());
     place.P = e.from_current(lowered(BaseType::Point, place.P), space).v3();

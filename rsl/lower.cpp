@@ -36,6 +36,7 @@ class Stack {
         bool displacement = layer.shader->kind == ShaderKind::Displacement ||
                             layer.shader->kind == ShaderKind::Transformation;
         for (size_t g = 0; g < size_t(Global::Count); ++g) low_.kill(Global(g));
+        if (!displacement) bring_back();
         low_.layer = &layer;
         low_.layer_index = size_t(&layer - layers_.data());
         if (have_N_) low_.write_slot(int(Global::N), N_);
@@ -52,13 +53,26 @@ class Stack {
         low_.run_layer(layer);
         if (low_.failed) return;
         left_N_ = low_.read_global(Global::N);
-        left_P_ = displacement ? low_.read_global(Global::P) : left_P_;
         if (displacement) {
-            N_ = left_N_, P_ = left_P_;
+            N_ = left_N_, P_ = low_.read_global(Global::P);
             have_N_ = have_P_ = true;
+            bends_ = low_.bends_normals() ? &layer : nullptr;
         } else if (layer.shader->kind != ShaderKind::Light) {
             composite();
         }
+    }
+
+    // N and P of displacements that bend normals, for the surfaces: in the kernel's current.
+    void bring_back() {
+        if (!bends_) return;
+        const Layer* surface = std::exchange(low_.layer, std::exchange(bends_, nullptr));
+        bool same_N = N_.c == low_.given_N.c, same_P = P_.c == low_.given_P.c;
+        V3 N = low_.out_of_layer(N_).v3();  // as long as it was
+        Value size = low_.div(low_.length(N_.v3()), low_.length(N));
+        if (!same_N) N_ = lowered(BaseType::Normal, low_.scale(N, size));
+        if (!same_P) P_ = low_.out_of_layer(P_);
+        low_.layer = surface;
+        have_N_ = !same_N, have_P_ = !same_P;
     }
 
     // The new layer over those before: Ci is premultiplied by Oi.
@@ -152,7 +166,8 @@ class Stack {
     std::span<const Layer> layers_;
     Lowered N_, P_;  // as the displacements left them
     bool have_N_ = false, have_P_ = false;
-    Lowered left_N_, left_P_;
+    Lowered left_N_;
+    const Layer* bends_ = nullptr;  // the last layer, if it is one whose current is the object's
     V3 Ci_{}, Oi_{};
     Value alpha_ = jit::kNone;  // imagers
     bool have_surface_ = false;
@@ -176,8 +191,8 @@ void Lowering::declare_layer(const Layer& next) {
     enter_layer();
     for (const ShaderParameter& p : next.shader->parameters)
         if (!p.type.is_array())
-            messages.push_back(
-                {next.shader->kind, std::string(p.name), p.type, parameter(*p.symbol), -1});
+            messages.push_back({next.shader->kind, std::string(p.name), p.type,
+                                parameter(*p.symbol), -1, bends_normals()});
 }
 
 void Lowering::run_layer(const Layer& next) {
@@ -187,10 +202,13 @@ void Lowering::run_layer(const Layer& next) {
     ChangeFinder finder(ast());
     finder.add(shader.definition->body);
     for (const ShaderParameter& parameter : shader.parameters) finder.add(parameter.default_value);
-    bool bends_normals = shader.kind == ShaderKind::Displacement &&
-                         layers.back().shader->kind == ShaderKind::Surface;
-    if ((finder.changes.effects & kMakesNormals) && bends_normals && !live(Global::P))
-        write_slot(int(Global::P), smooth_P());
+    if (bends_normals() && !live(Global::P)) {
+        given_N = global_input(Global::N);
+        bool makes_normals = finder.changes.effects & kMakesNormals;
+        given_P = makes_normals ? smooth_P(given_N) : global_input(Global::P);
+        write_slot(int(Global::N), given_N);
+        write_slot(int(Global::P), given_P);
+    }
     // What is written has a value from the start, so that every If can merge it.
     for (const Symbol* symbol : finder.changes.symbols)
         if (symbol->global && !live(symbol->global->id))
@@ -207,7 +225,8 @@ void Lowering::run_layer(const Layer& next) {
     }
     block(shader.definition->body->body);
     for (const ShaderParameter& parameter : shader.parameters) {
-        Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
+        Message message{
+            shader.kind, std::string(parameter.name), parameter.type, {}, -1, bends_normals()};
         bool last = layer == &layers.back() && options.messages.empty() && options.aovs.empty();
         if (!parameter.type.is_array())
             message.value = read(*parameter.symbol);
@@ -220,10 +239,12 @@ void Lowering::run_layer(const Layer& next) {
 }
 
 std::vector<Lowered> Lowering::message_values(const Message& message) {
-    if (message.array < 0) return {message.value};
     std::vector<Lowered> values;
-    for (int k = 0; k < message.type.array_length; ++k)
+    for (int k = 0; message.array >= 0 && k < message.type.array_length; ++k)
         values.push_back(load_element(message.array, b.i(k)));
+    if (message.array < 0) values.push_back(message.value);
+    for (Lowered& value : values)
+        if (message.in_object) value = from_object(value);
     return values;
 }
 

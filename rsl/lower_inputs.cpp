@@ -103,13 +103,13 @@ bool Lowering::is_input(const V3& v, const char* name) {
 
 // For displacements that only bend normals: P whose slopes lie in the plane that N is normal to, not
 // in that of the face. What calculatenormal() makes of it is N bent, and shows no faces.
-Lowered Lowering::smooth_P() {
+Lowered Lowering::smooth_P(const Lowered& N) {
     auto fixed = [&](const V3& v) {  // without slopes of its own
         return V3{b.op(jit::Op::WithSlope, v[0], b.f(0)), b.op(jit::Op::WithSlope, v[1], b.f(0)),
                   b.op(jit::Op::WithSlope, v[2], b.f(0))};
     };
     V3 P = global_input(Global::P).v3();
-    V3 n = fixed(normalize(read_global(Global::N).v3()));
+    V3 n = fixed(normalize(N.v3()));
     V3 way{b.f(0), b.f(0), b.f(0)};  // its slopes are those of P
     for (auto [edge, along] :
          {std::pair(Global::dPdu, Global::u), std::pair(Global::dPdv, Global::v)}) {
@@ -138,7 +138,15 @@ static Lowered light_global(Lowering& low, const GlobalInfo& info) {
     return low.zero(info.type.base);
 }
 
+// Normals of length 1 stay so in the object's space: true displacement hands those.
 Lowered Lowering::global_input(Global id) {
+    Lowered x = kernel_input(id);
+    if (!bends_normals() || !is_spatial(x.type)) return x;
+    x = into_layer(x);
+    return x.type == BaseType::Normal ? lowered(x.type, normalize(x.v3())) : x;
+}
+
+Lowered Lowering::kernel_input(Global id) {
     const GlobalInfo& info = global_info(id);
     BaseType type = info.type.base;
     bool light = kind() == ShaderKind::Light;
@@ -182,8 +190,14 @@ jit::InputInfo Lowering::element_input(std::string_view name, BaseType type,
     return {text, t, jit::Rate::Point, text + ":du", text + ":dv"};
 }
 
-// A binding's value; `element` of an array type.
+// A binding's value, in the layer's current; `element` of an array type.
 Lowered Lowering::bound_value(const ParamBinding& bound, std::string_view name, Type type,
+                              int element) {
+    Lowered value = bound_input(bound, name, type, element);
+    return bound.kind == ParamBinding::Kind::Varying ? from_object(value) : into_layer(value);
+}
+
+Lowered Lowering::bound_input(const ParamBinding& bound, std::string_view name, Type type,
                               int element) {
     Lowered result = zero(type.base);
     size_t n = size_t(result.size());

@@ -115,11 +115,13 @@ class Lowering : public Emitter {
     void run_layer(const Layer& next);
     void declare_layer(const Layer& next);    // a layer that is done: its parameters only
     Lowered parameter(const Symbol& symbol);  // its first value
+    // What displacements that bend normals were given, to tell whether they changed it.
+    Lowered given_N, given_P;
 
     // lower_variables.cpp, lower_inputs.cpp: slots, arrays, targets.
     Lowered read(const Symbol& symbol);
     Lowered read_global(Global id);
-    Lowered smooth_P();
+    Lowered smooth_P(const Lowered& N);
     void write_slot(int slot, const Lowered& value);
     Lowered read_slot(int slot) { return slots_[size_t(slot)].value; }
     bool live(Global id) const { return slots_[size_t(id)].live; }
@@ -135,7 +137,7 @@ class Lowering : public Emitter {
     std::vector<Lowered> array_values(const Expr& array);  // all elements
     void set_array(const Expr& array, std::span<const Lowered> values);
     Lowered zero(BaseType type);
-    Lowered global_input(Global id);  // as the kernel receives it
+    Lowered global_input(Global id);  // in the layer's "current"
     Lowered input(const std::string& name, BaseType type, jit::Rate rate,
                   const std::string& du = "", const std::string& dv = "");
     Value scalar_input(const std::string& name, jit::Type type, jit::Rate rate);
@@ -240,6 +242,7 @@ class Lowering : public Emitter {
         Lowered to_current, from_current;
     };
     Space space(Value name, Location where);
+    bool is_affine(const Lowered& m);                   // known to be
     V3 transform_point(const V3& p, const Lowered& m);  // divided by w unless m is affine
     V3 transform_vector(const V3& v, const Lowered& m);
     V3 transform_normal(const V3& n, const Lowered& inverse);  // by the transpose of the inverse
@@ -249,6 +252,12 @@ class Lowering : public Emitter {
     // Out of the space into current, or the other way, as the type of x does it.
     Lowered to_current(const Lowered& x, const Space& from);
     Lowered from_current(const Lowered& x, const Space& to);
+    // A displacement's "current" is the object's space. Where it is joined with surfaces, the
+    // kernel's is the camera's: what it reads is brought over, and what it leaves is brought back.
+    bool bends_normals() const;
+    Lowered into_layer(const Lowered& x);  // the kernel's current -> the layer's
+    Lowered out_of_layer(const Lowered& x);
+    Lowered from_object(const Lowered& x);  // what the mesh brings, in the layer's current
     Lowered color_space(const Lowered& color, std::string_view from, std::string_view to,
                         Location where);
 
@@ -277,10 +286,11 @@ class Lowering : public Emitter {
         std::string name;
         Type type;
         Lowered value;
-        int array = -1;  // index in Lowering's arrays
+        int array = -1;          // index in Lowering's arrays
+        bool in_object = false;  // of a layer whose current is the object's space
     };
     std::vector<Message> messages;
-    // The elements of a message; one if it is no array.
+    // The elements of a message, in the layer's current; one if it is no array.
     std::vector<Lowered> message_values(const Message& message);
     std::span<const Layer> layers;  // the whole stack
 
@@ -357,11 +367,15 @@ class Lowering : public Emitter {
     bool may_grow(const CallExpr& e);
     int array_argument(const CallExpr& e, size_t k);
     void return_from(const ReturnStmt& stmt);
+    Space kernel_space(Value name, Location where);  // in terms of the kernel's current
+    Space input_space(const std::string& name);
     Space variable_space(Value name);
     void unknown_space(const std::string& name, Location where);
     Lowered change_space(const Lowered& x, bool identity, const Lowered& m, const Lowered& inverse);
     const ParamBinding* binding(std::string_view name) const;
     Lowered bound_value(const ParamBinding& bound, std::string_view name, Type type, int element);
+    Lowered bound_input(const ParamBinding& bound, std::string_view name, Type type, int element);
+    Lowered kernel_input(Global id);
     jit::InputInfo element_input(std::string_view name, BaseType type, const ParamBinding& bound,
                                  int element, int component);
     Value pick(const V3& v, Value component);

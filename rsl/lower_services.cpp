@@ -5,7 +5,8 @@ namespace kinora::rsl {
 
 namespace {
 
-// Signatures as rsl/renderer_services.h lists them: i int, f float, a digit repeats what follows.
+// Signatures as rsl/renderer_services.h lists them: i int, f float; p, v, n the three floats of a
+// point, vector or normal in the kernel's "current".
 struct ServiceRow {
     std::string_view name;
     std::string params;
@@ -13,20 +14,20 @@ struct ServiceRow {
     bool pure;
 };
 const ServiceRow kServices[] = {
-    {"lights", "fff", "i", true},
+    {"lights", "p", "i", true},
     {"texture", "iffffffffffif", "ffff", true},
-    {"environment", "iffffffffffff", "ffff", true},
-    {"shadow", "iffffffffffff", "fff", true},
+    {"environment", "ifvvvff", "ffff", true},
+    {"shadow", "ipvvfff", "fff", true},
     {"textureinfo", "ii", "iffffffffffffffff", true},
-    {"trace", "iiffffffffffi", "ffff", true},
-    {"transmission", "iifffffffff", "fff", true},
-    {"occlusion", "iiffffffffffff", "ffff", true},
-    {"indirectdiffuse", "iiffffffffffi", "fff", true},
-    {"gather", "iiiiffffffffffii", "i", false},
+    {"trace", "iipvffffi", "ffff", true},
+    {"transmission", "iippfff", "fff", true},
+    {"occlusion", "iipnffffff", "fv", true},
+    {"indirectdiffuse", "iipnffffi", "fff", true},
+    {"gather", "iiiipvffffii", "i", false},
     {"query", "iiiiii", "iffffffffffffffff", true},
     {"bake3d", "iii" + std::string(8 + kPointFloats, 'f'), "", false},
     {"texture3d", "iifffffff", "i" + std::string(kPointFloats, 'f'), true},
-    {"photons", "iiiffffff", "fff", true},
+    {"photons", "iiipn", "fff", true},
     {"transform", "i", "ffffffffffffffffffffffff", true},
     {"print", "iffffffffffffffff", "", false},
     {"concat", "ii", "i", true},
@@ -34,10 +35,36 @@ const ServiceRow kServices[] = {
     {"match", "ii", "f", true},
 };
 
+// What of a signature is a triple in space; Float: a number.
+BaseType spatial(char letter) {
+    return letter == 'p'   ? BaseType::Point
+           : letter == 'v' ? BaseType::Vector
+           : letter == 'n' ? BaseType::Normal
+                           : BaseType::Float;
+}
+
 std::vector<jit::Type> types(std::string_view letters) {
     std::vector<jit::Type> result;
-    for (char c : letters) result.push_back(c == 'i' ? jit::Type::I : jit::Type::F);
+    for (char c : letters)
+        result.insert(result.end(), size_t(component_count(spatial(c))),
+                      c == 'i' ? jit::Type::I : jit::Type::F);
     return result;
+}
+
+// body(triple) for each triple among the values, which may change it.
+template <class Body>
+void for_each_place(std::string_view letters, std::span<Value> values, Body&& body) {
+    size_t at = 0;
+    for (char c : letters) {
+        Lowered x{spatial(c), {}};
+        size_t width = size_t(x.size());
+        if (is_spatial(x.type)) {
+            std::copy_n(&values[at], width, x.c.begin());
+            x = body(x);
+            std::copy_n(x.c.begin(), width, &values[at]);
+        }
+        at += width;
+    }
 }
 
 }  // namespace
@@ -47,7 +74,12 @@ std::vector<Value> Lowering::service(std::string_view name, std::span<const Valu
         if (row.name != name) continue;
         int slot =
             b.declare_service({std::string(name), types(row.params), types(row.results), row.pure});
-        return b.service(slot, running, args);
+        if (!bends_normals()) return b.service(slot, running, args);
+        std::vector<Value> given(args.begin(), args.end());
+        for_each_place(row.params, given, [&](const Lowered& x) { return out_of_layer(x); });
+        std::vector<Value> answer = b.service(slot, running, given);
+        for_each_place(row.results, answer, [&](const Lowered& x) { return into_layer(x); });
+        return answer;
     }
     CHECK(false);
     return {};

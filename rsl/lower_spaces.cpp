@@ -10,6 +10,9 @@ namespace {
 constexpr std::string_view kProjective[] = {"screen", "NDC", "raster"};
 constexpr std::string_view kStandard[] = {"world", "object", "shader", "screen", "NDC", "raster"};
 
+// Of displacements, as true displacement has it: the object's own space.
+constexpr std::string_view kOfObject[] = {"current", "object", "shader"};
+
 template <class List>
 bool contains(const List& list, std::string_view name) {
     return std::find(std::begin(list), std::end(list), name) != std::end(list);
@@ -17,9 +20,17 @@ bool contains(const List& list, std::string_view name) {
 
 }  // namespace
 
-// The inputs hold matrices on column vectors, RSL's are on row vectors: row and column change
-// places.
 Lowering::Space Lowering::space(Value name, Location where) {
+    if (!bends_normals()) return kernel_space(name, where);
+    const std::string* text = constant_text(name);
+    if (text && contains(kOfObject, *text)) return {};
+    Space object = input_space("object"), other = kernel_space(name, where);
+    if (other.identity) return {false, object.from_current, object.to_current};
+    return {false, multiply(other.to_current, object.from_current),
+            multiply(object.to_current, other.from_current)};
+}
+
+Lowering::Space Lowering::kernel_space(Value name, Location where) {
     const std::string* text = constant_text(name);
     if (!text) return variable_space(name);
     if (*text == "current" || (*text == "camera" && !options.of_vertices)) return {};
@@ -28,19 +39,45 @@ Lowering::Space Lowering::space(Value name, Location where) {
         unknown_space(*text, where);
         return {};
     }
-    bool of_point = kind() != ShaderKind::Light && (*text == "object" || *text == "shader");
-    bool projective = contains(kProjective, *text);
+    return input_space(*text);
+}
+
+// The inputs hold matrices on column vectors, RSL's are on row vectors: row and column change
+// places.
+Lowering::Space Lowering::input_space(const std::string& name) {
+    bool of_point = kind() != ShaderKind::Light && (name == "object" || name == "shader");
+    bool projective = contains(kProjective, name);
     auto matrix = [&](const char* direction) {
         Lowered m = convert(lowered(BaseType::Float, b.f(1)), BaseType::Matrix);
         for (int row = 0; row < 4; ++row)
             for (int column = 0; column < (projective ? 4 : 3); ++column)
                 m.c[size_t(row * 4 + column)] =
-                    scalar_input("space:" + *text + ":" + direction + ":" + std::to_string(column) +
+                    scalar_input("space:" + name + ":" + direction + ":" + std::to_string(column) +
                                      std::to_string(row),
                                  jit::Type::F, of_point ? jit::Rate::Point : jit::Rate::Frame);
         return m;
     };
     return {false, matrix("to_current"), matrix("from_current")};
+}
+
+bool Lowering::bends_normals() const {
+    return kind() == ShaderKind::Displacement &&
+           layers.back().shader->kind == ShaderKind::Surface;
+}
+
+Lowered Lowering::into_layer(const Lowered& x) {
+    if (!bends_normals() || !is_spatial(x.type)) return x;
+    return from_current(x, input_space("object"));
+}
+
+Lowered Lowering::out_of_layer(const Lowered& x) {
+    if (!bends_normals() || !is_spatial(x.type)) return x;
+    return to_current(x, input_space("object"));
+}
+
+Lowered Lowering::from_object(const Lowered& x) {
+    if (options.of_vertices || bends_normals() || !is_spatial(x.type)) return x;
+    return to_current(x, input_space("object"));
 }
 
 void Lowering::unknown_space(const std::string& name, Location where) {
@@ -66,15 +103,18 @@ Lowering::Space Lowering::variable_space(Value name) {
     return {false, matrix(0), matrix(12)};
 }
 
+bool Lowering::is_affine(const Lowered& m) {
+    float one = 0;
+    return is_zero(m.c[3]) && is_zero(m.c[7]) && is_zero(m.c[11]) &&
+           b.constant_f(m.c[15], &one) && one == 1;
+}
+
 V3 Lowering::transform_point(const V3& p, const Lowered& m) {
     auto column = [&](size_t k) {
         return fma(p[0], m.c[k], fma(p[1], m.c[4 + k], fma(p[2], m.c[8 + k], m.c[12 + k])));
     };
     V3 q = {column(0), column(1), column(2)};
-    float one = 0;
-    bool affine = is_zero(m.c[3]) && is_zero(m.c[7]) && is_zero(m.c[11]) &&
-                  b.constant_f(m.c[15], &one) && one == 1;
-    if (affine) return q;
+    if (is_affine(m)) return q;
     Value w = column(3);
     return {div(q[0], w), div(q[1], w), div(q[2], w)};
 }

@@ -264,9 +264,21 @@ void Reference<Real>::smooth_P() {
 }
 
 template <class Real>
+void Reference<Real>::bring_back_N() {
+    Item& N = global(Global::N);
+    bool same = true;
+    for (size_t k = 0; k < 3; ++k) same = same && N.c[k].x == given_N_.c[k].x;
+    if (same) return void(globals_.erase(Global::N));
+    Vec<Real> n = vec(out_of_layer(N));  // as long as it was
+    Number size = length(vec(N)) / length(n);
+    N = {BaseType::Normal, n[0] * size, n[1] * size, n[2] * size};
+}
+
+template <class Real>
 void Reference<Real>::run_layer(const Layer& next) {
     const Shader& shader = *next.shader;
     bool displacement = shader.kind == ShaderKind::Displacement;
+    if (!displacement && layer && bends_normals()) bring_back_N();
     std::map<Global, Item> kept;
     for (auto& [id, value] : globals_)
         if (id == Global::N || (id == Global::P && displacement)) kept[id] = value;
@@ -287,14 +299,17 @@ void Reference<Real>::run_layer(const Layer& next) {
     for (const Stmt* source : finder.changes.light_sources)
         sources_.push_back(
             {source, Item(BaseType::Vector), Item(BaseType::Color), Item(BaseType::Color), false});
-    bool bends = displacement && layers_.back().shader->kind == ShaderKind::Surface;
-    if (bends && (finder.changes.effects & kMakesNormals) && !globals_.contains(Global::P))
-        smooth_P();
+    if (bends_normals() && !globals_.contains(Global::P)) {
+        given_N_ = global(Global::N);
+        global(Global::P);
+        if (finder.changes.effects & kMakesNormals) smooth_P();
+    }
     block(shader.definition->body->body);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {
-            output("aov:" + std::string(p.name), variables_[p.symbol][0]);
-            output("message:" + std::string(p.name), variables_[p.symbol][0]);
+            Item left = out_of_layer(variables_[p.symbol][0]);
+            output("aov:" + std::string(p.name), left);
+            output("message:" + std::string(p.name), left);
         }
     if (displacement || shader.kind == ShaderKind::Light) return;
     Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));

@@ -55,6 +55,14 @@ auto Reference<Real>::input(const std::string& name, BaseType type, const std::s
 
 template <class Real>
 auto Reference<Real>::first_value(Global id) -> Item {
+    Item x = into_layer(kernel_value(id));
+    if (!bends_normals() || x.type != BaseType::Normal) return x;
+    Vec<Real> n = normalize(vec(x));
+    return {x.type, n[0], n[1], n[2]};
+}
+
+template <class Real>
+auto Reference<Real>::kernel_value(Global id) -> Item {
     const GlobalInfo& info = global_info(id);
     BaseType type = info.type.base;
     if (id == Global::PI) return spread(type, Real(3.14159265358979323846));
@@ -79,9 +87,9 @@ auto Reference<Real>::first_value(Global id) -> Item {
         case Global::ncomps:
             return spread(type, Real(3));
         case Global::Ps:
-            return light_shader ? input("Ps", type) : first_value(Global::P);
+            return light_shader ? input("Ps", type) : kernel_value(Global::P);
         case Global::Ns:
-            return light_shader ? input("Ns", type) : first_value(Global::N);
+            return light_shader ? input("Ns", type) : kernel_value(Global::N);
         default:
             break;
     }
@@ -126,8 +134,8 @@ auto Reference<Real>::parameter(const Symbol& symbol, int element) -> Item {
     }
     std::string name = "param:" + std::to_string(layer_index) + ":" + std::string(symbol.name);
     if (element >= 0) name += "[" + std::to_string(element) + "]";
-    if (bound->kind == ParamBinding::Kind::Frame) return input(name, type);
-    return input(name, type, ":du", ":dv");
+    if (bound->kind == ParamBinding::Kind::Frame) return into_layer(input(name, type));
+    return from_object(input(name, type, ":du", ":dv"));
 }
 
 template <class Real>
@@ -144,10 +152,46 @@ auto Reference<Real>::array_parameter(const Symbol& symbol) -> std::vector<Item>
     return items;
 }
 
+namespace {
+
+// Where places, directions and normals stand among a service's arguments (results: -1 - index).
+struct Triple {
+    std::string_view service;
+    int at;
+    BaseType type;
+};
+constexpr Triple kTriples[] = {
+    {"environment", 2, BaseType::Vector},     {"environment", 5, BaseType::Vector},
+    {"environment", 8, BaseType::Vector},     {"shadow", 1, BaseType::Point},
+    {"shadow", 4, BaseType::Vector},          {"shadow", 7, BaseType::Vector},
+    {"trace", 2, BaseType::Point},            {"trace", 5, BaseType::Vector},
+    {"transmission", 2, BaseType::Point},     {"transmission", 5, BaseType::Point},
+    {"occlusion", 2, BaseType::Point},        {"occlusion", 5, BaseType::Normal},
+    {"occlusion", -2, BaseType::Vector},      {"indirectdiffuse", 2, BaseType::Point},
+    {"indirectdiffuse", 5, BaseType::Normal}, {"gather", 4, BaseType::Point},
+    {"gather", 7, BaseType::Vector},          {"photons", 3, BaseType::Point},
+    {"photons", 6, BaseType::Normal},
+};
+
+}  // namespace
+
 template <class Real>
-std::vector<double> Reference<Real>::service(std::string_view name,
-                                             std::vector<double> args) const {
-    return in.service ? in.service(name, args) : std::vector<double>{};
+std::vector<double> Reference<Real>::service(std::string_view name, std::vector<double> args) {
+    if (!in.service) return {};
+    auto move = [&](std::vector<double>& numbers, bool results) {
+        for (const Triple& t : kTriples) {
+            size_t at = size_t(t.at < 0 ? -1 - t.at : t.at);
+            if (t.service != name || (t.at < 0) != results || at + 3 > numbers.size()) continue;
+            Item x(t.type);
+            for (size_t k = 0; k < 3; ++k) x.c[k] = Number(Real(numbers[at + k]));
+            x = results ? into_layer(x) : out_of_layer(x);
+            for (size_t k = 0; k < 3; ++k) numbers[at + k] = double(x.c[k].x);
+        }
+    };
+    if (bends_normals()) move(args, false);
+    std::vector<double> answer = in.service(name, args);
+    if (bends_normals()) move(answer, true);
+    return answer;
 }
 
 #define KINORA_INPUT_METHODS(Real)                                                               \
@@ -155,10 +199,10 @@ std::vector<double> Reference<Real>::service(std::string_view name,
     template auto Reference<Real>::input(const std::string&, BaseType, const std::string&,       \
                                          const std::string&) const->Item;                        \
     template auto Reference<Real>::first_value(Global)->Item;                                    \
+    template auto Reference<Real>::kernel_value(Global)->Item;                                   \
     template auto Reference<Real>::parameter(const Symbol&, int)->Item;                          \
     template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;            \
-    template std::vector<double> Reference<Real>::service(std::string_view, std::vector<double>) \
-        const;
+    template std::vector<double> Reference<Real>::service(std::string_view, std::vector<double>);
 KINORA_INPUT_METHODS(float)
 KINORA_INPUT_METHODS(double)
 

@@ -160,13 +160,21 @@ class Reference {
     Item input(const std::string& name, BaseType type, const std::string& du = "",
                const std::string& dv = "") const;
     Real number(const std::string& name, Real otherwise) const;
-    Item first_value(Global id);
+    Item first_value(Global id);   // in the layer's "current"
+    Item kernel_value(Global id);  // in the kernel's
     Item parameter(const Symbol& symbol, int element);
     std::vector<Item> array_parameter(const Symbol& symbol);
-    std::vector<double> service(std::string_view name, std::vector<double> args) const;
+    std::vector<double> service(std::string_view name, std::vector<double> args);
 
     // reference_spaces.cpp; matrices on row vectors
     Matrix space(const std::string& name, const char* direction) const;
+    // A displacement's "current" is the object's space, that of the surfaces it is joined with the
+    // camera's.
+    bool bends_normals() const;
+    Item into_layer(const Item& x);
+    Item out_of_layer(const Item& x);
+    Item from_object(const Item& x);
+    Matrix input_space(const std::string& name, const char* direction) const;
     Item to_space(const Item& x, const std::string& from, const std::string& to);
     Item by_matrix(const Item& x, const Matrix& m);
     Matrix inverse(const Matrix& m);
@@ -222,6 +230,8 @@ class Reference {
     bool ends_loop(RefFlow& flow, const Stmt& stmt, bool& leave);
 
     void smooth_P();
+    void bring_back_N();
+    Item given_N_;  // to the displacements
     void run_layer(const Layer& next);
     void output(const std::string& name, const Item& value);
     void light_outputs();

@@ -156,9 +156,22 @@ void texture3d(RefCall<Real>& c) {
                 (channels.empty() ? "" : ",") + std::string(type_name(value.type)) + " " + name;
     }
     std::vector<double> args = {double(c.args[0].c[0].x), double(intern(channels))};
-    add(args, c.args[1]);
-    add(args, c.args[2]);
-    args.push_back(1);
+    if (c.eval.bends_normals()) {  // in the file's space, with minus its scale
+        auto world = c.eval.space("world", "from_current");
+        RefValue<Real> P = c.args[1], N = c.args[2];
+        P.type = BaseType::Point, N.type = BaseType::Normal;
+        Vec<Real> n = normalize(vec(c.eval.by_matrix(N, world)));
+        add(args, c.eval.by_matrix(P, world));
+        add(args, RefValue<Real>(BaseType::Normal, n[0], n[1], n[2]));
+        double squares = 0;
+        for (size_t k = 0; k < 12; ++k)
+            if (k % 4 < 3) squares += double(world[k].x) * double(world[k].x);
+        args.push_back(-std::sqrt(squares / 3));
+    } else {
+        add(args, c.args[1]);
+        add(args, c.args[2]);
+        args.push_back(1);
+    }
     std::vector<double> answer = c.eval.service("texture3d", args);
     int bits = int(at(answer, 0)), all = 1;
     size_t next = 1;

@@ -92,9 +92,42 @@ RefValue<Real> moved(const Matrix<Real>& m) {
 
 }  // namespace
 
-// Inputs hold matrices on column vectors; ours are on row vectors.
+template <class Real>
+bool Reference<Real>::bends_normals() const {
+    return layer->shader->kind == ShaderKind::Displacement &&
+           layers_.back().shader->kind == ShaderKind::Surface;
+}
+
 template <class Real>
 auto Reference<Real>::space(const std::string& name, const char* direction) const -> Matrix {
+    if (!bends_normals()) return input_space(name, direction);
+    bool to = direction[0] == 't';
+    if (name == "current" || name == "object" || name == "shader") return identity<Real>();
+    Matrix camera = input_space(name, direction);
+    return to ? product(camera, input_space("object", "from_current"))
+              : product(input_space("object", "to_current"), camera);
+}
+
+template <class Real>
+auto Reference<Real>::into_layer(const Item& x) -> Item {
+    bool other = bends_normals() && is_spatial(x.type);
+    return other ? by_matrix(x, input_space("object", "from_current")) : x;
+}
+template <class Real>
+auto Reference<Real>::out_of_layer(const Item& x) -> Item {
+    bool other = bends_normals() && is_spatial(x.type);
+    return other ? by_matrix(x, input_space("object", "to_current")) : x;
+}
+// What the mesh brings, in the layer's current.
+template <class Real>
+auto Reference<Real>::from_object(const Item& x) -> Item {
+    bool other = !bends_normals() && is_spatial(x.type);
+    return other ? by_matrix(x, input_space("object", "to_current")) : x;
+}
+
+// Inputs hold matrices on column vectors; ours are on row vectors.
+template <class Real>
+auto Reference<Real>::input_space(const std::string& name, const char* direction) const -> Matrix {
     Matrix m = identity<Real>();
     for (size_t row = 0; row < 4; ++row)
         for (size_t column = 0; column < 4; ++column)
@@ -220,7 +253,12 @@ KINORA_RSL_DEFINE_REF(determinant)
 }  // namespace ref
 
 #define KINORA_SPACE_METHODS(Real)                                                               \
+    template bool Reference<Real>::bends_normals() const;                                        \
     template auto Reference<Real>::space(const std::string&, const char*) const->Matrix;         \
+    template auto Reference<Real>::input_space(const std::string&, const char*) const->Matrix;   \
+    template auto Reference<Real>::into_layer(const Item&)->Item;                                \
+    template auto Reference<Real>::out_of_layer(const Item&)->Item;                              \
+    template auto Reference<Real>::from_object(const Item&)->Item;                               \
     template auto Reference<Real>::by_matrix(const Item&, const Matrix&)->Item;                  \
     template auto Reference<Real>::inverse(const Matrix&)->Matrix;                               \
     template auto Reference<Real>::to_space(const Item&, const std::string&, const std::string&) \

@@ -7,8 +7,8 @@
 //                Ps Ns             light shaders
 //                rng               int: hash of pixel, sample, path and frame seed (decision 10)
 //                param:LAYER:NAME[.c]         a parameter bound to a vertex input, and its partial
-//                param:LAYER:NAME[.c]:du :dv  derivatives. LAYER: the shader's index in its stack,
-//                                  0 in a light
+//                param:LAYER:NAME[.c]:du :dv  derivatives; points, vectors and normals in "object".
+//                                  LAYER: the shader's index in its stack, 0 in a light
 //                1                 1 everywhere: the derivative of u by u and of v by v
 //                Cs and Os only where a ParamBinding has that name (as param:LAYER:Cs.r), else 1
 //   frame rate   E time dtime camera:near camera:far (clipping distances, for depth())

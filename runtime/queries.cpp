@@ -26,6 +26,25 @@ bool fits(const Question& question, rsl::Type type) {
                                     : question.element < 0);
 }
 
+// A point, vector or normal in "current" space.
+void place(rsl::BaseType type, const dmat4& current_from_space, const double* values,
+           Answer& answer) {
+    dvec3 placed = place_parameter(type, current_from_space, values);
+    for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
+}
+
+// The same from the look's "shader" space.
+void place(rsl::BaseType type, const Asker& asker, const Look& look, const double* values,
+           Answer& answer) {
+    place(type, current_from_space(asker.scene, "shader", look.node), values, answer);
+}
+
+rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
+    for (const rsl::ShaderParameter& p : use.shader->parameters)
+        if (p.name == name) return p.type.base;
+    return rsl::BaseType::Float;
+}
+
 // Bound to a vertex input: at hand where the surface's own kernel reads it, else made here.
 bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Question& question,
                    Answer& answer, bool* varying) {
@@ -49,17 +68,16 @@ bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Q
             answer[c] =
                 column ? column[point] : varying_at(asker.scene, grid.hits, hit, which, first + c);
         }
+        rsl::BaseType type = parameter_type(look.layers[layer], v.name);
+        if (rsl::is_spatial(type)) {  // the mesh's are in the object's space
+            uint32_t shape = asker.scene.surfaces[row].shape;
+            const double values[] = {answer[0], answer[1], answer[2]};
+            place(type, current_from_space(asker.scene, "object", asker.scene.shapes[shape].node),
+                  values, answer);
+        }
         return true;
     }
     return false;
-}
-
-// A point, vector or normal in the look's "shader" space, in "current" space.
-void place(rsl::BaseType type, const Asker& asker, const Look& look, const double* values,
-           Answer& answer) {
-    dvec3 placed =
-        place_parameter(type, current_from_space(asker.scene, "shader", look.node), values);
-    for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
 }
 
 bool from_source(const Asker& asker, const Look& look, const ParamSource& source, rsl::Type type,

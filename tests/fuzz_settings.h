@@ -21,8 +21,7 @@ inline uint64_t fresh_seed() {
     return fuzz_setting("KINORA_FUZZ_FRESH", 1'000'000'000);
 }
 
-// Writes a reduced program to <temporary directory>/kinora-fuzz/NAME and gives the path. Kept ones
-// go to tests/jit/kept and tests/rsl/kept, which are run as tests.
+// Writes a text to <temporary directory>/kinora-fuzz/NAME and gives the path.
 inline std::string write_reduced(const std::string& name, const std::string& text) {
     std::filesystem::path folder = std::filesystem::temp_directory_path() / "kinora-fuzz";
     std::error_code ignored;
@@ -30,6 +29,17 @@ inline std::string write_reduced(const std::string& name, const std::string& tex
     std::filesystem::path path = folder / name;
     std::ofstream(path) << text;
     return path.string();
+}
+
+// Keeps a reduced program that failed as a test: writes it to `folder` (tests/jit/kept or
+// tests/rsl/kept in the sources), whose programs every run of the tests compares; to commit it is
+// all that is left to do. Where the sources are read-only, to the temporary directory.
+inline std::string keep_reduced(const std::string& folder, const std::string& name,
+                                const std::string& text) {
+    std::string path = folder + "/" + name;
+    std::ofstream file(path);
+    if (file << text << std::flush) return path;
+    return write_reduced(name, text);
 }
 
 }  // namespace kinora

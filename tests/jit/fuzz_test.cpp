@@ -15,6 +15,7 @@ namespace kinora::jit::test {
 namespace {
 
 constexpr uint64_t kDefaultPrograms = 2000;
+const std::string kKept = KINORA_SOURCE_DIR "/tests/jit/kept";
 
 struct Program {
     Module module;
@@ -44,7 +45,7 @@ void fuzz_from(const Check& check, uint64_t first, uint64_t programs) {
         Module small = reduce(p.module, [&](const Module& m) { return !check(m, seed).empty(); });
         std::string text = "; world " + std::to_string(seed) + "\n" + print(small);
         FAIL() << "seed " << seed << ": " << wrong << "\nreduced: " << check(small, seed) << "\nin "
-               << write_reduced("seed" + std::to_string(seed) + ".ir", text) << "\n"
+               << keep_reduced(kKept, "seed" + std::to_string(seed) + ".ir", text) << "\n"
                << text;
     }
 }
@@ -190,7 +191,7 @@ std::vector<const Target*> compiled_targets() {
 // "; world 12" on the first line of a kept file.
 TEST(Fuzz, KeptProgramsAgree) {
     int files = 0;
-    for (auto& entry : std::filesystem::directory_iterator(KINORA_SOURCE_DIR "/tests/jit/kept")) {
+    for (auto& entry : std::filesystem::directory_iterator(kKept)) {
         if (entry.path().extension() != ".ir") continue;
         std::ifstream file(entry.path());
         std::string text(std::istreambuf_iterator<char>(file), {});

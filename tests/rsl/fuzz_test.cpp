@@ -12,9 +12,17 @@ namespace kinora::rsl {
 namespace {
 
 constexpr uint64_t kDefaultShaders = 150;
+const std::string kKept = KINORA_SOURCE_DIR "/tests/rsl/kept";
 
 std::string source_of(uint64_t seed) {
     return random_shader(seed, seed % 8 == 7);
+}
+
+// What shows the normals that a displacement bends; "" for shaders that are none.
+std::string joined(const std::string& source) {
+    if (source.find("\ndisplacement ") == std::string::npos) return "";
+    return source +
+           "\nsurface shown() { Oi = 1; Ci = color(xcomp(N), ycomp(N), zcomp(N)) + comp(P, 0); }\n";
 }
 
 // "// world 12" on the first line of a kept file.
@@ -36,19 +44,22 @@ std::string reduced(const std::string& source, uint64_t world, const std::string
     });
 }
 
+void fuzz_one(const std::string& source, uint64_t seed, DifferenceCounts& counts) {
+    std::string wrong = shader_difference(source, seed, counts);
+    if (wrong.empty()) return;
+    std::string small = reduced(source, seed, kind_of(wrong));
+    DifferenceCounts unused;
+    std::string text = "// world " + std::to_string(seed) + "\n" + small;
+    FAIL() << "seed " << seed << ": " << wrong
+           << "\nreduced: " << shader_difference(small, seed, unused) << "\nin "
+           << keep_reduced(kKept, "seed" + std::to_string(seed) + ".sl", text) << "\n"
+           << text;
+}
+
 void fuzz(uint64_t first, uint64_t shaders, DifferenceCounts& counts) {
-    for (uint64_t seed = first; seed < first + shaders; ++seed) {
-        std::string source = source_of(seed);
-        std::string wrong = shader_difference(source, seed, counts);
-        if (wrong.empty()) continue;
-        std::string small = reduced(source, seed, kind_of(wrong));
-        DifferenceCounts unused;
-        std::string text = "// world " + std::to_string(seed) + "\n" + small;
-        FAIL() << "seed " << seed << ": " << wrong
-               << "\nreduced: " << shader_difference(small, seed, unused) << "\nin "
-               << write_reduced("seed" + std::to_string(seed) + ".sl", text) << "\n"
-               << text;
-    }
+    for (uint64_t seed = first; seed < first + shaders; ++seed)
+        for (const std::string& source : {source_of(seed), joined(source_of(seed))})
+            if (!source.empty() && !testing::Test::HasFatalFailure()) fuzz_one(source, seed, counts);
 }
 
 void print(const DifferenceCounts& c) {
@@ -75,9 +86,8 @@ TEST(ShaderFuzz, ReferenceInterpreterAndTargetsAgree) {
 }
 
 TEST(ShaderFuzz, KeptShadersAgree) {
-    std::filesystem::path folder = std::filesystem::path(KINORA_SOURCE_DIR) / "tests/rsl/kept";
     DifferenceCounts counts;
-    for (auto& entry : std::filesystem::directory_iterator(folder)) {
+    for (auto& entry : std::filesystem::directory_iterator(kKept)) {
         if (entry.path().extension() != ".sl") continue;
         std::ifstream file(entry.path());
         std::string source(std::istreambuf_iterator<char>(file), {});

@@ -27,7 +27,7 @@ struct Setting {
     size_t points = 1;
 };
 
-void bind_parameter(const ShaderParameter& p, Random& random, Setting& setting) {
+void bind_parameter(const ShaderParameter& p, size_t layer, Random& random, Setting& setting) {
     bool frame = begins_with(p.name, "frame_"), vary = begins_with(p.name, "vary_");
     if (p.output && p.type.base != BaseType::String) setting.options.aovs.emplace_back(p.name);
     if (!frame && !vary) return;
@@ -40,7 +40,7 @@ void bind_parameter(const ShaderParameter& p, Random& random, Setting& setting) 
             component_count(p.type.base) == 1
                 ? ""
                 : std::string(".") + (p.type.base == BaseType::Color ? "rgb"[c] : "xyz"[c]);
-        std::string name = "param:0:" + std::string(p.name) + suffix;
+        std::string name = "param:" + std::to_string(layer) + ":" + std::string(p.name) + suffix;
         for (size_t i = 0; i < (frame ? 1 : setting.points); ++i) {
             setting.columns[name].push_back(random.argument(random.next() % 4 != 0));
             if (!frame)
@@ -66,12 +66,36 @@ void add_spaces(Random& random, Setting& setting) {
     }
 }
 
-Setting setting_of(const Shader& shader, uint64_t world) {
+using Shaders = std::vector<std::unique_ptr<Shader>>;
+
+// Displacements and the surface that shows what they leave.
+bool is_stack(const Shaders& shaders) {
+    for (auto& shader : shaders)
+        if (shader->kind != (&shader == &shaders.back() ? ShaderKind::Surface
+                                                        : ShaderKind::Displacement))
+            return false;
+    return shaders.size() > 1;
+}
+
+// What is compared: the last shader, below it the displacements of a stack.
+std::vector<Layer> layers_of(const Shaders& shaders, const std::vector<ParamBinding>& params) {
+    std::vector<Layer> layers;
+    for (auto& shader : shaders)
+        if (is_stack(shaders) || &shader == &shaders.back())
+            layers.push_back({shader.get(), params});
+    return layers;
+}
+
+Setting setting_of(const Shaders& shaders, uint64_t world) {
+    const Shader& shader = *shaders.back();
     Setting setting;
     setting.points = 1 + world % 37;
     Random random{world * 7919 + 3};
     setting.columns = random_point(world * 31 + 5, setting.points);
-    for (const ShaderParameter& p : shader.parameters) bind_parameter(p, random, setting);
+    std::vector<Layer> layers = layers_of(shaders, {});
+    for (size_t k = 0; k < layers.size(); ++k)
+        for (const ShaderParameter& p : layers[k].shader->parameters)
+            bind_parameter(p, k, random, setting);
     add_spaces(random, setting);
     setting.columns["camera:near"] = {0.5f}, setting.columns["camera:far"] = {100};
     setting.options.want_N = shader.kind != ShaderKind::Light;
@@ -87,7 +111,7 @@ struct Allowance {
 };
 
 // Nearby inputs and float arithmetic on them, from the point itself on.
-Allowance allowance(const Layer& layer, const ReferenceInputs& inputs, const ReferenceResult& exact,
+Allowance allowance(std::span<const Layer> layers, const ReferenceInputs& inputs, const ReferenceResult& exact,
                     const ReferenceResult& single) {
     Allowance result;
     auto note = [&](const ReferenceResult& a, const ReferenceResult& b) {
@@ -107,9 +131,9 @@ Allowance allowance(const Layer& layer, const ReferenceInputs& inputs, const Ref
         for (auto& [name, value] : moved.values)
             if (name != "rng" && std::fabs(value) < 1e30)
                 value = double(float(value * (1 + double(random.uniform(-1, 1)) * 0x1p-22)));
-        ReferenceResult near = run_reference<double>({&layer, 1}, moved);
+        ReferenceResult near = run_reference<double>(layers, moved);
         note(near, exact);
-        note(near, run_reference<float>({&layer, 1}, moved));
+        note(near, run_reference<float>(layers, moved));
     }
     return result;
 }
@@ -129,11 +153,11 @@ std::string text_of(const std::string& name, size_t point, double got, double si
 }
 
 // One point of interp against the reference.
-std::string compare_point(const Layer& layer, const ReferenceInputs& inputs, size_t i,
+std::string compare_point(std::span<const Layer> layers, const ReferenceInputs& inputs, size_t i,
                           const std::map<std::string, std::vector<float>>& got,
                           DifferenceCounts& counts) {
-    ReferenceResult exact = run_reference<double>({&layer, 1}, inputs);
-    ReferenceResult single = run_reference<float>({&layer, 1}, inputs);
+    ReferenceResult exact = run_reference<double>(layers, inputs);
+    ReferenceResult single = run_reference<float>(layers, inputs);
     if (!exact.missing.empty()) return counts.no_reference += got.size(), "";
     if (exact.decisions != single.decisions) return counts.undecided += got.size(), "";
     Allowance near;  // found when first needed
@@ -147,7 +171,7 @@ std::string compare_point(const Layer& layer, const ReferenceInputs& inputs, siz
         } else if (std::fabs(have - want) <= most) {
             ++counts.values;
         } else {
-            if (near.by_output.empty()) near = allowance(layer, inputs, exact, single);
+            if (near.by_output.empty()) near = allowance(layers, inputs, exact, single);
             double moved = near.by_output.at(name);
             if (!near.decided) {
                 ++counts.undecided;
@@ -166,13 +190,13 @@ std::string compare_point(const Layer& layer, const ReferenceInputs& inputs, siz
 std::string against_reference(RunShader& run, const Setting& setting,
                               const std::vector<ReferenceLight>& lights, DifferenceCounts& counts) {
     auto got = run.run(int(setting.points));
-    Layer layer{run.shaders.back().get(), setting.params};
+    std::vector<Layer> layers = layers_of(run.shaders, setting.params);
     for (size_t i = 0; i < std::min(setting.points, kReferencePoints); ++i) {
         ReferenceInputs inputs = at_point(setting.columns, {"rng"}, i);
         inputs.lights = lights;
         inputs.service = reference_service;
         inputs.loop_budget = kLoopBudget;
-        std::string wrong = compare_point(layer, inputs, i, got, counts);
+        std::string wrong = compare_point(layers, inputs, i, got, counts);
         if (!wrong.empty()) return wrong;
     }
     return "";
@@ -220,8 +244,8 @@ std::string shader_difference(const std::string& source, uint64_t world, Differe
         return reject(diagnostics.findings().empty()
                           ? "no finding"
                           : format_finding(diagnostics.findings()[0], diagnostics.files));
-    Setting setting = setting_of(*shaders.back(), world);
-    RunShader run(source, setting.options, setting.params);
+    Setting setting = setting_of(shaders, world);
+    RunShader run(source, setting.options, setting.params, is_stack(shaders));
     if (!run.verdict.empty()) return "verify: " + run.verdict;
     if (!run.ok()) return reject(run.findings());
     ReferenceInputs shared;

@@ -151,11 +151,23 @@ TEST(SurfaceParameters, TheFootprintIsOnePixel) {
 TEST(SurfaceParameters, AParameterCalledPrefIsTheRestPosition) {
     SceneText scene;
     scene.square("floor", 0.5)
-        .look("look", show(components("Pref"), "varying point Pref = 0"))
+        .look("look",
+              show(components("transform(\"object\", Pref)"), "varying point Pref = 0"))
         .place("floor", "look", "<translate>0.25 0 0</translate><rotate>0 0 1 90</rotate>");
     Rendering r(scene.text());
     r.frame();
     expect_covered_colors(r, [](dvec2 p) { return dvec3(p.y, -(p.x - 0.25), 0); });
+}
+
+// As all points, it is in "current" space: where nothing moves the mesh, it is P.
+TEST(SurfaceParameters, TheRestPositionIsInCurrentSpace) {
+    SceneText scene;
+    scene.square("floor", 0.5)
+        .look("look", show(components("Pref - P"), "varying point Pref = 0"))
+        .place("floor", "look", "<translate>0.25 0 0</translate><scale>2 3 1</scale>");
+    Rendering r(scene.text());
+    r.frame();
+    expect_covered_colors(r, [](dvec2) { return dvec3(0); });
 }
 
 TEST(SurfaceParameters, VertexInputsReachVaryingParameters) {
@@ -190,6 +202,30 @@ TEST(Displacement, BendsNormalsAsTheMovedSurfaceWouldHaveThem) {
             return dvec3(-slope / length, 0, 1 / length);
         },
         5e-6);
+}
+
+// Heights are in the object's space, as true displacement has them.
+TEST(Displacement, HeightsScaleWithTheirNode) {
+    for (dvec3 scale : {dvec3(2, 2, 2), dvec3(1, 1, 3), dvec3(0.5, 2, 1)}) {
+        SceneText scene;
+        scene.square("floor", 2)
+            .look("look",
+                  "displacement waves(float A = 0.1; float k = 9;) {"
+                  "  P += A * sin(k * xcomp(transform(\"shader\", P))) * normalize(N);"
+                  "  N = calculatenormal(P); }\n" +
+                      show(components("ntransform(\"world\", normalize(N))")),
+                  "<shader stage=\"DISPLACEMENT\"/><shader stage=\"SURFACE\"/>")
+            .place("floor", "look",
+                   fmt::format("<scale>{} {} {}</scale>", scale.x, scale.y, scale.z));
+        expect_colors(
+            Rendering(scene.text(), bump_only()).frame(),
+            [&](dvec2 p) {
+                double slope = 0.1 * 9 * std::cos(9 * p.x / scale.x) * scale.z / scale.x;
+                double length = std::sqrt(1 + slope * slope);
+                return dvec3(-slope / length, 0, 1 / length);
+            },
+            1e-5);
+    }
 }
 
 TEST(Displacement, LayersApplyBottomFirst) {

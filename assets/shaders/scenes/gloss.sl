@@ -12,7 +12,7 @@ surface gloss(float Ka = 1; float Kd = 0.75; float Ks = 0.6; float roughness = 0
     color sky = ambient();
     color coat = grazing * sky * mix(0.6, 2.5, smoothstep(-0.1, 0.7, up));
 
-    float above = smoothstep(-0.0015, 0.0015, zcomp(Pref) - sole_height);
+    float above = smoothstep(-0.0015, 0.0015, zcomp(transform("object", Pref)) - sole_height);
     color Ct = mix(sole_color, surface_color, above);
     Oi = Os;
     Ci = Os * (Cs * Ct * (Ka * sky + Kd * diffuse(Nf)) + Ks * specular(Nf, V, roughness) + coat);

@@ -22,7 +22,7 @@ surface statue(float Ka = 1; float Kd = 0.85; float Ks = 0.3; float roughness = 
                varying point Pref = point "object" (0, 0, 0);) {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
-    point Pshade = scale * Pref;
+    point Pshade = scale * transform("object", Pref);
 
     /* Veins run where a bent field crosses its middle; clouds are its slow part. */
     float bend = turbulence(Pshade, 6);
