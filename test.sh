@@ -29,6 +29,7 @@ if ((all)); then
     stage "AArch64 build" scripts/cross-arm64 -DKINORA_WERROR=ON
     # Emulated code is ten times slower: a tenth of the random programs.
     stage "AArch64 tests" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
+    stage "AArch64 against x86-64" scripts/same_bits build/release build/arm64
     stage "AArch64 fuzzing of code" scripts/fuzz build/arm64 code 10
     stage "AArch64 fuzzing of shaders" scripts/fuzz build/arm64 shaders 10
 fi

@@ -343,11 +343,7 @@ bool Lowering::may_grow(const CallExpr& e) {
     size_t operations = 0;
     for (const jit::Function& function : b.module().functions) operations += function.insts.size();
     if (operations > kMostOperations && !failed)
-        error(
-            Code::RSL_NOT_COMPILED, e.place.where,
-            fmt::format("a shader of more than {} operations with its functions in place of their "
-                        "calls",
-                        kMostOperations));
+        error(Code::RSL_TOO_LARGE, e.place.where, kMostOperations);
     return !failed;
 }
 

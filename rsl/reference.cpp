@@ -278,7 +278,7 @@ template <class Real>
 void Reference<Real>::run_layer(const Layer& next) {
     const Shader& shader = *next.shader;
     bool displacement = shader.kind == ShaderKind::Displacement;
-    if (!displacement && layer && bends_normals()) bring_back_N();
+    if (!displacement && bends_normals()) bring_back_N();
     std::map<Global, Item> kept;
     for (auto& [id, value] : globals_)
         if (id == Global::N || (id == Global::P && displacement)) kept[id] = value;

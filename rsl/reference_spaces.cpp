@@ -94,7 +94,7 @@ RefValue<Real> moved(const Matrix<Real>& m) {
 
 template <class Real>
 bool Reference<Real>::bends_normals() const {
-    return layer->shader->kind == ShaderKind::Displacement &&
+    return layer && layer->shader->kind == ShaderKind::Displacement &&
            layers_.back().shader->kind == ShaderKind::Surface;
 }
 

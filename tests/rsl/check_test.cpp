@@ -234,17 +234,6 @@ TEST(Check, RatesFollowWhatValuesDependOn) {
     }
 }
 
-TEST(Check, AMissingRowIsAnErrorNamingTheFunction) {
-    TestSource source("surface x() { Ci = occlusion(P, N, 16); }");
-    CompileOptions options;  // as programs compile
-    bool have = find_builtin("occlusion")[0].builtin->lower != nullptr;
-    compile(source.source, options, source.diagnostics);
-    if (!have) {
-        EXPECT_NE(source.messages().find("'occlusion' is not supported yet"), std::string::npos);
-        EXPECT_NE(source.messages().find("test.sl:1:20"), std::string::npos);
-    }
-}
-
 TEST(Check, EverySignatureIsWellFormed) {
     for (auto group : builtin_groups())
         for (const Builtin& row : group) {

@@ -245,6 +245,7 @@ TEST(Rows, GiveTheSameBitsOnEveryTargetForAnyFloats) {
         }
     std::printf("%zu rows, %zu overloads, %zu shaders, %zu values the same on each target\n", rows,
                 overloads, counts.shaders, counts.bits);
+    std::printf("digest of rows: %016llx\n", static_cast<unsigned long long>(counts.digest));
     EXPECT_GE(rows, 99u);
     EXPECT_GE(counts.shaders, 2 * overloads);
 }

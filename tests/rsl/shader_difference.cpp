@@ -208,6 +208,12 @@ std::string target_difference(RunShader& run, size_t points, DifferenceCounts& c
     auto want = run.run(int(points));
     int want_faults = run.faults;
     uint64_t want_told = run.told;
+    for (auto& [name, column] : want)
+        for (float x : column) {
+            uint64_t bits = std::isnan(x) ? 0x7fc00000u : std::bit_cast<uint32_t>(x);
+            counts.digest = (counts.digest ^ bits) * 0x9e3779b97f4a7c15u;
+            counts.digest ^= counts.digest >> 29;
+        }
     for (const jit::Target& target : jit::targets()) {
         if (!target.supported() || std::string_view(target.name) == "interp") continue;
         run.kernels = jit::compile(run.lowered.module, {&target, nullptr});

@@ -18,6 +18,7 @@ struct DifferenceCounts {
     size_t unstable = 0;      // float arithmetic alone loses more than the answer's size there
     size_t no_reference = 0;  // a row without reference meaning was called
     size_t bits = 0;          // values of targets against interp, bit for bit
+    uint64_t digest = 0;      // of interp's values: the same on every machine (scripts/same_bits)
     std::string first_rejection;
 };
 
