@@ -95,7 +95,7 @@ struct ForeignRow {
 };
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
-    {" fulltrace rayserver ", "BMRT"},
+    {" fulltrace rayserver isindirectray isshadowray ", "BMRT"},
     {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture "
      "rayhittest irradiance stof sprintf strlen ",
      "other renderers"},

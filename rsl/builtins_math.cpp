@@ -93,7 +93,7 @@ void log(LowerCall& c) {
 void clamp(LowerCall& c) {
     Lowered r{c.result_type(), {}};
     for (size_t k = 0; k < size_t(r.size()); ++k)
-        r.c[k] = c.low.clamp(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
+        r.c[k] = c.low.limited(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
     c.result = r;
 }
 
@@ -271,7 +271,7 @@ const Builtin kRows[] = {
     {"max", "f=fff* c=ccc* p=ppp* v=vvv* n=nnn*", lower::binary<lower::max>,
      KINORA_RSL_REF(ref::max), kPure, 0, "The largest of its arguments, componentwise."},
     {"clamp", "f=fff c=ccc p=ppp v=vvv n=nnn", lower::clamp, KINORA_RSL_REF(ref::clamp), kPure, 0,
-     "x limited to min..max: clamp(x, min, max)."},
+     "x limited to min..max: clamp(x, min, max); min where x < min, though min > max."},
     {"mix", "f=fff c=ccf p=ppf v=vvf n=nnf c=ccc p=ppp v=vvv n=nnn m=mmf", lower::mix,
      KINORA_RSL_REF(ref::mix), kPure, 2, "a * (1 - alpha) + b * alpha: mix(a, b, alpha)."},
     {"step", "f=ff c=cc p=pp v=vv n=nn", lower::binary<lower::step>, KINORA_RSL_REF(ref::step),

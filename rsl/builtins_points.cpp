@@ -83,6 +83,7 @@ void bake3d(LowerCall& c) {
 // Each "channel", variable pair is set if the file has the channel; 1 if it has them all.
 void texture3d(LowerCall& c) {
     auto& e = c.low;
+    c.report_unknown_pairs();
     Channels channels;
     std::vector<Lowered> before;
     for (auto& [name, target] : c.output_pairs) {

@@ -57,6 +57,12 @@ Value cone(LowerCall& c) {
     return c.pair("coneangle", 1.5707963268f);
 }
 
+// The variable of an output pair, from three numbers.
+void set_pair(LowerCall& c, std::string_view name, const Value* triple) {
+    if (Target* variable = c.output_pair(name))
+        c.low.store(*variable, lowered(variable->type, V3{triple[0], triple[1], triple[2]}));
+}
+
 // A form that begins with maps asks for what the rays know better: the maps are not read.
 void occlusion(LowerCall& c) {
     c.report_unknown_pairs();
@@ -68,10 +74,11 @@ void occlusion(LowerCall& c) {
         c.low.service("occlusion", std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2],
                                               c.f(first + 2), cone(c), c.pair("maxdist", kFar),
                                               c.pair("bias", -1), c.pair("falloff", 0),
-                                              c.pair("falloffmode", 0)});
+                                              c.pair("falloffmode", 0),
+                                              c.text_pair("environmentmap")});
     c.set(answer[0]);
-    if (Target* open = c.output_pair("environmentdir"))
-        c.low.store(*open, lowered(open->type, V3{answer[1], answer[2], answer[3]}));
+    set_pair(c, "environmentdir", &answer[1]);
+    set_pair(c, "environmentcolor", &answer[4]);
 }
 
 // indirectdiffuse(P, N, samples), or (map, N, samples): the map's light alone, at P.
@@ -88,6 +95,7 @@ void indirectdiffuse(LowerCall& c) {
         "indirectdiffuse", std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2], c.f(2),
                                       cone(c), far, c.pair("bias", -1), map});
     c.set(V3{light[0], light[1], light[2]});
+    set_pair(c, "environmentcolor", &light[3]);
 }
 
 // areashadow(map, P, three corners of the light): the share that the source's parallelogram is

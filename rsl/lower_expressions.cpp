@@ -325,9 +325,11 @@ Value LowerCall::text_pair(std::string_view name) const {
 }
 
 void LowerCall::report_unknown_pairs() const {
-    for (auto& [key, value] : pairs)
-        if (!takes_option(call.name, key))
-            low.report(Code::RSL_PAIR_UNKNOWN, where(), key, call.name);
+    for (size_t k = call.pairs; k + 1 < call.args.size(); k += 2) {
+        std::string_view key = pair_name(call.args, k + 1);
+        if (!takes_option(call.name, key) && !is_output_pair(call, k + 1))
+            low.report(Code::RSL_PAIR_UNKNOWN, call.args[k]->place.where, key, call.name);
+    }
 }
 
 Target* LowerCall::output_pair(std::string_view name) {

@@ -84,6 +84,14 @@ Value Emitter::smoothstep(Value low, Value high, Value x) {
     return b.select(b.lt(x, low), b.f(0), above);
 }
 
+// RISpec's clamp(): the lower limit is asked first.
+Value Emitter::limited(Value x, Value low, Value high) {
+    float from, to;
+    Value inside = clamp(x, low, high);
+    if (b.constant_f(low, &from) && b.constant_f(high, &to) && from <= to) return inside;
+    return b.select(b.lt(x, low), low, inside);
+}
+
 Value Emitter::index(Value x, int length) {
     // max(NaN, 0) is 0: no NaN reaches the conversion.
     return b.ftoi(b.min(b.max(x, b.f(0)), b.f(float(length - 1))));

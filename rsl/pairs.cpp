@@ -39,8 +39,20 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"falloff", kNumber, "occlusion"},
     {"falloffmode", kNumber, "occlusion"},
     {"environmentdir", kAny, RAYS, true},
-    {"environmentmap", kText, "indirectdiffuse"},
+    {"environmentmap", kText, "occlusion indirectdiffuse"},
     {"distribution", kText, "gather"},
+    {"distribution", kText, "occlusion indirectdiffuse", false, "cosine"},
+    {"subset", kAny, RAYS " gather", false, ""},
+    {"excludesubset", kAny, RAYS " gather", false, ""},
+    {"othreshold", kAny, RAYS " gather", false, ""},
+    {"environmentspace", kAny, "occlusion indirectdiffuse", false, "world"},
+    {"environmentcolor", kAny, "occlusion indirectdiffuse", true},
+    {"falloff", kNumber, "indirectdiffuse", false, ""},
+    {"falloffmode", kNumber, "indirectdiffuse", false, ""},
+    {"samplecone", kNumber, "environment", false, ""},
+    {"bias0", kNumber, "shadow", false, ""},
+    {"bias1", kNumber, "shadow", false, ""},
+    {"gapbias", kNumber, "shadow", false, ""},
     {"volume", kAny, "gather"},
     {"lightcache", kAny, "gather"},
     {"source", kNumber, "areashadow"},
@@ -61,6 +73,11 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"maxsolidangle", kAny, RAYS},
     {"sortbleeding", kAny, RAYS},
     {"rayoffset", kAny, RAYS},
+    {"filemode", kAny, RAYS},
+    {"irradiancefile", kAny, RAYS},
+    {"coordsystem", kAny, RAYS},
+    {"interpolate", kAny, RAYS},
+    {"minsamples", kAny, "shadow environment"},
     // Maps.
     {"blur", kNumber, "texture environment shadow bump areashadow"},
     {"sblur", kNumber, "texture"},
@@ -97,12 +114,6 @@ constexpr OptionalParameter kOptionalParameters[] = {
 #undef PHOTONS
 #undef POINTS
 
-const OptionalParameter* find_option(std::string_view name) {
-    auto row = std::find_if(std::begin(kOptionalParameters), std::end(kOptionalParameters),
-                            [&](const OptionalParameter& option) { return option.name == name; });
-    return row == std::end(kOptionalParameters) ? nullptr : row;
-}
-
 bool has_word(std::string_view words, std::string_view word) {
     for (size_t at = words.find(word); at != words.npos; at = words.find(word, at + 1)) {
         size_t end = at + word.size();
@@ -111,6 +122,19 @@ bool has_word(std::string_view words, std::string_view word) {
         if (whole) return true;
     }
     return false;
+}
+
+bool is_variable(const Expr& e) {
+    return e.kind == ExprKind::Variable || e.kind == ExprKind::Index ||
+           e.kind == ExprKind::Component;
+}
+
+// The callee's row; an empty callee's: the first of that name.
+const OptionalParameter* find_option(std::string_view name, std::string_view callee = {}) {
+    for (const OptionalParameter& option : kOptionalParameters)
+        if (option.name == name && (callee.empty() || has_word(option.takers, callee)))
+            return &option;
+    return nullptr;
 }
 
 }  // namespace
@@ -126,13 +150,12 @@ BaseType option_type(std::string_view name) {
 }
 
 bool takes_option(std::string_view callee, std::string_view name) {
-    const OptionalParameter* option = find_option(name);
-    return option && has_word(option->takers, callee);
+    return find_option(name, callee);
 }
 
 bool is_idle_option(std::string_view callee, std::string_view name, const std::string* text) {
-    const OptionalParameter* option = find_option(name);
-    if (!option || !option->idle || !has_word(option->takers, callee)) return false;
+    const OptionalParameter* option = find_option(name, callee);
+    if (!option || !option->idle) return false;
     return !text || text->empty() || !has_word(option->idle, *text);
 }
 
@@ -140,9 +163,10 @@ bool is_output_pair(const CallExpr& call, size_t value) {
     if (!call.builtin || value <= call.pairs || (value - call.pairs) % 2 == 0) return false;
     std::string_view name = pair_name(call.args, value);
     if (name.empty()) return false;
-    if (call.builtin->effects & kReadsChannels) return !takes_option(call.name, name);
-    const OptionalParameter* option = find_option(name);
-    return option && option->result && has_word(option->takers, call.name);
+    if (call.builtin->effects & kReadsChannels)  // what is no variable is no channel
+        return !takes_option(call.name, name) && is_variable(*call.args[value]);
+    const OptionalParameter* option = find_option(name, call.name);
+    return option && option->result;
 }
 
 bool is_gather_output(std::string_view name) {

@@ -369,9 +369,10 @@ bool Parser::at_declaration() const {
 }
 
 // "[type] name (...) {" inside a block.
-bool Parser::at_function() const {
-    bool typed = (is_type() && !is(Punct::LeftParen, 1)) || at_foreign_type();
-    uint32_t name = next_ + typed;
+bool Parser::at_function(uint32_t ahead) const {
+    int at = int(ahead);
+    bool typed = (is_type(at) && !is(Punct::LeftParen, at + 1)) || at_foreign_type(at);
+    uint32_t name = next_ + ahead + typed;
     const auto& tokens = ast_.tokens.tokens;
     if (name + 1 >= tokens.size() || tokens[name].kind != TokenKind::Identifier) return false;
     if (tokens[name + 1].punct != Punct::LeftParen) return false;

@@ -82,6 +82,7 @@ Stmt* Parser::statement_unguarded() {
     }
     if (foreign_statement()) return nullptr;
     if (misspelt_statement()) return statement_unguarded();
+    if (is_detail() && at_function(1)) advance();  // the detail of a result is inferred
     if (at_function()) {
         auto* node = make<FunctionStmt>(Place{token().where, next_});
         node->function = function();
@@ -192,7 +193,10 @@ Expr* Parser::effect() {
 Expr* Parser::step(Expr* target, uint32_t at) {
     const Token& sign = ast_.tokens.tokens[at];
     bool up = sign.punct == Punct::Increment;
-    if (!panic_) reporter_.report(Code::RSL_INCREMENT, sign, sign.text, up ? "+= 1" : "-= 1");
+    const char* meant = up ? "+= 1" : "-= 1";
+    if (!panic_)
+        reporter_.report(Code::RSL_INCREMENT, sign, sign.text, meant).help =
+            fmt::format("write 'i {}'", meant);
     auto* one = make<NumberExpr>(Place{sign.where, at});
     one->value = 1;
     auto* node = make<AssignExpr>(place_from(target->place, at));

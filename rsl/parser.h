@@ -89,7 +89,7 @@ class Parser {
     void array_suffix(Symbol& symbol);
     Expr* initialiser(Symbol& symbol);
     bool at_declaration() const;
-    bool at_function() const;
+    bool at_function(uint32_t ahead = 0) const;
 
     // parse_statement.cpp
     Stmt* statement();

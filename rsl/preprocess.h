@@ -101,6 +101,7 @@ class Preprocessor {
     void run_endif(const Token& name, Line line);
     void run_pragma(const Token& name, Line line);
     void run_error(const Token& name, Line line);
+    void run_warning(const Token& name, Line line);
     void run_nothing(const Token& name, Line line);
     void open_condition(const Token& name, bool value);
     bool condition_value(const Token& name, Line line);

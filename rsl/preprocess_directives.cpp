@@ -15,7 +15,7 @@ const Preprocessor::DirectiveRow Preprocessor::kDirectives[] = {
     {"include", false, &Preprocessor::run_include}, {"pragma", false, &Preprocessor::run_pragma},
     {"error", false, &Preprocessor::run_error},     {"line", false, &Preprocessor::run_nothing},
     {"ident", false, &Preprocessor::run_nothing},   {"sccs", false, &Preprocessor::run_nothing},
-    {"warning", false, &Preprocessor::run_nothing}, {"if", true, &Preprocessor::run_if},
+    {"warning", false, &Preprocessor::run_warning}, {"if", true, &Preprocessor::run_if},
     {"ifdef", true, &Preprocessor::run_ifdef},      {"ifndef", true, &Preprocessor::run_ifndef},
     {"elif", true, &Preprocessor::run_elif},        {"else", true, &Preprocessor::run_else},
     {"endif", true, &Preprocessor::run_endif},
@@ -45,6 +45,7 @@ void Preprocessor::directive() {
         }
         bool text_line = row.run == &Preprocessor::run_pragma ||
                          row.run == &Preprocessor::run_error ||
+                         row.run == &Preprocessor::run_warning ||
                          row.run == &Preprocessor::run_nothing;
         (this->*row.run)(name, text_line ? TokenList{} : directive_tokens());
         return;
@@ -308,6 +309,10 @@ void Preprocessor::run_pragma(const Token& name, Line) {
 
 void Preprocessor::run_error(const Token& name, Line) {
     reporter_.report(Code::RSL_ERROR_DIRECTIVE, name, files_.back().lexer.rest_of_line());
+}
+
+void Preprocessor::run_warning(const Token& name, Line) {
+    reporter_.report(Code::RSL_WARNING_DIRECTIVE, name, files_.back().lexer.rest_of_line());
 }
 
 void Preprocessor::run_nothing(const Token&, Line) {

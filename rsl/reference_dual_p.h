@@ -73,7 +73,7 @@ Dual<Real> max(const Dual<Real>& a, const Dual<Real>& b) {
 }
 template <class Real>
 Dual<Real> clamp(const Dual<Real>& x, const Dual<Real>& lo, const Dual<Real>& hi) {
-    return min(max(x, lo), hi);
+    return x.x < lo.x ? lo : min(max(x, lo), hi);
 }
 template <class Real>
 Dual<Real> sqrt(const Dual<Real>& a) {

@@ -96,13 +96,15 @@ template <class Real>
 void occlusion(RefCall<Real>& c) {
     std::vector<double> args = seeded(c, c.args.size() == 4 ? 1 : 0, 3);
     for (double x : {pair(c, "coneangle", 1.5707963268), pair(c, "maxdist", 1e30),
-                     pair(c, "bias", -1), pair(c, "falloff", 0), pair(c, "falloffmode", 0)})
+                     pair(c, "bias", -1), pair(c, "falloff", 0), pair(c, "falloffmode", 0),
+                     pair(c, "environmentmap", 0)})
         args.push_back(x);
     std::vector<double> answer = c.eval.service("occlusion", args);
     set_from(c, answer);
     for (auto& [name, value] : c.pairs)
-        if (name == "environmentdir")
-            for (size_t k = 0; k < 3; ++k) value.c[k] = Dual<Real>(Real(at(answer, 1 + k)));
+        for (auto [output, first] : {std::pair("environmentdir", 1), {"environmentcolor", 4}})
+            for (size_t k = 0; k < 3 && name == output; ++k)
+                value.c[k] = Dual<Real>(Real(at(answer, size_t(first) + k)));
 }
 template <class Real>
 void indirectdiffuse(RefCall<Real>& c) {
@@ -115,7 +117,11 @@ void indirectdiffuse(RefCall<Real>& c) {
          {pair(c, "coneangle", 1.5707963268), of_map ? 0 : pair(c, "maxdist", 1e30),
           pair(c, "bias", -1), of_map ? double(c.args[0].c[0].x) : pair(c, "environmentmap", 0)})
         args.push_back(x);
-    set_from(c, c.eval.service("indirectdiffuse", args));
+    std::vector<double> answer = c.eval.service("indirectdiffuse", args);
+    set_from(c, answer);
+    for (auto& [name, value] : c.pairs)
+        for (size_t k = 0; k < 3 && name == "environmentcolor"; ++k)
+            value.c[k] = Dual<Real>(Real(at(answer, 3 + k)));
 }
 // By the middle of the light alone: what lies between is the renderer's random choice.
 template <class Real>

@@ -72,9 +72,11 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //   trace         (seed, P xyz, R xyz, maxdist, bias, samples, cone, int label) -> r g b, distance of
 //                  the nearest (1e30 for a miss); bias < 0: the point's own error bound
 //   transmission  (seed, from xyz, to xyz, samples, cone, bias) -> r g b
-//   occlusion     (seed, P xyz, N xyz, samples, cone, maxdist, bias, falloff, falloffmode) -> share
-//                  blocked, mean open direction xyz
-//   indirectdiffuse (seed, P xyz, N xyz, samples, cone, maxdist, bias, int environment map) -> r g b
+//   occlusion     (seed, P xyz, N xyz, samples, cone, maxdist, bias, falloff, falloffmode, int
+//                  environment map) -> share blocked, mean open direction xyz, r g b of the map
+//                  along what is open
+//   indirectdiffuse (seed, P xyz, N xyz, samples, cone, maxdist, bias, int environment map) -> r g b,
+//                  r g b of it that the map gives
 //   gather        (seed, int index in LoweredShader::gathers, int nesting 0.., P xyz, D xyz, cone,
 //                  samples, maxdist, bias, int label, int flags of GatherFlag) -> int record set,
 //                  the same written to all lanes: one record a sample, columns GatherColumn, then

@@ -236,6 +236,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     if (uint64_t lost = shading.too_deep + counters.too_deep)
         diagnostics.report(Code::LAYER_LIMIT, Location{}, lost, settings.integrator.max_layers);
+    if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightPlaces);
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();

@@ -66,6 +66,7 @@ struct Grid {
     uint32_t next_record_set = 1;
     int32_t record_group = -1;  // first lane of the group that lights_at served last
     Arena::Mark record_mark{};  // where its records begin
+    uint32_t record_calls = 0;  // of the group
     bool shadows = true;        // false inside opacity kernels
     RayTag ray;
     std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet

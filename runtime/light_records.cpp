@@ -435,6 +435,14 @@ int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
         if (grid.record_group >= 0) arena.release(grid.record_mark);
         grid.record_mark = arena.mark();
         grid.record_group = call.first;
+        grid.record_calls = 0;
+    }
+    uint32_t handle = grid.next_record_set;
+    grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
+    if (++grid.record_calls > kMostLightPlaces) {
+        thread(grid.thread).counters.unlit += 1;
+        grid.record_sets[handle] = {};
+        return int32_t(handle);
     }
     LightPoints at;
     at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
@@ -469,8 +477,6 @@ int32_t Shading::lights_at(Grid& grid, const jit::ServiceCall& call) {
         at.error[k] = rows[6 + k];
         at.N[k] = at.Ng[k] = rows[9 + k];
     }
-    uint32_t handle = grid.next_record_set;
-    grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
     grid.record_sets[handle] = make_records(grid, at);
     return int32_t(handle);
 }

@@ -16,6 +16,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     light_points += o.light_points;
     opacity_points += o.opacity_points;
     too_deep += o.too_deep;
+    unlit += o.unlit;
 }
 
 Shading::Shading(Scene& scene) : scene_(scene) {

@@ -16,12 +16,17 @@ namespace kinora {
 
 struct Scene;
 
+// How often a point may ask for the lights at places of its own, some 8 KB each time: a march may,
+// a loop that does not end must not take all memory.
+inline constexpr uint32_t kMostLightPlaces = 8192;
+
 struct ShadingCounters {
     raytrace::TraceCounters trace;  // shadow and reflection rays
     uint64_t points = 0;            // surface kernels
     uint64_t light_points = 0;      // light kernels
     uint64_t opacity_points = 0;    // opacity kernels
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
+    uint64_t unlit = 0;             // questions for lights beyond kMostLightPlaces
     void operator+=(const ShadingCounters& o);
 };
 

@@ -32,7 +32,7 @@ struct Shading::Seen {
     float distance = 1e30f;  // of the nearest surface
 };
 
-inline constexpr size_t kRecordSets = 64;  // handles a grid may hold at once
+inline constexpr size_t kRecordSets = 256;  // handles a grid may hold at once
 inline constexpr size_t kGatherSets = kRecordSets - rsl::kGatherLevels;  // the last ones
 
 // One thread's memory. Nested shading (reflections, opacity of shadow rays) takes its rays and hits

@@ -71,6 +71,21 @@ void look_up(TextureStore& store, int32_t map, std::span<const vec3> directions,
     }
 }
 
+// Each sample stands for its share of the hemisphere.
+float sample_width(int samples) {
+    return std::sqrt(2 * float(kPi) / float(samples));
+}
+
+// body(begin, end, map) for each run of rays of one lane that has a map.
+template <class Body>
+void for_each_map(const Lanes& lanes, int argument, std::span<const uint8_t> lane_of, Body&& body) {
+    for (size_t begin = 0, end; begin < lane_of.size(); begin = end) {
+        end = begin + 1;
+        while (end < lane_of.size() && lane_of[end] == lane_of[begin]) ++end;
+        if (int32_t map = lanes.integer(argument, lane_of[begin])) body(begin, end, map);
+    }
+}
+
 // What occlusion and indirectdiffuse are asked: samples in a cone about N, denser along it.
 enum ConeArgs { kP = 2, kN = 5, kSamples = 8, kAngle, kMaxdist, kBias, kMoreArgs };
 
@@ -216,14 +231,15 @@ void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
 }
 
 void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
-    enum { Falloff = kMoreArgs, Mode };
+    enum { Falloff = kMoreArgs, Mode, Map };
     Lanes lanes(call);
     Thread& own = thread(grid.thread);
     float blocked[kLanes] = {};
-    vec3 open[kLanes] = {};
+    vec3 open[kLanes] = {}, sky[kLanes] = {};
     Arena::Mark mark = own.arena.mark();
     std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
     std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
+    std::span<vec3> light = own.arena.allocate_span<vec3>(kGridPoints);
     NestedWavefront nested(own), near(own);
     ConeRays cone(grid, lanes, glm::transpose(camera_from_accel_));
     in_batches(
@@ -251,7 +267,14 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
                             : std::exp(-falloff * weight[i]);
                 blocked[lane] += hidden;
                 open[lane] += (1 - hidden) * dirs[i];
+                if (falloff > 0) through[i] = vec3(1 - hidden);
             }
+            for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
+                look_up(*scene_.textures, map, dirs.subspan(begin, end - begin),
+                        sample_width(cone.count(lane_of[begin])), light.data());
+                for (size_t i = begin; i < end; ++i)
+                    sky[lane_of[i]] += through[i] * light[i - begin];
+            });
         });
     own.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -260,6 +283,7 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
         float length = glm::length(open[lane]);
         vec3 mean = length > 0 ? camera_from_accel_ * open[lane] / length : vec3(0.0f);
         lanes.set(1, lane, n ? mean : lanes.triple(kN, lane));
+        lanes.set(4, lane, n ? sky[lane] / float(n) : vec3(0.0f));
     }
 }
 
@@ -277,7 +301,7 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     enum { Map = kMoreArgs };
     Lanes lanes(call);
     Thread& own = thread(grid.thread);
-    vec3 sum[kLanes] = {};
+    vec3 sum[kLanes] = {}, sky[kLanes] = {};
     // What lies beyond the last bounce is black; a map alone costs no ray.
     bool bounces = grid.depth < ray_depth() && grid.ray.diffuse < diffuse_depth() && !stopped();
     // The bounces are counted: all are followed, the later ones with fewer rays.
@@ -308,26 +332,19 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
         },
         [&](std::span<const uint8_t> lane_of) {
             see(grid.thread, nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), seen);
-            for (size_t begin = 0; begin < lane_of.size();) {
-                size_t end = begin + 1;
-                int32_t map = lanes.integer(Map, lane_of[begin]);
-                while (end < lane_of.size() && lane_of[end] == lane_of[begin]) ++end;
-                if (map != 0) {
-                    // Each sample stands for its share of the hemisphere.
-                    float width = std::sqrt(2 * float(kPi) / float(samples[lane_of[begin]]));
-                    look_up(*scene_.textures, map, dirs.subspan(begin, end - begin), width,
-                            light.data());
-                    for (size_t i = begin; i < end; ++i)
-                        seen[i].color += seen[i].open * light[i - begin];
-                }
-                begin = end;
-            }
+            for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
+                look_up(*scene_.textures, map, dirs.subspan(begin, end - begin),
+                        sample_width(samples[lane_of[begin]]), light.data());
+                for (size_t i = begin; i < end; ++i)
+                    sky[lane_of[i]] += seen[i].open * light[i - begin];
+            });
             for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += seen[i].color;
         });
     own.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
         int n = lanes.asks(lane) ? count(lane) : 0;
-        lanes.set(0, lane, n ? sum[lane] / float(n) : vec3(0.0f));
+        lanes.set(0, lane, n ? (sum[lane] + sky[lane]) / float(n) : vec3(0.0f));
+        lanes.set(3, lane, n ? sky[lane] / float(n) : vec3(0.0f));
     }
 }
 

@@ -87,12 +87,12 @@ constexpr rsl::ServiceRow kRows[] = {
     {"transform", transform},
     {"print", print},
     {"query", nothing<17>},
-    {"occlusion", nothing<4>},
+    {"occlusion", nothing<7>},
     {"gather", gather},
     {"bake3d", nothing<0>},
     {"photons", nothing<3>},
     {"texture3d", nothing<33>},
-    {"indirectdiffuse", nothing<3>},
+    {"indirectdiffuse", nothing<6>},
 };
 static_assert(rsl::has_all_services(kRows));
 

@@ -172,8 +172,12 @@ TEST(Extremes, Row56SmoothstepReversedAsksForTheFirstEdgeFirst) {
 TEST(Extremes, Row57StepAtItsEdgeIs1) {
     expect("step(x, x)", {0.3f}, 1);
 }
+// Not OSL's min(max(x, min), max): RISpec asks for the lower limit first, and the marches of volume
+// shaders (d += clamp(step, least, end - d)) end only so.
 TEST(Extremes, Row58ClampWithLimitsReversed) {
-    expect("clamp(x, y, z)", {0.5f, 1, 0}, 0);
+    expect("clamp(x, y, z)", {0.5f, 1, 0}, 1);
+    expect("clamp(x, y, z)", {1.5f, 1, 0}, 0);
+    expect("clamp(x, y, z)", {1, 1, 0}, 0);
 }
 TEST(Extremes, Row59NormalizeOf0TinyAndHuge) {
     for (float size : {0.0f, 1e-30f, 1e30f})

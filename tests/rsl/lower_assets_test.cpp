@@ -44,9 +44,10 @@ void set_up(RunShader& shader) {
     shader.services.try_emplace("shadow", nothing<3>);
     shader.services.try_emplace("transform", nothing<24>);
     shader.services.try_emplace("print", nothing<0>);
-    shader.services["transmission"] = shader.services["indirectdiffuse"] = nothing<3>;
+    shader.services["transmission"] = nothing<3>;
+    shader.services["indirectdiffuse"] = nothing<6>;
     shader.services["photons"] = nothing<3>;
-    shader.services["occlusion"] = nothing<4>;
+    shader.services["occlusion"] = nothing<7>;
     shader.services["query"] = nothing<17>;
     shader.services["texture3d"] = nothing<33>;
     shader.services["bake3d"] = nothing<0>;

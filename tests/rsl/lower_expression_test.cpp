@@ -48,6 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"mod(zero + 5, zero)", 0}, Case{"smoothstep(1, 1, zero)", 0},
         Case{"smoothstep(1, 1, zero + 1)", 1}, Case{"smoothstep(1, 0, zero + 0.5)", 0},
         Case{"step(zero + 2, 2)", 1}, Case{"clamp(zero + 5, 3, 1)", 1},
+        Case{"clamp(zero + 2, 3, 1)", 3},
         Case{"length(vector(zero, 0, 0))", 0}, Case{"xcomp(normalize(vector(zero, 0, 0)))", 0},
         Case{"xcomp(normalize(vector(zero + 1e-30, 0, 0)))", 1},
         Case{"xcomp(normalize(vector(zero + 1e30, 0, 0)))", 1},

@@ -86,8 +86,8 @@ inline void add_services(RunShader& run) {
                     {"environment", kernel_service<2>},   {"shadow", kernel_service<3>},
                     {"trace", kernel_service<4>},         {"transmission", kernel_service<5>},
                     {"transform", kernel_service<6>},     {"print", kernel_service<7>},
-                    {"query", zero_service<17>},          {"occlusion", zero_service<4>},
-                    {"indirectdiffuse", zero_service<3>}, {"photons", zero_service<3>},
+                    {"query", zero_service<17>},          {"occlusion", zero_service<7>},
+                    {"indirectdiffuse", zero_service<6>}, {"photons", zero_service<3>},
                     {"texture3d", zero_service<33>},      {"bake3d", zero_service<0>},
                     {"gather", gather_nothing},           {"textureinfo", zero_service<17>}};
 }

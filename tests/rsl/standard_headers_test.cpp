@@ -70,7 +70,8 @@ const HeaderRow kHeaders[] = {
      "float a, b; rotate2d(s, t, 0.1, 0.5, 0.5, a, b); topolar2(s, t, a, b);"
      "Ci = blend(color(1, 0, 0), color(0, 1, 0), pulse(0.2, 0.3, 0.1, repeat(s, 3))) + a + b;"
      "Ci = union(Ci, color(0.1, 0.1, 0.1)) * gamma(2, s) * boxpulse(0.2, 0.3, 0.1, t);"
-     "Ci += snoise(P) + snoise2(s, t) + filterwidth_point(P) + odd(whichtile(s, 3)) + bias(s, t);"},
+     "Ci += snoise(P) + snoise2(s, t) + filterwidth_point(P) + odd(whichtile(s, 3)) + bias(s, t);"
+     "Ci += udn(s, 0, 1) + udn2(s, t, 0, 1);"},
     {"locillum.h", "",
      "normal Nf = faceforward(normalize(N), I); vector V = -normalize(I);"
      "Ci = LocIllumOrenNayar(Nf, V, 0.5) + LocIllumGlossy(Nf, V, 0.1, 0.5);"
@@ -78,7 +79,8 @@ const HeaderRow kHeaders[] = {
     {"normals.h", "", "Ci = color(shadingnormal(N));"},
     {"project.h", "string how = \"spherical\";",
      "float ss, tt, ds, dt; ProjectTo2D(how, P, \"shader\", matrix 1, ss, tt, ds, dt);"
-     "Ci = ss + tt + ds + dt;"},
+     "spherical_projection(transform(\"shader\", P), ss, tt); Ci = ss + tt + ds + dt;"
+     "cylindrical_projection(transform(\"shader\", P), ss, tt); Ci += ss + tt;"},
     {"displace.h", "", "N = Displace(normalize(N), \"shader\", 0.1, 1); Ci = color N;"},
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"

@@ -2,13 +2,16 @@
 // forms: where a ray goes and what it meets is known from the scene's few planes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 
 #include "allocations_of_ours.h"
 #include "jit/target.h"
 #include "ray_scenes.h"
+#include "runtime/image_io.h"
 
 namespace kinora {
 namespace {
@@ -50,6 +53,47 @@ TEST(Occlusion, OptionsNarrowShortenAndWeigh) {
     EXPECT_LT(r.color(15, 8).x, float(wall_share(r.place(15, 8).x, 0.8)) + 0.02f);
     EXPECT_EQ(r.color(3, 8).y, 0.0f);    // straight up is free
     EXPECT_LT(r.color(15, 8).z, -0.1f);  // away from the wall
+}
+
+// An image beside the scenes of tests that is red everywhere; removed with the object.
+struct RedSky {
+    std::string name = "kinora_rays_test_" + std::to_string(getpid()) + ".png";
+    std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+    RedSky() {
+        Image8 image{4, 2, {}};
+        for (int k = 0; k < 8; ++k) image.rgba.insert(image.rgba.end(), {255, 0, 0, 255});
+        EXPECT_EQ(write_png(path.string(), image, {}), "");
+    }
+    ~RedSky() { std::filesystem::remove(path); }
+};
+
+// What is open shows the map: under a red sky of 1, one minus what is blocked.
+TEST(Occlusion, GivesTheLightOfAnEnvironmentMap) {
+    RedSky sky;
+    SceneText scene = floor_and_wall(
+        floor_code("color c = 0; float hidden = occlusion(P, n, 64, \"environmentmap\", \"" +
+                   sky.name + "\", \"environmentcolor\", c); Ci = c + color(0, 0, hidden);"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    EXPECT_GT(r.color(14, 8).z, 0.05f) << r.findings();
+    for (int x = 0; x < 16; ++x) {
+        EXPECT_NEAR(r.color(x, 8).x + r.color(x, 8).z, 1, 1e-5) << r.findings();
+        EXPECT_EQ(r.color(x, 8).y, 0.0f);
+    }
+}
+
+TEST(IndirectDiffuse, TellsWhatTheEnvironmentMapGives) {
+    RedSky sky;
+    SceneText scene = floor_and_wall(
+        floor_code("color c = 0; color all = indirectdiffuse(P, n, 64, \"environmentmap\", \"" +
+                   sky.name + "\", \"environmentcolor\", c); Ci = all - c;"),
+        "surface lamp() { Oi = 1; Ci = color(1, 2, 4); }", 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    EXPECT_GT(r.color(14, 8).x, 0.05f) << r.findings();
+    for (int x = 0; x < 16; ++x)  // the rest is the lamp's
+        EXPECT_NEAR(r.color(x, 8).z, 4 * r.color(x, 8).x, 1e-4) << r.findings();
 }
 
 TEST(Occlusion, CountsTransparentSurfacesByTheirOpacity) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/medium.h"
+#include "runtime/shading.h"
 #include "scene_text.h"
 
 namespace kinora {
@@ -299,6 +300,24 @@ TEST(Interior, SmokeShadesItself) {
     r.frame();
     // Light and view go the same way: the integral of 2 exp(-2 z) exp(-2 z) over the depth of 1.
     expect_near(r.color(8, 8), dvec3(0.5 * (1 - std::exp(-4.0))), 1e-4);
+}
+
+// Asking for the lights at places of its own is bounded for a point, whatever the loop.
+TEST(Interior, AMarchThatAsksForLightsTooOftenSaysSo) {
+    for (int rounds : {100, 10000}) {
+        SceneText scene;
+        scene.square("floor", 2).look(
+            "look", fmt::format("surface march() {{ float k; Oi = 1; Ci = 0;"
+                                " for (k = 0; k < {}; k += 1)"
+                                "   illuminance (P + k * 1e-4 * N) {{ Ci += 1; }} }}",
+                                rounds));
+        scene.place("floor", "look")
+            .light("sun", "<directional><color>1 1 1</color></directional>");
+        Rendering r(scene.text());
+        r.frame(2, 2);
+        EXPECT_EQ(r.count("LIGHT_LIMIT"), rounds > int(kMostLightPlaces)) << r.findings();
+        EXPECT_EQ(r.color(1, 1).x, float(std::min(rounds, int(kMostLightPlaces))));
+    }
 }
 
 TEST(Exterior, SurroundsItsObjectUpToTheEye) {

@@ -16,8 +16,10 @@
 #define filteredvsnoise(p, width) (vsnoise(p) * noise_fade(width))
 
 // Noise stretched over its whole range and then mapped to lo..hi.
+#ifndef udn
 #define udn(x, lo, hi) (smoothstep(0.25, 0.75, float noise(x)) * ((hi) - (lo)) + (lo))
 #define udn2(x, y, lo, hi) (smoothstep(0.25, 0.75, float noise(x, y)) * ((hi) - (lo)) + (lo))
+#endif
 
 // Fractional Brownian motion: octaves of signed noise, each finer and weaker than the last.
 float fBm(point p; float filtwidth; uniform float octaves, lacunarity, gain) {

@@ -4,6 +4,19 @@
 
 #include "filterwidth.h"
 
+// Where a ray from the origin through p meets a unit sphere: longitude and latitude from 0 to 1.
+void spherical_projection(point p; output float ss, tt;) {
+    vector v = normalize(vector p);
+    ss = atan(-ycomp(v), -xcomp(v)) / (2 * PI) + 0.5;
+    tt = 1 - acos(clamp(zcomp(v), -1, 1)) / PI;
+}
+
+// The angle around z from 0 to 1, and the height.
+void cylindrical_projection(point p; output float ss, tt;) {
+    ss = atan(-ycomp(p), -xcomp(p)) / (2 * PI) + 0.5;
+    tt = zcomp(p);
+}
+
 // ss, tt of p by "st", "planar", "perspective", "spherical", "cylindrical" or "box", after p has been
 // brought to `whichspace` and transformed by xform; ds, dt are their widths over one sample.
 void ProjectTo2D(string projection; point p; string whichspace; matrix xform; output float ss, tt;
@@ -17,12 +30,9 @@ void ProjectTo2D(string projection; point p; string whichspace; matrix xform; ou
         ss = xcomp(q) / max(zcomp(q), MINFILTWIDTH);
         tt = ycomp(q) / max(zcomp(q), MINFILTWIDTH);
     } else if (projection == "spherical") {
-        vector v = normalize(vector q);
-        ss = atan(-ycomp(v), -xcomp(v)) / (2 * PI) + 0.5;
-        tt = 0.5 - acos(clamp(zcomp(v), -1, 1)) / PI + 0.5;
+        spherical_projection(q, ss, tt);
     } else if (projection == "cylindrical") {
-        ss = atan(-ycomp(q), -xcomp(q)) / (2 * PI) + 0.5;
-        tt = zcomp(q);
+        cylindrical_projection(q, ss, tt);
     } else if (projection == "box") {
         normal n = ntransform(whichspace, Ng);
         float x = abs(xcomp(n)), y = abs(ycomp(n)), z = abs(zcomp(n));

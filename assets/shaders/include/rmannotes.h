@@ -12,6 +12,11 @@
 #define snoise(x) (2 * (float noise(x)) - 1)
 #define snoise2(x, y) (2 * (float noise(x, y)) - 1)
 
+#ifndef udn
+#define udn(x, lo, hi) (smoothstep(0.25, 0.75, float noise(x)) * ((hi) - (lo)) + (lo))
+#define udn2(x, y, lo, hi) (smoothstep(0.25, 0.75, float noise(x, y)) * ((hi) - (lo)) + (lo))
+#endif
+
 // 1 between a and b, with flanks of width fuzz before each.
 #define pulse(a, b, fuzz, x) (smoothstep((a) - (fuzz), a, x) - smoothstep((b) - (fuzz), b, x))
 #define boxpulse(a, b, fuzz, x) (boxstep((a) - (fuzz), a, x) - boxstep((b) - (fuzz), b, x))

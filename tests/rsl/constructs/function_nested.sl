@@ -8,7 +8,8 @@ surface function_nested(float gain = 2) {
         return x * gain + base;
     }
     color tinted(float x) { return tint * boosted(x); }
+    uniform float halved(uniform float x) { return x / 2; }
     void lift() { extern color tint; tint += 0.1; }
     lift();
-    Ci = tinted(t);
+    Ci = tinted(t) * halved(gain);
 }
