@@ -162,9 +162,8 @@ bool is_idle_option(std::string_view callee, std::string_view name, const std::s
 bool is_output_pair(const CallExpr& call, size_t value) {
     if (!call.builtin || value <= call.pairs || (value - call.pairs) % 2 == 0) return false;
     std::string_view name = pair_name(call.args, value);
-    if (name.empty()) return false;
-    if (call.builtin->effects & kReadsChannels)  // what is no variable is no channel
-        return !takes_option(call.name, name) && is_variable(*call.args[value]);
+    if (name.empty() || !is_variable(*call.args[value])) return false;
+    if (call.builtin->effects & kReadsChannels) return !takes_option(call.name, name);
     const OptionalParameter* option = find_option(name, call.name);
     return option && option->result;
 }
