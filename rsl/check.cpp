@@ -25,12 +25,29 @@ void Checker::run() {
     mark_recursion();
 }
 
+// "color Ci = 0;" in a surface, which then hands out nothing.
+void Checker::warn_of_hidden_outputs(const ShaderDefinition& shader) {
+    for (const Stmt* stmt : shader.body->body) {
+        const auto* declaration = as_if<DeclareStmt>(stmt);
+        for (size_t k = 0; declaration && k < declaration->symbols.size(); ++k) {
+            const Symbol& symbol = *declaration->symbols[k];
+            const GlobalInfo* global = find_global(symbol.name);
+            constexpr std::string_view kOutputs[] = {"Ci", "Oi", "Cl", "Ol"};
+            bool output = std::find(std::begin(kOutputs), std::end(kOutputs), symbol.name) !=
+                          std::end(kOutputs);
+            if (output && (global->writers & in_kind(shader.kind)))
+                report(Code::RSL_HIDES_OUTPUT, symbol.place, symbol.name);
+        }
+    }
+}
+
 void Checker::check_shader(ShaderDefinition& shader) {
     unknown_.clear();
     unknown_functions_.clear();
     ScopeGuard scope(*this);
     check_parameters(shader.parameters);
     statement(*shader.body);
+    warn_of_hidden_outputs(shader);
 }
 
 void Checker::check_function(Function& f) {

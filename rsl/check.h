@@ -57,6 +57,7 @@ class Checker {
 
     // check.cpp: definitions, scopes
     void check_shader(ShaderDefinition& shader);
+    void warn_of_hidden_outputs(const ShaderDefinition& shader);
     void check_function(Function& f);
     void check_parameters(std::span<Symbol*> parameters);
     void default_in_shader_space(Symbol& symbol);

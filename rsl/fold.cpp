@@ -1,6 +1,7 @@
 // rsl/fold.cpp: values of parameter defaults that need no running.
 #include <algorithm>
 
+#include "rsl/ast_visit.h"
 #include "rsl/builtin.h"
 #include "rsl/lower_analysis.h"
 #include "rsl/reference.h"

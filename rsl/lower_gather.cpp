@@ -87,7 +87,8 @@ void Lowering::gather(const GatherStmt& stmt) {
             const Known* known = find_known(name);
             bool parameter = !known && name.starts_with("surface:");
             if ((!known && !parameter) || (known && !fits(known->type, given.type.base))) {
-                report(Code::RSL_GATHER_OUTPUT, given.place.where, name);
+                report(Code::RSL_GATHER_OUTPUT, given.place.where, name,
+                       type_name(given.type.base));
                 continue;
             }
             wanted.push_back({name, given.type.base});

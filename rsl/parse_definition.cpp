@@ -22,6 +22,11 @@ void Parser::definition() {
 }
 
 bool Parser::newer_definition() {
+    if (token().text == "plugin" && token(1).kind == TokenKind::String && is(Punct::Semicolon, 2)) {
+        reporter_.report(Code::RSL_PLUGIN, token());
+        for (int k = 0; k < 3; ++k) advance();
+        return true;
+    }
     if (token(1).kind != TokenKind::Identifier) return false;
     if (token().text == "class") return newer_language(token(), "'class' (shader objects)");
     if (token().text == "struct") return newer_language(token(), "'struct'");

@@ -2,6 +2,7 @@
 // the grammar needs.
 #include <charconv>
 
+#include "rsl/ast_visit.h"
 #include "rsl/print.h"
 
 namespace kinora::rsl {

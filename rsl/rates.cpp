@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "rsl/ast_visit.h"
 #include "rsl/pairs.h"
 #include "rsl/usage.h"
 

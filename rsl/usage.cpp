@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "rsl/ast_visit.h"
 #include "rsl/literal_names.h"
 #include "rsl/meant_name.h"
 #include "rsl/pairs.h"

@@ -8,5 +8,5 @@ surface x(string name = "";) {
 //! 5:12 warning RSL_ASSIGN_IN_CONDITION '=' assigns; '==' compares
 //! 2:9 error RSL_CONDITION a condition is a comparison or a float, this is point
 //! 3:12 warning RSL_STRING_CONDITION taken as != ""
-//! 4:10 warning RSL_TRIPLE_ORDER '<' of two vectors
+//! 4:10 warning RSL_TRIPLE_ORDER '<' of vectors
 //! 5:9 error RSL_CONDITION a condition is a comparison or a float, this is color
