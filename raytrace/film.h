@@ -19,7 +19,8 @@ enum class AovFilter : uint8_t {
     FirstSample,  // the value of the pixel's first sample: for ids and depths
 };
 
-// One float component of one AOV of the nearest surface: "z", "N.x". A colour is three planes.
+// One float component of one AOV of the nearest surface whose Oi is not 0: "z", "N.x". A colour is
+// three planes.
 struct AovPlane {
     std::string name;
     AovFilter filter = AovFilter::Mean;

@@ -112,7 +112,7 @@ void TileJob::follow_layers() {
         }
         shade(hits);
         m_.counters.shade_ms += watch.ms();
-        if (layer == 0) keep_aovs(hits);
+        keep_aovs(hits);
         composite(hits);
     }
 }
@@ -172,12 +172,23 @@ bool TileJob::mend_hit(size_t k) {
     return false;
 }
 
+// Is it the first surface along its ray that is there at all?
+bool TileJob::shows_first(const HitBatch& hits, size_t k) const {
+    const size_t slot = m_.rays.slot[hits.ray[k]];
+    bool clear = true, there = false;
+    for (int c = 0; c < 3; ++c) {
+        clear = clear && m_.through[c][slot] == 1.0f;
+        there = there || m_.shaded[3 + c][k] != 0;
+    }
+    return clear && there;
+}
+
 void TileJob::keep_aovs(const HitBatch& hits) {
     for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane) {
         const bool first_only = film_.aovs[plane].filter == AovFilter::FirstSample;
         const double weight = first_only ? 1.0 : 1.0 / settings_.samples_per_pixel;
         for (size_t k = 0; k < hits.count; ++k) {
-            if (first_only && hits.sample[k] != 0) continue;
+            if ((first_only && hits.sample[k] != 0) || !shows_first(hits, k)) continue;
             m_.sum_aov[plane][m_.slot_pixel[m_.rays.slot[hits.ray[k]]]] +=
                 weight * double(m_.shaded_aov[plane][k]);
         }

@@ -61,6 +61,7 @@ class TileJob {
     void shade_misses(const HitBatch& hits);
     void mend(const HitBatch& hits);
     bool mend_hit(size_t k);
+    bool shows_first(const HitBatch& hits, size_t k) const;
     void keep_aovs(const HitBatch& hits);
     void composite(const HitBatch& hits);
     void lay_behind(const HitBatch& hits, size_t k);

@@ -44,7 +44,6 @@ enum Effects : uint32_t {
     kReadsChannels = 1 << 9,  // pairs name channels and the variables they are put in (rsl/pairs.h)
     kNamesFile = 1 << 10,     // the first argument, if a string, is a file
     kWritesChannels = 1 << 11,  // pairs name channels and the values they are given
-    kMakesNormals = 1 << 13,    // of the slopes of a point
     kConstantResult = 1 << 12,  // known when the shader is compiled, whatever the arguments
 };
 

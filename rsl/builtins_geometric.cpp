@@ -168,13 +168,7 @@ void depth(LowerCall& c) {
 // Du(p) ^ Dv(p), turned so that for the unmodified P it points along Ng: the space may be mirrored,
 // and the winding may run against u, v.
 void calculatenormal(LowerCall& c) {
-    auto& e = c.low;
-    V3 normal = e.cross(e.du(c.v3(0)), e.dv(c.v3(0)));
-    V3 own = e.cross(e.global_input(Global::dPdu).v3(), e.global_input(Global::dPdv).v3());
-    Value against = c.b.lt(e.dot(own, e.global_input(Global::Ng).v3()), e.f(0));
-    V3 value = e.select(against, e.neg(normal), normal), N = e.global_input(Global::N).v3();
-    for (size_t k = 0; k < 3; ++k) value[k] = c.b.op(jit::Op::WithSlope, value[k], N[k]);
-    c.set(value);
+    c.set(c.low.normal_of(c.v3(0)));
 }
 
 }  // namespace lower_geometric
@@ -229,7 +223,7 @@ const Builtin kRows[] = {
     {"depth", "f=p", lower::depth, KINORA_RSL_REF(ref::depth), kPure, 8,
      "0 at the near, 1 at the far clipping plane."},
     {"calculatenormal", "n=p", lower::calculatenormal, KINORA_RSL_REF(ref::calculatenormal),
-     kDerivative | kMakesNormals, 16,
+     kDerivative, 16,
      "Normal of the surface with positions p: Du(p) ^ Dv(p), oriented as Ng. Where a displacement "
      "only bends normals P changes as on a surface with the normal N: no faces show.",
      kSurface | kDisplacement | kVolume, "Ng"},

@@ -193,6 +193,8 @@ void trace_shadow(LowerCall& c) {
         "transmission", std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
                                    c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
     for (Value& x : through) x = c.b.sub(e.f(1), x);
+    if (c.result_type() == BaseType::Float)  // of coloured shadows the mean, as of occlusion()
+        through[0] = c.b.mul(c.b.add(through[0], c.b.add(through[1], through[2])), e.f(1.0f / 3));
     set_texels(c, through);
 }
 

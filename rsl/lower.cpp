@@ -67,6 +67,10 @@ class Stack {
         if (!bends_) return;
         const Layer* surface = std::exchange(low_.layer, std::exchange(bends_, nullptr));
         bool same_N = N_.c == low_.given_N.c, same_P = P_.c == low_.given_P.c;
+        if (same_N && !same_P) {  // as true displacement: N of what has moved
+            N_ = lowered(BaseType::Normal, low_.normalize(low_.normal_of(P_.v3())));
+            same_N = false;
+        }
         V3 N = low_.out_of_layer(N_).v3();  // as long as it was
         Value size = low_.div(low_.length(N_.v3()), low_.length(N));
         if (!same_N) N_ = lowered(BaseType::Normal, low_.scale(N, size));
@@ -191,8 +195,8 @@ void Lowering::declare_layer(const Layer& next) {
     enter_layer();
     for (const ShaderParameter& p : next.shader->parameters)
         if (!p.type.is_array())
-            messages.push_back({next.shader->kind, std::string(p.name), p.type,
-                                parameter(*p.symbol), -1, bends_normals()});
+            messages.push_back(
+                {next.shader->kind, std::string(p.name), p.type, parameter(*p.symbol), -1});
 }
 
 void Lowering::run_layer(const Layer& next) {
@@ -204,8 +208,7 @@ void Lowering::run_layer(const Layer& next) {
     for (const ShaderParameter& parameter : shader.parameters) finder.add(parameter.default_value);
     if (bends_normals() && !live(Global::P)) {
         given_N = global_input(Global::N);
-        bool makes_normals = finder.changes.effects & kMakesNormals;
-        given_P = makes_normals ? smooth_P(given_N) : global_input(Global::P);
+        given_P = smooth_P(given_N);
         write_slot(int(Global::N), given_N);
         write_slot(int(Global::P), given_P);
     }
@@ -225,11 +228,11 @@ void Lowering::run_layer(const Layer& next) {
     }
     block(shader.definition->body->body);
     for (const ShaderParameter& parameter : shader.parameters) {
-        Message message{
-            shader.kind, std::string(parameter.name), parameter.type, {}, -1, bends_normals()};
+        Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
         bool last = layer == &layers.back() && options.messages.empty() && options.aovs.empty();
         if (!parameter.type.is_array())
-            message.value = read(*parameter.symbol);
+            message.value = parameter.output ? read(*parameter.symbol)
+                                             : out_of_layer(read(*parameter.symbol));
         else if (last)
             continue;  // nobody is left to ask
         else
@@ -239,12 +242,10 @@ void Lowering::run_layer(const Layer& next) {
 }
 
 std::vector<Lowered> Lowering::message_values(const Message& message) {
+    if (message.array < 0) return {message.value};
     std::vector<Lowered> values;
-    for (int k = 0; message.array >= 0 && k < message.type.array_length; ++k)
+    for (int k = 0; k < message.type.array_length; ++k)
         values.push_back(load_element(message.array, b.i(k)));
-    if (message.array < 0) values.push_back(message.value);
-    for (Lowered& value : values)
-        if (message.in_object) value = from_object(value);
     return values;
 }
 

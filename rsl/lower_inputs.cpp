@@ -121,6 +121,15 @@ Lowered Lowering::smooth_P(const Lowered& N) {
     return lowered(BaseType::Point, P);
 }
 
+V3 Lowering::normal_of(const V3& p) {
+    V3 normal = cross(du(p), dv(p));
+    V3 own = cross(global_input(Global::dPdu).v3(), global_input(Global::dPdv).v3());
+    Value against = b.lt(dot(own, global_input(Global::Ng).v3()), f(0));
+    V3 value = select(against, neg(normal), normal), N = global_input(Global::N).v3();
+    for (size_t k = 0; k < 3; ++k) value[k] = b.op(jit::Op::WithSlope, value[k], N[k]);
+    return value;
+}
+
 // What a light sees of itself: it stands at the origin of its space.
 static Lowered light_global(Lowering& low, const GlobalInfo& info) {
     if (info.id == Global::P) {
@@ -194,6 +203,7 @@ jit::InputInfo Lowering::element_input(std::string_view name, BaseType type,
 Lowered Lowering::bound_value(const ParamBinding& bound, std::string_view name, Type type,
                               int element) {
     Lowered value = bound_input(bound, name, type, element);
+    if (bound.plain) return value;
     return bound.kind == ParamBinding::Kind::Varying ? from_object(value) : into_layer(value);
 }
 

@@ -220,7 +220,7 @@ void Lowering::begin_light(const Changes& changes) {
     for (const Stmt* stmt : changes.light_sources) {
         Lowered dark = zero(BaseType::Color);
         light_sources_.push_back({stmt, new_slot(zero(BaseType::Vector)), new_slot(dark),
-                                  new_slot(dark), new_slot(zero(BaseType::Bool))});
+                                  new_slot(dark), new_slot(zero(BaseType::Bool)), {}, {}});
     }
     bool shadows = !(changes.effects & (kShadows | kTraces));
     for (const LightSource& light : light_sources_)
@@ -254,6 +254,9 @@ void Lowering::illuminate(const Stmt& stmt, const Expr* position, const Expr* ax
             write_slot(light.lit, lowered(BaseType::Bool, running));
         }
     });
+    for (LightSource& light : light_sources_)
+        if (light.stmt == &stmt)
+            light.left_Cl = read_global(Global::Cl), light.left_Ol = read_global(Global::Ol);
 }
 
 // What is the same for all lights' sake (no L, no Ol, lit everywhere) is no output: a renderer
@@ -273,10 +276,16 @@ void Lowering::light_outputs() {
         if (b.constant_m(lit, &everywhere) && everywhere) return;
         b.output({prefix + "lit", jit::Type::I}, b.select(lit, b.i(1), b.i(0)));
     };
+    // What a light assigns behind its only statement counts too, where that lights.
+    auto at_end = [&](const LightSource& light, Global id, int slot, const Lowered& left) {
+        Lowered last = read_global(id);
+        if (light_sources_.size() > 1 || last.c == left.c) return read_slot(slot);
+        return lowered(last.type, select(read_slot(light.lit).c[0], last.v3(), f3(0)));
+    };
     for (size_t k = 0; k < light_sources_.size(); ++k) {
         const LightSource& light = light_sources_[k];
-        record(k, read_slot(light.L), read_slot(light.Cl), read_slot(light.Ol),
-               read_slot(light.lit).c[0]);
+        record(k, read_slot(light.L), at_end(light, Global::Cl, light.Cl, light.left_Cl),
+               at_end(light, Global::Ol, light.Ol, light.left_Ol), read_slot(light.lit).c[0]);
     }
     if (light_sources_.empty())
         record(0, zero(BaseType::Vector), read_global(Global::Cl), read_global(Global::Ol),

@@ -122,6 +122,7 @@ class Lowering : public Emitter {
     Lowered read(const Symbol& symbol);
     Lowered read_global(Global id);
     Lowered smooth_P(const Lowered& N);
+    V3 normal_of(const V3& p);  // Du(p) ^ Dv(p), oriented as Ng; slopes as those of N
     void write_slot(int slot, const Lowered& value);
     Lowered read_slot(int slot) { return slots_[size_t(slot)].value; }
     bool live(Global id) const { return slots_[size_t(id)].live; }
@@ -286,11 +287,10 @@ class Lowering : public Emitter {
         std::string name;
         Type type;
         Lowered value;
-        int array = -1;          // index in Lowering's arrays
-        bool in_object = false;  // of a layer whose current is the object's space
+        int array = -1;  // index in Lowering's arrays
     };
     std::vector<Message> messages;
-    // The elements of a message, in the layer's current; one if it is no array.
+    // The elements of a message, plain numbers; one if it is no array.
     std::vector<Lowered> message_values(const Message& message);
     std::span<const Layer> layers;  // the whole stack
 
@@ -395,7 +395,8 @@ class Lowering : public Emitter {
     std::vector<FunctionFrame> frames_;
     struct LightSource {
         const Stmt* stmt;
-        int L, Cl, Ol, lit;  // slots
+        int L, Cl, Ol, lit;         // slots
+        Lowered left_Cl, left_Ol;  // as the statement left the globals
     };
     std::vector<LightSource> light_sources_;
     std::vector<Recursive> recursive_;

@@ -6,7 +6,8 @@ namespace kinora::rsl {
 namespace {
 
 // Signatures as rsl/renderer_services.h lists them: i int, f float; p, v, n the three floats of a
-// point, vector or normal in the kernel's "current".
+// point, vector or normal in the kernel's "current". Directions into an environment map are numbers
+// in the map's space.
 struct ServiceRow {
     std::string_view name;
     std::string params;
@@ -16,7 +17,7 @@ struct ServiceRow {
 const ServiceRow kServices[] = {
     {"lights", "p", "i", true},
     {"texture", "iffffffffffif", "ffff", true},
-    {"environment", "ifvvvff", "ffff", true},
+    {"environment", "iffffffffffff", "ffff", true},
     {"shadow", "ipvvfff", "fff", true},
     {"textureinfo", "ii", "iffffffffffffffff", true},
     {"trace", "iipvffffi", "ffff", true},

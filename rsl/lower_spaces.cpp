@@ -61,7 +61,7 @@ Lowering::Space Lowering::input_space(const std::string& name) {
 }
 
 bool Lowering::bends_normals() const {
-    return kind() == ShaderKind::Displacement &&
+    return kind() == ShaderKind::Displacement && !layer->done &&
            layers.back().shader->kind == ShaderKind::Surface;
 }
 

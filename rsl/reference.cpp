@@ -265,10 +265,17 @@ void Reference<Real>::smooth_P() {
 
 template <class Real>
 void Reference<Real>::bring_back_N() {
-    Item& N = global(Global::N);
-    bool same = true;
-    for (size_t k = 0; k < 3; ++k) same = same && N.c[k].x == given_N_.c[k].x;
-    if (same) return void(globals_.erase(Global::N));
+    Item &N = global(Global::N), &P = global(Global::P);
+    bool same = true, stays = true;
+    for (size_t k = 0; k < 3; ++k) {
+        same = same && N.c[k].x == given_N_.c[k].x;
+        stays = stays && P.c[k].x == given_P_.c[k].x;
+    }
+    if (same && stays) return void(globals_.erase(Global::N));
+    if (same) {  // as true displacement: N of what has moved
+        Vec<Real> n = rsl::normalize(normal_of(vec(P)));
+        N = {BaseType::Normal, n[0], n[1], n[2]};
+    }
     Vec<Real> n = vec(out_of_layer(N));  // as long as it was
     Number size = length(vec(N)) / length(n);
     N = {BaseType::Normal, n[0] * size, n[1] * size, n[2] * size};
@@ -301,15 +308,14 @@ void Reference<Real>::run_layer(const Layer& next) {
             {source, Item(BaseType::Vector), Item(BaseType::Color), Item(BaseType::Color), false});
     if (bends_normals() && !globals_.contains(Global::P)) {
         given_N_ = global(Global::N);
-        global(Global::P);
-        if (finder.changes.effects & kMakesNormals) smooth_P();
+        smooth_P();
+        given_P_ = global(Global::P);
     }
     block(shader.definition->body->body);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {
-            Item left = out_of_layer(variables_[p.symbol][0]);
-            output("aov:" + std::string(p.name), left);
-            output("message:" + std::string(p.name), left);
+            output("aov:" + std::string(p.name), variables_[p.symbol][0]);
+            output("message:" + std::string(p.name), variables_[p.symbol][0]);
         }
     if (displacement || shader.kind == ShaderKind::Light) return;
     Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));
@@ -326,6 +332,8 @@ void Reference<Real>::light_outputs() {
     Item no_L(BaseType::Vector), black(BaseType::Color);
     if (sources_.empty())
         sources_.push_back({nullptr, no_L, global(Global::Cl), global(Global::Ol), true});
+    bool only = sources_.size() == 1 && sources_[0].stmt && sources_[0].lit;
+    if (only) sources_[0].Cl = global(Global::Cl), sources_[0].Ol = global(Global::Ol);
     for (size_t k = 0; k < sources_.size(); ++k) {
         std::string prefix = "light:" + std::to_string(k) + ":";
         Item to_light = sources_[k].L;

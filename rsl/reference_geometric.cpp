@@ -6,15 +6,6 @@ namespace kinora::rsl::ref {
 namespace {
 
 template <class Real>
-Vec<Real> along_u(const Vec<Real>& a) {
-    return {Dual<Real>(a[0].u), Dual<Real>(a[1].u), Dual<Real>(a[2].u)};
-}
-template <class Real>
-Vec<Real> along_v(const Vec<Real>& a) {
-    return {Dual<Real>(a[0].v), Dual<Real>(a[1].v), Dual<Real>(a[2].v)};
-}
-
-template <class Real>
 struct Bent {
     Vec<Real> direction;
     bool total;
@@ -142,13 +133,7 @@ void depth(RefCall<Real>& c) {
 // Du(p) ^ Dv(p) on the side of Ng; its own derivatives are those of N as it came.
 template <class Real>
 void calculatenormal(RefCall<Real>& c) {
-    Vec<Real> p = c.v(0);
-    Vec<Real> n = c.eval.cross(along_u(p), along_v(p));
-    Vec<Real> u = vec(c.eval.first_value(Global::dPdu)), v = vec(c.eval.first_value(Global::dPdv));
-    Vec<Real> Ng = vec(c.eval.global(Global::Ng)), N = vec(c.eval.first_value(Global::N));
-    if (c.eval.decide(dot(cross(u, v), Ng).x < 0)) n = Dual<Real>(-1) * n;
-    for (size_t k = 0; k < 3; ++k) n[k].u = N[k].u, n[k].v = N[k].v;
-    c.set(n);
+    c.set(c.eval.normal_of(c.v(0)));
 }
 
 KINORA_RSL_DEFINE_REF(xcomp)

@@ -61,6 +61,17 @@ auto Reference<Real>::first_value(Global id) -> Item {
     return {x.type, n[0], n[1], n[2]};
 }
 
+// Du(p) ^ Dv(p), oriented as Ng; its slopes are those of N.
+template <class Real>
+Vec<Real> Reference<Real>::normal_of(const Vec<Real>& p) {
+    Vec<Real> n = cross(along_u(p), along_v(p));
+    Vec<Real> u = vec(first_value(Global::dPdu)), v = vec(first_value(Global::dPdv));
+    Vec<Real> Ng = vec(global(Global::Ng)), N = vec(first_value(Global::N));
+    if (decide(dot(rsl::cross(u, v), Ng).x < 0)) n = Number(-1) * n;
+    for (size_t k = 0; k < 3; ++k) n[k].u = N[k].u, n[k].v = N[k].v;
+    return n;
+}
+
 template <class Real>
 auto Reference<Real>::kernel_value(Global id) -> Item {
     const GlobalInfo& info = global_info(id);
@@ -135,7 +146,8 @@ auto Reference<Real>::parameter(const Symbol& symbol, int element) -> Item {
     std::string name = "param:" + std::to_string(layer_index) + ":" + std::string(symbol.name);
     if (element >= 0) name += "[" + std::to_string(element) + "]";
     if (bound->kind == ParamBinding::Kind::Frame) return into_layer(input(name, type));
-    return from_object(input(name, type, ":du", ":dv"));
+    Item varying = input(name, type, ":du", ":dv");
+    return bound->plain ? varying : from_object(varying);
 }
 
 template <class Real>
@@ -161,16 +173,14 @@ struct Triple {
     BaseType type;
 };
 constexpr Triple kTriples[] = {
-    {"environment", 2, BaseType::Vector},     {"environment", 5, BaseType::Vector},
-    {"environment", 8, BaseType::Vector},     {"shadow", 1, BaseType::Point},
-    {"shadow", 4, BaseType::Vector},          {"shadow", 7, BaseType::Vector},
-    {"trace", 2, BaseType::Point},            {"trace", 5, BaseType::Vector},
-    {"transmission", 2, BaseType::Point},     {"transmission", 5, BaseType::Point},
-    {"occlusion", 2, BaseType::Point},        {"occlusion", 5, BaseType::Normal},
-    {"occlusion", -2, BaseType::Vector},      {"indirectdiffuse", 2, BaseType::Point},
-    {"indirectdiffuse", 5, BaseType::Normal}, {"gather", 4, BaseType::Point},
-    {"gather", 7, BaseType::Vector},          {"photons", 3, BaseType::Point},
-    {"photons", 6, BaseType::Normal},
+    {"shadow", 1, BaseType::Point},        {"shadow", 4, BaseType::Vector},
+    {"shadow", 7, BaseType::Vector},       {"trace", 2, BaseType::Point},
+    {"trace", 5, BaseType::Vector},        {"transmission", 2, BaseType::Point},
+    {"transmission", 5, BaseType::Point},  {"occlusion", 2, BaseType::Point},
+    {"occlusion", 5, BaseType::Normal},    {"occlusion", -2, BaseType::Vector},
+    {"indirectdiffuse", 2, BaseType::Point}, {"indirectdiffuse", 5, BaseType::Normal},
+    {"gather", 4, BaseType::Point},        {"gather", 7, BaseType::Vector},
+    {"photons", 3, BaseType::Point},       {"photons", 6, BaseType::Normal},
 };
 
 }  // namespace
@@ -200,6 +210,7 @@ std::vector<double> Reference<Real>::service(std::string_view name, std::vector<
                                          const std::string&) const->Item;                        \
     template auto Reference<Real>::first_value(Global)->Item;                                    \
     template auto Reference<Real>::kernel_value(Global)->Item;                                   \
+    template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                             \
     template auto Reference<Real>::parameter(const Symbol&, int)->Item;                          \
     template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;            \
     template std::vector<double> Reference<Real>::service(std::string_view, std::vector<double>);

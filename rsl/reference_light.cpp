@@ -196,6 +196,8 @@ void trace_shadow(RefCall<Real>& c) {
     args.push_back(double(c.pair("bias", -1).x));
     std::vector<double> through = c.eval.service("transmission", args);
     for (double& x : through) x = 1 - x;
+    if (c.result.type == BaseType::Float && through.size() == 3)
+        through = {(through[0] + through[1] + through[2]) / 3};
     from_service(c, through);
 }
 template <class Real>

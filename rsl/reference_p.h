@@ -53,6 +53,14 @@ Dual<Real> dot(const Vec<Real>& a, const Vec<Real>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class Real>
+Vec<Real> along_u(const Vec<Real>& a) {
+    return {Dual<Real>(a[0].u), Dual<Real>(a[1].u), Dual<Real>(a[2].u)};
+}
+template <class Real>
+Vec<Real> along_v(const Vec<Real>& a) {
+    return {Dual<Real>(a[0].v), Dual<Real>(a[1].v), Dual<Real>(a[2].v)};
+}
+template <class Real>
 Vec<Real> cross(const Vec<Real>& a, const Vec<Real>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -162,6 +170,7 @@ class Reference {
     Real number(const std::string& name, Real otherwise) const;
     Item first_value(Global id);   // in the layer's "current"
     Item kernel_value(Global id);  // in the kernel's
+    Vec<Real> normal_of(const Vec<Real>& p);
     Item parameter(const Symbol& symbol, int element);
     std::vector<Item> array_parameter(const Symbol& symbol);
     std::vector<double> service(std::string_view name, std::vector<double> args);
@@ -231,7 +240,7 @@ class Reference {
 
     void smooth_P();
     void bring_back_N();
-    Item given_N_;  // to the displacements
+    Item given_N_, given_P_;  // to the displacements
     void run_layer(const Layer& next);
     void output(const std::string& name, const Item& value);
     void light_outputs();

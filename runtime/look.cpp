@@ -45,6 +45,7 @@ rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool sha
     for (const VaryingParam& varying : look.varying)
         if (varying.layer == layer && varying.name == parameter.name) {
             binding.kind = rsl::ParamBinding::Kind::Varying;
+            binding.plain = varying.of_displacement();
             return binding;
         }
     const ParamSource* source = find_source(use, parameter.name);

@@ -83,6 +83,7 @@ struct VaryingParam {
     uint32_t component = 0;  // first component of the vertex input (1 for the t of a texcoord)
     bool text = false;       // values are ids of interned texts, bit for bit
     bool array = false;  // of `components` numbers in all: no kernel reads it, shaders ask for it
+    bool of_displacement() const { return semantic.starts_with("vertex:"); }
     // Value; du at column + components, dv at column + 2 * components. kNoColumn: an array's.
     uint16_t column = 0;
 };

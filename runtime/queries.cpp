@@ -33,10 +33,17 @@ void place(rsl::BaseType type, const dmat4& current_from_space, const double* va
     for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
 }
 
-// The same from the look's "shader" space.
+// The same from the look's "shader" space: a surface's is that of what wears it.
 void place(rsl::BaseType type, const Asker& asker, const Look& look, const double* values,
            Answer& answer) {
-    place(type, current_from_space(asker.scene, "shader", look.node), values, answer);
+    uint32_t node = look.node;
+    const Grid* grid = asker.grid && asker.grid->lit ? asker.grid->lit : asker.grid;
+    if (node == kNone && grid) {
+        uint32_t row = grid->hits.instance[grid->points[asker.point + asker.grid->lit_first]];
+        if (row != kNone && asker.scene.surfaces[row].look == look.index)
+            node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
+    }
+    place(type, current_from_space(asker.scene, "shader", node), values, answer);
 }
 
 rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
@@ -69,7 +76,7 @@ bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Q
                 column ? column[point] : varying_at(asker.scene, grid.hits, hit, which, first + c);
         }
         rsl::BaseType type = parameter_type(look.layers[layer], v.name);
-        if (rsl::is_spatial(type)) {  // the mesh's are in the object's space
+        if (rsl::is_spatial(type) && !v.of_displacement()) {  // the mesh's: in the object's space
             uint32_t shape = asker.scene.surfaces[row].shape;
             const double values[] = {answer[0], answer[1], answer[2]};
             place(type, current_from_space(asker.scene, "object", asker.scene.shapes[shape].node),

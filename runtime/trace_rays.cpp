@@ -259,15 +259,17 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
                 float hidden = 1 - (through[i].x + through[i].y + through[i].z) / 3;
                 float falloff = lanes.number(Falloff, lane);
                 // "falloffmode" 0: exponential, 1: a power of the share of maxdist left.
+                float fade = 1;
                 if (falloff > 0 && hidden > 0)
-                    hidden *=
+                    fade =
                         lanes.number(Mode, lane) > 0
                             ? std::pow(std::max(0.0f, 1 - weight[i] / lanes.number(kMaxdist, lane)),
                                        falloff)
                             : std::exp(-falloff * weight[i]);
+                hidden *= fade;
                 blocked[lane] += hidden;
                 open[lane] += (1 - hidden) * dirs[i];
-                if (falloff > 0) through[i] = vec3(1 - hidden);
+                if (falloff > 0 && hidden > 0) through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * fade;
             }
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
                 look_up(*scene_.textures, map, dirs.subspan(begin, end - begin),

@@ -35,6 +35,9 @@ VertexSpace::VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_
     dmat4 object_from_world = glm::inverse(scene.nodes[node].world);
     eye_object = dvec3(object_from_world * dvec4(view.eye + scene.origin, 1.0));
     orthographic = view.orthographic;
+    dvec3 forward = dvec3(view.world_from_camera[2]);
+    axis = vec3(dmat3(object_from_world) * forward);
+    depth = vec3(glm::transpose(dmat3(scene.nodes[node].world)) * forward);
     double scale =
         orthographic ? std::cbrt(std::abs(glm::determinant(dmat3(object_from_world)))) : 1;
     pixel = view.width ? float(scale * 2 * view.half_width / view.width) : 0.0f;
@@ -72,7 +75,7 @@ class Columns {
             vec3 P = place(w), N = normal(w);
             set(kColP, i, P);
             set(kColN, i, N);
-            set(kColI, i, P - vec3(space_.eye_object));
+            set(kColI, i, space_.seen_along(P - vec3(space_.eye_object)));
             if (columns_[kColNg]) set(kColNg, i, geometric_normal(w, N));
             coordinates(i, w);
             if (partials) derivatives(i, w, P, N, tangents);
@@ -171,8 +174,8 @@ class Columns {
         dPdv = in_plane(dPdv / float(count));
         set(kColdPdu, i, dPdu);
         set(kColdPdv, i, dPdv);
-        set(kColdIdu, i, dPdu);
-        set(kColdIdv, i, dPdv);
+        set(kColdIdu, i, space_.seen_along(dPdu));
+        set(kColdIdv, i, space_.seen_along(dPdv));
         set(kColdNdu, i, in_plane(dNdu / float(count)));
         set(kColdNdv, i, in_plane(dNdv / float(count)));
         float width = space_.pixel;

@@ -1,6 +1,7 @@
 // runtime/vertex_columns_p.h: kernel inputs at the wedges of a mesh; for vertex_*.cpp only.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "runtime/base/arena.h"
@@ -22,6 +23,12 @@ struct VertexSpace {
     // Width of a pixel at distance 1 of the eye, or everywhere (orthographic), object space.
     float pixel = 0;
     bool orthographic = false;
+    // Orthographic: along the view, and what the depth of a point from the eye is by its place.
+    vec3 axis{0.0f}, depth{0.0f};
+    // I of a point that lies so from the eye; it is linear.
+    vec3 seen_along(vec3 from_eye) const {
+        return orthographic ? axis * glm::dot(depth, from_eye) : from_eye;
+    }
 };
 
 // What the columns of one group are made of.

@@ -129,6 +129,17 @@ TEST(LowerLights, LightsWriteOneRecordAStatement) {
     EXPECT_EQ(out["light:1:Cl.g"][1], 0.5f);
 }
 
+// Behind its only statement, and only where that lights.
+TEST(LowerLights, WhatIsAssignedBehindTheStatementCounts) {
+    RunShader light(
+        "light a() { illuminate(point \"current\" (0, 0, 0), vector(0, 0, 1), 0.5) { Cl = 3; }"
+        " Cl *= 0.5; }");
+    ASSERT_TRUE(light.ok()) << light.findings();
+    light.set("Ps.z", {1, -1});
+    auto out = light.run(2);
+    EXPECT_EQ(out["light:0:Cl.r"], (std::vector<float>{1.5f, 0}));
+}
+
 TEST(LowerLights, AmbientLightsHaveNoStatement) {
     RunShader light("light a(color lightcolor = color(1, 2, 3);) { Cl = 2 * lightcolor; }");
     ASSERT_TRUE(light.ok()) << light.findings();

@@ -165,7 +165,9 @@ TEST(Outputs, OfTheNearestSurfaceAndOfShadersThatHaveThem) {
         .look("l", kOutputs)
         .look("glass", "surface g(output varying float dirt = 0;) { dirt = 7; Oi = 0.5; Ci = 0; }")
         .look("plain", "surface p() { Oi = 1; Ci = 1; }")
+        .look("gone", "surface g(output varying float dirt = 0;) { dirt = 9; Oi = 0; Ci = 0; }")
         .place("s", "l")
+        .place("s", "gone", "<translate>0 0 3</translate>")  // is not there
         .place("s", "glass", "<translate>1.5 0 1</translate>")
         .place("s", "plain", "<translate>0 1.5 2</translate>");
     SceneOptions options;
