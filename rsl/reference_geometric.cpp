@@ -127,7 +127,9 @@ template <class Real>
 void depth(RefCall<Real>& c) {
     using Number = Dual<Real>;
     Number near(c.eval.number("camera:near", 0)), far(c.eval.number("camera:far", 0));
-    c.set((c.v(0)[2] - near) / (far - near));
+    RefValue<Real> p = c.args[0];
+    p.type = BaseType::Point;
+    c.set((c.eval.out_of_layer(p).c[2] - near) / (far - near));  // along the camera's z
 }
 
 // Du(p) ^ Dv(p) on the side of Ng; its own derivatives are those of N as it came.

@@ -1,4 +1,4 @@
-"""tests/programs/code_size_test.py: what jit and rsl, with AsmJit, take of the stripped kinora-shade, read
+"""tests/programs/code_size_test.py: what jit and rsl take of the stripped kinora-shade, read
 from the map that its linker wrote."""
 import os
 import re
