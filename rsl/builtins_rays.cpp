@@ -70,12 +70,11 @@ void occlusion(LowerCall& c) {
     int first = c.args.size() == 4 ? 1 : 0;
     V3 P = c.v3(first), N = c.v3(first + 1);
     auto seed = c.low.sample_seed(c.call.site);
-    std::vector<Value> answer =
-        c.low.service("occlusion", std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2],
-                                              c.f(first + 2), cone(c), c.pair("maxdist", kFar),
-                                              c.pair("bias", -1), c.pair("falloff", 0),
-                                              c.pair("falloffmode", 0),
-                                              c.text_pair("environmentmap")});
+    std::vector<Value> answer = c.low.service(
+        "occlusion",
+        std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2], c.f(first + 2), cone(c),
+                   c.pair("maxdist", kFar), c.pair("bias", -1), c.pair("falloff", 0),
+                   c.pair("falloffmode", 0), c.text_pair("environmentmap")});
     c.set(answer[0]);
     set_pair(c, "environmentdir", &answer[1]);
     set_pair(c, "environmentcolor", &answer[4]);

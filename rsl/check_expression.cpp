@@ -1,6 +1,6 @@
 // rsl/check_expression.cpp: values, variables, l-values and conversions that the context asks for.
-#include "rsl/check.h"
 #include "rsl/ast_visit.h"
+#include "rsl/check.h"
 #include "rsl/meant_name.h"
 
 namespace kinora::rsl {

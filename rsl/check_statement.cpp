@@ -1,6 +1,6 @@
 // rsl/check_statement.cpp: statements.
-#include "rsl/check.h"
 #include "rsl/ast_visit.h"
+#include "rsl/check.h"
 #include "rsl/pairs.h"
 
 namespace kinora::rsl {

@@ -231,8 +231,8 @@ void Lowering::run_layer(const Layer& next) {
         Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
         bool last = layer == &layers.back() && options.messages.empty() && options.aovs.empty();
         if (!parameter.type.is_array())
-            message.value = parameter.output ? read(*parameter.symbol)
-                                             : out_of_layer(read(*parameter.symbol));
+            message.value =
+                parameter.output ? read(*parameter.symbol) : out_of_layer(read(*parameter.symbol));
         else if (last)
             continue;  // nobody is left to ask
         else

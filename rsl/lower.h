@@ -32,7 +32,7 @@ struct ParamBinding {
     Kind kind = Kind::Default;
     std::vector<float> constant;       // components (all elements of an array)
     std::vector<std::string> strings;  // for string parameters
-    bool plain = false;  // Varying: what a displacement left, numbers of no space
+    bool plain = false;                // Varying: what a displacement left, numbers of no space
 };
 
 // One shader of a stack: displacements first (bottom first), then surfaces (bottom first).

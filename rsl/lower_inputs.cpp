@@ -101,8 +101,8 @@ bool Lowering::is_input(const V3& v, const char* name) {
     return true;
 }
 
-// For displacements that only bend normals: P whose slopes lie in the plane that N is normal to, not
-// in that of the face. What calculatenormal() makes of it is N bent, and shows no faces.
+// For displacements that only bend normals: P whose slopes lie in the plane that N is normal to,
+// not in that of the face. What calculatenormal() makes of it is N bent, and shows no faces.
 Lowered Lowering::smooth_P(const Lowered& N) {
     auto fixed = [&](const V3& v) {  // without slopes of its own
         return V3{b.op(jit::Op::WithSlope, v[0], b.f(0)), b.op(jit::Op::WithSlope, v[1], b.f(0)),

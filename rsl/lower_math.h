@@ -54,7 +54,8 @@ class Emitter {
     // RSL's division: 0 where |y| < FLT_MIN (EXTREMES.md row 47).
     Value div(Value x, Value y);
     Value clamp(Value x, Value low, Value high) { return b.min(b.max(x, low), high); }
-    Value limited(Value x, Value low, Value high);  // the same; below `low` it is low, though > high
+    Value limited(Value x, Value low,
+                  Value high);  // the same; below `low` it is low, though > high
     // Exact at alpha 0 and 1.
     Value mix(Value x, Value y, Value alpha) { return fma(y, alpha, mul(x, b.sub(b.f(1), alpha))); }
     Value sqrt(Value x);                   // 0 for negative x

@@ -389,13 +389,13 @@ class Lowering : public Emitter {
     std::vector<int> array_of_;             // by Symbol::id, -1: none yet
     std::vector<int> lent_slot_;  // by Symbol::id: an output parameter's argument; -1: its own
     std::vector<Array> arrays_;
-    int64_t array_bytes_ = 0;  // of them all, for 16 points
+    int64_t array_bytes_ = 0;         // of them all, for 16 points
     std::vector<uint8_t> in_memory_;  // by Symbol::id
     std::vector<Loop> loops_;
     std::vector<FunctionFrame> frames_;
     struct LightSource {
         const Stmt* stmt;
-        int L, Cl, Ol, lit;         // slots
+        int L, Cl, Ol, lit;        // slots
         Lowered left_Cl, left_Ol;  // as the statement left the globals
     };
     std::vector<LightSource> light_sources_;

@@ -105,8 +105,8 @@ Lowering::Space Lowering::variable_space(Value name) {
 
 bool Lowering::is_affine(const Lowered& m) {
     float one = 0;
-    return is_zero(m.c[3]) && is_zero(m.c[7]) && is_zero(m.c[11]) &&
-           b.constant_f(m.c[15], &one) && one == 1;
+    return is_zero(m.c[3]) && is_zero(m.c[7]) && is_zero(m.c[11]) && b.constant_f(m.c[15], &one) &&
+           one == 1;
 }
 
 V3 Lowering::transform_point(const V3& p, const Lowered& m) {

@@ -43,10 +43,9 @@ void Preprocessor::directive() {
             directive_tokens();
             return;
         }
-        bool text_line = row.run == &Preprocessor::run_pragma ||
-                         row.run == &Preprocessor::run_error ||
-                         row.run == &Preprocessor::run_warning ||
-                         row.run == &Preprocessor::run_nothing;
+        bool text_line =
+            row.run == &Preprocessor::run_pragma || row.run == &Preprocessor::run_error ||
+            row.run == &Preprocessor::run_warning || row.run == &Preprocessor::run_nothing;
         (this->*row.run)(name, text_line ? TokenList{} : directive_tokens());
         return;
     }

@@ -173,14 +173,14 @@ struct Triple {
     BaseType type;
 };
 constexpr Triple kTriples[] = {
-    {"shadow", 1, BaseType::Point},        {"shadow", 4, BaseType::Vector},
-    {"shadow", 7, BaseType::Vector},       {"trace", 2, BaseType::Point},
-    {"trace", 5, BaseType::Vector},        {"transmission", 2, BaseType::Point},
-    {"transmission", 5, BaseType::Point},  {"occlusion", 2, BaseType::Point},
-    {"occlusion", 5, BaseType::Normal},    {"occlusion", -2, BaseType::Vector},
+    {"shadow", 1, BaseType::Point},          {"shadow", 4, BaseType::Vector},
+    {"shadow", 7, BaseType::Vector},         {"trace", 2, BaseType::Point},
+    {"trace", 5, BaseType::Vector},          {"transmission", 2, BaseType::Point},
+    {"transmission", 5, BaseType::Point},    {"occlusion", 2, BaseType::Point},
+    {"occlusion", 5, BaseType::Normal},      {"occlusion", -2, BaseType::Vector},
     {"indirectdiffuse", 2, BaseType::Point}, {"indirectdiffuse", 5, BaseType::Normal},
-    {"gather", 4, BaseType::Point},        {"gather", 7, BaseType::Vector},
-    {"photons", 3, BaseType::Point},       {"photons", 6, BaseType::Normal},
+    {"gather", 4, BaseType::Point},          {"gather", 7, BaseType::Vector},
+    {"photons", 3, BaseType::Point},         {"photons", 6, BaseType::Normal},
 };
 
 }  // namespace
@@ -204,15 +204,15 @@ std::vector<double> Reference<Real>::service(std::string_view name, std::vector<
     return answer;
 }
 
-#define KINORA_INPUT_METHODS(Real)                                                               \
-    template Real Reference<Real>::number(const std::string&, Real) const;                       \
-    template auto Reference<Real>::input(const std::string&, BaseType, const std::string&,       \
-                                         const std::string&) const->Item;                        \
-    template auto Reference<Real>::first_value(Global)->Item;                                    \
-    template auto Reference<Real>::kernel_value(Global)->Item;                                   \
-    template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                             \
-    template auto Reference<Real>::parameter(const Symbol&, int)->Item;                          \
-    template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;            \
+#define KINORA_INPUT_METHODS(Real)                                                         \
+    template Real Reference<Real>::number(const std::string&, Real) const;                 \
+    template auto Reference<Real>::input(const std::string&, BaseType, const std::string&, \
+                                         const std::string&) const->Item;                  \
+    template auto Reference<Real>::first_value(Global)->Item;                              \
+    template auto Reference<Real>::kernel_value(Global)->Item;                             \
+    template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                       \
+    template auto Reference<Real>::parameter(const Symbol&, int)->Item;                    \
+    template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;      \
     template std::vector<double> Reference<Real>::service(std::string_view, std::vector<double>);
 KINORA_INPUT_METHODS(float)
 KINORA_INPUT_METHODS(double)

@@ -95,9 +95,9 @@ void visibility(RefCall<Real>& c) {
 template <class Real>
 void occlusion(RefCall<Real>& c) {
     std::vector<double> args = seeded(c, c.args.size() == 4 ? 1 : 0, 3);
-    for (double x : {pair(c, "coneangle", 1.5707963268), pair(c, "maxdist", 1e30),
-                     pair(c, "bias", -1), pair(c, "falloff", 0), pair(c, "falloffmode", 0),
-                     pair(c, "environmentmap", 0)})
+    for (double x :
+         {pair(c, "coneangle", 1.5707963268), pair(c, "maxdist", 1e30), pair(c, "bias", -1),
+          pair(c, "falloff", 0), pair(c, "falloffmode", 0), pair(c, "environmentmap", 0)})
         args.push_back(x);
     std::vector<double> answer = c.eval.service("occlusion", args);
     set_from(c, answer);

@@ -269,7 +269,8 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
                 hidden *= fade;
                 blocked[lane] += hidden;
                 open[lane] += (1 - hidden) * dirs[i];
-                if (falloff > 0 && hidden > 0) through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * fade;
+                if (falloff > 0 && hidden > 0)
+                    through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * fade;
             }
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
                 look_up(*scene_.textures, map, dirs.subspan(begin, end - begin),

@@ -59,7 +59,8 @@ void fuzz_one(const std::string& source, uint64_t seed, DifferenceCounts& counts
 void fuzz(uint64_t first, uint64_t shaders, DifferenceCounts& counts) {
     for (uint64_t seed = first; seed < first + shaders; ++seed)
         for (const std::string& source : {source_of(seed), joined(source_of(seed))})
-            if (!source.empty() && !testing::Test::HasFatalFailure()) fuzz_one(source, seed, counts);
+            if (!source.empty() && !testing::Test::HasFatalFailure())
+                fuzz_one(source, seed, counts);
 }
 
 void print(const DifferenceCounts& c) {

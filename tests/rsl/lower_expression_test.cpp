@@ -38,26 +38,27 @@ TEST_P(EdgeRows, HaveTheirOutcome) {
 
 INSTANTIATE_TEST_SUITE_P(
     Extremes, EdgeRows,
-    testing::Values(
-        Case{"pow(zero - 2, 0.5)", 0}, Case{"pow(zero - 2, zero + 3)", -8},
-        Case{"pow(zero - 2, 2)", 4}, Case{"pow(zero, zero)", 1}, Case{"pow(zero, zero - 1)", 0},
-        Case{"sqrt(zero - 1)", 0}, Case{"inversesqrt(zero)", 0}, Case{"inversesqrt(zero - 1)", 0},
-        Case{"log(zero)", -87.336544f}, Case{"acos(zero + 1.000001)", 0},
-        Case{"asin(zero - 2)", -1.5707964f}, Case{"atan(zero, zero)", 0},
-        Case{"mod(zero - 0.25, 1)", 0.75f}, Case{"mod(zero + 5, -3)", -1},
-        Case{"mod(zero + 5, zero)", 0}, Case{"smoothstep(1, 1, zero)", 0},
-        Case{"smoothstep(1, 1, zero + 1)", 1}, Case{"smoothstep(1, 0, zero + 0.5)", 0},
-        Case{"step(zero + 2, 2)", 1}, Case{"clamp(zero + 5, 3, 1)", 1},
-        Case{"clamp(zero + 2, 3, 1)", 3},
-        Case{"length(vector(zero, 0, 0))", 0}, Case{"xcomp(normalize(vector(zero, 0, 0)))", 0},
-        Case{"xcomp(normalize(vector(zero + 1e-30, 0, 0)))", 1},
-        Case{"xcomp(normalize(vector(zero + 1e30, 0, 0)))", 1},
-        Case{"length(vector(zero + 1e20, 1e20, 1e20))", 1.7320508e20f},
-        Case{"spline(zero - 1, 0, 1, 2, 3)", 1}, Case{"spline(zero + 2, 0, 1, 2, 3)", 2},
-        Case{"spline(zero + 0.5, 0, 1, 2, 3)", 1.5f},
-        Case{"float noise(point(zero + 3, 5, 7))", 0.5f}, Case{"round(zero - 2.5)", -2},
-        Case{"round(zero + 2.5)", 3}, Case{"sign(zero - 3)", -1},
-        Case{"comp(color(1, 2, 3), zero + 9)", 3}));
+    testing::Values(Case{"pow(zero - 2, 0.5)", 0}, Case{"pow(zero - 2, zero + 3)", -8},
+                    Case{"pow(zero - 2, 2)", 4}, Case{"pow(zero, zero)", 1},
+                    Case{"pow(zero, zero - 1)", 0}, Case{"sqrt(zero - 1)", 0},
+                    Case{"inversesqrt(zero)", 0}, Case{"inversesqrt(zero - 1)", 0},
+                    Case{"log(zero)", -87.336544f}, Case{"acos(zero + 1.000001)", 0},
+                    Case{"asin(zero - 2)", -1.5707964f}, Case{"atan(zero, zero)", 0},
+                    Case{"mod(zero - 0.25, 1)", 0.75f}, Case{"mod(zero + 5, -3)", -1},
+                    Case{"mod(zero + 5, zero)", 0}, Case{"smoothstep(1, 1, zero)", 0},
+                    Case{"smoothstep(1, 1, zero + 1)", 1}, Case{"smoothstep(1, 0, zero + 0.5)", 0},
+                    Case{"step(zero + 2, 2)", 1}, Case{"clamp(zero + 5, 3, 1)", 1},
+                    Case{"clamp(zero + 2, 3, 1)", 3}, Case{"length(vector(zero, 0, 0))", 0},
+                    Case{"xcomp(normalize(vector(zero, 0, 0)))", 0},
+                    Case{"xcomp(normalize(vector(zero + 1e-30, 0, 0)))", 1},
+                    Case{"xcomp(normalize(vector(zero + 1e30, 0, 0)))", 1},
+                    Case{"length(vector(zero + 1e20, 1e20, 1e20))", 1.7320508e20f},
+                    Case{"spline(zero - 1, 0, 1, 2, 3)", 1},
+                    Case{"spline(zero + 2, 0, 1, 2, 3)", 2},
+                    Case{"spline(zero + 0.5, 0, 1, 2, 3)", 1.5f},
+                    Case{"float noise(point(zero + 3, 5, 7))", 0.5f}, Case{"round(zero - 2.5)", -2},
+                    Case{"round(zero + 2.5)", 3}, Case{"sign(zero - 3)", -1},
+                    Case{"comp(color(1, 2, 3), zero + 9)", 3}));
 
 TEST(LowerExpression, FoldsProductsWithZero) {
     RunShader shader("surface t(float k = 0;) { Ci = k * noise(P); Oi = 1; }");

@@ -71,8 +71,8 @@ using Shaders = std::vector<std::unique_ptr<Shader>>;
 // Displacements and the surface that shows what they leave.
 bool is_stack(const Shaders& shaders) {
     for (auto& shader : shaders)
-        if (shader->kind != (&shader == &shaders.back() ? ShaderKind::Surface
-                                                        : ShaderKind::Displacement))
+        if (shader->kind !=
+            (&shader == &shaders.back() ? ShaderKind::Surface : ShaderKind::Displacement))
             return false;
     return shaders.size() > 1;
 }
@@ -111,8 +111,8 @@ struct Allowance {
 };
 
 // Nearby inputs and float arithmetic on them, from the point itself on.
-Allowance allowance(std::span<const Layer> layers, const ReferenceInputs& inputs, const ReferenceResult& exact,
-                    const ReferenceResult& single) {
+Allowance allowance(std::span<const Layer> layers, const ReferenceInputs& inputs,
+                    const ReferenceResult& exact, const ReferenceResult& single) {
     Allowance result;
     auto note = [&](const ReferenceResult& a, const ReferenceResult& b) {
         result.decided =

@@ -23,7 +23,8 @@ struct DifferenceCounts {
 };
 
 // Compiles and runs the last shader of the source on the world of `world`; a surface together with
-// the displacements before it, if the source has nothing else. "" if all agree; else what differs. Parameters frame_* and vary_* are bound to frame and point inputs.
+// the displacements before it, if the source has nothing else. "" if all agree; else what differs.
+// Parameters frame_* and vary_* are bound to frame and point inputs.
 //
 // The stated error of interp against the double reference: 16 times the largest that rounding the
 // inputs, or computing in float, moves the reference at that point (11 samples), plus 2e-5 of 1 +

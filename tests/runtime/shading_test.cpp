@@ -151,8 +151,7 @@ TEST(SurfaceParameters, TheFootprintIsOnePixel) {
 TEST(SurfaceParameters, AParameterCalledPrefIsTheRestPosition) {
     SceneText scene;
     scene.square("floor", 0.5)
-        .look("look",
-              show(components("transform(\"object\", Pref)"), "varying point Pref = 0"))
+        .look("look", show(components("transform(\"object\", Pref)"), "varying point Pref = 0"))
         .place("floor", "look", "<translate>0.25 0 0</translate><rotate>0 0 1 90</rotate>");
     Rendering r(scene.text());
     r.frame();

@@ -306,11 +306,11 @@ TEST(Interior, SmokeShadesItself) {
 TEST(Interior, AMarchThatAsksForLightsTooOftenSaysSo) {
     for (int rounds : {100, 10000}) {
         SceneText scene;
-        scene.square("floor", 2).look(
-            "look", fmt::format("surface march() {{ float k; Oi = 1; Ci = 0;"
-                                " for (k = 0; k < {}; k += 1)"
-                                "   illuminance (P + k * 1e-4 * N) {{ Ci += 1; }} }}",
-                                rounds));
+        scene.square("floor", 2)
+            .look("look", fmt::format("surface march() {{ float k; Oi = 1; Ci = 0;"
+                                      " for (k = 0; k < {}; k += 1)"
+                                      "   illuminance (P + k * 1e-4 * N) {{ Ci += 1; }} }}",
+                                      rounds));
         scene.place("floor", "look")
             .light("sun", "<directional><color>1 1 1</color></directional>");
         Rendering r(scene.text());
