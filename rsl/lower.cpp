@@ -71,9 +71,11 @@ class Stack {
             N_ = lowered(BaseType::Normal, low_.normalize(low_.normal_of(P_.v3())));
             same_N = false;
         }
-        V3 N = low_.out_of_layer(N_).v3();  // as long as it was
-        Value size = low_.div(low_.length(N_.v3()), low_.length(N));
-        if (!same_N) N_ = lowered(BaseType::Normal, low_.scale(N, size));
+        if (!same_N) {
+            V3 N = low_.out_of_layer(N_).v3();
+            Value as_long = low_.div(low_.length(N_.v3()), low_.length(N));
+            N_ = lowered(BaseType::Normal, low_.scale(N, as_long));
+        }
         if (!same_P) P_ = low_.out_of_layer(P_);
         low_.layer = surface;
         have_N_ = !same_N, have_P_ = !same_P;

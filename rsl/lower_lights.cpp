@@ -219,13 +219,11 @@ void Lowering::begin_light(const Changes& changes) {
         write_slot(int(id), zero(global_info(id).type.base));
     for (const Stmt* stmt : changes.light_sources) {
         Lowered dark = zero(BaseType::Color);
-        light_sources_.push_back({stmt,
-                                  new_slot(zero(BaseType::Vector)),
-                                  new_slot(dark),
-                                  new_slot(dark),
-                                  new_slot(zero(BaseType::Bool)),
-                                  {},
-                                  {}});
+        LightSource& light = light_sources_.emplace_back();
+        light.stmt = stmt;
+        light.L = new_slot(zero(BaseType::Vector));
+        light.Cl = new_slot(dark), light.Ol = new_slot(dark);
+        light.lit = new_slot(zero(BaseType::Bool));
     }
     bool shadows = !(changes.effects & (kShadows | kTraces));
     for (const LightSource& light : light_sources_)

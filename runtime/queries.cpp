@@ -33,16 +33,20 @@ void place(rsl::BaseType type, const dmat4& current_from_space, const double* va
     for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
 }
 
+// The row of the surface that the point lies on, for a light the point it lights; kNone: none.
+uint32_t surface_row(const Asker& asker) {
+    if (!asker.grid) return kNone;
+    const Grid& grid = asker.grid->lit ? *asker.grid->lit : *asker.grid;
+    return grid.hits.instance[grid.points[asker.point + asker.grid->lit_first]];
+}
+
 // The same from the look's "shader" space: a surface's is that of what wears it.
 void place(rsl::BaseType type, const Asker& asker, const Look& look, const double* values,
            Answer& answer) {
     uint32_t node = look.node;
-    const Grid* grid = asker.grid && asker.grid->lit ? asker.grid->lit : asker.grid;
-    if (node == kNone && grid) {
-        uint32_t row = grid->hits.instance[grid->points[asker.point + asker.grid->lit_first]];
-        if (row != kNone && asker.scene.surfaces[row].look == look.index)
-            node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
-    }
+    uint32_t row = node == kNone ? surface_row(asker) : kNone;
+    if (row != kNone && asker.scene.surfaces[row].look == look.index)
+        node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
     place(type, current_from_space(asker.scene, "shader", node), values, answer);
 }
 
