@@ -1,4 +1,4 @@
-// jit/compiler.cpp: the order of the passes, and the cache of kernels.
+// jit/compiler.cpp: passes, emission and the cache of kernels.
 #include "jit/compiler.h"
 
 #include <xxhash.h>
@@ -8,70 +8,19 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "jit/code_tools.h"
-#include "jit/ieee_scope_p.h"
+#include "jit/debug/code_tools.h"
+#include "jit/passes/passes.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit {
 
 namespace {
 
-using Dumps = std::vector<std::pair<std::string, std::string>>;
 using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-struct Pass {
-    const char* name;
-    void (*run)(Module&);
-};
-
-// Derivatives first, while transcendental functions still have names; then what is called becomes
-// plain code, and equal parts of it are found.
-constexpr Pass kBeforeHoist[] = {
-    {"derivatives", differentiate},
-    {"inline", inline_calls},
-    {"dce", dce},
-    {"fold", fold},
-    {"unmask", unmask},
-    {"cse", cse},
-};
-constexpr Pass kAfterHoist[] = {{"dce", dce}, {"schedule", schedule}};
-
-// Fused loops show that Ifs in them have one mask, fused Ifs that they compute the same.
-constexpr int kFuseRounds = 2;
-
-void dump(Dumps* dumps, const std::string& stage, const Module& module) {
-    if (dumps != nullptr) dumps->push_back({stage, print(module)});
-}
-
-template <size_t N>
-void run_passes(Module& module, const Pass (&passes)[N], const char* prefix, Dumps* dumps) {
-    for (const Pass& pass : passes) {
-        pass.run(module);
-        dump(dumps, std::string(prefix) + pass.name, module);
-    }
-}
-
-}  // namespace
-
-void optimize(Module& module, Module* frame, Dumps* dumps) {
-    IeeeScope ieee;  // folding computes as precise kernels do
-    dump(dumps, "ir", module);
-    run_passes(module, kBeforeHoist, "ir:", dumps);
-    for (int round = 0; round < kFuseRounds && fuse(module); ++round) cse(module);
-    dump(dumps, "ir:fuse", module);
-    if (frame != nullptr) {
-        *frame = hoist(module);
-        dump(dumps, "ir:hoist", module);
-        run_passes(*frame, kAfterHoist, "ir:frame:", dumps);
-    }
-    run_passes(module, kAfterHoist, "ir:", dumps);
-}
-
-namespace {
 
 // All that decides what a kernel is: bytes appended to one string, hashed and compared whole.
 class Key {

@@ -1,8 +1,8 @@
-// jit/target.cpp: the targets this build knows, one row each, fastest first.
+// jit/targets.cpp: the targets this build knows, one row each, fastest first.
 #include "jit/target.h"
 
 #include "jit/a64/a64.h"
-#include "jit/interp.h"
+#include "jit/interp/interp.h"
 #if defined(__x86_64__)
 #include "jit/x64/x64.h"
 #endif

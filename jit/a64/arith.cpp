@@ -1,5 +1,5 @@
-// jit/a64/a64_arith.cpp: float and integer arithmetic, conversions, leaves.
-#include "jit/a64/a64_emit_p.h"
+// jit/a64/arith.cpp: float and integer arithmetic, conversions, leaves.
+#include "jit/a64/emit_p.h"
 
 namespace kinora::jit::a64 {
 

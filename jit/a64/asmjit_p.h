@@ -1,4 +1,4 @@
-// jit/a64/a64_asmjit_p.h: AsmJit's AArch64 half; Debian's package lacks the header that gathers it.
+// jit/a64/asmjit_p.h: AsmJit's AArch64 half; Debian's package lacks the header that gathers it.
 #pragma once
 
 #include <asmjit/core.h>

@@ -1,9 +1,9 @@
-// jit/a64/a64_calls.cpp: calls of services (C++) and of the module's own functions. No vector
+// jit/a64/calls.cpp: calls of services (C++) and of the module's own functions. No vector
 // register lives through a call (values in need lie in memory); x19..x25 are kept.
 #include <cstddef>
 
-#include "jit/a64/a64_emit_p.h"
-#include "jit/analysis.h"
+#include "jit/a64/emit_p.h"
+#include "jit/ir/analysis.h"
 
 namespace kinora::jit::a64 {
 

@@ -1,9 +1,9 @@
-// jit/a64/a64_control.cpp: If and Loop. A region is entered when any lane runs it; what lanes see
+// jit/a64/control.cpp: If and Loop. A region is entered when any lane runs it; what lanes see
 // differently is blended under the mask, unless all lanes agree.
 #include <cstddef>
 #include <iterator>
 
-#include "jit/a64/a64_emit_p.h"
+#include "jit/a64/emit_p.h"
 
 namespace kinora::jit::a64 {
 

@@ -1,8 +1,8 @@
-// jit/a64/a64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
+// jit/a64/emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
 #include <cstddef>
 
-#include "jit/a64/a64_emit_p.h"
-#include "jit/module_code_p.h"
+#include "jit/a64/emit_p.h"
+#include "jit/codegen/module_code_p.h"
 
 namespace kinora::jit::a64 {
 
@@ -24,7 +24,7 @@ constexpr int kSavedGp = 80, kSavedVectors = 64;
 
 const Emit::Member Emit::kMembers[] = {
 #define OP(name, operands, result, flags, meaning) &Emit::op_##name,
-#include "jit/ops.def"
+#include "jit/ir/ops.def"
 #undef OP
 };
 

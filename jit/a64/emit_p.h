@@ -1,4 +1,4 @@
-// jit/a64/a64_emit_p.h: writes one function as machine code.
+// jit/a64/emit_p.h: writes one function as machine code.
 //
 // Registers while code runs (AAPCS64):
 //   x19 KernelArgs   x20 in[]   x21 frame block   x24 byte offset of the lane group in a column
@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "jit/a64/a64_asmjit_p.h"
-#include "jit/a64/a64_pool_p.h"
-#include "jit/function_code_p.h"
-#include "jit/planted_fault.h"
-#include "jit/unwind.h"
+#include "jit/a64/asmjit_p.h"
+#include "jit/a64/pool_p.h"
+#include "jit/codegen/function_code_p.h"
+#include "jit/codegen/unwind.h"
+#include "jit/ir/planted_fault.h"
 
 namespace kinora::jit::a64 {
 
@@ -67,19 +67,19 @@ class Emit : public FunctionCode {
 
     // One per row of ops.def: an op without a member does not compile.
 #define OP(name, operands, result, flags, meaning) void op_##name();
-#include "jit/ops.def"
+#include "jit/ir/ops.def"
 #undef OP
     using Member = void (Emit::*)();
     static const Member kMembers[static_cast<size_t>(Op::Count)];
 
-    // a64_emit.cpp
+    // emit.cpp
     void emit_kernel(bool listing);
     void emit_local(bool listing);
     void note_saved(int32_t bytes);
     void emit_body(bool listing);
     void find_valid_lanes();
 
-    // a64_operands.cpp: places of values
+    // operands.cpp: places of values
     bool lies_in(const Vec& r, Value v) const;
     Vec vec(int index) const;
     Vec scratch(int k) const {
@@ -120,16 +120,16 @@ class Emit : public FunctionCode {
         finish(to);
     }
 
-    // a64_arith.cpp
+    // arith.cpp
     void min_max(bool max);
 
-    // a64_masks.cpp
+    // masks.cpp
     void blend(const Vec& to, const Vec& otherwise, Value then, Value mask);
     void merge_into(Value variable, Value then, Value mask);
     void find_any(const Vec& mask);  // kAny: not zero if any lane is set
     void mask_bits(const Gp& to, Value mask);
 
-    // a64_control.cpp
+    // control.cpp
     void branch_if_zero(const Gp& condition, const Label& to);
     void branch_if_not_zero(const Gp& condition, const Label& to);
     void fill_slot(Value v);
@@ -141,7 +141,7 @@ class Emit : public FunctionCode {
     void update_mask(Value loop, Value next_mask);
     void save(int k, Value variable);
 
-    // a64_memory.cpp
+    // memory.cpp
     void zero_arrays();
     void index_to(const Gp& to, Value index, int32_t length);
     void clamp_lanes(const Vec& to, Value index, int32_t length);
@@ -150,13 +150,13 @@ class Emit : public FunctionCode {
     void scatter_by_lane(Value value, Value mask);
     void find_element(Value index);
 
-    // a64_records.cpp
+    // records.cpp
     void lane_to(const Gp& to, Value index);
     void find_set();
     void find_record();
     void read_record(bool uniform);
 
-    // a64_calls.cpp
+    // calls.cpp
     void pass_arguments(int32_t to);
 
     ModuleState& state_;

@@ -1,13 +1,13 @@
-// jit/a64/a64_kernel.cpp: from a module to a kernel: an entry, the functions it reaches, the
+// jit/a64/kernel.cpp: from a module to a kernel: an entry, the functions it reaches, the
 // pool.
 #include <chrono>
 #include <deque>
 
 #include "jit/a64/a64.h"
-#include "jit/a64/a64_emit_p.h"
-#include "jit/analysis.h"
-#include "jit/code_memory.h"
-#include "jit/module_code_p.h"
+#include "jit/a64/emit_p.h"
+#include "jit/codegen/code_memory.h"
+#include "jit/codegen/module_code_p.h"
+#include "jit/ir/analysis.h"
 
 namespace kinora::jit {
 

@@ -1,8 +1,8 @@
-// jit/a64/a64_masks.cpp: comparisons, mask logic, and blends under a mask. A mask's lanes are all
+// jit/a64/masks.cpp: comparisons, mask logic, and blends under a mask. A mask's lanes are all
 // ones or zero.
 #include <utility>
 
-#include "jit/a64/a64_emit_p.h"
+#include "jit/a64/emit_p.h"
 
 namespace kinora::jit::a64 {
 

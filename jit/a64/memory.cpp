@@ -1,7 +1,7 @@
-// jit/a64/a64_memory.cpp: gathers, lane by lane, and the arrays of a function.
+// jit/a64/memory.cpp: gathers, lane by lane, and the arrays of a function.
 #include <algorithm>
 
-#include "jit/a64/a64_emit_p.h"
+#include "jit/a64/emit_p.h"
 
 namespace kinora::jit::a64 {
 

@@ -1,5 +1,5 @@
-// jit/a64/a64_operands.cpp: from a value to the register that holds it now, or its memory.
-#include "jit/a64/a64_emit_p.h"
+// jit/a64/operands.cpp: from a value to the register that holds it now, or its memory.
+#include "jit/a64/emit_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit::a64 {

@@ -1,4 +1,4 @@
-// jit/a64/a64_pool_p.h: constants that stand behind the code, each once, as rows of 4 lanes.
+// jit/a64/pool_p.h: constants that stand behind the code, each once, as rows of 4 lanes.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "jit/a64/a64_asmjit_p.h"
+#include "jit/a64/asmjit_p.h"
 
 namespace kinora::jit::a64 {
 

@@ -1,7 +1,7 @@
-// jit/a64/a64_records.cpp: records of a grid (light answers): sets[a].records[b].
+// jit/a64/records.cpp: records of a grid (light answers): sets[a].records[b].
 #include <cstddef>
 
-#include "jit/a64/a64_emit_p.h"
+#include "jit/a64/emit_p.h"
 
 namespace kinora::jit::a64 {
 

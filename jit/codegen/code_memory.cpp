@@ -1,5 +1,5 @@
-// jit/code_memory.cpp: mmap writable, copy, mprotect executable.
-#include "jit/code_memory.h"
+// jit/codegen/code_memory.cpp: mmap writable, copy, mprotect executable.
+#include "jit/codegen/code_memory.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
-// jit/code_memory.h: memory for generated code that is writable, then executable, never both.
+// jit/codegen/code_memory.h: memory for generated code that is writable, then executable, never
+// both.
 #pragma once
 
 #include <cstddef>

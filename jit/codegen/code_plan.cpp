@@ -1,10 +1,10 @@
-// jit/code_plan.cpp: what needs a register, what lies in memory, what is computed in place.
-#include "jit/code_plan_p.h"
+// jit/codegen/code_plan.cpp: what needs a register, what lies in memory, what is computed in place.
+#include "jit/codegen/code_plan_p.h"
 
-#include "jit/analysis.h"
-#include "jit/fold_inst.h"
-#include "jit/ieee_scope_p.h"
-#include "jit/planted_fault.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/fold_inst.h"
+#include "jit/ir/ieee_scope_p.h"
+#include "jit/ir/planted_fault.h"
 
 namespace kinora::jit {
 
@@ -194,7 +194,7 @@ class Planner {
             const Inst& end = f_.insts[s_.end_of[v]];
             if (uses_[end.a] != 1 || value(end.a).fused) continue;
             plan_.rounds[v] =
-                known_rounds(f_.insts, f_.args_of(end), v, s_.end_of[v], m_.loop_budget);
+                trip_count(f_.insts, f_.args_of(end), v, s_.end_of[v], m_.loop_budget);
             if (plan_.rounds[v] > 0) drop_condition(v, end);
         }
     }

@@ -1,11 +1,11 @@
-// jit/code_plan_p.h: what an emitter decides about a function before it writes code, for any
-// target.
+// jit/codegen/code_plan_p.h: what an emitter decides about a function before it writes code, for
+// any target.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "jit/regalloc.h"
+#include "jit/codegen/regalloc.h"
 
 namespace kinora::jit {
 

@@ -1,4 +1,4 @@
-// jit/dwarf_bytes_p.h: bytes as DWARF and ELF write them.
+// jit/codegen/dwarf_bytes_p.h: bytes as DWARF and ELF write them.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
-// jit/function_code.cpp: a function's registers and frame; the order of a loop's updates.
-#include "jit/function_code_p.h"
+// jit/codegen/function_code.cpp: a function's registers and frame; the order of a loop's updates.
+#include "jit/codegen/function_code_p.h"
 
 #include <algorithm>
 
-#include "jit/planted_fault.h"
+#include "jit/ir/planted_fault.h"
 
 namespace kinora::jit {
 

@@ -1,13 +1,13 @@
-// jit/function_code_p.h: what every code generator knows of the function that it writes: the plan,
-// the registers, the frame in scratch, and the instruction in work.
+// jit/codegen/function_code_p.h: what every code generator knows of the function that it writes:
+// the plan, the registers, the frame in scratch, and the instruction in work.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "jit/code_plan_p.h"
-#include "jit/regalloc.h"
-#include "jit/target.h"
+#include "jit/codegen/code_plan_p.h"
+#include "jit/codegen/regalloc.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::jit {
 
@@ -23,7 +23,8 @@ struct CodeRules {
 // The largest frame that code can reach into: offsets in it, and in those behind it, are int32.
 inline constexpr size_t kMostFrameBytes = size_t{1} << 30;
 
-// Where things lie in a function's frame, in bytes; of no use if it takes more than kMostFrameBytes.
+// Where things lie in a function's frame, in bytes; of no use if it takes more than
+// kMostFrameBytes.
 struct FrameLayout {
     int32_t params = 0, results = 0;   // rows
     int32_t vectors = 0, masks = 0;    // spill slots

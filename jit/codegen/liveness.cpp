@@ -1,8 +1,8 @@
-// jit/liveness.cpp: needed instructions of a function, cycles through loops included.
-#include "jit/liveness_p.h"
+// jit/codegen/liveness.cpp: needed instructions of a function, cycles through loops included.
+#include "jit/codegen/liveness_p.h"
 
-#include "jit/analysis.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/rewrite_p.h"
 
 namespace kinora::jit {
 

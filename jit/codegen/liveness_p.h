@@ -1,9 +1,10 @@
-// jit/liveness_p.h: which instructions of a function are needed, by a walk from those that are.
+// jit/codegen/liveness_p.h: which instructions of a function are needed, by a walk from those that
+// are.
 #pragma once
 
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

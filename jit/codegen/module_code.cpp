@@ -1,11 +1,11 @@
-// jit/module_code.cpp: what every code generator needs to know of a module as a whole.
-#include "jit/module_code_p.h"
+// jit/codegen/module_code.cpp: what every code generator needs to know of a module as a whole.
+#include "jit/codegen/module_code_p.h"
 
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "jit/code_memory.h"
+#include "jit/codegen/code_memory.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit {

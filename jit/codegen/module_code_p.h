@@ -1,4 +1,4 @@
-// jit/module_code_p.h: what every code generator needs to know of a module as a whole.
+// jit/codegen/module_code_p.h: what every code generator needs to know of a module as a whole.
 #pragma once
 
 #include <chrono>
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "jit/ir.h"
-#include "jit/target.h"
-#include "jit/unwind.h"
+#include "jit/codegen/unwind.h"
+#include "jit/ir/ir.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::jit {
 

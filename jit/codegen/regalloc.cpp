@@ -1,6 +1,6 @@
-// jit/regalloc.cpp: linear-scan register allocation over the structured IR.
-#include "jit/regalloc.h"
-#include "jit/planted_fault.h"
+// jit/codegen/regalloc.cpp: linear-scan register allocation over the structured IR.
+#include "jit/codegen/regalloc.h"
+#include "jit/ir/planted_fault.h"
 
 #include <algorithm>
 #include <bit>

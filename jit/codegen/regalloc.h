@@ -1,4 +1,4 @@
-// jit/regalloc.h: linear-scan register allocation over the structured IR, for any target.
+// jit/codegen/regalloc.h: linear-scan register allocation over the structured IR, for any target.
 //
 // One backward pass finds how long each value lives (a value live into a loop lives to its end),
 // one forward scan assigns registers. When none is free the value whose life ends last goes to
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

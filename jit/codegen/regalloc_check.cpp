@@ -1,7 +1,8 @@
-// jit/regalloc_check.cpp: proves an allocation by walking it: who lies where, along every edge.
+// jit/codegen/regalloc_check.cpp: proves an allocation by walking it: who lies where, along every
+// edge.
 #include <fmt/format.h>
 
-#include "jit/regalloc.h"
+#include "jit/codegen/regalloc.h"
 
 namespace kinora::jit {
 

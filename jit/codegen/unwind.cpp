@@ -1,8 +1,8 @@
-// jit/unwind.cpp: rules of the stack as call frame instructions, and the C++ runtime that reads
-// them.
-#include "jit/unwind.h"
+// jit/codegen/unwind.cpp: rules of the stack as call frame instructions, and the C++ runtime that
+// reads them.
+#include "jit/codegen/unwind.h"
 
-#include "jit/dwarf_bytes_p.h"
+#include "jit/codegen/dwarf_bytes_p.h"
 #include "runtime/base/check.h"
 
 // The C++ runtime's (libgcc's), for code that is made while a program runs.

@@ -1,5 +1,6 @@
-// jit/unwind.h: how exceptions and debuggers find their way out of generated code: the rules of its
-// stack, as DWARF says them (version 4, section 6.4), in the form of .eh_frame (LSB 5, 10.6).
+// jit/codegen/unwind.h: how exceptions and debuggers find their way out of generated code: the
+// rules of its stack, as DWARF says them (version 4, section 6.4), in the form of .eh_frame (LSB
+// 5, 10.6).
 #pragma once
 
 #include <cstddef>

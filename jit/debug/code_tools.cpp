@@ -1,5 +1,6 @@
-// jit/code_tools.cpp: perf's map file and GDB's JIT interface; jit_dump.cpp has the other file.
-#include "jit/code_tools.h"
+// jit/debug/code_tools.cpp: perf's map file and GDB's JIT interface; jit_dump.cpp has the other
+// file.
+#include "jit/debug/code_tools.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +10,7 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "jit/jit_dump_p.h"
+#include "jit/debug/jit_dump_p.h"
 
 // The interface that GDB looks for by name: "JIT Compilation Interface" in its manual.
 extern "C" {

@@ -1,5 +1,5 @@
-// jit/code_tools.h: generated code as other tools see it. All are off unless the environment says
-// otherwise, and cost nothing then:
+// jit/debug/code_tools.h: generated code as other tools see it. All are off unless the environment
+// says otherwise, and cost nothing then:
 //   KINORA_PERF=1          each kernel is a line of /tmp/perf-PID.map, which `perf report` reads
 //   KINORA_JITDUMP=FOLDER  kernels with their code and shader lines in FOLDER/jit-PID.dump, for
 //                          `perf record -k 1`, then `perf inject --jit`
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::jit {

@@ -1,10 +1,10 @@
-// jit/debug_object.cpp: a kernel as an ELF object with DWARF 4 lines, for debuggers.
+// jit/debug/debug_object.cpp: a kernel as an ELF object with DWARF 4 lines, for debuggers.
 #include <elf.h>
 
 #include <cstring>
 
-#include "jit/code_tools.h"
-#include "jit/dwarf_bytes_p.h"
+#include "jit/codegen/dwarf_bytes_p.h"
+#include "jit/debug/code_tools.h"
 
 namespace kinora::jit {
 

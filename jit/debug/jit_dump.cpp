@@ -1,6 +1,6 @@
-// jit/jit_dump.cpp: kernels in the file that `perf inject --jit` reads (version 1 of the format;
-// Linux, tools/perf/Documentation/jitdump-specification.txt).
-#include "jit/jit_dump_p.h"
+// jit/debug/jit_dump.cpp: kernels in the file that `perf inject --jit` reads (version 1 of the
+// format; Linux, tools/perf/Documentation/jitdump-specification.txt).
+#include "jit/debug/jit_dump_p.h"
 
 #include <elf.h>
 #include <fcntl.h>
@@ -16,7 +16,7 @@
 #include <mutex>
 #include <type_traits>
 
-#include "jit/code_tools.h"
+#include "jit/debug/code_tools.h"
 
 namespace kinora::jit {
 

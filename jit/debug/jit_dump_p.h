@@ -1,9 +1,9 @@
-// jit/jit_dump_p.h: kernels in the file that `perf inject --jit` reads.
+// jit/debug/jit_dump_p.h: kernels in the file that `perf inject --jit` reads.
 #pragma once
 
 #include <string>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::jit {

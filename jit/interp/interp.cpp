@@ -1,11 +1,12 @@
-// jit/interp.cpp: the target "interp": prepares a module for walking and runs it group by group.
-#include "jit/interp.h"
+// jit/interp/interp.cpp: the target "interp": prepares a module for walking and runs it group by
+// group.
+#include "jit/interp/interp.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "jit/analysis.h"
-#include "jit/interp_p.h"
+#include "jit/interp/interp_p.h"
+#include "jit/ir/analysis.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit {

@@ -1,9 +1,10 @@
-// jit/interp.h: the target "interp": executes the IR in plain C++, and so defines what it means.
+// jit/interp/interp.h: the target "interp": executes the IR in plain C++, and so defines what it
+// means.
 #pragma once
 
 #include <memory>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::jit {
 

@@ -1,12 +1,12 @@
-// jit/interp_p.h: the machine that the interpreter's op functions work on.
+// jit/interp/interp_p.h: the machine that the interpreter's op functions work on.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "jit/ir.h"
-#include "jit/target.h"
+#include "jit/ir/ir.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::jit::interp {
 

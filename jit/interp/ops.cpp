@@ -1,12 +1,13 @@
-// jit/interp_ops.cpp: the interpreter's step for every op, sixteen lanes at a time.
+// jit/interp/ops.cpp: the interpreter's step for every op, sixteen lanes at a time.
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 
-#include "jit/analysis.h"
-#include "jit/interp_p.h"
-#include "jit/scalar_p.h"
+#include "jit/interp/interp_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/scalar_p.h"
 
 namespace kinora::jit::interp {
 
@@ -299,9 +300,16 @@ WIDE_ROUNDING(wide_trunc, __builtin_truncf)
 WIDE_ROUNDING(wide_round, __builtin_nearbyintf)
 #endif
 
-StepTable make_steps() {
+struct Steps {
     StepTable table{};
-    auto row = [&](Op op, Step step) { table[static_cast<size_t>(op)] = step; };
+    std::array<bool, std::tuple_size_v<StepTable>> given{};
+};
+constexpr Steps make_steps() {
+    Steps steps;
+    auto row = [&](Op op, Step step) {
+        steps.table[static_cast<size_t>(op)] = step;
+        steps.given[static_cast<size_t>(op)] = true;
+    };
 #define ROW(name) row(Op::name, arithmetic<&scalar::name>);
     KINORA_SCALAR_OPS(ROW)
 #undef ROW
@@ -331,8 +339,27 @@ StepTable make_steps() {
     row(Op::Service, step_service);
     row(Op::Result, step_next);
     row(Op::Fault, step_fault);
+    return steps;
+}
+constexpr Steps kSteps = make_steps();
+
+// The pass differentiate() leaves none of these.
+constexpr bool only_before_passes(Op op) {
+    return op == Op::Du || op == Op::Dv || op == Op::WithSlope;
+}
+constexpr bool has_all_steps() {
+    for (size_t op = 0; op < kSteps.given.size(); ++op)
+        if (!kSteps.given[op] && !only_before_passes(static_cast<Op>(op))) return false;
+    return true;
+}
+static_assert(has_all_steps(), "an op of jit/ir/ops.def has no step of the interpreter");
+
+// The steps that this CPU runs fastest.
+StepTable best_steps() {
+    StepTable table = kSteps.table;
 #if defined(__x86_64__)
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return table;
+    auto row = [&](Op op, Step step) { table[static_cast<size_t>(op)] = step; };
     row(Op::Fma, wide_fma);
     row(Op::Floor, wide_floor);
     row(Op::Ceil, wide_ceil);
@@ -345,7 +372,7 @@ StepTable make_steps() {
 }  // namespace
 
 const StepTable& steps() {
-    static const StepTable table = make_steps();
+    static const StepTable table = best_steps();
     return table;
 }
 

@@ -1,7 +1,7 @@
-// jit/analysis.cpp: matching regions, agreeing lanes, effects of functions, rounds of loops.
-#include "jit/analysis.h"
+// jit/ir/analysis.cpp: matching regions, agreeing lanes, effects of functions, rounds of loops.
+#include "jit/ir/analysis.h"
 
-#include "jit/fold_inst.h"
+#include "jit/ir/fold_inst.h"
 
 #include <algorithm>
 
@@ -112,8 +112,8 @@ std::vector<bool> has_effects(const Module& module) {
 }
 
 // The condition after k rounds, for k = 1, 2, ... until it is false.
-int32_t known_rounds(std::span<const Inst> insts, std::span<const Value> next, Value loop,
-                     Value end, int32_t budget) {
+int32_t trip_count(std::span<const Inst> insts, std::span<const Value> next, Value loop, Value end,
+                   int32_t budget) {
     constexpr int32_t kMostRounds = 1024;
     const Inst& condition = insts[insts[end].a];
     if (!is_compare(condition.op)) return 0;

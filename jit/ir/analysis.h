@@ -1,10 +1,10 @@
-// jit/analysis.h: what passes and targets ask about a function.
+// jit/ir/analysis.h: what passes and targets ask about a function.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 
@@ -31,8 +31,8 @@ std::vector<bool> cyclic_functions(const Module& module);
 // How often the body of `loop` runs for lanes that enter it, where it goes from one constant to
 // another in constant steps; 0 where that is not known, or beyond the loop budget. `next`: the
 // arguments of its EndLoop at `end`. Counts as the thread's modes of floats have it (IeeeScope).
-int32_t known_rounds(std::span<const Inst> insts, std::span<const Value> next, Value loop,
-                     Value end, int32_t budget);
+int32_t trip_count(std::span<const Inst> insts, std::span<const Value> next, Value loop, Value end,
+                   int32_t budget);
 
 // What a run of the kernel stacks up at most, where an activation of function k takes frames[k]:
 // its deepest chain of calls, Module::call_depth activations of each circle among them.

@@ -1,11 +1,11 @@
-// jit/builder.cpp: appends instructions, folding on the way.
-#include "jit/builder.h"
+// jit/ir/builder.cpp: appends instructions, folding on the way.
+#include "jit/ir/builder.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "jit/fold_inst.h"
-#include "jit/normalize.h"
+#include "jit/ir/fold_inst.h"
+#include "jit/ir/normalize.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit {

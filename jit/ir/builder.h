@@ -1,4 +1,4 @@
-// jit/builder.h: writes a function of IR, one call an instruction.
+// jit/ir/builder.h: writes a function of IR, one call an instruction.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

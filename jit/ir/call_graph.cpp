@@ -1,7 +1,7 @@
-// jit/call_graph.cpp: circles of calls and the depth of the stack they need.
+// jit/ir/call_graph.cpp: circles of calls and the depth of the stack they need.
 #include <algorithm>
 
-#include "jit/analysis.h"
+#include "jit/ir/analysis.h"
 
 namespace kinora::jit {
 

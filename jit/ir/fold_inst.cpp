@@ -1,12 +1,12 @@
-// jit/fold_inst.cpp: exact folding of one instruction: constants, identities, operand order.
-#include "jit/fold_inst.h"
+// jit/ir/fold_inst.cpp: exact folding of one instruction: constants, identities, operand order.
+#include "jit/ir/fold_inst.h"
 
 #include <array>
 #include <cmath>
 #include <type_traits>
 
-#include "jit/planted_fault.h"
-#include "jit/scalar_p.h"
+#include "jit/ir/planted_fault.h"
+#include "jit/ir/scalar_p.h"
 
 namespace kinora::jit {
 

@@ -1,7 +1,7 @@
-// jit/fold_inst.h: what one instruction folds to, exactly. Builder and the fold pass share it.
+// jit/ir/fold_inst.h: what one instruction folds to, exactly. Builder and the fold pass share it.
 #pragma once
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

@@ -1,4 +1,4 @@
-// jit/ieee_scope_p.h: the IEEE default while folding, whatever denormal mode the thread is in.
+// jit/ir/ieee_scope_p.h: the IEEE default while folding, whatever denormal mode the thread is in.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// jit/ir.cpp: the table of operations.
-#include "jit/ir.h"
+// jit/ir/ir.cpp: the table of operations.
+#include "jit/ir/ir.h"
 
 #include "runtime/base/check.h"
 
@@ -21,7 +21,7 @@ constexpr int letters(const char* operands) {
 const OpInfo kOps[] = {
 #define OP(name, operands, result, flags, meaning) \
     {#name, operands, RESULT_LETTER(result), flags, meaning, letters(operands)},
-#include "jit/ops.def"
+#include "jit/ir/ops.def"
 #undef OP
 };
 static_assert(std::size(kOps) == static_cast<size_t>(Op::Count));

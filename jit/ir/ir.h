@@ -1,4 +1,4 @@
-// jit/ir.h: the IR: a flat, structured SSA stream of masked float and int lanes.
+// jit/ir/ir.h: the IR: a flat, structured SSA stream of masked float and int lanes.
 //
 // A Function is one vector of instructions. An instruction gives at most one value, named by its
 // index. Values are defined before use; a value defined inside If..EndIf or Loop..EndLoop is not
@@ -25,7 +25,7 @@ enum class Rate : uint8_t { Constant, Frame, Point };
 
 enum class Op : uint8_t {
 #define OP(name, operands, result, flags, meaning) name,
-#include "jit/ops.def"
+#include "jit/ir/ops.def"
 #undef OP
     Count
 };
@@ -92,7 +92,7 @@ struct Function {
 // A value the kernel's caller provides. Point inputs are arrays over the grid; frame inputs are
 // read by the frame kernel only (after hoist none is left in a point kernel).
 struct InputInfo {
-    std::string name;  // "P.x": rsl/renderer_services.h lists the names
+    std::string name;  // "P.x": rsl/model/renderer_services.h lists the names
     Type type = Type::F;
     Rate rate = Rate::Point;
     std::string du, dv;  // names of the inputs that hold its partial derivatives, "" = zero
@@ -105,7 +105,7 @@ struct OutputInfo {
 
 // A C++ function that generated code calls; the slot is its index in Module::services.
 struct ServiceInfo {
-    std::string name;  // "texture": rsl/renderer_services.h lists them
+    std::string name;  // "texture": rsl/model/renderer_services.h lists them
     std::vector<Type> params;
     std::vector<Type> results;
     bool pure = false;  // same arguments, same results, no effect: may be merged, hoisted, dropped

@@ -1,5 +1,5 @@
-// jit/normalize.cpp: Params, constants and inputs first; Merges and loop values in their places.
-#include "jit/normalize.h"
+// jit/ir/normalize.cpp: Params, constants and inputs first; Merges and loop values in their places.
+#include "jit/ir/normalize.h"
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,7 +1,7 @@
-// jit/normalize.h: puts a just-built function into the order that verify() demands.
+// jit/ir/normalize.h: puts a just-built function into the order that verify() demands.
 #pragma once
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

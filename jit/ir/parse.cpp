@@ -1,10 +1,10 @@
-// jit/ir_parse.cpp: reads the text that ir_print.cpp writes.
+// jit/ir/parse.cpp: reads the text that print.cpp writes.
 #include <cctype>
 #include <charconv>
 #include <unordered_map>
 
-#include "jit/findings.h"
-#include "jit/ir.h"
+#include "jit/ir/findings.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

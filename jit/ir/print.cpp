@@ -1,4 +1,4 @@
-// jit/ir_print.cpp: the IR as text, one instruction a line. ir_parse.cpp reads it back.
+// jit/ir/print.cpp: the IR as text, one instruction a line. parse.cpp reads it back.
 //
 //   module "marble" budget 1000000 slots 0
 //   table 0.5 0.25 1 1 1 1 1 1
@@ -21,7 +21,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 
@@ -41,7 +41,7 @@ std::string lower(const char* name) {
     return out;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     std::string out = "\"";
     for (char c : text) {
         if (c == '\n') {
@@ -92,10 +92,10 @@ void print_inst(Out out, const Function& f, Value v) {
 }
 
 void print_function(Out out, const Function& f) {
-    fmt::format_to(out, "function {} {} -> {}\n", quoted(f.name), types_text(f.params),
+    fmt::format_to(out, "function {} {} -> {}\n", in_quotes(f.name), types_text(f.params),
                    types_text(f.results));
     for (const ArrayInfo& array : f.arrays)
-        fmt::format_to(out, "  array {} {} {}\n", quoted(array.name), type_name(array.type),
+        fmt::format_to(out, "  array {} {} {}\n", in_quotes(array.name), type_name(array.type),
                        array.length);
     size_t depth = 1;
     for (Value v = 0; v < f.insts.size(); ++v) {
@@ -120,7 +120,7 @@ std::string print(const Module&, const Function& function) {
 std::string print(const Module& module) {
     std::string text;
     Out out = std::back_inserter(text);
-    fmt::format_to(out, "module {} budget {} slots {}", quoted(module.name), module.loop_budget,
+    fmt::format_to(out, "module {} budget {} slots {}", in_quotes(module.name), module.loop_budget,
                    module.frame_slots);
     if (module.call_depth != 0) fmt::format_to(out, " depth {}", module.call_depth);
     fmt::format_to(out, "\n");
@@ -130,20 +130,20 @@ std::string print(const Module& module) {
         fmt::format_to(out, "\n");
     }
     for (const InputInfo& input : module.inputs) {
-        fmt::format_to(out, "input {} {} {}", quoted(input.name), type_name(input.type),
+        fmt::format_to(out, "input {} {} {}", in_quotes(input.name), type_name(input.type),
                        kRateNames[static_cast<int>(input.rate)]);
-        if (!input.du.empty()) fmt::format_to(out, " du {}", quoted(input.du));
-        if (!input.dv.empty()) fmt::format_to(out, " dv {}", quoted(input.dv));
+        if (!input.du.empty()) fmt::format_to(out, " du {}", in_quotes(input.du));
+        if (!input.dv.empty()) fmt::format_to(out, " dv {}", in_quotes(input.dv));
         fmt::format_to(out, "\n");
     }
     for (const OutputInfo& output : module.outputs)
-        fmt::format_to(out, "output {} {}\n", quoted(output.name), type_name(output.type));
+        fmt::format_to(out, "output {} {}\n", in_quotes(output.name), type_name(output.type));
     for (const ServiceInfo& service : module.services)
-        fmt::format_to(out, "service {} {} -> {}{}\n", quoted(service.name),
+        fmt::format_to(out, "service {} {} -> {}{}\n", in_quotes(service.name),
                        types_text(service.params), types_text(service.results),
                        service.pure ? " pure" : "");
     for (const FaultSite& site : module.fault_sites)
-        fmt::format_to(out, "fault {}\n", quoted(site.message));
+        fmt::format_to(out, "fault {}\n", in_quotes(site.message));
     for (const Function& function : module.functions) print_function(out, function);
     return text;
 }

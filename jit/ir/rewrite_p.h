@@ -1,10 +1,10 @@
-// jit/rewrite_p.h: the frame of every pass: a function is read in order and written anew.
+// jit/ir/rewrite_p.h: the frame of every pass: a function is read in order and written anew.
 #pragma once
 
 #include <utility>
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit {

@@ -1,4 +1,4 @@
-// jit/scalar_p.h: the meaning of every pure arithmetic op on one lane, as ops.def states it. The
+// jit/ir/scalar_p.h: the meaning of every pure arithmetic op on one lane, as ops.def states it. The
 // interpreter runs these sixteen at a time, folding runs them once.
 #pragma once
 

@@ -1,8 +1,8 @@
-// jit/verify.cpp: what a well-formed module promises, checked.
+// jit/ir/verify.cpp: what a well-formed module promises, checked.
 #include <fmt/format.h>
 
-#include "jit/analysis.h"
-#include "jit/ir.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

@@ -1,8 +1,8 @@
-// jit/math_arc.cpp: asin, acos, atan, atan2, and inversesqrt.
+// jit/math/arc.cpp: asin, acos, atan, atan2, and inversesqrt.
 #include <limits>
 
-#include "jit/math_coefficients_p.h"
-#include "jit/math_expr_p.h"
+#include "jit/math/coefficients_p.h"
+#include "jit/math/expr_p.h"
 
 namespace kinora::jit::math {
 namespace {

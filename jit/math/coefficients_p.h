@@ -1,4 +1,4 @@
-// jit/math_coefficients_p.h: constants of jit/math, made by scripts/math_coefficients.py.
+// jit/math/coefficients_p.h: constants of jit/math, made by scripts/math_coefficients.py.
 // Polynomials are minimax in relative error (2^n below: largest error of the fit alone),
 // lowest power first, rounded to float one by one with the rest refitted.
 #pragma once

@@ -1,7 +1,7 @@
-// jit/math_exp.cpp: exp and exp2.
-#include "jit/math_exp_p.h"
+// jit/math/exp.cpp: exp and exp2.
+#include "jit/math/exp_p.h"
 
-#include "jit/math_coefficients_p.h"
+#include "jit/math/coefficients_p.h"
 
 namespace kinora::jit::math {
 namespace {

@@ -1,7 +1,7 @@
-// jit/math_exp_p.h: powers of two, shared by exp2 and pow.
+// jit/math/exp_p.h: powers of two, shared by exp2 and pow.
 #pragma once
 
-#include "jit/math_expr_p.h"
+#include "jit/math/expr_p.h"
 
 namespace kinora::jit::math {
 

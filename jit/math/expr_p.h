@@ -1,14 +1,14 @@
-// jit/math_expr_p.h: formulas over IR values with the usual operators, for jit/math*.cpp.
-// `a * b + c` here is two rounded operations, as everywhere (DESIGN.md decision 13); a fused one is
-// written fma(a, b, c).
+// jit/math/expr_p.h: formulas over IR values with the usual operators, for jit/math*.cpp.
+// `a * b + c` here is two rounded operations, as everywhere (docs/decisions.md#exact-arithmetic); a
+// fused one is written fma(a, b, c).
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "jit/builder.h"
-#include "jit/math.h"
+#include "jit/ir/builder.h"
+#include "jit/math/math.h"
 
 namespace kinora::jit::math {
 

@@ -1,9 +1,9 @@
-// jit/math_log.cpp: log, log2 and pow.
+// jit/math/log.cpp: log, log2 and pow.
 #include <cmath>
 #include <limits>
 
-#include "jit/math_coefficients_p.h"
-#include "jit/math_exp_p.h"
+#include "jit/math/coefficients_p.h"
+#include "jit/math/exp_p.h"
 
 namespace kinora::jit::math {
 namespace {

@@ -1,9 +1,9 @@
-// jit/math_noise.cpp: gradient noise on an integer hash of the lattice, as IR.
-#include "jit/math_noise_p.h"
+// jit/math/noise.cpp: gradient noise on an integer hash of the lattice, as IR.
+#include "jit/math/noise_p.h"
 
 #include <array>
 
-#include "jit/math_expr_p.h"
+#include "jit/math/expr_p.h"
 
 namespace kinora::jit::math {
 namespace {
@@ -34,7 +34,7 @@ Int wrapped(Int cell, Int period) {
 }
 
 // The two planes around a point of a periodic lattice; the period is a whole number, at least 1
-// (EXTREMES.md row 70).
+// (docs/numerics.md#noise).
 std::array<Int, 2> periodic_planes(Num cell, Num period) {
     Int whole = truncate(at_most(at_least(period, num(cell, 1.0f)), num(cell, kLatticeLimit)));
     Int lower = wrapped(truncate(cell), whole);

@@ -1,7 +1,7 @@
-// jit/math_noise_p.h: the numbers that define Kinora's noise, shared by the IR and the reference.
+// jit/math/noise_p.h: the numbers that define Kinora's noise, shared by the IR and the reference.
 //
 // Lattice point (x, y, z, w): h = xP0 ^ yP1 ^ zP2 ^ wP3 ^ seed. Component k of the noise takes its
-// gradient from g = h (h ^ C[k]) modulo 2^32 (DESIGN.md decision 11: the plain product h C has a
+// gradient from g = h (h ^ C[k]) modulo 2^32 (the plain product h C has a
 // short period along an axis): the gradient's coordinates are the signed integers
 // g, g << 6, g << 12, g << 17, that is, a vector uniform in a cube, which costs fewer instructions
 // than selecting one of a few directions and needs no table. The noise is the interpolation of
@@ -21,7 +21,7 @@ inline constexpr int kGradientShift[4] = {0, 6, 12, 17};
 // range -1..1 in any number of dimensions; what lies outside (more than 4 deviations) is clamped.
 inline constexpr float kNoiseScale[4] = {1.75f, 1.35f, 1.25f, 1.23f};
 
-// Coordinates are clamped to this before they become integers (EXTREMES.md row 68).
+// Coordinates are clamped to this before they become integers (docs/numerics.md#noise).
 inline constexpr float kLatticeLimit = 1073741824.0f;  // 2^30
 
 // Two rounds of multiply and xorshift, for cellnoise and random numbers: odd multipliers with about

@@ -1,10 +1,10 @@
-// jit/math_noise_reference.cpp: noise in plain C++, one point at a time, for the reference
-// evaluator and the tests. Written from the definition in jit/math_noise_p.h, apart from the IR.
+// jit/math/noise_reference.cpp: noise in plain C++, one point at a time, for the reference
+// evaluator and the tests. Written from the definition in jit/math/noise_p.h, apart from the IR.
 #include <algorithm>
 #include <cmath>
 
-#include "jit/math.h"
-#include "jit/math_noise_p.h"
+#include "jit/math/math.h"
+#include "jit/math/noise_p.h"
 
 namespace kinora::jit::math {
 namespace {

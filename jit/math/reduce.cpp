@@ -1,18 +1,18 @@
-// jit/math_reduce.cpp: huge angles modulo pi/2, exactly, in integers (Payne and Hanek 1983).
+// jit/math/reduce.cpp: huge angles modulo pi/2, exactly, in integers (Payne and Hanek 1983).
 //
 // |x| = m 2^e with a 24-bit m. x 2/pi modulo 4 needs only a window of the digits of 2/pi: digits
 // worth 4 or more after the shift by e add multiples of 4. Digits have 14 bits, so that a sum of
 // three 14 x 14 bit products fits in 31. With e + 14 = 14 q + s, m 2^s has three digits, and the
 // window starts at digit q - 2 of 2/pi. Eight digits leave 2^-61; the smallest remainder that a
 // float can have is about 2^-30.
-#include "jit/math_reduce_p.h"
+#include "jit/math/reduce_p.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "jit/math_coefficients_p.h"
+#include "jit/math/coefficients_p.h"
 
 namespace kinora::jit::math {
 namespace {

@@ -1,7 +1,7 @@
-// jit/math_reduce_p.h: angles modulo pi/2, for the trigonometric functions.
+// jit/math/reduce_p.h: angles modulo pi/2, for the trigonometric functions.
 #pragma once
 
-#include "jit/math_expr_p.h"
+#include "jit/math/expr_p.h"
 
 namespace kinora::jit::math {
 

@@ -1,6 +1,6 @@
-// jit/math_trig.cpp: sin, cos, tan.
-#include "jit/math_coefficients_p.h"
-#include "jit/math_reduce_p.h"
+// jit/math/trig.cpp: sin, cos, tan.
+#include "jit/math/coefficients_p.h"
+#include "jit/math/reduce_p.h"
 
 namespace kinora::jit::math {
 namespace {

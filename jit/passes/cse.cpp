@@ -1,5 +1,5 @@
-// jit/cse.cpp: equal pure values and calls are computed once, loop-invariant values before their
-// loop.
+// jit/passes/cse.cpp: equal pure values and calls are computed once, loop-invariant values before
+// their loop.
 //
 // Two walks. The first gives each value a leader (the first equal one that is visible) and a home:
 // the region in which it can stand, which is outside of every loop that it does not depend on. The
@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/planted_fault.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/planted_fault.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

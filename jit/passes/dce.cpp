@@ -1,7 +1,8 @@
-// jit/dce.cpp: drops what nothing needs: values, regions, arrays, functions, inputs, services.
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/liveness_p.h"
+// jit/passes/dce.cpp: drops what nothing needs: values, regions, arrays, functions, inputs,
+// services.
+#include "jit/codegen/liveness_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

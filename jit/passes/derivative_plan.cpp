@@ -1,7 +1,8 @@
-// jit/derivative_plan.cpp: activity forwards, need backwards, both to a fixpoint through loops.
-#include "jit/derivative_plan_p.h"
+// jit/passes/derivative_plan.cpp: activity forwards, need backwards, both to a fixpoint through
+// loops.
+#include "jit/passes/derivative_plan_p.h"
 
-#include "jit/analysis.h"
+#include "jit/ir/analysis.h"
 
 namespace kinora::jit {
 
@@ -84,9 +85,25 @@ class Planner {
                 return 0;
             case Op::WithSlope:
                 return of(inst.b);
-            default:
+            // All others pass on what reaches their operands.
+            // clang-format off
+            case Op::ConstF: case Op::ConstI: case Op::ConstM: case Op::FrameLoad:
+            case Op::FrameGather: case Op::Lookup: case Op::Add: case Op::Sub: case Op::Mul:
+            case Op::Div: case Op::Fma: case Op::Min: case Op::Max: case Op::Neg: case Op::Abs:
+            case Op::Sqrt: case Op::IAdd: case Op::ISub: case Op::IMul: case Op::IAnd:
+            case Op::IOr: case Op::IXor: case Op::IShl: case Op::IShr: case Op::ISar:
+            case Op::IMin: case Op::IMax: case Op::FToI: case Op::IToF: case Op::BitsFI:
+            case Op::BitsIF: case Op::Lt: case Op::Le: case Op::Eq: case Op::ILt: case Op::IEq:
+            case Op::MAnd: case Op::MOr: case Op::MXor: case Op::MAndNot: case Op::MNot:
+            case Op::Select: case Op::RecordCount: case Op::ArrayStore: case Op::If:
+            case Op::EndIf: case Op::Merge: case Op::Loop: case Op::EndLoop: case Op::LoopOut:
+            case Op::Return: case Op::Call: case Op::Service: case Op::Fault:
+                // clang-format on
                 return of(inst.a) | of(inst.b) | of(inst.c);
+            case Op::Count:
+                break;
         }
+        return 0;
     }
 
     // A row of inputs has partials where all of it has; "1" (the coordinate itself) is no row.
@@ -137,11 +154,29 @@ class Planner {
             case Op::Call:
                 if (asks_[static_cast<size_t>(inst.imm)]) ask_arguments(inst, kBoth);
                 return;
-            default:
+            // All others pass on what reaches their operands.
+            // clang-format off
+            case Op::ConstF: case Op::ConstI: case Op::ConstM: case Op::Input:
+            case Op::InputGather: case Op::FrameLoad: case Op::FrameGather: case Op::Lookup:
+            case Op::Add: case Op::Sub: case Op::Mul: case Op::Div: case Op::Fma: case Op::Min:
+            case Op::Max: case Op::Neg: case Op::Abs: case Op::Sqrt: case Op::Floor:
+            case Op::Ceil: case Op::Trunc: case Op::Round: case Op::IAdd: case Op::ISub:
+            case Op::IMul: case Op::IAnd: case Op::IOr: case Op::IXor: case Op::IShl:
+            case Op::IShr: case Op::ISar: case Op::IMin: case Op::IMax: case Op::FToI:
+            case Op::IToF: case Op::BitsFI: case Op::BitsIF: case Op::Lt: case Op::Le:
+            case Op::Eq: case Op::ILt: case Op::IEq: case Op::MAnd: case Op::MOr: case Op::MXor:
+            case Op::MAndNot: case Op::MNot: case Op::Select: case Op::RecordCount:
+            case Op::RecordField: case Op::RecordUniform: case Op::If: case Op::EndIf:
+            case Op::Merge: case Op::Loop: case Op::EndLoop: case Op::LoopOut: case Op::Param:
+            case Op::Service: case Op::Fault:
+                // clang-format on
                 if (bits == 0) return;
                 ask(inst.a, bits);
                 ask(inst.b, bits);
                 ask(inst.c, bits);
+                return;
+            case Op::Count:
+                return;
         }
     }
 

@@ -1,9 +1,9 @@
-// jit/derivative_plan_p.h: which values need a derivative, before any is written.
+// jit/passes/derivative_plan_p.h: which values need a derivative, before any is written.
 #pragma once
 
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

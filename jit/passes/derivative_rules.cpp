@@ -1,9 +1,9 @@
-// jit/derivative_rules.cpp: forward-mode rules, one function a row.
-#include "jit/derivative_rules_p.h"
+// jit/passes/derivative_rules.cpp: forward-mode rules, one function a row.
+#include "jit/passes/derivative_rules_p.h"
 
 #include <limits>
 
-#include "jit/math.h"
+#include "jit/math/math.h"
 
 namespace kinora::jit {
 

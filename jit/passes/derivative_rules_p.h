@@ -1,9 +1,10 @@
-// jit/derivative_rules_p.h: the derivative of each op and of each named function of jit/math.
+// jit/passes/derivative_rules_p.h: the derivative of each op and of each named function of
+// jit/math.
 #pragma once
 
 #include <string_view>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
 
 namespace kinora::jit {
 

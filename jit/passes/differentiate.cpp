@@ -1,15 +1,15 @@
-// jit/differentiate.cpp: Du and Dv become forward-mode dual numbers.
+// jit/passes/differentiate.cpp: Du and Dv become forward-mode dual numbers.
 //
 // Each planned value is followed by its derivatives: loop variables, merges and arrays get a second
 // of their kind, calls of functions without a rule go to a copy that takes and gives derivatives.
 #include <algorithm>
 #include <map>
 
-#include "jit/compiler.h"
-#include "jit/derivative_plan_p.h"
-#include "jit/derivative_rules_p.h"
-#include "jit/normalize.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/normalize.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/derivative_plan_p.h"
+#include "jit/passes/derivative_rules_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

@@ -1,9 +1,9 @@
-// jit/fold.cpp: the pass: constants and exact identities, branches and loops that never or always
-// run, loop variables that never change.
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/fold_inst.h"
-#include "jit/rewrite_p.h"
+// jit/passes/fold.cpp: the pass: constants and exact identities, branches and loops that never or
+// always run, loop variables that never change.
+#include "jit/ir/analysis.h"
+#include "jit/ir/fold_inst.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

@@ -1,14 +1,14 @@
-// jit/fuse.cpp: regions that run together become one: loops over the same records (ambient(),
-// diffuse() and specular() of one surface), and Ifs of the same mask.
+// jit/passes/fuse.cpp: regions that run together become one: loops over the same records
+// (ambient(), diffuse() and specular() of one surface), and Ifs of the same mask.
 //
 // What stands between the two either does not need the first, and goes before it, or is not needed
 // by the second, and goes behind. So what both compute (the light's direction, say) stands side by
 // side, and cse() finds it. Of the fault sites of fused loops the first one's speaks for all.
 #include <algorithm>
 
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

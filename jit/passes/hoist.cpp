@@ -1,4 +1,4 @@
-// jit/hoist.cpp: frame-rate work leaves the point kernel for the frame kernel.
+// jit/passes/hoist.cpp: frame-rate work leaves the point kernel for the frame kernel.
 //
 // A walk back from what the point kernel does stops at every value of frame rate outside of loops:
 // these become slots of the frame block, and nothing behind them is needed here any more. The
@@ -7,12 +7,12 @@
 // keep their work, but read frame inputs from slots.
 #include <algorithm>
 
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/fold_inst.h"
-#include "jit/liveness_p.h"
-#include "jit/rates.h"
-#include "jit/rewrite_p.h"
+#include "jit/codegen/liveness_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/fold_inst.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
+#include "jit/passes/rates.h"
 
 namespace kinora::jit {
 

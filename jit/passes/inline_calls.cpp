@@ -1,11 +1,11 @@
-// jit/inline_calls.cpp: bodies of small or once-called functions replace their calls.
+// jit/passes/inline_calls.cpp: bodies of small or once-called functions replace their calls.
 //
 // A body inlined runs for all lanes, not for those of the call's mask only: its effects carry masks
 // of their own, and results in other lanes are free.
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/planted_fault.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/planted_fault.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

@@ -1,9 +1,10 @@
-// jit/rates.cpp: rate inference over the kernel, a least fixpoint because loops feed themselves.
-#include "jit/rates.h"
+// jit/passes/rates.cpp: rate inference over the kernel, a least fixpoint because loops feed
+// themselves.
+#include "jit/passes/rates.h"
 
 #include <algorithm>
 
-#include "jit/analysis.h"
+#include "jit/ir/analysis.h"
 
 namespace kinora::jit {
 

@@ -1,9 +1,9 @@
-// jit/rates.h: how often each value of a kernel changes: constant, per frame, per point.
+// jit/passes/rates.h: how often each value of a kernel changes: constant, per frame, per point.
 #pragma once
 
 #include <vector>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 

@@ -1,13 +1,13 @@
-// jit/schedule.cpp: what a loop's next round begins with is computed as soon as it can be.
+// jit/passes/schedule.cpp: what a loop's next round begins with is computed as soon as it can be.
 //
 // `at *= 2` at the end of a body holds up the round that follows: a machine looks ahead a hundred
 // instructions or two, which is one round of noise. So an operation that gives a variable its next
 // value moves up to the last other read of the variable, whose place it can take there.
 #include <algorithm>
 
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 

@@ -1,5 +1,5 @@
-// jit/unmask.cpp: loops of known rounds that all lanes around enter run without a mask of their
-// own, as in `if (a) for (i = 0; i < 4; i += 1) ...`.
+// jit/passes/unmask_uniform_loops.cpp: loops of known rounds that all lanes around enter run
+// without a mask of their own, as in `if (a) for (i = 0; i < 4; i += 1) ...`.
 //
 // Lanes off the mask of an If or Loop see nothing of what is computed inside, so they may as well
 // run such a loop: it carries its variables without blends then, and its counter agrees in all
@@ -7,9 +7,9 @@
 // under.
 #include <algorithm>
 
-#include "jit/analysis.h"
-#include "jit/compiler.h"
-#include "jit/rewrite_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/rewrite_p.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 
@@ -51,7 +51,7 @@ class Unmask {
     bool needs_no_mask(Value loop) const {
         if (!holds_[f_.insts[loop].a]) return false;
         Value end = match_[loop];
-        return known_rounds(f_.insts, f_.args_of(f_.insts[end]), loop, end, m_.loop_budget) > 0;
+        return trip_count(f_.insts, f_.args_of(f_.insts[end]), loop, end, m_.loop_budget) > 0;
     }
 
     // In a region its mask holds for all lanes that count, and with it what it is part of.
@@ -97,7 +97,7 @@ class Unmask {
 
 }  // namespace
 
-void unmask(Module& module) {
+void unmask_uniform_loops(Module& module) {
     for (Function& function : module.functions) {
         bool masked =
             std::any_of(function.insts.begin(), function.insts.end(), [&](const Inst& inst) {

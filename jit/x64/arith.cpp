@@ -1,7 +1,7 @@
-// jit/x64/x64_arith.cpp: float and integer arithmetic, conversions, leaves.
+// jit/x64/arith.cpp: float and integer arithmetic, conversions, leaves.
 #include <utility>
 
-#include "jit/x64/x64_emit_p.h"
+#include "jit/x64/emit_p.h"
 
 namespace kinora::jit::x64 {
 

@@ -1,7 +1,7 @@
-// jit/x64/x64_calls.cpp: calls of services (C++) and of the module's own functions. No vector
+// jit/x64/calls.cpp: calls of services (C++) and of the module's own functions. No vector
 // register lives through a call (values in need lie in memory); rbx rbp r12..r15 are kept.
-#include "jit/analysis.h"
-#include "jit/x64/x64_emit_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/x64/emit_p.h"
 
 namespace kinora::jit::x64 {
 

@@ -1,6 +1,6 @@
-// jit/x64/x64_control.cpp: If and Loop. A region is entered when any lane runs it; what lanes see
+// jit/x64/control.cpp: If and Loop. A region is entered when any lane runs it; what lanes see
 // differently is blended under the mask, unless all lanes agree.
-#include "jit/x64/x64_emit_p.h"
+#include "jit/x64/emit_p.h"
 
 namespace kinora::jit::x64 {
 

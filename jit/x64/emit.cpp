@@ -1,7 +1,7 @@
-// jit/x64/x64_emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
-#include "jit/x64/x64_emit_p.h"
+// jit/x64/emit.cpp: a function's frame, entry and exit, and the walk over its instructions.
+#include "jit/x64/emit_p.h"
 
-#include "jit/module_code_p.h"
+#include "jit/codegen/module_code_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit::x64 {
@@ -18,7 +18,7 @@ struct Saved {
 
 const Emit::Member Emit::kMembers[] = {
 #define OP(name, operands, result, flags, meaning) &Emit::op_##name,
-#include "jit/ops.def"
+#include "jit/ir/ops.def"
 #undef OP
 };
 

@@ -1,4 +1,4 @@
-// jit/x64/x64_emit_p.h: writes one function as machine code.
+// jit/x64/emit_p.h: writes one function as machine code.
 //
 // Registers while code runs:
 //   rbx KernelArgs   r12 in[]   r14 frame block   rbp byte offset of the lane group in a column
@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "jit/planted_fault.h"
-#include "jit/unwind.h"
-#include "jit/x64/x64_isa_p.h"
-#include "jit/x64/x64_pool_p.h"
+#include "jit/codegen/unwind.h"
+#include "jit/ir/planted_fault.h"
+#include "jit/x64/isa_p.h"
+#include "jit/x64/pool_p.h"
 
 namespace kinora::jit::x64 {
 
@@ -61,12 +61,12 @@ class Emit : public FunctionCode {
 
     // One per row of ops.def: an op without a member does not compile.
 #define OP(name, operands, result, flags, meaning) void op_##name();
-#include "jit/ops.def"
+#include "jit/ir/ops.def"
 #undef OP
     using Member = void (Emit::*)();
     static const Member kMembers[static_cast<size_t>(Op::Count)];
 
-    // x64_emit.cpp
+    // emit.cpp
     void emit_kernel(bool listing);
     void emit_local(bool listing);
     void move_stack(int bytes);
@@ -74,7 +74,7 @@ class Emit : public FunctionCode {
     void find_valid_lanes();
     void broadcast_frame();
 
-    // x64_operands.cpp: places of values
+    // operands.cpp: places of values
     bool is_mask(Value v) const {
         return isa_.wide && inst(v).type == Type::M;
     }
@@ -114,7 +114,7 @@ class Emit : public FunctionCode {
     void load_mask(const x86::KReg& to, Value v);
     void copy(Value to, Value from);  // any class; `to` is being defined
 
-    // x64_arith.cpp
+    // arith.cpp
     void binary(InstId id, bool commutative);
     void binary_into(const x86::Vec& to, InstId id, const Inst& op, bool commutative,
                      const x86::KReg* under);
@@ -125,7 +125,7 @@ class Emit : public FunctionCode {
     void with_constant(InstId id, uint32_t bits);
     void shift(InstId id);
 
-    // x64_masks.cpp
+    // masks.cpp
     struct Compare {
         InstId id;
         int imm;
@@ -143,7 +143,7 @@ class Emit : public FunctionCode {
     void set_if_any(Value mask);  // flags: not zero if any lane is set
     void mask_bits(const x86::Gp& to, Value mask);
 
-    // x64_control.cpp
+    // control.cpp
     void fill_slot(Value v);
     void begin_body(Value loop);
     void test_kind(Value condition);
@@ -154,7 +154,7 @@ class Emit : public FunctionCode {
     void update_mask(Value loop, Value next_mask);
     void save(int k, Value variable);
 
-    // x64_memory.cpp: in memory shared with C++ a mask lane is all ones or zero
+    // memory.cpp: in memory shared with C++ a mask lane is all ones or zero
     void zero_arrays();
     void finish_typed(const x86::Vec& lanes);
     void load_result(const x86::Mem& from);
@@ -169,14 +169,14 @@ class Emit : public FunctionCode {
     void store_under(const x86::Mem& to, Value value, Value mask);
     void scatter_by_lane(Value value, Value mask);
 
-    // x64_records.cpp
+    // records.cpp
     void lane_to(const x86::Gp& to, Value index);
     const OpenLoop* counted_by(Value index) const;
     x86::Mem find_set(Value set);
     void find_record(Value set, Value index, bool in_range);
     void read_record(bool uniform);
 
-    // x64_calls.cpp
+    // calls.cpp
     void pass_arguments(int32_t to, bool to_service);
 
     ModuleState& state_;

@@ -1,7 +1,7 @@
-// jit/x64/x64_isa_p.h: the two instruction sets.
+// jit/x64/isa_p.h: the two instruction sets.
 #pragma once
 
-#include "jit/function_code_p.h"
+#include "jit/codegen/function_code_p.h"
 
 namespace kinora::jit::x64 {
 

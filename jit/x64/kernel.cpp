@@ -1,12 +1,12 @@
-// jit/x64/x64_kernel.cpp: from a module to a kernel: emits the functions it reaches, and the pool.
+// jit/x64/kernel.cpp: from a module to a kernel: emits the functions it reaches, and the pool.
 #include <chrono>
 #include <deque>
 
-#include "jit/analysis.h"
-#include "jit/code_memory.h"
-#include "jit/module_code_p.h"
+#include "jit/codegen/code_memory.h"
+#include "jit/codegen/module_code_p.h"
+#include "jit/ir/analysis.h"
+#include "jit/x64/emit_p.h"
 #include "jit/x64/x64.h"
-#include "jit/x64/x64_emit_p.h"
 
 namespace kinora::jit {
 

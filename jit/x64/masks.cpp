@@ -1,8 +1,8 @@
-// jit/x64/x64_masks.cpp: comparisons, mask logic, and blends under a mask. Masks are k registers
+// jit/x64/masks.cpp: comparisons, mask logic, and blends under a mask. Masks are k registers
 // in AVX-512 and lanes of all ones or zero in AVX2.
 #include <utility>
 
-#include "jit/x64/x64_emit_p.h"
+#include "jit/x64/emit_p.h"
 
 namespace kinora::jit::x64 {
 

@@ -1,7 +1,7 @@
-// jit/x64/x64_memory.cpp: gathers, arrays of a function, and typed rows in memory.
+// jit/x64/memory.cpp: gathers, arrays of a function, and typed rows in memory.
 #include <algorithm>
 
-#include "jit/x64/x64_emit_p.h"
+#include "jit/x64/emit_p.h"
 
 namespace kinora::jit::x64 {
 

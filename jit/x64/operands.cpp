@@ -1,5 +1,5 @@
-// jit/x64/x64_operands.cpp: from a value to the register or memory that holds it now.
-#include "jit/x64/x64_emit_p.h"
+// jit/x64/operands.cpp: from a value to the register or memory that holds it now.
+#include "jit/x64/emit_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit::x64 {

@@ -1,5 +1,5 @@
-// jit/x64/x64_pool.cpp: constants that stand behind the code, each once.
-#include "jit/x64/x64_pool_p.h"
+// jit/x64/pool.cpp: constants that stand behind the code, each once.
+#include "jit/x64/pool_p.h"
 
 #include <algorithm>
 #include <bit>

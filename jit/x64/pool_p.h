@@ -1,4 +1,4 @@
-// jit/x64/x64_pool_p.h: constants that stand behind the code, each once.
+// jit/x64/pool_p.h: constants that stand behind the code, each once.
 #pragma once
 
 #include <asmjit/x86.h>

@@ -1,5 +1,5 @@
-// jit/x64/x64_records.cpp: records of a grid (light answers): sets[a].records[b].
-#include "jit/x64/x64_emit_p.h"
+// jit/x64/records.cpp: records of a grid (light answers): sets[a].records[b].
+#include "jit/x64/emit_p.h"
 
 namespace kinora::jit::x64 {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "jit/ir.h"
-#include "jit/target.h"
+#include "jit/ir/ir.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::jit {
 
