@@ -1,15 +1,15 @@
-// rsl/shader.cpp: the stages of the front end in order.
-#include "rsl/shader.h"
+// rsl/compile.cpp: the stages of the front end in order.
+#include "rsl/compile.h"
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 
-#include "rsl/check.h"
-#include "rsl/parser.h"
-#include "rsl/preprocess.h"
-#include "rsl/reporter.h"
-#include "rsl/usage.h"
+#include "rsl/check/check.h"
+#include "rsl/check/usage.h"
+#include "rsl/syntax/parser.h"
+#include "rsl/text/preprocess.h"
+#include "rsl/text/reporter.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::rsl {
@@ -28,7 +28,8 @@ std::vector<ShaderParameter> shader_parameters(const ShaderDefinition& definitio
 }
 
 std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& ast,
-                                                  Reporter& reporter, const Damage& damage) {
+                                                  Reporter& reporter,
+                                                  const ParseRecovery& recovery) {
     std::vector<std::unique_ptr<Shader>> shaders;
     std::unordered_set<const void*> reported;
     for (const ShaderDefinition* definition : ast->shaders) {
@@ -37,7 +38,7 @@ std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& as
         shader->kind = definition->kind;
         shader->ast = ast;
         shader->definition = definition;
-        find_usage(*shader, *ast, reporter, damage, reported);
+        find_usage(*shader, *ast, reporter, recovery, reported);
         if (reporter.errors() == 0) shader->parameters = shader_parameters(*definition);
         shaders.push_back(std::move(shader));
     }
@@ -82,14 +83,14 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     Preprocessor(options, diagnostics, ast->tokens, reporter).run(source);
     if (ast->tokens.truncated) return {};
     Parser parser(*ast, reporter);
-    if (lacks_text(diagnostics, before)) parser.damage().lose_everything();
+    if (lacks_text(diagnostics, before)) parser.recovery().lose_everything();
     parser.run();
-    Checker(*ast, reporter, options, parser.damage()).run();
+    Checker(*ast, reporter, options, parser.recovery()).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {
         Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
         if (!ast->functions.empty()) finding.help = "write its kind, as 'surface', before its name";
     }
-    auto shaders = make_shaders(ast, reporter, parser.damage());
+    auto shaders = make_shaders(ast, reporter, parser.recovery());
     infer_rates(*ast, reporter);
     if (reporter.errors() > 0) return {};
     return shaders;

@@ -1,7 +1,7 @@
-// rsl/builtins_geometric.cpp: rows of the built-in table: points, vectors, normals, spaces.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/geometric.cpp: rows of the built-in table: points, vectors, normals, spaces.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 
@@ -70,7 +70,7 @@ void area(LowerCall& c) {
     c.set(e.length(e.cross(along_u, along_v)));
 }
 
-// The incoming normal turned against I: N itself where I . Nref is 0 (EXTREMES.md row 64).
+// The incoming normal turned against I: N itself where I . Nref is 0 (docs/numerics.md#vectors).
 void faceforward(LowerCall& c) {
     auto& e = c.low;
     V3 N = c.v3(0), I = c.v3(1);

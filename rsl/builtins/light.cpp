@@ -1,7 +1,7 @@
-// rsl/builtins_light.cpp: rows of the built-in table: lights and illumination.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/light.cpp: rows of the built-in table: lights and illumination.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

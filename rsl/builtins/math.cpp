@@ -1,8 +1,8 @@
-// rsl/builtins_math.cpp: rows of the built-in table: mathematics of floats and, componentwise, of
+// rsl/builtins/math.cpp: rows of the built-in table: mathematics of floats and, componentwise, of
 // triples.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 
@@ -26,7 +26,7 @@ void binary(LowerCall& c) {
         for (size_t k = 0; k < size_t(r.size()); ++k) r.c[k] = function(c, r.c[k], c.args[a].c[k]);
     c.result = r;
 }
-// Functions of jit/math.h.
+// Functions of jit/math/math.h.
 template <Value (*function)(jit::Builder&, Value, jit::math::Tier)>
 void of_math(LowerCall& c) {
     Lowered r{c.result_type(), {}};
@@ -219,7 +219,7 @@ void total_derivative(LowerCall& c) {
     c.result = r;
 }
 
-void spline(LowerCall& c);  // rsl/builtins_spline.cpp
+void spline(LowerCall& c);  // rsl/builtins/spline.cpp
 
 }  // namespace lower_math
 

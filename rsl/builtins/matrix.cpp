@@ -1,7 +1,7 @@
-// rsl/builtins_matrix.cpp: rows of the built-in table: matrices.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/matrix.cpp: rows of the built-in table: matrices.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

@@ -1,10 +1,10 @@
-// rsl/builtins_message.cpp: rows of the built-in table: messages between shaders and questions to
+// rsl/builtins/message.cpp: rows of the built-in table: messages between shaders and questions to
 // the renderer.
 #include <algorithm>
 
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

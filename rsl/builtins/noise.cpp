@@ -1,7 +1,7 @@
-// rsl/builtins_noise.cpp: rows of the built-in table: noise and random numbers.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/noise.cpp: rows of the built-in table: noise and random numbers.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

@@ -1,8 +1,8 @@
-// rsl/builtins_points.cpp: rows of the built-in table: point files and photon maps.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/pairs.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/points.cpp: rows of the built-in table: point files and photon maps.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/pairs.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

@@ -1,7 +1,7 @@
-// rsl/builtins_rays.cpp: rows of the built-in table: ray tracing.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/rays.cpp: rows of the built-in table: ray tracing.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 
@@ -9,7 +9,7 @@ namespace lower_rays {
 
 constexpr float kFar = 1e30f;
 
-// In an opacity kernel nothing is traced (DESIGN.md decision 6).
+// In an opacity kernel nothing is traced (docs/decisions.md#opacity).
 bool traces(LowerCall& c) {
     return c.low.options.want_Ci;
 }

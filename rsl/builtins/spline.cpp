@@ -1,10 +1,10 @@
-// rsl/builtins_spline.cpp: how spline() is lowered: cubic curves through or near knots.
+// rsl/builtins/spline.cpp: how spline() is lowered: cubic curves through or near knots.
 #include <array>
 #include <string_view>
 #include <vector>
 
-#include "rsl/literal_names.h"
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/text/literal_names.h"
 
 namespace kinora::rsl {
 

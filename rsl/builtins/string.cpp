@@ -1,10 +1,10 @@
-// rsl/builtins_string.cpp: rows of the built-in table: strings and printing.
+// rsl/builtins/string.cpp: rows of the built-in table: strings and printing.
 #include <fmt/format.h>
 
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
-#include "rsl/string_functions.h"
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/string_functions.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

@@ -1,5 +1,5 @@
-// rsl/builtin.cpp: decodes the rows and finds them by name.
-#include "rsl/builtin.h"
+// rsl/builtins/table.cpp: decodes the rows and finds them by name.
+#include "rsl/builtins/table.h"
 
 #include <algorithm>
 #include <unordered_map>

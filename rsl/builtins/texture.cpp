@@ -1,7 +1,7 @@
-// rsl/builtins_texture.cpp: rows of the built-in table: textures and maps.
-#include "rsl/builtin.h"
-#include "rsl/lower_p.h"
-#include "rsl/reference_builtins.h"
+// rsl/builtins/texture.cpp: rows of the built-in table: textures and maps.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/reference/builtins.h"
 
 namespace kinora::rsl {
 

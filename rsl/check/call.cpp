@@ -1,11 +1,12 @@
-// rsl/check_call.cpp: which function a call means. Overloads are chosen by the arguments first, by
+// rsl/check/call.cpp: which function a call means. Overloads are chosen by the arguments first, by
 // the type that is wanted of the result second, by the order of the row third.
 #include <algorithm>
 
-#include "rsl/check.h"
-#include "rsl/meant_name.h"
-#include "rsl/pairs.h"
-#include "rsl/standard_headers.h"
+#include "rsl/builtins/table.h"
+#include "rsl/check/check.h"
+#include "rsl/model/pairs.h"
+#include "rsl/text/did_you_mean.h"
+#include "rsl/text/standard_headers.h"
 
 namespace kinora::rsl {
 
@@ -335,7 +336,7 @@ void Checker::no_overload(CallExpr& e) {
 }
 
 void Checker::unknown_function(CallExpr& e) {
-    if (damage_.hides(e.name, e.place.token) || !unknown_functions_.insert(e.name).second) return;
+    if (recovery_.hides(e.name, e.place.token) || !unknown_functions_.insert(e.name).second) return;
     std::string_view place = foreign_builtin(e.name);
     if (place == "RSL 2.0") {
         report(Code::RSL_2, e.place, fmt::format("'{}()'", e.name));

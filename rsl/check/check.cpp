@@ -1,15 +1,16 @@
-// rsl/check.cpp: the checker's definitions and scopes.
-#include "rsl/check.h"
+// rsl/check/check.cpp: the checker's definitions and scopes.
+#include "rsl/check/check.h"
 
 #include <algorithm>
 
 namespace kinora::rsl {
 
-Checker::Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, const Damage& damage)
+Checker::Checker(Ast& ast, Reporter& reporter, const CompileOptions& options,
+                 const ParseRecovery& recovery)
     : ast_(ast),
       reporter_(reporter),
       options_(options),
-      damage_(damage),
+      recovery_(recovery),
       globals_(size_t(Global::Count)) {}
 
 void Checker::run() {

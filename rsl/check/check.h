@@ -1,6 +1,6 @@
-// rsl/check.h: the checker: names to symbols and callees, types, overloads and conversions. It
-// completes the tree in place; expressions that cannot be typed become Invalid after one finding,
-// and nothing more is said of what contains them.
+// rsl/check/check.h: the checker: names to symbols and callees, types, overloads and conversions.
+// It completes the tree in place; expressions that cannot be typed become Invalid after one
+// finding, and nothing more is said of what contains them.
 #pragma once
 
 #include <string>
@@ -8,10 +8,12 @@
 #include <unordered_set>
 #include <vector>
 
-#include "rsl/damage.h"
-#include "rsl/globals.h"
-#include "rsl/reporter.h"
-#include "rsl/shader.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/globals.h"
+#include "rsl/model/shader.h"
+#include "rsl/syntax/parse_recovery.h"
+#include "rsl/text/compile_options.h"
+#include "rsl/text/reporter.h"
 
 namespace kinora::rsl {
 
@@ -26,8 +28,9 @@ using TypeSet = uint32_t;  // a bit each BaseType
 
 class Checker {
   public:
-    // Names that `damage` hides are not reported.
-    Checker(Ast& ast, Reporter& reporter, const CompileOptions& options, const Damage& damage);
+    // Names that `recovery` hides are not reported.
+    Checker(Ast& ast, Reporter& reporter, const CompileOptions& options,
+            const ParseRecovery& recovery);
     void run();
 
   private:
@@ -77,7 +80,7 @@ class Checker {
         return reporter_.report(info, place.where, token.macro, token.spelling, args...);
     }
 
-    // check_statement.cpp
+    // statement.cpp
     void statement(Stmt& stmt);
     void check(BlockStmt& s);
     void check(DeclareStmt& s);
@@ -103,7 +106,7 @@ class Checker {
     void cone(Expr*& axis, Expr*& angle, const char* statement_name);
     Expr* assumed_angle(const Stmt& s, const char* statement_name, double angle, const char* text);
 
-    // check_expression.cpp. `wanted` is the type the context would like, Invalid for any.
+    // expression.cpp. `wanted` is the type the context would like, Invalid for any.
     void expression(Expr*& slot, BaseType wanted);
     BaseType value(Expr*& slot, BaseType wanted);
     void convert_to(Expr*& slot, Type type, const std::string& what);
@@ -127,7 +130,7 @@ class Checker {
     bool check_lvalue(Expr*& slot);
     void mark_assigned(Symbol& symbol, const Place& place);
 
-    // check_operator.cpp
+    // operator.cpp
     void check(Expr*&, UnaryExpr& e, BaseType wanted);
     void check(Expr*&, BinaryExpr& e, BaseType wanted);
     void check_arithmetic(BinaryExpr& e, BaseType wanted);
@@ -140,7 +143,7 @@ class Checker {
     void bad_operands(BinaryExpr& e);
     bool invalid(const BinaryExpr& e) const;
 
-    // check_call.cpp
+    // call.cpp
     struct Candidate {
         Function* function = nullptr;
         const Overload* builtin = nullptr;
@@ -165,7 +168,7 @@ class Checker {
     void no_overload(CallExpr& e);
     std::string argument_types(const CallExpr& e) const;
 
-    // check_convert.cpp
+    // convert.cpp
     bool convert(Expr*& slot, BaseType to);
     bool can_be(const Expr& expr, BaseType type) const;
     TypeSet possible_types(const Expr& part) const;
@@ -180,7 +183,7 @@ class Checker {
     Ast& ast_;
     Reporter& reporter_;
     const CompileOptions& options_;
-    const Damage& damage_;
+    const ParseRecovery& recovery_;
     std::vector<Scope> scopes_;
     std::vector<Symbol*> globals_;  // by Global, made when first named
     std::vector<Stmt*> loops_;      // around the statement, outermost first

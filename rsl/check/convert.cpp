@@ -1,11 +1,13 @@
-// rsl/check_convert.cpp: implicit conversions, and expressions whose type the context chooses.
+// rsl/check/convert.cpp: implicit conversions, and expressions whose type the context chooses.
 #include <algorithm>
 
-#include "rsl/check.h"
+#include "rsl/builtins/table.h"
+#include "rsl/check/check.h"
 
 namespace kinora::rsl {
 
-// Real shaders mix points, vectors, normals and colors freely, and so do both peers (RSL.md).
+// Real shaders mix points, vectors, normals and colors freely
+// (docs/language.md#types-and-conversions).
 int conversion_cost(BaseType from, BaseType to) {
     if (from == to) return 0;
     if (from == BaseType::Bool) {

@@ -1,7 +1,8 @@
-// rsl/check_expression.cpp: values, variables, l-values and conversions that the context asks for.
-#include "rsl/ast_visit.h"
-#include "rsl/check.h"
-#include "rsl/meant_name.h"
+// rsl/check/expression.cpp: values, variables, l-values and conversions that the context asks for.
+#include "rsl/builtins/table.h"
+#include "rsl/check/check.h"
+#include "rsl/syntax/ast_visit.h"
+#include "rsl/text/did_you_mean.h"
 
 namespace kinora::rsl {
 
@@ -178,12 +179,12 @@ constexpr struct {
 void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     e.symbol = find_variable(e.name, false);
     bool global = e.symbol && e.symbol->global;  // perhaps hidden by what was skipped
-    if (global && damage_.declares(e.name, e.place.token)) e.symbol = nullptr;
+    if (global && recovery_.declares(e.name, e.place.token)) e.symbol = nullptr;
     if (e.symbol) {
         e.type = e.symbol->type;
         return;
     }
-    if (damage_.hides(e.name, e.place.token) || !unknown_.insert(e.name).second) return;
+    if (recovery_.hides(e.name, e.place.token) || !unknown_.insert(e.name).second) return;
     Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.place, e.name);
     for (const auto& row : kVariableHints)
         if (row.name == e.name) finding.help = row.help;
@@ -195,7 +196,7 @@ void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     std::vector<std::string_view> names = variable_names();
     names.insert(names.end(), {"return", "break", "continue"});  // alone in a statement
     finding.help = meant_help(e.name, names);
-    returned_ = returned_ || meant_name(e.name, names) == "return";
+    returned_ = returned_ || did_you_mean(e.name, names) == "return";
 }
 
 // array[i], or a component of a triple.

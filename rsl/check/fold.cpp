@@ -1,11 +1,11 @@
-// rsl/fold.cpp: values of parameter defaults that need no running.
+// rsl/check/fold.cpp: values of parameter defaults that need no running.
 #include <algorithm>
 
-#include "rsl/ast_visit.h"
-#include "rsl/builtin.h"
-#include "rsl/lower_analysis.h"
-#include "rsl/reference.h"
-#include "rsl/usage.h"
+#include "rsl/check/usage.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/changes.h"
+#include "rsl/reference/reference.h"
+#include "rsl/syntax/ast_visit.h"
 
 namespace kinora::rsl {
 

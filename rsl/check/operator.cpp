@@ -1,5 +1,5 @@
-// rsl/check_operator.cpp: unary and binary operators.
-#include "rsl/check.h"
+// rsl/check/operator.cpp: unary and binary operators.
+#include "rsl/check/check.h"
 
 namespace kinora::rsl {
 

@@ -1,6 +1,6 @@
-// rsl/rates.cpp: which values differ from point to point. The shader is walked again and again
-// until no variable changes; calls are walked as if expanded, once for each pattern of argument
-// rates.
+// rsl/check/rates.cpp: which values differ from point to point. The shader is walked again and
+// again until no variable changes; calls are walked as if expanded, once for each pattern of
+// argument rates.
 //
 // In a source with errors, what could not be typed is uniform, so that nothing follows from it.
 //
@@ -11,10 +11,12 @@
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
-#include "rsl/ast_visit.h"
-#include "rsl/pairs.h"
-#include "rsl/usage.h"
+#include "rsl/check/usage.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/pairs.h"
+#include "rsl/syntax/ast_visit.h"
 
 namespace kinora::rsl {
 
@@ -94,7 +96,7 @@ class RateWalk {
 
     Flow read(const Symbol& s) const {
         if (!s.global) return flows_[s.id];
-        // Uniform in one peer, so shaders hand them to uniform variables (RSL.md).
+        // Uniform in other compilers, so shaders hand them to uniform variables.
         if (s.global->id == Global::du || s.global->id == Global::dv) return {false, true, false};
         return s.global->rate == Rate::Varying    ? kVaryingFlow
                : s.global->rate == Rate::Constant ? kConstant

@@ -1,7 +1,7 @@
-// rsl/check_statement.cpp: statements.
-#include "rsl/ast_visit.h"
-#include "rsl/check.h"
-#include "rsl/pairs.h"
+// rsl/check/statement.cpp: statements.
+#include "rsl/check/check.h"
+#include "rsl/model/pairs.h"
+#include "rsl/syntax/ast_visit.h"
 
 namespace kinora::rsl {
 
@@ -29,7 +29,7 @@ void Checker::check(ExternStmt& s) {
     for (Symbol*& symbol : s.symbols) {
         Symbol* outer = find_variable(symbol->name, true);
         if (!outer) {
-            if (!damage_.hides(symbol->name, symbol->place.token))
+            if (!recovery_.hides(symbol->name, symbol->place.token))
                 report(Code::RSL_EXTERN_UNKNOWN, symbol->place, symbol->name);
             outer = symbol;
         } else if (outer->type.base != symbol->type.base &&
@@ -51,7 +51,7 @@ void Checker::check(ExpressionStmt& s) {
     expression(s.expression, BaseType::Invalid);
     ExprKind kind = written->kind;
     if (kind != ExprKind::Assign && kind != ExprKind::Call && kind != ExprKind::Cast &&
-        s.expression->type.base != BaseType::Invalid && !damage_.touches(s.place.token))
+        s.expression->type.base != BaseType::Invalid && !recovery_.touches(s.place.token))
         report(Code::RSL_NO_EFFECT, s.place);
 }
 

@@ -1,12 +1,15 @@
-// rsl/usage.cpp: globals, statements and built-ins against the shader's kind.
-#include "rsl/usage.h"
+// rsl/check/usage.cpp: globals, statements and built-ins against the shader's kind.
+#include "rsl/check/usage.h"
+
+#include <utility>
 
 #include <array>
 
-#include "rsl/ast_visit.h"
-#include "rsl/literal_names.h"
-#include "rsl/meant_name.h"
-#include "rsl/pairs.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/pairs.h"
+#include "rsl/syntax/ast_visit.h"
+#include "rsl/text/did_you_mean.h"
+#include "rsl/text/literal_names.h"
 
 namespace kinora::rsl {
 
@@ -14,9 +17,13 @@ namespace {
 
 class UsageWalk {
   public:
-    UsageWalk(Shader& shader, Ast& ast, Reporter& reporter, const Damage& damage,
+    UsageWalk(Shader& shader, Ast& ast, Reporter& reporter, const ParseRecovery& recovery,
               std::unordered_set<const void*>& reported)
-        : shader_(shader), ast_(ast), reporter_(reporter), damage_(damage), reported_(reported) {}
+        : shader_(shader),
+          ast_(ast),
+          reporter_(reporter),
+          recovery_(recovery),
+          reported_(reported) {}
 
     // Nodes that have an error may lack what the checker completes.
     void run() {
@@ -62,7 +69,7 @@ class UsageWalk {
     // L, Cl and Ol of a surface exist inside illuminance, L of a light inside illuminate and solar.
     // Functions are called from inside, or hold the statement themselves.
     void check_inside(const VariableExpr& e, Global id) {
-        if (damage_.touches(e.place.token)) return;  // where illuminance ends may be unknown
+        if (recovery_.touches(e.place.token)) return;  // where illuminance ends may be unknown
         bool of_light = id == Global::L || id == Global::Cl || id == Global::Ol;
         bool surface = shader_.kind == ShaderKind::Surface;
         if (surface && (of_light || id == Global::Ps) && inside_ == Inside::Nothing)
@@ -276,7 +283,7 @@ class UsageWalk {
     Shader& shader_;
     Ast& ast_;
     Reporter& reporter_;
-    const Damage& damage_;
+    const ParseRecovery& recovery_;
     std::unordered_set<const void*>& reported_;
     std::unordered_set<const Function*> seen_;
     std::array<bool, size_t(Global::Count)> read_{}, written_{};
@@ -285,9 +292,9 @@ class UsageWalk {
 
 }  // namespace
 
-void find_usage(Shader& shader, Ast& ast, Reporter& reporter, const Damage& damage,
+void find_usage(Shader& shader, Ast& ast, Reporter& reporter, const ParseRecovery& recovery,
                 std::unordered_set<const void*>& reported) {
-    UsageWalk(shader, ast, reporter, damage, reported).run();
+    UsageWalk(shader, ast, reporter, recovery, reported).run();
 }
 
 }  // namespace kinora::rsl

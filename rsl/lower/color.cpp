@@ -1,10 +1,10 @@
-// rsl/lower_color.cpp: colors between rgb, hsv, hsl, xyz, xyY and YIQ. A grey has hue 0
-// (EXTREMES.md row 79).
+// rsl/lower/color.cpp: colors between rgb, hsv, hsl, xyz, xyY and YIQ. A grey has hue 0
+// (docs/numerics.md#colors).
 #include <algorithm>
 
-#include "rsl/color_matrices.h"
-#include "rsl/literal_names.h"
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/color_matrices.h"
+#include "rsl/text/literal_names.h"
 
 namespace kinora::rsl {
 

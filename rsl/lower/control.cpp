@@ -1,7 +1,7 @@
-// rsl/lower_control.cpp: branches, loops and jumps become Ifs, Loops and running masks.
+// rsl/lower/control.cpp: branches, loops and jumps become Ifs, Loops and running masks.
 #include <algorithm>
 
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
 
 namespace kinora::rsl {
 

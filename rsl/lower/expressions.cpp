@@ -1,8 +1,8 @@
-// rsl/lower_expressions.cpp: expressions and calls as IR values.
+// rsl/lower/expressions.cpp: expressions and calls as IR values.
 #include <fmt/format.h>
 
-#include "rsl/lower_p.h"
-#include "rsl/pairs.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/pairs.h"
 
 namespace kinora::rsl {
 
@@ -164,7 +164,7 @@ bool Lowering::as_product(const Expr& e, BaseType type, Lowered& x, Lowered& y) 
     return true;
 }
 
-// a * b + c of one expression rounds once (DESIGN.md decision 13).
+// a * b + c of one expression rounds once (docs/decisions.md#exact-arithmetic).
 Lowered Lowering::sum(const BinaryExpr& e) {
     if (e.op == Op::And || e.op == Op::Or) return logical_expr(e);
     bool sums = e.op == Op::Add || e.op == Op::Subtract;

@@ -1,9 +1,9 @@
-// rsl/lower_gather.cpp: gather: all rays of the statement are shot by one service, then its body is
-// replayed once for each (DESIGN.md decision 5).
+// rsl/lower/gather.cpp: gather: all rays of the statement are shot by one service, then its body is
+// replayed once for each (docs/decisions.md#lights-run-once).
 #include <set>
 
-#include "rsl/lower_p.h"
-#include "rsl/pairs.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/pairs.h"
 
 namespace kinora::rsl {
 
@@ -66,7 +66,7 @@ std::vector<std::string> gathered_parameters(const Shader& shader) {
 }
 
 void Lowering::gather(const GatherStmt& stmt) {
-    if (!options.want_Ci) return;  // opacity kernels trace nothing (decision 6)
+    if (!options.want_Ci) return;  // opacity kernels trace nothing (docs/decisions.md#opacity)
     if (gather_depth_ >= kGatherLevels)
         return error(Code::RSL_GATHER_NESTED, stmt.place.where, kGatherLevels);
     V3 P = expr(*stmt.position).v3(), D = expr(*stmt.direction).v3();

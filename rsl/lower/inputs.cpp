@@ -1,6 +1,6 @@
-// rsl/lower_inputs.cpp: the kernel's inputs: globals and parameters by the names that
-// rsl/renderer_services.h gives them.
-#include "rsl/lower_p.h"
+// rsl/lower/inputs.cpp: the kernel's inputs: globals and parameters by the names that
+// rsl/model/renderer_services.h gives them.
+#include "rsl/lower/lower_p.h"
 
 namespace kinora::rsl {
 

@@ -1,8 +1,8 @@
-// rsl/lower_lights.cpp: light records read by surfaces, and written by light shaders.
+// rsl/lower/lights.cpp: light records read by surfaces, and written by light shaders.
 #include <algorithm>
 
-#include "rsl/lower_p.h"
-#include "rsl/pairs.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/pairs.h"
 
 namespace kinora::rsl {
 

@@ -1,9 +1,9 @@
-// rsl/lower.cpp: a stack of checked shaders to one module of IR: layers, outputs, opacity.
-#include "rsl/lower.h"
+// rsl/lower/lower.cpp: a stack of checked shaders to one module of IR: layers, outputs, opacity.
+#include "rsl/lower/lower.h"
 
 #include <algorithm>
 
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
 
 namespace kinora::rsl {
 
@@ -31,7 +31,7 @@ class Stack {
     }
 
     // Displacements pass P and N on among themselves; surfaces see N as it was left, and the
-    // original P: bent normals, not moved points (DESIGN.md decision 7).
+    // original P: bent normals, not moved points (docs/decisions.md#joined-layers).
     void run_layer(const Layer& layer) {
         bool displacement = layer.shader->kind == ShaderKind::Displacement ||
                             layer.shader->kind == ShaderKind::Transformation;

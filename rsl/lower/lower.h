@@ -1,4 +1,4 @@
-// rsl/lower.h: a checked shader (or a stack of them) to one module of jit IR.
+// rsl/lower/lower.h: a checked shader (or a stack of them) to one module of jit IR.
 #pragma once
 
 #include <memory>
@@ -7,48 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "jit/ir.h"
-#include "jit/math.h"
-#include "rsl/renderer_services.h"
-#include "rsl/shader.h"
+#include "jit/ir/ir.h"
+#include "jit/math/math.h"
+#include "rsl/model/layer.h"
+#include "rsl/model/renderer_services.h"
 
 namespace kinora::rsl {
-
-// A function that calls itself (EXTREMES.md row 74): so many activations at once, and so many calls
-// below the first one, that it cannot hang. Beyond that: a fault, and 0.
-inline constexpr int kMaxCallDepth = 64;
-inline constexpr int kMaxRecursiveCalls = 1'000'000;
-
-// How a shader parameter reaches the kernel (DESIGN.md decision 4): specialised on shape only.
-struct ParamBinding {
-    enum class Kind {
-        Frame,     // read from the frame block (default)
-        Constant,  // a string, or a float that is exactly 0 or 1 and not animated, or one that
-                   // reaches a condition or loop bound: folded into the code
-        Varying,   // bound to a vertex input: a point-rate input
-        Default    // not bound: the shader's own default expression, lowered
-    };
-    std::string name;
-    Kind kind = Kind::Default;
-    std::vector<float> constant;       // components (all elements of an array)
-    std::vector<std::string> strings;  // for string parameters
-    bool plain = false;                // Varying: what a displacement left, numbers of no space
-};
-
-// One shader of a stack: displacements first (bottom first), then surfaces (bottom first).
-struct Layer {
-    const Shader* shader = nullptr;
-    std::vector<ParamBinding> params;
-    // The shader has run already, on the mesh's vertices: only its parameters are known here, for
-    // displacement(); those it wrote come as Varying bindings.
-    bool done = false;
-};
 
 struct LowerOptions {
     jit::math::Tier math = jit::math::Tier::Precise;
     bool want_Ci = true;  // colour
     bool want_Oi = true;  // opacity; with want_Ci false this is the opacity-only kernel, in which
-                          // lights are unshadowed and trace and gather give 0 (decision 6)
+                          // lights are unshadowed and trace and gather give 0
     // A kernel that moves vertices: "current" is the object's space, and "camera" another.
     bool of_vertices = false;
     bool area_light = false;  // a light on geometry: its P, N, u, v, s, t are those of a sample
@@ -83,7 +53,8 @@ struct LoweredShader {
     bool uses_rng = false;
     // Displacements and transformations: whether P, N as they leave them can differ from the input.
     bool moves_P = false, bends_N = false;
-    // Oi's class (decision 6), judged from the IR: 1 always, constant, or computed per point.
+    // Oi's class (docs/decisions.md#opacity), judged from the IR: 1 always, constant, or computed
+    // per point.
     enum class Opacity { Opaque, Constant, Computed } opacity = Opacity::Opaque;
 };
 

@@ -1,4 +1,4 @@
-// rsl/lower_p.h: the state of lowering one kernel, shared by the lower_*.cpp files and the
+// rsl/lower/lower_p.h: the state of lowering one kernel, shared by the lower_*.cpp files and the
 // built-ins.
 //
 // Variables are SSA values in slots. A branch (guarded) runs its body in an If and merges the slots
@@ -11,13 +11,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "jit/target.h"
-#include "rsl/findings.h"
-#include "rsl/lower.h"
-#include "rsl/lower_analysis.h"
-#include "rsl/lower_math.h"
+#include "jit/ir/kernel.h"
+#include "rsl/lower/lower.h"
+#include "rsl/lower/math.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/changes.h"
+#include "rsl/text/findings.h"
 #include "runtime/base/check.h"
 
 namespace kinora::rsl {
@@ -69,10 +71,10 @@ struct LowerCall {
     // The text of a string argument, or null if it is not known at compile time (then reported).
     const std::string* text(int i) const;
     bool has_pair(std::string_view name) const;
-    // The value of a pair that the callee's row of optional parameters has (rsl/pairs.h).
+    // The value of a pair that the callee's row of optional parameters has (rsl/model/pairs.h).
     Value pair(std::string_view name, float otherwise) const;
     Value text_pair(std::string_view name) const;  // its string id, that of "" if absent
-    // Reports pairs that the callee does not know (rsl/pairs.h): they have no effect.
+    // Reports pairs that the callee does not know (rsl/model/pairs.h): they have no effect.
     void report_unknown_pairs() const;
     Target* output_pair(std::string_view name);  // null if absent
     const Location& where() const { return call.place.where; }
@@ -118,7 +120,7 @@ class Lowering : public Emitter {
     // What displacements that bend normals were given, to tell whether they changed it.
     Lowered given_N, given_P;
 
-    // lower_variables.cpp, lower_inputs.cpp: slots, arrays, targets.
+    // variables.cpp, inputs.cpp: slots, arrays, targets.
     Lowered read(const Symbol& symbol);
     Lowered read_global(Global id);
     Lowered smooth_P(const Lowered& N);
@@ -145,7 +147,7 @@ class Lowering : public Emitter {
     // Is v exactly the global's unmodified input?
     bool is_input(const V3& v, const char* name);
 
-    // lower_expressions.cpp
+    // expressions.cpp
     Lowered expr(const Expr& e);
     Value value(const Expr& e) { return expr(e).c[0]; }
     Lowered convert(const Lowered& x, BaseType to);
@@ -153,7 +155,7 @@ class Lowering : public Emitter {
     Lowered call_builtin(const CallExpr& e);
     Lowered call_function(const CallExpr& e);
 
-    // lower_recursion.cpp: functions that call themselves are functions of the IR.
+    // recursion.cpp: functions that call themselves are functions of the IR.
     struct CallArguments {
         std::vector<Lowered> values;
         std::vector<Target> targets;  // of output parameters
@@ -165,7 +167,7 @@ class Lowering : public Emitter {
     void report_idle_pair(std::string_view callee, std::string_view name, const Lowered& value,
                           Location where);
 
-    // lower_control.cpp
+    // control.cpp
     void statement(const Stmt& stmt);
     void evaluate(const Expr& e);
     void block(std::span<Stmt* const> body);
@@ -197,7 +199,7 @@ class Lowering : public Emitter {
                   Step&& step);
     int loop_site(const Stmt& stmt);
 
-    // lower_gather.cpp
+    // gather.cpp
     void gather(const GatherStmt& stmt);
     struct GatherResults;
     void gather_turn(const GatherStmt& stmt, Value set, Value record, GatherResults& results,
@@ -206,7 +208,7 @@ class Lowering : public Emitter {
                        bool hit);
     int gather_depth_ = 0;
 
-    // lower_lights.cpp
+    // lights.cpp
     void illuminance(const IlluminanceStmt& stmt);
     // The statement's loop over the records of a set: `turn` lowers its body for one.
     void replay(const Stmt& stmt, Value set, const std::function<void(Value record)>& turn);
@@ -237,7 +239,7 @@ class Lowering : public Emitter {
     Value current_set = jit::kNone;  // inside illuminance
     Value current_record = jit::kNone;
 
-    // lower_spaces.cpp. A matrix of four rows for row vectors; `to_current` or `from_current`.
+    // spaces.cpp. A matrix of four rows for row vectors; `to_current` or `from_current`.
     struct Space {
         bool identity = true;
         Lowered to_current, from_current;

@@ -1,5 +1,5 @@
-// rsl/lower_math.cpp: RSL's arithmetic as IR.
-#include "rsl/lower_math.h"
+// rsl/lower/math.cpp: RSL's arithmetic as IR.
+#include "rsl/lower/math.h"
 
 #include <cfloat>
 #include <cmath>

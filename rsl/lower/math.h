@@ -1,13 +1,13 @@
-// rsl/lower_math.h: RSL's arithmetic as IR: the rules that differ from the IR's own ops (division,
+// rsl/lower/math.h: RSL's arithmetic as IR: the rules that differ from the IR's own ops (division,
 // powers, zero vectors) and the vector formulas that several built-ins share.
 #pragma once
 
 #include <array>
 #include <span>
 
-#include "jit/builder.h"
-#include "jit/math.h"
-#include "rsl/types.h"
+#include "jit/ir/builder.h"
+#include "jit/math/math.h"
+#include "rsl/syntax/types.h"
 
 namespace kinora::rsl {
 
@@ -48,10 +48,10 @@ class Emitter {
     // Bool to float: 1 or 0.
     Value flag(Value mask) { return b.select(mask, b.f(1), b.f(0)); }
 
-    // x * 0 is 0 (DESIGN.md decision 4), so fma(x, 0, c) is c.
+    // x * 0 is 0 (docs/decisions.md#specialise-on-shape-only), so fma(x, 0, c) is c.
     Value mul(Value x, Value y);
     Value fma(Value x, Value y, Value z);
-    // RSL's division: 0 where |y| < FLT_MIN (EXTREMES.md row 47).
+    // RSL's division: 0 where |y| < FLT_MIN (docs/numerics.md#division).
     Value div(Value x, Value y);
     Value clamp(Value x, Value low, Value high) { return b.min(b.max(x, low), high); }
     Value limited(Value x, Value low,
@@ -59,9 +59,9 @@ class Emitter {
     // Exact at alpha 0 and 1.
     Value mix(Value x, Value y, Value alpha) { return fma(y, alpha, mul(x, b.sub(b.f(1), alpha))); }
     Value sqrt(Value x);                   // 0 for negative x
-    Value pow(Value x, Value y);           // any x: rows 44-46
+    Value pow(Value x, Value y);           // any x: docs/numerics.md#powers-roots-logarithms
     Value pow_positive(Value x, Value y);  // x >= 0
-    Value mod(Value x, Value y);           // rows 52-54
+    Value mod(Value x, Value y);           // docs/numerics.md#modulo
     Value smoothstep(Value low, Value high, Value x);
     // floor(x) as an int, for 0 <= x < length; anything outside is clamped, NaN gives 0.
     Value index(Value x, int length);
@@ -75,8 +75,8 @@ class Emitter {
     V3 select(Value mask, const V3& x, const V3& y);
     Value dot(const V3& x, const V3& y);
     V3 cross(const V3& x, const V3& y);
-    Value length(const V3& x);  // row 60
-    V3 normalize(const V3& x);  // row 59
+    Value length(const V3& x);  // docs/numerics.md#vectors
+    V3 normalize(const V3& x);  // docs/numerics.md#vectors
 
     // Where `mask`: the values `body` returns, else `outer`; body's code runs only when some lane
     // needs it.

@@ -1,4 +1,4 @@
-// rsl/lower_recursion.cpp: functions that call themselves. Each becomes a function of the IR that
+// rsl/lower/recursion.cpp: functions that call themselves. Each becomes a function of the IR that
 // takes the mask, how deep the call stands, how many calls are left, its parameters and the
 // variables outside it that it names; it gives its result, its output parameters and those
 // variables that it writes. A call beyond the limits is not made: a fault, and 0.
@@ -6,7 +6,8 @@
 
 #include <algorithm>
 
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
+#include "rsl/model/limits.h"
 
 namespace kinora::rsl {
 

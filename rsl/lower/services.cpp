@@ -1,13 +1,13 @@
-// rsl/lower_services.cpp: calls of RendererServices, derivatives and random numbers.
-#include "rsl/lower_p.h"
+// rsl/lower/services.cpp: calls of RendererServices, derivatives and random numbers.
+#include "rsl/lower/lower_p.h"
 
 namespace kinora::rsl {
 
 namespace {
 
-// Signatures as rsl/renderer_services.h lists them: i int, f float; p, v, n the three floats of a
-// point, vector or normal in the kernel's "current". Directions into an environment map are numbers
-// in the map's space.
+// Signatures as rsl/model/renderer_services.h lists them: i int, f float; p, v, n the three floats
+// of a point, vector or normal in the kernel's "current". Directions into an environment map are
+// numbers in the map's space.
 struct ServiceRow {
     std::string_view name;
     std::string params;
@@ -102,7 +102,8 @@ std::array<Value, 2> Lowering::sample_seed(uint32_t site) {
     return {scalar_input("rng", jit::Type::I, jit::Rate::Point), place};
 }
 
-// DESIGN.md decision 10: a hash of the sample, the place of the call and the loop iterations.
+// docs/decisions.md#random-numbers-without-state: a hash of the sample, the place of the call and
+// the loop iterations.
 Value Lowering::random01(const CallExpr& call, int component) {
     out.uses_rng = true;
     uint32_t site = call.site * 40503u + uint32_t(component);

@@ -1,7 +1,7 @@
-// rsl/lower_spaces.cpp: coordinate systems and matrices.
+// rsl/lower/spaces.cpp: coordinate systems and matrices.
 #include <algorithm>
 
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
 
 namespace kinora::rsl {
 

@@ -1,7 +1,7 @@
-// rsl/lower_variables.cpp: variables as SSA values in slots, arrays, and what assignments reach.
+// rsl/lower/variables.cpp: variables as SSA values in slots, arrays, and what assignments reach.
 #include <algorithm>
 
-#include "rsl/lower_p.h"
+#include "rsl/lower/lower_p.h"
 
 namespace kinora::rsl {
 
@@ -107,7 +107,7 @@ int64_t array_bytes(Type type) {
 }  // namespace
 
 bool Lowering::check_size(const Symbol& symbol, Type type) {
-    constexpr int64_t kMost = 1 << 20;  // DESIGN.md decision 16
+    constexpr int64_t kMost = 1 << 20;  // docs/decisions.md#strings-and-arrays
     int64_t bytes = array_bytes(type);
     if (bytes > kMost) {
         error(Code::RSL_ARRAY_TOO_LARGE, symbol.place.where, symbol.name, bytes >> 10);
@@ -237,7 +237,7 @@ void Lowering::set_array(const Expr& e, std::span<const Lowered> values) {
     for (size_t k = 0; k < values.size(); ++k) store_element(array, b.i(int(k)), values[k]);
 }
 
-// EXTREMES.md row 71: one message for the source line; the access itself is clamped.
+// docs/numerics.md#indices: one message for the source line; the access itself is clamped.
 void Lowering::check_index(Value x, int length, Location where) {
     Value inside = b.logical_and(b.le(b.f(0), x), b.lt(x, b.f(float(length))));
     Value outside = b.and_not(running, inside);

@@ -1,6 +1,7 @@
-// rsl/builtin.h: the table of built-in functions: one row has the signatures, the lowering, the
-// reference meaning, the effects and the documentation of one function. Everything about built-ins
-// (overload resolution, rates, manual, random-shader generator, row tests) follows from the rows.
+// rsl/model/builtin.h: the table of built-in functions: one row has the signatures, the lowering,
+// the reference meaning, the effects and the documentation of one function. Everything about
+// built-ins (overload resolution, rates, manual, random-shader generator, row tests) follows from
+// the rows.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "rsl/types.h"
+#include "rsl/syntax/types.h"
 
 namespace kinora::rsl {
 
-// What specular() takes a smaller roughness for: a division by 0 gives 0 (EXTREMES.md row 47), and
-// x^0 would light the whole front of what shines in one direction only.
+// What specular() takes a smaller roughness for: a division by 0 gives 0
+// (docs/numerics.md#division), and x^0 would light the whole front of what shines in one direction
+// only.
 constexpr float kLeastRoughness = 1e-6f;
 
 struct LowerCall;  // rsl/lower*.h: arguments in, IR values out
@@ -39,10 +41,12 @@ enum Effects : uint32_t {
     kTraces = 1 << 4,         // shoots rays (shadow included)
     kPrints = 1 << 5,         // visible outside: never removed, never hoisted (also baking)
     kMessage = 1 << 6,        // reads another shader or the renderer's state
-    kShadows = 1 << 7,        // its presence in a light switches automatic shadows off (decision 5)
+    kShadows = 1 << 7,        // its presence in a light switches automatic shadows off
+                              // (docs/decisions.md#automatic-shadows)
     kUniformOnly = 1 << 8,    // all inputs must be uniform
-    kReadsChannels = 1 << 9,  // pairs name channels and the variables they are put in (rsl/pairs.h)
-    kNamesFile = 1 << 10,     // the first argument, if a string, is a file
+    kReadsChannels =
+        1 << 9,  // pairs name channels and the variables they are put in (rsl/model/pairs.h)
+    kNamesFile = 1 << 10,       // the first argument, if a string, is a file
     kWritesChannels = 1 << 11,  // pairs name channels and the values they are given
     kConstantResult = 1 << 12,  // known when the shader is compiled, whatever the arguments
 };
@@ -97,35 +101,5 @@ struct Overload {
     const Builtin* builtin;
     Signature signature;
 };
-
-// The groups, each defined in rsl/builtins_<group>.cpp. A name may have several rows in one group.
-std::span<const Builtin> builtins_math();
-std::span<const Builtin> builtins_geometric();
-std::span<const Builtin> builtins_color();
-std::span<const Builtin> builtins_noise();
-std::span<const Builtin> builtins_light();
-std::span<const Builtin> builtins_rays();
-std::span<const Builtin> builtins_points();
-std::span<const Builtin> builtins_texture();
-std::span<const Builtin> builtins_matrix();
-std::span<const Builtin> builtins_string();
-std::span<const Builtin> builtins_message();
-
-// All groups in order: for the manual and the row tests.
-const std::vector<std::span<const Builtin>>& builtin_groups();
-
-// The overloads of a name in row order; empty when there is none. Valid for the life of the
-// process; thread-safe.
-std::span<const Overload> find_builtin(std::string_view name);
-
-// All names, for did-you-mean.
-const std::vector<std::string_view>& builtin_names();
-
-// Names of other renderers' functions that Kinora knows of but does not have: "" or the place they
-// come from ("Pixie", "RSL 2.0", "PRMan 13").
-std::string_view foreign_builtin(std::string_view name);
-
-// Decodes one signature string; CHECKs that it is well formed (a row is our own text).
-std::vector<Signature> parse_signatures(std::string_view text);
 
 }  // namespace kinora::rsl

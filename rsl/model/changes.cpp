@@ -1,11 +1,12 @@
-// rsl/lower_analysis.cpp: what lowering must know of a piece of source before it writes code for
+// rsl/model/changes.cpp: what lowering must know of a piece of source before it writes code for
 // it.
-#include "rsl/lower_analysis.h"
+#include "rsl/model/changes.h"
 
 #include <algorithm>
 
-#include "rsl/pairs.h"
-#include "rsl/shader.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/pairs.h"
+#include "rsl/model/shader.h"
 
 namespace kinora::rsl {
 

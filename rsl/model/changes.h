@@ -1,9 +1,9 @@
-// rsl/lower_analysis.h: what lowering must know of a piece of source before it writes code for it.
+// rsl/model/changes.h: what lowering must know of a piece of source before it writes code for it.
 #pragma once
 
 #include <vector>
 
-#include "rsl/ast.h"
+#include "rsl/syntax/ast.h"
 
 namespace kinora::rsl {
 

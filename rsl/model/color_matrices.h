@@ -1,4 +1,4 @@
-// rsl/color_matrices.h: the constants of color spaces, shared by lowering and reference.
+// rsl/model/color_matrices.h: the constants of color spaces, shared by lowering and reference.
 #pragma once
 
 namespace kinora::rsl {

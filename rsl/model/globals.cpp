@@ -1,5 +1,5 @@
-// rsl/globals.cpp: the rows of globals.def.
-#include "rsl/globals.h"
+// rsl/model/globals.cpp: the rows of globals.def.
+#include "rsl/model/globals.h"
 
 namespace kinora::rsl {
 
@@ -17,7 +17,7 @@ constexpr uint8_t kinds(std::string_view letters) {
 constexpr GlobalInfo kGlobals[] = {
 #define GLOBAL(name, type, rate, readers, writers, doc) \
     {#name, Global::name, {BaseType::type, -1}, Rate::rate, kinds(readers), kinds(writers), doc},
-#include "rsl/globals.def"
+#include "rsl/model/globals.def"
 #undef GLOBAL
 };
 

@@ -1,11 +1,11 @@
-// rsl/globals.h: the shader globals (P, N, Ci, ...): rows of rsl/globals.def.
+// rsl/model/globals.h: the shader globals (P, N, Ci, ...): rows of rsl/model/globals.def.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-#include "rsl/ast.h"
+#include "rsl/syntax/types.h"
 
 namespace kinora::rsl {
 
@@ -17,7 +17,7 @@ constexpr uint8_t in_kind(ShaderKind kind) {
 // Dense ids: Global::P, Global::Ci ...
 enum class Global : uint8_t {
 #define GLOBAL(name, type, rate, readers, writers, doc) name,
-#include "rsl/globals.def"
+#include "rsl/model/globals.def"
 #undef GLOBAL
     Count,
 };

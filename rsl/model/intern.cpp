@@ -1,10 +1,10 @@
-// rsl/intern.cpp: the process-wide table of strings that shaders handle.
+// rsl/model/intern.cpp: the process-wide table of strings that shaders handle.
 #include <deque>
 #include <mutex>
 #include <unordered_map>
 
-#include "rsl/renderer_services.h"
-#include "rsl/string_functions.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/model/string_functions.h"
 #include "runtime/base/check.h"
 
 namespace kinora::rsl {

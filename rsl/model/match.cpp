@@ -1,10 +1,10 @@
-// rsl/match.cpp: regular expressions as automata that are in all their states at once (Thompson,
-// 1968), so that no pattern takes more time than its length times the text's.
+// rsl/model/match.cpp: regular expressions as automata that are in all their states at once
+// (Thompson, 1968), so that no pattern takes more time than its length times the text's.
 #include <bitset>
 #include <string_view>
 #include <vector>
 
-#include "rsl/string_functions.h"
+#include "rsl/model/string_functions.h"
 
 namespace kinora::rsl {
 

@@ -1,9 +1,9 @@
-// rsl/pairs.cpp: the table of optional parameters, and which of them are results.
-#include "rsl/pairs.h"
+// rsl/model/pairs.cpp: the table of optional parameters, and which of them are results.
+#include "rsl/model/pairs.h"
 
 #include <algorithm>
 
-#include "rsl/builtin.h"
+#include "rsl/model/builtin.h"
 
 namespace kinora::rsl {
 

@@ -1,10 +1,10 @@
-// rsl/pairs.h: the "name", value pairs that end calls and statements: which optional parameters
-// there are, what they take, and which are variables that the renderer writes.
+// rsl/model/pairs.h: the "name", value pairs that end calls and statements: which optional
+// parameters there are, what they take, and which are variables that the renderer writes.
 #pragma once
 
 #include <string_view>
 
-#include "rsl/ast.h"
+#include "rsl/syntax/ast.h"
 
 namespace kinora::rsl {
 

@@ -1,7 +1,8 @@
-// rsl/print_types.cpp: tokens and checked trees for --dump.
-#include "rsl/lexer.h"
-#include "rsl/print.h"
-#include "rsl/shader.h"
+// rsl/model/print_types.cpp: tokens and checked trees for --dump.
+#include "rsl/model/builtin.h"
+#include "rsl/model/shader.h"
+#include "rsl/syntax/print.h"
+#include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
 

@@ -1,11 +1,11 @@
-// rsl/renderer_services.h: the contract between compiled shaders and a renderer: how kernel inputs
-// and outputs are named, what light records hold, and the functions that shaders call.
+// rsl/model/renderer_services.h: the contract between compiled shaders and a renderer: how kernel
+// inputs and outputs are named, what light records hold, and the functions that shaders call.
 //
 // clang-format off
 // Kernel inputs (component suffixes: .x .y .z for point-like, .r .g .b for color, none for float):
 //   point rate   P dPdu dPdv N Ng u v du dv s t I Cs Os dNdu dNdv dIdu dIdv dsdu dsdv dtdu dtdv
 //                Ps Ns             light shaders
-//                rng               int: hash of pixel, sample, path and frame seed (decision 10)
+//                rng               int: hash of pixel, sample, path and frame seed
 //                param:LAYER:NAME[.c]         a parameter bound to a vertex input, and its partial
 //                param:LAYER:NAME[.c]:du :dv  derivatives; points, vectors and normals in "object".
 //                                  LAYER: the shader's index in its stack, 0 in a light
@@ -81,7 +81,7 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //                  samples, maxdist, bias, int label, int flags of GatherFlag) -> int record set,
 //                  the same written to all lanes: one record a sample, columns GatherColumn, then
 //                  the results' components
-//   query         (int QueryKind, int name, int type letter as in rsl/builtin.h, int element of an
+//   query         (int QueryKind, int name, int type letter as in rsl/model/builtin.h, int element of an
 //                  array or -1, int length, int rng or 0) -> int known, up to 16 numbers (ids of
 //                  strings bit for bit)
 //   bake3d        (int file, int channels "float a,color b", int rng, P xyz, N xyz, radius (0: not
@@ -92,7 +92,7 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 //   photons       (int file, int PhotonKind, int number of photons, P xyz, N xyz) -> r g b
 //   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
 //   concat        (int, int) -> int; match (int pattern, int text) -> 1 or 0; format (as print) ->
-//                 int: the same for every renderer, rsl/string_functions.h
+//                 int: the same for every renderer, rsl/model/string_functions.h
 //   print         (int format, 16 values: those the format's %f %d %c %p %v %n %m %s take, in order,
 //                  strings as ids bit for bit, the rest 0) -> nothing
 // clang-format on

@@ -1,5 +1,5 @@
-// rsl/service_table.cpp: a renderer's services, found by name.
-#include "rsl/service_table.h"
+// rsl/model/service_table.cpp: a renderer's services, found by name.
+#include "rsl/model/service_table.h"
 
 #include <string>
 
@@ -11,7 +11,7 @@ jit::ServiceFn find_service(std::span<const ServiceRow> rows, std::string_view n
     for (const ServiceRow& row : rows)
         if (row.name == name) return row.function;
     if (jit::ServiceFn function = string_service(name)) return function;
-    check_failed("rsl/service_table.cpp", 0, "unknown service " + std::string(name));
+    check_failed("rsl/model/service_table.cpp", 0, "unknown service " + std::string(name));
 }
 
 }  // namespace kinora::rsl

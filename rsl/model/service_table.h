@@ -1,13 +1,13 @@
-// rsl/service_table.h: a renderer's services, found by name.
+// rsl/model/service_table.h: a renderer's services, found by name.
 #pragma once
 
 #include <algorithm>
 #include <span>
 #include <string_view>
 
-#include "jit/target.h"
-#include "rsl/renderer_services.h"
-#include "rsl/string_functions.h"
+#include "jit/ir/kernel.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/model/string_functions.h"
 
 namespace kinora::rsl {
 

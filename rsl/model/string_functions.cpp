@@ -1,5 +1,5 @@
-// rsl/string_functions.cpp: formats, and the services that handle strings at run time.
-#include "rsl/string_functions.h"
+// rsl/model/string_functions.cpp: formats, and the services that handle strings at run time.
+#include "rsl/model/string_functions.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "rsl/renderer_services.h"
+#include "rsl/model/renderer_services.h"
 
 namespace kinora::rsl {
 

@@ -1,5 +1,5 @@
-// rsl/string_functions.h: what concat, format, match and printf mean, for values that are known
-// when a shader is compiled and for those that are not.
+// rsl/model/string_functions.h: what concat, format, match and printf mean, for values that are
+// known when a shader is compiled and for those that are not.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::rsl {
 
@@ -35,7 +35,7 @@ inline std::string_view limited_text(std::string_view text) {
     return text.size() <= kMostText ? text : kTooLong;
 }
 
-// What all strings of the process take (rsl/renderer_services.h, intern).
+// What all strings of the process take (rsl/model/renderer_services.h, intern).
 size_t interned_bytes();
 
 // The text as part of a format.
@@ -46,7 +46,7 @@ std::string escape_format(std::string_view text);
 // product at most.
 bool matches(std::string_view pattern, std::string_view text);
 
-// The services "concat", "format" and "match" (rsl/renderer_services.h), the same for every
+// The services "concat", "format" and "match" (rsl/model/renderer_services.h), the same for every
 // renderer; null for other names. Each does its work once for each distinct set of arguments of a
 // call. Once a million strings or 256 MB of them exist no new ones are made: the result is "". A
 // string of more than kMostText bytes is not made: the result is kTooLong instead, which lowered

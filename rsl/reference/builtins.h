@@ -1,8 +1,8 @@
-// rsl/reference_builtins.h: the plain, one-point meanings of built-ins that rows of the table name:
+// rsl/reference/builtins.h: the plain, one-point meanings of built-ins that rows of the table name:
 // KINORA_RSL_REF(ref::smoothstep). Defined in rsl/reference_*.cpp, for float and double.
 #pragma once
 
-#include "rsl/builtin.h"
+#include "rsl/model/builtin.h"
 
 // clang-format off
 // Rows whose meaning is plain arithmetic on their arguments, the point and its surroundings.

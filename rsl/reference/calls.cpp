@@ -1,8 +1,9 @@
-// rsl/reference_calls.cpp: calls of the user's functions and of built-ins.
+// rsl/reference/calls.cpp: calls of the user's functions and of built-ins.
 #include <algorithm>
 
-#include "rsl/pairs.h"
-#include "rsl/reference_p.h"
+#include "rsl/model/limits.h"
+#include "rsl/model/pairs.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -17,7 +18,7 @@ bool encloses(const Function* outer, const Function* inner) {
 
 }  // namespace
 
-// EXTREMES.md row 74.
+// docs/numerics.md#recursion.
 template <class Real>
 bool Reference<Real>::may_call(const Function& f) {
     if (!f.recursive || call_depth_ == 0) return true;

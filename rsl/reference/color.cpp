@@ -1,10 +1,10 @@
-// rsl/reference_color.cpp: components, and colors between rgb, hsv, hsl, xyz, xyY and YIQ, at one
-// point. A grey has hue 0 (EXTREMES.md row 79).
+// rsl/reference/color.cpp: components, and colors between rgb, hsv, hsl, xyz, xyY and YIQ, at one
+// point. A grey has hue 0 (docs/numerics.md#colors).
 #include <algorithm>
 #include <cctype>
 
-#include "rsl/color_matrices.h"
-#include "rsl/reference_p.h"
+#include "rsl/model/color_matrices.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 

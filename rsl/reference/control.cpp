@@ -1,6 +1,6 @@
-// rsl/reference_control.cpp: statements, at one point.
-#include "rsl/pairs.h"
-#include "rsl/reference_p.h"
+// rsl/reference/control.cpp: statements, at one point.
+#include "rsl/model/pairs.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 

@@ -1,4 +1,4 @@
-// rsl/reference_dual_p.h: numbers that carry their derivatives along u and v, and RSL's arithmetic
+// rsl/reference/dual_p.h: numbers that carry their derivatives along u and v, and RSL's arithmetic
 // on them. Comparisons and conversions look at the value alone.
 #pragma once
 
@@ -42,7 +42,7 @@ template <class Real>
 Dual<Real> operator*(Real k, const Dual<Real>& a) {
     return {k * a.x, k * a.u, k * a.v};
 }
-// RSL's division (EXTREMES.md row 47): 0 where the divisor is 0 or subnormal.
+// RSL's division (docs/numerics.md#division): 0 where the divisor is 0 or subnormal.
 template <class Real>
 Dual<Real> operator/(const Dual<Real>& a, const Dual<Real>& b) {
     if (std::fabs(b.x) < Real(FLT_MIN)) return {};
@@ -62,7 +62,7 @@ template <class Real>
 Dual<Real> abs(const Dual<Real>& a) {
     return a.x < 0 ? -a : Dual<Real>(std::fabs(a.x), a.u, a.v);
 }
-// a < b ? a : b, so that b wins against NaN (row 76)
+// a < b ? a : b, so that b wins against NaN
 template <class Real>
 Dual<Real> min(const Dual<Real>& a, const Dual<Real>& b) {
     return a.x < b.x ? a : b;
@@ -77,7 +77,7 @@ Dual<Real> clamp(const Dual<Real>& x, const Dual<Real>& lo, const Dual<Real>& hi
 }
 template <class Real>
 Dual<Real> sqrt(const Dual<Real>& a) {
-    if (a.x < 0) return {};  // row 48
+    if (a.x < 0) return {};  // docs/numerics.md#powers-roots-logarithms
     Real r = std::sqrt(a.x);
     return chain(a, r, r == 0 ? 0 : Real(0.5) / r);
 }
@@ -95,7 +95,7 @@ Dual<Real> tan(const Dual<Real>& a) {
     return chain(a, t, 1 + t * t);
 }
 template <class Real>
-Dual<Real> asin(const Dual<Real>& a) {  // row 50
+Dual<Real> asin(const Dual<Real>& a) {  // docs/numerics.md#arcs
     if (std::fabs(a.x) >= 1) return std::copysign(std::asin(Real(1)), a.x);
     return chain(a, std::asin(a.x), 1 / std::sqrt(1 - a.x * a.x));
 }
@@ -106,7 +106,7 @@ Dual<Real> acos(const Dual<Real>& a) {
 }
 template <class Real>
 Dual<Real> atan2(const Dual<Real>& y, const Dual<Real>& x) {
-    if (x.x == 0 && y.x == 0) return {};  // row 51
+    if (x.x == 0 && y.x == 0) return {};  // docs/numerics.md#arcs
     Real n = x.x * x.x + y.x * y.x;
     return {std::atan2(y.x, x.x), (y.u * x.x - x.u * y.x) / n, (y.v * x.x - x.v * y.x) / n};
 }
@@ -116,7 +116,7 @@ Dual<Real> exp(const Dual<Real>& a) {
     return chain(a, e, e);
 }
 template <class Real>
-Dual<Real> log(const Dual<Real>& a) {  // row 49
+Dual<Real> log(const Dual<Real>& a) {  // docs/numerics.md#powers-roots-logarithms
     if (a.x < Real(FLT_MIN)) return std::log(Real(FLT_MIN));
     return chain(a, std::log(a.x), 1 / a.x);
 }

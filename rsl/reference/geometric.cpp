@@ -1,5 +1,5 @@
-// rsl/reference_geometric.cpp: geometric built-ins at one point.
-#include "rsl/reference_p.h"
+// rsl/reference/geometric.cpp: geometric built-ins at one point.
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl::ref {
 

@@ -1,6 +1,6 @@
-// rsl/reference_inputs.cpp: first values of globals and parameters, by the names of kernel inputs
-// (rsl/renderer_services.h).
-#include "rsl/reference_p.h"
+// rsl/reference/inputs.cpp: first values of globals and parameters, by the names of kernel inputs
+// (rsl/model/renderer_services.h).
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 

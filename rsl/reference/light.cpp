@@ -1,9 +1,9 @@
-// rsl/reference_light.cpp: built-ins over lights, messages, services and text, at one point.
+// rsl/reference/light.cpp: built-ins over lights, messages, services and text, at one point.
 #include <bit>
 #include <regex>
 
-#include "rsl/reference_p.h"
-#include "rsl/string_functions.h"
+#include "rsl/model/string_functions.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 

@@ -1,6 +1,6 @@
-// rsl/reference_math.cpp: mathematical built-ins at one point. Numbers carry derivatives, so each
+// rsl/reference/math.cpp: mathematical built-ins at one point. Numbers carry derivatives, so each
 // formula also says what Du and Dv see.
-#include "rsl/reference_p.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl::ref {
 
@@ -24,13 +24,13 @@ Dual<Real> whole(RefCall<Real>& c, Real x) {
 template <class Real>
 Dual<Real> smooth(RefCall<Real>& c, const Dual<Real>& lo, const Dual<Real>& hi,
                   const Dual<Real>& x) {
-    if (c.eval.decide(x.x < lo.x)) return {};  // rows 55, 56: in this order
+    if (c.eval.decide(x.x < lo.x)) return {};  // docs/numerics.md#steps-and-limits: in this order
     if (c.eval.decide(x.x >= hi.x)) return Real(1);
     Dual<Real> t = clamp((x - lo) / (hi - lo), Dual<Real>(0), Dual<Real>(1));
     return t * t * (Dual<Real>(3) - Real(2) * t);
 }
 
-// x - y floor(x / y) in [0, y), as if exact (rows 52 to 54).
+// x - y floor(x / y) in [0, y), as if exact (docs/numerics.md#modulo).
 template <class Real>
 Dual<Real> modulo(RefCall<Real>& c, const Dual<Real>& x, const Dual<Real>& y) {
     if (std::fabs(y.x) < Real(FLT_MIN)) return {};
@@ -173,7 +173,7 @@ void filterstep(RefCall<Real>& c) {
     c.set(rsl::clamp(share, Number(0), Number(1)));
 }
 
-// The derivative of a derivative is 0 (DESIGN.md decision 8).
+// The derivative of a derivative is 0 (docs/decisions.md#dual-numbers).
 template <class Real>
 void Du(RefCall<Real>& c) {
     each(c, [&](size_t k) { return Dual<Real>(at(c, 0, k).u); });

@@ -1,6 +1,6 @@
-// rsl/reference_noise.cpp: noise and random numbers at one point, on jit/math's plain C++ noise.
-#include "jit/math.h"
-#include "rsl/reference_p.h"
+// rsl/reference/noise.cpp: noise and random numbers at one point, on jit/math's plain C++ noise.
+#include "jit/math/math.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl::ref {
 
@@ -72,7 +72,7 @@ void cellnoise(RefCall<Real>& c) {
 }
 
 // The keys: the point, the call's place in the text, the functions it is inlined in, the turns of
-// the loops around it (DESIGN.md decision 10).
+// the loops around it (docs/decisions.md#random-numbers-without-state).
 template <class Real>
 void random(RefCall<Real>& c) {
     for (size_t k = 0; k < c.result.size(); ++k) {

@@ -1,7 +1,7 @@
-// rsl/reference_rays.cpp: built-ins over rays, point files, messages and questions, at one point:
+// rsl/reference/rays.cpp: built-ins over rays, point files, messages and questions, at one point:
 // what to ask the renderer, and what its answer means.
-#include "rsl/pairs.h"
-#include "rsl/reference_p.h"
+#include "rsl/model/pairs.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl::ref {
 

@@ -1,11 +1,11 @@
-// rsl/reference.cpp: shaders and their expressions, at one point.
-#include "rsl/reference.h"
+// rsl/reference/reference.cpp: shaders and their expressions, at one point.
+#include "rsl/reference/reference.h"
 
 #include <algorithm>
 
-#include "rsl/lower_analysis.h"
-#include "rsl/pairs.h"
-#include "rsl/reference_p.h"
+#include "rsl/model/changes.h"
+#include "rsl/model/pairs.h"
+#include "rsl/reference/reference_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::rsl {
@@ -49,7 +49,7 @@ void Reference<Real>::declare(const Symbol& symbol) {
     storage(symbol);  // the rest is 0
 }
 
-// A float as an index: truncated, clamped (EXTREMES.md row 71).
+// A float as an index: truncated, clamped (docs/numerics.md#indices).
 template <class Real>
 size_t Reference<Real>::index(const Expr& e, size_t length) {
     Real x = expr(e).c[0].x;

@@ -1,6 +1,7 @@
-// rsl/reference.h: defines the language by running it: an evaluator of the checked syntax tree, one
-// shading point at a time, in plain C++ (DESIGN.md decision 22). As float it checks what lowering
-// and the targets do; as double it measures their accuracy. It shares no code with lowering.
+// rsl/reference/reference.h: defines the language by running it: an evaluator of the checked syntax
+// tree, one shading point at a time, in plain C++ (docs/decisions.md#independent-oracles). As float
+// it checks what lowering and the targets do; as double it measures their accuracy. It shares no
+// code with lowering.
 #pragma once
 
 #include <array>
@@ -11,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "rsl/lower.h"
+#include "rsl/model/layer.h"
+#include "rsl/model/renderer_services.h"
 
 namespace kinora::rsl {
 
@@ -28,7 +30,8 @@ struct ReferenceLight {
 };
 
 // What a renderer answers; the defaults are a world without textures and other objects. Names,
-// order and number of arguments and results as in rsl/renderer_services.h; strings as intern ids.
+// order and number of arguments and results as in rsl/model/renderer_services.h; strings as intern
+// ids.
 using ReferenceService =
     std::function<std::vector<double>(std::string_view name, std::span<const double> args)>;
 
@@ -42,7 +45,7 @@ struct ReferenceInputs {
     // 2^-22 of itself, at random from this seed (Monte Carlo arithmetic): shows what rounding may
     // change.
     uint64_t jitter = 0;
-    int loop_budget = 1'000'000;  // EXTREMES.md row 72
+    int loop_budget = 1'000'000;  // docs/numerics.md#loops
 };
 
 struct ReferenceResult {

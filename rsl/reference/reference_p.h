@@ -1,14 +1,15 @@
-// rsl/reference_p.h: the state of the reference evaluator, shared by its files and the meanings of
-// built-ins.
+// rsl/reference/reference_p.h: the state of the reference evaluator, shared by its files and the
+// meanings of built-ins.
 #pragma once
 
 #include <bit>
 #include <type_traits>
 #include <unordered_map>
+#include <utility>
 
-#include "rsl/reference.h"
-#include "rsl/reference_builtins.h"
-#include "rsl/reference_dual_p.h"
+#include "rsl/reference/builtins.h"
+#include "rsl/reference/dual_p.h"
+#include "rsl/reference/reference.h"
 
 namespace kinora::rsl {
 
@@ -164,7 +165,7 @@ class Reference {
     }
     // Beyond what a built-in promises float and double are no judges: the point is undecided.
     void no_promise() { decide(int(sizeof(Real))); }
-    // reference_inputs.cpp
+    // inputs.cpp
     Item input(const std::string& name, BaseType type, const std::string& du = "",
                const std::string& dv = "") const;
     Real number(const std::string& name, Real otherwise) const;
@@ -175,7 +176,7 @@ class Reference {
     std::vector<Item> array_parameter(const Symbol& symbol);
     std::vector<double> service(std::string_view name, std::vector<double> args);
 
-    // reference_spaces.cpp; matrices on row vectors
+    // spaces.cpp; matrices on row vectors
     Matrix space(const std::string& name, const char* direction) const;
     // A displacement's "current" is the object's space, that of the surfaces it is joined with the
     // camera's.
@@ -187,10 +188,10 @@ class Reference {
     Item to_space(const Item& x, const std::string& from, const std::string& to);
     Item by_matrix(const Item& x, const Matrix& m);
     Matrix inverse(const Matrix& m);
-    // reference_color.cpp
+    // color.cpp
     Vec<Real> color_space(const Vec<Real>& color, const std::string& from, const std::string& to);
 
-    // reference_light.cpp: f(light) for those that reach the cone around the point.
+    // light.cpp: f(light) for those that reach the cone around the point.
     template <class F>
     void for_each_light(const Vec<Real>* axis, const Number& angle, F&& f);
     bool in_cone(const Vec<Real>& L, const Vec<Real>* axis, const Number& angle);

@@ -1,7 +1,7 @@
-// rsl/reference_spaces.cpp: coordinate systems and matrices at one point.
+// rsl/reference/spaces.cpp: coordinate systems and matrices at one point.
 #include <algorithm>
 
-#include "rsl/reference_p.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 

@@ -1,5 +1,5 @@
-// rsl/reference_spline.cpp: spline() at one point.
-#include "rsl/reference_p.h"
+// rsl/reference/spline.cpp: spline() at one point.
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl::ref {
 

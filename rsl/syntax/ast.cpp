@@ -1,5 +1,5 @@
-// rsl/ast.cpp: memory of the nodes, and names.
-#include "rsl/ast.h"
+// rsl/syntax/ast.cpp: memory of the nodes, and names.
+#include "rsl/syntax/ast.h"
 
 #include <cstring>
 

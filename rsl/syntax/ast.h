@@ -1,6 +1,6 @@
-// rsl/ast.h: the syntax tree of shader source. The parser makes it; the checker completes the same
-// nodes (types, symbols, callees, casts), after which no name needs looking up: lowering and the
-// reference evaluator are plain walks. Nodes live in the Ast's arena and are trivially
+// rsl/syntax/ast.h: the syntax tree of shader source. The parser makes it; the checker completes
+// the same nodes (types, symbols, callees, casts), after which no name needs looking up: lowering
+// and the reference evaluator are plain walks. Nodes live in the Ast's arena and are trivially
 // destructible.
 #pragma once
 
@@ -14,20 +14,18 @@
 #include <tuple>
 #include <vector>
 
-#include "rsl/builtin.h"
-#include "rsl/token.h"
-#include "rsl/types.h"
+#include "rsl/syntax/types.h"
+#include "rsl/text/token.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::rsl {
 
-enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager, Transformation };
-const char* shader_kind_name(ShaderKind kind);  // "surface"
-
 struct Expr;
 struct Stmt;
 struct Function;
-struct GlobalInfo;  // rsl/globals.h
+struct GlobalInfo;  // rsl/model/globals.h
+struct Builtin;     // rsl/model/builtin.h
+struct Signature;
 
 // Where a node stands. `where` is in bytes of the user's file (for a token out of a macro: the
 // place of its use); `token` leads to the macros it came through (Ast::tokens).
@@ -325,7 +323,7 @@ struct SolarStmt : Stmt {
 };
 // gather(category, position, direction, angle, samples, "name", value ...) body [else missed]: the
 // body once for each ray that hits something, `missed` once for each that does not. Pairs whose
-// names are results (rsl/pairs.h) are variables that are set before.
+// names are results (rsl/model/pairs.h) are variables that are set before.
 struct GatherStmt : Stmt {
     static constexpr StmtKind kKind = StmtKind::Gather;
     std::span<Expr*> args;      // as written, checked: the five and the pairs

@@ -1,7 +1,7 @@
-// rsl/ast_visit.h: a node of the tree as its own type.
+// rsl/syntax/ast_visit.h: a node of the tree as its own type.
 #pragma once
 
-#include "rsl/ast.h"
+#include "rsl/syntax/ast.h"
 
 namespace kinora::rsl {
 

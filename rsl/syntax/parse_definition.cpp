@@ -1,7 +1,7 @@
-// rsl/parse_definition.cpp: shaders, functions, parameters and declarations.
+// rsl/syntax/parse_definition.cpp: shaders, functions, parameters and declarations.
 #include <algorithm>
 
-#include "rsl/parser.h"
+#include "rsl/syntax/parser.h"
 
 namespace kinora::rsl {
 
@@ -47,7 +47,7 @@ bool Parser::file_variable() {
     reporter_.report(Code::RSL_FILE_VARIABLE, token(type + 1), token(type + 1).text);
     uint32_t begin = next_;
     while (!at_end() && !is(Punct::Semicolon) && !is_shader_word(token().word)) advance();
-    damage_.lose(ast_.tokens.tokens, begin, next_, true, true);
+    recovery_.lose(ast_.tokens.tokens, begin, next_, true, true);
     return true;
 }
 

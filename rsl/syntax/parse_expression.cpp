@@ -1,9 +1,9 @@
-// rsl/parse_expression.cpp: expressions, by precedence climbing.
+// rsl/syntax/parse_expression.cpp: expressions, by precedence climbing.
 #include <cmath>
 #include <limits>
 
-#include "rsl/lexer.h"
-#include "rsl/parser.h"
+#include "rsl/syntax/parser.h"
+#include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
 

@@ -1,9 +1,9 @@
-// rsl/parse_foreign.cpp: what belongs to other languages or is misspelt: reported by what is meant,
-// and parsed as that where it can be, so that nothing else is said of it.
+// rsl/syntax/parse_foreign.cpp: what belongs to other languages or is misspelt: reported by what is
+// meant, and parsed as that where it can be, so that nothing else is said of it.
 #include <algorithm>
 
-#include "rsl/lexer.h"
-#include "rsl/parser.h"
+#include "rsl/syntax/parser.h"
+#include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
 

@@ -1,5 +1,5 @@
-// rsl/damage.cpp: the names that skipped text may declare.
-#include "rsl/damage.h"
+// rsl/syntax/recovery.cpp: the names that skipped text may declare.
+#include "rsl/syntax/parse_recovery.h"
 
 #include <algorithm>
 #include <utility>
@@ -27,7 +27,7 @@ bool leads_name(const Token& token) {
 
 }  // namespace
 
-void Damage::add(std::string_view name, bool whole_file) {
+void ParseRecovery::add(std::string_view name, bool whole_file) {
     uint32_t where = whole_file ? kWholeFile : uint32_t(definitions_.size() - 1);
     std::vector<uint32_t>& all = names_[name];
     if (all.empty() || all.back() != where) all.push_back(where);
@@ -36,8 +36,8 @@ void Damage::add(std::string_view name, bool whole_file) {
 // A declaration begins with a type, or with two names of which the first may be a misspelt one. Its
 // names stand behind the type or a ',', or before a '='. A macro's use that was dropped may have
 // been any statement or definition.
-void Damage::lose(const std::vector<Token>& tokens, uint32_t begin, uint32_t end, bool declares,
-                  bool whole_file) {
+void ParseRecovery::lose(const std::vector<Token>& tokens, uint32_t begin, uint32_t end,
+                         bool declares, bool whole_file) {
     bool declaration = declares;
     bool starts = true;  // a statement
     for (uint32_t k = begin; k < end && k + 1 < tokens.size(); ++k) {
@@ -57,13 +57,13 @@ void Damage::lose(const std::vector<Token>& tokens, uint32_t begin, uint32_t end
     }
 }
 
-size_t Damage::definition_of(uint32_t token) const {
+size_t ParseRecovery::definition_of(uint32_t token) const {
     auto after = std::upper_bound(definitions_.begin(), definitions_.end(), token,
                                   [](uint32_t t, const Definition& d) { return t < d.begin; });
     return after == definitions_.begin() ? 0 : size_t(after - definitions_.begin()) - 1;
 }
 
-bool Damage::declares(std::string_view name, uint32_t token) const {
+bool ParseRecovery::declares(std::string_view name, uint32_t token) const {
     auto found = names_.find(name);
     if (found == names_.end()) return false;
     size_t here = definition_of(token);
@@ -71,11 +71,11 @@ bool Damage::declares(std::string_view name, uint32_t token) const {
                        [&](uint32_t where) { return where == kWholeFile || where == here; });
 }
 
-bool Damage::hides(std::string_view name, uint32_t token) const {
+bool ParseRecovery::hides(std::string_view name, uint32_t token) const {
     return everything_ || declares(name, token) || declares("", token);
 }
 
-bool Damage::touches(uint32_t token) const {
+bool ParseRecovery::touches(uint32_t token) const {
     return everything_ || (!definitions_.empty() && definitions_[definition_of(token)].broken);
 }
 

@@ -1,5 +1,5 @@
-// rsl/damage.h: what of the source the tree lacks after syntax errors. Names that may be declared
-// in it are no news where they are used; everything else is checked as ever.
+// rsl/syntax/recovery.h: what of the source the tree lacks after syntax errors. Names that may be
+// declared in it are no news where they are used; everything else is checked as ever.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 #include <unordered_map>
 #include <vector>
 
-#include "rsl/token.h"
+#include "rsl/text/token.h"
 
 namespace kinora::rsl {
 
 // Tokens are meant by their index in the token stream. What skipped text declares is seen in the
 // definition (a shader, or a function at file level) that it was skipped in.
-class Damage {
+class ParseRecovery {
   public:
     // Text was lost before it was parsed, as of a header that is missing: any name may be in it.
     void lose_everything() { everything_ = true; }

@@ -1,8 +1,8 @@
-// rsl/parse_statement.cpp: statements.
+// rsl/syntax/parse_statement.cpp: statements.
 #include <utility>
 
-#include "rsl/lexer.h"
-#include "rsl/parser.h"
+#include "rsl/syntax/parser.h"
+#include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
 
@@ -161,7 +161,7 @@ Stmt* Parser::expression_statement() {
         node->place = place_from(begin);
         bool lost = next_ == begin + 1 && ast_.tokens.tokens[begin].lost;
         if (lost)
-            damage_.lose_any_name();
+            recovery_.lose_any_name();
         else
             parts.push_back(node);
     } while (accept(Punct::Comma));

@@ -1,9 +1,9 @@
-// rsl/parser.cpp: tokens, errors and recovery of the parser.
-#include "rsl/parser.h"
+// rsl/syntax/parser.cpp: tokens, errors and recovery of the parser.
+#include "rsl/syntax/parser.h"
 
 #include <algorithm>
 
-#include "rsl/lexer.h"
+#include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
 
@@ -203,13 +203,13 @@ Place Parser::place_from(const Place& first, uint32_t token) const {
 // ---- recovery -----------------------------------------------------------------------------------
 
 void Parser::mark_broken() {
-    damage_.break_definition();
+    recovery_.break_definition();
     for (Function* f = function_; f; f = f->parent) f->damaged = true;
 }
 
 // The tokens from `begin` on to here are not in the tree.
 void Parser::lose(uint32_t begin, bool parameters) {
-    damage_.lose(ast_.tokens.tokens, begin, next_, parameters, false);
+    recovery_.lose(ast_.tokens.tokens, begin, next_, parameters, false);
 }
 
 void Parser::skip_balanced(Punct open, Punct close) {
@@ -292,11 +292,11 @@ void Parser::run() {
     while (!at_end() && !reporter_.full()) {
         uint32_t begin = next_;
         panic_ = false;
-        damage_.begin_definition(begin);
+        recovery_.begin_definition(begin);
         definition();
         if (panic_) {
             skip_definition();
-            damage_.lose(ast_.tokens.tokens, begin, next_, false, true);
+            recovery_.lose(ast_.tokens.tokens, begin, next_, false, true);
         }
         if (next_ == begin) advance();
     }

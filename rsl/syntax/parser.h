@@ -1,13 +1,13 @@
-// rsl/parser.h: tokens to a syntax tree, by recursive descent. After an error the parser skips to
-// the next statement or definition and says nothing until then.
+// rsl/syntax/parser.h: tokens to a syntax tree, by recursive descent. After an error the parser
+// skips to the next statement or definition and says nothing until then.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "rsl/ast.h"
-#include "rsl/damage.h"
-#include "rsl/reporter.h"
+#include "rsl/syntax/ast.h"
+#include "rsl/syntax/parse_recovery.h"
+#include "rsl/text/reporter.h"
 
 namespace kinora::rsl {
 
@@ -20,7 +20,7 @@ class Parser {
     Parser(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
     void run();
     // What of the source is not in the tree.
-    Damage& damage() { return damage_; }
+    ParseRecovery& recovery() { return recovery_; }
 
   private:
     // parser.cpp: tokens, errors, recovery
@@ -161,7 +161,7 @@ class Parser {
     Ast& ast_;
     Reporter& reporter_;
     uint32_t next_ = 0;
-    Damage damage_;
+    ParseRecovery recovery_;
     bool panic_ = false;     // an error was reported and nothing has been skipped to yet
     bool unclosed_ = false;  // the end of the file or shader was met inside a block, and said
     bool skipped_ = false;   // the statement before was broken: it may have been an if

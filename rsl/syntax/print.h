@@ -1,10 +1,10 @@
-// rsl/print.h: trees as text, with room for notes at each expression and variable.
+// rsl/syntax/print.h: trees as text, with room for notes at each expression and variable.
 #pragma once
 
 #include <functional>
 #include <string>
 
-#include "rsl/ast.h"
+#include "rsl/syntax/ast.h"
 
 namespace kinora::rsl {
 

@@ -1,9 +1,9 @@
-// rsl/print_ast.cpp: the tree as source text again, in one layout, with only the parentheses that
-// the grammar needs.
+// rsl/syntax/print_ast.cpp: the tree as source text again, in one layout, with only the parentheses
+// that the grammar needs.
 #include <charconv>
 
-#include "rsl/ast_visit.h"
-#include "rsl/print.h"
+#include "rsl/syntax/ast_visit.h"
+#include "rsl/syntax/print.h"
 
 namespace kinora::rsl {
 
@@ -60,7 +60,7 @@ struct ExprPrinter {
     }
 
     std::string print(const NumberExpr& e, int&) const { return number_text(e.value); }
-    std::string print(const StringExpr& e, int&) const { return quoted(e.value); }
+    std::string print(const StringExpr& e, int&) const { return rsl::quoted(e.value); }
     std::string print(const VariableExpr& e, int&) const { return std::string(e.name); }
     std::string print(const IndexExpr& e, int&) const {
         return at(e.array, kPrimary) + "[" + at(e.index, kLowest) + "]";

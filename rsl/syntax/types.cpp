@@ -1,5 +1,5 @@
-// rsl/types.cpp: names of types, details and rates.
-#include "rsl/types.h"
+// rsl/syntax/types.cpp: names of types, details and rates.
+#include "rsl/syntax/types.h"
 
 #include <iterator>
 

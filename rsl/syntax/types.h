@@ -1,4 +1,4 @@
-// rsl/types.h: the types, details and rates of the shading language.
+// rsl/syntax/types.h: the types, details and rates of the shading language.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,9 @@ struct Type {
     constexpr bool is_array() const { return array_length >= 0; }
     constexpr Type element() const { return {base, -1}; }
 };
+
+enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager, Transformation };
+const char* shader_kind_name(ShaderKind kind);  // "surface"
 
 // What the source says of a variable. Unspecified: parameters of a shader are uniform, locals and
 // function parameters take the rate of what is assigned to them.

@@ -1,5 +1,5 @@
-// rsl/meant_name.cpp: near names of the language, which has many of one or two letters.
-#include "rsl/meant_name.h"
+// rsl/text/did_you_mean.cpp: near names of the language, which has many of one or two letters.
+#include "rsl/text/did_you_mean.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ bool same_beginning(std::string_view word, std::string_view name) {
 
 }  // namespace
 
-std::string_view meant_name(std::string_view word, const std::vector<std::string_view>& names) {
+std::string_view did_you_mean(std::string_view word, const std::vector<std::string_view>& names) {
     auto first = [&](auto fits) {
         auto found = std::find_if(names.begin(), names.end(),
                                   [&](std::string_view name) { return fits(word, name); });
@@ -51,7 +51,7 @@ std::string_view meant_name(std::string_view word, const std::vector<std::string
 }
 
 std::string meant_help(std::string_view word, const std::vector<std::string_view>& names) {
-    std::string_view name = meant_name(word, names);
+    std::string_view name = did_you_mean(word, names);
     return name.empty() ? "" : fmt::format("did you mean '{}'?", name);
 }
 

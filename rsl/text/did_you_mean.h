@@ -1,4 +1,4 @@
-// rsl/meant_name.h: what a name that nobody knows is most likely to mean.
+// rsl/text/did_you_mean.h: what a name that nobody knows is most likely to mean.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace kinora::rsl {
 
 // Of the names, the one that a wrong one is probably meant to be: it differs in the case of letters
 // alone, else in one or two letters, else only in its end. "" if there is none.
-std::string_view meant_name(std::string_view word, const std::vector<std::string_view>& names);
+std::string_view did_you_mean(std::string_view word, const std::vector<std::string_view>& names);
 
 // "did you mean 'diffuse'?", or "".
 std::string meant_help(std::string_view word, const std::vector<std::string_view>& names);

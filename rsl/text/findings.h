@@ -1,4 +1,4 @@
-// rsl/findings.h: the findings of the shading language: rows of findings.def as constants.
+// rsl/text/findings.h: the findings of the shading language: rows of findings.def as constants.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ namespace kinora::rsl {
 struct Code {
 #define FINDING(code, severity, text, explanation, fix) \
     static constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
-#include "rsl/findings.def"
+#include "rsl/text/findings.def"
 #undef FINDING
 };
 

@@ -1,5 +1,5 @@
-// rsl/lexer.cpp: text to raw tokens.
-#include "rsl/lexer.h"
+// rsl/text/lexer.cpp: text to raw tokens.
+#include "rsl/text/lexer.h"
 
 #include <algorithm>
 #include <charconv>
@@ -16,7 +16,7 @@ struct PunctRow {
 };
 constexpr PunctRow kPuncts[] = {
 #define PUNCT(name, text) {text, Punct::name},
-#include "rsl/puncts.def"
+#include "rsl/text/puncts.def"
 #undef PUNCT
 };
 
@@ -26,7 +26,7 @@ struct WordRow {
 };
 constexpr WordRow kWords[] = {
 #define WORD(name, text) {text, Word::name},
-#include "rsl/words.def"
+#include "rsl/text/words.def"
 #undef WORD
 };
 

@@ -1,9 +1,9 @@
-// rsl/lexer.h: text to raw tokens, one file at a time, before macros.
+// rsl/text/lexer.h: text to raw tokens, one file at a time, before macros.
 #pragma once
 
 #include <string_view>
 
-#include "rsl/token.h"
+#include "rsl/text/token.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::rsl {

@@ -1,4 +1,4 @@
-// rsl/literal_names.h: names that stand in string literals and are known without a scene.
+// rsl/text/literal_names.h: names that stand in string literals and are known without a scene.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
-// rsl/preprocess.cpp: the reading of files: text lines pass through, macros expand, '#' lines are
-// directives.
-#include "rsl/preprocess.h"
+// rsl/text/preprocess.cpp: the reading of files: text lines pass through, macros expand, '#' lines
+// are directives.
+#include "rsl/text/preprocess.h"
 
 #include <fmt/format.h>
 

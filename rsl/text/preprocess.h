@@ -1,4 +1,4 @@
-// rsl/preprocess.h: directives and macros, keeping for each token where it came from.
+// rsl/text/preprocess.h: directives and macros, keeping for each token where it came from.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "rsl/lexer.h"
-#include "rsl/reporter.h"
-#include "rsl/shader.h"
+#include "rsl/text/compile_options.h"
+#include "rsl/text/lexer.h"
+#include "rsl/text/reporter.h"
 
 namespace kinora::rsl {
 

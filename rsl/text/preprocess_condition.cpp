@@ -1,7 +1,7 @@
-// rsl/preprocess_condition.cpp: the constant expressions of #if and #elif.
+// rsl/text/preprocess_condition.cpp: the constant expressions of #if and #elif.
 #include <charconv>
 
-#include "rsl/preprocess.h"
+#include "rsl/text/preprocess.h"
 
 namespace kinora::rsl {
 

@@ -1,11 +1,11 @@
-// rsl/preprocess_directives.cpp: the '#' lines.
+// rsl/text/preprocess_directives.cpp: the '#' lines.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
-#include "rsl/preprocess.h"
-#include "rsl/standard_headers.h"
+#include "rsl/text/preprocess.h"
+#include "rsl/text/standard_headers.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::rsl {

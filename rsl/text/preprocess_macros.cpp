@@ -1,10 +1,10 @@
-// rsl/preprocess_macros.cpp: macro expansion. Replacements are pushed before the rest of the input
-// and read again; a macro is off while its own replacement is read, so expansion always ends.
+// rsl/text/preprocess_macros.cpp: macro expansion. Replacements are pushed before the rest of the
+// input and read again; a macro is off while its own replacement is read, so expansion always ends.
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "rsl/preprocess.h"
+#include "rsl/text/preprocess.h"
 
 namespace kinora::rsl {
 

@@ -1,5 +1,5 @@
-// rsl/reporter.cpp: the limit on errors, and notes about macros.
-#include "rsl/reporter.h"
+// rsl/text/reporter.cpp: the limit on errors, and notes about macros.
+#include "rsl/text/reporter.h"
 
 namespace kinora::rsl {
 
@@ -8,7 +8,7 @@ constexpr int kMostNotes = 8;  // of one finding; deeper macro nests are cut
 
 const FindingInfo* const kRows[] = {
 #define FINDING(code, severity, text, explanation, fix) &Code::code,
-#include "rsl/findings.def"
+#include "rsl/text/findings.def"
 #undef FINDING
 };
 }  // namespace

@@ -1,9 +1,9 @@
-// rsl/reporter.h: findings about shader source, with the macros a token came through, at most
+// rsl/text/reporter.h: findings about shader source, with the macros a token came through, at most
 // CompileOptions::max_errors of them.
 #pragma once
 
-#include "rsl/findings.h"
-#include "rsl/token.h"
+#include "rsl/text/findings.h"
+#include "rsl/text/token.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::rsl {

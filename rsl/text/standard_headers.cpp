@@ -1,6 +1,6 @@
-// rsl/standard_headers.cpp: finds the embedded headers. Their texts are in
+// rsl/text/standard_headers.cpp: finds the embedded headers. Their texts are in
 // standard_headers_data.cpp, which CMake makes from assets/shaders/include.
-#include "rsl/standard_headers.h"
+#include "rsl/text/standard_headers.h"
 
 #include <cstddef>
 #include <string>
@@ -12,7 +12,7 @@ struct StandardHeader {
     const char* text;
 };
 extern const StandardHeader kStandardHeaders[];
-extern const size_t kStandardHeaderCount;
+extern const size_t kStandardHeadersCount;
 
 // Names that differ by letter case are the same, as on the systems where shaders were written.
 std::string_view standard_header(std::string_view name) {
@@ -21,7 +21,7 @@ std::string_view standard_header(std::string_view name) {
     for (char& c : lower)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     if (lower.ends_with(".sl")) lower.replace(lower.size() - 2, 2, "h");  // as some are spelled
-    for (size_t i = 0; i < kStandardHeaderCount; ++i)
+    for (size_t i = 0; i < kStandardHeadersCount; ++i)
         if (lower == kStandardHeaders[i].name) return kStandardHeaders[i].text;
     return {};
 }
@@ -44,7 +44,7 @@ bool defines(std::string_view text, std::string_view function) {
 }  // namespace
 
 std::string_view header_that_defines(std::string_view function) {
-    for (size_t i = 0; i < kStandardHeaderCount; ++i)
+    for (size_t i = 0; i < kStandardHeadersCount; ++i)
         if (defines(kStandardHeaders[i].text, function)) return kStandardHeaders[i].name;
     return {};
 }

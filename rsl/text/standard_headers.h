@@ -1,5 +1,6 @@
-// rsl/standard_headers.h: the headers that shaders include by custom (noises.h, patterns.h, ...):
-// the texts of assets/shaders/include, compiled into the library. Files on the include path win.
+// rsl/text/standard_headers.h: the headers that shaders include by custom (noises.h, patterns.h,
+// ...): the texts of assets/shaders/include, compiled into the library. Files on the include path
+// win.
 #pragma once
 
 #include <string_view>

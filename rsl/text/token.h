@@ -1,4 +1,4 @@
-// rsl/token.h: the tokens of shader source after preprocessing, and where each one came from.
+// rsl/text/token.h: the tokens of shader source after preprocessing, and where each one came from.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class TokenKind : uint8_t { End, Identifier, Number, String, Punctuator, Ot
 enum class Word : uint8_t {
     None,
 #define WORD(name, text) name,
-#include "rsl/words.def"
+#include "rsl/text/words.def"
 #undef WORD
 };
 
@@ -26,7 +26,7 @@ enum class Word : uint8_t {
 enum class Punct : uint8_t {
     None,
 #define PUNCT(name, text) name,
-#include "rsl/puncts.def"
+#include "rsl/text/puncts.def"
 #undef PUNCT
     Other
 };

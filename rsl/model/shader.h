@@ -1,0 +1,45 @@
+// rsl/model/shader.h: a checked shader: its parameters and what it uses.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rsl/model/globals.h"
+#include "rsl/syntax/ast.h"
+
+namespace kinora::rsl {
+
+// A value known without running. numbers: component_count x elements; strings for String types.
+struct ConstantValue {
+    std::vector<float> numbers;
+    std::vector<std::string> strings;
+    bool in_shader_space =
+        false;  // numbers of points, vectors and normals that are still to be placed
+};
+
+struct ShaderParameter {
+    std::string_view name;
+    Type type;
+    Detail detail = Detail::Uniform;  // as declared; Unspecified is Uniform for parameters
+    bool output = false;
+    Symbol* symbol = nullptr;
+    Expr* default_value = nullptr;          // null: zero
+    std::optional<ConstantValue> constant;  // the default when it folds
+};
+
+// A checked shader. Shaders of one source share its Ast.
+struct Shader {
+    std::string name;
+    ShaderKind kind = ShaderKind::Surface;
+    std::shared_ptr<const Ast> ast;
+    const ShaderDefinition* definition = nullptr;  // body, parameters
+    std::vector<ShaderParameter> parameters;
+    std::vector<const GlobalInfo*> globals_read;  // by it and the functions it calls, table order
+    std::vector<const GlobalInfo*> globals_written;
+    std::vector<const Function*> functions;  // those it reaches
+};
+
+}  // namespace kinora::rsl
