@@ -1,5 +1,5 @@
-// collada/archive.cpp: members of a zip become files of a private folder, or are refused.
-#include "collada/archive.h"
+// collada/document/archive.cpp: members of a zip become files of a private folder, or are refused.
+#include "collada/document/archive.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -16,8 +16,8 @@
 #include <fstream>
 #include <mutex>
 
-#include "collada/findings.h"
-#include "runtime/base/shown_path.h"
+#include "collada/document/findings.h"
+#include "runtime/base/display_path.h"
 
 namespace kinora::collada {
 

@@ -1,4 +1,4 @@
-// collada/archive.h: .zae and .kmz: a zip unpacked into a private folder, for a time.
+// collada/document/archive.h: .zae and .kmz: a zip unpacked into a private folder, for a time.
 #pragma once
 
 #include <cstdint>

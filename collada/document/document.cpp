@@ -1,5 +1,5 @@
-// collada/document.cpp: questions a document answers.
-#include "collada/document.h"
+// collada/document/document.cpp: questions a document answers.
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

@@ -1,4 +1,5 @@
-// collada/document.h: a .dae as an element tree whose every part knows its bytes in the file.
+// collada/document/document.h: a .dae as an element tree whose every part knows its bytes in the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +11,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "collada/text/byte_range.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::collada {
-
-// All offsets are bytes of the text registered in Diagnostics.files. For a file that is not UTF-8
-// that text is its UTF-8 transcript; a BOM is left out of it.
-struct ByteRange {
-    uint32_t begin = 0;
-    uint32_t end = 0;
-};
 
 struct Attribute {
     std::string_view name;   // without its namespace prefix if that is COLLADA's

@@ -1,10 +1,10 @@
-// collada/document_builder.cpp: start tags, texts and end tags become the element tree.
-#include "collada/document_builder_p.h"
+// collada/document/document_builder.cpp: start tags, texts and end tags become the element tree.
+#include "collada/document/document_builder_p.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "collada/numbers_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

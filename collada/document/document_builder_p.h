@@ -1,10 +1,10 @@
-// collada/document_builder_p.h: start tags, texts and end tags become the element tree.
+// collada/document/document_builder_p.h: start tags, texts and end tags become the element tree.
 #pragma once
 
 #include <string>
 
-#include "collada/document.h"
-#include "collada/pool_p.h"
+#include "collada/document/document.h"
+#include "collada/text/pool_p.h"
 
 namespace kinora::collada {
 

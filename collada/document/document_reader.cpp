@@ -1,11 +1,12 @@
-// collada/document_reader.cpp: a text becomes the element tree, by expat where it is not plain.
-#include "collada/document_reader_p.h"
+// collada/document/document_reader.cpp: a text becomes the element tree, by expat where it is not
+// plain.
+#include "collada/document/document_reader_p.h"
 
 #include <cstring>
 
-#include "collada/encoding_p.h"
-#include "collada/entities_p.h"
-#include "collada/plain_xml_p.h"
+#include "collada/document/plain_xml_p.h"
+#include "collada/text/encoding_p.h"
+#include "collada/text/entities_p.h"
 
 namespace kinora::collada {
 

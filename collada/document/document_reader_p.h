@@ -1,10 +1,11 @@
-// collada/document_reader_p.h: a text becomes the element tree, by expat where it is not plain.
+// collada/document/document_reader_p.h: a text becomes the element tree, by expat where it is not
+// plain.
 #pragma once
 
 #include <expat.h>
 
-#include "collada/document_builder_p.h"
-#include "collada/findings.h"
+#include "collada/document/document_builder_p.h"
+#include "collada/document/findings.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,9 @@
-// collada/edit.cpp: changes to the bytes of a document.
-#include "collada/edit.h"
+// collada/document/edit.cpp: changes to the bytes of a document.
+#include "collada/document/edit.h"
 
 #include <algorithm>
 
-#include "collada/encoding_p.h"
+#include "collada/text/encoding_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {

@@ -1,11 +1,12 @@
-// collada/edit.h: changes to the bytes of a document, for fixes and options that touch little.
+// collada/document/edit.h: changes to the bytes of a document, for fixes and options that touch
+// little.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

@@ -1,4 +1,4 @@
-// collada/findings.h: the codes of what reading a document may report.
+// collada/document/findings.h: the codes of what reading a document may report.
 #pragma once
 
 #include "runtime/base/diagnostic.h"
@@ -6,7 +6,7 @@
 namespace kinora::collada::Code {
 
 #define FINDING(code, severity, text, explanation, fix) extern const FindingInfo code;
-#include "collada/findings.def"
+#include "collada/document/findings.def"
 #undef FINDING
 
 }  // namespace kinora::collada::Code

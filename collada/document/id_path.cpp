@@ -1,5 +1,5 @@
-// collada/id_path.cpp: from byte offsets to elements to paths.
-#include "collada/id_path.h"
+// collada/document/id_path.cpp: from byte offsets to elements to paths.
+#include "collada/document/id_path.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ void list_elements(const Element& root, std::vector<const Element*>& list) {
     }
 }
 
-std::string quoted(std::string_view value) {
+std::string in_quotes(std::string_view value) {
     char quote = value.find('\'') == value.npos ? '\'' : '"';
     return fmt::format("{}{}{}", quote, value, quote);
 }
@@ -70,9 +70,9 @@ std::string ElementIndex::step(const Element& element) {
 
 std::string ElementIndex::new_step(const Element& element) {
     if (const Attribute* id = element.attribute("id"))
-        return fmt::format("{}[@id={}]", element.name, quoted(id->value));
+        return fmt::format("{}[@id={}]", element.name, in_quotes(id->value));
     if (const Attribute* sid = element.attribute("sid"))
-        return fmt::format("{}[@sid={}]", element.name, quoted(sid->value));
+        return fmt::format("{}[@sid={}]", element.name, in_quotes(sid->value));
     number_children(*element.parent);
     auto number = numbers_.find(&element);
     return number == numbers_.end() ? std::string(element.name)

@@ -1,4 +1,4 @@
-// collada/id_path.h: where in a document's tree a byte stands, in words.
+// collada/document/id_path.h: where in a document's tree a byte stands, in words.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

@@ -1,5 +1,6 @@
-// collada/open_scene.cpp: manifest.xml, .kml and the order of members say which .dae is the scene.
-#include "collada/open_scene.h"
+// collada/document/open_scene.cpp: manifest.xml, .kml and the order of members say which .dae is
+// the scene.
+#include "collada/document/open_scene.h"
 
 #include <expat.h>
 
@@ -8,10 +9,10 @@
 #include <fstream>
 #include <span>
 
-#include "collada/encoding_p.h"
-#include "collada/entities_p.h"
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/findings.h"
+#include "collada/text/encoding_p.h"
+#include "collada/text/entities_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

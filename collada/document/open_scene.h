@@ -1,11 +1,12 @@
-// collada/open_scene.h: the .dae that a path means: itself, or the scene of a .zae or .kmz.
+// collada/document/open_scene.h: the .dae that a path means: itself, or the scene of a .zae or
+// .kmz.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "collada/archive.h"
+#include "collada/document/archive.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora::collada {

@@ -1,5 +1,5 @@
-// collada/plain_xml.cpp: the fast way through documents of plain XML.
-#include "collada/plain_xml_p.h"
+// collada/document/plain_xml.cpp: the fast way through documents of plain XML.
+#include "collada/document/plain_xml_p.h"
 
 #include <array>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <emmintrin.h>
 #endif
 
-#include "collada/encoding_p.h"
+#include "collada/text/encoding_p.h"
 
 namespace kinora::collada {
 

@@ -1,7 +1,7 @@
-// collada/plain_xml_p.h: the fast way through documents of plain XML.
+// collada/document/plain_xml_p.h: the fast way through documents of plain XML.
 #pragma once
 
-#include "collada/document_builder_p.h"
+#include "collada/document/document_builder_p.h"
 
 namespace kinora::collada {
 

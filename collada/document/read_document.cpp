@@ -1,12 +1,12 @@
-// collada/read_document.cpp: from a file or memory through its encoding to a document.
+// collada/document/read_document.cpp: from a file or memory through its encoding to a document.
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
-#include "collada/document_reader_p.h"
-#include "collada/encoding_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/document_reader_p.h"
+#include "collada/text/encoding_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

@@ -1,28 +1,16 @@
-// collada/extract_paths.cpp: URIs of documents as paths of files.
+// collada/document/uri.cpp: URIs of documents as paths of files.
+#include "collada/document/uri.h"
+
+#include <cctype>
 #include <filesystem>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/text/encoding_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
-namespace {
-
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
 bool starts_with_drive(std::string_view path) {
     return path.size() > 2 && std::isalpha(uint8_t(path[0])) && path[1] == ':' && path[2] == '/';
-}
-
-// "C:/", also behind "../../": how exporters made absolute paths relative.
-bool names_drive(std::string_view path) {
-    while (path.starts_with("../")) path.remove_prefix(3);
-    return starts_with_drive(path);
 }
 
 // A scheme's letters may be of either case (RFC 3986, 3.1).
@@ -33,24 +21,6 @@ bool takes_file_scheme(std::string& path) {
         if (std::tolower(uint8_t(path[i])) != kScheme[i]) return false;
     path.erase(0, kScheme.size());
     return true;
-}
-
-}  // namespace
-
-std::string percent_decode(std::string_view text) {
-    std::string out;
-    out.reserve(text.size());
-    for (size_t i = 0; i < text.size(); ++i) {
-        int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-        int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
-        if (text[i] == '%' && high >= 0 && low >= 0 && high + low > 0) {
-            out += char(high * 16 + low);
-            i += 2;
-        } else {
-            out += text[i];
-        }
-    }
-    return out;
 }
 
 namespace {
@@ -102,32 +72,6 @@ std::string path_of_uri(const Document& document, std::string_view uri) {
     std::error_code error;
     bool moved = based != beside && std::filesystem::is_regular_file(based, error);
     return moved ? based : beside;
-}
-
-void check_file_uri(Extraction& x, std::string_view uri, Location where) {
-    if (uri.find('\\') != uri.npos) x.diag.report(Code::FILE_BACKSLASH, where, uri);
-    if (uri.find(' ') != uri.npos) x.diag.report(Code::FILE_SPACE, where, uri);
-    std::string path(uri);
-    for (char& c : path)
-        if (c == '\\') c = '/';
-    bool scheme = takes_file_scheme(path);
-    bool host = path.starts_with("//") && !path.starts_with("///") &&
-                !starts_with_drive(std::string_view(path).substr(2));
-    if (host && scheme)
-        x.diag.report(Code::FILE_HOST, where, uri);
-    else if (path.starts_with('/') || names_drive(path))
-        x.diag.report(Code::FILE_ABSOLUTE, where, uri);
-}
-
-bool inside_tree(Extraction& x, const std::string& path) {
-    if (!x.trees) {
-        const std::string& own = x.options.folder;
-        std::vector<std::string> folders{own.empty() ? x.document(0).directory() : own};
-        folders.insert(folders.end(), x.options.allow_external.begin(),
-                       x.options.allow_external.end());
-        x.trees = FileTrees(folders);
-    }
-    return x.trees->contains(path);
 }
 
 }  // namespace kinora::collada

@@ -1,10 +1,10 @@
-// collada/write.cpp: the canonical writer.
-#include "collada/write.h"
+// collada/document/write.cpp: the canonical writer.
+#include "collada/document/write.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "collada/edit.h"
+#include "collada/document/edit.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {

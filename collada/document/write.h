@@ -1,4 +1,5 @@
-// collada/write.h: the canonical writer: a document as text, and when two documents are equal.
+// collada/document/write.h: the canonical writer: a document as text, and when two documents are
+// equal.
 //
 // Canonical form: UTF-8 with an XML declaration and line feeds; one element a line, indented by two
 // spaces; attributes in the order written, in double quotes; <a></a> as <a/>; numbers in the
@@ -11,7 +12,7 @@
 
 #include <string>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

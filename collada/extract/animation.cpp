@@ -1,6 +1,6 @@
-// collada/extract_animation.cpp: <animation>s become flat channels; clips name ranges of them.
-#include "collada/numbers_p.h"
-#include "collada/targets_p.h"
+// collada/extract/animation.cpp: <animation>s become flat channels; clips name ranges of them.
+#include "collada/extract/targets_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -166,7 +166,7 @@ void AnimationReader::read_clips(uint32_t doc) {
                 Link animation = resolve(x_, {doc, &child}, "url", {"animation"});
                 if (!animation) continue;
                 auto [first, end] = channels_of_[animation.element];
-                if (!afford(x_, (end - first) * sizeof(uint32_t), clip.where)) continue;
+                if (!reserve_memory(x_, (end - first) * sizeof(uint32_t), clip.where)) continue;
                 for (uint32_t c = first; c < end; ++c) {
                     clip.channels.push_back(c);
                     x_.scene.channels[c].in_clip = true;

@@ -1,8 +1,8 @@
-// collada/extract_asset.cpp: units, axes and the played range.
+// collada/extract/asset.cpp: units, axes and the played range.
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

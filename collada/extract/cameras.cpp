@@ -1,8 +1,9 @@
-// collada/extract_cameras.cpp: perspective and orthographic cameras.
+// collada/extract/cameras.cpp: perspective and orthographic cameras.
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -98,7 +99,7 @@ uint32_t camera_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!afford(x, sizeof(Camera), x.where(link))) return kNone;
+    if (!reserve_memory(x, sizeof(Camera), x.where(link))) return kNone;
     uint32_t number = uint32_t(x.scene.cameras.size());
     at->second = number;
     Camera camera;

@@ -1,8 +1,9 @@
-// collada/extract_common.cpp: profile_COMMON: a shading model and its slots.
+// collada/extract/common.cpp: profile_COMMON: a shading model and its slots.
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

@@ -1,5 +1,5 @@
-// collada/extract_effects.cpp: <effect>: its parameters and the profiles that can be rendered.
-#include "collada/extract_p.h"
+// collada/extract/effects.cpp: <effect>: its parameters and the profiles that can be rendered.
+#include "collada/extract/extract_p.h"
 
 namespace kinora::collada {
 
@@ -7,7 +7,7 @@ uint32_t effect_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!afford(x, sizeof(Effect), x.where(link))) return kNone;
+    if (!reserve_memory(x, sizeof(Effect), x.where(link))) return kNone;
     // Nothing below makes another effect, so the number is known before it is added.
     uint32_t number = at->second = uint32_t(x.scene.effects.size());
     Effect effect;

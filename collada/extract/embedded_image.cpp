@@ -1,11 +1,11 @@
-// collada/embedded_image.cpp: image files that stand in a document as hexadecimal digits.
+// collada/extract/embedded_image.cpp: image files that stand in a document as hexadecimal digits.
 #include <filesystem>
 #include <fstream>
 
-#include "collada/archive.h"
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
-#include "runtime/base/shown_path.h"
+#include "collada/document/archive.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
+#include "runtime/base/display_path.h"
 
 namespace kinora::collada {
 

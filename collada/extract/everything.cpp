@@ -1,9 +1,9 @@
-// collada/extract_everything.cpp: what <scene> does not reach, read for its findings.
+// collada/extract/everything.cpp: what <scene> does not reach, read for its findings.
 //
 // The items go to the ends of the same lists, after all that the picture uses: its indices and
 // values stay as they are, and further checks (profile_RSL) find the rest behind them. Channels
 // stay in document order, so that those of unreached items stand between the others.
-#include "collada/extract_p.h"
+#include "collada/extract/extract_p.h"
 
 namespace kinora::collada {
 

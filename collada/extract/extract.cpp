@@ -1,8 +1,8 @@
-// collada/extract.cpp: the order in which what <scene> reaches is read.
+// collada/extract/extract.cpp: the order in which what <scene> reaches is read.
 #include <algorithm>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

@@ -1,5 +1,5 @@
-// collada/extract_p.h: what the parts of extract() share. Each part reads one kind of element and
-// fills its list of SceneData; `made` remembers which element became which entry.
+// collada/extract/extract_p.h: what the parts of extract() share. Each part reads one kind of
+// element and fills its list of SceneData; `made` remembers which element became which entry.
 #pragma once
 
 #include <initializer_list>
@@ -10,10 +10,11 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "collada/findings.h"
-#include "collada/links.h"
-#include "collada/scene.h"
-#include "runtime/base/file_trees.h"
+#include "collada/document/findings.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/scene.h"
+#include "collada/schema/links.h"
+#include "runtime/base/allowed_paths.h"
 
 namespace kinora::collada {
 
@@ -24,7 +25,7 @@ struct Link {
     explicit operator bool() const { return element != nullptr; }
 };
 
-// Look-ups that many elements repeat, made once.
+// ShaderInstance-ups that many elements repeat, made once.
 struct GeometrySymbols {
     std::vector<uint32_t> groups;                                // the first of each symbol
     std::unordered_map<std::string_view, uint32_t> first_group;  // by symbol
@@ -49,14 +50,14 @@ struct Extraction {
     Diagnostics& diag;
     const ExtractOptions& options;
     SceneData scene{};
-    std::optional<FileTrees> trees{};  // where files may lie, made by inside_tree
-    std::optional<Version> schema{};   // whose rules documents are held to; none: their own
+    std::optional<AllowedPaths> trees{};  // where files may lie, made by inside_tree
+    std::optional<Version> schema{};      // whose rules documents are held to; none: their own
 
     std::vector<const Document*> docs{};  // same order as scene.documents
     std::vector<std::unique_ptr<Document>> owned{};
     std::unordered_map<std::string, uint32_t> doc_by_path{};  // kNone: it cannot be read
     std::unordered_map<uint64_t, uint32_t> conversion_of{};   // doc pair -> index, kNone: identity
-    // What links may multiply (many elements may name one array) is counted: see afford().
+    // What links may multiply (many elements may name one array) is counted: see reserve_memory().
     uint64_t text_bytes = 0;    // of all documents
     uint64_t made_bytes = 0;    // of structs and lists
     uint64_t parsed_bytes = 0;  // of text, each time it is parsed
@@ -107,10 +108,10 @@ struct Extraction {
 // extract.cpp: fills x.scene; false when there is nothing to show.
 bool extract_into(Extraction& x, const Document& document);
 
-// extract_everything.cpp: the library items of the root document that nothing reached.
+// everything.cpp: the library items of the root document that nothing reached.
 void read_everything(Extraction& x);
 
-// extract_links.cpp -------------------------------------------------------------------------------
+// links.cpp -------------------------------------------------------------------------------
 
 using Kinds = std::initializer_list<std::string_view>;
 
@@ -127,29 +128,28 @@ uint32_t add_document(Extraction& x, const Document& document, const std::string
 inline constexpr uint64_t kBookBytes = 64;
 // To be asked before memory is taken for what a link leads to. False, and reported once, when it
 // would pass 8 times the bytes of the documents' texts and some megabytes; leave the thing out.
-bool afford(Extraction& x, uint64_t bytes, Location where);
+bool reserve_memory(Extraction& x, uint64_t bytes, Location where);
 uint64_t most_made_bytes(const Extraction& x);  // the limit
 // The same for the time of parsing a text that other elements may name, too.
-bool afford_parsing(Extraction& x, Link array);
+bool reserve_parsing_memory(Extraction& x, Link array);
 // Index into scene.conversions for things of `to` used in `from`; kNone if the same.
 uint32_t conversion(Extraction& x, uint32_t from, uint32_t to);
 
-// extract_asset.cpp
+// asset.cpp
 Asset read_asset(const Document& document, Diagnostics& diag);
 void read_time_range(Extraction& x, Link visual_scene);
 
-// extract_paths.cpp -------------------------------------------------------------------------------
+// paths.cpp -------------------------------------------------------------------------------
 
-std::string percent_decode(std::string_view text);
 // Reports what is unportable about the spelling of a file's URI.
 void check_file_uri(Extraction& x, std::string_view uri, Location where);
 // True when `path` (existing or not) lies in the folder tree of the root document, or all may.
 bool inside_tree(Extraction& x, const std::string& path);
 
-// extract_transparency.cpp: marks materials that the formula makes invisible; reports them.
+// transparency.cpp: marks materials that the formula makes invisible; reports them.
 void check_transparency(Extraction& x);
 
-// extract_texcoords.cpp: how the texture coordinates that a material names are found on the mesh;
+// texcoords.cpp: how the texture coordinates that a material names are found on the mesh;
 // says what was assumed. Adds bindings for names that no <bind_vertex_input> binds.
 void bind_texcoords(Extraction& x, uint32_t geometry, MaterialBinding& binding);
 
@@ -157,10 +157,10 @@ void bind_texcoords(Extraction& x, uint32_t geometry, MaterialBinding& binding);
 // long as scene.files; "" (reported) when they are no image.
 std::string unpack_image(Extraction& x, Link data, std::string_view format, std::string_view id);
 
-// extract_images.cpp: index into scene.images, or kNone.
+// images.cpp: index into scene.images, or kNone.
 uint32_t image_index(Extraction& x, Link image);
 
-// extract_nodes.cpp -------------------------------------------------------------------------------
+// nodes.cpp -------------------------------------------------------------------------------
 
 uint32_t node_index(Extraction& x, Link node);  // may add to pending_nodes
 void read_pending_nodes(Extraction& x);
@@ -170,21 +170,21 @@ void check_node_graph(Extraction& x);
 // The groups of a geometry by the symbols of their materials.
 GeometrySymbols& symbols_of(Extraction& x, uint32_t geometry);
 
-// extract_transform.cpp
+// transform.cpp
 bool is_transform(std::string_view name);
 Transform read_transform(Extraction& x, Link link);
 // Exchanges the scale and the translation of a node that Blender wrote in the wrong order.
 void mend_order(Extraction& x, Link node, std::vector<Transform>& transforms);
 
-// extract_instances.cpp: instances inside a node.
+// instances.cpp: instances inside a node.
 void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_number);
 void read_light_instance(Extraction& x, Link link, Node& node);
 void read_camera_instance(Extraction& x, Link link, Node& node);
 
-// extract_lights.cpp: <shadows> of an RSL extra, "0" or "false" for none; nothing if silent.
+// lights.cpp: <shadows> of an RSL extra, "0" or "false" for none; nothing if silent.
 std::optional<bool> read_shadows(const Element& owner);
 
-// extract_mesh.cpp and its like -------------------------------------------------------------------
+// mesh.cpp and its like -------------------------------------------------------------------
 
 uint32_t geometry_index(Extraction& x, Link geometry);
 
@@ -219,22 +219,22 @@ NameSource read_name_source(Extraction& x, Link source);
 // The first child <input semantic="...">, or null.
 const Element* find_input(const Element& parent, std::string_view semantic);
 
-// extract_skin.cpp, extract_morph.cpp
+// skin.cpp, morph.cpp
 uint32_t skin_index(Extraction& x, Link controller);   // of a <controller> with <skin>
 uint32_t morph_index(Extraction& x, Link controller);  // of a <controller> with <morph>
 dmat4 matrix_of_rows(const double* rows);
 
-// extract_joints.cpp
+// joints.cpp
 void resolve_joints(Extraction& x);
 
-// extract_cameras.cpp, extract_lights.cpp
+// cameras.cpp, lights.cpp
 uint32_t camera_index(Extraction& x, Link camera);
 uint32_t light_index(Extraction& x, Link light);
 // A <float sid> like element with one number (or `count`) as a slot; registers it as a target.
 Slot read_slot(Extraction& x, Link link, uint32_t count, TargetRef ref);
 
-// extract_materials.cpp, extract_params.cpp, extract_effects.cpp, extract_common.cpp,
-// extract_samplers.cpp, extract_rsl.cpp
+// materials.cpp, params.cpp, effects.cpp, common.cpp,
+// samplers.cpp, rsl.cpp
 uint32_t material_index(Extraction& x, Link material);
 // A material made of an <instance_effect>.
 uint32_t instance_effect_index(Extraction& x, Link instance);
@@ -259,7 +259,7 @@ uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect);
 // A <setparam> of a surface or sampler: the material's own image. False if it sets something else.
 bool set_sampler(Extraction& x, Link setparam, const Effect& effect, Material& material);
 
-// extract_animation.cpp, extract_sampler.cpp; targets_p.h resolves targets
+// animation.cpp, sampler.cpp; targets_p.h resolves targets
 // ---------------------------------
 
 // Channels and clips of all documents; then the <bind target>s that instances left open.

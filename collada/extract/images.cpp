@@ -1,9 +1,10 @@
-// collada/extract_images.cpp: the file an <image> means, wherever exporters said it was.
+// collada/extract/images.cpp: the file an <image> means, wherever exporters said it was.
 #include <algorithm>
 #include <filesystem>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/uri.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -109,7 +110,7 @@ uint32_t image_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!afford(x, sizeof(Image), x.where(link))) return kNone;
+    if (!reserve_memory(x, sizeof(Image), x.where(link))) return kNone;
     Image image;
     image.id = e.value("id");
     image.name = e.value("name");

@@ -1,6 +1,6 @@
-// collada/extract_instances.cpp: meshes, lights and cameras that a node shows.
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+// collada/extract/instances.cpp: meshes, lights and cameras that a node shows.
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,9 @@
-// collada/extract_joints.cpp: joint names lead to nodes: by sid, then id, then name; below the
+// collada/extract/joints.cpp: joint names lead to nodes: by sid, then id, then name; below the
 // skeleton roots, then in the whole scene.
 #include <algorithm>
 #include <map>
 
-#include "collada/extract_p.h"
+#include "collada/extract/extract_p.h"
 
 namespace kinora::collada {
 
@@ -84,7 +84,7 @@ const NameIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, 
     if (!fresh) return &at->second;
     if (x_.over_limit) return nullptr;
     at->second.build(x_.scene.nodes, roots);
-    if (afford(x_, at->second.count * kBytesPerNode, where)) return &at->second;
+    if (reserve_memory(x_, at->second.count * kBytesPerNode, where)) return &at->second;
     at->second = {};
     return nullptr;
 }
@@ -116,7 +116,7 @@ void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
     else
         skeleton = index_below(mesh.skeleton_roots, where);
     uint64_t bytes = skin.joints.size() * sizeof(uint32_t);
-    if (!afford(x_, bytes, where)) {
+    if (!reserve_memory(x_, bytes, where)) {
         mesh.skin = kNone;
         return;
     }

@@ -1,9 +1,9 @@
-// collada/extract_lights.cpp: the four kinds of light, and the RSL shader an <extra> may give one.
+// collada/extract/lights.cpp: the four kinds of light, and the RSL shader an <extra> may give one.
 #include <algorithm>
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -70,7 +70,7 @@ uint32_t light_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!afford(x, sizeof(Light), x.where(link))) return kNone;
+    if (!reserve_memory(x, sizeof(Light), x.where(link))) return kNone;
     Light light;
     light.id = e.value("id");
     light.name = e.value("name");

@@ -1,9 +1,11 @@
-// collada/extract_links.cpp: url, source and target attributes lead to elements.
+// collada/extract/links.cpp: url, source and target attributes lead to elements.
 #include <filesystem>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
-#include "collada/schema.h"
+#include "collada/document/uri.h"
+#include "collada/extract/extract_p.h"
+#include "collada/schema/schema.h"
+#include "collada/text/encoding_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -175,11 +177,11 @@ uint64_t most_made_bytes(const Extraction& x) {
     return (16 << 20) + 8 * x.text_bytes;
 }
 
-bool afford(Extraction& x, uint64_t bytes, Location where) {
+bool reserve_memory(Extraction& x, uint64_t bytes, Location where) {
     return within(x, x.made_bytes, bytes, most_made_bytes(x), where);
 }
 
-bool afford_parsing(Extraction& x, Link array) {
+bool reserve_parsing_memory(Extraction& x, Link array) {
     return within(x, x.parsed_bytes, array.element->text.size(),
                   (uint64_t(256) << 20) + 32 * x.text_bytes, x.where(array));
 }

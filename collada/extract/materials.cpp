@@ -1,6 +1,6 @@
-// collada/extract_materials.cpp: materials: an effect and the parameters they set.
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+// collada/extract/materials.cpp: materials: an effect and the parameters they set.
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -75,7 +75,7 @@ uint32_t make_material(Extraction& x, Link owner, const Element* instance) {
     auto [at, fresh] = x.made.emplace(owner.element, kNone);
     if (!fresh) return at->second;
     uint32_t& result = at->second;
-    if (!afford(x, sizeof(Material), x.where(owner))) return kNone;
+    if (!reserve_memory(x, sizeof(Material), x.where(owner))) return kNone;
     Material material;
     material.id = owner.element->value("id");
     material.name = owner.element->value("name");

@@ -1,9 +1,9 @@
-// collada/extract_mesh.cpp: <geometry>: positions, sources, and the primitives on them.
+// collada/extract/mesh.cpp: <geometry>: positions, sources, and the primitives on them.
 #include <algorithm>
 #include <cmath>
 
-#include "collada/numbers_p.h"
-#include "collada/primitives_p.h"
+#include "collada/extract/primitives_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -12,7 +12,8 @@ uint32_t MeshReader::source_index(Link link) {
     if (!fresh) return at->second;
     DoubleSource data = read_double_source(x, link);
     if (data.values.empty()) return kNone;
-    bool fits = afford(x, sizeof(FloatSource) + data.values.size() * sizeof(float), x.where(link));
+    bool fits =
+        reserve_memory(x, sizeof(FloatSource) + data.values.size() * sizeof(float), x.where(link));
     if (!fits) return kNone;
     FloatSource source{std::string(link.element->value("id")), data.stride, {}};
     source.values.resize(data.values.size());
@@ -26,7 +27,7 @@ namespace {
 
 void read_positions(MeshReader& mesh, Link source) {
     DoubleSource data = read_double_source(mesh.x, source);
-    if (!afford(mesh.x, data.count * sizeof(dvec3), mesh.x.where(source))) return;
+    if (!reserve_memory(mesh.x, data.count * sizeof(dvec3), mesh.x.where(source))) return;
     mesh.geometry.positions.resize(data.count, dvec3(0.0));
     for (size_t i = 0; i < data.count; ++i) {
         dvec3& p = mesh.geometry.positions[i];
@@ -110,7 +111,7 @@ uint32_t geometry_index(Extraction& x, Link link) {
                       "vertices");
         return result;
     }
-    if (!afford(x, sizeof(Geometry), geometry.where)) return result;
+    if (!reserve_memory(x, sizeof(Geometry), geometry.where)) return result;
     MeshReader mesh{x, geometry, {}, {}, {}, nullptr};
     if (!read_vertices(mesh, {link.doc, vertices})) return result;
     for (const Element& child : mesh_element->children())

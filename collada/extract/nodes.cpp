@@ -1,14 +1,14 @@
-// collada/extract_nodes.cpp: the node tree, its definitions and the instances between them.
+// collada/extract/nodes.cpp: the node tree, its definitions and the instances between them.
 #include <algorithm>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
 uint32_t node_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
-    if (!fresh || !afford(x, sizeof(Node) + kBookBytes, x.where(link))) return at->second;
+    if (!fresh || !reserve_memory(x, sizeof(Node) + kBookBytes, x.where(link))) return at->second;
     at->second = append(x.scene.nodes, Node{});
     x.node_filled.push_back(false);
     x.pending_nodes.push_back({at->second, link});
@@ -42,7 +42,7 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
                 node.attributes.emplace_back(item.value("name"), trim(item.text));
     size_t transforms = 0;
     for (const Element& child : e.children()) transforms += is_transform(child.name);
-    if (afford(x, transforms * (sizeof(Transform) + kBookBytes), node.where))
+    if (reserve_memory(x, transforms * (sizeof(Transform) + kBookBytes), node.where))
         node.transforms.reserve(transforms);
     for (const Element& child : e.children()) {
         Link part{link.doc, &child};

@@ -1,32 +1,13 @@
-// collada/extract_params.cpp: typed values of <newparam>, <setparam> and <bind>.
+// collada/extract/params.cpp: typed values of <newparam>, <setparam> and <bind>.
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
 namespace {
-
-struct TypeRow {
-    const char* name;
-    uint32_t components;
-};
-// In the order of ParamType; the names are those of the elements.
-constexpr TypeRow kTypes[] = {{"float", 1},     {"float2", 2}, {"float3", 3}, {"float4", 4},
-                              {"float4x4", 16}, {"int", 1},    {"bool", 1},   {"point", 3},
-                              {"color", 3},     {"vector", 3}, {"normal", 3}, {"matrix", 16},
-                              {"string", 1}};
-static_assert(std::size(kTypes) == size_t(ParamType::Count));
-
-bool find_type(std::string_view name, ParamType& type) {
-    for (size_t i = 0; i < std::size(kTypes); ++i)
-        if (kTypes[i].name == name) {
-            type = ParamType(i);
-            return true;
-        }
-    return false;
-}
 
 // Words of a <bool> become numbers; other texts are read as they are.
 std::vector<double> read_numbers(Extraction& x, Link link, ParamType type) {
@@ -37,7 +18,7 @@ std::vector<double> read_numbers(Extraction& x, Link link, ParamType type) {
     return numbers;
 }
 
-// DESIGN section 5: one value is grey, three are as they are, the fourth is dropped.
+// docs/format.md#profile_rsl: one value is grey, three are as they are, the fourth is dropped.
 void fit_color(Extraction& x, Link link, std::vector<double>& numbers) {
     if (numbers.size() == 1) numbers.resize(3, numbers[0]);
     if (numbers.size() != 4) return;
@@ -79,7 +60,7 @@ bool read_array(Extraction& x, Link link, ParamValue& out) {
     bool first = true;
     for (const Element& child : link.element->children()) {
         ParamType type;
-        if (!find_type(child.name, type) || (!first && type != out.type)) continue;
+        if (!find_param_type(child.name, type) || (!first && type != out.type)) continue;
         out.type = type;
         first = false;
         if (!read_simple(x, {link.doc, &child}, out)) return false;
@@ -92,24 +73,17 @@ bool read_array(Extraction& x, Link link, ParamValue& out) {
 
 }  // namespace
 
-uint32_t component_count(ParamType type) {
-    return kTypes[size_t(type)].components;
-}
-const char* param_type_name(ParamType type) {
-    return kTypes[size_t(type)].name;
-}
-
 const Element* value_child(const Element& owner) {
     ParamType type;
     for (const Element& child : owner.children())
-        if (child.name == "array" || find_type(child.name, type)) return &child;
+        if (child.name == "array" || find_param_type(child.name, type)) return &child;
     return nullptr;
 }
 
 bool read_param_value(Extraction& x, Link link, ParamValue& out) {
     out.where = x.where(link);
     if (link.element->name == "array") return read_array(x, link, out);
-    if (!find_type(link.element->name, out.type)) {
+    if (!find_param_type(link.element->name, out.type)) {
         x.diag.report(Code::FX_VALUE, out.where, link.element->name);
         return false;
     }

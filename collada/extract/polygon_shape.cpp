@@ -1,5 +1,5 @@
-// collada/polygon_shape.cpp: Newell's normal and what the corners do about it.
-#include "collada/polygon_shape_p.h"
+// collada/extract/polygon_shape.cpp: Newell's normal and what the corners do about it.
+#include "collada/extract/polygon_shape_p.h"
 
 #include <algorithm>
 #include <cmath>

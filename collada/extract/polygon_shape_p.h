@@ -1,4 +1,4 @@
-// collada/polygon_shape_p.h: whether polygons are flat, convex, and there at all.
+// collada/extract/polygon_shape_p.h: whether polygons are flat, convex, and there at all.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,12 @@
-// collada/extract_polygons.cpp: the five kinds of primitives as triangles of vertices.
+// collada/extract/polygons.cpp: the five kinds of primitives as triangles of vertices.
 #include <algorithm>
 #include <utility>
 
-#include "collada/numbers_p.h"
-#include "collada/polygon_shape_p.h"
-#include "collada/primitives_p.h"
-#include "collada/triangulate_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/polygon_shape_p.h"
+#include "collada/extract/primitives_p.h"
+#include "collada/extract/triangulate_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

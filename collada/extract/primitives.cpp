@@ -1,8 +1,8 @@
-// collada/extract_primitives.cpp: inputs and indices of one primitive element become a group.
+// collada/extract/primitives.cpp: inputs and indices of one primitive element become a group.
 #include <algorithm>
 
-#include "collada/numbers_p.h"
-#include "collada/primitives_p.h"
+#include "collada/extract/primitives_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

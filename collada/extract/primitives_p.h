@@ -1,7 +1,7 @@
-// collada/primitives_p.h: the parts of one primitive element on its way to triangles.
+// collada/extract/primitives_p.h: the parts of one primitive element on its way to triangles.
 #pragma once
 
-#include "collada/extract_p.h"
+#include "collada/extract/extract_p.h"
 
 namespace kinora::collada {
 

@@ -1,10 +1,11 @@
-// collada/extract_rsl.cpp: profile_RSL: shader source, and which shaders a pass runs with what.
+// collada/extract/rsl.cpp: profile_RSL: shader source, and which shaders a pass runs with what.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/uri.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::collada {

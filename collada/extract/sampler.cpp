@@ -1,11 +1,11 @@
-// collada/extract_sampler.cpp: <sampler>: keys, interpolations and tangents, made consistent.
+// collada/extract/sampler.cpp: <sampler>: keys, interpolations and tangents, made consistent.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -99,7 +99,7 @@ bool SamplerReader::read_keys() {
         return false;
     }
     uint64_t numbers = keys + values.values.size() * 5;  // tangents of two numbers on both sides
-    if (!afford(x, sizeof(Sampler) + numbers * sizeof(double), x.where(link))) return false;
+    if (!reserve_memory(x, sizeof(Sampler) + numbers * sizeof(double), x.where(link))) return false;
     sampler.stride = values.stride;
     sampler.times.resize(keys);
     sampler.values = std::move(values.values);

@@ -1,8 +1,9 @@
-// collada/extract_samplers.cpp: from a <texture> through sampler and surface to an image.
+// collada/extract/samplers.cpp: from a <texture> through sampler and surface to an image.
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -197,7 +198,7 @@ TextureSampler* own_sampler(Extraction& x, const Effect& effect, uint32_t number
                             Material& material) {
     for (auto& [s, sampler] : material.samplers)
         if (s == number) return &sampler;
-    if (!afford(x, sizeof(TextureSampler) + kBookBytes, material.where)) return nullptr;
+    if (!reserve_memory(x, sizeof(TextureSampler) + kBookBytes, material.where)) return nullptr;
     return &material.samplers.emplace_back(number, effect.samplers[number]).second;
 }
 

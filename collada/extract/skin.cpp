@@ -1,10 +1,11 @@
-// collada/extract_skin.cpp: <skin>: joints, inverse bind matrices and influences.
+// collada/extract/skin.cpp: <skin>: joints, inverse bind matrices and influences.
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -138,7 +139,7 @@ bool SkinReader::read_joints(const Element& element) {
     join_spaced_names(x, source.doc, names);
     skin.joint_kind = names.kind;
     constexpr uint64_t kJointBytes = sizeof(std::string) + sizeof(dmat4);
-    if (!afford(x, names.names.size() * kJointBytes, x.where(source))) return false;
+    if (!reserve_memory(x, names.names.size() * kJointBytes, x.where(source))) return false;
     skin.joints.assign(names.names.begin(), names.names.end());
     skin.inverse_bind.assign(skin.joints.size(), dmat4(1.0));
     if (skin.joints.empty()) return false;
@@ -282,7 +283,7 @@ uint32_t skin_index(Extraction& x, Link link) {
     SkinReader reader{x, link.doc, skin};
     if (!reader.read_base(element)) return result;
     size_t positions = x.scene.geometries[skin.geometry].positions.size();
-    if (!afford(x, sizeof(Skin) + positions * sizeof(uint32_t), skin.where)) return result;
+    if (!reserve_memory(x, sizeof(Skin) + positions * sizeof(uint32_t), skin.where)) return result;
     skin.offsets.assign(positions + 1, 0);
     reader.read_bind_shape(element);
     if (reader.read_joints(element)) reader.read_weights(element);

@@ -1,8 +1,9 @@
-// collada/extract_source.cpp: <source>: an array and the accessor that cuts it into entries.
+// collada/extract/source.cpp: <source>: an array and the accessor that cuts it into entries.
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -146,7 +147,7 @@ DoubleSource read_double_source(Extraction& x, Link source) {
         x.diag.report(Code::SRC_EMPTY, x.where(source), source.element->value("id"));
         return out;
     }
-    if (!afford_parsing(x, {source.doc, array})) return out;
+    if (!reserve_parsing_memory(x, {source.doc, array})) return out;
     std::vector<double> values =
         read_doubles(x.document(source.doc), *array, x.diag, written_count(*array));
     if (x.options.everything) x.read_arrays.insert(array);
@@ -177,7 +178,7 @@ NameSource read_name_source(Extraction& x, Link source) {
     }
     if (out.array->name == "IDREF_array") out.kind = JointNames::Idref;
     if (out.array->name == "SIDREF_array") out.kind = JointNames::Sidref;
-    if (!afford_parsing(x, {source.doc, out.array})) return out;
+    if (!reserve_parsing_memory(x, {source.doc, out.array})) return out;
     out.written_count = read_count(x, {source.doc, out.array}, "count", 0);
     out.names = split_words(out.array->text);
     return out;

@@ -1,8 +1,8 @@
-// collada/extract_targets.cpp: "id/sid/sid.MEMBER", "(i)" and "(i)(j)" name part of a value.
+// collada/extract/targets.cpp: "id/sid/sid.MEMBER", "(i)" and "(i)(j)" name part of a value.
 #include <cctype>
 
-#include "collada/numbers_p.h"
-#include "collada/targets_p.h"
+#include "collada/extract/targets_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

@@ -1,7 +1,7 @@
-// collada/targets_p.h: resolves the target strings of channels and binds.
+// collada/extract/targets_p.h: resolves the target strings of channels and binds.
 #pragma once
 
-#include "collada/extract_p.h"
+#include "collada/extract/extract_p.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,9 @@
-// collada/extract_texcoords.cpp: from the names by which textures are looked up to sets of the
+// collada/extract/texcoords.cpp: from the names by which textures are looked up to sets of the
 // mesh.
 #include <algorithm>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

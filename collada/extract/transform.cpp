@@ -1,9 +1,10 @@
-// collada/extract_transform.cpp: the six transforms of a node, kept as they are written.
+// collada/extract/transform.cpp: the six transforms of a node, kept as they are written.
 #include <algorithm>
 #include <cmath>
 
-#include "collada/extract_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

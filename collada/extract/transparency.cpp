@@ -1,8 +1,8 @@
-// collada/extract_transparency.cpp: materials whose opacity the specification's formula makes 0.
+// collada/extract/transparency.cpp: materials whose opacity the specification's formula makes 0.
 #include <algorithm>
 #include <array>
 
-#include "collada/extract_p.h"
+#include "collada/extract/extract_p.h"
 
 namespace kinora::collada {
 

@@ -1,7 +1,7 @@
-// collada/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first joined
-// to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what touches itself then
-// is taken apart.
-#include "collada/triangulate_p.h"
+// collada/extract/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first
+// joined to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what touches
+// itself then is taken apart.
+#include "collada/extract/triangulate_p.h"
 
 #include <algorithm>
 #include <cmath>

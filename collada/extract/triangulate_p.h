@@ -1,4 +1,4 @@
-// collada/triangulate_p.h: polygons with holes become triangles.
+// collada/extract/triangulate_p.h: polygons with holes become triangles.
 #pragma once
 
 #include <cstdint>

@@ -1,13 +1,14 @@
-// collada/effects.h: effects (profile_RSL, profile_COMMON), materials and images.
+// collada/scene/effects.h: effects (profile_RSL, profile_COMMON), materials and images.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "collada/values.h"
+#include "collada/scene/values.h"
 
 namespace kinora::collada {
 
@@ -31,8 +32,9 @@ enum class ParamType : uint8_t {
 };
 uint32_t component_count(ParamType type);  // 1 2 3 4 16 1 1 3 3 3 3 16; String 1
 const char* param_type_name(ParamType type);
+bool find_param_type(std::string_view name, ParamType& type);  // false: no such type
 
-// Numbers in the order of the file (matrices too). A colour has 3: see DESIGN section 5.
+// Numbers in the order of the file (matrices too). A colour has 3: docs/format.md#profile_rsl.
 struct ParamValue {
     ParamType type = ParamType::Float;
     uint32_t array_length = 0;  // 0: no array

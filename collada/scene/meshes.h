@@ -1,11 +1,11 @@
-// collada/meshes.h: geometries, and the controllers that deform them.
+// collada/scene/meshes.h: geometries, and the controllers that deform them.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "collada/values.h"
+#include "collada/scene/values.h"
 
 namespace kinora::collada {
 

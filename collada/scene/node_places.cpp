@@ -1,5 +1,6 @@
-// collada/node_places.cpp: where the nodes of a scene stand, and the skins that they instance.
-#include "collada/node_places.h"
+// collada/scene/node_places.cpp: where the nodes of a scene stand, and the skins that they
+// instance.
+#include "collada/scene/node_places.h"
 
 #include "runtime/base/transform_matrix.h"
 

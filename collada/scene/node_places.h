@@ -1,10 +1,10 @@
-// collada/node_places.h: where the nodes of a scene stand, and the skins that they instance.
+// collada/scene/node_places.h: where the nodes of a scene stand, and the skins that they instance.
 #pragma once
 
 #include <unordered_map>
 #include <vector>
 
-#include "collada/scene.h"
+#include "collada/scene/scene.h"
 #include "runtime/base/skin_space.h"
 
 namespace kinora::collada {

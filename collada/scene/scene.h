@@ -1,4 +1,4 @@
-// collada/scene.h: what <scene> reaches, as plain structs with their numbers parsed.
+// collada/scene/scene.h: what <scene> reaches, as plain structs with their numbers parsed.
 //
 // Indices name entries of SceneData's lists; kNone is "none". All indices are valid: whatever the
 // file got wrong was reported and left out. Angles are degrees, as in the file. Spaces and units
@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "collada/document.h"
-#include "collada/effects.h"
-#include "collada/meshes.h"
-#include "collada/values.h"
+#include "collada/document/document.h"
+#include "collada/scene/effects.h"
+#include "collada/scene/meshes.h"
+#include "collada/scene/values.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/base/math.h"
 
@@ -217,26 +217,5 @@ struct SceneData {
     // From MAYA/MAX3D/FCOLLADA/Blender extras of scene and document, seconds.
     std::optional<double> start_time, end_time, frame_rate;
 };
-
-struct ExtractOptions {
-    // The tree that links and images may name: "" is the folder of the document.
-    std::string folder;
-    std::vector<std::string> allow_external;  // further trees, allowed by the user
-    std::string scene_id;  // of the visual scene instead of <scene>'s; ignored if there is none
-    std::optional<double> meter;    // instead of the root document's own
-    std::optional<UpAxis> up_axis;  // likewise
-    uint32_t max_documents = 256;
-    uint64_t max_node_instances = 1'000'000;  // nodes after unrolling instance_node
-    // For findings: reads what <scene> does not reach too, of the root document. Those items stand
-    // behind the others in SceneData's lists (channels between them, in document order). A document
-    // without a visual scene gives a SceneData without roots.
-    bool everything = false;
-};
-
-// Makes the structs of what <scene> reaches, in one pass over what it needs. Findings go to
-// `diag`; nothing is returned when there is nothing to show (no visual scene at all; SCENE_NONE).
-// Calls check_elements on every document it reads.
-std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
-                                 const ExtractOptions& options = {});
 
 }  // namespace kinora::collada

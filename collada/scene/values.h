@@ -1,4 +1,4 @@
-// collada/values.h: numbers that animation can write, and how they are named.
+// collada/scene/values.h: numbers that animation can write, and how they are named.
 #pragma once
 
 #include <array>

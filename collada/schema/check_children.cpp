@@ -1,6 +1,6 @@
-// collada/check_children.cpp: the children of an element against its content model, and what to say
-// of those that do not fit.
-#include "collada/check_elements_p.h"
+// collada/schema/check_children.cpp: the children of an element against its content model, and what
+// to say of those that do not fit.
+#include "collada/schema/check_elements_p.h"
 
 namespace kinora::collada {
 

@@ -1,6 +1,6 @@
-// collada/check_elements.cpp: a document against the table of elements.
-#include "collada/check_elements_p.h"
-#include "collada/schema.h"
+// collada/schema/check_elements.cpp: a document against the table of elements.
+#include "collada/schema/check_elements_p.h"
+#include "collada/schema/schema.h"
 
 namespace kinora::collada {
 

@@ -1,4 +1,4 @@
-// collada/check_elements_p.h: the walk that holds a document against the element table.
+// collada/schema/check_elements_p.h: the walk that holds a document against the element table.
 #pragma once
 
 #include <map>
@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "collada/element_types_p.h"
-#include "collada/findings.h"
-#include "collada/namespaces_p.h"
+#include "collada/document/findings.h"
+#include "collada/schema/element_types_p.h"
+#include "collada/schema/namespaces_p.h"
 
 namespace kinora::collada {
 

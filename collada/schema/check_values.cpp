@@ -1,6 +1,7 @@
-// collada/check_values.cpp: attributes and texts against the element table.
-#include "collada/check_elements_p.h"
-#include "collada/numbers_p.h"
+// collada/schema/check_values.cpp: attributes and texts against the element table.
+#include "collada/schema/check_elements_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/text/words_p.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,9 @@
-// collada/content_model.cpp: content cells to automata.
-#include "collada/content_model_p.h"
+// collada/schema/content_model.cpp: content cells to automata.
+#include "collada/schema/content_model_p.h"
 
 #include <algorithm>
 
-#include "collada/schema_rows_p.h"
+#include "collada/schema/schema_rows_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {

@@ -1,11 +1,11 @@
-// collada/content_model_p.h: which children an element may have, in which order.
+// collada/schema/content_model_p.h: which children an element may have, in which order.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

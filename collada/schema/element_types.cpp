@@ -1,9 +1,9 @@
-// collada/element_types.cpp: rows of the element table become rules.
-#include "collada/element_types_p.h"
+// collada/schema/element_types.cpp: rows of the element table become rules.
+#include "collada/schema/element_types_p.h"
 
 #include <algorithm>
 
-#include "collada/numbers_p.h"
+#include "collada/text/numbers_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {

@@ -1,5 +1,5 @@
-// collada/element_types_p.h: the element table of one version, each row parsed when first asked
-// for.
+// collada/schema/element_types_p.h: the element table of one version, each row parsed when first
+// asked for.
 #pragma once
 
 #include <deque>
@@ -7,9 +7,9 @@
 #include <mutex>
 #include <unordered_map>
 
-#include "collada/content_model_p.h"
-#include "collada/schema_rows_p.h"
-#include "collada/simple_types_p.h"
+#include "collada/schema/content_model_p.h"
+#include "collada/schema/schema_rows_p.h"
+#include "collada/schema/simple_types_p.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,9 @@
-// collada/links.cpp: the URIs of a document, by the element table.
-#include "collada/links.h"
+// collada/schema/links.cpp: the URIs of a document, by the element table.
+#include "collada/schema/links.h"
 
 #include <algorithm>
 
-#include "collada/element_types_p.h"
+#include "collada/schema/element_types_p.h"
 
 namespace kinora::collada {
 

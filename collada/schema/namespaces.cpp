@@ -1,10 +1,10 @@
-// collada/namespaces.cpp: xmlns attributes and xsi:schemaLocation, inside out.
-#include "collada/namespaces_p.h"
+// collada/schema/namespaces.cpp: xmlns attributes and xsi:schemaLocation, inside out.
+#include "collada/schema/namespaces_p.h"
 
 #include <string>
 
-#include "collada/edit.h"
-#include "collada/numbers_p.h"
+#include "collada/document/edit.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 

@@ -1,10 +1,10 @@
-// collada/namespaces_p.h: whose an element is: COLLADA's or another maker's.
+// collada/schema/namespaces_p.h: whose an element is: COLLADA's or another maker's.
 #pragma once
 
 #include <string_view>
 #include <unordered_map>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

@@ -1,8 +1,8 @@
-// collada/print_schema.cpp: the element table as an XML Schema.
+// collada/schema/print_schema.cpp: the element table as an XML Schema.
 #include <map>
 
-#include "collada/element_types_p.h"
-#include "collada/schema.h"
+#include "collada/schema/element_types_p.h"
+#include "collada/schema/schema.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {

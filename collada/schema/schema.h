@@ -1,10 +1,11 @@
-// collada/schema.h: the element table as others need it: as an XSD, and as an order of children.
+// collada/schema/schema.h: the element table as others need it: as an XSD, and as an order of
+// children.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

@@ -1,8 +1,8 @@
-// collada/schema_order.cpp: the children of an element in the order of the element table.
+// collada/schema/schema_order.cpp: the children of an element in the order of the element table.
 #include <algorithm>
 
-#include "collada/element_types_p.h"
-#include "collada/schema.h"
+#include "collada/schema/element_types_p.h"
+#include "collada/schema/schema.h"
 
 namespace kinora::collada {
 

@@ -1,5 +1,5 @@
-// collada/schema_rows.cpp: the element table's rows as arrays.
-#include "collada/schema_rows_p.h"
+// collada/schema/schema_rows.cpp: the element table's rows as arrays.
+#include "collada/schema/schema_rows_p.h"
 
 namespace kinora::collada {
 
@@ -9,7 +9,7 @@ namespace {
     {#type, Versions::versions, Use::use, attributes, content, text},
 #define GROUP(name, versions, content)
 constexpr ElementRow kElements[] = {
-#include "collada/elements.def"
+#include "collada/generated/elements.def"
 };
 #undef ELEMENT
 #undef GROUP
@@ -17,20 +17,20 @@ constexpr ElementRow kElements[] = {
 #define ELEMENT(type, versions, use, attributes, content, text)
 #define GROUP(name, versions, content) {#name, Versions::versions, content},
 constexpr ContentRow kGroups[] = {
-#include "collada/elements.def"
+#include "collada/generated/elements.def"
 };
 #undef ELEMENT
 #undef GROUP
 
 #define SIMPLE_TYPE(name, versions, base, facets) {#name, Versions::versions, #base, facets},
 constexpr SimpleRow kSimple[] = {
-#include "collada/simple_types.def"
+#include "collada/generated/simple_types.def"
 };
 #undef SIMPLE_TYPE
 
 #define GLOBAL_ELEMENTS(versions, names) {"", Versions::versions, names},
 constexpr ContentRow kGlobals[] = {
-#include "collada/global_elements.def"
+#include "collada/generated/global_elements.def"
 };
 #undef GLOBAL_ELEMENTS
 

@@ -1,11 +1,12 @@
-// collada/schema_rows_p.h: the rows of elements.def, simple_types.def and global_elements.def.
+// collada/schema/schema_rows_p.h: the rows of elements.def, simple_types.def and
+// global_elements.def.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-#include "collada/document.h"
+#include "collada/document/document.h"
 
 namespace kinora::collada {
 

@@ -1,10 +1,11 @@
-// collada/simple_types.cpp: the types of values: what they are built from, and checks.
-#include "collada/simple_types_p.h"
+// collada/schema/simple_types.cpp: the types of values: what they are built from, and checks.
+#include "collada/schema/simple_types_p.h"
 
 #include <algorithm>
 
-#include "collada/numbers_p.h"
-#include "collada/schema_rows_p.h"
+#include "collada/schema/schema_rows_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/text/words_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::collada {

@@ -1,11 +1,11 @@
-// collada/encoding.cpp: from the bytes of a file to UTF-8 text.
+// collada/text/encoding.cpp: from the bytes of a file to UTF-8 text.
 #include <array>
 #include <cctype>
 #include <cstdint>
 #include <numeric>
 #include <span>
 
-#include "collada/encoding_p.h"
+#include "collada/text/encoding_p.h"
 
 namespace kinora::collada {
 
@@ -187,6 +187,33 @@ DecodedText decode_text(std::string bytes) {
     if (valid_utf8(view)) return {std::move(bytes), {}, {}};
     return {
         utf8_from_latin1(view), {}, "Latin-1, since the encoding '" + encoding + "' is unknown"};
+}
+
+namespace {
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+}  // namespace
+
+std::string percent_decode(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (size_t i = 0; i < text.size(); ++i) {
+        int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+        int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+        if (text[i] == '%' && high >= 0 && low >= 0 && high + low > 0) {
+            out += char(high * 16 + low);
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
 }
 
 }  // namespace kinora::collada

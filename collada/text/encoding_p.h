@@ -1,4 +1,4 @@
-// collada/encoding_p.h: from the bytes of a file to UTF-8 text.
+// collada/text/encoding_p.h: from the bytes of a file to UTF-8 text.
 #pragma once
 
 #include <optional>
@@ -19,5 +19,8 @@ DecodedText decode_text(std::string bytes);
 std::string utf8_from_latin1(std::string_view bytes);
 bool valid_utf8(std::string_view text);
 void append_utf8(std::string& out, uint32_t code_point);
+
+// %20 as a space; what is no such triple, and %00, stays.
+std::string percent_decode(std::string_view text);
 
 }  // namespace kinora::collada

@@ -1,5 +1,6 @@
-// collada/entities.cpp: where a text uses an entity that its document type would have to explain.
-#include "collada/entities_p.h"
+// collada/text/entities.cpp: where a text uses an entity that its document type would have to
+// explain.
+#include "collada/text/entities_p.h"
 
 #include <algorithm>
 

@@ -1,10 +1,11 @@
-// collada/entities_p.h: where a text uses an entity that its document type would have to explain.
+// collada/text/entities_p.h: where a text uses an entity that its document type would have to
+// explain.
 #pragma once
 
 #include <optional>
 #include <string_view>
 
-#include "collada/document.h"
+#include "collada/text/byte_range.h"
 
 namespace kinora::collada {
 

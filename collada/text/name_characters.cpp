@@ -1,9 +1,9 @@
-// collada/name_characters.cpp: which characters beyond ASCII a name may have: XML 1.0, fourth
+// collada/text/name_characters.cpp: which characters beyond ASCII a name may have: XML 1.0, fourth
 // edition, appendix B, which is what XML Schema's name types go by (the fifth edition allows more).
 #include <algorithm>
 #include <iterator>
 
-#include "collada/simple_types_p.h"
+#include "collada/text/words_p.h"
 
 namespace kinora::collada {
 

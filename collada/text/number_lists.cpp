@@ -1,9 +1,9 @@
-// collada/number_lists.cpp: runs of short numbers, a whole number at a time.
+// collada/text/number_lists.cpp: runs of short numbers, a whole number at a time.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "collada/number_reading_p.h"
+#include "collada/text/number_reading_p.h"
 
 namespace kinora::collada {
 

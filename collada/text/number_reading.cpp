@@ -1,5 +1,5 @@
-// collada/number_reading.cpp: decimal to binary, exact, for powers of ten from -27 to 22.
-#include "collada/number_reading_p.h"
+// collada/text/number_reading.cpp: decimal to binary, exact, for powers of ten from -27 to 22.
+#include "collada/text/number_reading_p.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// collada/number_reading_p.h: one number of a list, eight digits at a time.
+// collada/text/number_reading_p.h: one number of a list, eight digits at a time.
 //
 // A byte of a word of eight is a digit when it is 0..9 after xor with '0'; the run of digits is
 // shifted to the word's top, which puts zeros before it, and summed in three multiplications.

@@ -1,5 +1,5 @@
-// collada/number_scan.cpp: is a text a list of numbers as XML Schema writes them? 64 bytes at a
-// time become bit masks of digits, points, signs and white space, and rules of which may follow
+// collada/text/number_scan.cpp: is a text a list of numbers as XML Schema writes them? 64 bytes at
+// a time become bit masks of digits, points, signs and white space, and rules of which may follow
 // which are a few operations on those. What they do not accept a table decides, one look-up a byte:
 // four parts of the text at once, since each waits for its last look-up.
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <emmintrin.h>
 #endif
 
-#include "collada/simple_types_p.h"
+#include "collada/text/words_p.h"
 
 namespace kinora::collada {
 

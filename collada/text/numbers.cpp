@@ -1,4 +1,4 @@
-// collada/numbers.cpp: the numbers of an element's text, whatever the locale.
+// collada/text/numbers.cpp: the numbers and words of a text, whatever the locale.
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <string>
 
-#include "collada/findings.h"
-#include "collada/number_reading_p.h"
-#include "collada/numbers_p.h"
+#include "collada/text/number_reading_p.h"
+#include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
 
@@ -61,32 +61,24 @@ bool windows_nan(std::string_view word, double& value) {
     return true;
 }
 
-// The first trouble of each kind in one text: words of it, length 0 for none.
-struct Trouble {
-    struct Word {
-        size_t begin = 0, length = 0;
-    };
-    Word number, comma, nonfinite;
-};
-
-double slow_double(std::string_view word, size_t at, Trouble& trouble) {
-    auto note = [&](Trouble::Word& first) {
+double slow_double(std::string_view word, size_t at, NumberFaults& faults) {
+    auto note = [&](NumberFaults::Word& first) {
         if (first.length == 0) first = {at, word.size()};
     };
     double value = 0;
     if (exact_double(word, value) || windows_nan(word, value)) {
-        if (!std::isfinite(value)) note(trouble.nonfinite);
+        if (!std::isfinite(value)) note(faults.nonfinite);
     } else if (comma_decimal(word, value)) {
-        note(trouble.comma);
+        note(faults.comma);
     } else {
-        note(trouble.number);
+        note(faults.number);
         value = 0;
     }
     return value;
 }
 
 // Digits that do not fit are cut to the largest number, other nonsense is 0.
-int32_t slow_int(std::string_view word, size_t at, Trouble& trouble) {
+int32_t slow_int(std::string_view word, size_t at, NumberFaults& faults) {
     bool negative = word.starts_with('-');
     std::string_view digits = word.substr(negative || word.starts_with('+'));
     const int64_t most = std::numeric_limits<int32_t>::max() + int64_t(negative);
@@ -97,20 +89,8 @@ int32_t slow_int(std::string_view word, size_t at, Trouble& trouble) {
         value = std::min(value * 10 + (c - '0'), most);
     }
     if (!digits.empty()) return int32_t(negative ? -value : value);
-    if (trouble.number.length == 0) trouble.number = {at, word.size()};
+    if (faults.number.length == 0) faults.number = {at, word.size()};
     return 0;
-}
-
-void report(const Trouble& trouble, const Document& document, const Element& element,
-            Diagnostics& diag) {
-    auto say = [&](const FindingInfo& code, Trouble::Word word) {
-        if (word.length == 0) return;
-        diag.report(code, document.text_location(element, word.begin, word.begin + word.length),
-                    element.text.substr(word.begin, word.length));
-    };
-    say(Code::SRC_NUMBER, trouble.number);
-    say(Code::SRC_COMMA_DECIMAL, trouble.comma);
-    say(Code::SRC_NAN_INF, trouble.nonfinite);
 }
 
 const char* word_end(const char* p, const char* end) {
@@ -162,16 +142,13 @@ const char* read_short(const char*, const char* p, const char* end, int32_t*& ou
 
 // Short words are read a piece of the text at a time, then one word of any form.
 template <class T, bool (*Scan)(const char*, const char*, T&),
-          T (*Slow)(std::string_view, size_t, Trouble&)>
-std::vector<T> read_list(const Document& document, const Element& element, Diagnostics& diag,
-                         size_t expected) {
+          T (*Slow)(std::string_view, size_t, NumberFaults&)>
+std::vector<T> scan_list(std::string_view text, size_t expected, NumberFaults& faults) {
     constexpr std::ptrdiff_t kPiece = 1024;  // bytes; a number and its space are two at least
     T piece[kPiece / 2 + 1];
     std::vector<T> values;
-    values.reserve(expected ? std::min(expected, element.text.size() / 2 + 1)
-                            : count_words(element.text));
-    Trouble trouble;
-    Words words(element.text);
+    values.reserve(expected ? std::min(expected, text.size() / 2 + 1) : count_words(text));
+    Words words(text);
     while (true) {
         T* out = piece;
         const char* end = words.p + std::min(words.end - words.p, kPiece + kScanReach);
@@ -179,11 +156,10 @@ std::vector<T> read_list(const Document& document, const Element& element, Diagn
         values.insert(values.end(), piece, out);
         if (!words.next()) break;
         T value = 0;
-        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.place(), trouble);
+        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.place(), faults);
         values.push_back(value);
         words.p = words.stop;
     }
-    report(trouble, document, element, diag);
     return values;
 }
 
@@ -229,19 +205,12 @@ size_t count_words(std::string_view text) {
     return words;
 }
 
-std::vector<double> read_doubles(const Document& document, const Element& element,
-                                 Diagnostics& diag, size_t expected) {
-    return read_list<double, scan_double, slow_double>(document, element, diag, expected);
+std::vector<double> scan_doubles(std::string_view text, size_t expected, NumberFaults& faults) {
+    return scan_list<double, scan_double, slow_double>(text, expected, faults);
 }
 
-std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag,
-                               size_t expected) {
-    return read_list<int32_t, scan_int, slow_int>(document, element, diag, expected);
-}
-
-size_t written_count(const Element& element) {
-    uint64_t count = 0;
-    return parse_count(element.value("count"), count) ? size_t(count) : 0;
+std::vector<int32_t> scan_ints(std::string_view text, size_t expected, NumberFaults& faults) {
+    return scan_list<int32_t, scan_int, slow_int>(text, expected, faults);
 }
 
 std::string_view trim(std::string_view text) {

@@ -1,25 +1,27 @@
-// collada/numbers_p.h: the numbers of an element's text, whatever the locale.
+// collada/text/numbers_p.h: the numbers and words of a text, whatever the locale.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
-
-#include "collada/document.h"
 
 namespace kinora::collada {
 
-// Each reads all numbers of the text. What is no number becomes 0 (SRC_NUMBER), a decimal comma is
-// understood (SRC_COMMA_DECIMAL), NaN and infinities are kept; of each kind the first is reported
-// with its place. `expected`, how many there are likely to be, spares counting them (0: unknown);
-// it may be wrong, and no more memory is taken than what the text can hold.
-std::vector<double> read_doubles(const Document& document, const Element& element,
-                                 Diagnostics& diag, size_t expected = 0);
+// What was wrong with the words of a list of numbers: of each kind the first, length 0 for none.
+struct NumberFaults {
+    struct Word {
+        size_t begin = 0, length = 0;  // in the text
+    };
+    Word number;     // it is no number: 0
+    Word comma;      // a decimal comma, which is understood
+    Word nonfinite;  // NaN or an infinity, which is kept
+};
+// All numbers of the text. `expected`, how many there are likely to be, spares counting them (0:
+// unknown); it may be wrong, and no more memory is taken than what the text can hold.
+std::vector<double> scan_doubles(std::string_view text, size_t expected, NumberFaults& faults);
 // Values beyond 32 bits are clamped, which puts them out of every range.
-std::vector<int32_t> read_ints(const Document& document, const Element& element, Diagnostics& diag,
-                               size_t expected = 0);
-// What its count attribute says; 0 without one.
-size_t written_count(const Element& element);
+std::vector<int32_t> scan_ints(std::string_view text, size_t expected, NumberFaults& faults);
 
 // One number alone; false when the text (trimmed) is anything else or not finite.
 bool parse_double(std::string_view text, double& value);

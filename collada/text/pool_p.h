@@ -1,4 +1,4 @@
-// collada/pool_p.h: small pieces out of an arena.
+// collada/text/pool_p.h: small pieces out of an arena.
 #pragma once
 
 #include <cstring>

@@ -1,9 +1,9 @@
-// collada/words.cpp: the forms of one word: names, URIs, dates.
+// collada/text/words.cpp: the forms of one word: names, URIs, dates.
 #include <algorithm>
 #include <array>
 #include <cstring>
 
-#include "collada/simple_types_p.h"
+#include "collada/text/words_p.h"
 
 namespace kinora::collada {
 

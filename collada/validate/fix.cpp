@@ -1,11 +1,11 @@
-// collada/fix.cpp: which code is repaired by what; rounds of repairs until none is left.
-#include "collada/fix.h"
+// collada/validate/fix.cpp: which code is repaired by what; rounds of repairs until none is left.
+#include "collada/validate/fix.h"
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
-#include "collada/fix_p.h"
+#include "collada/validate/fix_p.h"
 
 namespace kinora::collada {
 

@@ -1,11 +1,11 @@
-// collada/fix.h: repairs of what validation finds, as edits of the document's bytes.
+// collada/validate/fix.h: repairs of what validation finds, as edits of the document's bytes.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 
 namespace kinora::collada {
 

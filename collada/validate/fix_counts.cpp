@@ -1,9 +1,9 @@
-// collada/fix_counts.cpp: count attributes set to what is there.
+// collada/validate/fix_counts.cpp: count attributes set to what is there.
 #include <algorithm>
 
-#include "collada/extract_p.h"
-#include "collada/fix_p.h"
-#include "collada/numbers_p.h"
+#include "collada/extract/extract_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/fix_p.h"
 
 namespace kinora::collada {
 

@@ -1,6 +1,7 @@
-// collada/fix_order.cpp: children into the order of the schema; empty libraries taken away.
-#include "collada/fix_p.h"
-#include "collada/schema.h"
+// collada/validate/fix_order.cpp: children into the order of the schema; empty libraries taken
+// away.
+#include "collada/schema/schema.h"
+#include "collada/validate/fix_p.h"
 
 namespace kinora::collada {
 

@@ -1,12 +1,13 @@
-// collada/fix_p.h: a repairer gets the findings of one code and gives edits that remove them.
+// collada/validate/fix_p.h: a repairer gets the findings of one code and gives edits that remove
+// them.
 #pragma once
 
 #include <vector>
 
-#include "collada/edit.h"
-#include "collada/findings.h"
-#include "collada/id_path.h"
-#include "collada/scene.h"
+#include "collada/document/edit.h"
+#include "collada/document/findings.h"
+#include "collada/document/id_path.h"
+#include "collada/scene/scene.h"
 
 namespace kinora::collada {
 

@@ -1,13 +1,13 @@
-// collada/fix_text.cpp: decimal commas, links without '#', paths.
+// collada/validate/fix_text.cpp: decimal commas, links without '#', paths.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include "collada/fix_p.h"
-#include "collada/numbers_p.h"
-#include "collada/write.h"
+#include "collada/document/write.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/fix_p.h"
 
 namespace kinora::collada {
 

@@ -1,5 +1,5 @@
-// collada/lint_asset.cpp: what <asset> should say.
-#include "collada/lint_p.h"
+// collada/validate/lint_asset.cpp: what <asset> should say.
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

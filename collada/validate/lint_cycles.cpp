@@ -1,10 +1,11 @@
-// collada/lint_cycles.cpp: definitions that lead back to themselves. Cycles of instance_node are
-// found where the node tree is read.
+// collada/validate/lint_cycles.cpp: definitions that lead back to themselves. Cycles of
+// instance_node are found where the node tree is read.
 #include <algorithm>
 #include <string>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/uri.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,7 +1,7 @@
-// collada/lint_effects.cpp: transparency in parts that readers fill in differently.
+// collada/validate/lint_effects.cpp: transparency in parts that readers fill in differently.
 #include <algorithm>
 
-#include "collada/lint_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,10 @@
-// collada/lint_files.cpp: files that <include> names; of images the reader speaks, of RSL sources
-// the reader of profile_RSL.
+// collada/validate/lint_files.cpp: files that <include> names; of images the reader speaks, of RSL
+// sources the reader of profile_RSL.
 #include <filesystem>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/uri.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,10 +1,11 @@
-// collada/lint_foreign.cpp: elements of other makers against the schema that the document names for
-// them. The program that validates brings the checker of schemas along.
+// collada/validate/lint_foreign.cpp: elements of other makers against the schema that the document
+// names for them. The program that validates brings the checker of schemas along.
 #include <filesystem>
 #include <map>
 
-#include "collada/lint_p.h"
-#include "collada/namespaces_p.h"
+#include "collada/document/uri.h"
+#include "collada/schema/namespaces_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

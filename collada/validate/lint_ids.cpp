@@ -1,9 +1,9 @@
-// collada/lint_ids.cpp: the characters and uniqueness of ids and sids.
+// collada/validate/lint_ids.cpp: the characters and uniqueness of ids and sids.
 #include <algorithm>
 #include <array>
 #include <unordered_set>
 
-#include "collada/lint_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,8 +1,8 @@
-// collada/lint_inputs.cpp: several inputs of one semantic in one primitive element.
+// collada/validate/lint_inputs.cpp: several inputs of one semantic in one primitive element.
 #include <map>
 #include <set>
 
-#include "collada/lint_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

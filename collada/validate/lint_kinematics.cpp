@@ -1,9 +1,11 @@
-// collada/lint_kinematics.cpp: joints, axes and what binds a kinematics scene to nodes (1.5).
+// collada/validate/lint_kinematics.cpp: joints, axes and what binds a kinematics scene to nodes
+// (1.5).
 #include <cmath>
 #include <unordered_set>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,9 +1,9 @@
-// collada/lint_links.cpp: every link of the document leads to an element of the right kind; links
-// into other documents.
+// collada/validate/lint_links.cpp: every link of the document leads to an element of the right
+// kind; links into other documents.
 #include <set>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,8 +1,8 @@
-// collada/lint_materials.cpp: the symbols of primitives against those that instances bind.
+// collada/validate/lint_materials.cpp: the symbols of primitives against those that instances bind.
 #include <algorithm>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

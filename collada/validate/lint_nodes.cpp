@@ -1,9 +1,10 @@
-// collada/lint_nodes.cpp: node matrices that flatten, that a skin ignores; many influences.
+// collada/validate/lint_nodes.cpp: node matrices that flatten, that a skin ignores; many
+// influences.
 #include <algorithm>
 #include <cmath>
 
-#include "collada/lint_p.h"
-#include "collada/node_places.h"
+#include "collada/scene/node_places.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,15 +1,16 @@
-// collada/lint_p.h: rules only the validator runs. A rule looks at the whole document, reached by
-// <scene> or not, and reports what reading it (extract) cannot see or does not care about. What
-// extract reports, a rule does not report again (an exact repeat is dropped by validate).
+// collada/validate/lint_p.h: rules only the validator runs. A rule looks at the whole document,
+// reached by <scene> or not, and reports what reading it (extract) cannot see or does not care
+// about. What extract reports, a rule does not report again (an exact repeat is dropped by
+// validate).
 #pragma once
 
 #include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "collada/extract_p.h"
-#include "collada/findings.h"
-#include "collada/validate.h"
+#include "collada/document/findings.h"
+#include "collada/extract/extract_p.h"
+#include "collada/validate/validate.h"
 
 namespace kinora::collada {
 
@@ -37,7 +38,7 @@ struct Lint {
 
 // One function a row of lint.def, in a file named after it: lint_NAME.cpp.
 #define LINT(name, about) void lint_##name(Lint& lint);
-#include "collada/lint.def"
+#include "collada/validate/lint.def"
 #undef LINT
 
 }  // namespace kinora::collada

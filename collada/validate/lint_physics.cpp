@@ -1,10 +1,12 @@
-// collada/lint_physics.cpp: rigid bodies, constraints and shapes of physics models and scenes.
+// collada/validate/lint_physics.cpp: rigid bodies, constraints and shapes of physics models and
+// scenes.
 #include <cmath>
 #include <set>
 #include <unordered_set>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

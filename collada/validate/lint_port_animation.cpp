@@ -1,8 +1,8 @@
-// collada/lint_port_animation.cpp: motion that other importers bend. Each habit is reported where
-// it first occurs, wide turns at each sampler.
+// collada/validate/lint_port_animation.cpp: motion that other importers bend. Each habit is
+// reported where it first occurs, wide turns at each sampler.
 #include <cmath>
 
-#include "collada/lint_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,8 +1,8 @@
-// collada/lint_port_mesh.cpp: meshes that other importers cut or colour in their own way. Each
-// habit is reported where it first occurs.
+// collada/validate/lint_port_mesh.cpp: meshes that other importers cut or colour in their own way.
+// Each habit is reported where it first occurs.
 #include <set>
 
-#include "collada/lint_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

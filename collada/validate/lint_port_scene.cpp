@@ -1,7 +1,8 @@
-// collada/lint_port_scene.cpp: units, cameras, nodes, materials: what other importers lose.
+// collada/validate/lint_port_scene.cpp: units, cameras, nodes, materials: what other importers
+// lose.
 #include <set>
 
-#include "collada/lint_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,7 +1,7 @@
-// collada/lint_sources.cpp: sources that no reader asked for, arrays of names, and what an input
-// expects of its source's <param>s.
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+// collada/validate/lint_sources.cpp: sources that no reader asked for, arrays of names, and what an
+// input expects of its source's <param>s.
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

@@ -1,5 +1,5 @@
-// collada/lint_textures.cpp: samplers written as the other version has them.
-#include "collada/lint_p.h"
+// collada/validate/lint_textures.cpp: samplers written as the other version has them.
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

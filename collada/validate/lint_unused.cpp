@@ -1,9 +1,10 @@
-// collada/lint_unused.cpp: library items that nothing leads to from <scene>.
+// collada/validate/lint_unused.cpp: library items that nothing leads to from <scene>.
 #include <algorithm>
 #include <unordered_set>
 
-#include "collada/lint_p.h"
-#include "collada/numbers_p.h"
+#include "collada/text/encoding_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 

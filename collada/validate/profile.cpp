@@ -1,7 +1,7 @@
-// collada/profile.cpp: which codes are departures from the schema.
-#include "collada/profile.h"
+// collada/validate/profile.cpp: which codes are departures from the schema.
+#include "collada/validate/profile.h"
 
-#include "collada/findings.h"
+#include "collada/document/findings.h"
 
 namespace kinora::collada {
 

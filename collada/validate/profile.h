@@ -1,7 +1,7 @@
-// collada/profile.h: how much a finding weighs in a profile.
+// collada/validate/profile.h: how much a finding weighs in a profile.
 #pragma once
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 
 namespace kinora::collada {
 

@@ -1,7 +1,9 @@
-// collada/validate.cpp: the element table, the reader and the lint rules over one document.
-#include "collada/validate.h"
+// collada/validate/validate.cpp: the element table, the reader and the lint rules over one
+// document.
+#include "collada/validate/validate.h"
 
-#include "collada/lint_p.h"
+#include "collada/extract/extract.h"
+#include "collada/validate/lint_p.h"
 
 namespace kinora::collada {
 
@@ -23,7 +25,7 @@ void list_elements(const Element& element, bool ours, Lint& lint) {
 
 constexpr void (*kRules[])(Lint&) = {
 #define LINT(name, about) lint_##name,
-#include "collada/lint.def"
+#include "collada/validate/lint.def"
 #undef LINT
 };
 

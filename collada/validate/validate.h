@@ -1,4 +1,4 @@
-// collada/validate.h: everything that can be said about a document.
+// collada/validate/validate.h: everything that can be said about a document.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "collada/document.h"
-#include "collada/scene.h"
-#include "runtime/base/file_trees.h"
+#include "collada/document/document.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/scene.h"
+#include "runtime/base/allowed_paths.h"
 
 namespace kinora::collada {
 
@@ -23,7 +24,7 @@ struct ForeignElements {
     std::string_view name_space;
     const std::string& schema;  // a file that may be read
     std::span<const Element* const> elements;
-    const FileTrees& files;  // where what the schema includes may lie
+    const AllowedPaths& files;  // where what the schema includes may lie
     Diagnostics& diag;
 };
 
