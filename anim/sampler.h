@@ -10,7 +10,7 @@
 
 namespace kinora::anim {
 
-// How a segment runs from its left key to the next. COLLADA.md's definitions:
+// How a segment runs from its left key to the next (docs/format.md#transforms-and-animation):
 //   BEZIER   2-D tangents are absolute (time, value) control points, the time being a cubic of its
 //            own; 1-D ones are relative, C0 = P0 + OUT, C1 = P1 - IN, with times at the thirds.
 //   HERMITE  1-D tangents are derivatives over the segment's 0..1; 2-D ones are absolute points

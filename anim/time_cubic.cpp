@@ -1,7 +1,7 @@
 // anim/time_cubic.cpp: a bracketed Newton solver about the segment's flattest point.
 //
-// Plain Newton leaves vertical tangents by whole units (EXTREMES.md 1b). Two things cure it: the
-// root stays in a bracket that halves when Newton does not help, and the cubic is written about
+// Plain Newton leaves vertical tangents by whole units (docs/numerics.md#keys). Two things cure it:
+// the root stays in a bracket that halves when Newton does not help, and the cubic is written about
 // the parameter where its slope is least (within the segment, or the nearer end), f(w) = d w +
 // e w^2 + a w^3 - r. There, where a double or triple root makes the answer sensitive, f's terms are
 // small and so are their roundings.

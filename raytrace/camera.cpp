@@ -68,7 +68,7 @@ bool orthonormal_axes(const dmat4& m, Camera& out) {
     return true;
 }
 
-// EXTREMES.md row 86: znear of 1e-6 of the scene where there is none, zfar beyond everything.
+// docs/numerics.md#cameras: znear of 1e-6 of the scene where there is none, zfar beyond everything.
 bool repair_clip_range(double scene_size, Camera& camera) {
     double size = scene_size > 0 && std::isfinite(scene_size) ? scene_size : 1;
     bool sound = camera.znear > 0 && camera.zfar > camera.znear && std::isfinite(camera.zfar);

@@ -32,7 +32,7 @@ constexpr bool is_error(CameraStatus s) {
     return s != CameraStatus::Ok && s != CameraStatus::ClipRangeRepaired;
 }
 
-// Camera space is RenderMan's: x right, y up, z into the picture (DESIGN.md decision 9).
+// Camera space is RenderMan's: x right, y up, z into the picture (docs/decisions.md#spaces).
 struct Camera {
     bool orthographic = false;
     int width = 0;  // pixels

@@ -236,7 +236,7 @@ void EmbreeInstance::set_matrix(const float columns[12]) {
 EmbreeScene::EmbreeScene(bool dynamic, bool robust) {
     RTCScene s = rtcNewScene(device());
     scene_ = s;
-    // Never HIGH: it aborts on extreme meshes in Debian's build (EXTREMES.md, row 7).
+    // Never HIGH: it aborts on extreme meshes in Debian's build (docs/numerics.md#geometry).
     rtcSetSceneBuildQuality(s, dynamic ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     unsigned flags = RTC_SCENE_FLAG_NONE;
     if (dynamic) flags |= RTC_SCENE_FLAG_DYNAMIC;

@@ -1,4 +1,5 @@
-// raytrace/sampling.h: random numbers without state: a hash of who asks (DESIGN.md decision 10).
+// raytrace/sampling.h: random numbers without state: a hash of who asks
+// (docs/decisions.md#random-numbers-without-state).
 #pragma once
 
 #include <cstdint>

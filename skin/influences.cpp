@@ -8,7 +8,7 @@ namespace kinora::skin {
 namespace {
 
 constexpr uint32_t kPlace = sizeof(JointMatrix) / sizeof(float);
-constexpr double kSumTolerance = 1e-3;  // EXTREMES.md row 35: sums nearer to 1 need no warning
+constexpr double kSumTolerance = 1e-3;  // docs/numerics.md#skins: sums nearer to 1 need no warning
 
 struct RawInfluence {
     uint32_t place;

@@ -1,5 +1,5 @@
-// runtime/base/file_trees.cpp: paths against folders, by what they really are.
-#include "runtime/base/file_trees.h"
+// runtime/base/allowed_paths.cpp: paths against folders, by what they really are.
+#include "runtime/base/allowed_paths.h"
 
 #include <filesystem>
 
@@ -40,17 +40,17 @@ std::string real_path(const std::string& path) {
     return text;
 }
 
-FileTrees::FileTrees(const std::vector<std::string>& folders) : limited_(true) {
+AllowedPaths::AllowedPaths(const std::vector<std::string>& folders) : limited_(true) {
     for (const std::string& folder : folders) add(folder);
 }
 
-void FileTrees::add(const std::string& folder) {
+void AllowedPaths::add(const std::string& folder) {
     if (!limited_) return;
     folders_.push_back(folder.empty() || folder.ends_with('/') ? folder : folder + "/");
     real_.push_back(real_path(folder));
 }
 
-bool FileTrees::contains(const std::string& path) const {
+bool AllowedPaths::contains(const std::string& path) const {
     if (!limited_) return true;
     if (!is_path(path)) return false;
     std::string real = real_path(path);
@@ -60,7 +60,7 @@ bool FileTrees::contains(const std::string& path) const {
     return false;
 }
 
-FileTrees::Found FileTrees::find(std::string_view text) const {
+AllowedPaths::Found AllowedPaths::find(std::string_view text) const {
     std::string name(text);
     if (!limited_ || name.empty()) return {name};
     if (!is_path(text)) return {name, true};

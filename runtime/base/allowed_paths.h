@@ -1,4 +1,4 @@
-// runtime/base/file_trees.h: the folders whose files a scene may name. Links of the file system
+// runtime/base/allowed_paths.h: the folders whose files a scene may name. Links of the file system
 // count as what they lead to: a path lies where its real path does.
 #pragma once
 
@@ -12,11 +12,11 @@ namespace kinora {
 std::string real_path(const std::string& path);
 
 // Default-made: every file, and relative names mean the current folder.
-class FileTrees {
+class AllowedPaths {
   public:
-    FileTrees() = default;
+    AllowedPaths() = default;
     // The trees below these folders ("" is the current one) and nothing else.
-    explicit FileTrees(const std::vector<std::string>& folders);
+    explicit AllowedPaths(const std::vector<std::string>& folders);
 
     bool limited() const { return limited_; }
     void add(const std::string& folder);  // no-op where there is no limit
@@ -33,7 +33,7 @@ class FileTrees {
     // folder where that lies in a tree, else to the first one.
     Found find(std::string_view name) const;
 
-    bool operator==(const FileTrees&) const = default;
+    bool operator==(const AllowedPaths&) const = default;
 
   private:
     bool limited_ = false;

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "runtime/base/check.h"
-#include "runtime/base/shown_path.h"
+#include "runtime/base/display_path.h"
 
 namespace kinora {
 
@@ -128,7 +128,8 @@ Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string m
         static thread_local Finding unheard;
         return unheard = {&info, severity, where, {}, {}, {}, {}};
     }
-    findings_.push_back({&info, severity, where, shown_path(std::move(message)), {}, info.fix, {}});
+    findings_.push_back(
+        {&info, severity, where, display_path(std::move(message)), {}, info.fix, {}});
     return findings_.back();
 }
 
@@ -201,7 +202,7 @@ std::string printable(std::string_view text) {
 std::string place_text(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return "kinora";
     LineColumn at = files.line_column(where.file, where.begin);
-    return fmt::format("{}:{}:{}", printable(shown_path(files.name(where.file))), at.line,
+    return fmt::format("{}:{}:{}", printable(display_path(files.name(where.file))), at.line,
                        at.column);
 }
 

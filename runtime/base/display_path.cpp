@@ -1,5 +1,5 @@
-// runtime/base/shown_path.cpp: folders and the names that findings give them.
-#include "runtime/base/shown_path.h"
+// runtime/base/display_path.cpp: folders and the names that findings give them.
+#include "runtime/base/display_path.h"
 
 #include <atomic>
 #include <map>
@@ -31,7 +31,7 @@ void show_folder_as(const std::string& folder, const std::string& name) {
     all.any = true;
 }
 
-std::string shown_path(std::string text) {
+std::string display_path(std::string text) {
     ShownFolders& all = folders();
     if (!all.any) return text;
     std::lock_guard lock(all.mutex);

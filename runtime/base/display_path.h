@@ -1,5 +1,5 @@
-// runtime/base/shown_path.h: how findings name files that stand in a folder of our own making: the
-// members of an unpacked archive are "scene.zae!textures/wood.png", not a path below /tmp.
+// runtime/base/display_path.h: how findings name files that stand in a folder of our own making:
+// the members of an unpacked archive are "scene.zae!textures/wood.png", not a path below /tmp.
 #pragma once
 
 #include <string>
@@ -11,6 +11,6 @@ namespace kinora {
 void show_folder_as(const std::string& folder, const std::string& name);
 
 // `text` with every such beginning replaced, anywhere in it.
-std::string shown_path(std::string text);
+std::string display_path(std::string text);
 
 }  // namespace kinora

@@ -43,7 +43,8 @@ dmat4 rows_matrix(const double* v) {
     dmat4 m;
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) m[column][row] = v[row * 4 + column];
-    // The last row of an affine matrix is 0 0 0 1 (EXTREMES row 14: anything else is ignored).
+    // The last row of an affine matrix is 0 0 0 1 (docs/numerics.md#geometry: anything else is
+    // ignored).
     for (int column = 0; column < 4; ++column) m[column][3] = column == 3 ? 1.0 : 0.0;
     return m;
 }

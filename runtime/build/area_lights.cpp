@@ -1,6 +1,6 @@
-// runtime/build_area_lights.cpp: surfaces whose material has a LIGHT shader become area lights.
-#include "runtime/build_scene_p.h"
-#include "runtime/shader_library.h"
+// runtime/build/area_lights.cpp: surfaces whose material has a LIGHT shader become area lights.
+#include "runtime/build/scene_p.h"
+#include "runtime/description/shader_library.h"
 
 namespace kinora {
 

@@ -1,12 +1,12 @@
-// runtime/defaults.cpp: the default camera and lights.
-#include "runtime/defaults.h"
+// runtime/build/defaults.cpp: the default camera and lights.
+#include "runtime/build/defaults.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "runtime/shader_library.h"
+#include "runtime/description/shader_library.h"
 
 namespace kinora {
 

@@ -1,7 +1,8 @@
-// runtime/defaults.h: the camera and lights of scenes that bring none (DESIGN.md section 5).
+// runtime/build/defaults.h: the camera and lights of scenes that bring none
+// (docs/format.md#cameras).
 #pragma once
 
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

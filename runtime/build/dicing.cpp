@@ -1,13 +1,13 @@
-// runtime/build_dicing.cpp: displaced meshes diced for the closest views of the range played.
+// runtime/build/dicing.cpp: displaced meshes diced for the closest views of the range played.
 //
 // How fine a mesh is diced depends on the scene, its camera, the range played and the size of the
 // picture, not on which frames are rendered: a frame is the same alone and in a sequence.
 #include <algorithm>
 
-#include "runtime/build_displacement_p.h"
-#include "runtime/deform.h"
-#include "runtime/findings.h"
-#include "runtime/frame.h"
+#include "runtime/build/displacement_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/camera.h"
+#include "runtime/vertices/deform.h"
 
 namespace kinora {
 

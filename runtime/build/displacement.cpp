@@ -1,14 +1,14 @@
-// runtime/build_displacement.cpp: meshes whose shaders move vertices: found, diced, and moved, once
+// runtime/build/displacement.cpp: meshes whose shaders move vertices: found, diced, and moved, once
 // or ready to be at each frame.
 #include <algorithm>
 #include <array>
 #include <map>
 
 #include "runtime/base/stats.h"
-#include "runtime/build_displacement_p.h"
-#include "runtime/build_mesh.h"
-#include "runtime/deform.h"
-#include "runtime/vertex_work.h"
+#include "runtime/build/displacement_p.h"
+#include "runtime/build/mesh.h"
+#include "runtime/vertices/deform.h"
+#include "runtime/vertices/vertex_work.h"
 
 namespace kinora {
 
@@ -62,7 +62,7 @@ std::vector<SceneBuilder::Displaced> SceneBuilder::find_displaced() {
                 key.push_back(use->look);
                 for (const VertexAttribute* a : use->varying) key.push_back(uintptr_t(a));
                 if (use->look == kNone) continue;
-                const Look& look = *scene.vertex_looks[use->look];
+                const ShaderInstance& look = *scene.vertex_looks[use->look];
                 any = true;
                 found.each_frame |= runs_each_frame(look, scene, shape.node);
                 by_node |= depends_on_node(look);

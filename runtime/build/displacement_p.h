@@ -1,13 +1,13 @@
-// runtime/build_displacement_p.h: a displaced mesh under construction; for build_displacement.cpp
-// and build_dicing.cpp only.
+// runtime/build/displacement_p.h: a displaced mesh under construction; for displacement.cpp
+// and dicing.cpp only.
 #pragma once
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
-#include "runtime/build_scene_p.h"
-#include "runtime/dice_error.h"
+#include "runtime/build/scene_p.h"
+#include "runtime/vertices/dice_error.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/build_imager.cpp: the planes that surfaces' output parameters fill, and the imager that
+// runtime/build/imager.cpp: the planes that surfaces' output parameters fill, and the imager that
 // reads them.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "runtime/build_scene_p.h"
-#include "runtime/findings.h"
+#include "runtime/build/scene_p.h"
+#include "runtime/description/findings.h"
 
 namespace kinora {
 
@@ -16,7 +16,7 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 }
 
 // The output parameter of that name of the topmost layer that has one.
-const rsl::ShaderParameter* find_output(const Look& look, std::string_view name) {
+const rsl::ShaderParameter* find_output(const ShaderInstance& look, std::string_view name) {
     for (auto layer = look.layers.rbegin(); layer != look.layers.rend(); ++layer)
         for (const rsl::ShaderParameter& p : layer->shader->parameters) {
             bool numbers = !p.type.is_array() && p.type.base != rsl::BaseType::String &&
@@ -47,7 +47,8 @@ void SceneBuilder::add_outputs() {
         if (contains(output_names_, name)) return true;
         const rsl::ShaderParameter* found = nullptr;
         for (const auto& look : scene.looks)
-            if (look->kind == LookKind::Surface && !found) found = find_output(*look, name);
+            if (look->kind == ShaderInstanceKind::Surface && !found)
+                found = find_output(*look, name);
         if (!found) return false;
         output_names_.push_back(name);
         for (int c = 0; c < rsl::component_count(found->type.base); ++c)
@@ -64,8 +65,8 @@ void SceneBuilder::add_outputs() {
 }
 
 // Where a surface has the parameter as a float and others as a colour, all components take it.
-void SceneBuilder::bind_outputs(Look& look) const {
-    if (look.kind != LookKind::Surface) return;
+void SceneBuilder::bind_outputs(ShaderInstance& look) const {
+    if (look.kind != ShaderInstanceKind::Surface) return;
     for (const OutputPlane& plane : scene_->outputs) {
         int& output = look.aovs.emplace_back(-1);
         std::string wanted = "aov:" + plane.parameter;
@@ -86,8 +87,8 @@ void SceneBuilder::add_imager() {
     const CameraSource& camera = scene.cameras[scene.camera];
     const auto& layers = imagers_of(description_, camera);
     if (layers.empty()) return;
-    auto look = std::make_unique<Look>();
-    look->kind = LookKind::Imager;
+    auto look = std::make_unique<ShaderInstance>();
+    look->kind = ShaderInstanceKind::Imager;
     look->name = "imager";
     look->layers = layers;
     look->node =

@@ -1,13 +1,13 @@
-// runtime/build_looks.cpp: cameras, lights and looks of a scene under construction.
+// runtime/build/looks.cpp: cameras, lights and looks of a scene under construction.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/build_scene_p.h"
-#include "runtime/findings.h"
-#include "runtime/shader_library.h"
-#include "runtime/transforms.h"
+#include "runtime/build/scene_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 
@@ -186,7 +186,8 @@ bool has_placed_param(const ShaderUse& use) {
 
 // Texture coordinates and varying parameters of one surface; the look's list of varying parameters
 // must be the same for all surfaces that share it, so it is part of the look's key.
-bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look,
+bool SceneBuilder::bind_vertex_inputs(Surface& surface, const MaterialUse* use,
+                                      ShaderInstance& look,
                                       std::vector<const VertexAttribute*>& inputs) {
     Scene& scene = *scene_;
     const Mesh& mesh = scene.meshes[scene.shapes[surface.shape].mesh];
@@ -286,15 +287,19 @@ uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
     // A material that only displaces shows the default surface.
     const std::vector<ShaderUse>& surfaces =
         definition->surfaces.empty() ? default_material().surfaces : definition->surfaces;
-    vertex_look(LookKind::Transformation, surface, use, *definition, surface.transformation);
+    vertex_look(ShaderInstanceKind::Transformation, surface, use, *definition,
+                surface.transformation);
     bool bump = scene.options.displacement == DisplacementMode::Bump;
-    if (!bump) vertex_look(LookKind::Displacement, surface, use, *definition, surface.displacement);
+    if (!bump)
+        vertex_look(ShaderInstanceKind::Displacement, surface, use, *definition,
+                    surface.displacement);
     std::vector<ShaderUse> layers = definition->displacements;
     bool bare = definition->surfaces.empty() && !definition->lights.empty();
     const std::vector<ShaderUse>& seen = bare ? emitter(*definition) : surfaces;
     layers.insert(layers.end(), seen.begin(), seen.end());
     std::string key;
-    auto look = begin_look(LookKind::Surface, *definition, std::move(layers), use, shape, key);
+    auto look =
+        begin_look(ShaderInstanceKind::Surface, *definition, std::move(layers), use, shape, key);
     add_volumes(surface, *definition, use);
     if (surface.displacement.look != kNone)
         look->done_layers = uint32_t(definition->displacements.size());
@@ -309,11 +314,12 @@ uint32_t SceneBuilder::look_of(Surface& surface, const MeshUse& mesh_use) {
 
 // A look of the material's shaders with the instance's <bind>s over them; `key` is the same for
 // looks that are.
-std::unique_ptr<Look> SceneBuilder::begin_look(LookKind kind, const MaterialDefinition& definition,
-                                               std::vector<ShaderUse> layers,
-                                               const MaterialUse* use, const Shape& shape,
-                                               std::string& key) {
-    auto look = std::make_unique<Look>();
+std::unique_ptr<ShaderInstance> SceneBuilder::begin_look(ShaderInstanceKind kind,
+                                                         const MaterialDefinition& definition,
+                                                         std::vector<ShaderUse> layers,
+                                                         const MaterialUse* use, const Shape& shape,
+                                                         std::string& key) {
+    auto look = std::make_unique<ShaderInstance>();
     look->kind = kind;
     look->name = definition.id.empty() ? definition.name : definition.id;
     look->hide_backfaces = definition.hide_backfaces;
@@ -328,10 +334,11 @@ std::unique_ptr<Look> SceneBuilder::begin_look(LookKind kind, const MaterialDefi
 
 // The look of a material's transformations, or of its displacements: nothing where it has none, or
 // where they leave P alone (then N is bent while shading).
-uint32_t SceneBuilder::vertex_look(LookKind kind, Surface& surface, const MaterialUse* use,
-                                   const MaterialDefinition& definition, VertexUse& result) {
+uint32_t SceneBuilder::vertex_look(ShaderInstanceKind kind, Surface& surface,
+                                   const MaterialUse* use, const MaterialDefinition& definition,
+                                   VertexUse& result) {
     Scene& scene = *scene_;
-    bool displacement = kind == LookKind::Displacement;
+    bool displacement = kind == ShaderInstanceKind::Displacement;
     const auto& layers = displacement ? definition.displacements : definition.transformations;
     if (layers.empty()) return kNone;
     std::string key;
@@ -354,7 +361,7 @@ uint32_t SceneBuilder::vertex_look(LookKind kind, Surface& surface, const Materi
 }
 
 // What displacements that are done left in their output parameters, for displacement("name").
-void SceneBuilder::bind_displaced(Surface& surface, Look& look) {
+void SceneBuilder::bind_displaced(Surface& surface, ShaderInstance& look) {
     for (uint32_t l = 0; l < look.done_layers; ++l)
         for (const rsl::ShaderParameter& p : look.layers[l].shader->parameters) {
             if (!p.output) continue;
@@ -376,14 +383,14 @@ void SceneBuilder::bind_displaced(Surface& surface, Look& look) {
         }
 }
 
-bool SceneBuilder::compile(Look& look, const std::vector<std::string>& messages) {
-    LookOptions options;
+bool SceneBuilder::compile(ShaderInstance& look, const std::vector<std::string>& messages) {
+    ShaderInstanceOptions options;
     options.math = scene_->options.math;
     options.target = scene_->options.target;
     options.light_messages = messages;
-    if (look.kind == LookKind::Surface) options.aovs = output_names_;
+    if (look.kind == ShaderInstanceKind::Surface) options.aovs = output_names_;
     options.spaces = &space_names_;
-    if (look.kind == LookKind::Surface) options.gathered = gathered_;
+    if (look.kind == ShaderInstanceKind::Surface) options.gathered = gathered_;
     if (scene_->options.want_dumps) options.dumps = &scene_->options.dumps;
     return compile_look(look, description_, options, diagnostics_);
 }
@@ -428,8 +435,8 @@ bool SceneBuilder::make_looks() {
     });
     for (LightSource& light : scene.lights) {
         const LightDefinition& definition = description_.lights[light.definition];
-        auto look = std::make_unique<Look>();
-        look->kind = LookKind::Light;
+        auto look = std::make_unique<ShaderInstance>();
+        look->kind = ShaderInstanceKind::Light;
         look->name = definition.id.empty() ? definition.name : definition.id;
         look->layers = {definition.shader};
         set_unit(light, look->layers.front());

@@ -1,11 +1,11 @@
-// runtime/build_mesh.cpp: anchors, and normals with a position of their own.
-#include "runtime/build_mesh.h"
+// runtime/build/mesh.cpp: anchors, and normals with a position of their own.
+#include "runtime/build/mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/pair_numbers.h"
+#include "runtime/description/pair_numbers.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
-// runtime/build_mesh.h: a mesh as read to a mesh as rendered.
+// runtime/build/mesh.h: a mesh as read to a mesh as rendered.
 #pragma once
 
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/build_scene.cpp: a description to a scene ready for frames.
+// runtime/build/scene.cpp: a description to a scene ready for frames.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,18 +7,19 @@
 #include <glm/matrix.hpp>
 #include <map>
 
-#include "runtime/build_mesh.h"
-#include "runtime/build_scene_p.h"
-#include "runtime/defaults.h"
-#include "runtime/deform.h"
-#include "runtime/dice_error.h"
-#include "runtime/findings.h"
-#include "runtime/point_store.h"
-#include "runtime/shading.h"
-#include "runtime/texture.h"
-#include "runtime/texture_store.h"
-#include "runtime/transforms.h"
-#include "runtime/vertex_work.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/build/defaults.h"
+#include "runtime/build/mesh.h"
+#include "runtime/build/scene_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/images/point_store.h"
+#include "runtime/images/texture.h"
+#include "runtime/images/texture_store.h"
+#include "runtime/scene/transforms.h"
+#include "runtime/shading/shading.h"
+#include "runtime/vertices/deform.h"
+#include "runtime/vertices/dice_error.h"
+#include "runtime/vertices/vertex_work.h"
 
 namespace kinora {
 
@@ -29,31 +30,6 @@ Shape& Shape::operator=(Shape&&) noexcept = default;
 
 Scene::Scene() = default;
 Scene::~Scene() = default;
-
-PlayRange play_range(const SceneDescription& description) {
-    PlayRange range;
-    anim::TimeRange keys = anim::time_range(description.animation);
-    range.start = description.start_time.value_or(keys.begin);
-    range.end = std::max(range.start, description.end_time.value_or(keys.end));
-    range.rate = description.frame_rate.value_or(24.0);
-    return range;
-}
-
-const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name) {
-    for (const ClipDefinition& clip : description.clips)
-        if (clip.name == name) return &clip;
-    return nullptr;
-}
-
-void play_clip(SceneDescription& description, const ClipDefinition& clip) {
-    description.start_time = clip.start;
-    description.end_time = clip.end;
-    if (!clip.animation) return;
-    description.animation = *clip.animation;
-    description.animated.assign(description.values.size(), false);
-    for (const anim::Animation::Write& write : description.animation.writes)
-        description.animated[write.slot] = true;
-}
 
 SceneBuilder::SceneBuilder(std::shared_ptr<SceneDescription> description,
                            const SceneOptions& options, Diagnostics& diagnostics,

@@ -1,4 +1,4 @@
-// runtime/build_scene_p.h: the steps of build_scene; for build_scene*.cpp only.
+// runtime/build/scene_p.h: the steps of build_scene; for build_scene*.cpp only.
 #pragma once
 
 #include <map>
@@ -8,14 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "runtime/defaults.h"
-#include "runtime/diced_mesh.h"
-#include "runtime/scene.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/build/defaults.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shader_instance.h"
+#include "runtime/vertices/diced_mesh.h"
 
 namespace kinora {
 
 // A repeated static mesh is instanced when all of it, baked, would be more triangles than this: an
-// instance level costs 20-29 % of the trace rate (DESIGN.md decision 19).
+// instance level costs 20-29 % of the trace rate (docs/decisions.md#two-levels-where-they-pay).
 inline constexpr size_t kBakedTriangles = 200'000;
 
 class SceneBuilder {
@@ -25,7 +27,7 @@ class SceneBuilder {
     std::unique_ptr<Scene> run();
 
   private:
-    // build_scene.cpp: nodes, shapes, bounds, the ray tracer's rows
+    // scene.cpp: nodes, shapes, bounds, the ray tracer's rows
     void find_moving_nodes();
     void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
     void evaluate(std::optional<double> time);  // none: the values of the file
@@ -48,7 +50,7 @@ class SceneBuilder {
     void set_bounds();
     void finish_rows();
 
-    // build_looks.cpp: cameras, lights, materials
+    // looks.cpp: cameras, lights, materials
     void place_cameras();
     uint32_t named_node(uint32_t node) const;
     bool choose_camera();
@@ -60,40 +62,42 @@ class SceneBuilder {
     bool make_looks();
     void set_unit(const LightSource& light, ShaderUse& use);
     uint32_t look_of(Surface& surface, const MeshUse& use);
-    bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, Look& look,
+    bool bind_vertex_inputs(Surface& surface, const MaterialUse* use, ShaderInstance& look,
                             std::vector<const VertexAttribute*>& varying);
-    std::unique_ptr<Look> begin_look(LookKind kind, const MaterialDefinition& definition,
-                                     std::vector<ShaderUse> layers, const MaterialUse* use,
-                                     const Shape& shape, std::string& key);
-    uint32_t vertex_look(LookKind kind, Surface& surface, const MaterialUse* use,
+    std::unique_ptr<ShaderInstance> begin_look(ShaderInstanceKind kind,
+                                               const MaterialDefinition& definition,
+                                               std::vector<ShaderUse> layers,
+                                               const MaterialUse* use, const Shape& shape,
+                                               std::string& key);
+    uint32_t vertex_look(ShaderInstanceKind kind, Surface& surface, const MaterialUse* use,
                          const MaterialDefinition& definition, VertexUse& result);
-    void bind_displaced(Surface& surface, Look& look);
+    void bind_displaced(Surface& surface, ShaderInstance& look);
     // Parameters that instance_material binds, put over the material's; `key` tells them apart.
     void apply_binds(const MaterialUse* use, std::vector<ShaderUse>& layers, std::string& key);
-    // build_volumes.cpp
+    // volumes.cpp
     void add_volumes(Surface& surface, const MaterialDefinition& material, const MaterialUse* use);
     uint32_t volume_look(const std::vector<ShaderUse>& layers, const std::string& name,
                          uint32_t node, const MaterialUse* use, bool exterior);
     void add_atmosphere();
-    // build_area_lights.cpp
+    // area_lights.cpp
     bool add_area_lights();
     const MaterialUse* material_use(size_t surface) const;
     std::vector<ShaderUse> emitter(const MaterialDefinition& material);
-    // build_imager.cpp
+    // imager.cpp
     void add_outputs();
     void add_imager();
-    void bind_outputs(Look& look) const;
-    bool compile(Look& look, const std::vector<std::string>& messages);
+    void bind_outputs(ShaderInstance& look) const;
+    bool compile(ShaderInstance& look, const std::vector<std::string>& messages);
     const MaterialDefinition& default_material();
 
-    // build_displacement.cpp: meshes diced, vertices moved
-    struct Displaced;  // build_displacement_p.h
+    // displacement.cpp: meshes diced, vertices moved
+    struct Displaced;  // displacement_p.h
     void displace();
     std::vector<Displaced> find_displaced();
     void wear(Displaced& from);
     void make_deforming(Shape& shape, const MeshUse& use, const DicedMesh& diced,
                         WatchedEdges* watched);
-    // build_dicing.cpp: for which views, how finely
+    // dicing.cpp: for which views, how finely
     void find_views(std::vector<Displaced>& all);
     bool place_dice_camera();
     void add_view(std::vector<Displaced>& all, double time);

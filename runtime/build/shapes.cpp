@@ -1,14 +1,14 @@
-// runtime/build_shapes.cpp: meshes on nodes, with the morphs and skins that deform them.
+// runtime/build/shapes.cpp: meshes on nodes, with the morphs and skins that deform them.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "runtime/base/skin_space.h"
-#include "runtime/build_mesh.h"
-#include "runtime/build_scene_p.h"
-#include "runtime/findings.h"
-#include "runtime/transforms.h"
+#include "runtime/build/mesh.h"
+#include "runtime/build/scene_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 

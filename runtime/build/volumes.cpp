@@ -1,9 +1,9 @@
-// runtime/build_volumes.cpp: looks of volumes: what fills or surrounds objects, and the atmosphere.
+// runtime/build/volumes.cpp: looks of volumes: what fills or surrounds objects, and the atmosphere.
 #include <fmt/format.h>
 
-#include "runtime/build_scene_p.h"
-#include "runtime/findings.h"
-#include "runtime/medium.h"
+#include "runtime/build/scene_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/medium.h"
 
 namespace kinora {
 
@@ -12,8 +12,8 @@ namespace kinora {
 uint32_t SceneBuilder::volume_look(const std::vector<ShaderUse>& layers, const std::string& name,
                                    uint32_t node, const MaterialUse* use, bool exterior) {
     Scene& scene = *scene_;
-    auto look = std::make_unique<Look>();
-    look->kind = LookKind::Volume;
+    auto look = std::make_unique<ShaderInstance>();
+    look->kind = ShaderInstanceKind::Volume;
     look->name = name;
     look->layers = layers;
     look->node = node;
@@ -49,8 +49,8 @@ void SceneBuilder::add_atmosphere() {
     const auto& own = description_.cameras[camera.definition].picture.atmosphere;
     const auto& layers = own.empty() ? description_.picture.atmosphere : own;
     if (layers.empty()) return;
-    auto look = std::make_unique<Look>();
-    look->kind = LookKind::Volume;
+    auto look = std::make_unique<ShaderInstance>();
+    look->kind = ShaderInstanceKind::Volume;
     look->name = "atmosphere";
     look->layers = layers;
     look->node = own.empty() ? kNone : camera.node;

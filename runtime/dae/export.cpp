@@ -1,5 +1,5 @@
-// runtime/export_collada.cpp: the COLLADA document and its nodes.
-#include "runtime/export_collada.h"
+// runtime/dae/export.cpp: the COLLADA document and its nodes.
+#include "runtime/dae/export.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
-#include "collada/document.h"
-#include "collada/edit.h"
-#include "collada/write.h"
-#include "runtime/export_collada_p.h"
-#include "runtime/findings.h"
-#include "runtime/transforms.h"
+#include "collada/document/document.h"
+#include "collada/document/edit.h"
+#include "collada/document/write.h"
+#include "runtime/dae/export_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 
@@ -235,7 +235,8 @@ std::string ColladaExporter::node(uint32_t index) {
         cameras += xml("instance_camera", attribute("url", "#" + camera_ids_[c]), "");
     for (const MeshUse& use : definition.meshes) {
         std::string instance = mesh_instance(use);
-        // A skin without bind shape would follow its node, too (COLLADA.md): it stands alone.
+        // A skin without bind shape would follow its node, too (docs/format.md#skins-and-morphs):
+        // it stands alone.
         if (use.skin != kNone)
             skinned_ += xml("node", attribute("id", id(own + "-skin", "skin")), instance);
         else if (!is_identity(use.conversion))

@@ -1,4 +1,4 @@
-// runtime/export_collada.h: a SceneDescription (one that import_gltf made) as a COLLADA document.
+// runtime/dae/export.h: a SceneDescription (one that import_gltf made) as a COLLADA document.
 #pragma once
 
 #include <string>
@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 
 struct ColladaExport {
-    // COLLADA 1.4.1, canonical (collada/write.h); "" where no reader would take it, with findings.
+    // COLLADA 1.4.1, canonical (collada/document/write.h); "" where no reader would take it, with
+    // findings.
     std::string text;
     // Images that were inside the scene's file: names relative to the document, and bytes.
     std::vector<std::pair<std::string, std::string>> files;

@@ -1,12 +1,12 @@
-// runtime/export_collada_animation.cpp: channels and samplers, the same values at all times.
+// runtime/dae/export_animation.cpp: channels and samplers, the same values at all times.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/export_collada_p.h"
-#include "runtime/findings.h"
-#include "runtime/transforms.h"
+#include "runtime/dae/export_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/export_collada_material.cpp: images, effects, lights and cameras.
+// runtime/dae/export_material.cpp: images, effects, lights and cameras.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "collada/edit.h"
-#include "runtime/export_collada_p.h"
-#include "runtime/shader_library.h"
+#include "collada/document/edit.h"
+#include "runtime/dae/export_p.h"
+#include "runtime/description/shader_library.h"
 
 namespace kinora {
 

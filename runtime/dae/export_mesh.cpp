@@ -1,9 +1,9 @@
-// runtime/export_collada_mesh.cpp: geometries and controllers.
+// runtime/dae/export_mesh.cpp: geometries and controllers.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "runtime/export_collada_p.h"
+#include "runtime/dae/export_p.h"
 
 namespace kinora {
 

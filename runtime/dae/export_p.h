@@ -1,4 +1,4 @@
-// runtime/export_collada_p.h: the parts of the COLLADA exporter; for export_collada*.cpp only.
+// runtime/dae/export_p.h: the parts of the COLLADA exporter; for export_collada*.cpp only.
 #pragma once
 
 #include <map>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/export_collada.h"
-#include "runtime/texture_name.h"
+#include "runtime/dae/export.h"
+#include "runtime/description/texture_name.h"
 
 namespace kinora {
 
@@ -20,7 +20,7 @@ class ColladaExporter {
     ColladaExport run();
 
   private:
-    // export_collada.cpp: the document, nodes
+    // export.cpp: the document, nodes
     std::string id(const std::string& wanted, const char* kind);
     void lost(const std::string& what, const std::string& why, Location where = {});
     const std::string& told(const std::string& text, const std::string& what);
@@ -34,14 +34,14 @@ class ColladaExporter {
     std::string skinned_instances();
     std::string library(const char* name, const std::string& content) const;
 
-    // export_collada_mesh.cpp: geometries and controllers
+    // export_mesh.cpp: geometries and controllers
     const MeshDefinition& with_triangles(uint32_t mesh) const;
     std::string geometry(uint32_t index);
     std::string skin(const MeshUse& use, const std::string& controller);
     std::string morph(uint32_t index, uint32_t mesh);
     std::string controller(const MeshUse& use);
 
-    // export_collada_material.cpp: images, effects, lights, cameras
+    // export_material.cpp: images, effects, lights, cameras
     std::string image(const std::string& texture_name);
     std::string inner_file(const std::string& name) const;
     std::string effect(uint32_t material);
@@ -52,7 +52,7 @@ class ColladaExporter {
     std::string light(uint32_t index);
     std::string camera(uint32_t index);
 
-    // export_collada_animation.cpp
+    // export_animation.cpp
     void address(ValueSlot slot, const std::string& target, const char* const* members);
     std::string animations();
 

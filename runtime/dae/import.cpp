@@ -1,12 +1,13 @@
-// runtime/import_collada.cpp: COLLADA's nodes, cameras and numbers as a SceneDescription.
-#include "runtime/import_collada.h"
+// runtime/dae/import.cpp: COLLADA's nodes, cameras and numbers as a SceneDescription.
+#include "runtime/dae/import.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
-#include "collada/open_scene.h"
-#include "runtime/import_collada_p.h"
+#include "collada/document/open_scene.h"
+#include "collada/extract/extract.h"
+#include "runtime/dae/import_p.h"
 
 namespace kinora {
 
@@ -40,7 +41,7 @@ std::optional<SceneDescription> import_collada(const std::string& path,
         if (!image.path.empty() && !description.readable.contains(image.path))
             description.readable.add(image.path.substr(0, image.path.rfind('/') + 1));
     // An archive is not written to: its folder is ours and dies with the scene.
-    if (archive) description.writable = FileTrees(options.allow_external);
+    if (archive) description.writable = AllowedPaths(options.allow_external);
     ColladaImport(*data, options, diagnostics, description).run();
     return description;
 }

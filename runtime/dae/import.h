@@ -1,12 +1,12 @@
-// runtime/import_collada.h: a COLLADA file to a SceneDescription.
+// runtime/dae/import.h: a COLLADA file to a SceneDescription.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/import_options.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/import_options.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

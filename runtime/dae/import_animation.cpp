@@ -1,8 +1,8 @@
-// runtime/import_collada_animation.cpp: COLLADA's channels and samplers for anim.
+// runtime/dae/import_animation.cpp: COLLADA's channels and samplers for anim.
 #include <algorithm>
 
-#include "runtime/findings.h"
-#include "runtime/import_collada_p.h"
+#include "runtime/dae/import_p.h"
+#include "runtime/description/findings.h"
 
 namespace kinora {
 

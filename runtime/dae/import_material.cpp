@@ -1,16 +1,16 @@
-// runtime/import_collada_material.cpp: COLLADA's effects, materials and lights as RSL shaders with
+// runtime/dae/import_material.cpp: COLLADA's effects, materials and lights as RSL shaders with
 // their parameters.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/findings.h"
-#include "runtime/import_collada_p.h"
+#include "runtime/dae/import_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/description/texture_name.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 #include "runtime/profile_rsl/findings.h"
-#include "runtime/shader_library.h"
-#include "runtime/texture_name.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/import_collada_mesh.cpp: COLLADA's geometries and controllers as a SceneDescription.
-#include "runtime/import_collada_p.h"
+// runtime/dae/import_mesh.cpp: COLLADA's geometries and controllers as a SceneDescription.
+#include "runtime/dae/import_p.h"
 
 namespace kinora {
 

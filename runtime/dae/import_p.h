@@ -1,4 +1,4 @@
-// runtime/import_collada_p.h: the parts of the COLLADA importer; for import_collada*.cpp only.
+// runtime/dae/import_p.h: the parts of the COLLADA importer; for import_collada*.cpp only.
 #pragma once
 
 #include <map>
@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "collada/scene.h"
-#include "runtime/import_collada.h"
+#include "collada/scene/scene.h"
+#include "runtime/dae/import.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 
 namespace kinora {
@@ -23,7 +23,7 @@ class ColladaImport {
     void run();
 
   private:
-    // import_collada.cpp: every animatable number gets its place in values.
+    // import.cpp: every animatable number gets its place in values.
     void allocate_values();
     uint32_t append(const double* numbers, size_t count);
     uint32_t append(const collada::ParamValue& value);
@@ -36,12 +36,12 @@ class ColladaImport {
     MeshUse mesh_use(const collada::MeshInstance& instance) const;
     dmat4 conversion(uint32_t index) const;
 
-    // import_collada_mesh.cpp
+    // import_mesh.cpp
     void import_meshes();
     void import_skins();
     void import_morphs();
 
-    // import_collada_material.cpp
+    // import_material.cpp
     void import_materials();
     void import_lights();
     PictureShaders picture_shaders(const std::vector<uint32_t>& materials);
@@ -60,7 +60,7 @@ class ColladaImport {
     // Sampler `number` of its effect, or the one its <setparam>s put in its place.
     const collada::TextureSampler& sampler_of(uint32_t material, uint32_t number) const;
 
-    // import_collada_animation.cpp
+    // import_animation.cpp
     void import_animation();
     // Of those channels; SceneDescription::animated is told where they write.
     anim::Animation animation_of(const std::vector<bool>& channels);

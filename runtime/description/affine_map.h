@@ -1,4 +1,4 @@
-// runtime/affine_map.h: partial derivatives along u and v on a triangle.
+// runtime/description/affine_map.h: partial derivatives along u and v on a triangle.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace kinora {
 
 // Partial derivatives along u, v of what varies linearly over a triangle by d1, d2 along its edges:
-// d1 = du1 x_u + dv1 x_v, d2 = du2 x_u + dv2 x_v, solved (DESIGN.md decision 9).
+// d1 = du1 x_u + dv1 x_v, d2 = du2 x_u + dv2 x_v, solved (docs/decisions.md#spaces).
 struct AffineMap {
     float inv[2][2] = {{1, 0}, {0, 1}};
     template <class T>

@@ -1,4 +1,4 @@
-// runtime/findings.h: the findings of runtime, one constant a row of findings.def.
+// runtime/description/findings.h: the findings of runtime, one constant a row of findings.def.
 #pragma once
 
 #include "runtime/base/diagnostic.h"
@@ -7,7 +7,7 @@ namespace kinora::Code {
 
 #define FINDING(code, severity, text, explanation, fix) \
     inline constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
-#include "runtime/findings.def"
+#include "runtime/description/findings.def"
 #undef FINDING
 
 }  // namespace kinora::Code

@@ -1,4 +1,4 @@
-// runtime/import_options.h: what the readers of scenes are asked for.
+// runtime/description/import_options.h: what the readers of scenes are asked for.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/memory_file.cpp: named bytes as files of memfd_create(2).
-#include "runtime/memory_file.h"
+// runtime/description/memory_file.cpp: named bytes as files of memfd_create(2).
+#include "runtime/description/memory_file.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

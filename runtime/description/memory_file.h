@@ -1,5 +1,5 @@
-// runtime/memory_file.h: bytes inside a scene file (images of a .glb or an archive) that readers
-// open by name like a file.
+// runtime/description/memory_file.h: bytes inside a scene file (images of a .glb or an archive)
+// that readers open by name like a file.
 #pragma once
 
 #include <cstdint>

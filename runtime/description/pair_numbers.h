@@ -1,4 +1,4 @@
-// runtime/pair_numbers.h: a number for each pair of numbers.
+// runtime/description/pair_numbers.h: a number for each pair of numbers.
 #pragma once
 
 #include <cstddef>

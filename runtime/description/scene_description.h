@@ -1,4 +1,5 @@
-// runtime/scene_description.h: a scene as importers deliver it: definitions, values, channels.
+// runtime/description/scene_description.h: a scene as importers deliver it: definitions, values,
+// channels.
 //
 // Every animatable number is a double in `values`; definitions own values, instances own matrices.
 // Importers (import_collada, later import_gltf) fill this; build_scene makes a Scene of it.
@@ -11,10 +12,10 @@
 #include <vector>
 
 #include "anim/animation.h"
-#include "rsl/shader.h"
-#include "runtime/base/file_trees.h"
+#include "rsl/compile.h"
+#include "runtime/base/allowed_paths.h"
 #include "runtime/base/math.h"
-#include "runtime/memory_file.h"
+#include "runtime/description/memory_file.h"
 #include "skin/morph.h"
 
 namespace kinora {
@@ -197,7 +198,7 @@ struct SceneDescription {
     std::shared_ptr<const void> files;  // what paths name is there as long as this is held
     // Where shaders may read textures, point files and maps, and write point files. Importers limit
     // both to the scene's folder and what the user allows.
-    FileTrees readable, writable;
+    AllowedPaths readable, writable;
     double meter = 1;
     UpAxis up_axis = UpAxis::Y;
     std::vector<double> values;

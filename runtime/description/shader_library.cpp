@@ -1,6 +1,6 @@
-// runtime/shader_library.cpp: finds and compiles embedded shaders. The texts are in
+// runtime/description/shader_library.cpp: finds and compiles embedded shaders. The texts are in
 // shader_library_data.cpp, which CMake makes from assets/shaders/*.sl.
-#include "runtime/shader_library.h"
+#include "runtime/description/shader_library.h"
 
 #include <map>
 #include <mutex>
@@ -14,7 +14,7 @@ struct EmbeddedShader {
     const char* text;
 };
 extern const EmbeddedShader kEmbeddedShaders[];
-extern const size_t kEmbeddedShaderCount;
+extern const size_t kEmbeddedShadersCount;
 
 std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics&) {
     static std::mutex mutex;
@@ -22,7 +22,7 @@ std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnos
     static Diagnostics library_diagnostics;  // the library's places outlive every scene
     std::lock_guard lock(mutex);
     if (auto found = compiled.find(name); found != compiled.end()) return found->second;
-    for (size_t i = 0; i < kEmbeddedShaderCount; ++i) {
+    for (size_t i = 0; i < kEmbeddedShadersCount; ++i) {
         const EmbeddedShader& embedded = kEmbeddedShaders[i];
         if (name != embedded.name) continue;
         std::string file = "assets/shaders/" + std::string(name) + ".sl";

@@ -1,12 +1,12 @@
-// runtime/shader_library.h: the shaders of assets/shaders, compiled into the program: COLLADA's
-// lights and fixed-function materials, the default surface, the standard shaders.
+// runtime/description/shader_library.h: the shaders of assets/shaders, compiled into the program:
+// COLLADA's lights and fixed-function materials, the default surface, the standard shaders.
 #pragma once
 
 #include <memory>
 #include <string_view>
 #include <vector>
 
-#include "rsl/shader.h"
+#include "rsl/compile.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora {

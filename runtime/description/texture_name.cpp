@@ -1,7 +1,7 @@
-// runtime/texture_name.cpp: texture names to strings and back:
+// runtime/description/texture_name.cpp: texture names to strings and back:
 // "path\x1fwwfd b b b b c s u u u u m i x": wraps, filter, data; border, turn, uv; mip, bias,
 // level.
-#include "runtime/texture_name.h"
+#include "runtime/description/texture_name.h"
 
 #include <fmt/format.h>
 

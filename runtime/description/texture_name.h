@@ -1,4 +1,5 @@
-// runtime/texture_name.h: a file and the way it is looked up, as the one string a shader handles.
+// runtime/description/texture_name.h: a file and the way it is looked up, as the one string a
+// shader handles.
 //
 // RSL knows a texture by its name. Wrap, border, repeat and filter belong to COLLADA's <sampler>;
 // they travel in the string behind the path so that pixels stay shared by path. A plain path is a

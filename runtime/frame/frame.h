@@ -1,11 +1,11 @@
-// runtime/frame.h: a time to a picture.
+// runtime/frame/frame.h: a time to a picture.
 #pragma once
 
 #include <atomic>
 
 #include "raytrace/film.h"
-#include "runtime/scene.h"
-#include "runtime/shading.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shading.h"
 
 namespace kinora {
 
@@ -22,7 +22,7 @@ struct FrameStats {
     uint64_t shading_points = 0;
     uint64_t non_finite = 0;
     int refits = 0, rebuilds = 0;
-    double dice_error = 0;    // runtime/dice_error.h
+    double dice_error = 0;    // runtime/vertices/dice_error.h
     bool too_coarse = false;  // the frame was let go for that
 };
 
@@ -46,11 +46,5 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
 // camera makes no picture or displaced meshes are too coarse for it.
 bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameStats& stats,
                 Diagnostics& diagnostics);
-
-// Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
-raytrace::CameraStatus place_camera(Scene& scene, int width, int height);
-
-// Width / height of the scene's camera where its optics say so, at its base values.
-std::optional<double> camera_aspect(const Scene& scene);
 
 }  // namespace kinora

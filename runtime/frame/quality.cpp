@@ -1,5 +1,5 @@
-// runtime/quality.cpp: the table of qualities (DESIGN.md section 6).
-#include "runtime/quality.h"
+// runtime/frame/quality.cpp: the table of qualities (docs/decisions.md#speed-against-accuracy).
+#include "runtime/frame/quality.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/quality.h: the speed/accuracy trade: named rows of knob settings.
+// runtime/frame/quality.h: the speed/accuracy trade: named rows of knob settings.
 #pragma once
 
 #include <span>
 #include <string_view>
 
-#include "jit/math.h"
-#include "runtime/scene.h"
+#include "jit/math/math.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

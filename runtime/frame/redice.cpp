@@ -1,12 +1,13 @@
-// runtime/redice.cpp: scenes built again, here or in the background.
-#include "runtime/redice.h"
+// runtime/frame/redice.cpp: scenes built again, here or in the background.
+#include "runtime/frame/redice.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "runtime/base/parallel.h"
-#include "runtime/findings.h"
-#include "runtime/frame.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/description/findings.h"
+#include "runtime/frame/frame.h"
 
 namespace kinora {
 

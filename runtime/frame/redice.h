@@ -1,5 +1,5 @@
-// runtime/redice.h: a scene built again with displaced meshes fine enough for a view that comes
-// closer than those they were diced for.
+// runtime/frame/redice.h: a scene built again with displaced meshes fine enough for a view that
+// comes closer than those they were diced for.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/scene.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/export_gltf.cpp: the glTF file: buffer, accessors, cameras, chunks.
-#include "runtime/export_gltf.h"
+// runtime/gltf/export.cpp: the glTF file: buffer, accessors, cameras, chunks.
+#include "runtime/gltf/export.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "runtime/export_gltf_p.h"
-#include "runtime/findings.h"
-#include "runtime/shader_library.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/export_p.h"
 
 namespace kinora {
 

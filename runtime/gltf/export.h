@@ -1,10 +1,10 @@
-// runtime/export_gltf.h: a SceneDescription as a binary glTF 2.0 file.
+// runtime/gltf/export.h: a SceneDescription as a binary glTF 2.0 file.
 #pragma once
 
 #include <string>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

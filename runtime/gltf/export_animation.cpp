@@ -1,4 +1,4 @@
-// runtime/export_gltf_animation.cpp: curves as glTF's: exact where it has them, else sampled.
+// runtime/gltf/export_animation.cpp: curves as glTF's: exact where it has them, else sampled.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +7,10 @@
 #include <set>
 
 #include "anim/decompose.h"
-#include "runtime/export_gltf_p.h"
-#include "runtime/findings.h"
-#include "runtime/transforms.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/play_range.h"
+#include "runtime/gltf/export_p.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 
@@ -223,7 +224,7 @@ bool GltfExport::add_spline(uint32_t node, const Path& path, uint32_t first_valu
 
 // Straight pieces.
 void GltfExport::add_sampled(uint32_t node, const Path& path) {
-    StraightKeys keys = straight_keys(path, path.times, path.tolerance);
+    StraightKeys keys = reduce_keys(path, path.times, path.tolerance);
     if (keys.worst > 0.01 * path.tolerance) {  // less is rounding
         ++sampled_paths_;
         worst_error_ =

@@ -1,12 +1,12 @@
-// runtime/export_gltf_attributes.cpp: which vertex attributes are written, and glTF's names for
+// runtime/gltf/export_attributes.cpp: which vertex attributes are written, and glTF's names for
 // them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "runtime/export_gltf_p.h"
-#include "runtime/shader_library.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/export_p.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/export_gltf_material.cpp: fixed-function materials as pbrMetallicRoughness.
+// runtime/gltf/export_material.cpp: fixed-function materials as pbrMetallicRoughness.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/export_gltf_p.h"
-#include "runtime/findings.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/export_p.h"
 
 namespace kinora {
 
@@ -22,7 +22,7 @@ double clamp01(double x) {
     return std::clamp(std::isfinite(x) ? x : 0.0, 0.0, 1.0);
 }
 
-// GGX as wide as a Blinn highlight of this exponent (export_gltf.h).
+// GGX as wide as a Blinn highlight of this exponent (export.h).
 double roughness(double exponent) {
     return clamp01(std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))));
 }

@@ -1,13 +1,13 @@
-// runtime/export_gltf_mesh.cpp: meshes: one vertex for each tuple of indices, influences, targets.
+// runtime/gltf/export_mesh.cpp: meshes: one vertex for each tuple of indices, influences, targets.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/build_mesh.h"
-#include "runtime/export_gltf_p.h"
-#include "runtime/pair_numbers.h"
+#include "runtime/build/mesh.h"
+#include "runtime/description/pair_numbers.h"
+#include "runtime/gltf/export_p.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/export_gltf_nodes.cpp: the unrolled tree of nodes, and what hangs on them.
+// runtime/gltf/export_nodes.cpp: the unrolled tree of nodes, and what hangs on them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 
 #include "anim/decompose.h"
 #include "runtime/base/skin_space.h"
-#include "runtime/export_gltf_p.h"
-#include "runtime/findings.h"
-#include "runtime/transforms.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/export_p.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/export_gltf_p.h: the parts of the glTF exporter; for export_gltf*.cpp only.
+// runtime/gltf/export_p.h: the parts of the glTF exporter; for export_gltf*.cpp only.
 #pragma once
 
 #include <map>
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "runtime/export_gltf.h"
-#include "runtime/scene.h"
-#include "runtime/straight_keys.h"
-#include "runtime/texture_name.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/gltf/export.h"
+#include "runtime/gltf/reduce_keys.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -77,7 +77,7 @@ class GltfExport {
         uint32_t element_width() const { return name == std::string_view("weights") ? 1 : width; }
     };
 
-    // export_gltf.cpp: the file, its buffer, cameras
+    // export.cpp: the file, its buffer, cameras
     template <class T>
     uint32_t accessor(const std::vector<T>& numbers, uint32_t width, int target, bool bounds);
     uint32_t buffer_view(const void* data, size_t size, int target);
@@ -89,7 +89,7 @@ class GltfExport {
     void use_extension(const char* name);
     std::string finish();
 
-    // export_gltf_nodes.cpp
+    // export_nodes.cpp
     uint32_t add_node(Json node, uint32_t parent);
     void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
     uint32_t stack_nodes(const NodeDefinition& definition, const dmat4& conversion,
@@ -103,7 +103,7 @@ class GltfExport {
     uint32_t stand_again(uint32_t place, uint32_t above, uint32_t top,
                          std::map<uint32_t, uint32_t>& again);
 
-    // export_gltf_animation.cpp: of take_, if not said otherwise
+    // export_animation.cpp: of take_, if not said otherwise
     void find_takes();
     void evaluate(const std::vector<Channel>& channels, double time);
     void to_rest(const std::vector<Channel>& channels);
@@ -123,11 +123,11 @@ class GltfExport {
     void add_channel(uint32_t node, const char* path, const std::vector<double>& times,
                      const std::vector<double>& numbers, uint32_t width, const char* interpolation);
 
-    // export_gltf_attributes.cpp
+    // export_attributes.cpp
     GltfLook look_of(const MeshUse& use, const PrimitiveGroup& group);
     std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGroup& group);
 
-    // export_gltf_mesh.cpp
+    // export_mesh.cpp
     uint32_t mesh(const MeshUse& use);
     Json primitive(const MeshUse& use, const PrimitiveGroup& group, const Mesh& built,
                    uint32_t group_index);
@@ -136,7 +136,7 @@ class GltfExport {
     void add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
                      const std::vector<uint32_t>& corners, Json& primitive);
 
-    // export_gltf_material.cpp, export_gltf_rsl.cpp
+    // export_material.cpp, export_rsl.cpp
     uint32_t material(const MeshUse& use, const PrimitiveGroup& group);
     Json common_material(const MaterialDefinition& definition, const ShaderUse& shader,
                          const MaterialUse& use, const PrimitiveGroup& group);
@@ -154,7 +154,7 @@ class GltfExport {
     Json rsl(const ShaderUse& use);
     Json rsl_of(const GltfLook& look, const PrimitiveGroup& group);
 
-    // export_gltf_rsl.cpp: lights
+    // export_rsl.cpp: lights
     uint32_t light(const LightDefinition& definition, const dmat4& world);
 
     const SceneDescription& description_;

@@ -1,4 +1,4 @@
-// runtime/export_gltf_rsl.cpp: shaders as extras, textures and lights.
+// runtime/gltf/export_rsl.cpp: shaders as extras, textures and lights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
-#include "collada/edit.h"
-#include "runtime/export_gltf_p.h"
-#include "runtime/findings.h"
-#include "runtime/image_io.h"
-#include "runtime/memory_file.h"
-#include "runtime/texture_image.h"
-#include "runtime/texture_name.h"
+#include "collada/document/edit.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/memory_file.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/gltf/export_p.h"
+#include "runtime/images/image_io.h"
+#include "runtime/images/texture_image.h"
 
 namespace kinora {
 
@@ -77,8 +77,8 @@ int min_filter(const TextureName& look) {
 uint32_t GltfExport::image(const std::string& path) {
     auto [found, fresh] = images_.try_emplace(path, kNone);
     if (!fresh) return found->second;
-    FileTrees::Found file =
-        is_memory_file(path) ? FileTrees::Found{path} : description_.readable.find(path);
+    AllowedPaths::Found file =
+        is_memory_file(path) ? AllowedPaths::Found{path} : description_.readable.find(path);
     std::string bytes, error, loss;
     if (file.outside) {
         lost(fmt::format("image '{}'", path), "it lies outside the scene's folder");

@@ -1,13 +1,13 @@
-// runtime/import_gltf.cpp: glTF's nodes and cameras as a SceneDescription.
-#include "runtime/import_gltf.h"
+// runtime/gltf/import.cpp: glTF's nodes and cameras as a SceneDescription.
+#include "runtime/gltf/import.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/import_gltf.h: a glTF 2.0 scene, .gltf or .glb, to a SceneDescription.
+// runtime/gltf/import.h: a glTF 2.0 scene, .gltf or .glb, to a SceneDescription.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/import_options.h"
+#include "runtime/description/import_options.h"
 
 namespace kinora {
 

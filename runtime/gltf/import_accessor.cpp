@@ -1,12 +1,12 @@
-// runtime/import_gltf_accessor.cpp: the numbers of accessors, every byte checked.
+// runtime/gltf/import_accessor.cpp: the numbers of accessors, every byte checked.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/import_gltf_animation.cpp: glTF's animations as channels; each is a clip.
+// runtime/gltf/import_animation.cpp: glTF's animations as channels; each is a clip.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

@@ -1,12 +1,12 @@
-// runtime/import_gltf_check.cpp: guards around tinygltf, which trusts the numbers of a file.
-#include "runtime/import_gltf_check.h"
+// runtime/gltf/import_check.cpp: guards around tinygltf, which trusts the numbers of a file.
+#include "runtime/gltf/import_check.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "runtime/import_gltf_file.h"
-#include "runtime/json_text.h"
+#include "runtime/gltf/import_file.h"
+#include "runtime/gltf/json_text.h"
 
 namespace kinora {
 

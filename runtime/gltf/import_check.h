@@ -1,4 +1,4 @@
-// runtime/import_gltf_check.h: what must hold of a glTF's JSON before tinygltf sees it.
+// runtime/gltf/import_check.h: what must hold of a glTF's JSON before tinygltf sees it.
 #pragma once
 
 #include <cstddef>

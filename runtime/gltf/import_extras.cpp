@@ -1,12 +1,12 @@
-// runtime/import_gltf_extras.cpp: extras of scenes, cameras, lights and nodes that kinora-convert
+// runtime/gltf/import_extras.cpp: extras of scenes, cameras, lights and nodes that kinora-convert
 // writes: shaders, clips and attributes that glTF has no words for.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

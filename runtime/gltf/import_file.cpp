@@ -1,5 +1,5 @@
-// runtime/import_gltf_file.cpp: .gltf and .glb files through tinygltf, kept within limits.
-#include "runtime/import_gltf_file.h"
+// runtime/gltf/import_file.cpp: .gltf and .glb files through tinygltf, kept within limits.
+#include "runtime/gltf/import_file.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include <memory>
 #include <span>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_check.h"
-#include "runtime/json_text.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_check.h"
+#include "runtime/gltf/json_text.h"
 
 namespace kinora {
 

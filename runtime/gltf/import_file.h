@@ -1,4 +1,4 @@
-// runtime/import_gltf_file.h: a glTF file with its buffers in memory; for import_gltf*.cpp only.
+// runtime/gltf/import_file.h: a glTF file with its buffers in memory; for import_gltf*.cpp only.
 #pragma once
 
 #include <optional>
@@ -6,14 +6,14 @@
 #include <string_view>
 #include <vector>
 
-// tinygltf's implementation is compiled without its image decoder (runtime/tinygltf.cpp).
+// tinygltf's implementation is compiled without its image decoder (runtime/gltf/tinygltf.cpp).
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #include <tiny_gltf.h>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/import_options.h"
+#include "runtime/description/import_options.h"
 
 namespace kinora {
 

@@ -1,12 +1,12 @@
-// runtime/import_gltf_light.cpp: KHR_lights_punctual as lights in RSL.
+// runtime/gltf/import_light.cpp: KHR_lights_punctual as lights in RSL.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
-#include "runtime/shader_library.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

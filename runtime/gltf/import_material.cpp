@@ -1,12 +1,12 @@
-// runtime/import_gltf_material.cpp: glTF's materials as gltf_pbr and gltf_unlit.
+// runtime/gltf/import_material.cpp: glTF's materials as gltf_pbr and gltf_unlit.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
-#include "runtime/shader_library.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

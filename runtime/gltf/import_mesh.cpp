@@ -1,4 +1,4 @@
-// runtime/import_gltf_mesh.cpp: glTF's meshes: each primitive a group with its own vertices.
+// runtime/gltf/import_mesh.cpp: glTF's meshes: each primitive a group with its own vertices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

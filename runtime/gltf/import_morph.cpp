@@ -1,12 +1,12 @@
-// runtime/import_gltf_morph.cpp: glTF's morph targets as meshes of differences.
+// runtime/gltf/import_morph.cpp: glTF's morph targets as meshes of differences.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/import_gltf_p.h: the parts of the glTF importer; for import_gltf*.cpp only.
+// runtime/gltf/import_p.h: the parts of the glTF importer; for import_gltf*.cpp only.
 #pragma once
 
 #include <map>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/import_gltf.h"
-#include "runtime/import_gltf_file.h"
+#include "runtime/gltf/import.h"
+#include "runtime/gltf/import_file.h"
 
 namespace kinora {
 
@@ -47,7 +47,7 @@ class GltfImport {
         uint32_t targets = 0;
     };
 
-    // import_gltf.cpp: nodes, cameras, findings
+    // import.cpp: nodes, cameras, findings
     template <class... Args>
     void report(const FindingInfo& info, const std::string& pointer, const Args&... args) {
         if (++findings_ > kMaxGltfFindings) return;
@@ -63,7 +63,7 @@ class GltfImport {
     void import_cameras();
     std::string unique_id(const std::string& name, const char* kind, size_t index);
 
-    // import_gltf_accessor.cpp
+    // import_accessor.cpp
     struct View {
         const uint8_t* data = nullptr;
         size_t size = 0, stride = 0;
@@ -75,7 +75,7 @@ class GltfImport {
     bool read_vertices(int accessor, std::span<const uint32_t> widths, size_t count,
                        const std::string& pointer, Numbers& out);
 
-    // import_gltf_mesh.cpp
+    // import_mesh.cpp
     struct Numbered {
         std::string name;
         uint32_t set = kNone;
@@ -93,18 +93,18 @@ class GltfImport {
     std::vector<float> add_attributes(const tinygltf::Primitive& primitive,
                                       const PlacedPrimitive& placed, const std::string& pointer,
                                       PrimitiveGroup& group);
-    // import_gltf_tangent.cpp
+    // import_tangent.cpp
     void add_tangents(const std::vector<dvec3>& positions, uint32_t first_vertex,
                       std::span<const float> tangents, PrimitiveGroup& group);
     MeshUse mesh_use(uint32_t node);
 
-    // import_gltf_skin.cpp, import_gltf_morph.cpp
+    // import_skin.cpp, import_morph.cpp
     uint32_t skin_of(uint32_t mesh, uint32_t skin);
     void add_influences(uint32_t mesh, const std::string& pointer, SkinDefinition& skin);
     uint32_t morph_of(uint32_t mesh, uint32_t node);
     void import_targets(uint32_t mesh);
 
-    // import_gltf_material.cpp, import_gltf_texture.cpp, import_gltf_rsl.cpp, import_gltf_light.cpp
+    // import_material.cpp, import_texture.cpp, import_rsl.cpp, import_light.cpp
     struct Map {  // any of tinygltf's texture infos
         int index, set;
         const tinygltf::ExtensionMap& extensions;
@@ -130,7 +130,7 @@ class GltfImport {
                        const std::string& pointer);
     void import_lights();
     double nits_of_one();
-    // import_gltf_extras.cpp: what kinora-convert writes that glTF cannot say
+    // import_extras.cpp: what kinora-convert writes that glTF cannot say
     PictureShaders picture_shaders(const tinygltf::Value& extras, const std::string& pointer);
     bool import_rsl_light(const tinygltf::Light& light, const std::string& pointer,
                           LightDefinition& to);
@@ -138,7 +138,7 @@ class GltfImport {
     void find_axes(const std::vector<int>& roots);
     void import_attributes(const tinygltf::Value& extras, NodeDefinition& to);
 
-    // import_gltf_animation.cpp
+    // import_animation.cpp
     struct Target {  // what a channel writes
         uint32_t slot = kNone, count = 0, owner = 0;
     };

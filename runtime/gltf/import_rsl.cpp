@@ -1,16 +1,16 @@
-// runtime/import_gltf_rsl.cpp: a material's extras.kinora_rsl: RSL shaders on a glTF material.
+// runtime/gltf/import_rsl.cpp: a material's extras.kinora_rsl: RSL shaders on a glTF material.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
-#include "runtime/json_text.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/gltf/import_p.h"
+#include "runtime/gltf/json_text.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 #include "runtime/profile_rsl/findings.h"
-#include "runtime/shader_library.h"
-#include "runtime/texture_name.h"
 
 namespace kinora {
 

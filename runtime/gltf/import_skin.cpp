@@ -1,10 +1,10 @@
-// runtime/import_gltf_skin.cpp: glTF's skins with the influences of a mesh's vertices.
+// runtime/gltf/import_skin.cpp: glTF's skins with the influences of a mesh's vertices.
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

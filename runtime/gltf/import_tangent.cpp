@@ -1,9 +1,9 @@
-// runtime/import_gltf_tangent.cpp: TANGENT as numbers that stay right when the surface is moved.
+// runtime/gltf/import_tangent.cpp: TANGENT as numbers that stay right when the surface is moved.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "runtime/import_gltf_p.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

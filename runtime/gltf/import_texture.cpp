@@ -1,4 +1,4 @@
-// runtime/import_gltf_texture.cpp: glTF's textures, samplers and images as names that shaders look
+// runtime/gltf/import_texture.cpp: glTF's textures, samplers and images as names that shaders look
 // up.
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "runtime/findings.h"
-#include "runtime/import_gltf_p.h"
-#include "runtime/texture_name.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/gltf/import_p.h"
 
 namespace kinora {
 

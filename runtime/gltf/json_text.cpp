@@ -1,5 +1,5 @@
-// runtime/json_text.cpp: a scanner of JSON (RFC 8259) that keeps byte places.
-#include "runtime/json_text.h"
+// runtime/gltf/json_text.cpp: a scanner of JSON (RFC 8259) that keeps byte places.
+#include "runtime/gltf/json_text.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
-// runtime/json_text.h: places in a JSON text, and its shape, before and without making values of
-// it.
+// runtime/gltf/json_text.h: places in a JSON text, and its shape, before and without making values
+// of it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// runtime/straight_keys.cpp: keys whose straight pieces follow a curve within a tolerance.
-#include "runtime/straight_keys.h"
+// runtime/gltf/reduce_keys.cpp: keys whose straight pieces follow a curve within a tolerance.
+#include "runtime/gltf/reduce_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +125,7 @@ double Curve::distance(const double* a, const double* b) const {
     return worst;
 }
 
-StraightKeys straight_keys(const Curve& curve, std::span<const double> times, double tolerance) {
+StraightKeys reduce_keys(const Curve& curve, std::span<const double> times, double tolerance) {
     KeyMaker maker(curve, tolerance);
     StraightKeys result;
     for (const Key& k : maker.join(maker.halve(times))) {

@@ -1,4 +1,4 @@
-// runtime/straight_keys.h: keys whose straight pieces follow a curve within a tolerance.
+// runtime/gltf/reduce_keys.h: keys whose straight pieces follow a curve within a tolerance.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,6 @@ struct StraightKeys {
 
 // Pieces between `times` (ascending, at least one) are halved until they keep to the tolerance, or
 // are too short or too many; then keys that the line through their neighbours passes are left out.
-StraightKeys straight_keys(const Curve& curve, std::span<const double> times, double tolerance);
+StraightKeys reduce_keys(const Curve& curve, std::span<const double> times, double tolerance);
 
 }  // namespace kinora

@@ -1,4 +1,5 @@
-// runtime/tinygltf.cpp: the implementation of tinygltf, compiled once, without any image decoder.
+// runtime/gltf/tinygltf.cpp: the implementation of tinygltf, compiled once, without any image
+// decoder.
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE

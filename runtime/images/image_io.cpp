@@ -1,5 +1,5 @@
-// runtime/image_io.cpp: PNG by libpng, EXR by OpenEXR, names by rename(2).
-#include "runtime/image_io.h"
+// runtime/images/image_io.cpp: PNG by libpng, EXR by OpenEXR, names by rename(2).
+#include "runtime/images/image_io.h"
 
 #include <fcntl.h>
 #include <png.h>

@@ -1,4 +1,4 @@
-// runtime/image_io.h: pictures to files and back. A file that has its final name is whole.
+// runtime/images/image_io.h: pictures to files and back. A file that has its final name is whole.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// runtime/point_file.cpp: reads and writes point files.
-#include "runtime/point_file.h"
+// runtime/images/point_file.cpp: reads and writes point files.
+#include "runtime/images/point_file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

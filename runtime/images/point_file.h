@@ -1,10 +1,12 @@
-// runtime/point_file.h: points with values on disk, as bake3d writes and texture3d reads them.
+// runtime/images/point_file.h: points with values on disk, as bake3d writes and texture3d reads
+// them.
 //
 // The format, little-endian:
 //   8 bytes   "KNPOINT1"
 //   uint32    number of channels
 //   uint64    number of points
-//   each channel: uint32 type letter (f c p v n m as in rsl/builtin.h), uint32 bytes of its name,
+//   each channel: uint32 type letter (f c p v n m as in rsl/model/builtin.h), uint32 bytes of its
+//   name,
 //             the name
 //   each point: floats P xyz, N xyz (world space), radius, then the channels' numbers in order
 // and nothing behind: a file of another length is broken.

@@ -1,5 +1,5 @@
-// runtime/point_store.cpp: point files by name, and the points near a place.
-#include "runtime/point_store.h"
+// runtime/images/point_store.cpp: point files by name, and the points near a place.
+#include "runtime/images/point_store.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <mutex>
 #include <numeric>
 
-#include "rsl/renderer_services.h"
-#include "rsl/types.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/syntax/types.h"
 
 namespace kinora {
 

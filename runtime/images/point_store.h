@@ -1,4 +1,5 @@
-// runtime/point_store.h: point files in memory, each read once, with an index of where points are.
+// runtime/images/point_store.h: point files in memory, each read once, with an index of where
+// points are.
 #pragma once
 
 #include <map>
@@ -8,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/base/file_trees.h"
+#include "runtime/base/allowed_paths.h"
 #include "runtime/base/math.h"
-#include "runtime/point_file.h"
+#include "runtime/images/point_file.h"
 
 namespace kinora {
 
@@ -45,7 +46,8 @@ class PointCloud {
 class PointStore {
   public:
     PointStore() = default;
-    explicit PointStore(FileTrees trees) : trees_(std::move(trees)) {}  // reads files of these only
+    explicit PointStore(AllowedPaths trees)
+        : trees_(std::move(trees)) {}  // reads files of these only
 
     // A channel of a file, as a look-up names it.
     struct Channel {
@@ -71,7 +73,7 @@ class PointStore {
         std::string error;
         std::map<int32_t, std::vector<Channel>> channels;  // by the interned text
     };
-    const FileTrees trees_;
+    const AllowedPaths trees_;
     std::shared_mutex mutex_;
     std::map<int32_t, Entry> entries_;  // by the interned path
 };

@@ -1,15 +1,15 @@
-// runtime/texture.cpp: the texture services: names and arguments to the sampler.
-#include "runtime/texture.h"
+// runtime/images/texture.cpp: the texture services: names and arguments to the sampler.
+#include "runtime/images/texture.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string_view>
 
-#include "jit/ir.h"
-#include "rsl/renderer_services.h"
-#include "runtime/scene_description.h"
-#include "runtime/texture_p.h"
+#include "jit/ir/ir.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/description/scene_description.h"
+#include "runtime/images/texture_p.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
-// runtime/texture.h: textures as shaders and scenes see them.
+// runtime/images/texture.h: textures as shaders and scenes see them.
 #pragma once
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 #include "runtime/base/math.h"
 
 namespace kinora {
@@ -9,12 +9,12 @@ namespace kinora {
 struct SceneDescription;
 class TextureStore;
 
-// The services "texture" and "environment" (rsl/renderer_services.h lists arguments and results).
-// `store` answers for names. Thread-safe; without locks and allocations once the names have been
-// met. A name is texture_name.h's string. s, t = 0, 0 is the lower left corner of the image; a
-// lookup whose s or t is NaN, and one of the name "", gives the fill colour. Grey images answer as
-// r = g = b. Channels the image has not are the fill colour; alpha, channel 3, is 1. An image that
-// cannot be read gives magenta and black checks and a finding of TextureStore::report.
+// The services "texture" and "environment" (rsl/model/renderer_services.h lists arguments and
+// results). `store` answers for names. Thread-safe; without locks and allocations once the names
+// have been met. A name is texture_name.h's string. s, t = 0, 0 is the lower left corner of the
+// image; a lookup whose s or t is NaN, and one of the name "", gives the fill colour. Grey images
+// answer as r = g = b. Channels the image has not are the fill colour; alpha, channel 3, is 1. An
+// image that cannot be read gives magenta and black checks and a finding of TextureStore::report.
 void lookup_texture(const jit::ServiceCall& call, TextureStore& store);
 
 // The map is a latitude-longitude image, or one of six faces one above the other, as OpenEXR

@@ -1,5 +1,5 @@
-// runtime/texture_image.cpp: image files to pixels: PNG by libpng, the rest by the module.
-#include "runtime/texture_image.h"
+// runtime/images/texture_image.cpp: image files to pixels: PNG by libpng, the rest by the module.
+#include "runtime/images/texture_image.h"
 
 #include <dlfcn.h>
 
@@ -13,9 +13,9 @@
 #include <new>
 #include <optional>
 
-#include "runtime/image_io.h"
+#include "runtime/description/memory_file.h"
+#include "runtime/images/image_io.h"
 #include "runtime/images_module/images_module.h"
-#include "runtime/memory_file.h"
 
 namespace kinora {
 

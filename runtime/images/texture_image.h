@@ -1,4 +1,4 @@
-// runtime/texture_image.h: an image file's pixels, as they were encoded.
+// runtime/images/texture_image.h: an image file's pixels, as they were encoded.
 #pragma once
 
 #include <array>

@@ -1,14 +1,14 @@
-// runtime/texture_maps.cpp: what is known of an image, depth maps, and maps of six faces.
+// runtime/images/texture_maps.cpp: what is known of an image, depth maps, and maps of six faces.
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "jit/ir.h"
-#include "rsl/renderer_services.h"
-#include "runtime/texture.h"
-#include "runtime/texture_p.h"
+#include "jit/ir/ir.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/images/texture.h"
+#include "runtime/images/texture_p.h"
 
 namespace kinora {
 

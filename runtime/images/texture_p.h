@@ -1,8 +1,8 @@
-// runtime/texture_p.h: what the files of texture services share.
+// runtime/images/texture_p.h: what the files of texture services share.
 #pragma once
 
-#include "runtime/texture_sample.h"
-#include "runtime/texture_store.h"
+#include "runtime/images/texture_sample.h"
+#include "runtime/images/texture_store.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/texture_pyramid.cpp: decoding to linear light, tiling, halving.
-#include "runtime/texture_pyramid.h"
+// runtime/images/texture_pyramid.cpp: decoding to linear light, tiling, halving.
+#include "runtime/images/texture_pyramid.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-// runtime/texture_pyramid.h: linear RGBA texels in tiles, and their halves of halves.
+// runtime/images/texture_pyramid.h: linear RGBA texels in tiles, and their halves of halves.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/texture_image.h"
+#include "runtime/images/texture_image.h"
 
 namespace kinora {
 

@@ -1,8 +1,8 @@
-// runtime/texture_sample.cpp: filtered lookups in a pyramid: coordinates of all lanes first, then a
-// lane's texels as vectors of r g b a.
+// runtime/images/texture_sample.cpp: filtered lookups in a pyramid: coordinates of all lanes first,
+// then a lane's texels as vectors of r g b a.
 //
 // Only +, -, * and exact functions (sqrt, comparisons, bits): the same result on every CPU.
-#include "runtime/texture_sample.h"
+#include "runtime/images/texture_sample.h"
 
 #include <algorithm>
 #include <bit>
@@ -115,8 +115,8 @@ struct Sampler {
     }
 
     // One or two levels, each by `look(level)`.
-    template <class Look>
-    float4 between(float lod, Look look) const {
+    template <class ShaderInstance>
+    float4 between(float lod, ShaderInstance look) const {
         if (!(lod > 0)) return look(0);
         size_t k = size_t(lod);
         if (lod == float(k)) return look(k);

@@ -1,11 +1,11 @@
-// runtime/texture_sample.h: filtered lookups in a pyramid.
+// runtime/images/texture_sample.h: filtered lookups in a pyramid.
 #pragma once
 
 #include <cstdint>
 
-#include "jit/target.h"
-#include "runtime/texture_name.h"
-#include "runtime/texture_pyramid.h"
+#include "jit/ir/kernel.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/images/texture_pyramid.h"
 
 namespace kinora {
 

@@ -1,16 +1,16 @@
-// runtime/texture_store.cpp: names to textures without locks; files read once.
-#include "runtime/texture_store.h"
+// runtime/images/texture_store.cpp: names to textures without locks; files read once.
+#include "runtime/images/texture_store.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include "collada/findings.h"
-#include "rsl/findings.h"
-#include "rsl/renderer_services.h"
+#include "collada/document/findings.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/text/findings.h"
 #include "runtime/base/parallel.h"
-#include "runtime/findings.h"
-#include "runtime/memory_file.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/memory_file.h"
 
 namespace kinora {
 
@@ -97,13 +97,13 @@ const Texture* TextureStore::meet(int32_t name) {
     return texture.get();
 }
 
-FileTrees::Found TextureStore::file_of(const std::string& name) const {
-    return is_memory_file(name) ? FileTrees::Found{name} : trees_.find(name);
+AllowedPaths::Found TextureStore::file_of(const std::string& name) const {
+    return is_memory_file(name) ? AllowedPaths::Found{name} : trees_.find(name);
 }
 
 // The mutex is held.
 const StoredImage* TextureStore::image(const std::string& name, bool data) {
-    FileTrees::Found file = file_of(name);
+    AllowedPaths::Found file = file_of(name);
     data = data || !decode_;
     std::unique_ptr<StoredImage>& known = images_[{file.path, data}];
     if (!known) known = read_image(name, file.path, file.outside, data);

@@ -1,4 +1,4 @@
-// runtime/texture_store.h: the images that names stand for, each read once.
+// runtime/images/texture_store.h: the images that names stand for, each read once.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/base/allowed_paths.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/base/file_trees.h"
-#include "runtime/texture_name.h"
-#include "runtime/texture_pyramid.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/images/texture_pyramid.h"
 
 namespace kinora {
 
@@ -39,7 +39,7 @@ class TextureStore {
     TextureStore() = default;
     // Only files of these trees are read; any other is as one that cannot be read. With `decode`
     // false, pixels are what the files hold, never decoded from sRGB (--color legacy).
-    explicit TextureStore(FileTrees trees, bool decode = true)
+    explicit TextureStore(AllowedPaths trees, bool decode = true)
         : trees_(std::move(trees)), decode_(decode) {}
     ~TextureStore();
     TextureStore(const TextureStore&) = delete;
@@ -65,9 +65,9 @@ class TextureStore {
     using Chunk = std::array<std::atomic<const Texture*>, 1 << kChunkBits>;
     const Texture* meet(int32_t name);
     const StoredImage* image(const std::string& name, bool data);
-    FileTrees::Found file_of(const std::string& name) const;
+    AllowedPaths::Found file_of(const std::string& name) const;
 
-    const FileTrees trees_;
+    const AllowedPaths trees_;
     const bool decode_ = true;
     std::array<std::atomic<Chunk*>, kChunks> chunks_{};  // by name
     mutable std::mutex mutex_;                           // guards the maps and changes of chunks_

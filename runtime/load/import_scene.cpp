@@ -1,13 +1,13 @@
-// runtime/import_scene.cpp: chooses the reader of a scene file.
-#include "runtime/import_scene.h"
+// runtime/load/import_scene.cpp: chooses the reader of a scene file.
+#include "runtime/load/import_scene.h"
 
 #include <cctype>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 
-#include "runtime/import_collada.h"
-#include "runtime/import_gltf.h"
+#include "runtime/dae/import.h"
+#include "runtime/gltf/import.h"
 
 namespace kinora {
 
@@ -22,16 +22,6 @@ bool has_extension(const std::string& path, std::string_view extension) {
 }
 
 }  // namespace
-
-void limit_files(SceneDescription& description, const std::string& folder,
-                 const ImportOptions& options) {
-    std::vector<std::string> folders{folder};
-    folders.insert(folders.end(), options.allow_external.begin(), options.allow_external.end());
-    description.writable = FileTrees(folders);
-    folders.insert(folders.end(), options.include_directories.begin(),
-                   options.include_directories.end());
-    description.readable = FileTrees(folders);
-}
 
 bool is_gltf(const std::string& path) {
     if (has_extension(path, ".gltf") || has_extension(path, ".glb")) return true;

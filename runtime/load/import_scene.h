@@ -1,11 +1,11 @@
-// runtime/import_scene.h: a scene file of any format to a SceneDescription.
+// runtime/load/import_scene.h: a scene file of any format to a SceneDescription.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/import_options.h"
+#include "runtime/description/import_options.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/override_scene.cpp: parameters and visibility as a command line wants them.
-#include "runtime/override_scene.h"
+// runtime/load/override_scene.cpp: parameters and visibility as a command line wants them.
+#include "runtime/load/override_scene.h"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "runtime/findings.h"
+#include "runtime/description/findings.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 
 namespace kinora {

@@ -1,4 +1,5 @@
-// runtime/override_scene.h: what a command line changes of a scene before it is built: --param,
+// runtime/load/override_scene.h: what a command line changes of a scene before it is built:
+// --param,
 // --hide and --only. Names are globs (* ? [...]) of ids or names.
 #pragma once
 
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

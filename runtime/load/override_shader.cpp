@@ -1,13 +1,13 @@
-// runtime/override_shader.cpp: shaders from files on materials by glob.
-#include "runtime/override_shader.h"
+// runtime/load/override_shader.cpp: shaders from files on materials by glob.
+#include "runtime/load/override_shader.h"
 
 #include <fnmatch.h>
 
 #include <algorithm>
 
-#include "runtime/findings.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
 #include "runtime/profile_rsl/findings.h"
-#include "runtime/shader_library.h"
 
 namespace kinora {
 

@@ -1,11 +1,12 @@
-// runtime/override_shader.h: --shader MATERIAL=FILE.sl: a look tried on without editing the scene.
+// runtime/load/override_shader.h: --shader MATERIAL=FILE.sl: a look tried on without editing the
+// scene.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

@@ -5,7 +5,8 @@
 #include <set>
 #include <unordered_map>
 
-#include "rsl/lower.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 #include "runtime/profile_rsl/findings.h"
 
@@ -45,7 +46,7 @@ struct CheckedEffect {
 class Check {
   public:
     Check(const collada::SceneData& scene, const std::vector<std::string>& include_directories,
-          const FileTrees& files, Diagnostics& diagnostics)
+          const AllowedPaths& files, Diagnostics& diagnostics)
         : scene_(scene), diagnostics_(diagnostics) {
         compile_options_.include_directories = include_directories;
         compile_options_.files = files;
@@ -221,8 +222,8 @@ class Check {
 }  // namespace
 
 void check_profile_rsl(const collada::SceneData& scene,
-                       const std::vector<std::string>& include_directories, const FileTrees& files,
-                       Diagnostics& diagnostics) {
+                       const std::vector<std::string>& include_directories,
+                       const AllowedPaths& files, Diagnostics& diagnostics) {
     bool any = std::any_of(scene.effects.begin(), scene.effects.end(),
                            [](const collada::Effect& effect) { return effect.rsl.has_value(); });
     if (any) Check(scene, include_directories, files, diagnostics).run();

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "collada/scene.h"
+#include "collada/scene/scene.h"
+#include "runtime/base/allowed_paths.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/base/file_trees.h"
 
 namespace kinora {
 
@@ -16,7 +16,7 @@ namespace kinora {
 // stages where they have no meaning, files named outside `files`. Costs nothing for a scene without
 // RSL.
 void check_profile_rsl(const collada::SceneData& scene,
-                       const std::vector<std::string>& include_directories, const FileTrees& files,
-                       Diagnostics& diagnostics);
+                       const std::vector<std::string>& include_directories,
+                       const AllowedPaths& files, Diagnostics& diagnostics);
 
 }  // namespace kinora

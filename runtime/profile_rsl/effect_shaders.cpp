@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "rsl/findings.h"
+#include "rsl/text/findings.h"
 #include "runtime/profile_rsl/findings.h"
 #include "runtime/profile_rsl/joined_code.h"
 
@@ -113,7 +113,7 @@ bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& val
     return fits(parameter.type, value.numbers.size());
 }
 
-void check_named_files(const collada::ParamValue& value, const FileTrees& files, Location where,
+void check_named_files(const collada::ParamValue& value, const AllowedPaths& files, Location where,
                        Diagnostics& diagnostics) {
     if (value.image != collada::kNone) return;
     std::error_code error;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "collada/scene.h"
-#include "rsl/shader.h"
+#include "collada/scene/scene.h"
+#include "rsl/compile.h"
 
 namespace kinora {
 
@@ -42,7 +42,7 @@ std::string_view volume_side(const collada::Material& material, size_t nth);
 bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& value);
 
 // Reports texts that name a file outside `files` (RSL_FILE_OUTSIDE); of an <image> the reader has.
-void check_named_files(const collada::ParamValue& value, const FileTrees& files, Location where,
+void check_named_files(const collada::ParamValue& value, const AllowedPaths& files, Location where,
                        Diagnostics& diagnostics);
 
 std::string value_text(const collada::ParamValue& value);  // "float3 of 3 number(s)"

@@ -1,8 +1,8 @@
-// runtime/medium.h: what a ray runs through: the volumes it has entered, innermost first, packed
-// into one word of the ray (RayBatch::medium).
+// runtime/scene/medium.h: what a ray runs through: the volumes it has entered, innermost first,
+// packed into one word of the ray (RayBatch::medium).
 //
-// A volume is known by its number, Look::volume, from 1; 0 is the atmosphere. Entering a fourth
-// object inside three forgets the outermost.
+// A volume is known by its number, ShaderInstance::volume, from 1; 0 is the atmosphere. Entering a
+// fourth object inside three forgets the outermost.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// runtime/scene.h: a scene in memory, ready for frames. Made by build_scene from a description;
-// changed by the steps of render_frame only. State depends on the time alone, never on the frame
-// before.
+// runtime/scene/scene.h: a scene in memory, ready for frames. Made by build_scene from a
+// description; changed by the steps of render_frame only. State depends on the time alone, never on
+// the frame before.
 //
 // Spaces: "world" is the root file's own; "accel" is world minus Scene::origin, as floats;
 // "current" is camera space (x right, y up, z into the picture).
@@ -15,22 +15,24 @@
 #include <vector>
 
 #include "anim/animation.h"
+#include "jit/math/math.h"
+#include "jit/target.h"
 #include "raytrace/accel.h"
 #include "raytrace/camera.h"
 #include "raytrace/integrator.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/look.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 #include "skin/morph.h"
 #include "skin/skin.h"
 
 namespace kinora {
 
-class VertexWork;     // runtime/vertex_work.h
-class TextureStore;   // runtime/texture_store.h
-class PointStore;     // runtime/point_store.h
-struct WatchedEdges;  // runtime/dice_error.h
+struct ShaderInstance;  // runtime/shading/shader_instance.h
+class VertexWork;       // runtime/vertices/vertex_work.h
+class TextureStore;     // runtime/images/texture_store.h
+class PointStore;       // runtime/images/point_store.h
+struct WatchedEdges;    // runtime/vertices/dice_error.h
 
 // One occurrence of a node definition; parents come first.
 struct Node {
@@ -120,7 +122,7 @@ struct Surface {
     uint32_t interior = kNone;  // looks of the volumes inside and around; kNone: none
     uint32_t exterior = kNone;
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
-    // Vertex inputs of the look's varying parameters, in the order of Look::varying.
+    // Vertex inputs of the look's varying parameters, in the order of ShaderInstance::varying.
     std::vector<const VertexAttribute*> varying;
     VertexUse transformation, displacement;
 };
@@ -184,7 +186,7 @@ struct DiceStats {
     double pixels = 0;  // edge length used; more than asked for where the limit bound
 };
 
-class Shading;  // runtime/shading.h
+class Shading;  // runtime/shading/shading.h
 
 struct Scene {
     Scene();
@@ -203,13 +205,14 @@ struct Scene {
     std::vector<Surface> surfaces;
     std::vector<LightSource> lights;
     std::vector<CameraSource> cameras;
-    std::vector<std::unique_ptr<Look>> looks;
-    std::vector<std::unique_ptr<Look>> vertex_looks;  // displacements and transformations
-    uint32_t camera = 0;                              // into cameras
-    uint32_t atmosphere = kNone;                      // look of the volume outside all objects
-    uint32_t imager = kNone;  // look that the finished picture is run through
+    std::vector<std::unique_ptr<ShaderInstance>> looks;
+    std::vector<std::unique_ptr<ShaderInstance>> vertex_looks;  // displacements and transformations
+    uint32_t camera = 0;                                        // into cameras
+    uint32_t atmosphere = kNone;  // look of the volume outside all objects
+    uint32_t imager = kNone;      // look that the finished picture is run through
     std::vector<OutputPlane> outputs;
-    std::vector<uint32_t> volumes;   // looks of interiors and exteriors: Look::volume is k + 1
+    std::vector<uint32_t>
+        volumes;  // looks of interiors and exteriors: ShaderInstance::volume is k + 1
     std::vector<std::string> added;  // "default camera", "default light": what --list shows
 
     double time = 0, shutter = 0;  // of the last evaluate, seconds
@@ -233,40 +236,5 @@ struct Scene {
     bool all_finite = true;  // the nodes' matrices, in this frame
     std::set<std::pair<uint32_t, raytrace::GeometryIssue>> told_issues;  // of rows
 };
-
-// A view that displaced meshes are to be fine enough for, beside those of the range played.
-struct CloserView {
-    double time = 0;                         // seconds: how deforming meshes stand
-    std::optional<raytrace::Camera> camera;  // accel space; none: the scene's own at that time
-};
-
-// A scene built again, from the same description (as import gave it) and options, for one view
-// more. Its accel space is that of the first.
-struct BuildAgain {
-    CloserView view;
-    std::shared_ptr<TextureStore> textures;   // of the first
-    const std::atomic<bool>* stop = nullptr;  // once it is true build_scene gives up
-};
-
-// Unrolls the nodes, places meshes, lights and cameras, lowers and compiles every look. Errors (no
-// such camera, a shader that cannot be compiled) are findings; nothing is returned when the scene
-// cannot be rendered. The description is extended (default camera and lights), and loses what no
-// one reads again.
-std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
-                                   const SceneOptions& options, Diagnostics& diagnostics,
-                                   const BuildAgain* again = nullptr);
-
-// The range the scene plays by itself: MAYA/MAX3D/FCOLLADA extras, else the keys' range.
-struct PlayRange {
-    double start = 0, end = 0;  // seconds
-    double rate = 24;           // frames per second
-};
-PlayRange play_range(const SceneDescription& description);
-
-// The range of the clip with that name (null: no such clip).
-const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name);
-// Makes the description play that clip: its range, and its own channels where it has them. Before
-// build_scene.
-void play_clip(SceneDescription& description, const ClipDefinition& clip);
 
 }  // namespace kinora

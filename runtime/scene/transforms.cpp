@@ -1,11 +1,11 @@
-// runtime/transforms.cpp: values to matrices; the node hierarchy.
-#include "runtime/transforms.h"
+// runtime/scene/transforms.cpp: values to matrices; the node hierarchy.
+#include "runtime/scene/transforms.h"
 
 #include <cmath>
 #include <glm/matrix.hpp>
 
 #include "runtime/base/transform_matrix.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -1,9 +1,9 @@
-// runtime/transforms.h: values to node matrices, in double.
+// runtime/scene/transforms.h: values to node matrices, in double.
 #pragma once
 
 #include <span>
 
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/area_light.cpp: lights on geometry: their shaders run at samples of the mesh.
+// runtime/shading/area_light.cpp: lights on geometry: their shaders run at samples of the mesh.
 //
 // Each lit point asks n samples, spread evenly over the area: an Owen-scrambled (0,2)-sequence
 // seeded by the point and the light, so that the first 2^k are stratified and nothing depends on
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "raytrace/sampling.h"
-#include "runtime/shading_p.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 
@@ -143,7 +143,7 @@ void take_samples(Samples& samples, const Grid& grid, size_t first, size_t count
 jit::Record* Shading::area_records(Grid& grid, const LightPoints& at, size_t l, jit::Record* next,
                                    const float* zeros) {
     const AreaLight& light = *area_lights_[l];
-    const Look& look = *scene_.looks[scene_.lights[l].look];
+    const ShaderInstance& look = *scene_.looks[scene_.lights[l].look];
     Arena& arena = *grid.arena;
     std::span<uint32_t> points = arena.allocate_span<uint32_t>(at.count);
     for (uint32_t i = 0; i < at.count; ++i) points[i] = i;
@@ -153,7 +153,7 @@ jit::Record* Shading::area_records(Grid& grid, const LightPoints& at, size_t l, 
     prepare_grid(lit, grid.thread);
     lit.depth = grid.depth;
     lit.shadows = grid.shadows;
-    lit.surface = grid.look->kind == LookKind::Surface ? grid.look : nullptr;
+    lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     if (lit.surface) {
         lit.lit = &grid;
         lit.lit_first = at.first;

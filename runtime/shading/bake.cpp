@@ -1,5 +1,5 @@
-// runtime/bake.cpp: bake3d, texture3d and photon maps.
-#include "runtime/bake.h"
+// runtime/shading/bake.cpp: bake3d, texture3d and photon maps.
+#include "runtime/shading/bake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <glm/matrix.hpp>
 #include <tuple>
 
-#include "rsl/renderer_services.h"
-#include "runtime/findings.h"
-#include "runtime/point_store.h"
-#include "runtime/shading_p.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/description/findings.h"
+#include "runtime/images/point_store.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
-// runtime/bake.h: point files as shaders read them: the services texture3d and photons.
+// runtime/shading/bake.h: point files as shaders read them: the services texture3d and photons.
 #pragma once
 
-#include "runtime/grid.h"
+#include "runtime/shading/grid.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/columns.cpp: names of point-rate inputs to columns.
-#include "runtime/columns.h"
+// runtime/shading/columns.cpp: names of point-rate inputs to columns.
+#include "runtime/shading/columns.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-// runtime/columns.h: the point-rate inputs a kernel may ask for, as columns of a grid.
+// runtime/shading/columns.h: the point-rate inputs a kernel may ask for, as columns of a grid.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,8 @@ enum Column : uint16_t {
     kColAlpha = kColOi + 3,
     kColToCurrent,  // space:object:to_current and space:shader:...
     kColFromCurrent = kColToCurrent + 12,
-    kColVarying = kColFromCurrent + 12,  // then Look::varying, each value and its du and dv
+    kColVarying =
+        kColFromCurrent + 12,  // then ShaderInstance::varying, each value and its du and dv
 };
 
 // Columns that hold one number everywhere: u and v are the parameters of the surface.

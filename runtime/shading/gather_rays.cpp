@@ -1,12 +1,13 @@
-// runtime/gather_rays.cpp: the service gather: all rays of a statement at once, their hits shaded
-// as grids, the results kept as records that the statement's loop replays (DESIGN.md decision 5).
+// runtime/shading/gather_rays.cpp: the service gather: all rays of a statement at once, their hits
+// shaded as grids, the results kept as records that the statement's loop replays
+// (docs/decisions.md#lights-run-once).
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "raytrace/sampling.h"
-#include "runtime/nested_rays_p.h"
+#include "runtime/shading/nested_rays_p.h"
 
 namespace kinora {
 
@@ -86,7 +87,7 @@ class Records {
     int width_;
 };
 
-// Rows of the service's arguments (rsl/renderer_services.h).
+// Rows of the service's arguments (rsl/model/renderer_services.h).
 struct Row {
     enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags };
 };
@@ -153,7 +154,8 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
 
     Thread& own = thread(grid.thread);
     // A light may run within a turn of the gather of the surface it lights.
-    uint32_t room = grid.depth + (grid.look->kind == LookKind::Light ? kMostDepth + 1 : 0);
+    uint32_t room =
+        grid.depth + (grid.look->kind == ShaderInstanceKind::Light ? kMostDepth + 1 : 0);
     GatherMemory& memory = own.gather_memory(room, level);
     Records records(memory, counts.most, record_width(results), size_t(call.first));
     Arena::Mark mark = own.arena.mark();
@@ -275,7 +277,7 @@ void Shading::fill_geometry(std::span<const GatherResult> results, std::span<flo
     for (const GatherResult& result : results)
         wanted |= result.name == "surface:P" || find_primitive(result.name);
     if (!wanted) return;
-    static const Look plain;  // no parameters, so that hits of all looks go together
+    static const ShaderInstance plain;  // no parameters, so that hits of all looks go together
     Thread& own = thread(thread_id);
     for (size_t begin = 0; begin < hits.count; begin += kGridPoints) {
         Arena::Mark mark = own.arena.mark();

@@ -1,15 +1,15 @@
-// runtime/grid.cpp: from hits to the columns that kernels read.
-#include "runtime/grid.h"
+// runtime/shading/grid.cpp: from hits to the columns that kernels read.
+#include "runtime/shading/grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "runtime/affine_map.h"
-#include "runtime/scene.h"
-#include "runtime/shading_p.h"
-#include "runtime/spaces.h"
+#include "runtime/description/affine_map.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shading_p.h"
+#include "runtime/shading/spaces.h"
 
 namespace kinora {
 
@@ -125,8 +125,8 @@ vec3 unit_or_zero(vec3 v) {
                                                                          : vec3(0);
 }
 
-// Cofactor of the linear part: takes normals along (EXTREMES.md 1c), the mirror's sign taken out;
-// its largest entry 1, since squares of lengths are floats.
+// Cofactor of the linear part: takes normals along (docs/numerics.md#geometry), the mirror's sign
+// taken out; its largest entry 1, since squares of lengths are floats.
 mat3 normal_matrix(const dmat4& m, bool mirrored) {
     dmat3 l(m);
     dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
@@ -283,7 +283,7 @@ class Gather {
                          : normals_ * vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] +
                                            v * entries[c[2]]);
             float square = glm::dot(N, N);
-            // A normal that vanishes gives way to the geometric one (EXTREMES row 9).
+            // A normal that vanishes gives way to the geometric one (docs/numerics.md#geometry).
             bool sound = square > 0 && square < std::numeric_limits<float>::infinity();
             N_.set(i, sound ? N / std::sqrt(square) : rotation_ * triple(hits_.Ng, hit));
         }
@@ -380,7 +380,7 @@ class Gather {
     Triple P_, I_, N_, Ng_, dPdu_, dPdv_, dIdu_, dIdv_, dNdu_, dNdv_;
     bool footprint_ = false, partials_ = false, uv_ = false, parameters_ = false;
     bool matrices_ = false, unit_corners_ = false;
-    bool volume_ = grid_.look->kind == LookKind::Volume;
+    bool volume_ = grid_.look->kind == ShaderInstanceKind::Volume;
     const Surface* surface_ = nullptr;
     const Shape* shape_ = nullptr;
     const Mesh* mesh_ = nullptr;

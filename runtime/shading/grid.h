@@ -1,14 +1,14 @@
-// runtime/grid.h: a shading grid: the points of some hits that wear one look, as columns.
+// runtime/shading/grid.h: a shading grid: the points of some hits that wear one look, as columns.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
-#include "runtime/look.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -26,7 +26,7 @@ struct VertexHost {
 // What KernelArgs::grid points to: a frame kernel has no grid.
 struct KernelHost {
     const Scene* scene;
-    const Look* look;
+    const ShaderInstance* look;
     Grid* grid;
     const VertexHost* vertices = nullptr;  // of a kernel that moves vertices
 };
@@ -48,14 +48,15 @@ struct RayTag {
 // Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
 // Lives on the stack of shade(); what services see through KernelArgs::grid.
 struct Grid {
-    Grid(const Scene& s, const raytrace::HitBatch& h, std::span<const uint32_t> p, const Look* l)
+    Grid(const Scene& s, const raytrace::HitBatch& h, std::span<const uint32_t> p,
+         const ShaderInstance* l)
         : scene(s), hits(h), points(p), look(l) {}
     Grid(const Grid&) = delete;
 
     const Scene& scene;
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
-    const Look* look;
+    const ShaderInstance* look;
     KernelHost host{&scene, look, this};
     uint32_t depth = 0;
     int thread = 0;
@@ -72,7 +73,7 @@ struct Grid {
     std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null
     // in lights and volumes: each point's own surface.
-    const Look* surface = nullptr;
+    const ShaderInstance* surface = nullptr;
     const Grid* lit = nullptr;  // a light's: the grid of the surface
     size_t lit_first = 0;       // whose point that of point 0 is
 
@@ -86,8 +87,8 @@ void want_triple(Grid& grid, uint16_t first);
 // Fills every non-null column from the hits.
 void gather(Grid& grid);
 
-// Number `component` of Look::varying[which] of the look that a hit's surface wears: the bits that
-// its column would have.
+// Number `component` of ShaderInstance::varying[which] of the look that a hit's surface wears: the
+// bits that its column would have.
 float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hit, size_t which,
                  uint32_t component);
 

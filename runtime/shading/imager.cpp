@@ -1,4 +1,4 @@
-// runtime/imager.cpp: imager shaders over the finished picture, in runs of pixels.
+// runtime/shading/imager.cpp: imager shaders over the finished picture, in runs of pixels.
 //
 // P is the pixel's centre in the raster, Ci and alpha the pixel's (associated), Oi its coverage in
 // all components: the film keeps no more. alpha becomes the picture's; an imager that leaves alpha
@@ -10,7 +10,7 @@
 
 #include "raytrace/sampling.h"
 #include "runtime/base/parallel.h"
-#include "runtime/shading_p.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 
@@ -86,7 +86,7 @@ bool mend(vec4& pixel, raytrace::NanPolicy nan) {
     return false;
 }
 
-bool writes(const Look& look, rsl::Global global) {
+bool writes(const ShaderInstance& look, rsl::Global global) {
     for (const ShaderUse& use : look.layers)
         for (const rsl::GlobalInfo* info : use.shader->globals_written)
             if (info->id == global) return true;
@@ -97,7 +97,7 @@ bool writes(const Look& look, rsl::Global global) {
 
 size_t Shading::image_pixels(raytrace::Film& film, size_t first, size_t count,
                              raytrace::NanPolicy nan) {
-    const Look& look = *scene_.looks[scene_.imager];
+    const ShaderInstance& look = *scene_.looks[scene_.imager];
     int thread_id = thread_index();
     Arena& arena = thread(thread_id).arena;
     Arena::Mark mark = arena.mark();

@@ -1,5 +1,5 @@
-// runtime/light_records.cpp: lights run once for a grid; their answers become records that surface
-// kernels replay (DESIGN.md decision 5).
+// runtime/shading/light_records.cpp: lights run once for a grid; their answers become records that
+// surface kernels replay (docs/decisions.md#lights-run-once).
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -7,16 +7,17 @@
 
 #include "raytrace/sampling.h"
 
-#include "runtime/shading_p.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 
 namespace {
 
 // Columns a light kernel reads, from the points to be lit.
-std::span<float*> light_columns(const Look& look, const Scene& scene, const LightSource& light,
-                                const float* const P[3], const float* const N[3], const float* rng,
-                                size_t count, Arena& arena) {
+std::span<float*> light_columns(const ShaderInstance& look, const Scene& scene,
+                                const LightSource& light, const float* const P[3],
+                                const float* const N[3], const float* rng, size_t count,
+                                Arena& arena) {
     std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
     std::fill(columns.begin(), columns.end(), nullptr);
     vec3 origin(scene.view.camera_from_world * scene.nodes[light.node].world[3]);
@@ -47,7 +48,7 @@ int find_output(const jit::Kernel& kernel, const std::string& name) {
 }
 
 // The light's __category: a comma separated list.
-std::string categories_of(const Look& light) {
+std::string categories_of(const ShaderInstance& light) {
     for (const ParamSource& source : light.layers[0].params)
         if (source.name == "__category" && !source.strings.empty()) return source.strings[0];
     for (const rsl::ShaderParameter& p : light.shader().parameters)
@@ -90,7 +91,7 @@ bool has_category(std::string_view own, std::string_view wanted) {
 }
 
 // A light's float parameter: bound to a value, which may be animated, or its constant default.
-Shading::LightNumber number_of(const Look& light, std::string_view name) {
+Shading::LightNumber number_of(const ShaderInstance& light, std::string_view name) {
     for (const ParamSource& source : light.layers[0].params)
         if (source.name == name && source.value.present()) return {source.value.offset, 0};
     for (const rsl::ShaderParameter& p : light.shader().parameters)
@@ -113,7 +114,7 @@ namespace {
 using Statement = Shading::Statement;
 using LightBinding = Shading::LightBinding;
 
-Statement statement_of(const Look& look, size_t index, const LightDefinition& definition,
+Statement statement_of(const ShaderInstance& look, size_t index, const LightDefinition& definition,
                        ShadowMode mode) {
     const jit::Kernel& kernel = look.full.kernel();
     const rsl::LightStatement& from = look.lowered.light_statements[index];
@@ -134,7 +135,7 @@ Statement statement_of(const Look& look, size_t index, const LightDefinition& de
 }
 
 // Has the light a parameter that a variable of the type can take?
-bool parameter_fits(const Look& light, std::string_view name, rsl::Type type) {
+bool parameter_fits(const ShaderInstance& light, std::string_view name, rsl::Type type) {
     for (const rsl::ShaderParameter& p : light.shader().parameters) {
         if (p.name != name) continue;
         bool triples = rsl::is_triple(p.type.base) && rsl::is_triple(type.base);
@@ -152,7 +153,7 @@ int find_component(const jit::Kernel& kernel, const std::string& name, rsl::Base
 }
 
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.
-LightBinding binding_of(const Look& surface, const Look& light) {
+LightBinding binding_of(const ShaderInstance& surface, const ShaderInstance& light) {
     LightBinding binding;
     std::string own = categories_of(light);
     for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
@@ -183,7 +184,7 @@ void Shading::bind_lights() {
     statements_.clear();
     bindings_.clear();
     for (const LightSource& light : scene_.lights) {
-        const Look& look = *scene_.looks[light.look];
+        const ShaderInstance& look = *scene_.looks[light.look];
         auto& statements = statements_.emplace_back();
         for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
             statements.push_back(statement_of(look, s, scene_.description->lights[light.definition],
@@ -200,7 +201,7 @@ void Shading::bind_lights() {
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
         scene_.looks[l]->index = uint32_t(l);
         auto& row = bindings_.emplace_back();
-        if (scene_.looks[l]->kind == LookKind::Light) continue;
+        if (scene_.looks[l]->kind == ShaderInstanceKind::Light) continue;
         for (const LightSource& light : scene_.lights)
             row.push_back(binding_of(*scene_.looks[l], *scene_.looks[light.look]));
     }
@@ -254,7 +255,7 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
             next = area_records(grid, at, l, next, zeros);
             continue;
         }
-        const Look& look = *scene_.looks[scene_.lights[l].look];
+        const ShaderInstance& look = *scene_.looks[scene_.lights[l].look];
         const jit::Kernel& kernel = look.full.kernel();
         std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
         for (float*& column : out) column = arena.allocate_span<float>(padded(at.count)).data();
@@ -262,7 +263,7 @@ jit::RecordSet Shading::make_records(Grid& grid, const LightPoints& at) {
         lit.depth = grid.depth;
         lit.ray = grid.ray;
         lit.shadows = grid.shadows;
-        lit.surface = grid.look->kind == LookKind::Surface ? grid.look : nullptr;
+        lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
         lit.lit = &grid;
         lit.lit_first = at.first;
         lit.thread = grid.thread;

@@ -1,5 +1,5 @@
-// runtime/nested_rays.cpp: rays that shaders shoot, set up in one place, and what they see.
-#include "runtime/nested_rays_p.h"
+// runtime/shading/nested_rays.cpp: rays that shaders shoot, set up in one place, and what they see.
+#include "runtime/shading/nested_rays_p.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "raytrace/sampling.h"
-#include "rsl/renderer_services.h"
+#include "rsl/model/renderer_services.h"
 
 namespace kinora {
 

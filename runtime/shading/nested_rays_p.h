@@ -1,10 +1,10 @@
-// runtime/nested_rays_p.h: rays that shaders shoot: where they begin, how they spread, and the
-// batches they go in; for the files that answer ray services only.
+// runtime/shading/nested_rays_p.h: rays that shaders shoot: where they begin, how they spread, and
+// the batches they go in; for the files that answer ray services only.
 #pragma once
 
 #include <bit>
 
-#include "runtime/shading_p.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 
@@ -18,8 +18,8 @@ struct RayStart {
     uint32_t hit = 0;  // of the grid's batch: the point that asks
 };
 
-// An unmodified P is the hit itself (DESIGN.md decision 18); any other carries the error of coming
-// from current space.
+// An unmodified P is the hit itself (docs/decisions.md#precision); any other carries the error of
+// coming from current space.
 RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 
 // A ray of a batch from there in a direction of any length but 0; `bias` >= 0 leaves out what is

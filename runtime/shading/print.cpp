@@ -1,13 +1,14 @@
-// runtime/print.cpp: printf of shaders: formatted at once, shown in picture order after the frame.
-#include "runtime/print.h"
+// runtime/shading/print.cpp: printf of shaders: formatted at once, shown in picture order after the
+// frame.
+#include "runtime/shading/print.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <tuple>
 
-#include "rsl/renderer_services.h"
-#include "rsl/string_functions.h"
-#include "runtime/shading_p.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/model/string_functions.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 

@@ -1,9 +1,9 @@
-// runtime/print.h: the text of a shader's printf.
+// runtime/shading/print.h: the text of a shader's printf.
 #pragma once
 
 #include <string>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora {
 

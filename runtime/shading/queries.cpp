@@ -1,12 +1,13 @@
-// runtime/queries.cpp: parameters of other shaders, and the service that all questions go through.
-#include "runtime/queries.h"
+// runtime/shading/queries.cpp: parameters of other shaders, and the service that all questions go
+// through.
+#include "runtime/shading/queries.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "runtime/scene.h"
-#include "runtime/spaces.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/spaces.h"
 
 namespace kinora {
 
@@ -41,7 +42,7 @@ uint32_t surface_row(const Asker& asker) {
 }
 
 // The same from the look's "shader" space: a surface's is that of what wears it.
-void place(rsl::BaseType type, const Asker& asker, const Look& look, const double* values,
+void place(rsl::BaseType type, const Asker& asker, const ShaderInstance& look, const double* values,
            Answer& answer) {
     uint32_t node = look.node;
     uint32_t row = node == kNone ? surface_row(asker) : kNone;
@@ -57,8 +58,8 @@ rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
 }
 
 // Bound to a vertex input: at hand where the surface's own kernel reads it, else made here.
-bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Question& question,
-                   Answer& answer, bool* varying) {
+bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t layer,
+                   const Question& question, Answer& answer, bool* varying) {
     *varying = false;
     for (size_t which = 0; which < look.varying.size(); ++which) {
         const VaryingParam& v = look.varying[which];
@@ -91,8 +92,8 @@ bool from_vertices(const Asker& asker, const Look& look, uint32_t layer, const Q
     return false;
 }
 
-bool from_source(const Asker& asker, const Look& look, const ParamSource& source, rsl::Type type,
-                 const Question& question, Answer& answer) {
+bool from_source(const Asker& asker, const ShaderInstance& look, const ParamSource& source,
+                 rsl::Type type, const Question& question, Answer& answer) {
     size_t element = size_t(std::max(question.element, 0));
     if (type.base == rsl::BaseType::String) {
         if (element >= source.strings.size()) return false;
@@ -115,8 +116,8 @@ bool from_source(const Asker& asker, const Look& look, const ParamSource& source
     return true;
 }
 
-bool from_default(const Asker& asker, const Look& look, const rsl::ShaderParameter& parameter,
-                  const Question& question, Answer& answer) {
+bool from_default(const Asker& asker, const ShaderInstance& look,
+                  const rsl::ShaderParameter& parameter, const Question& question, Answer& answer) {
     if (!parameter.constant) return false;
     size_t element = size_t(std::max(question.element, 0));
     const rsl::ConstantValue& value = *parameter.constant;
@@ -137,12 +138,12 @@ bool from_default(const Asker& asker, const Look& look, const rsl::ShaderParamet
     return true;
 }
 
-const Look* look_at(const Scene& scene, uint32_t index) {
+const ShaderInstance* look_at(const Scene& scene, uint32_t index) {
     return index < scene.looks.size() ? scene.looks[index].get() : nullptr;
 }
 
 // The volume on the side that the ray comes from, or on the other: outside is where Ng points.
-const Look* volume_of(const Asker& asker, bool opposite) {
+const ShaderInstance* volume_of(const Asker& asker, bool opposite) {
     if (!asker.on_surface()) return nullptr;
     const Grid& grid = *asker.grid;
     uint32_t hit = asker.hit();
@@ -154,15 +155,15 @@ const Look* volume_of(const Asker& asker, bool opposite) {
 }
 
 struct Asked {
-    const Look* look = nullptr;
+    const ShaderInstance* look = nullptr;
     rsl::ShaderKind kind = rsl::ShaderKind::Surface;
 };
 
 Asked whom(QueryKind kind, const Asker& asker) {
-    const Look* surface = &asker.look;
+    const ShaderInstance* surface = &asker.look;
     if (asker.grid && asker.grid->surface)
         surface = asker.grid->surface;
-    else if (surface->kind != LookKind::Surface)
+    else if (surface->kind != ShaderInstanceKind::Surface)
         surface = asker.on_surface() ? look_at(asker.scene, asker.surface().look) : nullptr;
     switch (kind) {
         case QueryKind::Surface:
@@ -216,7 +217,7 @@ const Surface& Asker::surface() const {
     return scene.surfaces[grid->hits.instance[hit()]];
 }
 
-bool answer_parameter(const Asker& asker, const Look& look, rsl::ShaderKind kind,
+bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,
                       const Question& question, Answer& answer) {
     for (size_t l = look.layers.size(); l-- > 0;) {
         const ShaderUse& use = look.layers[l];

@@ -1,13 +1,13 @@
-// runtime/queries.h: what shaders ask about each other, the geometry, the ray and the renderer: the
-// service "query".
+// runtime/shading/queries.h: what shaders ask about each other, the geometry, the ray and the
+// renderer: the service "query".
 #pragma once
 
 #include <array>
 #include <span>
 #include <string_view>
 
-#include "rsl/renderer_services.h"
-#include "runtime/grid.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/shading/grid.h"
 
 namespace kinora {
 
@@ -16,7 +16,7 @@ struct Surface;
 // Who asks: a point of a grid, or nobody in particular (frame rate).
 struct Asker {
     const Scene& scene;
-    const Look& look;
+    const ShaderInstance& look;
     const Grid* grid = nullptr;
     size_t point = 0;  // of the grid
 
@@ -25,7 +25,8 @@ struct Asker {
     const Surface& surface() const;  // that the grid's point lies on
 };
 
-// What is asked for: a number of a type (letters of rsl/builtin.h), or an element of an array.
+// What is asked for: a number of a type (letters of rsl/model/builtin.h), or an element of an
+// array.
 struct Question {
     std::string_view name;
     char type = 'f';
@@ -47,7 +48,7 @@ bool answer_fact(rsl::QueryKind kind, const Asker& asker, const Question& questi
 
 // A shader parameter as it is bound (or its constant default): `kind` chooses the layer, the last
 // one first. False if there is none of that name and type.
-bool answer_parameter(const Asker& asker, const Look& look, rsl::ShaderKind kind,
+bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,
                       const Question& question, Answer& answer);
 
 }  // namespace kinora

@@ -1,12 +1,14 @@
-// runtime/query_tables.cpp: the facts that attribute, option, rendererinfo and rayinfo know.
+// runtime/shading/query_tables.cpp: the facts that attribute, option, rendererinfo and rayinfo
+// know.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "runtime/queries.h"
-#include "runtime/scene.h"
-#include "runtime/shading.h"
+#include "runtime/description/play_range.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/queries.h"
+#include "runtime/shading/shading.h"
 
 namespace kinora {
 
@@ -49,7 +51,7 @@ const NodeDefinition& node_of(const Asker& asker) {
     const Shape& shape = asker.scene.shapes[asker.surface().shape];
     return asker.scene.description->nodes[asker.scene.nodes[shape.node].definition];
 }
-const Look& look_of(const Asker& asker) {
+const ShaderInstance& look_of(const Asker& asker) {
     return *asker.scene.looks[asker.surface().look];
 }
 

@@ -1,18 +1,18 @@
-// runtime/services.cpp: the table of functions that generated code calls.
-#include "runtime/services.h"
+// runtime/shading/services.cpp: the table of functions that generated code calls.
+#include "runtime/shading/services.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <glm/matrix.hpp>
 
-#include "rsl/renderer_services.h"
-#include "rsl/service_table.h"
-#include "runtime/bake.h"
-#include "runtime/print.h"
-#include "runtime/queries.h"
-#include "runtime/shading_p.h"
-#include "runtime/spaces.h"
-#include "runtime/texture.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/model/service_table.h"
+#include "runtime/images/texture.h"
+#include "runtime/shading/bake.h"
+#include "runtime/shading/print.h"
+#include "runtime/shading/queries.h"
+#include "runtime/shading/shading_p.h"
+#include "runtime/shading/spaces.h"
 
 namespace kinora {
 
@@ -110,7 +110,7 @@ void transform(const jit::ServiceCall& call) {
         if (!(call.mask >> i & 1)) continue;
         int32_t space = jit::bits_of(argument(call, 0)[i]);
         uint32_t node = host.look->node;
-        if (host.grid && host.look->kind == LookKind::Surface) {
+        if (host.grid && host.look->kind == ShaderInstanceKind::Surface) {
             const Grid& grid = *host.grid;
             size_t point = std::min(size_t(call.first + i), grid.count() - 1);
             const Surface& surface = grid.scene.surfaces[grid.hits.instance[grid.points[point]]];

@@ -1,9 +1,10 @@
-// runtime/services.h: what shaders ask of the renderer while they run (rsl/renderer_services.h).
+// runtime/shading/services.h: what shaders ask of the renderer while they run
+// (rsl/model/renderer_services.h).
 #pragma once
 
 #include <string_view>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/look.cpp: parameters and spaces bound to compiled shaders.
-#include "runtime/look.h"
+// runtime/shading/shader_instance.cpp: parameters and spaces bound to compiled shaders.
+#include "runtime/shading/shader_instance.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,10 +8,10 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/base/check.h"
-#include "runtime/grid.h"
-#include "runtime/scene.h"
-#include "runtime/services.h"
-#include "runtime/spaces.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/grid.h"
+#include "runtime/shading/services.h"
+#include "runtime/shading/spaces.h"
 
 namespace kinora {
 
@@ -38,7 +38,7 @@ uint32_t value_index(ValueSlot slot, uint32_t needed, uint32_t c) {
 }
 
 rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool shape,
-                                 const ShaderUse& use, const Look& look, uint32_t layer,
+                                 const ShaderUse& use, const ShaderInstance& look, uint32_t layer,
                                  const SceneDescription& description) {
     rsl::ParamBinding binding;
     binding.name = std::string(parameter.name);
@@ -57,8 +57,9 @@ rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool sha
     }
     if (!source->value.present()) return binding;
     binding.kind = rsl::ParamBinding::Kind::Frame;
-    // Shape only (DESIGN.md decision 4): floats that are exactly 0 or 1, and whatever decides the
-    // control flow. Point-like values stay frame rate: they depend on where the shader's space is.
+    // Shape only (docs/decisions.md#specialise-on-shape-only): floats that are exactly 0 or 1, and
+    // whatever decides the control flow. Point-like values stay frame rate: they depend on where
+    // the shader's space is.
     if (rsl::is_spatial(parameter.type.base) || parameter.type.base == rsl::BaseType::Matrix ||
         is_animated(description, source->value))
         return binding;
@@ -115,14 +116,14 @@ bool parse_param_name(std::string_view text, ParamName& out) {
 }
 
 // Index of a named space among the look's; added when new.
-uint32_t space_index(Look& look, std::string_view space) {
+uint32_t space_index(ShaderInstance& look, std::string_view space) {
     auto known = std::find(look.spaces.begin(), look.spaces.end(), space);
     uint32_t index = uint32_t(known - look.spaces.begin());
     if (known == look.spaces.end()) look.spaces.emplace_back(space);
     return index;
 }
 
-FrameInput resolve_param(Look& look, const ParamName& name) {
+FrameInput resolve_param(ShaderInstance& look, const ParamName& name) {
     FrameInput input;
     if (name.layer >= look.layers.size()) return input;
     const ShaderUse& use = look.layers[name.layer];
@@ -155,7 +156,7 @@ FrameInput resolve_param(Look& look, const ParamName& name) {
     return input;
 }
 
-FrameInput resolve_input(Look& look, std::string_view name) {
+FrameInput resolve_input(ShaderInstance& look, std::string_view name) {
     using Source = FrameInput::Source;
     struct Row {
         std::string_view name;
@@ -189,10 +190,11 @@ FrameInput resolve_input(Look& look, std::string_view name) {
         input.component = uint8_t(row * 4 + column);
         return input;
     }
-    check_failed("runtime/look.cpp", 0, "unknown frame input " + std::string(name));
+    check_failed("runtime/shading/shader_instance.cpp", 0,
+                 "unknown frame input " + std::string(name));
 }
 
-uint16_t resolve_column(const Look& look, std::string_view name) {
+uint16_t resolve_column(const ShaderInstance& look, std::string_view name) {
     if (uint16_t column = find_column(name); column != kNoColumn) return column;
     ParamName param;
     if (parse_param_name(name, param))
@@ -201,10 +203,11 @@ uint16_t resolve_column(const Look& look, std::string_view name) {
                 uint32_t step = param.partial == "du" ? 1 : param.partial == "dv" ? 2 : 0;
                 return uint16_t(varying.column + step * varying.components + param.component);
             }
-    check_failed("runtime/look.cpp", 0, "unknown point input " + std::string(name));
+    check_failed("runtime/shading/shader_instance.cpp", 0,
+                 "unknown point input " + std::string(name));
 }
 
-void bind_kernel(BoundKernel& bound, Look& look) {
+void bind_kernel(BoundKernel& bound, ShaderInstance& look) {
     for (const jit::InputInfo& input : bound.pair.point->inputs)
         bound.columns.push_back(resolve_column(look, input.name));
     for (const jit::ServiceInfo& service : bound.pair.point->services)
@@ -223,7 +226,7 @@ void bind_kernel(BoundKernel& bound, Look& look) {
     bound.frame_faults.resize(frame.fault_sites.size() + 1);
 }
 
-void place_varying(Look& look) {
+void place_varying(ShaderInstance& look) {
     for (VaryingParam& varying : look.varying) {
         varying.column = varying.array ? kNoColumn : look.column_count;
         if (varying.array) continue;
@@ -233,8 +236,8 @@ void place_varying(Look& look) {
 
 }  // namespace
 
-bool compile_look(Look& look, const SceneDescription& description, const LookOptions& options,
-                  Diagnostics& diagnostics) {
+bool compile_look(ShaderInstance& look, const SceneDescription& description,
+                  const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
     place_varying(look);
     std::vector<rsl::Layer> layers;
     for (uint32_t l = 0; l < look.layers.size(); ++l) {
@@ -260,7 +263,8 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
             lower.want_N = true;
         else
             lower.aovs.push_back(name);
-    bool of_vertices = look.kind == LookKind::Displacement || look.kind == LookKind::Transformation;
+    bool of_vertices = look.kind == ShaderInstanceKind::Displacement ||
+                       look.kind == ShaderInstanceKind::Transformation;
     lower.of_vertices = of_vertices;
     if (of_vertices) {
         lower.want_Ci = lower.want_Oi = false;
@@ -281,8 +285,8 @@ bool compile_look(Look& look, const SceneDescription& description, const LookOpt
     look.full.pair = jit::compile(std::move(look.lowered.module), compile);
     bind_kernel(look.full, look);
     // Shadow rays ask what is not opaque, and what fills an object.
-    bool shades_shadows = look.kind == LookKind::Surface && !look.opaque();
-    bool fills = look.kind == LookKind::Volume && look.volume != 0 && !look.exterior;
+    bool shades_shadows = look.kind == ShaderInstanceKind::Surface && !look.opaque();
+    bool fills = look.kind == ShaderInstanceKind::Volume && look.volume != 0 && !look.exterior;
     if (shades_shadows || fills) {
         lower.want_Ci = false;
         lower.want_N = false;
@@ -315,13 +319,13 @@ int output_component(std::string_view suffix) {
     return int(element * width + component);
 }
 
-void Look::update_for_vertices(const FrameContext& context, uint32_t object) {
+void ShaderInstance::update_for_vertices(const FrameContext& context, uint32_t object) {
     for (size_t s = 0; s < spaces.size(); ++s)
         current_from_space[s] = object_from_space(context.scene, spaces[s], object);
     full.update(context, *this);
 }
 
-void Look::update(const FrameContext& context) {
+void ShaderInstance::update(const FrameContext& context) {
     for (size_t s = 0; s < spaces.size(); ++s)
         current_from_space[s] = kinora::current_from_space(context.scene, spaces[s], node);
     full.update(context, *this);
@@ -336,7 +340,7 @@ dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, cons
     return linear * value;
 }
 
-void BoundKernel::update(const FrameContext& context, const Look& look) {
+void BoundKernel::update(const FrameContext& context, const ShaderInstance& look) {
     if (!pair.frame) return;
     std::span<const dmat4> current_from_space = look.current_from_space;
     using Source = FrameInput::Source;
@@ -358,9 +362,9 @@ void BoundKernel::update(const FrameContext& context, const Look& look) {
                 return float(input.inverse ? glm::inverse(m)[column][row] : m[column][row]);
             }
             case Source::Time:
-                return float(context.time);
+                return float(scene.time);
             case Source::Shutter:
-                return float(context.shutter);
+                return float(scene.shutter);
             case Source::Near:
                 return float(scene.view.znear);
             case Source::Far:

@@ -1,4 +1,5 @@
-// runtime/look.h: a shader stack with its parameters, compiled: what surfaces wear and lights are.
+// runtime/shading/shader_instance.h: a shader stack with its parameters, compiled: what surfaces
+// wear and lights are.
 #pragma once
 
 #include <memory>
@@ -9,10 +10,10 @@
 
 #include "jit/compiler.h"
 #include "raytrace/camera.h"
-#include "rsl/lower.h"
+#include "rsl/lower/lower.h"
 #include "runtime/base/arena.h"
-#include "runtime/columns.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
+#include "runtime/shading/columns.h"
 
 namespace kinora {
 
@@ -21,9 +22,7 @@ struct Scene;
 // What frame-rate inputs are computed from.
 struct FrameContext {
     const Scene& scene;
-    double time = 0;
-    double shutter = 0;  // its length, seconds
-    dvec3 eye{0.0};      // in "current"
+    dvec3 eye{0.0};  // in "current"
 };
 
 // Where a frame-rate input's number comes from, resolved by name once.
@@ -49,13 +48,13 @@ struct FrameInput {
     bool inverse = false;  // Space: from_current
 };
 
-struct Look;
+struct ShaderInstance;
 
 // A kernel pair with its frame block.
 class BoundKernel {
   public:
     // Runs the frame kernel and fills the frame block. No allocation.
-    void update(const FrameContext& context, const Look& look);
+    void update(const FrameContext& context, const ShaderInstance& look);
     const jit::Kernel& kernel() const { return *pair.point; }
     const float* frame_block() const { return frame.data(); }
     bool empty() const { return !pair.point; }
@@ -71,7 +70,14 @@ class BoundKernel {
     std::vector<float*> out;
 };
 
-enum class LookKind : uint8_t { Surface, Light, Volume, Imager, Displacement, Transformation };
+enum class ShaderInstanceKind : uint8_t {
+    Surface,
+    Light,
+    Volume,
+    Imager,
+    Displacement,
+    Transformation
+};
 
 // A parameter bound to vertex inputs.
 struct VaryingParam {
@@ -88,8 +94,8 @@ struct VaryingParam {
     uint16_t column = 0;
 };
 
-struct Look {
-    LookKind kind = LookKind::Surface;
+struct ShaderInstance {
+    ShaderInstanceKind kind = ShaderInstanceKind::Surface;
     uint32_t index = 0;             // among Scene::looks
     std::string name;               // the material's or light's
     std::vector<ShaderUse> layers;  // displacements, then surfaces; or one light
@@ -103,7 +109,7 @@ struct Look {
     std::vector<std::string> spaces;     // names of frame-rate spaces the kernels read
     std::vector<dmat4> current_from_space;
     bool hide_backfaces = false;
-    uint32_t volume = 0;    // an interior's or exterior's number: runtime/medium.h
+    uint32_t volume = 0;    // an interior's or exterior's number: runtime/scene/medium.h
     bool exterior = false;  // that volume surrounds its object
     bool area_light = false;
     std::vector<int> aovs;  // of each plane of the film: the full kernel's output, -1 if none
@@ -115,7 +121,7 @@ struct Look {
     void update_for_vertices(const FrameContext& context, uint32_t object);
 };
 
-struct LookOptions {
+struct ShaderInstanceOptions {
     jit::math::Tier math = jit::math::Tier::Precise;
     const jit::Target* target = nullptr;
     std::vector<std::string> light_messages;  // lights: names that some surface reads
@@ -134,7 +140,7 @@ dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, cons
 
 // Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
 // compiled (findings say why).
-bool compile_look(Look& look, const SceneDescription& description, const LookOptions& options,
-                  Diagnostics& diagnostics);
+bool compile_look(ShaderInstance& look, const SceneDescription& description,
+                  const ShaderInstanceOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kinora

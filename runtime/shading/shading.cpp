@@ -1,12 +1,12 @@
-// runtime/shading.cpp: hits grouped by look, shaded in dense grids.
-#include "runtime/shading.h"
+// runtime/shading/shading.cpp: hits grouped by look, shaded in dense grids.
+#include "runtime/shading/shading.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "runtime/base/parallel.h"
-#include "runtime/findings.h"
-#include "runtime/shading_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 
@@ -25,27 +25,25 @@ Shading::Shading(Scene& scene) : scene_(scene) {
 }
 Shading::~Shading() = default;
 
-void Shading::begin_frame(double time, double shutter, uint32_t seed, int max_layers) {
+void Shading::begin_frame(uint32_t seed, int max_layers) {
     seed_ = seed;
     max_layers_ = max_layers;
-    time_ = time;
-    shutter_ = shutter;
     while (threads_.size() < size_t(thread_count())) threads_.push_back(std::make_unique<Thread>());
     for (auto& thread : threads_) {
         thread->counters = {};
         thread->faults.resize(2 * scene_.looks.size());
         for (size_t l = 0; l < scene_.looks.size(); ++l) {
-            const Look& look = *scene_.looks[l];
+            const ShaderInstance& look = *scene_.looks[l];
             thread->faults[2 * l].assign(look.full.kernel().fault_sites.size() + 1, 0);
             if (look.opacity)
                 thread->faults[2 * l + 1].assign(look.opacity->kernel().fault_sites.size() + 1, 0);
         }
     }
-    FrameContext context{scene_, time, shutter};
+    FrameContext context{scene_};
     any_transparent_ = false;
     for (auto& look : scene_.looks) {
         look->update(context);
-        any_transparent_ |= look->kind == LookKind::Surface && look->opacity.has_value();
+        any_transparent_ |= look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
         has_exteriors_ |= look->exterior;
     }
     update_area_lights();
@@ -92,7 +90,8 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
 void Shading::shade(const raytrace::HitBatch& hits, int thread_id, raytrace::ShadeResult& result) {
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
-    // Precise kernels run in the IEEE default, fast ones flush denormals (DESIGN.md decision 13).
+    // Precise kernels run in the IEEE default, fast ones flush denormals
+    // (docs/decisions.md#exact-arithmetic).
     std::optional<raytrace::DenormalGuard> flush;
     if (scene_.options.math == jit::math::Tier::Fast) flush.emplace();
     // A counting sort by look keeps the hits' order within each, so rows stay together.
@@ -170,7 +169,7 @@ void Shading::run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* 
 }
 
 void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
-                         const Look& look, int thread_id, raytrace::ShadeResult& result) {
+                         const ShaderInstance& look, int thread_id, raytrace::ShadeResult& result) {
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
     Grid grid(scene_, hits, points, &look);
@@ -230,7 +229,7 @@ void Shading::opacity(const raytrace::HitBatch& hits, int thread_id, vec3* resul
     Arena::Mark mark = own.arena.mark();
     std::span<uint32_t> points = own.arena.allocate_span<uint32_t>(hits.count);
     for (size_t l = 0; l < scene_.looks.size(); ++l) {
-        const Look& look = *scene_.looks[l];
+        const ShaderInstance& look = *scene_.looks[l];
         size_t count = 0;
         for (uint32_t i = 0; i < hits.count; ++i)
             if (scene_.surfaces[hits.instance[i]].look == l) points[count++] = i;

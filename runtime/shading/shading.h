@@ -1,4 +1,4 @@
-// runtime/shading.h: the looks of surfaces for the ray tracer: hits to grids to colours.
+// runtime/shading/shading.h: the looks of surfaces for the ray tracer: hits to grids to colours.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "raytrace/integrator.h"
-#include "runtime/grid.h"
-#include "runtime/look.h"
+#include "runtime/shading/grid.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -30,16 +30,16 @@ struct ShadingCounters {
     void operator+=(const ShadingCounters& o);
 };
 
-// Wavefront shading (DESIGN.md decision 2): hits of a batch are grouped by look, shaded in dense
-// grids. One per scene; its memory is kept from frame to frame.
+// Wavefront shading (docs/decisions.md#lanes-and-wavefronts): hits of a batch are grouped by look,
+// shaded in dense grids. One per scene; its memory is kept from frame to frame.
 class Shading : public raytrace::SurfaceShading {
   public:
     explicit Shading(Scene& scene);
     ~Shading() override;
 
-    // Before a frame's first shade(): sizes the threads' memory, runs the frame kernels. Rays see
-    // through max_layers surfaces, as those of the camera do.
-    void begin_frame(double time, double shutter, uint32_t seed, int max_layers);
+    // Before the first shade() of a frame at Scene::time: sizes the threads' memory, runs the frame
+    // kernels. Rays see through max_layers surfaces, as those of the camera do.
+    void begin_frame(uint32_t seed, int max_layers);
     // The frame ends as soon as it can once this is not 0; null: never.
     void stop_by(const std::atomic<int>* flag) { stop_ = flag; }
     bool stopped() const override { return stop_ && stop_->load(std::memory_order_relaxed) != 0; }
@@ -60,7 +60,7 @@ class Shading : public raytrace::SurfaceShading {
     // The number of its pixels that were not finite; they become what `nan` says.
     size_t run_imager(raytrace::Film& film, raytrace::NanPolicy nan);
 
-    // The services that shoot rays (rsl/renderer_services.h), for one lane group of a grid.
+    // The services that shoot rays (rsl/model/renderer_services.h), for one lane group of a grid.
     void trace(Grid& grid, const jit::ServiceCall& call);
     void transmission(Grid& grid, const jit::ServiceCall& call);
     void occlusion(Grid& grid, const jit::ServiceCall& call);
@@ -72,8 +72,6 @@ class Shading : public raytrace::SurfaceShading {
     uint32_t diffuse_depth() const;  // bounces of indirectdiffuse
     const mat3& camera_from_accel() const { return camera_from_accel_; }
     vec3 eye() const { return eye_; }  // accel space
-    double time() const { return time_; }
-    double shutter() const { return shutter_; }
     // A shader's printf: kept with its pixel, printed in picture order after the frame.
     void print(const Grid& grid, const jit::ServiceCall& call);
     // Light records at other points than the grid's own; their handle.
@@ -106,7 +104,7 @@ class Shading : public raytrace::SurfaceShading {
   private:
     struct LightPoints;  // where light is wanted
     void shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
-                    const Look& look, int thread, raytrace::ShadeResult& result);
+                    const ShaderInstance& look, int thread, raytrace::ShadeResult& result);
     void prepare_grid(Grid& grid, int thread);
     void run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* const> out);
     // Takes output rows, runs the kernel and returns them.
@@ -118,8 +116,8 @@ class Shading : public raytrace::SurfaceShading {
     template <class F>
     void for_each_volume_grid(const VolumeOrder& order, F&& f) const;
     void shade_volume(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
-                      const Look& look, const BoundKernel& bound, int thread, bool shadows,
-                      raytrace::ShadeResult& result);
+                      const ShaderInstance& look, const BoundKernel& bound, int thread,
+                      bool shadows, raytrace::ShadeResult& result);
     void apply_volumes(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result);
     void pass_volumes(const raytrace::HitBatch& hits, int thread, vec3* Oi);
     size_t image_pixels(raytrace::Film& film, size_t first, size_t count, raytrace::NanPolicy nan);
@@ -174,7 +172,6 @@ class Shading : public raytrace::SurfaceShading {
     const std::atomic<int>* stop_ = nullptr;
     uint32_t seed_ = 0;
     int max_layers_ = 256;
-    double time_ = 0, shutter_ = 0;
     bool any_transparent_ = false;
     bool has_exteriors_ = false;
     float miss_distance_ = 0;

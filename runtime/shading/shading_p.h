@@ -1,13 +1,13 @@
-// runtime/shading_p.h: what the parts of Shading share; for shading*.cpp, light_records.cpp,
-// transmission.cpp and services.cpp only.
+// runtime/shading/shading_p.h: what the parts of Shading share; for shading*.cpp,
+// light_records.cpp, transmission.cpp and services.cpp only.
 #pragma once
 
 #include <algorithm>
 
 #include "raytrace/sampling.h"
-#include "runtime/point_file.h"
-#include "runtime/scene.h"
-#include "runtime/shading.h"
+#include "runtime/images/point_file.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shading.h"
 
 namespace kinora {
 
@@ -130,7 +130,7 @@ inline void set_triple(float* const columns[3], size_t i, vec3 value) {
     columns[2][i] = value.z;
 }
 
-// A hit's random number (DESIGN.md decision 10).
+// A hit's random number (docs/decisions.md#random-numbers-without-state).
 inline uint32_t random_of(const raytrace::HitBatch& hits, size_t h) {
     uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]);
     uint32_t layer = hits.layer[h] % 64 + 64 * hits.depth + (hits.layer[h] / 64 << 16);

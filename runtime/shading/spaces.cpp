@@ -1,10 +1,10 @@
-// runtime/spaces.cpp: the coordinate systems that shaders name.
-#include "runtime/spaces.h"
+// runtime/shading/spaces.cpp: the coordinate systems that shaders name.
+#include "runtime/shading/spaces.h"
 
 #include <algorithm>
 #include <glm/matrix.hpp>
 
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/spaces.h: the coordinate systems that shaders name.
+// runtime/shading/spaces.h: the coordinate systems that shaders name.
 #pragma once
 
 #include <cstdint>

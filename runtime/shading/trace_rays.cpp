@@ -1,13 +1,13 @@
-// runtime/trace_rays.cpp: the services trace, transmission, occlusion and indirectdiffuse: the
-// samples of a lane group go in dense batches, each lane sums its own in their order, so that no
-// result depends on its neighbours.
+// runtime/shading/trace_rays.cpp: the services trace, transmission, occlusion and indirectdiffuse:
+// the samples of a lane group go in dense batches, each lane sums its own in their order, so that
+// no result depends on its neighbours.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "raytrace/sampling.h"
-#include "runtime/nested_rays_p.h"
-#include "runtime/texture.h"
+#include "runtime/images/texture.h"
+#include "runtime/shading/nested_rays_p.h"
 
 namespace kinora {
 

@@ -1,10 +1,10 @@
-// runtime/transmission.cpp: rays through transparent surfaces. Each wavefront runs on the calling
-// thread; no task is started here.
+// runtime/shading/transmission.cpp: rays through transparent surfaces. Each wavefront runs on the
+// calling thread; no task is started here.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "runtime/shading_p.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 

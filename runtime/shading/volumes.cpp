@@ -1,18 +1,19 @@
-// runtime/volumes.cpp: volume shaders, run on the way of each ray between two surfaces.
+// runtime/shading/volumes.cpp: volume shaders, run on the way of each ray between two surfaces.
 //
-// The kernels run after the surface at the far end of the way, on its Ci and Oi (DESIGN.md decision
-// 7): P is that end, I leads there from the last surface (or the eye), so that layers seen through
-// each other are fogged once each and add up front to back like one way. Which volume it is follows
-// from the side of the surface that the ray meets: from outside (dir . Ng < 0) its exterior, from
-// inside its interior; a surface that has none leaves the ray in what it had entered
-// (runtime/medium.h), and that is at first the atmosphere. This is right for closed meshes; a
-// camera inside an object sees its interior on what encloses it, not on other things within.
+// The kernels run after the surface at the far end of the way, on its Ci and Oi
+// (docs/decisions.md#joined-layers): P is that end, I leads there from the last surface (or the
+// eye), so that layers seen through each other are fogged once each and add up front to back like
+// one way. Which volume it is follows from the side of the surface that the ray meets: from outside
+// (dir . Ng < 0) its exterior, from inside its interior; a surface that has none leaves the ray in
+// what it had entered (runtime/scene/medium.h), and that is at first the atmosphere. This is right
+// for closed meshes; a camera inside an object sees its interior on what encloses it, not on other
+// things within.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/medium.h"
-#include "runtime/shading_p.h"
+#include "runtime/scene/medium.h"
+#include "runtime/shading/shading_p.h"
 
 namespace kinora {
 
@@ -108,8 +109,8 @@ void Shading::for_each_volume_grid(const VolumeOrder& order, F&& f) const {
 }
 
 void Shading::shade_volume(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
-                           const Look& look, const BoundKernel& bound, int thread_id, bool shadows,
-                           raytrace::ShadeResult& result) {
+                           const ShaderInstance& look, const BoundKernel& bound, int thread_id,
+                           bool shadows, raytrace::ShadeResult& result) {
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
     Grid grid(scene_, hits, points, &look);
@@ -144,7 +145,7 @@ void Shading::apply_volumes(const raytrace::HitBatch& hits, int thread_id,
     Thread& own = thread(thread_id);
     Arena::Mark mark = own.arena.mark();
     for_each_volume_grid(sort_by_volume(hits, own.arena, false),
-                         [&](const Look& look, std::span<const uint32_t> points) {
+                         [&](const ShaderInstance& look, std::span<const uint32_t> points) {
                              shade_volume(hits, points, look, look.full, thread_id, true, result);
                              own.counters.points += points.size();
                          });
@@ -176,7 +177,7 @@ void Shading::pass_volumes(const raytrace::HitBatch& hits, int thread_id, vec3* 
         std::fill_n(result.Ci[k], padded(hits.count), 0.0f);
         std::fill_n(result.Oi[k], padded(hits.count), 0.0f);
     }
-    for_each_volume_grid(order, [&](const Look& look, std::span<const uint32_t> points) {
+    for_each_volume_grid(order, [&](const ShaderInstance& look, std::span<const uint32_t> points) {
         shade_volume(hits, points, look, *look.opacity, thread_id, false, result);
         own.counters.opacity_points += points.size();
     });

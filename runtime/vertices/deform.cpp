@@ -1,5 +1,5 @@
-// runtime/deform.cpp: morphs and skins into accel space; instance matrices.
-#include "runtime/deform.h"
+// runtime/vertices/deform.cpp: morphs and skins into accel space; instance matrices.
+#include "runtime/vertices/deform.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -7,9 +7,9 @@
 #include <algorithm>
 
 #include "runtime/base/stats.h"
-#include "runtime/scene.h"
-#include "runtime/transforms.h"
-#include "runtime/vertex_work.h"
+#include "runtime/scene/scene.h"
+#include "runtime/scene/transforms.h"
+#include "runtime/vertices/vertex_work.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/deform.h: where the vertices of every shape stand at the current values.
+// runtime/vertices/deform.h: where the vertices of every shape stand at the current values.
 #pragma once
 
 namespace kinora {
@@ -17,7 +17,7 @@ double deform(Scene& scene);
 // Static shapes into accel space; once, when the scene's origin is known.
 void bake_static(Scene& scene);
 
-// Whether the shape's matrix has no inverse, so that it is not traced (EXTREMES row 11).
+// Whether the shape's matrix has no inverse, so that it is not traced (docs/numerics.md#geometry).
 bool is_singular(const Shape& shape);
 
 }  // namespace kinora

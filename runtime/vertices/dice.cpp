@@ -1,12 +1,12 @@
-// runtime/dice.cpp: recursive splitting of triangles at edge midpoints.
-#include "runtime/dice.h"
+// runtime/vertices/dice.cpp: recursive splitting of triangles at edge midpoints.
+#include "runtime/vertices/dice.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/pair_numbers.h"
+#include "runtime/description/pair_numbers.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/dice.h: how finely triangles are split, and where.
+// runtime/vertices/dice.h: how finely triangles are split, and where.
 //
 // A triangle is split at the midpoints of those of its edges that are too long, again and again.
 // Whether an edge is too long depends on its two ends alone, so both triangles at it agree and

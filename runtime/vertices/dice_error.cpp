@@ -1,5 +1,5 @@
-// runtime/dice_error.cpp: edges of diced meshes, watched from frame to frame.
-#include "runtime/dice_error.h"
+// runtime/vertices/dice_error.cpp: edges of diced meshes, watched from frame to frame.
+#include "runtime/vertices/dice_error.h"
 
 #include <algorithm>
 #include <array>

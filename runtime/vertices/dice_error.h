@@ -1,12 +1,12 @@
-// runtime/dice_error.h: whether displaced meshes are diced finely enough for the camera as it
-// stands, whatever views they were diced for.
+// runtime/vertices/dice_error.h: whether displaced meshes are diced finely enough for the camera as
+// it stands, whatever views they were diced for.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "runtime/diced_mesh.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
+#include "runtime/vertices/diced_mesh.h"
 
 namespace kinora {
 

@@ -1,8 +1,8 @@
-// runtime/diced_deform.cpp: skin weights and morph targets of diced meshes.
+// runtime/vertices/diced_deform.cpp: skin weights and morph targets of diced meshes.
 #include <algorithm>
 #include <map>
 
-#include "runtime/diced_mesh.h"
+#include "runtime/vertices/diced_mesh.h"
 
 namespace kinora {
 

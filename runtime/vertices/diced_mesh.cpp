@@ -1,5 +1,5 @@
-// runtime/diced_mesh.cpp: vertices, wedges and attributes of diced triangles.
-#include "runtime/diced_mesh.h"
+// runtime/vertices/diced_mesh.cpp: vertices, wedges and attributes of diced triangles.
+#include "runtime/vertices/diced_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <bit>
 #include <glm/geometric.hpp>
 
-#include "runtime/pair_numbers.h"
+#include "runtime/description/pair_numbers.h"
 
 namespace kinora {
 

@@ -1,12 +1,13 @@
-// runtime/diced_mesh.h: a mesh split into small triangles, with all that lives on its corners.
+// runtime/vertices/diced_mesh.h: a mesh split into small triangles, with all that lives on its
+// corners.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "runtime/base/parallel.h"
-#include "runtime/dice.h"
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
+#include "runtime/vertices/dice.h"
 
 namespace kinora {
 

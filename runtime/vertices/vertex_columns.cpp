@@ -1,19 +1,20 @@
-// runtime/vertex_columns.cpp: kernel inputs at the wedges of a mesh.
+// runtime/vertices/vertex_columns.cpp: kernel inputs at the wedges of a mesh.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "raytrace/sampling.h"
-#include "runtime/affine_map.h"
-#include "runtime/vertex_columns_p.h"
-#include "runtime/vertex_work.h"
+#include "runtime/description/affine_map.h"
+#include "runtime/vertices/vertex_columns_p.h"
+#include "runtime/vertices/vertex_work.h"
 
 namespace kinora {
 
 namespace {
 
-// The cofactor takes normals along whatever the scale (EXTREMES.md 1c), a mirror's sign taken out.
+// The cofactor takes normals along whatever the scale (docs/numerics.md#geometry), a mirror's sign
+// taken out.
 mat3 normal_matrix(const dmat3& l) {
     dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
     return mat3(glm::determinant(l) < 0 ? -cofactor : cofactor);
@@ -47,8 +48,8 @@ namespace {
 
 class Columns {
   public:
-    Columns(const Look& look, const VertexSource& source, const VertexSpace& space, size_t begin,
-            size_t end, Arena& arena)
+    Columns(const ShaderInstance& look, const VertexSource& source, const VertexSpace& space,
+            size_t begin, size_t end, Arena& arena)
         : look_(look),
           source_(source),
           space_(space),
@@ -226,7 +227,7 @@ class Columns {
                     std::fill_n(row, count_, k % 5 == 0 ? 1.0f : 0.0f);
     }
 
-    const Look& look_;
+    const ShaderInstance& look_;
     const VertexSource& source_;
     const VertexSpace& space_;
     size_t begin_, count_;
@@ -236,7 +237,7 @@ class Columns {
 
 }  // namespace
 
-std::span<float*> fill_vertex_columns(const Look& look, const VertexSource& source,
+std::span<float*> fill_vertex_columns(const ShaderInstance& look, const VertexSource& source,
                                       const VertexSpace& space, size_t begin, size_t end,
                                       Arena& arena) {
     return Columns(look, source, space, begin, end, arena).run();

@@ -1,13 +1,14 @@
-// runtime/vertex_columns_p.h: kernel inputs at the wedges of a mesh; for vertex_*.cpp only.
+// runtime/vertices/vertex_columns_p.h: kernel inputs at the wedges of a mesh; for vertex_*.cpp
+// only.
 #pragma once
 
 #include <glm/geometric.hpp>
 #include <span>
 
 #include "runtime/base/arena.h"
-#include "runtime/diced_mesh.h"
-#include "runtime/grid.h"
-#include "runtime/look.h"
+#include "runtime/shading/grid.h"
+#include "runtime/shading/shader_instance.h"
+#include "runtime/vertices/diced_mesh.h"
 
 namespace kinora {
 
@@ -44,7 +45,7 @@ struct VertexSource {
 // The look's columns for wedges [begin, end), by Column; kColP is always there. Partial derivatives
 // are means over the triangles around a wedge; dPdu and dPdv are then laid into the plane of N, so
 // that calculatenormal(P) of what is not displaced is N and facets do not show.
-std::span<float*> fill_vertex_columns(const Look& look, const VertexSource& source,
+std::span<float*> fill_vertex_columns(const ShaderInstance& look, const VertexSource& source,
                                       const VertexSpace& space, size_t begin, size_t end,
                                       Arena& arena);
 

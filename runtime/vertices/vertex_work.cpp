@@ -1,5 +1,5 @@
-// runtime/vertex_work.cpp: welding, running and averaging of vertex kernels.
-#include "runtime/vertex_work.h"
+// runtime/vertices/vertex_work.cpp: welding, running and averaging of vertex kernels.
+#include "runtime/vertices/vertex_work.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "runtime/base/parallel.h"
-#include "runtime/findings.h"
-#include "runtime/vertex_columns_p.h"
+#include "runtime/description/findings.h"
+#include "runtime/vertices/vertex_columns_p.h"
 
 namespace kinora {
 
@@ -110,7 +110,7 @@ VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::ve
         group.first_triangle = triangles;
         group.corners = make_lists(group.made.corners, group.made.position.size());
         for (size_t s = 0; s < kStages; ++s)
-            if (const Look* look = group.use.looks[s])
+            if (const ShaderInstance* look = group.use.looks[s])
                 group.faults[s].resize(look->full.kernel().fault_sites.size() + 1);
         wedge_count_ += group.made.position.size();
         triangles += group.made.corners.size() / 3;
@@ -215,14 +215,14 @@ vec3 VertexWork::face_sum(std::span<const uint32_t> wedges) const {
 
 void VertexWork::run_group(Pass& pass, Group& group) {
     size_t count = group.made.position.size();
-    Look* look = group.use.looks[pass.stage];
+    ShaderInstance* look = group.use.looks[pass.stage];
     if (!look) {
         std::fill_n(moved_.begin() + group.first_wedge, count, vec4(0.0f));
         return;
     }
-    look->update_for_vertices(
-        {pass.scene, pass.scene.time, pass.scene.shutter, pass.space.eye_object}, pass.node);
-    // Precise kernels run in the IEEE default, fast ones flush denormals (DESIGN.md decision 13).
+    look->update_for_vertices({pass.scene, pass.space.eye_object}, pass.node);
+    // Precise kernels run in the IEEE default, fast ones flush denormals
+    // (docs/decisions.md#exact-arithmetic).
     bool fast = pass.scene.options.math == jit::math::Tier::Fast;
     std::vector<uint8_t>& faults = group.faults[pass.stage];
     parallel_for(0, (count + kPart - 1) / kPart, 1, [&](size_t begin, size_t end) {
@@ -250,7 +250,7 @@ void VertexWork::run_group(Pass& pass, Group& group) {
 
 void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
                             uint8_t* faults, std::string& prints) {
-    const Look& look = *group.use.looks[pass.stage];
+    const ShaderInstance& look = *group.use.looks[pass.stage];
     const jit::Kernel& kernel = look.full.kernel();
     Arena& arena = arenas_[size_t(thread_index())];
     size_t count = end - begin;
@@ -316,7 +316,7 @@ void VertexWork::turn_normals(const Pass& pass) {
             std::span<const uint32_t> wedges = same_normal_.of(key);
             if (wedges.empty()) continue;
             vec3 normal(pass.normals[n]);
-            const Look* look = groups_[group_of_wedge_[wedges[0]]].use.looks[pass.stage];
+            const ShaderInstance* look = groups_[group_of_wedge_[wedges[0]]].use.looks[pass.stage];
             if (look && look->lowered.bends_N) {
                 vec3 sum(0.0f);
                 for (uint32_t w : wedges) sum += vec3(bent_[w]);
@@ -351,7 +351,7 @@ static bool is_own_space(std::string_view space) {
     return space == "current" || space == "object" || space == "shader";
 }
 
-bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
+bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t node) {
     using Source = FrameInput::Source;
     auto between = [](uint16_t c, uint16_t first) { return c >= first && c < first + 3; };
     for (uint16_t c : look.full.columns)
@@ -400,7 +400,7 @@ bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node) {
     return asks(look.full.pair.point) || asks(look.full.pair.frame);
 }
 
-bool depends_on_node(const Look& look) {
+bool depends_on_node(const ShaderInstance& look) {
     return std::any_of(look.full.inputs.begin(), look.full.inputs.end(),
                        [&](const FrameInput& input) {
                            return input.source == FrameInput::Source::Space &&

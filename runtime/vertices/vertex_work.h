@@ -1,4 +1,4 @@
-// runtime/vertex_work.h: displacement and transformation shaders run on a mesh's vertices.
+// runtime/vertices/vertex_work.h: displacement and transformation shaders run on a mesh's vertices.
 //
 // A kernel runs once for each wedge (a vertex as one group's corners see it), in "current" = the
 // space of the shape's node. Wedges at one place move by the mean of their displacements, so that
@@ -15,8 +15,8 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/diced_mesh.h"
-#include "runtime/look.h"
+#include "runtime/shading/shader_instance.h"
+#include "runtime/vertices/diced_mesh.h"
 
 namespace kinora {
 
@@ -34,7 +34,7 @@ class VertexWork {
 
     // One group of the mesh: null where it has no such shader.
     struct Use {
-        std::array<Look*, kStages> looks{};
+        std::array<ShaderInstance*, kStages> looks{};
         std::array<std::span<const VertexAttribute* const>, kStages> varying{};
         const VertexAttribute* st = nullptr;
         PrimitiveGroup* attributes = nullptr;  // takes the shaders' outputs ("vertex:NAME")
@@ -97,9 +97,9 @@ class VertexWork {
 
 // Whether a vertex kernel must run at every frame: it reads E, I, du, dv, time, camera space, a
 // space that moves against node `node`, or a parameter that is animated.
-bool runs_each_frame(const Look& look, const Scene& scene, uint32_t node);
+bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t node);
 
 // Whether its result differs between nodes: it names a space other than its own.
-bool depends_on_node(const Look& look);
+bool depends_on_node(const ShaderInstance& look);
 
 }  // namespace kinora

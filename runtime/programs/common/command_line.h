@@ -1,5 +1,5 @@
-// runtime/programs/command_line.h: what the programs' command lines have in common. It sees CLI11,
-// which is slow to compile: for the one file of each program that reads its options.
+// runtime/programs/common/command_line.h: what the programs' command lines have in common. It sees
+// CLI11, which is slow to compile: for the one file of each program that reads its options.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/contact_sheet.cpp: halved frames in a grid.
-#include "runtime/programs/contact_sheet.h"
+// runtime/programs/common/contact_sheet.cpp: halved frames in a grid.
+#include "runtime/programs/common/contact_sheet.h"
 
 #include <algorithm>
 #include <cmath>

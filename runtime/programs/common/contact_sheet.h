@@ -1,9 +1,9 @@
-// runtime/programs/contact_sheet.h: the frames of a render, small, on one picture.
+// runtime/programs/common/contact_sheet.h: the frames of a render, small, on one picture.
 #pragma once
 
 #include <vector>
 
-#include "runtime/image_io.h"
+#include "runtime/images/image_io.h"
 
 namespace kinora {
 

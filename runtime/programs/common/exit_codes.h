@@ -1,5 +1,5 @@
-// runtime/programs/exit_codes.h: what the programs' exit codes and environment mean; --help prints
-// it.
+// runtime/programs/common/exit_codes.h: what the programs' exit codes and environment mean; --help
+// prints it.
 #pragma once
 
 namespace kinora {
@@ -24,7 +24,7 @@ inline constexpr const char* kExitCodeHelp =
     "out\n"
     "of memory); 130/143 stopped by a signal, finished frames kept.";
 
-// jit/code_tools.h reads these.
+// jit/debug/code_tools.h reads these.
 inline constexpr const char* kEnvironmentHelp =
     "Compiled shaders for other tools, by the environment: KINORA_PERF=1 (perf's map file),\n"
     "KINORA_JITDUMP=FOLDER (code and lines for perf inject --jit), KINORA_GDB=1.";

@@ -1,11 +1,12 @@
-// runtime/programs/finish.h: the end of a program: what it printed has arrived, or it says so.
+// runtime/programs/common/finish.h: the end of a program: what it printed has arrived, or it says
+// so.
 #pragma once
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
-#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/frame_list.cpp: frame ranges, frame rates, numbered file names.
-#include "runtime/programs/frame_list.h"
+// runtime/programs/common/frame_list.cpp: frame ranges, frame rates, numbered file names.
+#include "runtime/programs/common/frame_list.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// runtime/programs/frame_list.h: which frames, at what times, to which files.
+// runtime/programs/common/frame_list.h: which frames, at what times, to which files.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,13 @@
-// runtime/programs/list_scene.cpp: cameras, clips, materials and so on, as text and as JSON.
-#include "runtime/programs/list_scene.h"
+// runtime/programs/common/list_scene.cpp: cameras, clips, materials and so on, as text and as JSON.
+#include "runtime/programs/common/list_scene.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
+
+#include "runtime/description/play_range.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -67,7 +70,7 @@ Json materials(const Scene& scene) {
     Json list = Json::array();
     std::set<std::string> seen;
     for (const auto& look : scene.looks) {
-        if (look->kind != LookKind::Surface || !seen.insert(look->name).second) continue;
+        if (look->kind != ShaderInstanceKind::Surface || !seen.insert(look->name).second) continue;
         constexpr const char* kOpacity[] = {"opaque", "constant opacity", "computed opacity"};
         Json layers = Json::array();
         for (const ShaderUse& use : look->layers)
@@ -126,7 +129,7 @@ Json aovs(const Scene& scene) {
     Json list = Json::array();
     std::set<std::string> seen;
     for (const auto& look : scene.looks) {
-        if (look->kind != LookKind::Surface) continue;
+        if (look->kind != ShaderInstanceKind::Surface) continue;
         for (const ShaderUse& use : look->layers)
             for (const rsl::ShaderParameter& p : use.shader->parameters) {
                 bool numbers = p.output && !p.type.is_array() &&
@@ -216,7 +219,7 @@ constexpr Kind kKinds[] = {
     {"nodes", nodes, node_line},
 };
 
-// DESIGN.md, section 5; runtime/defaults.cpp.
+// docs/format.md#cameras; runtime/build/defaults.cpp.
 struct Added {
     std::string_view name, meaning;
 };

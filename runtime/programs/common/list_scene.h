@@ -1,11 +1,11 @@
-// runtime/programs/list_scene.h: what is in a scene, for --list.
+// runtime/programs/common/list_scene.h: what is in a scene, for --list.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "runtime/scene.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/progress.cpp: a bar that is drawn over itself, or one line a frame.
-#include "runtime/programs/progress.h"
+// runtime/programs/common/progress.cpp: a bar that is drawn over itself, or one line a frame.
+#include "runtime/programs/common/progress.h"
 
 #include <fmt/format.h>
 

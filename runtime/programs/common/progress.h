@@ -1,4 +1,4 @@
-// runtime/programs/progress.h: how far a render is, on a terminal or in a log.
+// runtime/programs/common/progress.h: how far a render is, on a terminal or in a log.
 #pragma once
 
 #include <cstdint>

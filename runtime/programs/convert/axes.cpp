@@ -1,4 +1,4 @@
-// runtime/programs/convert_axes.cpp: --up and --unit: a document with other axes and another unit.
+// runtime/programs/convert/axes.cpp: --up and --unit: a document with other axes and another unit.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,11 +6,11 @@
 #include <glm/matrix.hpp>
 #include <set>
 
-#include "collada/edit.h"
-#include "collada/write.h"
-#include "runtime/findings.h"
-#include "runtime/programs/convert.h"
-#include "runtime/programs/convert_axes_p.h"
+#include "collada/document/edit.h"
+#include "collada/document/write.h"
+#include "runtime/description/findings.h"
+#include "runtime/programs/convert/axes_p.h"
+#include "runtime/programs/convert/convert.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/programs/convert_axes_p.h: what the parts of --up and --unit share.
+// runtime/programs/convert/axes_p.h: what the parts of --up and --unit share.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "collada/edit.h"
+#include "collada/document/edit.h"
 #include "runtime/base/math.h"
 
 namespace kinora {

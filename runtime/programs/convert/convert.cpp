@@ -1,5 +1,5 @@
-// runtime/programs/convert.cpp: reads a scene, writes another, says what was lost.
-#include "runtime/programs/convert.h"
+// runtime/programs/convert/convert.cpp: reads a scene, writes another, says what was lost.
+#include "runtime/programs/convert/convert.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,15 +11,15 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "collada/write.h"
+#include "collada/document/write.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
-#include "runtime/export_collada.h"
-#include "runtime/export_gltf.h"
-#include "runtime/findings.h"
-#include "runtime/import_scene.h"
-#include "runtime/override_shader.h"
-#include "runtime/programs/exit_codes.h"
+#include "runtime/dae/export.h"
+#include "runtime/description/findings.h"
+#include "runtime/gltf/export.h"
+#include "runtime/load/import_scene.h"
+#include "runtime/load/override_shader.h"
+#include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 

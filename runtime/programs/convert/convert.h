@@ -1,4 +1,4 @@
-// runtime/programs/convert.h: kinora-convert: one scene file to another format.
+// runtime/programs/convert/convert.h: kinora-convert: one scene file to another format.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/scene_description.h"
+#include "runtime/description/scene_description.h"
 
 namespace kinora {
 

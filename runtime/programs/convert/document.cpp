@@ -1,9 +1,9 @@
-// runtime/programs/convert_document.cpp: .dae to canonical .dae: through the Document, nothing
+// runtime/programs/convert/document.cpp: .dae to canonical .dae: through the Document, nothing
 // lost.
-#include "collada/edit.h"
-#include "collada/open_scene.h"
-#include "collada/write.h"
-#include "runtime/programs/convert.h"
+#include "collada/document/edit.h"
+#include "collada/document/open_scene.h"
+#include "collada/document/write.h"
+#include "runtime/programs/convert/convert.h"
 
 namespace kinora {
 

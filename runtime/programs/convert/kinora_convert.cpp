@@ -1,7 +1,7 @@
-// runtime/programs/kinora_convert.cpp: kinora-convert's command line.
-#include "runtime/programs/command_line.h"
-#include "runtime/programs/convert.h"
-#include "runtime/programs/finish.h"
+// runtime/programs/convert/kinora_convert.cpp: kinora-convert's command line.
+#include "runtime/programs/common/command_line.h"
+#include "runtime/programs/common/finish.h"
+#include "runtime/programs/convert/convert.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/programs/convert_links.cpp: a document's relative links, as seen from another folder.
+// runtime/programs/convert/links.cpp: a document's relative links, as seen from another folder.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <set>
 
-#include "collada/edit.h"
-#include "collada/links.h"
-#include "runtime/findings.h"
-#include "runtime/programs/convert.h"
+#include "collada/document/edit.h"
+#include "collada/document/uri.h"
+#include "collada/schema/links.h"
+#include "runtime/description/findings.h"
+#include "runtime/programs/convert/convert.h"
 
 namespace kinora {
 

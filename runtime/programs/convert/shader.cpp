@@ -1,4 +1,4 @@
-// runtime/programs/convert_shader.cpp: --shader: RSL into the effect of a material.
+// runtime/programs/convert/shader.cpp: --shader: RSL into the effect of a material.
 #include <fmt/format.h>
 #include <fnmatch.h>
 
@@ -8,10 +8,10 @@
 #include <set>
 #include <span>
 
-#include "collada/edit.h"
-#include "rsl/shader.h"
-#include "runtime/findings.h"
-#include "runtime/programs/convert.h"
+#include "collada/document/edit.h"
+#include "rsl/compile.h"
+#include "runtime/description/findings.h"
+#include "runtime/programs/convert/convert.h"
 
 namespace kinora {
 

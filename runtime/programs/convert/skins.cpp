@@ -1,4 +1,4 @@
-// runtime/programs/convert_skins.cpp: --up and --unit: skins that the change of all nodes would
+// runtime/programs/convert/skins.cpp: --up and --unit: skins that the change of all nodes would
 // move elsewhere than the rest.
 #include <fmt/format.h>
 
@@ -8,11 +8,12 @@
 #include <glm/matrix.hpp>
 #include <map>
 
-#include "collada/node_places.h"
-#include "collada/write.h"
-#include "runtime/findings.h"
-#include "runtime/programs/convert.h"
-#include "runtime/programs/convert_axes_p.h"
+#include "collada/document/write.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/node_places.h"
+#include "runtime/description/findings.h"
+#include "runtime/programs/convert/axes_p.h"
+#include "runtime/programs/convert/convert.h"
 
 namespace kinora {
 

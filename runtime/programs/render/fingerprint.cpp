@@ -1,5 +1,5 @@
-// runtime/programs/render_fingerprint.cpp: hashes of what a picture depends on.
-#include "runtime/programs/render_fingerprint.h"
+// runtime/programs/render/fingerprint.cpp: hashes of what a picture depends on.
+#include "runtime/programs/render/fingerprint.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <set>
 
-#include "rsl/renderer_services.h"
-#include "runtime/base/shown_path.h"
-#include "runtime/texture_name.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/base/display_path.h"
+#include "runtime/description/texture_name.h"
 
 namespace kinora {
 
@@ -42,7 +42,7 @@ uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& descripti
         std::error_code code;
         std::filesystem::path path(text.substr(0, text.find('\x1f')));
         auto size = std::filesystem::file_size(path, code);
-        std::string stamp = shown_path(text) + (code ? "" : fmt::format("{}", size));
+        std::string stamp = display_path(text) + (code ? "" : fmt::format("{}", size));
         auto time = std::filesystem::last_write_time(path, code);
         if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
         hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);

@@ -1,11 +1,11 @@
-// runtime/programs/render_fingerprint.h: what a picture depends on, for --skip-existing.
+// runtime/programs/render/fingerprint.h: what a picture depends on, for --skip-existing.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/programs/render_options.h"
+#include "runtime/programs/render/options.h"
 
 namespace kinora {
 

@@ -1,5 +1,6 @@
-// runtime/programs/frames_to_render.cpp: frames by number, by time, or all that the scene plays.
-#include "runtime/programs/frames_to_render.h"
+// runtime/programs/render/frames_to_render.cpp: frames by number, by time, or all that the scene
+// plays.
+#include "runtime/programs/render/frames_to_render.h"
 
 #include <cmath>
 #include <cstdio>

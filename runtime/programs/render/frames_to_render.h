@@ -1,4 +1,5 @@
-// runtime/programs/frames_to_render.h: the frames that a command line asks for, and their times.
+// runtime/programs/render/frames_to_render.h: the frames that a command line asks for, and their
+// times.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/programs/render_options.h"
+#include "runtime/programs/render/options.h"
 
 namespace kinora {
 

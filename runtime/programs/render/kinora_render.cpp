@@ -1,4 +1,4 @@
-// runtime/programs/kinora_render.cpp: a scene to a sequence of pictures.
+// runtime/programs/render/kinora_render.cpp: a scene to a sequence of pictures.
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,20 +8,23 @@
 #include <csignal>
 
 #include "runtime/base/parallel.h"
-#include "runtime/findings.h"
-#include "runtime/frame.h"
-#include "runtime/import_scene.h"
-#include "runtime/override_scene.h"
-#include "runtime/override_shader.h"
-#include "runtime/programs/contact_sheet.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/finish.h"
-#include "runtime/programs/frames_to_render.h"
-#include "runtime/programs/list_scene.h"
-#include "runtime/programs/render_fingerprint.h"
-#include "runtime/programs/render_options.h"
-#include "runtime/programs/render_stats.h"
-#include "runtime/redice.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/play_range.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/redice.h"
+#include "runtime/load/import_scene.h"
+#include "runtime/load/override_scene.h"
+#include "runtime/load/override_shader.h"
+#include "runtime/programs/common/contact_sheet.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/list_scene.h"
+#include "runtime/programs/render/fingerprint.h"
+#include "runtime/programs/render/frames_to_render.h"
+#include "runtime/programs/render/options.h"
+#include "runtime/programs/render/stats.h"
+#include "runtime/scene/camera.h"
 
 namespace kinora {
 

@@ -1,12 +1,12 @@
-// runtime/programs/render_options.cpp: kinora-render's command line.
-#include "runtime/programs/render_options.h"
+// runtime/programs/render/options.cpp: kinora-render's command line.
+#include "runtime/programs/render/options.h"
 
 #include <unistd.h>
 
 #include <cmath>
 
-#include "runtime/programs/command_line.h"
-#include "runtime/programs/list_scene.h"
+#include "runtime/programs/common/command_line.h"
+#include "runtime/programs/common/list_scene.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/programs/render_options.h: what kinora-render was asked for.
+// runtime/programs/render/options.h: what kinora-render was asked for.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/image_io.h"
-#include "runtime/import_collada.h"
-#include "runtime/programs/frame_list.h"
-#include "runtime/programs/progress.h"
-#include "runtime/quality.h"
-#include "runtime/scene.h"
+#include "runtime/dae/import.h"
+#include "runtime/frame/quality.h"
+#include "runtime/images/image_io.h"
+#include "runtime/programs/common/frame_list.h"
+#include "runtime/programs/common/progress.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/render_stats.cpp: times and counts of a run, as text and as JSON.
-#include "runtime/programs/render_stats.h"
+// runtime/programs/render/stats.cpp: times and counts of a run, as text and as JSON.
+#include "runtime/programs/render/stats.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

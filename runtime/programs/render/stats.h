@@ -1,12 +1,12 @@
-// runtime/programs/render_stats.h: what --stats tells of a run.
+// runtime/programs/render/stats.h: what --stats tells of a run.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "runtime/frame.h"
-#include "runtime/programs/render_options.h"
+#include "runtime/frame/frame.h"
+#include "runtime/programs/render/options.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/programs/kinora_shade_bench.cpp: what compiling costs and how fast the code runs.
+// runtime/programs/shade/bench.cpp: what compiling costs and how fast the code runs.
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/stats.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade_kernel.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/kernel.h"
 
 namespace kinora {
 

@@ -1,15 +1,15 @@
-// runtime/programs/kinora_shade_bind.cpp: parameter values from text, the outputs wanted.
+// runtime/programs/shade/bind.cpp: parameter values from text, the outputs wanted.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <glm/matrix.hpp>
 
-#include "runtime/findings.h"
-#include "runtime/override_scene.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade_kernel.h"
-#include "runtime/shader_library.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/load/override_scene.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/kernel.h"
 
 namespace kinora {
 

@@ -1,12 +1,12 @@
-// runtime/programs/kinora_shade_check.cpp: all findings of sources and a summary of each.
+// runtime/programs/shade/check.cpp: all findings of sources and a summary of each.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "rsl/lower.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade_source.h"
+#include "rsl/lower/lower.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/source.h"
 
 namespace kinora {
 

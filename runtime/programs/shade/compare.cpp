@@ -1,12 +1,12 @@
-// runtime/programs/kinora_shade_compare.cpp: differences to the interpreter and the reference.
-#include "runtime/programs/kinora_shade_compare.h"
+// runtime/programs/shade/compare.cpp: differences to the interpreter and the reference.
+#include "runtime/programs/shade/compare.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
 
-#include "rsl/reference.h"
+#include "rsl/reference/reference.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
-// runtime/programs/kinora_shade_compare.h: a run's outputs against another way to get them.
+// runtime/programs/shade/compare.h: a run's outputs against another way to get them.
 #pragma once
 
-#include "runtime/programs/kinora_shade_kernel.h"
+#include "runtime/programs/shade/kernel.h"
 
 namespace kinora {
 
@@ -9,8 +9,8 @@ namespace kinora {
 void compare_with_interpreter(const ShadeStack& stack, const Patch& patch,
                               const ShadeKernel& kernel, Diagnostics& diagnostics);
 
-// Prints how far they are from rsl/reference.h in double precision, at no more than 4096 points
-// spread over the patch; points where float and double decide differently are counted apart.
+// Prints how far they are from rsl/reference/reference.h in double precision, at no more than 4096
+// points spread over the patch; points where float and double decide differently are counted apart.
 void compare_with_reference(const ShadeStack& stack, const Patch& patch, const ShadeKernel& kernel);
 
 }  // namespace kinora

@@ -1,6 +1,6 @@
-// runtime/programs/disassembly.cpp: machine code of a kernel beside the shader's lines, by
+// runtime/programs/shade/disassembly.cpp: machine code of a kernel beside the shader's lines, by
 // Capstone.
-#include "runtime/programs/disassembly.h"
+#include "runtime/programs/shade/disassembly.h"
 
 #include <capstone/capstone.h>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
-// runtime/programs/disassembly.h: machine code of a kernel beside the shader's lines.
+// runtime/programs/shade/disassembly.h: machine code of a kernel beside the shader's lines.
 #pragma once
 
 #include <string>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 #include "runtime/base/diagnostic.h"
 
 namespace kinora {

@@ -1,10 +1,10 @@
-// runtime/programs/kinora_shade_dump.cpp: what each stage of the compiler makes of a source.
+// runtime/programs/shade/dump.cpp: what each stage of the compiler makes of a source.
 #include <cstdio>
 #include <string_view>
 
-#include "runtime/programs/disassembly.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade_kernel.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/disassembly.h"
+#include "runtime/programs/shade/kernel.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/kinora_shade_grid.cpp: points of a square and a sphere with their derivatives.
-#include "runtime/programs/kinora_shade_grid.h"
+// runtime/programs/shade/grid.cpp: points of a square and a sphere with their derivatives.
+#include "runtime/programs/shade/grid.h"
 
 #include <bit>
 #include <cmath>
@@ -16,7 +16,8 @@ constexpr double kSquareDistance = 2.0;  // the square fills the picture from th
 constexpr double kSphereDistance = 4.0;
 constexpr double kSphereWindow = 1.1;  // of the radius, at the sphere's silhouette
 
-// A well mixed 32-bit hash of the pixel, as a renderer gives (DESIGN.md decision 10).
+// A well mixed 32-bit hash of the pixel, as a renderer gives
+// (docs/decisions.md#random-numbers-without-state).
 float pixel_hash(uint32_t pixel) {
     uint32_t h = pixel * 0x9e3779b9u + 0x7f4a7c15u;
     h = (h ^ (h >> 16)) * 0x21f0aaadu;

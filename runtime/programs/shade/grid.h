@@ -1,4 +1,4 @@
-// runtime/programs/kinora_shade_grid.h: the points kinora-shade shades: a square or a sphere before
+// runtime/programs/shade/grid.h: the points kinora-shade shades: a square or a sphere before
 // a pinhole eye at the origin of "current" space, which looks along +z. Object, shader and world
 // space are one: the square spans x, y = 0..1 at z = 0 there, the sphere has radius 1 about 0.
 #pragma once
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
-#include "runtime/texture_store.h"
+#include "runtime/images/texture_store.h"
 
 namespace kinora {
 
@@ -47,8 +47,8 @@ class Patch {
     std::vector<PatchPoint> points_;
 };
 
-// A point-rate kernel input by its name (rsl/renderer_services.h), as a member of PatchPoint; the
-// matrices of object space are taken from the patch. `found` is false for parameters.
+// A point-rate kernel input by its name (rsl/model/renderer_services.h), as a member of PatchPoint;
+// the matrices of object space are taken from the patch. `found` is false for parameters.
 struct PatchInput {
     explicit PatchInput(const Patch& patch, std::string_view name);
     float value(const PatchPoint& point) const {

@@ -1,12 +1,12 @@
-// runtime/programs/kinora_shade_info.cpp: what a shader takes, reads and writes.
+// runtime/programs/shade/info.cpp: what a shader takes, reads and writes.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "rsl/print.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade_source.h"
+#include "rsl/syntax/print.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/source.h"
 
 namespace kinora {
 

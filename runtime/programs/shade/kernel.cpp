@@ -1,5 +1,5 @@
-// runtime/programs/kinora_shade_kernel.cpp: lowers, compiles and runs shaders over a patch.
-#include "runtime/programs/kinora_shade_kernel.h"
+// runtime/programs/shade/kernel.cpp: lowers, compiles and runs shaders over a patch.
+#include "runtime/programs/shade/kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "raytrace/accel.h"
 #include "runtime/base/check.h"
 #include "runtime/base/stats.h"
-#include "runtime/findings.h"
+#include "runtime/description/findings.h"
 
 namespace kinora {
 
@@ -148,7 +148,7 @@ void ShadeKernel::run_frame() {
 }
 
 void ShadeKernel::run() {
-    std::optional<raytrace::DenormalGuard> flush;  // the fast tier's mode (DESIGN.md decision 13)
+    std::optional<raytrace::DenormalGuard> flush;  // the fast tier's mode
     if (stack_->lower.math == jit::math::Tier::Fast) flush.emplace();
     run_frame();
     std::vector<const float*> in(in_.size());

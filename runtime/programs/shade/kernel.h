@@ -1,4 +1,4 @@
-// runtime/programs/kinora_shade_kernel.h: shaders with values for their parameters, compiled and
+// runtime/programs/shade/kernel.h: shaders with values for their parameters, compiled and
 // run over a patch.
 #pragma once
 
@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "jit/compiler.h"
-#include "rsl/lower.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "runtime/base/arena.h"
-#include "runtime/programs/kinora_shade_grid.h"
-#include "runtime/programs/kinora_shade_source.h"
+#include "runtime/programs/shade/grid.h"
+#include "runtime/programs/shade/source.h"
 
 namespace kinora {
 

@@ -1,13 +1,13 @@
-// runtime/programs/kinora_shade.cpp: the shader writer's tool: a command line to its command.
-#include "runtime/programs/kinora_shade.h"
+// runtime/programs/shade/kinora_shade.cpp: the shader writer's tool: a command line to its command.
+#include "runtime/programs/shade/kinora_shade.h"
 
 #include <csignal>
 #include <cstdio>
 #include <new>
 #include <string_view>
 
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/finish.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/finish.h"
 
 namespace kinora {
 

@@ -1,4 +1,5 @@
-// runtime/programs/kinora_shade.h: what kinora-shade was asked for, and the commands that do it.
+// runtime/programs/shade/kinora_shade.h: what kinora-shade was asked for, and the commands that do
+// it.
 #pragma once
 
 #include <optional>
@@ -6,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "jit/math.h"
+#include "jit/math/math.h"
 #include "jit/target.h"
-#include "rsl/shader.h"
+#include "rsl/compile.h"
 
 namespace kinora {
 
@@ -42,11 +43,11 @@ struct ShadeOptions {
 std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& options);
 
 // The commands; each returns an exit code.
-int shade_check(const ShadeOptions& options);   // kinora_shade_check.cpp
-int shade_info(const ShadeOptions& options);    // kinora_shade_info.cpp
-int shade_run(const ShadeOptions& options);     // kinora_shade_run.cpp
-int shade_dump(const ShadeOptions& options);    // kinora_shade_dump.cpp
-int shade_bench(const ShadeOptions& options);   // kinora_shade_bench.cpp
-int shade_manual(const ShadeOptions& options);  // kinora_shade_manual.cpp
+int shade_check(const ShadeOptions& options);   // check.cpp
+int shade_info(const ShadeOptions& options);    // info.cpp
+int shade_run(const ShadeOptions& options);     // run.cpp
+int shade_dump(const ShadeOptions& options);    // dump.cpp
+int shade_bench(const ShadeOptions& options);   // bench.cpp
+int shade_manual(const ShadeOptions& options);  // manual.cpp
 
 }  // namespace kinora

@@ -1,4 +1,4 @@
-// runtime/programs/kinora_shade_manual.cpp: the manual of the built-in functions and the shader
+// runtime/programs/shade/manual.cpp: the manual of the built-in functions and the shader
 // globals, from their rows.
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "rsl/builtin.h"
-#include "rsl/globals.h"
+#include "rsl/builtins/table.h"
+#include "rsl/model/globals.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/kinora_shade.h"
 
 namespace kinora {
 

@@ -1,9 +1,9 @@
-// runtime/programs/kinora_shade_options.cpp: kinora-shade's command line.
+// runtime/programs/shade/options.cpp: kinora-shade's command line.
 #include <cstdio>
 
-#include "runtime/image_io.h"
-#include "runtime/programs/command_line.h"
-#include "runtime/programs/kinora_shade_source.h"
+#include "runtime/images/image_io.h"
+#include "runtime/programs/common/command_line.h"
+#include "runtime/programs/shade/source.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/programs/kinora_shade_run.cpp: a grid of points through a shader to a picture.
+// runtime/programs/shade/run.cpp: a grid of points through a shader to a picture.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "runtime/base/stats.h"
-#include "runtime/image_io.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_shade_compare.h"
-#include "runtime/texture.h"
+#include "runtime/images/image_io.h"
+#include "runtime/images/texture.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/compare.h"
 
 namespace kinora {
 

@@ -1,14 +1,14 @@
-// runtime/programs/kinora_shade_services.cpp: the world around a patch: two lights, textures,
+// runtime/programs/shade/services.cpp: the world around a patch: two lights, textures,
 // nothing for rays to meet.
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "rsl/renderer_services.h"
-#include "rsl/service_table.h"
-#include "runtime/print.h"
-#include "runtime/programs/kinora_shade_kernel.h"
-#include "runtime/texture.h"
+#include "rsl/model/renderer_services.h"
+#include "rsl/model/service_table.h"
+#include "runtime/images/texture.h"
+#include "runtime/programs/shade/kernel.h"
+#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -102,8 +102,8 @@ jit::ServiceFn shade_service(std::string_view name) {
     return rsl::find_service(kRows, name);
 }
 
-// As in a scene without lights (DESIGN.md section 5): a distant light from over the camera's left
-// shoulder, and ambient 0.15.
+// As in a scene without lights (docs/lights.md#defaults): a distant light from over the camera's
+// left shoulder, and ambient 0.15.
 std::vector<ShadeLight> shade_lights() {
     return {{rsl::kLightAmbient, vec3(0), vec3(0.15f)},
             {rsl::kLightSolar, glm::normalize(vec3(-0.5f, 0.7f, -1.0f)), vec3(1)}};

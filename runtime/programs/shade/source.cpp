@@ -1,5 +1,5 @@
-// runtime/programs/kinora_shade_source.cpp: reads FILE.sl, SCENE.dae#EFFECT or standard input.
-#include "runtime/programs/kinora_shade_source.h"
+// runtime/programs/shade/source.cpp: reads FILE.sl, SCENE.dae#EFFECT or standard input.
+#include "runtime/programs/shade/source.h"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "collada/document.h"
-#include "collada/scene.h"
+#include "collada/document/document.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/scene.h"
 #include "runtime/base/text_encoding.h"
 #include "runtime/profile_rsl/joined_code.h"
-#include "runtime/programs/exit_codes.h"
+#include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 
@@ -117,7 +118,7 @@ void hold_to_scene(ShadeOptions& options) {
     std::vector<std::string> folders{scene.substr(0, scene.rfind('/') + 1)};
     for (const auto* more : {&options.allow_external, &options.compile.include_directories})
         folders.insert(folders.end(), more->begin(), more->end());
-    options.compile.files = FileTrees(folders);
+    options.compile.files = AllowedPaths(folders);
 }
 
 std::vector<std::string> shade_sources(const std::string& word) {

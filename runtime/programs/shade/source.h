@@ -1,13 +1,13 @@
-// runtime/programs/kinora_shade_source.h: shader text from a file, a scene's effect or stdin.
+// runtime/programs/shade/source.h: shader text from a file, a scene's effect or stdin.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "rsl/shader.h"
+#include "rsl/compile.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/programs/kinora_shade.h"
+#include "runtime/programs/shade/kinora_shade.h"
 
 namespace kinora {
 

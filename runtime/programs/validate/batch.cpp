@@ -1,4 +1,4 @@
-// runtime/programs/kinora_validate_batch.cpp: files on several threads, their reports in order.
+// runtime/programs/validate/batch.cpp: files on several threads, their reports in order.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,10 +13,10 @@
 #include <thread>
 
 #include "runtime/base/stats.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_validate.h"
-#include "runtime/programs/output_file.h"
-#include "runtime/programs/validate_report.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/validate/kinora_validate.h"
+#include "runtime/programs/validate/output_file.h"
+#include "runtime/programs/validate/report.h"
 
 namespace kinora {
 

@@ -1,11 +1,11 @@
-// runtime/programs/kinora_validate_budget.cpp: how much of what a scene may hold.
+// runtime/programs/validate/budget.cpp: how much of what a scene may hold.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/kinora_validate.h"
-#include "runtime/programs/validate_rules.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/kinora_validate.h"
+#include "runtime/programs/validate/rules.h"
 
 namespace kinora {
 

@@ -1,18 +1,18 @@
-// runtime/programs/kinora_validate_file.cpp: one file through reading, rules, shaders and budgets.
+// runtime/programs/validate/file.cpp: one file through reading, rules, shaders and budgets.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "collada/findings.h"
-#include "collada/id_path.h"
-#include "collada/open_scene.h"
-#include "collada/profile.h"
+#include "collada/document/findings.h"
+#include "collada/document/id_path.h"
+#include "collada/document/open_scene.h"
+#include "collada/validate/profile.h"
 #include "runtime/profile_rsl/check.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/foreign_schema.h"
-#include "runtime/programs/kinora_validate.h"
-#include "runtime/programs/validate_rules.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/validate/foreign_schema.h"
+#include "runtime/programs/validate/kinora_validate.h"
+#include "runtime/programs/validate/rules.h"
 
 namespace kinora {
 
@@ -63,13 +63,13 @@ void finish(FileResult& result, const collada::Document* document,
 }
 
 // What the scene's shaders may read.
-FileTrees scene_files(const collada::Document& document, const collada::SceneFile& file,
-                      const ValidateSettings& settings) {
+AllowedPaths scene_files(const collada::Document& document, const collada::SceneFile& file,
+                         const ValidateSettings& settings) {
     std::vector<std::string> folders{file.folder.empty() ? document.directory() : file.folder};
     for (const auto* more :
          {&settings.validate.extract.allow_external, &settings.include_directories})
         folders.insert(folders.end(), more->begin(), more->end());
-    return FileTrees(folders);
+    return AllowedPaths(folders);
 }
 
 void check(FileResult& result, std::optional<collada::Document> document,

@@ -1,4 +1,4 @@
-// runtime/programs/kinora_validate_fix.cpp: files repaired, as text, as a diff or in place.
+// runtime/programs/validate/fix.cpp: files repaired, as text, as a diff or in place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,13 +7,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "collada/archive.h"
-#include "collada/fix.h"
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/kinora_validate.h"
-#include "runtime/programs/output_file.h"
-#include "runtime/programs/unified_diff.h"
-#include "runtime/programs/validate_report.h"
+#include "collada/document/archive.h"
+#include "collada/validate/fix.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/validate/kinora_validate.h"
+#include "runtime/programs/validate/output_file.h"
+#include "runtime/programs/validate/report.h"
+#include "runtime/programs/validate/unified_diff.h"
 
 namespace kinora {
 

@@ -1,6 +1,6 @@
-// runtime/programs/foreign_schema.cpp: the one file that knows libxml2. Elements are handed over as
-// a tree, not as text, so that each complaint leads back to its element.
-#include "runtime/programs/foreign_schema.h"
+// runtime/programs/validate/foreign_schema.cpp: the one file that knows libxml2. Elements are
+// handed over as a tree, not as text, so that each complaint leads back to its element.
+#include "runtime/programs/validate/foreign_schema.h"
 
 #include <fmt/format.h>
 #include <libxml/parser.h>
@@ -15,7 +15,7 @@
 #include <mutex>
 #include <vector>
 
-#include "collada/findings.h"
+#include "collada/document/findings.h"
 
 namespace kinora {
 
@@ -48,7 +48,7 @@ const xmlChar* chars(std::string_view text, std::string& keep) {
 // ---- reading of schemas -------------------------------------------------------------------------
 
 // What may be read now; libxml2 has one loader for the process.
-thread_local const FileTrees* readable = nullptr;
+thread_local const AllowedPaths* readable = nullptr;
 thread_local uintmax_t bytes_left = 0;
 
 bool read_file(const std::string& path, std::string& text) {

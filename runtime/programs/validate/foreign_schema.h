@@ -1,9 +1,10 @@
-// runtime/programs/foreign_schema.h: elements of other makers against their XML Schema, by libxml2.
+// runtime/programs/validate/foreign_schema.h: elements of other makers against their XML Schema, by
+// libxml2.
 #pragma once
 
 #include <string>
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 
 namespace kinora {
 

@@ -1,5 +1,6 @@
-// runtime/programs/image_size.cpp: one row a format: its mark and where width and height stand.
-#include "runtime/programs/image_size.h"
+// runtime/programs/validate/image_size.cpp: one row a format: its mark and where width and height
+// stand.
+#include "runtime/programs/validate/image_size.h"
 
 #include <fstream>
 

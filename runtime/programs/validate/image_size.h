@@ -1,5 +1,5 @@
-// runtime/programs/image_size.h: how large a picture is, from the head of its file, without the
-// libraries that decode it.
+// runtime/programs/validate/image_size.h: how large a picture is, from the head of its file,
+// without the libraries that decode it.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// runtime/programs/kinora_validate_inputs.cpp: files and directories to a list of files.
+// runtime/programs/validate/inputs.cpp: files and directories to a list of files.
 #include <algorithm>
 #include <filesystem>
 
-#include "runtime/programs/kinora_validate.h"
+#include "runtime/programs/validate/kinora_validate.h"
 
 namespace kinora {
 

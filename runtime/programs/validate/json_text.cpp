@@ -1,5 +1,5 @@
-// runtime/programs/json_text.cpp: escapes.
-#include "runtime/programs/json_text.h"
+// runtime/programs/validate/json_text.cpp: escapes.
+#include "runtime/programs/validate/json_text.h"
 
 #include <fmt/format.h>
 

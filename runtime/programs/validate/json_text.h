@@ -1,4 +1,4 @@
-// runtime/programs/json_text.h: strings as JSON and XML spell them.
+// runtime/programs/validate/json_text.h: strings as JSON and XML spell them.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
-// runtime/programs/kinora_validate.cpp: checks COLLADA files: a command line to a batch of files.
-#include "runtime/programs/kinora_validate.h"
+// runtime/programs/validate/kinora_validate.cpp: checks COLLADA files: a command line to a batch of
+// files.
+#include "runtime/programs/validate/kinora_validate.h"
 
 #include <malloc.h>
 
@@ -7,8 +8,8 @@
 #include <cstdio>
 #include <new>
 
-#include "runtime/programs/exit_codes.h"
-#include "runtime/programs/finish.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/finish.h"
 
 namespace {
 

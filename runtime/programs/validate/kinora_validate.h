@@ -1,5 +1,5 @@
-// runtime/programs/kinora_validate.h: what kinora-validate was asked for, and what it finds in a
-// file.
+// runtime/programs/validate/kinora_validate.h: what kinora-validate was asked for, and what it
+// finds in a file.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/programs/scene_info.h"
+#include "runtime/programs/validate/scene_info.h"
 
 namespace kinora {
 
@@ -65,25 +65,25 @@ struct ValidateTotals {
 // a usage error, which is printed), nothing otherwise.
 std::optional<int> parse_validate_options(int argc, char** argv, ValidateSettings& settings);
 
-// kinora_validate_inputs.cpp: the files that the inputs mean, in their order; those of a directory
+// inputs.cpp: the files that the inputs mean, in their order; those of a directory
 // (with -r) by name.
 std::vector<std::string> expand_inputs(const ValidateSettings& settings);
 
-// kinora_validate_file.cpp: all checks of one file. `stdin_bytes` is what "-" holds.
+// file.cpp: all checks of one file. `stdin_bytes` is what "-" holds.
 FileResult validate_file(const std::string& input, const ValidateSettings& settings,
                          const std::string& stdin_bytes);
 // The same of a text under that name.
 FileResult validate_text(const std::string& name, std::string bytes,
                          const ValidateSettings& settings);
 
-// kinora_validate_batch.cpp: all files; prints the report. Returns an exit code.
+// batch.cpp: all files; prints the report. Returns an exit code.
 int validate_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
 
-// kinora_validate_fix.cpp: repairs files as --fix asks; what is left goes to stderr. Returns an
+// fix.cpp: repairs files as --fix asks; what is left goes to stderr. Returns an
 // exit code.
 int fix_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
 
-// kinora_validate_budget.cpp: findings where `info` passes a budget.
+// budget.cpp: findings where `info` passes a budget.
 void check_budgets(const SceneInfo& info, const ValidateSettings& settings, Location where,
                    Diagnostics& diagnostics);
 bool is_budget_name(std::string_view name);

@@ -1,12 +1,12 @@
-// runtime/programs/kinora_validate_options.cpp: kinora-validate's command line.
+// runtime/programs/validate/options.cpp: kinora-validate's command line.
 #include <cmath>
 #include <set>
 
-#include "collada/schema.h"
-#include "runtime/programs/command_line.h"
-#include "runtime/programs/kinora_validate.h"
-#include "runtime/programs/validate_report.h"
-#include "runtime/programs/validate_rules.h"
+#include "collada/schema/schema.h"
+#include "runtime/programs/common/command_line.h"
+#include "runtime/programs/validate/kinora_validate.h"
+#include "runtime/programs/validate/report.h"
+#include "runtime/programs/validate/rules.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/output_file.cpp: temporary name, write, rename.
-#include "runtime/programs/output_file.h"
+// runtime/programs/validate/output_file.cpp: temporary name, write, rename.
+#include "runtime/programs/validate/output_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,4 +1,5 @@
-// runtime/programs/output_file.h: text to stdout, or to a file that has its name only when whole.
+// runtime/programs/validate/output_file.h: text to stdout, or to a file that has its name only when
+// whole.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// runtime/programs/validate_report.cpp: what the formats share.
-#include "runtime/programs/validate_report.h"
+// runtime/programs/validate/report.cpp: what the formats share.
+#include "runtime/programs/validate/report.h"
 
 #include <fmt/format.h>
 

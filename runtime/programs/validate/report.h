@@ -1,11 +1,11 @@
-// runtime/programs/validate_report.h: the shapes a report can have. A report is a head, one piece a
+// runtime/programs/validate/report.h: the shapes a report can have. A report is a head, one piece a
 // file in their order, a separator between pieces, and a tail; pieces are made on any thread.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-#include "runtime/programs/kinora_validate.h"
+#include "runtime/programs/validate/kinora_validate.h"
 
 namespace kinora {
 

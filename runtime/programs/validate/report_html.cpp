@@ -1,12 +1,12 @@
-// runtime/programs/validate_report_html.cpp: one page that needs nothing else: findings with their
+// runtime/programs/validate/report_html.cpp: one page that needs nothing else: findings with their
 // source lines, to be filtered by severity, code and file.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "runtime/base/shown_path.h"
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/validate_report.h"
+#include "runtime/base/display_path.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/report.h"
 
 namespace kinora {
 
@@ -121,7 +121,7 @@ std::string excerpt(Location where, const SourceFiles& files) {
 std::string place(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return {};
     LineColumn at = files.line_column(where.file, where.begin);
-    return fmt::format("{}:{}:{}", xml_text(shown_path(files.name(where.file))), at.line,
+    return fmt::format("{}:{}:{}", xml_text(display_path(files.name(where.file))), at.line,
                        at.column);
 }
 

@@ -1,9 +1,9 @@
-// runtime/programs/validate_report_json.cpp: one JSON object; a line a file.
+// runtime/programs/validate/report_json.cpp: one JSON object; a line a file.
 #include <fmt/format.h>
 
-#include "runtime/base/shown_path.h"
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/validate_report.h"
+#include "runtime/base/display_path.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/report.h"
 
 namespace kinora {
 
@@ -16,7 +16,7 @@ std::string place_json(Location where, const SourceFiles& files) {
     return fmt::format(
         ", \"file\": {}, \"line\": {}, \"column\": {}, \"end_line\": {}, \"end_column\": {}, "
         "\"offset\": {}, \"length\": {}",
-        json_string(shown_path(files.name(where.file))), at.line, at.column, end.line, end.column,
+        json_string(display_path(files.name(where.file))), at.line, at.column, end.line, end.column,
         where.begin, where.end > where.begin ? where.end - where.begin : 0);
 }
 

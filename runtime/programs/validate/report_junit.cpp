@@ -1,9 +1,9 @@
-// runtime/programs/validate_report_junit.cpp: JUnit's XML as build servers read it: a suite a file,
+// runtime/programs/validate/report_junit.cpp: JUnit's XML as build servers read it: a suite a file,
 // a case a finding that fails, or one case that passes.
 #include <fmt/format.h>
 
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/validate_report.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/report.h"
 
 namespace kinora {
 

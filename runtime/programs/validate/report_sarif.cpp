@@ -1,10 +1,10 @@
-// runtime/programs/validate_report_sarif.cpp: SARIF 2.1.0 (OASIS standard), one run.
+// runtime/programs/validate/report_sarif.cpp: SARIF 2.1.0 (OASIS standard), one run.
 #include <fmt/format.h>
 
-#include "runtime/base/shown_path.h"
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/validate_report.h"
-#include "runtime/programs/validate_rules.h"
+#include "runtime/base/display_path.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/report.h"
+#include "runtime/programs/validate/rules.h"
 
 namespace kinora {
 
@@ -46,7 +46,7 @@ std::string sarif_head(const ValidateSettings&) {
 // The place of a finding without one is its file as a whole.
 std::string location_json(const std::string& file, Location where, const SourceFiles& files,
                           std::string_view id_path, std::string_view message = {}) {
-    std::string uri = where.file == kNoFile ? file : shown_path(files.name(where.file));
+    std::string uri = where.file == kNoFile ? file : display_path(files.name(where.file));
     std::string text =
         fmt::format("{{\"physicalLocation\": {{\"artifactLocation\": {{\"uri\": {}}}",
                     json_string(uri_of_path(uri)));

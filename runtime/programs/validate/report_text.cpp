@@ -1,7 +1,7 @@
-// runtime/programs/validate_report_text.cpp: for people and editors: file:line:col: severity.
+// runtime/programs/validate/report_text.cpp: for people and editors: file:line:col: severity.
 #include <fmt/format.h>
 
-#include "runtime/programs/validate_report.h"
+#include "runtime/programs/validate/report.h"
 
 namespace kinora {
 

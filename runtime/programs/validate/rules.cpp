@@ -1,17 +1,17 @@
-// runtime/programs/validate_rules.cpp: the rows of all findings.def files as one list.
-#include "runtime/programs/validate_rules.h"
+// runtime/programs/validate/rules.cpp: the rows of all findings.def files as one list.
+#include "runtime/programs/validate/rules.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "collada/findings.h"
-#include "jit/findings.h"
-#include "rsl/findings.h"
-#include "runtime/findings.h"
+#include "collada/document/findings.h"
+#include "jit/ir/findings.h"
+#include "rsl/text/findings.h"
+#include "runtime/description/findings.h"
 #include "runtime/profile_rsl/findings.h"
-#include "runtime/programs/json_text.h"
+#include "runtime/programs/validate/json_text.h"
 
 namespace kinora {
 
@@ -35,7 +35,7 @@ Rows make_rules() {
     for (const FindingInfo* row : {
 #define FINDING(code, severity, text, explanation, fix) &Code::code,
 #include "runtime/profile_rsl/findings.def"
-#include "runtime/programs/validate_findings.def"
+#include "runtime/programs/validate/findings.def"
 #undef FINDING
          })
         rows.push_back(row);
@@ -46,10 +46,10 @@ Rows make_rules() {
 Rows make_others() {
     Rows rows = {
 #define FINDING(code, severity, text, explanation, fix) &Code::code,
-#include "runtime/findings.def"
+#include "runtime/description/findings.def"
 #undef FINDING
 #define FINDING(code, severity, text, explanation, fix) &jit::Code::code,
-#include "jit/findings.def"
+#include "jit/ir/findings.def"
 #undef FINDING
     };
     order(rows);

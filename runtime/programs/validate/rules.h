@@ -1,4 +1,4 @@
-// runtime/programs/validate_rules.h: every code there is, for --list-rules, --explain and reports.
+// runtime/programs/validate/rules.h: every code there is, for --list-rules, --explain and reports.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace kinora {
 namespace Code {
 #define FINDING(code, severity, text, explanation, fix) \
     inline constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
-#include "runtime/programs/validate_findings.def"
+#include "runtime/programs/validate/findings.def"
 #undef FINDING
 }  // namespace Code
 

@@ -1,9 +1,9 @@
-// runtime/programs/scene_bounds.cpp: where the surfaces of the rest pose lie.
+// runtime/programs/validate/scene_bounds.cpp: where the surfaces of the rest pose lie.
 #include <cmath>
 #include <map>
 
-#include "runtime/programs/scene_info.h"
-#include "runtime/programs/scene_walk.h"
+#include "runtime/programs/validate/scene_info.h"
+#include "runtime/programs/validate/scene_walk.h"
 
 namespace kinora {
 

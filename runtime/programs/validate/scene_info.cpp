@@ -1,10 +1,10 @@
-// runtime/programs/scene_info.cpp: counts of what the visual scene reaches.
-#include "runtime/programs/scene_info.h"
+// runtime/programs/validate/scene_info.cpp: counts of what the visual scene reaches.
+#include "runtime/programs/validate/scene_info.h"
 
 #include <algorithm>
 #include <set>
 
-#include "runtime/programs/scene_walk.h"
+#include "runtime/programs/validate/scene_walk.h"
 
 namespace kinora {
 

@@ -1,13 +1,13 @@
-// runtime/programs/scene_info.h: what a scene holds, counted, for kinora-validate --info.
+// runtime/programs/validate/scene_info.h: what a scene holds, counted, for kinora-validate --info.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "collada/scene.h"
+#include "collada/scene/scene.h"
 #include "runtime/base/math.h"
-#include "runtime/programs/image_size.h"
+#include "runtime/programs/validate/image_size.h"
 
 namespace kinora {
 

@@ -1,8 +1,8 @@
-// runtime/programs/scene_info_print.cpp: a scene's counts as text and JSON.
+// runtime/programs/validate/scene_info_print.cpp: a scene's counts as text and JSON.
 #include <fmt/format.h>
 
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/scene_info.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/scene_info.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/programs/scene_walk.cpp: the unrolled tree with rest matrices.
-#include "runtime/programs/scene_walk.h"
+// runtime/programs/validate/scene_walk.cpp: the unrolled tree with rest matrices.
+#include "runtime/programs/validate/scene_walk.h"
 
 #include <array>
 

@@ -1,9 +1,10 @@
-// runtime/programs/scene_walk.h: every place of a node in the visual scene, instances unrolled.
+// runtime/programs/validate/scene_walk.h: every place of a node in the visual scene, instances
+// unrolled.
 #pragma once
 
 #include <vector>
 
-#include "collada/scene.h"
+#include "collada/scene/scene.h"
 #include "runtime/base/math.h"
 
 namespace kinora {

@@ -1,6 +1,6 @@
-// runtime/programs/unified_diff.cpp: Myers' algorithm (An O(ND) difference algorithm, 1986) in its
-// linear-space form, and hunks with three lines around.
-#include "runtime/programs/unified_diff.h"
+// runtime/programs/validate/unified_diff.cpp: Myers' algorithm (An O(ND) difference algorithm,
+// 1986) in its linear-space form, and hunks with three lines around.
+#include "runtime/programs/validate/unified_diff.h"
 
 #include <fmt/format.h>
 

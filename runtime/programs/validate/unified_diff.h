@@ -1,4 +1,4 @@
-// runtime/programs/unified_diff.h: what changed between two texts, as `diff -u` says it.
+// runtime/programs/validate/unified_diff.h: what changed between two texts, as `diff -u` says it.
 #pragma once
 
 #include <string>

@@ -1,0 +1,90 @@
+// runtime/frame/frame.cpp: the frame loop.
+#include "runtime/frame/frame.h"
+
+#include <algorithm>
+
+#include "runtime/base/stats.h"
+#include "runtime/frame/report_p.h"
+#include "runtime/scene/camera.h"
+#include "runtime/scene/transforms.h"
+#include "runtime/vertices/deform.h"
+#include "runtime/vertices/dice_error.h"
+#include "runtime/vertices/vertex_work.h"
+
+namespace kinora {
+
+namespace {
+
+// The film's planes are those of the scene's outputs.
+void prepare_planes(const Scene& scene, raytrace::Film& film) {
+    bool same = film.aovs.size() == scene.outputs.size();
+    for (size_t p = 0; same && p < film.aovs.size(); ++p)
+        same = film.aovs[p].name == scene.outputs[p].name;
+    if (same) return;
+    film.aovs.clear();
+    for (const OutputPlane& plane : scene.outputs) {
+        film.add_aov(plane.name);
+        film.aovs.back().in_file = plane.in_file;
+    }
+}
+
+}  // namespace
+
+bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameStats& stats,
+                Diagnostics& diagnostics) {
+    {
+        StageTimer timer(stats.animate);
+        anim::evaluate(scene.description->animation, time, scene.values, scene.changed);
+        scene.time = time;
+        scene.shutter = settings.shutter;
+        update_transforms(scene);
+    }
+    raytrace::CameraStatus camera = place_camera(scene, settings.width, settings.height);
+    if (!report_camera(scene, camera, diagnostics)) return false;
+    {
+        StageTimer timer(stats.skin);
+        pose(scene);
+        stats.dice_error = dice_error(scene);
+        stats.too_coarse =
+            settings.most_dice_error > 0 && stats.dice_error > settings.most_dice_error;
+        // What changed stays marked, so that the next frame moves it.
+        if (stats.too_coarse) return false;
+        stats.displace = deform(scene);
+        for (Shape& shape : scene.shapes)
+            if (shape.vertex_work) shape.vertex_work->report(mesh_id(scene, shape), diagnostics);
+    }
+    {
+        StageTimer timer(stats.refit);
+        const raytrace::AccelUpdate& update = scene.accel.update(scene.geometry);
+        stats.refits = update.refits;
+        stats.rebuilds = update.rebuilds + update.low_rebuilds;
+        if (scene.first_frame || !scene.all_finite || !update.issues.empty())
+            report_geometry(scene, update, diagnostics);
+    }
+    scene.first_frame = false;
+    std::fill(scene.changed.begin(), scene.changed.end(), 0);
+    return true;
+}
+
+bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
+                  FrameStats& stats, Diagnostics& diagnostics, const raytrace::Progress* progress) {
+    stats = {};
+    StageTimer total(stats.total);
+    if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
+    prepare_planes(scene, film);
+    scene.shading->stop_by(settings.stop);
+    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
+    raytrace::IntegratorCounters counters;
+    bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
+                                     settings.integrator, scene.scratch, counters, progress);
+    if (whole && scene.imager != kNone) {
+        size_t bad = scene.shading->run_imager(film, settings.integrator.nan);
+        film.non_finite += bad;
+        report_imager(scene, bad, stats, diagnostics);
+    }
+    ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
+    report_shading(scene, shading, counters, settings.integrator, stats, diagnostics);
+    return whole;
+}
+
+}  // namespace kinora

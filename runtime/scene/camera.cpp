@@ -1,0 +1,63 @@
+// runtime/scene/camera.cpp: the scene's camera from its definition and node.
+#include "runtime/scene/camera.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/scene/transforms.h"
+
+namespace kinora {
+
+namespace {
+
+raytrace::CameraOptics optics_of(const Scene& scene) {
+    const CameraDefinition& camera =
+        scene.description->cameras[scene.cameras[scene.camera].definition];
+    auto value = [&](ValueSlot slot) -> std::optional<double> {
+        if (!slot.present()) return std::nullopt;
+        return scene.values[slot.offset];
+    };
+    raytrace::CameraOptics optics;
+    optics.orthographic = camera.orthographic;
+    optics.x = value(camera.x);
+    optics.y = value(camera.y);
+    optics.aspect = value(camera.aspect);
+    // Lengths are in units of the camera's file.
+    double unit = unit_of(path_conversion(scene, scene.cameras[scene.camera].node));
+    if (camera.orthographic && optics.x) *optics.x *= unit;
+    if (camera.orthographic && optics.y) *optics.y *= unit;
+    optics.znear = value(camera.znear).value_or(0.0);
+    optics.zfar = value(camera.zfar).value_or(0.0);
+    if (!camera.orthographic) {
+        if (optics.x) optics.x = radians(*optics.x);
+        if (optics.y) optics.y = radians(*optics.y);
+    }
+    return optics;
+}
+
+}  // namespace
+
+raytrace::CameraStatus place_camera(Scene& scene, int width, int height) {
+    const CameraSource& source = scene.cameras[scene.camera];
+    const CameraDefinition& camera = scene.description->cameras[source.definition];
+    const dmat4& world = scene.nodes[source.node].world;
+    raytrace::CameraOptics optics = optics_of(scene);
+    double scale = glm::length(dvec3(world[2]));  // the clip range is in units of the node
+    if (scale > 0 && std::isfinite(scale)) {
+        optics.znear *= scale;
+        optics.zfar *= scale;
+    }
+    raytrace::CameraStatus status =
+        raytrace::make_camera(optics, world, width, height, scene.origin, scene.size, scene.view);
+    // What a file's camera says it sees from and to; a range that had to be repaired says nothing.
+    bool both = camera.znear.present() && camera.zfar.present();
+    bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;
+    scene.view.clip = camera.clips && !(both && repaired);
+    return status;
+}
+
+std::optional<double> camera_aspect(const Scene& scene) {
+    return raytrace::picture_aspect(optics_of(scene));
+}
+
+}  // namespace kinora

@@ -1,0 +1,17 @@
+// runtime/scene/camera.h: the scene's camera from its definition and node.
+#pragma once
+
+#include <optional>
+
+#include "raytrace/camera.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+// Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
+raytrace::CameraStatus place_camera(Scene& scene, int width, int height);
+
+// Width / height of the scene's camera where its optics say so, at its base values.
+std::optional<double> camera_aspect(const Scene& scene);
+
+}  // namespace kinora
