@@ -1,4 +1,4 @@
-// tests/anim/decompose_test.cpp: matrices taken apart and put together; rows 29, 30, 33, 34.
+// tests/anim/decompose_test.cpp: matrices taken apart and put together (docs/numerics.md#keys).
 #include "anim/decompose.h"
 
 #include <gtest/gtest.h>

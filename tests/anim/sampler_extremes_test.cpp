@@ -1,4 +1,4 @@
-// tests/anim/sampler_extremes_test.cpp: rows 20 to 32 of EXTREMES.md.
+// tests/anim/sampler_extremes_test.cpp: the edge cases of docs/numerics.md#keys.
 #include <gtest/gtest.h>
 
 #include <chrono>

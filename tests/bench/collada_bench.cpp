@@ -12,8 +12,11 @@
 #define KINORA_FAST_FLOAT 1
 #endif
 
-#include "collada/numbers_p.h"
-#include "collada/validate.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/extract/extract.h"
+#include "collada/text/numbers_p.h"
+#include "collada/validate/validate.h"
+#include "tests/shared.h"
 
 namespace kinora::collada {
 namespace {
@@ -111,9 +114,7 @@ BENCHMARK(BM_ints_kinora);
 // KINORA_SCENES names a file or folder; else the shared scenes. Each step over all .dae files.
 std::vector<std::pair<std::string, std::string>> scene_files() {
     const char* named = std::getenv("KINORA_SCENES");
-    std::filesystem::path root =
-        named ? named : std::string(KINORA_SOURCE_DIR) + "/../shared/scenes";
-    if (!named && !std::filesystem::exists(root)) root = "/work/shared/scenes";
+    std::filesystem::path root = named ? named : shared_scenes();
     std::vector<std::pair<std::string, std::string>> files;
     auto add = [&](const std::filesystem::path& path) {
         std::ifstream in(path, std::ios::binary);

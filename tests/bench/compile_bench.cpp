@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "jit/target.h"
 #include "tests/bench/shade_kernels.h"
 
 namespace kinora {

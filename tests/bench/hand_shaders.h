@@ -1,7 +1,7 @@
 // tests/bench/hand_shaders.h: marble, plastic, wood, a ramp and lights as an engineer writes them
 // with intrinsics, the measure of what the JIT makes of assets/shaders.
 //
-// The same mathematics: Kinora's noise (jit/math_noise_p.h), the fast tier's sine and power, RSL's
+// The same mathematics: Kinora's noise (jit/math/noise_p.h), the fast tier's sine and power, RSL's
 // rule that x / 0 is 0, one square root and one division a normalisation. The same shape: light
 // functions fill records for all points, then the surface loops over points and records. The
 // shaders' default parameters are constants, as they are in the compiled kernel.

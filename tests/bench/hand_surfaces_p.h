@@ -7,8 +7,8 @@
 
 #include <limits>
 
-#include "jit/math_coefficients_p.h"
-#include "jit/math_noise_p.h"
+#include "jit/math/coefficients_p.h"
+#include "jit/math/noise_p.h"
 #include "tests/bench/hand_shaders.h"
 
 namespace kinora::hand {

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include "jit/builder.h"
 #include "jit/compiler.h"
-#include "jit/math.h"
+#include "jit/ir/builder.h"
+#include "jit/math/math.h"
+#include "jit/passes/passes.h"
 #include "tests/jit/run_kernel.h"
 
 namespace kinora::jit {

@@ -2,7 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "jit/compiler.h"
-#include "jit/math.h"
+#include "jit/math/math.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 namespace {
@@ -127,7 +128,7 @@ constexpr Stage kStages[] = {
     {"inline", inline_calls},
     {"dce", dce},
     {"fold", fold},
-    {"unmask", unmask},
+    {"unmask", unmask_uniform_loops},
     {"cse", cse},
     {"hoist", pass_hoist},
 };

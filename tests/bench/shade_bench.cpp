@@ -17,6 +17,7 @@
 #include <benchmark/benchmark.h>
 #include <xmmintrin.h>
 
+#include "jit/target.h"
 #include "tests/bench/hand_shaders.h"
 #include "tests/bench/shade_kernels.h"
 

@@ -10,7 +10,8 @@
 #include <sstream>
 
 #include "jit/compiler.h"
-#include "rsl/lower.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/check.h"
 
@@ -107,7 +108,8 @@ inline rsl::LoweredShader lower_fast(const rsl::Layer& layer, Diagnostics& diagn
     return std::move(*lowered);
 }
 
-// What runtime/look.cpp gives a parameter that the scene sets: 0 and 1 belong to the shape.
+// What runtime/shading/shader_instance.cpp gives a parameter that the scene sets: 0 and 1 belong to
+// the shape.
 inline std::vector<rsl::ParamBinding> bound_parameters(const rsl::Shader& shader) {
     std::vector<rsl::ParamBinding> bindings;
     for (const rsl::ShaderParameter& p : shader.parameters) {

@@ -8,7 +8,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "collada/open_scene.h"
+#include "collada/document/open_scene.h"
+#include "collada/extract/extract.h"
 #include "reading.h"
 
 namespace kinora::collada {

@@ -1,11 +1,12 @@
 // tests/collada/deviations_test.cpp: each of the 25 things that real exporters do loads, is told by
-// its code, and becomes the scene that was meant (COLLADA.md; files by deviations/make.py).
+// its code, and becomes the scene that was meant (docs/format.md#what-exporters-get-wrong; files by
+// deviations/make.py).
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 #include "reading.h"
 
 namespace kinora::collada {
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(KINORA_SOURCE_DIR) / "tests/collada/deviations";
+const fs::path kFolder = fs::path(KINORA_TEST_DATA) / "deviations";
 
 struct Deviation {
     const char* file;

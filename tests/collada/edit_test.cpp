@@ -1,5 +1,5 @@
 // tests/collada/edit_test.cpp: edits of a document's bytes.
-#include "collada/edit.h"
+#include "collada/document/edit.h"
 
 #include <gtest/gtest.h>
 

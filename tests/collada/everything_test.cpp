@@ -2,8 +2,10 @@
 // all that the picture uses.
 #include <gtest/gtest.h>
 
-#include "collada/validate.h"
+#include "collada/extract/extract.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
+#include "tests/shared.h"
 
 namespace kinora::collada {
 namespace {
@@ -79,9 +81,8 @@ TEST(Everything, NeedsNoScene) {
 
 // The scenes of others: reading all of a file leaves what its picture uses where it was.
 TEST(Everything, LeavesThePictureOfSharedScenesAlone) {
-    std::string folder = std::string(KINORA_SOURCE_DIR) + "/../shared/scenes";
-    if (!std::filesystem::is_directory(folder)) folder = "/work/shared/scenes";
-    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no shared scenes";
+    std::filesystem::path folder = shared_scenes();
+    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no ../shared/scenes";
     int files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".dae") continue;

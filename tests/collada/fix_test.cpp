@@ -1,8 +1,8 @@
 // tests/collada/fix_test.cpp: repairs remove their findings, keep the scene and all other bytes.
 #include <gtest/gtest.h>
 
-#include "collada/findings.h"
-#include "collada/fix.h"
+#include "collada/document/findings.h"
+#include "collada/validate/fix.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

@@ -11,9 +11,10 @@
 #include <ctime>
 #include <fstream>
 
-#include "collada/extract_p.h"
-#include "collada/id_path.h"
-#include "collada/validate.h"
+#include "collada/document/id_path.h"
+#include "collada/extract/extract.h"
+#include "collada/extract/extract_p.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

@@ -1,10 +1,10 @@
 // tests/collada/id_path_test.cpp: places in words; what profiles make of severities.
-#include "collada/id_path.h"
+#include "collada/document/id_path.h"
 
 #include <gtest/gtest.h>
 
-#include "collada/findings.h"
-#include "collada/profile.h"
+#include "collada/document/findings.h"
+#include "collada/validate/profile.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "collada/validate.h"
+#include "collada/extract/extract.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

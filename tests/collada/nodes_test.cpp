@@ -164,7 +164,7 @@ TEST(Asset, ReadsUnitsAxesAndRanges) {
 // Blender's decomposed transforms: what the picture needs is location * rotation * scale, and what
 // channels name moves along.
 TEST(Nodes, BlendersOrderOfTransformsIsMended) {
-    const std::string rules = std::string(KINORA_SOURCE_DIR) + "/tests/collada/rules/";
+    const std::string rules = KINORA_TEST_DATA "/rules/";
     Reading r;
     read_file(r, rules + "NODE_ORDER.dae");
     ASSERT_TRUE(r.scene);

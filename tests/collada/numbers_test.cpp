@@ -8,8 +8,10 @@
 #include <cstdlib>
 #include <random>
 
-#include "collada/numbers_p.h"
-#include "collada/simple_types_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/schema/simple_types_p.h"
+#include "collada/text/numbers_p.h"
+#include "collada/text/words_p.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

@@ -1,5 +1,5 @@
 // tests/collada/plain_xml_test.cpp: the fast reader of plain XML is held against expat.
-#include "collada/plain_xml_p.h"
+#include "collada/document/plain_xml_p.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "collada/document_reader_p.h"
+#include "collada/document/document_reader_p.h"
 #include "tests/mutate.h"
+#include "tests/shared.h"
 
 namespace kinora::collada {
 namespace {
@@ -220,7 +221,7 @@ TEST(PlainXml, ReadsNearlyAllFilesOfTheProject) {
     ASSERT_GT(all, 0u);
     EXPECT_EQ(plain, all);
     plain = all = 0;
-    for (const std::string& text : files_below(KINORA_SOURCE_DIR "/../shared/scenes")) {
+    for (const std::string& text : files_below(shared_scenes())) {
         ++all;
         plain += compare(text) == Outcome::Same;
     }
@@ -230,9 +231,10 @@ TEST(PlainXml, ReadsNearlyAllFilesOfTheProject) {
 
 TEST(PlainXml, DamagedFilesAreRefusedOrReadAsExpatDoes) {
     std::vector<std::string> corpus;
-    for (const std::string& text : files_below(KINORA_SOURCE_DIR "/tests/collada"))
-        if (text.size() < 8000) corpus.push_back(text);
-    ASSERT_GT(corpus.size(), 50u);
+    for (const char* folder : {KINORA_TEST_DATA "/rules", KINORA_TEST_DATA "/deviations"})
+        for (const std::string& text : files_below(folder))
+            if (text.size() < 8000) corpus.push_back(text);
+    ASSERT_GT(corpus.size(), 400u);
     const std::vector<std::string> words = {"<a>",
                                             "</a>",
                                             "<a/>",

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "collada/scene.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/scene.h"
 
 namespace kinora::collada {
 

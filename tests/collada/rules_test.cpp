@@ -1,17 +1,17 @@
 // tests/collada/rules_test.cpp: each code with a file that must cause it and one that must not.
 //
-// rules/CODE.dae holds <!-- expect: CODE --> at the end of each line where a finding begins, or
-// alone on the line before it; rules/CODE.ok.dae must not cause CODE at all. A second file of
-// either kind has more between the dots: CODE.morph.dae, CODE.ok.morph.dae.
+// CODE.dae holds <!-- expect: CODE --> at the end of each line where a finding begins, or alone on
+// the line before it; CODE.ok.dae must not cause CODE at all. A second file of either kind has more
+// between the dots: CODE.morph.dae, CODE.ok.morph.dae. rules/README.md says how they are written.
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <set>
 #include <sstream>
 
-#include "collada/findings.h"
-#include "collada/open_scene.h"
-#include "collada/validate.h"
+#include "collada/document/findings.h"
+#include "collada/document/open_scene.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
 #include "tests/collada/scene_promises.h"
 #include "tests/mutate.h"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(KINORA_SOURCE_DIR) / "tests/collada/rules";
+const fs::path kFolder = fs::path(KINORA_TEST_DATA) / "rules";
 
 struct RuleFile {
     std::string name, code;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "collada/scene.h"
+#include "collada/scene/scene.h"
 
 namespace kinora::collada {
 

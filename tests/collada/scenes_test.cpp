@@ -5,14 +5,16 @@
 #include <filesystem>
 #include <iostream>
 
-#include "collada/scene.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/scene.h"
+#include "tests/shared.h"
 
 namespace kinora::collada {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kScenes = fs::path(KINORA_SOURCE_DIR) / "../shared/scenes";
+const fs::path kScenes = shared_scenes();
 
 std::vector<fs::path> scene_files() {
     std::vector<fs::path> files;

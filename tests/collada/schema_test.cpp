@@ -1,15 +1,16 @@
 // tests/collada/schema_test.cpp: the element table: its rows, its automata, its simple types, and
 // what it says of a document.
-#include "collada/schema.h"
+#include "collada/schema/schema.h"
+#include "collada/text/words_p.h"
 
 #include <expat.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "collada/element_types_p.h"
-#include "collada/encoding_p.h"
-#include "collada/validate.h"
+#include "collada/schema/element_types_p.h"
+#include "collada/text/encoding_p.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

@@ -5,8 +5,9 @@
 #include <cstdio>
 #include <set>
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
+#include "tests/shared.h"
 
 namespace kinora::collada {
 namespace {
@@ -72,9 +73,8 @@ void expect_all_seen(const fs::path& path, size_t& count) {
 
 TEST(SecondOpinion, DaeValidatorSeesNoLinkOrIdThatWeDoNot) {
     if (!fs::exists(kValidator)) GTEST_SKIP() << "opencollada-tools are not installed";
-    fs::path root(KINORA_SOURCE_DIR);
     size_t count = 0;
-    for (const fs::path& folder : {root / "tests/collada/rules", root / "../shared/scenes"}) {
+    for (const fs::path& folder : {fs::path(KINORA_TEST_DATA) / "rules", shared_scenes()}) {
         if (!fs::exists(folder)) continue;
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
             std::string extension = entry.path().extension().string();

@@ -1,5 +1,5 @@
 // tests/collada/triangulate_test.cpp: random concave polygons against area and inside tests.
-#include "collada/triangulate_p.h"
+#include "collada/extract/triangulate_p.h"
 
 #include <gtest/gtest.h>
 

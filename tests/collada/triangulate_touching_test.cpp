@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "collada/triangulate_p.h"
+#include "collada/extract/triangulate_p.h"
 
 namespace kinora::collada {
 namespace {

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""tests/conformance/make.py: writes equal/FAMILY/NAME.dae and differ/FAMILY/NAME.dae.
+"""tests/conformance/make.py FOLDER: writes equal/FAMILY/NAME.dae and differ/FAMILY/NAME.dae there.
 
-    tests/conformance/make.py [FOLDER]
-
-tests/programs/pairs_test.py renders them: files of one folder of equal/ look alike, no two of one
-of differ/ do. Names with a '/' are parts that others refer to.
+The build writes them to build/PRESET/test_data/conformance. tests/programs/pairs_test.py renders
+them: files of one folder of equal/ look alike, no two of one of differ/ do. Names with a '/' are
+parts that others refer to.
 """
 import io
+import shutil
 import sys
 import zipfile
 from pathlib import Path
@@ -44,11 +44,9 @@ def files():
 
 
 def main():
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+    folder = Path(sys.argv[1])
     made = files()
-    for old in [*folder.glob("equal/**/*"), *folder.glob("differ/**/*")]:
-        if old.is_file() and old.relative_to(folder).as_posix() not in made:
-            old.unlink()
+    shutil.rmtree(folder, ignore_errors=True)
     for name, content in made.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)

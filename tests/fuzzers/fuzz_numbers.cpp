@@ -2,7 +2,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "collada/numbers_p.h"
+#include "collada/document/element_numbers_p.h"
+#include "collada/text/numbers_p.h"
 #include "tests/collada/scene_promises.h"
 #include "tests/fuzzers/fuzzer.h"
 

@@ -1,6 +1,6 @@
 // tests/fuzzers/fuzz_plain_xml.cpp: what the fast reader accepts, expat accepts and sees alike.
-#include "collada/document_reader_p.h"
-#include "collada/plain_xml_p.h"
+#include "collada/document/document_reader_p.h"
+#include "collada/document/plain_xml_p.h"
 #include "tests/fuzzers/fuzzer.h"
 
 using namespace kinora;

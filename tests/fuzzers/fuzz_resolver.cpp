@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "collada/validate.h"
+#include "collada/validate/validate.h"
 #include "tests/collada/scene_promises.h"
 #include "tests/fuzzers/fuzzer.h"
 

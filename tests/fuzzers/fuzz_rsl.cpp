@@ -1,6 +1,8 @@
 // tests/fuzzers/fuzz_rsl.cpp: any text as shader source: findings or a well-formed kernel.
 #include "jit/compiler.h"
-#include "rsl/lower.h"
+#include "jit/passes/passes.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "tests/fuzzers/fuzzer.h"
 
 using namespace kinora;

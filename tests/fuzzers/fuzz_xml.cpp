@@ -1,5 +1,5 @@
 // tests/fuzzers/fuzz_xml.cpp: any bytes as a document: encodings, XML, the element table.
-#include "collada/document.h"
+#include "collada/document/document.h"
 #include "tests/collada/scene_promises.h"
 #include "tests/fuzzers/fuzzer.h"
 

@@ -2,8 +2,9 @@
 // scene inside.
 #include <filesystem>
 
-#include "collada/open_scene.h"
-#include "collada/scene.h"
+#include "collada/document/open_scene.h"
+#include "collada/extract/extract.h"
+#include "collada/scene/scene.h"
 #include "tests/collada/scene_promises.h"
 #include "tests/fuzzers/fuzzer.h"
 

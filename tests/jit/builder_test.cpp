@@ -1,5 +1,6 @@
 // tests/jit/builder_test.cpp: what Builder writes verifies and means what was asked.
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
+#include "jit/target.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,13 @@
 // tests/jit/code_tools_test.cpp: kernels know their lines, and their object files name them.
-#include "jit/code_tools.h"
+#include "jit/debug/code_tools.h"
+#include "jit/target.h"
 
 #include <elf.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
 
 namespace kinora::jit {
 namespace {

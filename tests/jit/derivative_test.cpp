@@ -5,7 +5,8 @@
 #include <functional>
 
 #include "jit/compiler.h"
-#include "jit/math.h"
+#include "jit/math/math.h"
+#include "jit/passes/passes.h"
 #include "tests/jit/run_kernel.h"
 
 namespace kinora::jit {

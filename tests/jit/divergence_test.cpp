@@ -5,7 +5,8 @@
 #include <array>
 #include <numeric>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
+#include "jit/target.h"
 #include "tests/jit/run_kernel.h"
 
 namespace kinora::jit {

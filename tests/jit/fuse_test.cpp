@@ -2,8 +2,9 @@
 // same, alone and on every target.
 #include <gtest/gtest.h>
 
-#include "jit/builder.h"
 #include "jit/compiler.h"
+#include "jit/ir/builder.h"
+#include "jit/passes/passes.h"
 #include "tests/jit/random_kernel.h"
 #include "tests/jit/random_module.h"
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "jit/compiler.h"
+#include "jit/passes/passes.h"
 #include "tests/fuzz_settings.h"
 #include "tests/jit/module_difference.h"
 #include "tests/jit/random_module.h"
@@ -70,8 +71,12 @@ struct PassRow {
     void (*run)(Module&);
 };
 const PassRow kPasses[] = {
-    {"inline_calls", inline_calls}, {"fold", fold},     {"cse", cse}, {"dce", dce},
-    {"schedule", schedule},         {"unmask", unmask},
+    {"inline_calls", inline_calls},
+    {"fold", fold},
+    {"cse", cse},
+    {"dce", dce},
+    {"schedule", schedule},
+    {"unmask", unmask_uniform_loops},
 };
 
 std::string same_after(const Module& module, uint64_t seed, void (*pass)(Module&)) {

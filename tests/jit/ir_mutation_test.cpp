@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "jit/compiler.h"
-#include "jit/interp.h"
+#include "jit/interp/interp.h"
+#include "jit/passes/passes.h"
 #include "tests/fuzz_settings.h"
 #include "tests/jit/random_module.h"
 #include "tests/mutate.h"

@@ -1,7 +1,7 @@
 // tests/jit/ir_text_test.cpp: IR text reads back to what was printed; errors have their place.
 #include <gtest/gtest.h>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 #include "tests/jit/random_module.h"
 
 namespace kinora::jit {

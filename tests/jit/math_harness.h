@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "jit/builder.h"
-#include "jit/math.h"
+#include "jit/ir/builder.h"
+#include "jit/math/math.h"
 #include "jit/target.h"
 
 namespace kinora::jit::testing {

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "jit/target.h"
 #include "tests/jit/math_harness.h"
 
 namespace kinora::jit {
@@ -28,7 +29,7 @@ struct UnaryRow {
 double clamped(double x) {
     return std::isnan(x) ? x : std::clamp(x, -1.0, 1.0);
 }
-// EXTREMES.md rows 48 to 50
+// docs/numerics.md#powers-roots-logarithms, docs/numerics.md#arcs
 double ref_asin(double x) {
     return std::asin(clamped(x));
 }
@@ -96,7 +97,7 @@ Worst worst_of(const UnaryRow& row, Tier tier, bool flush) {
     for (size_t i = 0; i < x.size(); ++i) {
         double exact = row.reference(x[i]);
         bool tiny = std::fabs(x[i]) < kSmallest || std::fabs(exact) < 0x1p-125;
-        if (flush && tiny) continue;  // EXTREMES.md row 77
+        if (flush && tiny) continue;  // docs/numerics.md#two-tiers
         worst.see(ulp_error(y[i], exact), x[i], y[i], exact);
     }
     std::printf("%-12s %-8s %4d ops  max %.3f ULP at %.9g: %.9g, exactly %.17g\n", row.name,
@@ -115,7 +116,8 @@ TEST_P(UnaryMath, FastIsWithinFourUlp) {
     EXPECT_LE(worst_of(GetParam(), Tier::Fast, true).ulp, 4.0);
 }
 
-// pow as jit/math.h has it: 0 to any power but 0 is 0 (EXTREMES.md row 46), a NaN power gives NaN.
+// pow as jit/math/math.h has it: 0 to any power but 0 is 0
+// (docs/numerics.md#powers-roots-logarithms), a NaN power gives NaN.
 double ref_pow(double x, double y) {
     return std::isnan(y) ? y : x == 0 && y != 0 ? 0 : std::pow(x, y);
 }
@@ -242,7 +244,8 @@ bool same_bits(float a, float b) {
            (std::isnan(a) && std::isnan(b));
 }
 
-// DESIGN.md decision 13; in the IEEE default mode this holds for the fast tier as well.
+// docs/decisions.md#exact-arithmetic; in the IEEE default mode this holds for the fast tier as
+// well.
 TEST_P(UnaryMath, GivesTheSameBitsOnEveryTarget) {
     std::vector<float> x = edge_values();
     Samples s;

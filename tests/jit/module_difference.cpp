@@ -5,7 +5,8 @@
 #include <cstring>
 
 #include "jit/compiler.h"
-#include "jit/interp.h"
+#include "jit/interp/interp.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit::test {
 

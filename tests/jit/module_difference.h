@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "jit/target.h"
 #include "tests/jit/world.h"
 
 namespace kinora::jit::test {

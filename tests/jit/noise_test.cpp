@@ -79,7 +79,7 @@ TEST(Noise, IsAHalfOnTheLattice) {
     for (float value : out[0]) EXPECT_EQ(value, 0.5f);
 }
 
-// EXTREMES.md row 68
+// docs/numerics.md#noise
 TEST(Noise, IsFiniteForAnyCoordinate) {
     std::vector<float> edges = testing::edge_values();
     Columns in(3);
@@ -92,7 +92,7 @@ TEST(Noise, IsFiniteForAnyCoordinate) {
         for (float value : column) EXPECT_TRUE(value >= 0 && value <= 1);
 }
 
-// EXTREMES.md row 70: a period below 1 is 1.
+// docs/numerics.md#noise: a period below 1 is 1.
 TEST(Noise, RepeatsWithItsPeriod) {
     MathKernel kernel = noise_kernel(2, 1, true);
     Columns in = random_points(2, 5000, 50), shifted = in;
@@ -195,7 +195,7 @@ TEST(CellNoise, EqualsTheReferenceAndIsConstantOnCells) {
         MathKernel kernel(
             d, [](Builder& b, std::span<const Value> in) { return math::cellnoise(b, in, 3); });
         Columns in = random_points(d, 10'000, 100);
-        in[0][0] = -0.5f, in[0][1] = -0.0f, in[0][2] = 0.0f;  // EXTREMES.md row 69
+        in[0][0] = -0.5f, in[0][1] = -0.0f, in[0][2] = 0.0f;  // docs/numerics.md#noise
         for (size_t k = 1; k < size_t(d); ++k) in[k][0] = in[k][1] = in[k][2] = 0.5f;
         Columns out = kernel.run(in);
         for (size_t i = 0; i < in[0].size(); ++i) {

@@ -6,7 +6,8 @@
 #include <functional>
 #include <map>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
+#include "jit/target.h"
 #include "tests/jit/random_module.h"
 #include "tests/jit/run_kernel.h"
 

@@ -2,10 +2,11 @@
 // fuzz_test.cpp's claim).
 #include <gtest/gtest.h>
 
-#include "jit/analysis.h"
-#include "jit/builder.h"
-#include "jit/code_memory.h"
+#include "jit/codegen/code_memory.h"
 #include "jit/compiler.h"
+#include "jit/ir/analysis.h"
+#include "jit/ir/builder.h"
+#include "jit/passes/passes.h"
 #include "tests/jit/run_kernel.h"
 
 namespace kinora::jit {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "jit/compiler.h"
-#include "jit/planted_fault.h"
+#include "jit/ir/planted_fault.h"
 #include "tests/fuzz_settings.h"
 #include "tests/jit/module_difference.h"
 #include "tests/jit/random_module.h"
@@ -22,7 +22,7 @@ struct FaultRow {
 };
 constexpr FaultRow kFaults[] = {
 #define FAULT(name, where, meaning) {#name, PlantedFault::name, where, meaning},
-#include "jit/planted_faults.def"
+#include "jit/ir/planted_faults.def"
 #undef FAULT
 };
 

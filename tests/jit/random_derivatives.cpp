@@ -1,5 +1,5 @@
 // tests/jit/random_derivatives.cpp: adds Du and Dv to a random module.
-#include "jit/rewrite_p.h"
+#include "jit/ir/rewrite_p.h"
 #include "tests/jit/random_module.h"
 #include "tests/jit/world.h"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
 #include "tests/jit/world.h"
 
 namespace kinora::jit::test {

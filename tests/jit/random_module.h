@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit::test {
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "jit/compiler.h"
-#include "jit/fold_inst.h"
+#include "jit/ir/fold_inst.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit::test {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit::test {
 

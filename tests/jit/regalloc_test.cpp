@@ -1,11 +1,11 @@
 // tests/jit/regalloc_test.cpp: allocations of random programs are proven right, and the checker
 // finds every kind of damage done to one.
-#include "jit/regalloc.h"
+#include "jit/codegen/regalloc.h"
 
 #include <gtest/gtest.h>
 
-#include "jit/function_code_p.h"
-#include "jit/planted_fault.h"
+#include "jit/codegen/function_code_p.h"
+#include "jit/ir/planted_fault.h"
 #include "tests/jit/target_random.h"
 
 namespace kinora::jit {

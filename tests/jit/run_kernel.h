@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/target.h"
+#include "jit/ir/kernel.h"
 
 namespace kinora::jit::test {
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
-#include "jit/builder.h"
 #include "jit/compiler.h"
+#include "jit/ir/builder.h"
+#include "jit/passes/passes.h"
 
 namespace kinora::jit {
 namespace {

@@ -4,7 +4,8 @@
 
 #include <cstdlib>
 
-#include "jit/interp.h"
+#include "jit/interp/interp.h"
+#include "jit/target.h"
 #include "tests/jit/run_kernel.h"
 #include "tests/jit/target_random.h"
 

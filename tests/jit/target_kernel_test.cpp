@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "jit/code_memory.h"
+#include "jit/codegen/code_memory.h"
 #include "jit/compiler.h"
-#include "jit/math.h"
+#include "jit/math/math.h"
 #include "tests/jit/random_module.h"
 #include "tests/jit/run_kernel.h"
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
 
 namespace kinora::jit::test {
 

@@ -2,8 +2,9 @@
 // their own, other loops keep theirs, and nothing that lanes see changes.
 #include <gtest/gtest.h>
 
-#include "jit/builder.h"
 #include "jit/compiler.h"
+#include "jit/ir/builder.h"
+#include "jit/passes/passes.h"
 #include "tests/jit/module_difference.h"
 #include "tests/jit/random_kernel.h"
 
@@ -55,7 +56,7 @@ Module loop_of(Shape shape, bool noted = false) {
 }
 
 int unmasked_loops_after(Module module) {
-    unmask(module);
+    unmask_uniform_loops(module);
     EXPECT_EQ(verify(module), "") << print(module);
     return unmasked_loops(module);
 }
@@ -73,7 +74,7 @@ TEST(Unmask, LeavesItWhereLanesEnterOrLeaveApart) {
 
 TEST(Unmask, KeepsTheMaskOfWhatActsInsideTheLoop) {
     Module module = loop_of(Shape::Known, true);
-    unmask(module);
+    unmask_uniform_loops(module);
     Value asked = kNone, entered = kNone;
     for (const Inst& inst : module.kernel().insts) {
         if (inst.op == Op::Service) asked = inst.a;
@@ -220,7 +221,7 @@ TEST(Unmask, KeepsTheMeaningOfRandomWaysAndLoops) {
         ASSERT_EQ(verify(module), "") << print(module);
         Module changed = module;
         fold(changed);
-        unmask(changed);
+        unmask_uniform_loops(changed);
         ASSERT_EQ(verify(changed), "") << "seed " << seed << "\n" << print(changed);
         unmasked += unmasked_loops(changed) > unmasked_loops(module);
         World world = world_of(seed);

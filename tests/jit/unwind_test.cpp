@@ -3,7 +3,8 @@
 
 #include <new>
 
-#include "jit/builder.h"
+#include "jit/ir/builder.h"
+#include "jit/target.h"
 #include "tests/jit/run_kernel.h"
 
 namespace kinora::jit {

@@ -1,7 +1,7 @@
 // tests/jit/verify_test.cpp: each rule of the IR, broken once, is named precisely.
 #include <gtest/gtest.h>
 
-#include "jit/ir.h"
+#include "jit/ir/ir.h"
 
 namespace kinora::jit {
 namespace {

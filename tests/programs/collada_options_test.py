@@ -5,12 +5,12 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from programs import SOURCE, ProgramTest, main, render
+from programs import SOURCE, TEST_DATA, ProgramTest, main, render
 
 sys.path[:0] = [str(SOURCE / "tests/conformance")]
 import dae  # noqa: E402
 
-DEVIATIONS = SOURCE / "tests/collada/deviations"
+DEVIATIONS = TEST_DATA / "deviations"
 SMALL = ("--size", "32x32", "--spp", "1", "--threads", "1", "--time", "0")
 
 
@@ -55,7 +55,7 @@ class Overrides(ColladaTest):
             self.assertIn("FX_TRANSPARENT_ALL", text)
 
     def test_auto_leaves_what_is_seen_as_it_is(self):
-        scene = SOURCE / "tests/conformance/equal/opacities/rgb_zero.dae"
+        scene = TEST_DATA / "conformance/equal/opacities/rgb_zero.dae"
         self.assertEqual(self.picture(scene)[0], self.picture(scene, "--transparency", "auto")[0])
 
     def test_up_stands_for_the_files_tag(self):
@@ -94,8 +94,8 @@ class Overrides(ColladaTest):
         self.assertNotIn("added", result.out)
 
     def test_evaluate_scene_chooses_the_camera_and_the_option_beats_it(self):
-        scene = SOURCE / "tests/conformance/differ/chosen_cameras/evaluated.dae"
-        first = SOURCE / "tests/conformance/differ/chosen_cameras/first.dae"
+        scene = TEST_DATA / "conformance/differ/chosen_cameras/evaluated.dae"
+        first = TEST_DATA / "conformance/differ/chosen_cameras/first.dae"
         self.expect(render(scene, "--list", "cameras"), 0, "camera side (eye) *")
         self.assertEqual(self.picture(scene, "--camera", "eye-node")[0], self.picture(first)[0])
 

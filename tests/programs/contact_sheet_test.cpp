@@ -1,5 +1,5 @@
 // tests/programs/contact_sheet_test.cpp: the frames of a render on one picture.
-#include "runtime/programs/contact_sheet.h"
+#include "runtime/programs/common/contact_sheet.h"
 
 #include <gtest/gtest.h>
 

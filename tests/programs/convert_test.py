@@ -15,13 +15,14 @@ import zlib
 from pathlib import Path
 
 import programs
-from programs import MATTE, SCENES, SHADERS, SOURCE, ProgramTest, render, run
+from programs import (MATTE, SCENES, SHADERS, SHARED, SOURCE, TEST_DATA, ProgramTest, render,
+                      run)
 
 sys.path.insert(0, str(SOURCE / "scripts/sheet"))
 import png  # noqa: E402
 
 NPM = SOURCE / "build/npm"
-SHARED = next((p for p in (SOURCE.parent / "shared/scenes", Path("/work/shared/scenes")) if p.is_dir()), None)
+SHARED_SCENES = SHARED / "scenes" if (SHARED / "scenes").is_dir() else None
 # Of a picture: the mean difference of its bytes (0..255).
 SAME = 0.02     # the same scene by other numbers: last bits of positions
 LIKE = 1.0      # other arithmetic: floats for doubles, keys for curves
@@ -151,8 +152,8 @@ class ToDae(Convert):
 
     def test_axes_and_unit_change_and_the_picture_stays(self):
         scenes = [(SCENES / "matte.dae", "Z", "0.01", "0")]
-        if SHARED:
-            scenes += [(SHARED / name, up, unit, time) for name, up, unit, time in (
+        if SHARED_SCENES:
+            scenes += [(SHARED_SCENES / name, up, unit, time) for name, up, unit, time in (
                 ("magnum_lights/light.dae", "X", "0.3", "0"),
                 ("thinmatrix_cowboy/model.dae", "Y", "0.01", "0.4"),
                 ("gltf_rigged_figure/RiggedFigure.dae", "X", "2", "0.6"),
@@ -168,6 +169,7 @@ class ToDae(Convert):
                 before = self.picture(scene, "--time", time)
                 after = self.picture(out, "--time", time)
                 self.assertLess(self.difference(before, after), LIKE)
+        self.whole_if(SHARED_SCENES)
 
     def same_picture_with_other_axes(self, scene):
         for words in (("--up", "Z"), ("--up", "X"), ("--unit", "0.01")):
@@ -452,17 +454,18 @@ class ToGlb(Convert):
 
     def test_pictures_are_those_of_the_original(self):
         scenes = [(SCENES / name, time) for name, time in self.PICTURES]
-        for pattern, time in self.SHARED_PICTURES if SHARED else []:
-            scenes += [(path, time) for path in sorted(SHARED.glob(pattern))]
+        for pattern, time in self.SHARED_PICTURES if SHARED_SCENES else []:
+            scenes += [(path, time) for path in sorted(SHARED_SCENES.glob(pattern))]
         for scene, time in scenes:
             with self.subTest(scene.name):
                 out = self.converted(scene, f"{scene.stem}.glb")
                 before = self.picture(scene, "--time", time)
                 after = self.picture(out, "--time", time)
                 self.assertLess(self.difference(before, after), LIKE)
+        self.whole_if(SHARED_SCENES)
 
     def test_what_has_no_material_and_how_textures_are_filtered_stay(self):
-        pairs = SOURCE / "tests/conformance/differ"
+        pairs = TEST_DATA / "conformance/differ"
         bare = self.write("bare.dae", re.sub(r"<bind_material>.*?</bind_material>", "", mesh_scene(), flags=re.S))
         for scene in [bare, *sorted((pairs / "minifications").glob("*.dae")), *sorted((pairs / "wraps").glob("*.dae"))]:
             with self.subTest(scene.name):
@@ -477,8 +480,8 @@ class ToGlb(Convert):
 
     def test_back_to_collada_the_pictures_stay(self):
         scenes = [(SCENES / name, time) for name, time in self.PICTURES[:1]]
-        for pattern, time in self.SHARED_PICTURES[:6] if SHARED else []:
-            scenes += [(path, time) for path in sorted(SHARED.glob(pattern))]
+        for pattern, time in self.SHARED_PICTURES[:6] if SHARED_SCENES else []:
+            scenes += [(path, time) for path in sorted(SHARED_SCENES.glob(pattern))]
         for scene, time in scenes:
             with self.subTest(scene.name):
                 glb = self.converted(scene, f"{scene.stem}.glb")
@@ -486,6 +489,7 @@ class ToGlb(Convert):
                 self.assertEqual(out.read_bytes(), self.converted(out, "again.dae").read_bytes())
                 self.assertLess(self.difference(self.picture(scene, "--time", time),
                                                 self.picture(out, "--time", time)), LIKE)
+        self.whole_if(SHARED_SCENES)
 
     def test_maps_of_normals_and_morph_normals_survive_in_collada(self):
         """A wall whose normal map leans it to the light, with a target that turns its normals."""
@@ -543,12 +547,12 @@ class ToGlb(Convert):
         self.assertEqual((self.folder / "b_files/scene/pictures/a.png").read_text(), "x")
 
     def test_blender_sees_the_same_outlines(self):
-        if not shutil.which("blender") or not SHARED:
+        if not shutil.which("blender") or not SHARED_SCENES:
             self.skipTest("no blender, or no shared scenes")
         words, originals = [], []
         for scene, time in (("cts_skin_2_influence/skin_2_influence.dae", 0.5),
                             ("cts_instances_of_same_node/*.dae", 0), ("cts_lookat/*.dae", 0)):
-            scene = next(SHARED.glob(scene))
+            scene = next(SHARED_SCENES.glob(scene))
             out = self.converted(scene, f"{scene.stem}.glb")
             words += [out, str(time), self.folder / f"{scene.stem}-blender.png"]
             originals.append((scene, time))
@@ -570,8 +574,8 @@ class ToGlb(Convert):
 
     def scenes(self):
         scenes = sorted(SCENES.glob("*.dae"))
-        if SHARED:
-            scenes += sorted(p for p in SHARED.glob("*/*.dae"))
+        if SHARED_SCENES:
+            scenes += sorted(p for p in SHARED_SCENES.glob("*/*.dae"))
         return scenes
 
     def test_every_scene_converts_and_the_validator_finds_no_error(self):
@@ -592,6 +596,7 @@ class ToGlb(Convert):
             with self.subTest(name):
                 self.assertEqual(report["errors"], 0,
                                  [m for m in report["messages"] if m["severity"] == 0][:5])
+        self.whole_if(SHARED_SCENES)
 
 
 if __name__ == "__main__":

@@ -7,9 +7,9 @@ import subprocess
 import unittest
 
 from convert_test import outline
-from programs import SOURCE, ProgramTest, main, render, run
+from programs import SOURCE, TEST_DATA, ProgramTest, main, render, run
 
-RULES = SOURCE / "tests/collada/rules"
+RULES = TEST_DATA / "rules"
 SKINS = re.compile(r"\[(SKIN_NODE_TRANSFORM|SKIN_MIXED_MIRROR)\]")
 ALL = ("matrix", "decomposed", "sampled")
 # Decomposed, Blender gives bones the motion of their armature, or none.

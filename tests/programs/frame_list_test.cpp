@@ -1,5 +1,5 @@
 // tests/programs/frame_list_test.cpp: frame ranges, exact times, numbered names.
-#include "runtime/programs/frame_list.h"
+#include "runtime/programs/common/frame_list.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(FrameList, RefusesMoreFramesThanAnyoneRenders) {
     refusal("1-9223372036854775807x9223372036854775807");
 }
 
-// EXTREMES 2, row 88: an accumulated float sum is hours off there.
+// docs/numerics.md#cameras: an accumulated float sum is hours off there.
 TEST(FrameRate, TimesAreExactFractions) {
     FrameRate ntsc = *parse_frame_rate("24000/1001");
     EXPECT_EQ(ntsc.time(10'000'000), double(10'010'000'000.0L / 24000.0L));

@@ -1,6 +1,6 @@
 // tests/programs/image_io_test.cpp: pictures come back as they were written, and a name stands for
 // a whole file or for none.
-#include "runtime/image_io.h"
+#include "runtime/images/image_io.h"
 
 #include <ImfChannelList.h>
 #include <ImfRgbaFile.h>

@@ -1,5 +1,5 @@
 // tests/programs/progress_test.cpp: what a user sees while frames are made.
-#include "runtime/programs/progress.h"
+#include "runtime/programs/common/progress.h"
 
 #include <gtest/gtest.h>
 

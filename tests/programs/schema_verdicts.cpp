@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <iostream>
 
-#include "collada/findings.h"
-#include "collada/schema.h"
+#include "collada/document/findings.h"
+#include "collada/schema/schema.h"
 
 namespace {
 

@@ -7,14 +7,14 @@ import sys
 import unittest
 from pathlib import Path
 
-from programs import SOURCE, ProgramTest, main, render, shade
+from programs import SHARED, SOURCE, ProgramTest, main, render, shade
 
 sys.path[:0] = [str(SOURCE / "scripts"), str(SOURCE / "scripts/assets")]
 from dae_writer import Dae, Point, add_box, grid_of, lathe_of  # noqa: E402
 from sheet import png  # noqa: E402
 from sheet.stage import ball  # noqa: E402
 
-SEEDS = next((d / "shared/seeds" for d in SOURCE.parents if (d / "shared/seeds").is_dir()), None)
+SEEDS = SHARED / "seeds"
 
 # The misprints of the article, each with what was meant; every one must be there.
 MISPRINTS = {
@@ -66,7 +66,7 @@ def mended(name):
     return code
 
 
-@unittest.skipUnless(SEEDS, "no ../shared/seeds")
+@unittest.skipUnless(SEEDS.is_dir(), "no ../shared/seeds")
 class Seeds(ProgramTest):
     def shot(self, name, dae, *words):
         """Rows of grey values 0..255 of the scene's picture."""

@@ -64,18 +64,18 @@ class Shaders(ProgramTest):
     def test_use_every_built_in(self):
         rows = re.findall(r"^(\w+) {2,}(.*)", shade("manual").out, re.M)
         self.assertGreater(len(rows), 60)
-        names = re.findall(r"^GLOBAL\((\w+),", (SOURCE / "rsl/globals.def").read_text(), re.M)
+        names = re.findall(r"^GLOBAL\((\w+),", (SOURCE / "rsl/model/globals.def").read_text(), re.M)
         unused = sorted({name for name, doc in rows if "not supported" not in doc and name not in names
                          and not re.search(rf"\b{name}\s*\(", self.all)})
         self.assertEqual(unused, [])
 
     def test_use_every_word_of_the_grammar(self):
-        words = re.findall(r'WORD\(\w+, "(\w+)"\)', (SOURCE / "rsl/words.def").read_text())
+        words = re.findall(r'WORD\(\w+, "(\w+)"\)', (SOURCE / "rsl/text/words.def").read_text())
         self.assertEqual([word for word in words if not re.search(rf"\b{word}\b", self.all)],
                          [])
 
     def test_use_every_global(self):
-        names = re.findall(r"^GLOBAL\((\w+),", (SOURCE / "rsl/globals.def").read_text(), re.M)
+        names = re.findall(r"^GLOBAL\((\w+),", (SOURCE / "rsl/model/globals.def").read_text(), re.M)
         self.assertEqual([name for name in names if not re.search(rf"\b{name}\b", self.all)], [])
 
     def test_use_every_construct(self):

@@ -4,10 +4,10 @@
 #include <random>
 #include <sstream>
 
-#include "runtime/programs/image_size.h"
-#include "runtime/programs/json_text.h"
-#include "runtime/programs/unified_diff.h"
-#include "runtime/programs/validate_rules.h"
+#include "runtime/programs/validate/image_size.h"
+#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/rules.h"
+#include "runtime/programs/validate/unified_diff.h"
 
 namespace kinora {
 

@@ -144,7 +144,7 @@ TEST(Camera, ClipPlanesBoundRaysOnlyWhenAsked) {
     EXPECT_NEAR(camera_ray(c, 0, 50).tnear, 0.1 * std::sqrt(2.0), 1e-6);
 }
 
-// EXTREMES.md rows 85-87.
+// docs/numerics.md#cameras.
 TEST(Camera, ExtremeOpticsWorkAndImpossibleOnesAreErrors) {
     EXPECT_NEAR(make(perspective(0.001, {}), 10, 10).half_width, radians(0.0005), 1e-12);
     EXPECT_NEAR(make(perspective(179.9, {}), 10, 10).half_width, std::tan(radians(89.95)), 1e-6);

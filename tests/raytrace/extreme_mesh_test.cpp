@@ -1,5 +1,5 @@
-// tests/raytrace/extreme_mesh_test.cpp: meshes no modeller would make (EXTREMES.md rows 3-7, 11,
-// 13, 19).
+// tests/raytrace/extreme_mesh_test.cpp: meshes no modeller would make
+// (docs/numerics.md#geometry).
 #include <gtest/gtest.h>
 
 #include <algorithm>

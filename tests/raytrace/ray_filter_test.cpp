@@ -1,5 +1,5 @@
-// tests/raytrace/ray_filter_test.cpp: rays that would abort Embree are misses (EXTREMES.md rows
-// 15, 16, 18), and the floating-point mode is given back.
+// tests/raytrace/ray_filter_test.cpp: rays that would abort Embree are misses
+// (docs/numerics.md#rays), and the floating-point mode is given back.
 #include <gtest/gtest.h>
 
 #include <cfenv>

@@ -82,7 +82,8 @@ double best_of(int runs, const std::function<void()>& prepare, const std::functi
     return best;
 }
 
-// Embree rebuilds without a word when asked to refit in the wrong way (DESIGN.md decision 19).
+// Embree rebuilds without a word when asked to refit in the wrong way
+// (docs/decisions.md#refit-or-rebuild).
 TEST(Refit, IsAtLeastFiveTimesCheaperThanARebuild) {
     MovingTube moving(140, 250);
     Accel refitted({.background = false}), rebuilt({.always_rebuild = true});

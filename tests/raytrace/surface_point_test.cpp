@@ -1,5 +1,5 @@
 // tests/raytrace/surface_point_test.cpp: hit points, their error bounds, and rays that leave them
-// without meeting the surface again (EXTREMES.md, self-intersection table).
+// without meeting the surface again (docs/numerics.md#where-rays-leave).
 #include <gtest/gtest.h>
 
 #include "raytrace/accel.h"

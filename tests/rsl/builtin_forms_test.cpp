@@ -1,10 +1,11 @@
-// tests/rsl/builtin_forms_test.cpp: every overload and customary spelling of RSL.md's built-ins
+// tests/rsl/builtin_forms_test.cpp: every overload and customary spelling of the built-ins
 // compiles, and gives the same bits on every target. The calls are in files/forms/builtins.txt.
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
+#include "jit/target.h"
 #include "tests/rsl/edge_world.h"
 #include "tests/rsl/shading_world.h"
 

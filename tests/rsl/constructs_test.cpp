@@ -1,5 +1,5 @@
 // tests/rsl/constructs_test.cpp: one small shader for each construct that real shaders use. Those
-// of constructs/ compile, those of constructs/rejected give one error; constructs/README.md says
+// below constructs/ compile, those of constructs/rejected give one error; constructs/README.md says
 // so. rsl_differential_test compares the code of constructs/ with the reference and on every
 // target.
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@
 #include <iterator>
 #include <map>
 
-#include "rsl/lower.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
@@ -21,94 +22,89 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(KINORA_SOURCE_DIR) / "tests/rsl/constructs";
 
-// Rows of RSL.md ("How often" and the micro-conformance matrix) and the file that has them.
+// Constructs of real shaders, and the file that has each.
 constexpr struct {
     const char* construct;
     const char* file;
 } kRows[] = {
-    {"#include, <x.h> and \"x.h\", no last newline", "preprocessor_include"},
-    {"function-like macros", "preprocessor_macros"},
-    {"#if defined(), #ifdef chains", "preprocessor_conditions"},
-    {"// comments", "comments"},
-    {"user functions", "function_typed"},
-    {"more than one return", "function_several_returns"},
-    {"nested functions", "function_nested"},
-    {"extern", "function_extern_globals"},
-    {"recursion", "recursion"},
-    {"if", "control_if"},
-    {"if (s): float as condition", "control_float_condition"},
-    {"for", "control_for"},
-    {"for (i=0,j=1;..;i+=1,j+=1)", "control_for"},
-    {"while", "control_while"},
-    {"break, continue, varying", "control_break"},
-    {"break 2", "control_break_levels"},
-    {"ternary", "control_ternary"},
-    {"string type", "expression_strings"},
-    {"string compare", "expression_strings"},
-    {"string = format(\"%f\", s)", "expression_varying_string"},
-    {"array indexing", "arrays_local"},
-    {"fixed array declarations, = {..}", "arrays_local"},
-    {"array parameters", "parameters_arrays"},
-    {"T x[] parameters of functions", "function_arrays"},
-    {"T x[] of shaders", "parameters_arrays"},
+    {"#include, <x.h> and \"x.h\", no last newline", "preprocessor/preprocessor_include"},
+    {"function-like macros", "preprocessor/preprocessor_macros"},
+    {"#if defined(), #ifdef chains", "preprocessor/preprocessor_conditions"},
+    {"// comments", "preprocessor/comments"},
+    {"user functions", "functions/function_typed"},
+    {"more than one return", "functions/function_several_returns"},
+    {"nested functions", "functions/function_nested"},
+    {"extern", "functions/function_extern_globals"},
+    {"recursion", "control/recursion"},
+    {"if", "control/control_if"},
+    {"if (s): float as condition", "control/control_float_condition"},
+    {"for", "control/control_for"},
+    {"for (i=0,j=1;..;i+=1,j+=1)", "control/control_for"},
+    {"while", "control/control_while"},
+    {"break, continue, varying", "control/control_break"},
+    {"break 2", "control/control_break_levels"},
+    {"ternary", "control/control_ternary"},
+    {"string type", "expressions/expression_strings"},
+    {"string compare", "expressions/expression_strings"},
+    {"string = format(\"%f\", s)", "expressions/expression_varying_string"},
+    {"array indexing", "expressions/arrays_local"},
+    {"fixed array declarations, = {..}", "expressions/arrays_local"},
+    {"array parameters", "parameters/parameters_arrays"},
+    {"T x[] parameters of functions", "functions/function_arrays"},
+    {"T x[] of shaders", "parameters/parameters_arrays"},
     {"T a[] (resizable)", "rejected/newer_resizable"},
-    {"whole-array assign a = b", "arrays_assigned"},
-    {"matrix", "expression_matrix"},
-    {"matrix \"space\" 1, m == m", "expression_matrix"},
-    {"uniform", "parameters_details"},
+    {"whole-array assign a = b", "expressions/arrays_assigned"},
+    {"matrix", "expressions/expression_matrix"},
+    {"matrix \"space\" 1, m == m", "expressions/expression_matrix"},
+    {"uniform", "parameters/parameters_details"},
     {"uniform x = varying expression", "rejected/error_uniform_from_varying"},
-    {"output AOV", "aov_outputs"},
-    {"parameter default expressions, space defaults", "parameters_spaces"},
-    {"bool as float", "expression_bool"},
-    {"Ci[0] read and written", "expression_components"},
-    {"implicit mix of point vector normal color", "expression_triples"},
-    {"pow mod abs smoothstep of colors", "expression_componentwise"},
+    {"output AOV", "kinds/aov_outputs"},
+    {"parameter default expressions, space defaults", "parameters/parameters_spaces"},
+    {"bool as float", "expressions/expression_bool"},
+    {"Ci[0] read and written", "expressions/expression_components"},
+    {"implicit mix of point vector normal color", "expressions/expression_triples"},
+    {"pow mod abs smoothstep of colors", "expressions/expression_componentwise"},
     {"float = vector", "rejected/error_float_from_vector"},
-    {"identifiers named light, volume", "names_contextual"},
-    {"illuminance", "illuminance_cone"},
-    {"illuminate", "light_point"},
-    {"solar", "light_solar"},
-    {"gather", "tracing_gather"},
+    {"identifiers named light, volume", "names/names_contextual"},
+    {"illuminance", "lights/illuminance_cone"},
+    {"illuminate", "lights/light_point"},
+    {"solar", "lights/light_solar"},
+    {"gather", "builtins/tracing_gather"},
     {"class", "rejected/newer_class"},
     {"struct", "rejected/newer_struct"},
     {"shader handles", "rejected/newer_shader_handles"},
     {"->", "rejected/newer_arrow"},
-    {"noise", "noise_forms"},
-    {"cellnoise", "noise_cell"},
-    {"pnoise", "noise_periodic"},
-    {"texture, channel [n], 8 coordinates, \"blur\"", "texture_forms"},
-    {"environment, shadow", "texture_environment"},
-    {"textureinfo, rendererinfo", "texture_info"},
-    {"rayinfo, trace, transmission", "tracing"},
-    {"occlusion, indirectdiffuse", "tracing_indirect"},
-    {"spline, spline(basis, ..)", "spline_forms"},
-    {"calculatenormal, area, Du, Dv, filterstep", "derivatives"},
-    {"ctransform", "spaces"},
-    {"fresnel", "geometry_builtins"},
-    {"lightsource()", "illuminance_lightsource"},
-    {"printf", "printing"},
-    {"Ns", "globals_ns"},
-    {"dPdtime, dtime", "globals_surface_read"},
-    {"surface writes P, N, s, t, Cs", "globals_surface_write"},
-    {"surface writes u, v, I", "globals_surface_write"},
-    {"displacement writes Ci", "globals_displacement"},
-    {"transformation (deformation)", "transformation_bend"},
-    {"surface() displacement() incident() opposite()", "messages"},
+    {"noise", "builtins/noise_forms"},
+    {"cellnoise", "builtins/noise_cell"},
+    {"pnoise", "builtins/noise_periodic"},
+    {"texture, channel [n], 8 coordinates, \"blur\"", "builtins/texture_forms"},
+    {"environment, shadow", "builtins/texture_environment"},
+    {"textureinfo, rendererinfo", "builtins/texture_info"},
+    {"rayinfo, trace, transmission", "builtins/tracing"},
+    {"occlusion, indirectdiffuse", "builtins/tracing_indirect"},
+    {"spline, spline(basis, ..)", "builtins/spline_forms"},
+    {"calculatenormal, area, Du, Dv, filterstep", "builtins/derivatives"},
+    {"ctransform", "builtins/spaces"},
+    {"fresnel", "builtins/geometry_builtins"},
+    {"lightsource()", "lights/illuminance_lightsource"},
+    {"printf", "builtins/printing"},
+    {"Ns", "globals/globals_ns"},
+    {"dPdtime, dtime", "globals/globals_surface_read"},
+    {"surface writes P, N, s, t, Cs", "globals/globals_surface_write"},
+    {"surface writes u, v, I", "globals/globals_surface_write"},
+    {"displacement writes Ci", "globals/globals_displacement"},
+    {"transformation (deformation)", "kinds/transformation_bend"},
+    {"surface() displacement() incident() opposite()", "builtins/messages"},
     {"unknown function", "rejected/error_unknown_function"},
-    {"C-style commas between parameters", "parameters_c_commas"},
-    {"trailing semicolons", "parameters_trailing"},
-    {"(float) x", "expression_casts"},
-    {"precedence of ^ * .", "expression_precedence"},
+    {"C-style commas between parameters", "parameters/parameters_c_commas"},
+    {"trailing semicolons", "parameters/parameters_trailing"},
+    {"(float) x", "expressions/expression_casts"},
+    {"precedence of ^ * .", "expressions/expression_precedence"},
 };
-
-std::string read(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // A test shader compiled and, where its kind has code, lowered.
 struct Construct {
-    explicit Construct(const fs::path& path) : source(read(path), path.c_str()) {
+    explicit Construct(const fs::path& path) : source(read_file(path), path.c_str()) {
         what = source.text.substr(0, source.text.find_first_of("\r\n"));
         what.erase(0, what.find_first_not_of("/ "));
         auto shaders = compile(source.source, {}, source.diagnostics);
@@ -128,14 +124,12 @@ struct Construct {
     std::vector<std::string> errors;
 };
 
-// Results by file name without .sl, as kRows has it.
+// Results by path below kFolder without .sl, as kRows has it.
 const std::map<std::string, Construct>& constructs() {
     static std::map<std::string, Construct> all;
     if (!all.empty()) return all;
-    for (const char* part : {"", "rejected/"})
-        for (const auto& entry : fs::directory_iterator(kFolder / part))
-            if (entry.path().extension() == ".sl")
-                all.try_emplace(part + entry.path().stem().string(), entry.path());
+    for (const fs::path& path : shader_files("tests/rsl/constructs"))
+        all.try_emplace(fs::relative(path, kFolder).replace_extension().string(), path);
     return all;
 }
 
@@ -147,7 +141,7 @@ TEST(Constructs, ThatShadersUseCompileAndThoseOfRsl2GiveOneError) {
                                                                << construct.source.messages();
         ++files;
     }
-    EXPECT_GE(files, 110);
+    EXPECT_GE(files, 131);
 }
 
 std::string readme() {
@@ -155,7 +149,7 @@ std::string readme() {
         "# Constructs\n\nWritten by rsl_front_test (Constructs.TheReadmeIsTrue) with "
         "KINORA_UPDATE=1; do not edit.\nThe code of what compiles is compared with the reference "
         "and between targets by rsl_differential_test.\n\n"
-        "## RSL.md: how often, and the micro-conformance matrix\n\n"
+        "## Constructs of real shaders\n\n"
         "| construct | test | result |\n|---|---|---|\n";
     for (const auto& row : kRows)
         text += fmt::format("| `{}` | [{}]({}.sl) | {} |\n", row.construct, row.file, row.file,
@@ -170,7 +164,7 @@ std::string readme() {
 TEST(Constructs, TheReadmeIsTrue) {
     for (const auto& row : kRows) ASSERT_TRUE(constructs().contains(row.file)) << row.file;
     if (std::getenv("KINORA_UPDATE")) std::ofstream(kFolder / "README.md") << readme();
-    EXPECT_EQ(read(kFolder / "README.md"), readme()) << "run with KINORA_UPDATE=1";
+    EXPECT_EQ(read_file(kFolder / "README.md"), readme()) << "run with KINORA_UPDATE=1";
 }
 
 // An array literal of 64 Ki elements: a compiler that copies its list at each comma takes minutes.

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <set>
 
-#include "rsl/reference.h"
+#include "rsl/reference/reference.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {

@@ -2,6 +2,7 @@
 // code against the reference. Bits on the targets: row_edges_test.cpp.
 #include <gtest/gtest.h>
 
+#include "rsl/builtins/table.h"
 #include "tests/rsl/differential.h"
 
 namespace kinora::rsl {

@@ -3,11 +3,10 @@
 // at random ones and at edges.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
+#include "jit/target.h"
 #include "tests/rsl/edge_world.h"
 #include "tests/rsl/shader_difference.h"
+#include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
 namespace {
@@ -19,21 +18,9 @@ struct File {
     std::string text;
 };
 
-std::string read_file(const fs::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// Sources of a folder and of those in it.
-std::vector<File> sources_of(const char* folder, const char* prefix = "") {
+std::vector<File> sources_of(const char* folder) {
     std::vector<File> files;
-    for (auto& entry : fs::recursive_directory_iterator(fs::path(KINORA_SOURCE_DIR) / folder)) {
-        bool named = entry.path().filename().string().rfind(prefix, 0) == 0;
-        if (entry.path().extension() == ".sl" && named)
-            files.push_back({entry.path(), read_file(entry.path())});
-    }
-    std::sort(files.begin(), files.end(),
-              [](const File& a, const File& b) { return a.path < b.path; });
+    for (const fs::path& path : shader_files(folder)) files.push_back({path, read_file(path)});
     return files;
 }
 
@@ -45,7 +32,7 @@ std::vector<File> assets() {
 // Those of our tests, but for what is wrong and two that include what lies beside them: here
 // sources have no place.
 std::vector<File> shaders_of_tests() {
-    std::vector<File> files = sources_of("tests/rsl/files", "good");
+    std::vector<File> files = sources_of("tests/rsl/files/good");
     for (File& file : sources_of("tests/rsl/constructs")) {
         std::string name = file.path.filename().string();
         bool includes = name == "preprocessor_include.sl" || name == "preprocessor_other_case.sl";

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "rsl/service_table.h"
+#include "rsl/model/service_table.h"
 #include "runtime/base/check.h"
 #include "tests/rsl/shading_world.h"
 

@@ -1,5 +1,5 @@
 // tests/rsl/lexer_test.cpp: raw tokens.
-#include "rsl/lexer.h"
+#include "rsl/text/lexer.h"
 
 #include <gtest/gtest.h>
 

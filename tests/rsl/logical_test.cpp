@@ -2,6 +2,7 @@
 // every target against the reference.
 #include <gtest/gtest.h>
 
+#include "jit/target.h"
 #include "tests/rsl/differential.h"
 
 namespace kinora::rsl {

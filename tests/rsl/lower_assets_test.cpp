@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "jit/target.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {

@@ -113,7 +113,7 @@ TEST(LowerDerivative, SurfacesSeeTheFacesOfP) {
     EXPECT_EQ(out["Ci.b"][0], 0.125f);
 }
 
-// DESIGN.md decision 8: texture and environment return their gradients.
+// docs/decisions.md#dual-numbers: texture and environment return their gradients.
 TEST(LowerDerivative, MapsHaveDerivatives) {
     auto shows_coordinate = [](const jit::ServiceCall& call) {
         for (int k = 0; k < jit::kMaxLanes; ++k) {
@@ -136,7 +136,7 @@ TEST(LowerDerivative, MapsHaveDerivatives) {
     EXPECT_NEAR(out["Oi.b"][0], 0, 1e-5);
 }
 
-// DESIGN.md decision 8: the slope of a normal is that of the N that came in.
+// docs/decisions.md#dual-numbers: the slope of a normal is that of the N that came in.
 TEST(LowerDerivative, CalculatednormalCarriesTheSlopeOfN) {
     OnPlane shader(
         "surface t() { normal n = 2 * calculatenormal(P + u * N); Ci = color(Du(n)); "

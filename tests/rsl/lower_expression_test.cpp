@@ -1,5 +1,5 @@
 // tests/rsl/lower_expression_test.cpp: arithmetic, conversions and built-ins as compiled, against
-// hand-computed values and the rows of EXTREMES.md.
+// hand-computed values and the cases of docs/numerics.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ TEST(LowerExpression, ComputesArithmetic) {
 }
 
 TEST(LowerExpression, DividesAsRslDoes) {
-    EXPECT_EQ(evaluate("1 / s"), 0);  // row 47
+    EXPECT_EQ(evaluate("1 / s"), 0);  // docs/numerics.md#division
     EXPECT_EQ(evaluate("0 / 0"), 0);
     EXPECT_EQ(evaluate("1 / (s + 1e-40)"), 0);
     EXPECT_EQ(evaluate("1 / (s + 4)"), 0.25f);

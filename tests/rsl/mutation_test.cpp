@@ -6,8 +6,10 @@
 #include <csignal>
 
 #include "jit/compiler.h"
-#include "rsl/builtin.h"
-#include "rsl/lower.h"
+#include "jit/passes/passes.h"
+#include "rsl/builtins/table.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "tests/fuzz_settings.h"
 #include "tests/mutate.h"
 
@@ -29,7 +31,9 @@ void on_death(int signal) {
 std::vector<std::string> corpus() {
     std::vector<std::string> texts;
     std::filesystem::path root = KINORA_SOURCE_DIR;
-    for (const char* folder : {"tests/rsl/files", "tests/rsl/kept", "assets/shaders"})
+    for (const char* folder :
+         {"tests/rsl/files/good", "tests/rsl/files/lights", "tests/rsl/files/syntax",
+          "tests/rsl/files/types", "tests/rsl/kept", "assets/shaders"})
         for (const auto& entry : std::filesystem::directory_iterator(root / folder)) {
             if (entry.path().extension() != ".sl" || entry.file_size() > kLongest) continue;
             std::ifstream in(entry.path(), std::ios::binary);
@@ -43,7 +47,7 @@ std::vector<std::string> corpus() {
 std::vector<std::string> words() {
     std::vector<std::string> list = {
 #define WORD(name, text) text,
-#include "rsl/words.def"
+#include "rsl/text/words.def"
 #undef WORD
         "{",
         "}",

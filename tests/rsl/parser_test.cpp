@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "rsl/print.h"
+#include "rsl/syntax/print.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
@@ -41,35 +41,29 @@ TEST(Parser, ACastBindsAsAPrefixOperator) {
 
 TEST(Parser, PrintingAndParsingAgainGivesTheSameTree) {
     int files = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(KINORA_SOURCE_DIR "/tests/rsl/files")) {
-        if (entry.path().extension() != ".sl") continue;
-        std::ifstream in(entry.path(), std::ios::binary);
-        TestSource source(std::string(std::istreambuf_iterator<char>(in), {}));
+    for (const auto& path : shader_files("tests/rsl/files")) {
+        TestSource source(read_file(path));
         auto ast = parse(source.source, {}, source.diagnostics);
         if (!ast) continue;  // one of the files with syntax errors
         std::string once = print_ast(*ast);
         TestSource again(once);
         auto second = parse(again.source, {}, again.diagnostics);
-        ASSERT_TRUE(second) << entry.path() << "\n" << again.messages() << once;
-        EXPECT_EQ(print_ast(*second), once) << entry.path();
+        ASSERT_TRUE(second) << path << "\n" << again.messages() << once;
+        EXPECT_EQ(print_ast(*second), once) << path;
         ++files;
     }
     EXPECT_GE(files, 30);
 }
 
 TEST(Parser, APrintedCheckedTreeChecksAgain) {
-    for (const auto& entry :
-         std::filesystem::directory_iterator(KINORA_SOURCE_DIR "/tests/rsl/files")) {
-        if (!entry.path().filename().string().starts_with("good_")) continue;
-        std::ifstream in(entry.path(), std::ios::binary);
-        TestSource source(std::string(std::istreambuf_iterator<char>(in), {}));
+    for (const auto& path : shader_files("tests/rsl/files/good")) {
+        TestSource source(read_file(path));
         auto shaders = compile(source.source, front_end_only(), source.diagnostics);
         ASSERT_FALSE(shaders.empty()) << source.messages();
         TestSource again(print_ast(*shaders[0]->ast));
         auto second = compile(again.source, front_end_only(), again.diagnostics);
-        ASSERT_EQ(second.size(), shaders.size()) << entry.path() << again.messages() << again.text;
-        EXPECT_EQ(print_types(*second[0]->ast), print_types(*shaders[0]->ast)) << entry.path();
+        ASSERT_EQ(second.size(), shaders.size()) << path << again.messages() << again.text;
+        EXPECT_EQ(print_types(*second[0]->ast), print_types(*shaders[0]->ast)) << path;
     }
 }
 

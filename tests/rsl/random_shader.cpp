@@ -1,6 +1,7 @@
 // tests/rsl/random_shader.cpp: statements, functions and shaders at random.
 #include "tests/rsl/random_shader.h"
 
+#include "rsl/builtins/table.h"
 #include "tests/rsl/shader_writer_p.h"
 
 namespace kinora::rsl {

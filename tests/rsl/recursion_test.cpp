@@ -1,7 +1,8 @@
 // tests/rsl/recursion_test.cpp: functions that call themselves, on every target and against the
-// reference (EXTREMES.md row 74).
+// reference (docs/numerics.md#recursion).
 #include <gtest/gtest.h>
 
+#include "jit/target.h"
 #include "tests/rsl/differential.h"
 
 namespace kinora::rsl {

@@ -2,8 +2,6 @@
 // must not do is seen by the sanitizers; here it only has to end, and to say why it made no shader.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "tests/rsl/source_text.h"
@@ -13,12 +11,7 @@ namespace {
 
 std::vector<std::string> samples() {
     std::vector<std::string> texts;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(KINORA_SOURCE_DIR "/tests/rsl/files")) {
-        if (entry.path().extension() != ".sl") continue;
-        std::ifstream in(entry.path(), std::ios::binary);
-        texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-    }
+    for (const auto& path : shader_files("tests/rsl/files")) texts.push_back(read_file(path));
     std::sort(texts.begin(), texts.end());
     return texts;
 }

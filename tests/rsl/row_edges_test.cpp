@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "rsl/pairs.h"
+#include "rsl/builtins/table.h"
+#include "rsl/model/pairs.h"
 #include "tests/rsl/edge_world.h"
 #include "tests/rsl/shader_difference.h"
 #include "tests/rsl/shading_world.h"

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "jit/compiler.h"
-#include "rsl/lower.h"
-#include "rsl/string_functions.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
+#include "rsl/model/string_functions.h"
 #include "runtime/base/arena.h"
 
 namespace kinora::rsl {

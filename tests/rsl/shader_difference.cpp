@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "jit/passes/passes.h"
+#include "jit/target.h"
 #include "tests/rsl/shading_world.h"
 
 namespace kinora::rsl {

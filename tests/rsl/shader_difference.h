@@ -30,9 +30,10 @@ struct DifferenceCounts {
 // inputs, or computing in float, moves the reference at that point (11 samples), plus 2e-5 of 1 +
 // the value. Where that moves a branch or a whole number, and where a row is asked for more than it
 // promises (mod() of 2^24 turns, fresnel() of vectors not of length 1: Reference::no_promise), the
-// point is undecided. Lowering folds x * 0 to 0 (DESIGN.md decision 4), the reference does not:
-// that can only matter where x is not finite; the reference's own answer then is not either
-// (extreme), unless a comparison swallows the NaN, which would be reported as a difference.
+// point is undecided. Lowering folds x * 0 to 0 (docs/decisions.md#specialise-on-shape-only), the
+// reference does not: that can only matter where x is not finite; the reference's own answer then
+// is not either (extreme), unless a comparison swallows the NaN, which would be reported as a
+// difference.
 std::string shader_difference(const std::string& source, uint64_t world, DifferenceCounts& counts);
 
 // Every target of this CPU against interp, bit for bit, on the inputs that `run` has (its kernels

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "rsl/builtin.h"
-#include "rsl/globals.h"
+#include "rsl/model/builtin.h"
+#include "rsl/model/globals.h"
 #include "tests/rsl/differential.h"
 #include "tests/rsl/random_shader.h"
 

@@ -1,9 +1,13 @@
-// tests/rsl/source_text.h: compiling text in tests.
+// tests/rsl/source_text.h: shader files of tests, and compiling text.
 #pragma once
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
 
-#include "rsl/shader.h"
+#include "rsl/compile.h"
 
 namespace kinora::rsl {
 
@@ -11,6 +15,21 @@ inline CompileOptions front_end_only() {
     CompileOptions options;
     options.require_implemented = false;
     return options;
+}
+
+// The shaders of a folder of the repository and of those below it, in order.
+inline std::vector<std::filesystem::path> shader_files(const std::string& folder) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             std::filesystem::path(KINORA_SOURCE_DIR) / folder))
+        if (entry.path().extension() == ".sl") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+inline std::string read_file(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 // A text registered as a file, so that findings have places.

@@ -1,9 +1,12 @@
-// tests/rsl/specialise_test.cpp: kernels are specialised on shape alone (DESIGN.md decision 4): a
-// parameter that is 0 takes its term out of the code, all other values share one kernel.
+// tests/rsl/specialise_test.cpp: kernels are specialised on shape alone
+// (docs/decisions.md#specialise-on-shape-only): a parameter that is 0 takes its term out of the
+// code, all other values share one kernel.
 #include <gtest/gtest.h>
 
 #include "jit/compiler.h"
-#include "rsl/lower.h"
+#include "jit/passes/passes.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 
 namespace kinora::rsl {
 namespace {

@@ -1,6 +1,6 @@
 // tests/rsl/standard_headers_test.cpp: the headers of assets/shaders/include: found by default, and
 // every function of theirs compiles where shaders call it.
-#include "rsl/standard_headers.h"
+#include "rsl/text/standard_headers.h"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "rsl/lower.h"
+#include "rsl/compile.h"
+#include "rsl/lower/lower.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
 namespace {
 
-// Calls of all names of RSL.md's list, as shaders write them.
+// Calls of all names of the customary headers, as shaders write them (docs/language.md#text).
 struct HeaderRow {
     const char* header;
     const char* parameters;

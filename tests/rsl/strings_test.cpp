@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "jit/target.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "jit/target.h"
 #include "scene_text.h"
 
 namespace kinora {

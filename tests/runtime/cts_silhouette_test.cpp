@@ -2,7 +2,7 @@
 //
 // Each picture of ../shared/scenes/cts*/blessed is rendered at its time and size; where the picture
 // is solid (alpha > 127) and where ours is (coverage >= 0.5) are compared by intersection over
-// union. COLLADA.md lists the pictures that differ from the format itself; those are reported and
+// union. Pictures that differ from the format itself are listed below; those are reported and
 // not judged.
 #include <gtest/gtest.h>
 
@@ -10,16 +10,19 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "runtime/frame.h"
-#include "runtime/image_io.h"
-#include "runtime/import_collada.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/dae/import.h"
+#include "runtime/description/play_range.h"
+#include "runtime/frame/frame.h"
+#include "runtime/images/image_io.h"
+#include "tests/shared.h"
 
 namespace kinora {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kScenes = fs::path(KINORA_SOURCE_DIR) / ".." / "shared" / "scenes";
+const fs::path kScenes = shared_scenes();
 constexpr double kWanted = 0.97;
 
 struct Case {

@@ -1,5 +1,5 @@
 // tests/runtime/defaults_test.cpp: the camera and lights of scenes that bring none.
-#include "runtime/defaults.h"
+#include "runtime/build/defaults.h"
 
 #include <gtest/gtest.h>
 

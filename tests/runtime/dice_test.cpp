@@ -1,5 +1,5 @@
 // tests/runtime/dice_test.cpp: triangles split by rules on their edges.
-#include "runtime/dice.h"
+#include "runtime/vertices/dice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// tests/runtime/extremes_test.cpp: numerical extremes with a defined outcome (EXTREMES.md 2).
+// tests/runtime/extremes_test.cpp: numerical extremes with a defined outcome (docs/numerics.md).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
-#include "runtime/override_scene.h"
-#include "runtime/override_shader.h"
+#include "jit/target.h"
+#include "runtime/load/override_scene.h"
+#include "runtime/load/override_shader.h"
 #include "scene_text.h"
 
 namespace kinora {

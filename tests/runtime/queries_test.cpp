@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "jit/target.h"
 #include "scene_text.h"
 
 namespace kinora {

@@ -1,6 +1,7 @@
 // tests/runtime/redice_test.cpp: displaced meshes that are too coarse for a view, and scenes built
 // again for it, in the background too. The oracle measures all triangles as a picture shows them.
-#include "runtime/redice.h"
+#include "runtime/frame/redice.h"
+#include "runtime/build/build_scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@
 
 #include "displacement_scenes.h"
 #include "runtime/base/parallel.h"
-#include "runtime/dice_error.h"
+#include "runtime/vertices/dice_error.h"
 
 namespace kinora {
 namespace {

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "runtime/base/parallel.h"
+#include "runtime/build/build_scene.h"
 
 namespace kinora {
 

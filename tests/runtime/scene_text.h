@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/frame.h"
-#include "runtime/import_collada.h"
-#include "runtime/import_scene.h"
+#include "runtime/dae/import.h"
+#include "runtime/frame/frame.h"
+#include "runtime/load/import_scene.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
 // tests/runtime/transforms_test.cpp: node operations and the hierarchy against matrices by hand.
-#include "runtime/transforms.h"
+#include "runtime/scene/transforms.h"
 
 #include <gtest/gtest.h>
 

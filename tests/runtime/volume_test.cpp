@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "runtime/medium.h"
-#include "runtime/shading.h"
+#include "jit/target.h"
+#include "runtime/scene/medium.h"
+#include "runtime/shading/shading.h"
 #include "scene_text.h"
 
 namespace kinora {

@@ -39,8 +39,8 @@ TEST(Pose, TheBindPoseGivesTheBindShapeWhateverTheJoint) {
         for (int r = 0; r < 3; ++r) EXPECT_NEAR(palette[1].c[c][r], c == r ? 1 : 0, 1e-6);
 }
 
-// EXTREMES.md 1c: all-float skinning errs by 2.4 units at 1e7; composed in double and rebased the
-// error is that at the origin.
+// docs/numerics.md#skins: all-float skinning errs by 2.4 units at 1e7; composed in double and
+// rebased the error is that at the origin.
 TEST(Pose, DistanceFromTheWorldsZeroCostsNoAccuracy) {
     for (double distance : {0.0, 1e2, 1e4, 1e6, 1e7}) {
         std::mt19937 random(3);

@@ -1,4 +1,4 @@
-// tests/skin/skin_extremes_test.cpp: rows 13 and 35 to 42 of EXTREMES.md.
+// tests/skin/skin_extremes_test.cpp: the edge cases of docs/numerics.md#skins.
 #include <gtest/gtest.h>
 
 #include <glm/matrix.hpp>

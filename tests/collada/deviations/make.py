@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""tests/collada/deviations/make.py: writes NN_name.dae, one for each row of COLLADA.md's table of
-what real exporters do. deviations_test.cpp says what each must become."""
+"""tests/collada/deviations/make.py FOLDER: writes NN_name.dae, one for each thing
+that exporters get wrong (docs/format.md). deviations_test.cpp says what each must become. The build writes them to
+build/PRESET/test_data/deviations."""
+import shutil
 import sys
 from pathlib import Path
 
@@ -213,12 +215,13 @@ ROWS = [no_skeleton, joints_by_name, spaces_in_joint_names, several_skeletons, c
 
 
 def main():
-    for old in HERE.glob("*.dae"):
-        old.unlink()
+    folder = Path(sys.argv[1])
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
     for number, row in enumerate(ROWS, 1):
-        (HERE / f"{number:02}_{row.__name__}.dae").write_text(row())
-    (HERE / "map.png").write_bytes(png(picture()))
-    print(f"{len(ROWS)} files in {HERE}")
+        (folder / f"{number:02}_{row.__name__}.dae").write_text(row())
+    (folder / "map.png").write_bytes(png(picture()))
+    print(f"{len(ROWS)} files in {folder}")
 
 
 if __name__ == "__main__":

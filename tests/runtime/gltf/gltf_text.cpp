@@ -1,5 +1,5 @@
-// tests/runtime/gltf_text.cpp: glTF containers, buffers and PNGs.
-#include "gltf_text.h"
+// tests/runtime/gltf/gltf_text.cpp: glTF containers, buffers and PNGs.
+#include "tests/runtime/gltf/gltf_text.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/image_io.h"
-#include "runtime/import_gltf.h"
+#include "runtime/gltf/import.h"
+#include "runtime/images/image_io.h"
 
 namespace kinora {
 

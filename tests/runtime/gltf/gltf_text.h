@@ -1,4 +1,4 @@
-// tests/runtime/gltf_text.h: small glTF scenes written by tests.
+// tests/runtime/gltf/gltf_text.h: small glTF scenes written by tests.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene_text.h"
+#include "tests/runtime/scene_text.h"
 
 namespace kinora {
 

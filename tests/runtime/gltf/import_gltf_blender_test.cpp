@@ -1,4 +1,4 @@
-// tests/runtime/import_gltf_blender_test.cpp: a skin on morphs and a moving box, exported by
+// tests/runtime/gltf/import_gltf_blender_test.cpp: a skin on morphs and a moving box, exported by
 // Blender, against the vertices of Blender's own evaluation (scripts/assets/make_gltf.py).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "gltf_text.h"
+#include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {

@@ -1,5 +1,5 @@
-// tests/runtime/import_gltf_hostile_test.cpp: glTF files that lie: findings with their places, no
-// crash, no memory beyond what a file's size allows.
+// tests/runtime/gltf/import_gltf_hostile_test.cpp: glTF files that lie: findings with their places,
+// no crash, no memory beyond what a file's size allows.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -8,9 +8,10 @@
 #include <functional>
 #include <random>
 
-#include "gltf_text.h"
-#include "runtime/import_gltf.h"
-#include "runtime/json_text.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/gltf/import.h"
+#include "runtime/gltf/json_text.h"
+#include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {

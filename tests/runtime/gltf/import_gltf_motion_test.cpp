@@ -1,14 +1,15 @@
-// tests/runtime/import_gltf_motion_test.cpp: glTF's animations, skins and morphs against formulas
-// of the specification in double.
+// tests/runtime/gltf/import_gltf_motion_test.cpp: glTF's animations, skins and morphs against
+// formulas of the specification in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <glm/matrix.hpp>
 
-#include "gltf_text.h"
-#include "runtime/deform.h"
-#include "runtime/transforms.h"
+#include "runtime/description/play_range.h"
+#include "runtime/scene/transforms.h"
+#include "runtime/vertices/deform.h"
+#include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {

@@ -1,11 +1,11 @@
-// tests/runtime/import_gltf_picture_test.cpp: glTF's materials, textures and lights as pixels,
+// tests/runtime/gltf/import_gltf_picture_test.cpp: glTF's materials, textures and lights as pixels,
 // against formulas of the specification in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "gltf_text.h"
+#include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {

@@ -1,10 +1,10 @@
-// tests/runtime/import_gltf_test.cpp: glTF's structure: accessors, primitives, nodes, cameras.
+// tests/runtime/gltf/import_gltf_test.cpp: glTF's structure: accessors, primitives, nodes, cameras.
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "gltf_text.h"
-#include "runtime/transforms.h"
+#include "runtime/scene/transforms.h"
+#include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {

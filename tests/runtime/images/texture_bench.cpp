@@ -1,4 +1,4 @@
-// tests/runtime/texture_bench.cpp: lookups a second, ours and OpenImageIO's per-lookup call.
+// tests/runtime/images/texture_bench.cpp: lookups a second, ours and OpenImageIO's per-lookup call.
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>
 #include <benchmark/benchmark.h>
@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "texture_lookup.h"
+#include "tests/runtime/images/texture_lookup.h"
 
 namespace kinora {
 namespace {

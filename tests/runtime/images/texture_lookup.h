@@ -1,4 +1,4 @@
-// tests/runtime/texture_lookup.h: one lookup at a time, and images to look into.
+// tests/runtime/images/texture_lookup.h: one lookup at a time, and images to look into.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "runtime/base/math.h"
-#include "runtime/texture_sample.h"
+#include "runtime/images/texture_sample.h"
 
 namespace kinora {
 

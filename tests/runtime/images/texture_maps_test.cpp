@@ -1,5 +1,5 @@
-// tests/runtime/texture_maps_test.cpp: facts of images, depth maps, and cubes of six faces against
-// OpenEXR's own mapping.
+// tests/runtime/images/texture_maps_test.cpp: facts of images, depth maps, and cubes of six faces
+// against OpenEXR's own mapping.
 #include <Imath/ImathVec.h>
 #include <OpenEXR/ImfEnvmap.h>
 #include <OpenImageIO/imageio.h>
@@ -11,10 +11,10 @@
 #include <glm/matrix.hpp>
 #include <random>
 
-#include "rsl/renderer_services.h"
+#include "rsl/model/renderer_services.h"
 #include "runtime/base/math.h"
-#include "runtime/texture.h"
-#include "runtime/texture_store.h"
+#include "runtime/images/texture.h"
+#include "runtime/images/texture_store.h"
 
 namespace kinora {
 namespace {

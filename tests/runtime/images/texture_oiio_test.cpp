@@ -1,4 +1,4 @@
-// tests/runtime/texture_oiio_test.cpp: the sampler against OpenImageIO's TextureSystem.
+// tests/runtime/images/texture_oiio_test.cpp: the sampler against OpenImageIO's TextureSystem.
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "texture_lookup.h"
+#include "tests/runtime/images/texture_lookup.h"
 
 namespace kinora {
 namespace {

@@ -1,9 +1,10 @@
-// tests/runtime/texture_sample_test.cpp: the sampler against double arithmetic on the pixels.
+// tests/runtime/images/texture_sample_test.cpp: the sampler against double arithmetic on the
+// pixels.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "texture_lookup.h"
+#include "tests/runtime/images/texture_lookup.h"
 
 namespace kinora {
 namespace {

@@ -1,4 +1,4 @@
-// tests/runtime/texture_store_test.cpp: names, files and findings.
+// tests/runtime/images/texture_store_test.cpp: names, files and findings.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -11,13 +11,13 @@
 
 #include <unistd.h>
 
-#include "../anim/allocation_count.h"
-#include "collada/findings.h"
-#include "rsl/renderer_services.h"
-#include "runtime/image_io.h"
-#include "runtime/texture.h"
-#include "runtime/texture_store.h"
-#include "texture_lookup.h"
+#include "collada/document/findings.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/images/image_io.h"
+#include "runtime/images/texture.h"
+#include "runtime/images/texture_store.h"
+#include "tests/anim/allocation_count.h"
+#include "tests/runtime/images/texture_lookup.h"
 
 namespace kinora {
 namespace {

@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""tests/collada/rules/archives.py: writes the ARCHIVE_ files, which no editor can."""
+"""tests/collada/rules/archives/archives.py: writes the ARCHIVE_ files, which no editor can."""
+import sys
 import zipfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-SCENE = (HERE / "LINK_UNRESOLVED.ok.dae").read_text()  # any that is whole
+sys.path.insert(0, str(HERE.parent))
+import compose  # noqa: E402
+
+SCENE = compose.documents()["LINK_UNRESOLVED.ok.dae"].decode()  # any that is whole
 MANIFEST = "<dae_root>scene.dae</dae_root>"
 WHOLE = {"manifest.xml": MANIFEST, "scene.dae": SCENE}
 

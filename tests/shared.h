@@ -1,0 +1,14 @@
+// tests/shared.h: the folder of scenes and documents beside the repository. Tests that need it skip
+// where it is missing; KINORA_SHARED names another place, or none.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+inline std::filesystem::path shared_folder() {
+    const char* named = std::getenv("KINORA_SHARED");
+    return named ? named : KINORA_SOURCE_DIR "/../shared";
+}
+inline std::filesystem::path shared_scenes() {
+    return shared_folder() / "scenes";
+}
