@@ -2,7 +2,7 @@
 # Builds Kinora and renders the walking character: 24 frames and a contact sheet.
 set -euo pipefail
 cd "$(dirname "$0")"
-scripts/build release -DKINORA_TESTS=OFF
+scripts/build release:programs
 out=build/demo
 mkdir -p "$out"
 build/release/bin/kinora-render assets/scenes/walker.dae --frames 1-24 --size 640x360 --quality preview \

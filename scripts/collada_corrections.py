@@ -99,7 +99,7 @@ RSL_PLAIN = ("(bool=boolean | int=long | float=double | float2=double[2] | float
 RSL_VALUES = ("(point=double[3] | vector=double[3] | normal=double[3] | color=double[] | "
               "matrix=double[16] | array:rsl_array)")
 
-# profile_RSL: DESIGN section 5. Appendix A writes a stray <br/> before <bind>.
+# profile_RSL: docs/format.md. Appendix A writes a stray <br/> before <bind>.
 RSL = {
     "profile_RSL": ("id:ID platform:NCName",
                     "asset? (image | newparam:rsl_newparam)* technique:technique_in_profile_RSL+ extra*", ""),

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Makes jit/math_coefficients_p.h: the minimax polynomials of jit/math (Remez exchange in mpmath).
+"""Makes jit/math/coefficients_p.h: the minimax polynomials of jit/math (Remez exchange in mpmath).
 
 Each row fits g(x) on [lo, hi] by sum c_k x^k in the sense of the weighted error w(x) |p - g|. The
 coefficients are rounded to float one after the other, lowest power first; after each rounding the
 rest is fitted again, so that later coefficients repair what rounding the earlier ones cost. Where
 0 lies inside the interval the rest is no Chebyshev system any more, and all are rounded at once.
 
-Usage: python3 scripts/math_coefficients.py > jit/math_coefficients_p.h
+Usage: python3 scripts/math_coefficients.py > jit/math/coefficients_p.h
 """
 import struct
 from mpmath import mp, mpf, matrix, lu_solve, sin, cos, tan, exp, log, sqrt, atan, asin, pi
@@ -175,7 +175,7 @@ def main():
     mp.dps = 120
     limbs = two_over_pi_limbs()
     mp.dps = 40
-    print("// jit/math_coefficients_p.h: constants of jit/math, made by scripts/math_coefficients.py.")
+    print("// jit/math/coefficients_p.h: constants of jit/math, made by scripts/math_coefficients.py.")
     print("// Polynomials are minimax in relative error (2^n below: largest error of the fit alone),")
     print("// lowest power first, rounded to float one by one with the rest refitted.")
     print("#pragma once\n\n#include <cstdint>\n\nnamespace kinora::jit::math {\n")
