@@ -138,7 +138,7 @@ void transform(LowerCall& c) {
     Lowered x = c.args[last];
     x.type = c.result_type();
     for (size_t k = 0; k < last; ++k) {
-        const Location& where = c.call.args[k]->place.where;
+        const Location& where = c.call.args[k]->span.where;
         if (c.args[k].type == BaseType::Matrix) {
             const Lowered& m = c.args[k];
             if (x.type == BaseType::Point)

@@ -10,7 +10,7 @@ namespace lower_matrix {
 // mtransform("to", m), mtransform("from", "to", m)
 void mtransform(LowerCall& c) {
     auto& e = c.low;
-    auto space = [&](size_t k) { return e.space(c.args[k].c[0], c.call.args[k]->place.where); };
+    auto space = [&](size_t k) { return e.space(c.args[k].c[0], c.call.args[k]->span.where); };
     Lowered m = c.args.back();
     if (c.args.size() == 3) m = e.to_current(m, space(0));
     c.result = e.from_current(m, space(c.args.size() - 2));

@@ -18,34 +18,34 @@ struct Channels {
     }
 };
 
-// A place as the services take it: in current space with scale 1, or in the space of the pair
+// A point as the services take it: in current space with scale 1, or in the space of the pair
 // "coordsystem" with minus the length there of what has length 1 in current space.
-struct Place {
+struct FilePoint {
     V3 P, N;
     Value scale;
 };
-Place place(LowerCall& c, int at) {
+FilePoint file_point(LowerCall& c, int at) {
     auto& e = c.low;
-    Place place{c.v3(at), c.v3(at + 1), c.b.f(1)};
+    FilePoint point{c.v3(at), c.v3(at + 1), c.b.f(1)};
     Value name = c.has_pair("coordsystem") ? c.text_pair("coordsystem") : c.b.i(intern("world"));
     const std::string* text = e.constant_text(name);
     // The renderer's own way to world space, in double, but that it takes current for the camera's.
     bool of_camera = !e.options.of_vertices && !e.bends_normals();
-    if (text && (*text == "world" || text->empty()) && of_camera) return place;
+    if (text && (*text == "world" || text->empty()) && of_camera) return point;
     if (text && text->empty()) name = c.b.i(intern("world"));
     auto space = e.space(name, c.where());
-    place.P = e.from_current(lowered(BaseType::Point, place.P), space).v3();
-    place.N = e.normalize(e.from_current(lowered(BaseType::Normal, place.N), space).v3());
-    place.scale = e.f(-1);
-    if (space.identity) return place;
+    point.P = e.from_current(lowered(BaseType::Point, point.P), space).v3();
+    point.N = e.normalize(e.from_current(lowered(BaseType::Normal, point.N), space).v3());
+    point.scale = e.f(-1);
+    if (space.identity) return point;
     const Lowered& m = space.from_current;
     Value squares = e.f(0);  // of the axes' lengths
     for (size_t row = 0; row < 3; ++row) {
         V3 axis = {m.c[row * 4], m.c[row * 4 + 1], m.c[row * 4 + 2]};
         squares = c.b.add(squares, e.dot(axis, axis));
     }
-    place.scale = c.b.neg(e.sqrt(c.b.mul(squares, e.f(1.0f / 3))));
-    return place;
+    point.scale = c.b.neg(e.sqrt(c.b.mul(squares, e.f(1.0f / 3))));
+    return point;
 }
 
 // bake3d(file, channels, P, N, "channel", value, ...) or without the list of channels.
@@ -62,7 +62,7 @@ void bake3d(LowerCall& c) {
         e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
         return;
     }
-    auto [P, N, scale] = place(c, at);
+    auto [P, N, scale] = file_point(c, at);
     e.out.uses_rng = true;
     std::vector<Value> args = {c.args[0].c[0],
                                c.b.i(intern(channels.text)),
@@ -95,7 +95,7 @@ void texture3d(LowerCall& c) {
         e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
         return;
     }
-    auto [P, N, scale] = place(c, 1);
+    auto [P, N, scale] = file_point(c, 1);
     std::vector<Value> answer =
         e.service("texture3d", std::array{c.args[0].c[0], c.b.i(intern(channels.text)), P[0], P[1],
                                           P[2], N[0], N[1], N[2], scale});

@@ -108,11 +108,11 @@ void areashadow(LowerCall& c) {
     constexpr int kSide = 4;  // jittered cells of the source
     Value sum[3] = {e.f(0), e.f(0), e.f(0)};
     for (int k = 0; k < kSide * kSide; ++k) {
-        auto place = [&](int cell, int component) {
+        auto offset = [&](int cell, int component) {
             Value jitter = e.random01(c.call, 2 * k + component);
             return e.mul(c.b.add(e.f(float(cell)), jitter), e.f(1.0f / kSide));
         };
-        V3 Q = e.fma(across, place(k % kSide, 0), e.fma(up, place(k / kSide, 1), corner));
+        V3 Q = e.fma(across, offset(k % kSide, 0), e.fma(up, offset(k / kSide, 1), corner));
         auto seed = e.sample_seed(c.call.site + uint32_t(k) * 7919u);
         std::vector<Value> through =
             e.service("transmission", std::array{seed[0], seed[1], P[0], P[1], P[2], Q[0], Q[1],

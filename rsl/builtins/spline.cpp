@@ -67,7 +67,7 @@ const Basis* find_basis(LowerCall& c, bool named, bool* solve) {
     std::string_view name = *text;
     *solve = cut_solve(name);
     const Basis* basis = *solve || !name.empty() ? basis_named(name) : nullptr;
-    if (!basis) c.low.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->place.where, *text);
+    if (!basis) c.low.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->span.where, *text);
     return basis;
 }
 

@@ -91,7 +91,7 @@ const Table& table() {
 
 struct ForeignRow {
     std::string_view names;
-    std::string_view place;
+    std::string_view origin;
 };
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
@@ -119,7 +119,7 @@ const std::vector<std::string_view>& builtin_names() {
 std::string_view foreign_builtin(std::string_view name) {
     std::string padded = " " + std::string(name) + " ";
     for (const ForeignRow& row : kForeign)
-        if (row.names.find(padded) != std::string_view::npos) return row.place;
+        if (row.names.find(padded) != std::string_view::npos) return row.span;
     return "";
 }
 

@@ -167,27 +167,27 @@ void environment(LowerCall& c) {
 
 // Where the light is that the point is asked about: the light shader's own, inside illuminate or
 // solar, or that of the turn of illuminance. Outside of both there is none.
-bool place_of_light(LowerCall& c, const V3& P, V3& place) {
+bool light_position(LowerCall& c, const V3& P, V3& position) {
     auto& e = c.low;
     auto& b = c.b;
-    constexpr float kFarAway = 1e15f;  // lengths of a direction that comes from no place
+    constexpr float kFarAway = 1e15f;  // lengths of a direction that comes from nowhere
     V3 L = e.read_global(Global::L).v3();
     if (e.kind() == ShaderKind::Light) {
         V3 Ps = e.read_global(Global::Ps).v3();
-        place = e.in_solar ? e.fma(e.normalize(L), e.f(-kFarAway), Ps) : e.sub(Ps, L);
+        position = e.in_solar ? e.fma(e.normalize(L), e.f(-kFarAway), Ps) : e.sub(Ps, L);
         return true;
     }
     if (e.current_record == jit::kNone) return false;
     Value kind = e.record_uniform(e.current_set, e.current_record, kLightKind, jit::Type::I);
     Value solar = b.op(jit::Op::IEq, kind, b.i(kLightSolar));
-    place = e.fma(L, b.select(solar, e.f(kFarAway), e.f(1)), P);
+    position = e.fma(L, b.select(solar, e.f(kFarAway), e.f(1)), P);
     return true;
 }
 
 void trace_shadow(LowerCall& c) {
     auto& e = c.low;
     V3 P = footprint(c).at, to;
-    if (!place_of_light(c, P, to)) return;
+    if (!light_position(c, P, to)) return;
     auto seed = e.sample_seed(c.call.site);
     std::vector<Value> through = e.service(
         "transmission", std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],

@@ -182,8 +182,8 @@ void Checker::call_function(CallExpr& e, std::span<Function* const> functions, B
     if (only.parameters.size() == e.args.size()) return bind_function(e, only);
     e.type = only.result;
     if (only.damaged) return;  // its parameters may be among what is missing
-    report(Code::RSL_ARGUMENT_COUNT, e.place, e.name, only.parameters.size(), e.args.size())
-        .notes.push_back({only.place.where, "defined here"});
+    report(Code::RSL_ARGUMENT_COUNT, e.span, e.name, only.parameters.size(), e.args.size())
+        .notes.push_back({only.span.where, "defined here"});
 }
 
 // A user's function of the name does not fit, the built-in one does.
@@ -228,9 +228,9 @@ void Checker::bind_builtin(CallExpr& e, const Overload& overload) {
             bind_argument(e, i, {BaseType::Invalid, -1}, false);
             if (!is_output_pair(e, i) || e.args[i]->type.base == BaseType::Invalid) continue;
             if (Symbol* symbol = lvalue_symbol(*e.args[i]); symbol && !e.args[i]->type.is_array())
-                mark_assigned(*symbol, e.args[i]->place);
+                mark_assigned(*symbol, e.args[i]->span);
             else
-                report(Code::RSL_OUTPUT_ARGUMENT, e.args[i]->place, i + 1, e.name);
+                report(Code::RSL_OUTPUT_ARGUMENT, e.args[i]->span, i + 1, e.name);
             continue;
         }
         const Signature::Argument& a = i < fixed ? s.arguments[i] : s.repeated;
@@ -240,14 +240,14 @@ void Checker::bind_builtin(CallExpr& e, const Overload& overload) {
     if (!names_channels) drop_unfit(e.args, e.pairs, e.name);
     if (overload.builtin->effects & kNamesFile) check_file_name(e);
     if (!overload.builtin->lower && options_.require_implemented)
-        report(Code::RSL_NOT_SUPPORTED, e.place, fmt::format("'{}'", e.name));
+        report(Code::RSL_NOT_SUPPORTED, e.span, fmt::format("'{}'", e.name));
 }
 
 // A file that the shader will not be let to read.
 void Checker::check_file_name(const CallExpr& e) {
     const auto* name = e.args.empty() ? nullptr : as_if<StringExpr>(e.args[0]);
     if (name && options_.files.find(name->value).outside)
-        report(Code::RSL_FILE_OUTSIDE, name->place, name->value);
+        report(Code::RSL_FILE_OUTSIDE, name->span, name->value);
 }
 
 // Brings an argument to the parameter's type; base Invalid takes any.
@@ -258,12 +258,12 @@ void Checker::bind_argument(CallExpr& e, size_t index, Type type, bool output) {
     if (argument->type.base == BaseType::Invalid) return;
     if (output) {
         if (argument_cost(*argument, type, true) < 0)
-            report(Code::RSL_OUTPUT_TYPE, argument->place, index + 1, e.name, type_name(type),
+            report(Code::RSL_OUTPUT_TYPE, argument->span, index + 1, e.name, type_name(type),
                    type_name(argument->type));
         else if (!lvalue_symbol(*argument))
-            report(Code::RSL_OUTPUT_ARGUMENT, argument->place, index + 1, e.name);
+            report(Code::RSL_OUTPUT_ARGUMENT, argument->span, index + 1, e.name);
         else
-            mark_assigned(*lvalue_symbol(*argument), argument->place);
+            mark_assigned(*lvalue_symbol(*argument), argument->span);
         return;
     }
     if (type.base == BaseType::Invalid) {
@@ -273,7 +273,7 @@ void Checker::bind_argument(CallExpr& e, size_t index, Type type, bool output) {
     bool fits =
         type.is_array() ? argument_cost(*argument, type, false) >= 0 : convert(argument, type.base);
     if (!fits)
-        report(Code::RSL_TYPE_MISMATCH, argument->place,
+        report(Code::RSL_TYPE_MISMATCH, argument->span,
                fmt::format("argument {} of '{}'", index + 1, e.name), type_name(type),
                type_name(argument->type))
             .help = type.is_array() || argument->type.is_array()
@@ -324,7 +324,7 @@ constexpr size_t kMostForms = 4;  // shown in a finding
 void Checker::no_overload(CallExpr& e) {
     for (const Expr* argument : e.args)
         if (argument->type.base == BaseType::Invalid && !is_flexible(*argument)) return;
-    Finding& finding = report(Code::RSL_NO_OVERLOAD, e.place, e.name, argument_types(e));
+    Finding& finding = report(Code::RSL_NO_OVERLOAD, e.span, e.name, argument_types(e));
     std::vector<std::string> forms;
     for (const Function* f : visible_functions(e.name)) forms.push_back(form_text(*f));
     if (forms.empty())
@@ -336,18 +336,18 @@ void Checker::no_overload(CallExpr& e) {
 }
 
 void Checker::unknown_function(CallExpr& e) {
-    if (recovery_.hides(e.name, e.place.token) || !unknown_functions_.insert(e.name).second) return;
-    std::string_view place = foreign_builtin(e.name);
-    if (place == "RSL 2.0") {
-        report(Code::RSL_2, e.place, fmt::format("'{}()'", e.name));
+    if (recovery_.hides(e.name, e.span.token) || !unknown_functions_.insert(e.name).second) return;
+    std::string_view origin = foreign_builtin(e.name);
+    if (origin == "RSL 2.0") {
+        report(Code::RSL_2, e.span, fmt::format("'{}()'", e.name));
         reporter_.stop();
         return;
     }
-    if (!place.empty()) {
-        report(Code::RSL_FOREIGN_FUNCTION, e.place, e.name, place);
+    if (!origin.empty()) {
+        report(Code::RSL_FOREIGN_FUNCTION, e.span, e.name, origin);
         return;
     }
-    Finding& finding = report(Code::RSL_UNKNOWN_FUNCTION, e.place, e.name);
+    Finding& finding = report(Code::RSL_UNKNOWN_FUNCTION, e.span, e.name);
     for (const HintRow& row : kHints)
         if (row.name == e.name) finding.help = row.help;
     for (const ShaderDefinition* shader : ast_.shaders)

@@ -20,7 +20,7 @@ void Checker::run() {
     for (size_t i = 0; i < ast_.shaders.size(); ++i) {
         for (size_t k = 0; k < i; ++k)
             if (ast_.shaders[k]->name == ast_.shaders[i]->name)
-                report(Code::RSL_SHADER_REDEFINED, ast_.shaders[i]->place, ast_.shaders[i]->name);
+                report(Code::RSL_SHADER_REDEFINED, ast_.shaders[i]->span, ast_.shaders[i]->name);
         check_shader(*ast_.shaders[i]);
     }
     mark_recursion();
@@ -37,7 +37,7 @@ void Checker::warn_of_hidden_outputs(const ShaderDefinition& shader) {
             bool output = std::find(std::begin(kOutputs), std::end(kOutputs), symbol.name) !=
                           std::end(kOutputs);
             if (output && (global->writers & in_kind(shader.kind)))
-                report(Code::RSL_HIDES_OUTPUT, symbol.place, symbol.name);
+                report(Code::RSL_HIDES_OUTPUT, symbol.span, symbol.name);
         }
     }
 }
@@ -60,7 +60,7 @@ void Checker::check_function(Function& f) {
     check_parameters(f.parameters);
     statement(*f.body);
     if (f.result.base != BaseType::Void && !returned_ && !f.damaged)
-        report(Code::RSL_MISSING_RETURN, f.place, f.name);
+        report(Code::RSL_MISSING_RETURN, f.span, f.name);
 }
 
 // A triple or number, perhaps with its sign.
@@ -88,12 +88,12 @@ void Checker::put_in_shader_space(Expr*& value, BaseType base) {
     if (cast && (cast->space || !is_spatial(cast->to))) return;
     if (!is_written_out(*(cast ? cast->operand : value))) return;
     if (!cast) {
-        cast = ast_.make<CastExpr>(value->place);
+        cast = ast_.make<CastExpr>(value->span);
         cast->to = base;
         cast->operand = value;
         value = cast;
     }
-    auto* space = ast_.make<StringExpr>(value->place);
+    auto* space = ast_.make<StringExpr>(value->span);
     space->value = "shader";
     cast->space = space;
 }
@@ -110,9 +110,9 @@ void Checker::check_parameters(std::span<Symbol*> parameters) {
 void Checker::check_initial(Symbol& symbol) {
     bool open = symbol.type.array_length == 0;
     if (open && symbol.kind == SymbolKind::Local)
-        report(Code::RSL_UNSIZED_ARRAY, symbol.place, symbol.name);
+        report(Code::RSL_UNSIZED_ARRAY, symbol.span, symbol.name);
     if (open && symbol.kind == SymbolKind::Parameter) {
-        report(Code::RSL_OPEN_ARRAY, symbol.place, symbol.name);
+        report(Code::RSL_OPEN_ARRAY, symbol.span, symbol.name);
         symbol.type.array_length = 1;
     }
     if (symbol.initial) convert_to(symbol.initial, symbol.type, fmt::format("'{}'", symbol.name));
@@ -125,8 +125,8 @@ void Checker::declare(Symbol& symbol) {
     for (const Symbol* other : variables) {
         if (other->name != symbol.name) continue;
         bool parameter = symbol.kind != SymbolKind::Local;
-        report(parameter ? Code::RSL_REDEFINED : Code::RSL_REDECLARED, symbol.place, symbol.name)
-            .notes.push_back({other->place.where, "first declared here"});
+        report(parameter ? Code::RSL_REDEFINED : Code::RSL_REDECLARED, symbol.span, symbol.name)
+            .notes.push_back({other->span.where, "first declared here"});
         break;
     }
     variables.push_back(&symbol);
@@ -140,8 +140,8 @@ void Checker::declare_function(Function& f) {
                     std::equal(other->parameters.begin(), other->parameters.end(),
                                f.parameters.begin(), f.parameters.end(), same_types);
         if (!same) continue;
-        report(Code::RSL_FUNCTION_REDEFINED, f.place, f.name)
-            .notes.push_back({other->place.where, "first defined here"});
+        report(Code::RSL_FUNCTION_REDEFINED, f.span, f.name)
+            .notes.push_back({other->span.where, "first defined here"});
         other = &f;
         return;
     }

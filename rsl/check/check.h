@@ -50,11 +50,11 @@ class Checker {
     // A value set for the life of the guard.
     template <class T>
     struct Within {
-        Within(T& place, T value) : place_(place), before_(std::move(place)) {
-            place_ = std::move(value);
+        Within(T& variable, T value) : variable_(variable), before_(std::move(variable)) {
+            variable_ = std::move(value);
         }
-        ~Within() { place_ = std::move(before_); }
-        T& place_;
+        ~Within() { variable_ = std::move(before_); }
+        T& variable_;
         T before_;
     };
 
@@ -75,9 +75,9 @@ class Checker {
     void mark_recursion();
 
     template <class... Args>
-    Finding& report(const FindingInfo& info, const Place& place, const Args&... args) {
-        const Token& token = ast_.tokens.tokens[place.token];
-        return reporter_.report(info, place.where, token.macro, token.spelling, args...);
+    Finding& report(const FindingInfo& info, const SourceSpan& span, const Args&... args) {
+        const Token& token = ast_.tokens.tokens[span.token];
+        return reporter_.report(info, span.where, token.macro, token.spelling, args...);
     }
 
     // statement.cpp
@@ -128,7 +128,7 @@ class Checker {
     void array_value(Expr*& slot, Type type, const std::string& what);
     Symbol* lvalue_symbol(Expr& target);
     bool check_lvalue(Expr*& slot);
-    void mark_assigned(Symbol& symbol, const Place& place);
+    void mark_assigned(Symbol& symbol, const SourceSpan& span);
 
     // operator.cpp
     void check(Expr*&, UnaryExpr& e, BaseType wanted);

@@ -35,7 +35,7 @@ bool Checker::convert(Expr*& slot, BaseType to) {
     if (slot->type.base == to && !slot->type.is_array()) return true;
     if (slot->type.is_array() || conversion_cost(slot->type.base, to) < 0) return false;
     if (slot->type.base == BaseType::Bool && to != BaseType::Float) convert(slot, BaseType::Float);
-    auto* cast = ast_.make<CastExpr>(slot->place);
+    auto* cast = ast_.make<CastExpr>(slot->span);
     cast->to = to;
     cast->implicit = true;
     cast->operand = slot;

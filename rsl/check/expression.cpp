@@ -15,10 +15,10 @@ BaseType Checker::value(Expr*& slot, BaseType wanted) {
     expression(slot, wanted);
     if (slot->type.base == BaseType::Void) {
         const auto* call = as_if<CallExpr>(slot);
-        report(Code::RSL_VOID_VALUE, slot->place, call ? call->name : std::string_view("this"));
+        report(Code::RSL_VOID_VALUE, slot->span, call ? call->name : std::string_view("this"));
         slot->type = {BaseType::Invalid, -1};
     } else if (slot->type.is_array()) {
-        report(Code::RSL_ARRAY_AS_VALUE, slot->place);
+        report(Code::RSL_ARRAY_AS_VALUE, slot->span);
         slot->type = {BaseType::Invalid, -1};
     }
     return slot->type.base;
@@ -36,7 +36,7 @@ void Checker::bring_to(Expr*& slot, Type type, const std::string& what) {
     BaseType from = slot->type.base;
     if (from == BaseType::Invalid || type.base == BaseType::Invalid) return;
     if (convert(slot, type.base)) return;
-    report(Code::RSL_TYPE_MISMATCH, slot->place, what, type_name(type), type_name(from)).help =
+    report(Code::RSL_TYPE_MISMATCH, slot->span, what, type_name(type), type_name(from)).help =
         conversion_help(from, type.base);
     slot->type = {BaseType::Invalid, -1};
 }
@@ -45,7 +45,7 @@ void Checker::array_value(Expr*& slot, Type type, const std::string& what) {
     if (auto* literal = as_if<ArrayLiteralExpr>(slot)) {
         for (Expr*& item : literal->items) convert_to(item, type.element(), "the array element");
         if (literal->items.size() > size_t(type.array_length))
-            report(Code::RSL_ARRAY_LENGTH, slot->place, literal->items.size(), type.array_length);
+            report(Code::RSL_ARRAY_LENGTH, slot->span, literal->items.size(), type.array_length);
         literal->type = type;
         return;
     }
@@ -55,7 +55,7 @@ void Checker::array_value(Expr*& slot, Type type, const std::string& what) {
                 (slot->type.array_length == type.array_length || type.array_length == 0 ||
                  slot->type.array_length == 0);
     if (!fits)
-        report(Code::RSL_TYPE_MISMATCH, slot->place, what, type_name(type), type_name(slot->type));
+        report(Code::RSL_TYPE_MISMATCH, slot->span, what, type_name(type), type_name(slot->type));
 }
 
 void Checker::condition(Expr*& slot) {
@@ -63,10 +63,10 @@ void Checker::condition(Expr*& slot) {
     if (type == BaseType::Bool || type == BaseType::Invalid) return;
     if (type == BaseType::String) return string_condition(slot);
     if (type != BaseType::Float) {
-        report(Code::RSL_CONDITION, slot->place, type_name(type));
+        report(Code::RSL_CONDITION, slot->span, type_name(type));
         return;
     }
-    auto* cast = ast_.make<CastExpr>(slot->place);
+    auto* cast = ast_.make<CastExpr>(slot->span);
     cast->to = BaseType::Bool;
     cast->implicit = true;
     cast->operand = slot;
@@ -76,10 +76,10 @@ void Checker::condition(Expr*& slot) {
 
 // A string alone: is it not empty?
 void Checker::string_condition(Expr*& slot) {
-    report(Code::RSL_STRING_CONDITION, slot->place);
-    auto* empty = ast_.make<StringExpr>(slot->place);
+    report(Code::RSL_STRING_CONDITION, slot->span);
+    auto* empty = ast_.make<StringExpr>(slot->span);
     empty->type = {BaseType::String, -1};
-    auto* node = ast_.make<BinaryExpr>(slot->place);
+    auto* node = ast_.make<BinaryExpr>(slot->span);
     node->op = Op::NotEqual;
     node->left = slot;
     node->right = empty;
@@ -114,7 +114,7 @@ void Checker::check(Expr*&, SixteenExpr& e, BaseType) {
 
 // Only initialisers may be { }: those go to array_value().
 void Checker::check(Expr*&, ArrayLiteralExpr& e, BaseType wanted) {
-    Finding& finding = report(Code::RSL_ARRAY_AS_VALUE, e.place);
+    Finding& finding = report(Code::RSL_ARRAY_AS_VALUE, e.span);
     if (is_triple(wanted)) finding.help = "write (a, b, c)";
 }
 
@@ -130,7 +130,7 @@ void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
     if (yes == BaseType::Invalid || no == BaseType::Invalid) return;
     BaseType common = common_type(yes, no);
     if (common == BaseType::Invalid) {
-        report(Code::RSL_BAD_OPERANDS, e.place, "?:", type_name(yes), type_name(no));
+        report(Code::RSL_BAD_OPERANDS, e.span, "?:", type_name(yes), type_name(no));
         return;
     }
     convert(e.yes, common);
@@ -141,7 +141,7 @@ void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
 void Checker::check(Expr*&, CastExpr& e, BaseType) {
     if (e.to == BaseType::Void) {
         value(e.operand, BaseType::Invalid);
-        report(Code::RSL_BAD_OPERAND, e.place, "void", "a value");
+        report(Code::RSL_BAD_OPERAND, e.span, "void", "a value");
         return;
     }
     if (e.space) value(e.space, BaseType::String);
@@ -149,9 +149,9 @@ void Checker::check(Expr*&, CastExpr& e, BaseType) {
     e.type = {e.to, -1};
     if (from == BaseType::Invalid) return;
     if (e.space && !is_triple(e.to) && e.to != BaseType::Matrix) {
-        report(Code::RSL_BAD_SPACE, e.place, type_name(e.to));
+        report(Code::RSL_BAD_SPACE, e.span, type_name(e.to));
     } else if (conversion_cost(from, e.to) < 0) {
-        report(Code::RSL_TYPE_MISMATCH, e.place, fmt::format("'{}'", type_name(e.to)),
+        report(Code::RSL_TYPE_MISMATCH, e.span, fmt::format("'{}'", type_name(e.to)),
                "a value that converts to it", type_name(from))
             .help = conversion_help(from, e.to);
     } else if (e.space || from == BaseType::Bool) {
@@ -179,13 +179,13 @@ constexpr struct {
 void Checker::check(Expr*&, VariableExpr& e, BaseType) {
     e.symbol = find_variable(e.name, false);
     bool global = e.symbol && e.symbol->global;  // perhaps hidden by what was skipped
-    if (global && recovery_.declares(e.name, e.place.token)) e.symbol = nullptr;
+    if (global && recovery_.declares(e.name, e.span.token)) e.symbol = nullptr;
     if (e.symbol) {
         e.type = e.symbol->type;
         return;
     }
-    if (recovery_.hides(e.name, e.place.token) || !unknown_.insert(e.name).second) return;
-    Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.place, e.name);
+    if (recovery_.hides(e.name, e.span.token) || !unknown_.insert(e.name).second) return;
+    Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.span, e.name);
     for (const auto& row : kVariableHints)
         if (row.name == e.name) finding.help = row.help;
     if (!finding.help.empty()) return;
@@ -210,11 +210,11 @@ void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
         return;
     }
     if (!is_triple(e.array->type)) {
-        Finding& finding = report(Code::RSL_NOT_ARRAY, e.place, type_name(e.array->type));
+        Finding& finding = report(Code::RSL_NOT_ARRAY, e.span, type_name(e.array->type));
         if (e.array->type.base == BaseType::Matrix) finding.help = "use comp(m, row, column)";
         return;
     }
-    auto* component = ast_.make<ComponentExpr>(e.place);
+    auto* component = ast_.make<ComponentExpr>(e.span);
     component->operand = e.array;
     component->index = e.index;
     component->type = {BaseType::Float, -1};
@@ -241,22 +241,22 @@ bool Checker::check_lvalue(Expr*& slot) {
     Symbol* symbol = lvalue_symbol(*slot);
     if (!symbol) {
         const auto* call = as_if<CallExpr>(slot);
-        Finding& finding = report(Code::RSL_NOT_ASSIGNABLE, slot->place);
+        Finding& finding = report(Code::RSL_NOT_ASSIGNABLE, slot->span);
         std::string setter = call ? "set" + std::string(call->name) : "";
         if (call && !find_builtin(setter).empty())
             finding.help = fmt::format("write '{}(target, ..., value)'", setter);
         return false;
     }
-    mark_assigned(*symbol, slot->place);
+    mark_assigned(*symbol, slot->span);
     return true;
 }
 
-void Checker::mark_assigned(Symbol& symbol, const Place& place) {
+void Checker::mark_assigned(Symbol& symbol, const SourceSpan& span) {
     symbol.assigned = true;
     bool parameter =
         symbol.kind == SymbolKind::Parameter || symbol.kind == SymbolKind::FunctionParameter;
     if (parameter && !symbol.output && warned_.insert(&symbol).second)
-        report(Code::RSL_PARAMETER_ASSIGNED, place, symbol.name);
+        report(Code::RSL_PARAMETER_ASSIGNED, span, symbol.name);
 }
 
 void Checker::check(Expr*&, AssignExpr& e, BaseType) {
@@ -272,7 +272,7 @@ void Checker::check(Expr*&, AssignExpr& e, BaseType) {
                   is_flexible(*e.value) && can_be(*e.value, BaseType::Float) &&
                   !(type.base == BaseType::Color && is_picture(*e.value));
     if (type.is_array() && e.op != Op::None) {
-        report(Code::RSL_ARRAY_AS_VALUE, e.target->place);
+        report(Code::RSL_ARRAY_AS_VALUE, e.target->span);
     } else if (factor) {
         value(e.value, BaseType::Float);
         bring_to(e.value, type, "the factor");
@@ -282,7 +282,7 @@ void Checker::check(Expr*&, AssignExpr& e, BaseType) {
     bool string = type.base == BaseType::String && e.op != Op::None;
     bool matrix = type.base == BaseType::Matrix && (e.op == Op::Add || e.op == Op::Subtract);
     if ((string || matrix) && e.value->type.base != BaseType::Invalid)
-        report(Code::RSL_BAD_OPERANDS, e.place, fmt::format("{}=", op_text(e.op)), type_name(type),
+        report(Code::RSL_BAD_OPERANDS, e.span, fmt::format("{}=", op_text(e.op)), type_name(type),
                type_name(e.value->type));
     e.type = type;
 }

@@ -15,7 +15,7 @@ void Checker::check(Expr*&, UnaryExpr& e, BaseType wanted) {
     if (is_numeric(type))
         e.type = {type, -1};
     else
-        report(Code::RSL_BAD_OPERAND, e.place, op_text(e.op), type_name(type));
+        report(Code::RSL_BAD_OPERAND, e.span, op_text(e.op), type_name(type));
 }
 
 void Checker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
@@ -62,7 +62,7 @@ bool Checker::invalid(const BinaryExpr& e) const {
 void Checker::bad_operands(BinaryExpr& e) {
     BaseType left = e.left->type.base, right = e.right->type.base;
     Finding& finding =
-        report(Code::RSL_BAD_OPERANDS, e.place, op_text(e.op), type_name(left), type_name(right));
+        report(Code::RSL_BAD_OPERANDS, e.span, op_text(e.op), type_name(left), type_name(right));
     bool matrix = left == BaseType::Matrix || right == BaseType::Matrix;
     if (left == BaseType::String && right == left && e.op == Op::Add)
         finding.help = "use concat(a, b)";
@@ -117,7 +117,7 @@ bool Checker::component_by_name(BinaryExpr& e) {
     if (position == kPositions.npos && color == kColors.npos) return false;
     value(e.left, BaseType::Invalid);
     size_t k = position == kPositions.npos ? color : position;
-    report(Code::RSL_NOT_RSL, name->place, fmt::format("the component '.{}'", name->name)).help =
+    report(Code::RSL_NOT_RSL, name->span, fmt::format("the component '.{}'", name->name)).help =
         position == kPositions.npos ? fmt::format("write comp(c, {})", k)
                                     : fmt::format("write {}comp(p)", kPositions[k]);
     e.type = {BaseType::Float, -1};
@@ -145,7 +145,7 @@ void Checker::check_comparison(BinaryExpr& e) {
     BaseType common = common_type(e.left->type.base, e.right->type.base);
     bool equality = e.op == Op::Equal || e.op == Op::NotEqual;
     if (is_triple(common) && !equality)
-        report(Code::RSL_TRIPLE_ORDER, e.place, op_text(e.op), type_name(common));
+        report(Code::RSL_TRIPLE_ORDER, e.span, op_text(e.op), type_name(common));
     bool applies = common == BaseType::Float || is_triple(common) ||
                    (equality && (is_numeric(common) || common == BaseType::String));
     if (!applies) return bad_operands(e);

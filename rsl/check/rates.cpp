@@ -125,11 +125,11 @@ class RateWalk {
 
     void complain(const Symbol& s, const Expr& at) {
         if (!reported_.insert(&at).second) return;
-        const Token& token = ast_.tokens.tokens[at.place.token];
+        const Token& token = ast_.tokens.tokens[at.span.token];
         reporter_
-            .report(Code::RSL_UNIFORM_FROM_VARYING, at.place.where, token.macro, token.spelling,
+            .report(Code::RSL_UNIFORM_FROM_VARYING, at.span.where, token.macro, token.spelling,
                     s.name)
-            .notes.push_back({s.place.where, "declared here"});
+            .notes.push_back({s.span.where, "declared here"});
     }
 
     void store_to(const Expr* target, Flow value, const Expr& at) {
@@ -245,11 +245,11 @@ class RateWalk {
 
     void complain_argument(const Symbol& p, const CallExpr& call, const Expr& at) {
         if (!reported_.insert(&at).second) return;
-        const Token& token = ast_.tokens.tokens[at.place.token];
+        const Token& token = ast_.tokens.tokens[at.span.token];
         reporter_
-            .report(Code::RSL_UNIFORM_ARGUMENT, at.place.where, token.macro, token.spelling, p.name,
+            .report(Code::RSL_UNIFORM_ARGUMENT, at.span.where, token.macro, token.spelling, p.name,
                     call.name)
-            .notes.push_back({p.place.where, "declared here"});
+            .notes.push_back({p.span.where, "declared here"});
     }
 
     static char letter(Flow f) { return char('a' + f.constant + 2 * f.varying + 4 * f.illegal); }

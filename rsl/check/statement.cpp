@@ -29,12 +29,12 @@ void Checker::check(ExternStmt& s) {
     for (Symbol*& symbol : s.symbols) {
         Symbol* outer = find_variable(symbol->name, true);
         if (!outer) {
-            if (!recovery_.hides(symbol->name, symbol->place.token))
-                report(Code::RSL_EXTERN_UNKNOWN, symbol->place, symbol->name);
+            if (!recovery_.hides(symbol->name, symbol->span.token))
+                report(Code::RSL_EXTERN_UNKNOWN, symbol->span, symbol->name);
             outer = symbol;
         } else if (outer->type.base != symbol->type.base &&
                    !(is_triple(outer->type) && is_triple(symbol->type))) {
-            report(Code::RSL_TYPE_MISMATCH, symbol->place, fmt::format("extern '{}'", symbol->name),
+            report(Code::RSL_TYPE_MISMATCH, symbol->span, fmt::format("extern '{}'", symbol->name),
                    type_name(outer->type), type_name(symbol->type));
         }
         symbol = outer;
@@ -51,8 +51,8 @@ void Checker::check(ExpressionStmt& s) {
     expression(s.expression, BaseType::Invalid);
     ExprKind kind = written->kind;
     if (kind != ExprKind::Assign && kind != ExprKind::Call && kind != ExprKind::Cast &&
-        s.expression->type.base != BaseType::Invalid && !recovery_.touches(s.place.token))
-        report(Code::RSL_NO_EFFECT, s.place);
+        s.expression->type.base != BaseType::Invalid && !recovery_.touches(s.span.token))
+        report(Code::RSL_NO_EFFECT, s.span);
 }
 
 void Checker::check(IfStmt& s) {
@@ -84,11 +84,11 @@ void Checker::check(ForStmt& s) {
 
 Stmt* Checker::jump_target(const Stmt& jump, const char* word, int levels) {
     if (loops_.empty()) {
-        report(Code::RSL_BREAK_OUTSIDE_LOOP, jump.place, word);
+        report(Code::RSL_BREAK_OUTSIDE_LOOP, jump.span, word);
         return nullptr;
     }
     if (size_t(levels) > loops_.size()) {
-        report(Code::RSL_BREAK_LEVELS, jump.place, word, levels, loops_.size());
+        report(Code::RSL_BREAK_LEVELS, jump.span, word, levels, loops_.size());
         return nullptr;
     }
     return loops_[loops_.size() - size_t(levels)];
@@ -105,7 +105,7 @@ void Checker::check(ContinueStmt& s) {
 void Checker::check(ReturnStmt& s) {
     if (!function_) {
         if (s.value) value(s.value, BaseType::Invalid);
-        report(Code::RSL_RETURN_OUTSIDE_FUNCTION, s.place);
+        report(Code::RSL_RETURN_OUTSIDE_FUNCTION, s.span);
         return;
     }
     returned_ = true;
@@ -113,9 +113,9 @@ void Checker::check(ReturnStmt& s) {
     if (returns && s.value)
         convert_to(s.value, function_->result, "the result");
     else if (returns)
-        report(Code::RSL_RETURN_NOTHING, s.place, type_name(function_->result));
+        report(Code::RSL_RETURN_NOTHING, s.span, type_name(function_->result));
     else if (s.value)
-        report(Code::RSL_RETURN_VALUE, s.place, function_->name);
+        report(Code::RSL_RETURN_VALUE, s.span, function_->name);
 }
 
 // ---- light statements ---------------------------------------------------------------------------
@@ -134,7 +134,7 @@ void Checker::check(IlluminanceStmt& s) {
         if (k == 0 && s.args[0]->type.base == BaseType::String) first = 1;
     }
     if (!sort_illuminance(s, first)) {
-        report(Code::RSL_ARGUMENT_FORM, s.place, "illuminance",
+        report(Code::RSL_ARGUMENT_FORM, s.span, "illuminance",
                "([category,] position [, axis, angle] [, \"name\", value ...])");
         Within<const char*> within(light_statement_, "illuminance");
         return loop_body(s, *s.body);
@@ -152,8 +152,8 @@ constexpr double kHalfPi = 1.57079632679489661923;
 // The angle of a cone that is written without one.
 Expr* Checker::assumed_angle(const Stmt& s, const char* statement_name, double angle,
                              const char* text) {
-    report(Code::RSL_CONE_FORM, s.place, statement_name, text);
-    auto* node = ast_.make<NumberExpr>(s.place);
+    report(Code::RSL_CONE_FORM, s.span, statement_name, text);
+    auto* node = ast_.make<NumberExpr>(s.span);
     node->value = angle;
     node->type = {BaseType::Float, -1};
     return node;
@@ -183,7 +183,7 @@ void Checker::check(IlluminateStmt& s) {
     convert_to(s.position, {BaseType::Point, -1}, "position of illuminate");
     cone(s.axis, s.angle, "illuminate");
     if (light_statement_)
-        report(Code::RSL_NESTED_ILLUMINATE, s.place, "illuminate", light_statement_);
+        report(Code::RSL_NESTED_ILLUMINATE, s.span, "illuminate", light_statement_);
     Within<const char*> within(light_statement_, "illuminate");
     Within<std::vector<Stmt*>> no_loops(loops_, {});
     statement(*s.body);
@@ -192,7 +192,7 @@ void Checker::check(IlluminateStmt& s) {
 void Checker::check(SolarStmt& s) {
     if (s.axis && !s.angle) s.angle = assumed_angle(s, "solar", 0, "0");
     cone(s.axis, s.angle, "solar");
-    if (light_statement_) report(Code::RSL_NESTED_ILLUMINATE, s.place, "solar", light_statement_);
+    if (light_statement_) report(Code::RSL_NESTED_ILLUMINATE, s.span, "solar", light_statement_);
     Within<const char*> within(light_statement_, "solar");
     Within<std::vector<Stmt*>> no_loops(loops_, {});
     statement(*s.body);
@@ -208,7 +208,7 @@ void Checker::check(GatherStmt& s) {
     for (size_t k = 5; named && k < s.args.size(); k += 2)
         named = s.args[k]->type == Type{BaseType::String, -1};
     if (!named) {
-        report(Code::RSL_ARGUMENT_FORM, s.place, "gather",
+        report(Code::RSL_ARGUMENT_FORM, s.span, "gather",
                "(category, position, direction, angle, samples [, \"name\", value ...])");
         loop_body(s, *s.body);
         if (s.missed) loop_body(s, *s.missed);
@@ -237,7 +237,7 @@ void Checker::drop_unfit(std::span<Expr*>& args, size_t first, std::string_view 
         BaseType wanted = option_type(name);
         bool known = wanted != BaseType::Invalid && given->type.base != BaseType::Invalid;
         if (known && given->type != Type{wanted, -1}) {
-            report(Code::RSL_PAIR_TYPE, given->place, name, callee, type_name({wanted, -1}),
+            report(Code::RSL_PAIR_TYPE, given->span, name, callee, type_name({wanted, -1}),
                    type_name(given->type));
             continue;
         }
@@ -253,9 +253,9 @@ void Checker::output_pairs(std::span<Expr*> pairs, const char* statement_name,
     for (size_t k = 1; k < pairs.size(); k += 2) {
         if (!is_output(pair_name(pairs, k)) || pairs[k]->type.base == BaseType::Invalid) continue;
         if (Symbol* symbol = lvalue_symbol(*pairs[k]); symbol && !pairs[k]->type.is_array())
-            mark_assigned(*symbol, pairs[k]->place);
+            mark_assigned(*symbol, pairs[k]->span);
         else
-            report(Code::RSL_OUTPUT_ARGUMENT, pairs[k]->place, k + 1, statement_name);
+            report(Code::RSL_OUTPUT_ARGUMENT, pairs[k]->span, k + 1, statement_name);
     }
 }
 

@@ -41,15 +41,14 @@ class UsageWalk {
 
     // Null where the node has a finding.
     template <class... Args>
-    Finding* report(const FindingInfo& info, const void* node, const Place& place,
+    Finding* report(const FindingInfo& info, const void* node, const SourceSpan& span,
                     const Args&... args) {
         if (!reported_.insert(node).second) return nullptr;
-        const Token& token = ast_.tokens.tokens[place.token];
-        return &reporter_.report(info, place.where, token.macro, token.spelling, args...);
+        const Token& token = ast_.tokens.tokens[span.token];
+        return &reporter_.report(info, span.where, token.macro, token.spelling, args...);
     }
-    void lights(const void* node, const Place& place, const std::string& name) {
-        if (shader_.kind == ShaderKind::Displacement)
-            report(Code::RSL_NO_LIGHTS, node, place, name);
+    void lights(const void* node, const SourceSpan& span, const std::string& name) {
+        if (shader_.kind == ShaderKind::Displacement) report(Code::RSL_NO_LIGHTS, node, span, name);
     }
     const char* kind_name() const { return shader_kind_name(shader_.kind); }
 
@@ -59,9 +58,9 @@ class UsageWalk {
         const GlobalInfo& info = *e.symbol->global;
         (write ? written_ : read_)[size_t(info.id)] = true;
         if (!((info.readers | info.writers) & in_kind(shader_.kind)))
-            report(Code::RSL_GLOBAL_NOT_READABLE, &e, e.place, info.name, kind_name());
+            report(Code::RSL_GLOBAL_NOT_READABLE, &e, e.span, info.name, kind_name());
         else if (write && !(info.writers & in_kind(shader_.kind)))
-            report(Code::RSL_GLOBAL_NOT_WRITABLE, &e, e.place, info.name, kind_name());
+            report(Code::RSL_GLOBAL_NOT_WRITABLE, &e, e.span, info.name, kind_name());
         else
             check_inside(e, info.id);
     }
@@ -69,13 +68,13 @@ class UsageWalk {
     // L, Cl and Ol of a surface exist inside illuminance, L of a light inside illuminate and solar.
     // Functions are called from inside, or hold the statement themselves.
     void check_inside(const VariableExpr& e, Global id) {
-        if (recovery_.touches(e.place.token)) return;  // where illuminance ends may be unknown
+        if (recovery_.touches(e.span.token)) return;  // where illuminance ends may be unknown
         bool of_light = id == Global::L || id == Global::Cl || id == Global::Ol;
         bool surface = shader_.kind == ShaderKind::Surface;
         if (surface && (of_light || id == Global::Ps) && inside_ == Inside::Nothing)
-            report(Code::RSL_ONLY_IN_ILLUMINANCE, &e, e.place, e.name);
+            report(Code::RSL_ONLY_IN_ILLUMINANCE, &e, e.span, e.name);
         if (shader_.kind == ShaderKind::Light && id == Global::L && inside_ == Inside::Nothing)
-            report(Code::RSL_ONLY_IN_ILLUMINATE, &e, e.place, e.name);
+            report(Code::RSL_ONLY_IN_ILLUMINATE, &e, e.span, e.name);
     }
 
     void read_names(std::string_view names) {
@@ -172,13 +171,13 @@ class UsageWalk {
     void color_space(const Expr* e) {
         const auto* name = as_if<StringExpr>(e);
         if (!name || is_color_space(name->value)) return;
-        Finding* finding = report(Code::RSL_COLOR_SPACE_UNKNOWN, e, e->place, name->value);
+        Finding* finding = report(Code::RSL_COLOR_SPACE_UNKNOWN, e, e->span, name->value);
         if (finding) finding->help = meant_help(name->value, color_space_names());
     }
     void spline_basis(const Expr* e) {
         const auto* name = as_if<StringExpr>(e);
         if (!name || is_spline_basis(name->value)) return;
-        Finding* finding = report(Code::RSL_SPLINE_BASIS, e, e->place, name->value);
+        Finding* finding = report(Code::RSL_SPLINE_BASIS, e, e->span, name->value);
         if (finding) finding->help = meant_help(name->value, spline_basis_names());
     }
     void literal_names(const CallExpr& e) {
@@ -190,10 +189,10 @@ class UsageWalk {
         literal_names(e);
         if (!(legal_kinds(*e.builtin) & in_kind(shader_.kind))) {
             bool derives = e.builtin->effects & kDerivative;
-            report(derives ? Code::RSL_NO_DERIVATIVES : Code::RSL_NOT_LEGAL_HERE, &e, e.place,
+            report(derives ? Code::RSL_NO_DERIVATIVES : Code::RSL_NOT_LEGAL_HERE, &e, e.span,
                    fmt::format("'{}'", e.name), kind_name());
         }
-        if (e.builtin->effects & kLights) lights(&e, e.place, fmt::format("'{}'", e.name));
+        if (e.builtin->effects & kLights) lights(&e, e.span, fmt::format("'{}'", e.name));
         read_names(e.builtin->globals);
         for (size_t i = 0; i < e.args.size(); ++i) {
             bool fixed = i < e.signature->arguments.size();
@@ -220,7 +219,7 @@ class UsageWalk {
         inside_ = before;
     }
     void legal(const Stmt& s, bool is, const char* name) {
-        if (!is) report(Code::RSL_STATEMENT_NOT_LEGAL, &s, s.place, name, kind_name());
+        if (!is) report(Code::RSL_STATEMENT_NOT_LEGAL, &s, s.span, name, kind_name());
     }
 
     void at(const BlockStmt& s) {
@@ -254,7 +253,7 @@ class UsageWalk {
         bool lit = shader_.kind == ShaderKind::Surface || shader_.kind == ShaderKind::Volume ||
                    shader_.kind == ShaderKind::Displacement;
         legal(s, lit, "illuminance");
-        lights(&s, s.place, "illuminance");
+        lights(&s, s.span, "illuminance");
         walk(s.category), walk(s.position), walk(s.axis), walk(s.angle);
         for (size_t k = 0; k < s.pairs.size(); ++k)
             argument(s.pairs[k], k % 2 == 1 && is_light_output(pair_name(s.pairs, k)));

@@ -197,7 +197,7 @@ Value Lowering::after_loop(const Changes& changes, Value entered) {
 }
 
 int Lowering::loop_site(const Stmt& stmt) {
-    return b.fault_site(stmt.place.where, "loop stopped: too many iterations");
+    return b.fault_site(stmt.span.where, "loop stopped: too many iterations");
 }
 
 void Lowering::loop(const Stmt& stmt) {

@@ -8,14 +8,14 @@ namespace kinora::rsl {
 
 namespace {
 
-// Places of instructions: an expression's own place is back after its operands are written.
-class PlaceScope {
+// Positions of instructions: an expression's own is back after its operands are written.
+class PositionScope {
   public:
-    PlaceScope(Lowering& low, Location where, Location& current)
+    PositionScope(Lowering& low, Location where, Location& current)
         : low_(low), current_(current), before_(current) {
         low_.b.set_location(current_ = where);
     }
-    ~PlaceScope() { low_.b.set_location(current_ = before_); }
+    ~PositionScope() { low_.b.set_location(current_ = before_); }
 
   private:
     Lowering& low_;
@@ -26,7 +26,7 @@ class PlaceScope {
 }  // namespace
 
 Lowered Lowering::expr(const Expr& e) {
-    PlaceScope place(*this, e.place.where, where_);
+    PositionScope position(*this, e.span.where, where_);
     switch (e.kind) {
         case ExprKind::Number:
             return lowered(BaseType::Float, b.f(float(as<NumberExpr>(e).value)));
@@ -97,10 +97,10 @@ Lowered Lowering::cast(const CastExpr& e) {
     Lowered x = convert(expr(*e.operand), e.to);
     if (!e.space) return x;
     Value name = value(*e.space);
-    if (e.to != BaseType::Color) return to_current(x, space(name, e.space->place.where));
+    if (e.to != BaseType::Color) return to_current(x, space(name, e.space->span.where));
     if (const std::string* text = constant_text(name))
-        return color_space(x, *text, "rgb", e.space->place.where);
-    error(Code::RSL_STRING_NOT_CONSTANT, e.space->place.where, "color");
+        return color_space(x, *text, "rgb", e.space->span.where);
+    error(Code::RSL_STRING_NOT_CONSTANT, e.space->span.where, "color");
     return x;
 }
 
@@ -286,7 +286,7 @@ Lowered Lowering::call_builtin(const CallExpr& e) {
             call.output_pairs.push_back({*name, target(*e.args[k + 1])});
         else if (name && !e.args[k + 1]->type.is_array()) {
             call.pairs.push_back({*name, expr(*e.args[k + 1])});
-            report_idle_pair(e.name, *name, call.pairs.back().second, e.args[k]->place.where);
+            report_idle_pair(e.name, *name, call.pairs.back().second, e.args[k]->span.where);
         }
     }
     e.builtin->lower(call);
@@ -300,7 +300,7 @@ void LowerCall::set_output(int i, const Lowered& value) {
 const std::string* LowerCall::text(int i) const {
     const std::string* text = low.constant_text(args[size_t(i)].c[0]);
     if (!text)
-        low.error(Code::RSL_STRING_NOT_CONSTANT, call.args[size_t(i)]->place.where, call.name);
+        low.error(Code::RSL_STRING_NOT_CONSTANT, call.args[size_t(i)]->span.where, call.name);
     return text;
 }
 
@@ -328,7 +328,7 @@ void LowerCall::report_unknown_pairs() const {
     for (size_t k = call.pairs; k + 1 < call.args.size(); k += 2) {
         std::string_view key = pair_name(call.args, k + 1);
         if (!takes_option(call.name, key) && !is_output_pair(call, k + 1))
-            low.report(Code::RSL_PAIR_UNKNOWN, call.args[k]->place.where, key, call.name);
+            low.report(Code::RSL_PAIR_UNKNOWN, call.args[k]->span.where, key, call.name);
     }
 }
 
@@ -345,7 +345,7 @@ bool Lowering::may_grow(const CallExpr& e) {
     size_t operations = 0;
     for (const jit::Function& function : b.module().functions) operations += function.insts.size();
     if (operations > kMostOperations && !failed)
-        error(Code::RSL_TOO_LARGE, e.place.where, kMostOperations);
+        error(Code::RSL_TOO_LARGE, e.span.where, kMostOperations);
     return !failed;
 }
 

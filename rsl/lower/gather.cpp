@@ -68,7 +68,7 @@ std::vector<std::string> gathered_parameters(const Shader& shader) {
 void Lowering::gather(const GatherStmt& stmt) {
     if (!options.want_Ci) return;  // opacity kernels trace nothing (docs/decisions.md#opacity)
     if (gather_depth_ >= kGatherLevels)
-        return error(Code::RSL_GATHER_NESTED, stmt.place.where, kGatherLevels);
+        return error(Code::RSL_GATHER_NESTED, stmt.span.where, kGatherLevels);
     V3 P = expr(*stmt.position).v3(), D = expr(*stmt.direction).v3();
     Value angle = value(*stmt.angle), samples = value(*stmt.samples);
     const std::string* category = constant_text(value(*stmt.category));
@@ -82,13 +82,12 @@ void Lowering::gather(const GatherStmt& stmt) {
         std::string name(pair_name(stmt.pairs, k));
         const Expr& given = *stmt.pairs[k];
         if (takes_option("gather", name))
-            report_idle_pair("gather", name, expr(given), given.place.where);
+            report_idle_pair("gather", name, expr(given), given.span.where);
         if (is_gather_output(name)) {
             const Known* known = find_known(name);
             bool parameter = !known && name.starts_with("surface:");
             if ((!known && !parameter) || (known && !fits(known->type, given.type.base))) {
-                report(Code::RSL_GATHER_OUTPUT, given.place.where, name,
-                       type_name(given.type.base));
+                report(Code::RSL_GATHER_OUTPUT, given.span.where, name, type_name(given.type.base));
                 continue;
             }
             wanted.push_back({name, given.type.base});
@@ -104,7 +103,7 @@ void Lowering::gather(const GatherStmt& stmt) {
             const std::string* text = constant_text(value(given));
             if (text && *text == "cosine") flags |= kGatherCosine;
         } else if (!takes_option("gather", name)) {
-            report(Code::RSL_PAIR_UNKNOWN, given.place.where, name, "gather");
+            report(Code::RSL_PAIR_UNKNOWN, given.span.where, name, "gather");
         }
     }
     auto seed = sample_seed(uint32_t(out.gathers.size()) * 2654435761u + 77);

@@ -75,7 +75,7 @@ std::vector<Lowered> Lowering::light_message(const std::string& name, Type type,
 Value Lowering::category_matches(Value set, Value record, const Expr& category) {
     const std::string* text = constant_text(value(category));
     if (!text) {
-        error(Code::RSL_STRING_NOT_CONSTANT, category.place.where, "illuminance");
+        error(Code::RSL_STRING_NOT_CONSTANT, category.span.where, "illuminance");
         return b.m(true);
     }
     if (text->empty()) return b.m(true);
@@ -83,7 +83,7 @@ Value Lowering::category_matches(Value set, Value record, const Expr& category) 
     std::string name = text->substr(without ? 1 : 0);
     auto found = std::find(out.categories.begin(), out.categories.end(), name);
     if (found == out.categories.end() && out.categories.size() == 32)
-        error(Code::RSL_TOO_MANY_CATEGORIES, category.place.where, 32);
+        error(Code::RSL_TOO_MANY_CATEGORIES, category.span.where, 32);
     int bit = int(found - out.categories.begin());
     if (found == out.categories.end()) out.categories.push_back(name);
     Value bits = record_uniform(set, record, kLightCategories, jit::Type::I);
@@ -169,7 +169,7 @@ void Lowering::light_pairs(const IlluminanceStmt& stmt) {
     for (size_t k = 1; k < stmt.pairs.size(); k += 2) {
         std::string_view name = pair_name(stmt.pairs, k);
         if (name.starts_with("send:"))
-            report(Code::RSL_LIGHT_PAIR, stmt.pairs[k]->place.where, name);
+            report(Code::RSL_LIGHT_PAIR, stmt.pairs[k]->span.where, name);
         if (!is_light_output(name)) continue;
         Target to = target(*stmt.pairs[k]);
         Lowered before = load(to);

@@ -77,7 +77,7 @@ struct LowerCall {
     // Reports pairs that the callee does not know (rsl/model/pairs.h): they have no effect.
     void report_unknown_pairs() const;
     Target* output_pair(std::string_view name);  // null if absent
-    const Location& where() const { return call.place.where; }
+    const Location& where() const { return call.span.where; }
 };
 
 class Lowering : public Emitter {

@@ -34,7 +34,7 @@ Value calls_allowed(Emitter& at, const CallExpr& e, Value depth, Value left) {
     std::string text =
         fmt::format("function '{}' calls itself more than {} levels deep, or {} times", e.name,
                     kMaxCallDepth, kMaxRecursiveCalls);
-    b.fault(b.fault_site(e.place.where, text), b.and_not(at.running, allowed));
+    b.fault(b.fault_site(e.span.where, text), b.and_not(at.running, allowed));
     return allowed;
 }
 
@@ -84,7 +84,7 @@ void Lowering::find_outside(Recursive& r, const CallExpr& e) {
     r.random = changes.random;
     r.record = (changes.effects & kMessage) && current_record != jit::kNone;
     if (!changes.light_sources.empty())
-        error(Code::RSL_RECURSION, e.place.where, e.name, "holds illuminate or solar");
+        error(Code::RSL_RECURSION, e.span.where, e.name, "holds illuminate or solar");
     auto written = [&](const Symbol* symbol) {
         return std::find(changes.symbols.begin(), changes.symbols.end(), symbol) !=
                changes.symbols.end();
@@ -208,7 +208,7 @@ size_t Lowering::recursive_function(const CallExpr& e, const CallArguments& argu
         add(outside.symbol ? outside.symbol->type.base : global_info(outside.id).type.base,
             outside.array_length, outside.written);
     if (count > kMaxValues)
-        error(Code::RSL_RECURSION, e.place.where, e.name,
+        error(Code::RSL_RECURSION, e.span.where, e.name,
               fmt::format("works on {} numbers, at most {}", count, kMaxValues));
     r.index = jit::add_function(b.module(), std::string(r.function->name), results);
     b.module().call_depth = kMaxCallDepth + 1;

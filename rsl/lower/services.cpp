@@ -96,10 +96,10 @@ V3 Lowering::dv(const V3& v) {
 std::array<Value, 2> Lowering::sample_seed(uint32_t site) {
     out.uses_rng = true;
     Value path = b.imul(path_value(), b.i(int32_t(2654435761u)));
-    Value place = b.ixor(path, b.i(int32_t((site + 1) * 2246822519u)));
+    Value seed = b.ixor(path, b.i(int32_t((site + 1) * 2246822519u)));
     for (Value counter : loop_counters)
-        place = b.iadd(b.imul(place, b.i(int32_t(747796405u))), b.iadd(counter, b.i(1)));
-    return {scalar_input("rng", jit::Type::I, jit::Rate::Point), place};
+        seed = b.iadd(b.imul(seed, b.i(int32_t(747796405u))), b.iadd(counter, b.i(1)));
+    return {scalar_input("rng", jit::Type::I, jit::Rate::Point), seed};
 }
 
 // docs/decisions.md#random-numbers-without-state: a hash of the sample, the place of the call and

@@ -110,7 +110,7 @@ bool Lowering::check_size(const Symbol& symbol, Type type) {
     constexpr int64_t kMost = 1 << 20;  // docs/decisions.md#strings-and-arrays
     int64_t bytes = array_bytes(type);
     if (bytes > kMost) {
-        error(Code::RSL_ARRAY_TOO_LARGE, symbol.place.where, symbol.name, bytes >> 10);
+        error(Code::RSL_ARRAY_TOO_LARGE, symbol.span.where, symbol.name, bytes >> 10);
         return false;
     }
     // Of a function that calls itself as many activations as may be.
@@ -118,7 +118,7 @@ bool Lowering::check_size(const Symbol& symbol, Type type) {
     bool fitted = array_bytes_ <= kMostArrayBytes;
     array_bytes_ += bytes;
     if (fitted && array_bytes_ > kMostArrayBytes)
-        error(Code::RSL_ARRAYS_TOO_LARGE, symbol.place.where, symbol.name, array_bytes_ >> 10,
+        error(Code::RSL_ARRAYS_TOO_LARGE, symbol.span.where, symbol.name, array_bytes_ >> 10,
               kMostArrayBytes >> 10);
     return array_bytes_ <= kMostArrayBytes;
 }
@@ -269,7 +269,7 @@ Target Lowering::target(const Expr& e) {
         Value x = value(*element->index);
         int length = arrays_[size_t(t.array)].length;
         t.index = index(x, length);
-        check_index(x, length, e.place.where);
+        check_index(x, length, e.span.where);
         return t;
     }
     auto& component = as<ComponentExpr>(e);

@@ -76,10 +76,10 @@ void cellnoise(RefCall<Real>& c) {
 template <class Real>
 void random(RefCall<Real>& c) {
     for (size_t k = 0; k < c.result.size(); ++k) {
-        uint32_t place = (c.eval.inline_path * 2654435761u) ^ (c.call.site * 40503u + uint32_t(k));
+        uint32_t site = (c.eval.inline_path * 2654435761u) ^ (c.call.site * 40503u + uint32_t(k));
         std::vector<int32_t> keys = {
             int32_t(int64_t(c.eval.in.values.count("rng") ? c.eval.in.values.at("rng") : 0)),
-            int32_t(place)};
+            int32_t(site)};
         keys.insert(keys.end(), c.eval.loop_counters.begin(), c.eval.loop_counters.end());
         c.result.c[k] = Real(jit::math::hash01_reference(keys));
     }

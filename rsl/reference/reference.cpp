@@ -60,11 +60,11 @@ size_t Reference<Real>::index(const Expr& e, size_t length) {
 
 // Where an l-value is; *component is -1, or the component of the triple there.
 template <class Real>
-auto Reference<Real>::place(const Expr& target, int* component) -> Item* {
+auto Reference<Real>::element(const Expr& target, int* component) -> Item* {
     *component = -1;
     if (auto* node = as_if<ComponentExpr>(&target)) {
         int none;
-        Item* whole = place(*node->operand, &none);
+        Item* whole = element(*node->operand, &none);
         *component = int(index(*node->index, 3));
         return whole;
     }
@@ -79,7 +79,7 @@ auto Reference<Real>::place(const Expr& target, int* component) -> Item* {
 template <class Real>
 void Reference<Real>::store(const Expr& target, const Item& value) {
     int component;
-    Item* at = place(target, &component);
+    Item* at = element(target, &component);
     if (component >= 0)
         at->c[size_t(component)] = value.c[0];
     else
@@ -98,7 +98,7 @@ auto Reference<Real>::expr(const Expr& e) -> Item {
         case ExprKind::Variable:
         case ExprKind::Index: {
             int none;
-            return *place(e, &none);
+            return *element(e, &none);
         }
         case ExprKind::Component: {
             auto& node = as<ComponentExpr>(e);

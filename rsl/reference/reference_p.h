@@ -206,7 +206,7 @@ class Reference {
 
     const Symbol& means(const Symbol& symbol) const;
     Storage& storage(const Symbol& named);
-    Item* place(const Expr& target, int* component);
+    Item* element(const Expr& target, int* component);
     size_t index(const Expr& e, size_t length);
     Item binary(Op op, const Item& a, const Item& b);
     Item operate(Op op, const Item& a, const Item& b);

@@ -29,7 +29,7 @@ struct Signature;
 
 // Where a node stands. `where` is in bytes of the user's file (for a token out of a macro: the
 // place of its use); `token` leads to the macros it came through (Ast::tokens).
-struct Place {
+struct SourceSpan {
     Location where;
     uint32_t token = 0;
 };
@@ -47,7 +47,7 @@ struct Symbol {
     bool assigned = false;                // written anywhere (checker)
     bool varying = false;                 // inferred: point rate (checker)
     uint32_t id = 0;  // dense in the Ast, 0 .. symbol_count-1: index of side tables
-    Place place;
+    SourceSpan span;
     Expr* initial = nullptr;  // initialiser, or a shader parameter's default; may be null
     const GlobalInfo* global = nullptr;  // kind Global: its row of globals.def
     Function* function = nullptr;        // the function it belongs to; null in the shader's body
@@ -100,7 +100,7 @@ struct Expr {
     ExprKind kind;
     Rate rate = Rate::Varying;         // checker
     Type type{BaseType::Invalid, -1};  // checker
-    Place place;
+    SourceSpan span;
 };
 
 // 0.5: type Float.
@@ -229,7 +229,7 @@ enum class StmtKind : uint8_t {
 
 struct Stmt {
     StmtKind kind;
-    Place place;
+    SourceSpan span;
 };
 
 // { ... } with a scope of its own.
@@ -346,7 +346,7 @@ struct Function {
     Type result;  // Void: none
     std::span<Symbol*> parameters;
     BlockStmt* body = nullptr;
-    Place place;
+    SourceSpan span;
     uint32_t id = 0;             // dense in the Ast
     Function* parent = nullptr;  // the function it is nested in; null also when in a shader's body
     bool called = false;         // checker: reached from a shader
@@ -361,7 +361,7 @@ struct ShaderDefinition {
     std::string_view name;
     std::span<Symbol*> parameters;
     BlockStmt* body = nullptr;
-    Place place;
+    SourceSpan span;
 };
 
 // Memory of the nodes: blocks that live as long as the Ast.
@@ -418,10 +418,10 @@ struct Ast {
     mutable ReportedOnce reported;
 
     template <class Node>
-    Node* make(Place place) {
+    Node* make(SourceSpan span) {
         Node* node = arena.make<Node>();
         node->kind = Node::kKind;
-        node->place = place;
+        node->span = span;
         return node;
     }
 };

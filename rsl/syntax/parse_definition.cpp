@@ -61,7 +61,7 @@ bool Parser::shader_definition() {
     advance();
     auto* shader = ast_.arena.make<ShaderDefinition>();
     shader->kind = kind;
-    shader->place = Place{token().where, next_};
+    shader->span = SourceSpan{token().where, next_};
     if (token().kind == TokenKind::Identifier && (is(Punct::LeftParen, 1) || is_reserved())) {
         shader->name = token().text;  // any word will do
         advance();
@@ -75,7 +75,7 @@ bool Parser::shader_definition() {
         advance();
     }
     shader->body = shader_body(*shader);
-    shader->place.token = at;
+    shader->span.token = at;
     ast_.shaders.push_back(shader);
     return true;
 }
@@ -93,23 +93,23 @@ BlockStmt* Parser::shader_body(ShaderDefinition& shader) {
 }
 
 BlockStmt* Parser::body_as_function(BlockStmt* body) {
-    reporter_.report(Code::RSL_SHADER_RETURN, ast_.tokens.tokens[shader_return_->place.token]);
+    reporter_.report(Code::RSL_SHADER_RETURN, ast_.tokens.tokens[shader_return_->span.token]);
     auto* f = ast_.arena.make<Function>();
     f->name = "__body";
     f->result = {BaseType::Void, -1};
-    f->place = body->place;
+    f->span = body->span;
     f->id = ast_.function_count++;
     f->body = body;
     for (Symbol* local : shader_locals_) local->function = f;
     for (Function* nested : shader_functions_) nested->parent = f;
-    auto* definition = make<FunctionStmt>(body->place);
+    auto* definition = make<FunctionStmt>(body->span);
     definition->function = f;
-    auto* call = make<CallExpr>(body->place);
+    auto* call = make<CallExpr>(body->span);
     call->name = f->name;
     call->site = ast_.site_count++;
-    auto* statement = make<ExpressionStmt>(body->place);
+    auto* statement = make<ExpressionStmt>(body->span);
     statement->expression = call;
-    auto* whole = make<BlockStmt>(body->place);
+    auto* whole = make<BlockStmt>(body->span);
     whole->body = ast_.arena.copy(std::vector<Stmt*>{definition, statement});
     return whole;
 }
@@ -171,7 +171,7 @@ Function* Parser::function() {
         f->result.base = type_from_name(token().text);
         advance();
     }
-    f->place = Place{token().where, next_};
+    f->span = SourceSpan{token().where, next_};
     f->name = expect_name("a function name");
     f->parent = function_;
     if (!function_) shader_functions_.push_back(f);
@@ -309,11 +309,11 @@ Symbol* Parser::declarator(const Declaration& head, SymbolKind kind) {
     symbol->function = function_;
     if (!function_ && kind == SymbolKind::Local) shader_locals_.push_back(symbol);
     symbol->id = ast_.symbol_count++;
-    symbol->place = Place{token().where, next_};
+    symbol->span = SourceSpan{token().where, next_};
     symbol->name = expect_name("a variable name");
     if (panic_) return nullptr;
     if (head.type.base == BaseType::Void)
-        reporter_.report(Code::RSL_VOID_VARIABLE, ast_.tokens.tokens[symbol->place.token],
+        reporter_.report(Code::RSL_VOID_VARIABLE, ast_.tokens.tokens[symbol->span.token],
                          symbol->name);
     array_suffix(*symbol);
     if (!panic_ && accept(Punct::Assign)) symbol->initial = initialiser(*symbol);
@@ -352,7 +352,7 @@ Expr* Parser::initialiser(Symbol& symbol) {
         if (!panic_) expect(Punct::RightBrace, "'}'");
         node->items = ast_.arena.copy(items);
     }
-    node->place = place_from(at);
+    node->span = span_from(at);
     if (symbol.type.array_length == 0) symbol.type.array_length = int(node->items.size());
     return node;
 }

@@ -64,7 +64,7 @@ int op_level(Op op) {
 
 Expr* Parser::bad_expression() {
     height_ = 1;
-    return make<NumberExpr>(Place{token().where, next_});
+    return make<NumberExpr>(SourceSpan{token().where, next_});
 }
 
 // The expression parsed last is a node over the parts of the given height and of height_.
@@ -83,12 +83,12 @@ Expr* Parser::expression() {
         uint32_t at = next_;
         int left_height = height_;
         advance();
-        auto* node = make<AssignExpr>(left->place);
+        auto* node = make<AssignExpr>(left->span);
         node->op = row.op;
         node->target = left;
         node->value = expression();
         grow(left_height);
-        node->place = place_from(left->place, at);
+        node->span = span_from(left->span, at);
         return node;
     }
     return left;
@@ -101,7 +101,7 @@ Expr* Parser::ternary() {
     if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
     uint32_t at = next_;
     advance();
-    auto* node = make<SelectExpr>(condition->place);
+    auto* node = make<SelectExpr>(condition->span);
     node->condition = condition;
     int height = height_;
     node->yes = expression();
@@ -109,7 +109,7 @@ Expr* Parser::ternary() {
     if (!panic_) expect(Punct::Colon, "':'");
     node->no = panic_ ? bad_expression() : ternary();
     grow(height);
-    node->place = place_from(condition->place, at);
+    node->span = span_from(condition->span, at);
     return node;
 }
 
@@ -128,12 +128,12 @@ Expr* Parser::binary(int lowest) {
                 fmt::format("write '{}'", op_text(row->op));
         int left_height = height_;
         if (!doubled) advance();
-        auto* node = make<BinaryExpr>(left->place);
+        auto* node = make<BinaryExpr>(left->span);
         node->op = row->op;
         node->left = left;
         node->right = doubled ? negated(row->level + 1) : binary(row->level + 1);
         grow(left_height);
-        node->place = place_from(left->place, at);
+        node->span = span_from(left->span, at);
         left = node;
     }
     return left;
@@ -154,7 +154,7 @@ Expr* Parser::negated(int lowest) {
     node->op = Op::Negate;
     node->operand = binary(lowest);
     grow(0);
-    node->place = place_from(at);
+    node->span = span_from(at);
     return node;
 }
 
@@ -172,7 +172,7 @@ Expr* Parser::unary() {
         node->op = op;
         node->operand = unary();
         grow(0);
-        node->place = place_from(at);
+        node->span = span_from(at);
         return node;
     }
     if (is_type() && !word_as_name()) return cast();
@@ -190,7 +190,7 @@ Expr* Parser::cast() {
     if (token().kind == TokenKind::String && node->to != BaseType::String) node->space = string();
     node->operand = unary();
     grow(0);
-    node->place = place_from(at);
+    node->span = span_from(at);
     return node;
 }
 
@@ -202,7 +202,7 @@ Expr* Parser::c_cast() {
     next_ += 3;
     node->operand = unary();
     grow(0);
-    node->place = place_from(at);
+    node->span = span_from(at);
     return node;
 }
 
@@ -212,12 +212,12 @@ Expr* Parser::postfix() {
         uint32_t at = next_;
         int array_height = height_;
         advance();
-        auto* node = make<IndexExpr>(operand->place);
+        auto* node = make<IndexExpr>(operand->span);
         node->array = operand;
         node->index = expression();
         grow(array_height);
         expect(Punct::RightBracket, "']'");
-        node->place = place_from(operand->place, at);
+        node->span = span_from(operand->span, at);
         operand = node;
     }
     return operand;
@@ -234,7 +234,7 @@ Expr* Parser::primary() {
         return bad_expression();
     }
     if (is(Punct::LeftParen, 1)) return call();
-    auto* node = make<VariableExpr>(Place{at.where, next_});
+    auto* node = make<VariableExpr>(SourceSpan{at.where, next_});
     node->name = at.text;
     advance();
     return node;
@@ -242,7 +242,7 @@ Expr* Parser::primary() {
 
 Expr* Parser::number() {
     const Token& at = token();
-    auto* node = make<NumberExpr>(Place{at.where, next_});
+    auto* node = make<NumberExpr>(SourceSpan{at.where, next_});
     std::string_view text = at.text;
     constexpr double kLargest = std::numeric_limits<float>::max();
     bool too_large = false;
@@ -260,7 +260,7 @@ Expr* Parser::string() {
     std::string value;
     for (; token().kind == TokenKind::String; advance()) value += string_value(token().text);
     node->value = ast_.arena.copy(value);
-    node->place = place_from(at);
+    node->span = span_from(at);
     return node;
 }
 
@@ -274,24 +274,24 @@ Expr* Parser::parenthesised() {
         // A sum's place has its parentheses; a name or call stands for itself.
         ExprKind kind = items[0]->kind;
         if (kind != ExprKind::Variable && kind != ExprKind::Call)
-            items[0]->place.where = place_from(at).where;
+            items[0]->span.where = span_from(at).where;
         return items[0];
     }
-    Place place = place_from(at);
+    SourceSpan span = span_from(at);
     grow(0);
     if (items.size() == 3) {
-        auto* node = make<TripleExpr>(place);
+        auto* node = make<TripleExpr>(span);
         std::copy(items.begin(), items.end(), node->items);
         return node;
     }
     if (items.size() == 16) {
-        auto* node = make<SixteenExpr>(place);
+        auto* node = make<SixteenExpr>(span);
         node->items = items;
         return node;
     }
-    reporter_.report(Code::RSL_ARGUMENT_FORM, place.where, token().macro, {}, "(...)",
+    reporter_.report(Code::RSL_ARGUMENT_FORM, span.where, token().macro, {}, "(...)",
                      "3 numbers for a triple or 16 for a matrix");
-    return make<NumberExpr>(place);
+    return make<NumberExpr>(span);
 }
 
 Expr* Parser::call() {
@@ -302,7 +302,7 @@ Expr* Parser::call() {
     advance();
     node->args = arguments();
     grow(0);
-    node->place = place_from(at);
+    node->span = span_from(at);
     return node;
 }
 

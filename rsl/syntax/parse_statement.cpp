@@ -8,7 +8,7 @@ namespace kinora::rsl {
 
 BlockStmt* Parser::block() {
     uint32_t at = next_;
-    auto* node = make<BlockStmt>(Place{token().where, at});
+    auto* node = make<BlockStmt>(SourceSpan{token().where, at});
     // A body whose '{' is left out goes on with a declaration or statement.
     bool whole = token().kind == TokenKind::Identifier && next_ > 0 && !begins_definition();
     if (!is(Punct::LeftBrace) && whole) {
@@ -33,7 +33,7 @@ BlockStmt* Parser::block() {
         mark_broken();
     }
     node->body = ast_.arena.copy(body);
-    node->place = place_from(at);
+    node->span = span_from(at);
     return node;
 }
 
@@ -84,7 +84,7 @@ Stmt* Parser::statement_unguarded() {
     if (misspelt_statement()) return statement_unguarded();
     if (is_detail() && at_function(1)) advance();  // the detail of a result is inferred
     if (at_function()) {
-        auto* node = make<FunctionStmt>(Place{token().where, next_});
+        auto* node = make<FunctionStmt>(SourceSpan{token().where, next_});
         node->function = function();
         return node->function ? node : nullptr;
     }
@@ -113,7 +113,7 @@ void Parser::leave_header(uint32_t open) {
 }
 
 Stmt* Parser::empty_statement() {
-    return make<BlockStmt>(Place{token().where, next_});
+    return make<BlockStmt>(SourceSpan{token().where, next_});
 }
 
 Stmt* Parser::declaration_statement() {
@@ -122,7 +122,7 @@ Stmt* Parser::declaration_statement() {
     if (!declaration_head(head)) return nullptr;
     auto* node = make<DeclareStmt>({});
     node->symbols = declared_symbols(head, SymbolKind::Local);
-    node->place = place_from(at);
+    node->span = span_from(at);
     expect_semicolon();
     return node;
 }
@@ -134,7 +134,7 @@ Stmt* Parser::extern_statement() {
     if (!declaration_head(head)) return nullptr;
     auto* node = make<ExternStmt>({});
     node->symbols = declared_symbols(head, SymbolKind::Local);
-    node->place = place_from(at);
+    node->span = span_from(at);
     expect_semicolon();
     return node;
 }
@@ -158,7 +158,7 @@ Stmt* Parser::expression_statement() {
         uint32_t begin = next_;
         node->expression = effect();
         if (panic_) break;
-        node->place = place_from(begin);
+        node->span = span_from(begin);
         bool lost = next_ == begin + 1 && ast_.tokens.tokens[begin].lost;
         if (lost)
             recovery_.lose_any_name();
@@ -169,7 +169,7 @@ Stmt* Parser::expression_statement() {
     meant_.clear();
     if (parts.empty()) return nullptr;
     if (panic_ || parts.size() == 1) return panic_ ? nullptr : parts[0];
-    auto* all = make<BlockStmt>(place_from(at));  // "a = 1, b = 2;" as in C
+    auto* all = make<BlockStmt>(span_from(at));  // "a = 1, b = 2;" as in C
     all->body = ast_.arena.copy(parts);
     return all;
 }
@@ -197,9 +197,9 @@ Expr* Parser::step(Expr* target, uint32_t at) {
     if (!panic_)
         reporter_.report(Code::RSL_INCREMENT, sign, sign.text, meant).help =
             fmt::format("write 'i {}'", meant);
-    auto* one = make<NumberExpr>(Place{sign.where, at});
+    auto* one = make<NumberExpr>(SourceSpan{sign.where, at});
     one->value = 1;
-    auto* node = make<AssignExpr>(place_from(target->place, at));
+    auto* node = make<AssignExpr>(span_from(target->span, at));
     node->op = up ? Op::Add : Op::Subtract;
     node->target = target;
     node->value = one;
@@ -215,13 +215,13 @@ Expr* Parser::condition() {
     if (!panic_) expect(Punct::RightParen, "')'");
     const auto* assign = as_if<AssignExpr>(value);
     if (!panic_ && assign && assign->op == Op::None && !wrapped)
-        reporter_.report(Code::RSL_ASSIGN_IN_CONDITION, ast_.tokens.tokens[assign->place.token]);
+        reporter_.report(Code::RSL_ASSIGN_IN_CONDITION, ast_.tokens.tokens[assign->span.token]);
     leave_header(open);
     return value;
 }
 
 Stmt* Parser::if_statement() {
-    auto* node = make<IfStmt>(Place{token().where, next_});
+    auto* node = make<IfStmt>(SourceSpan{token().where, next_});
     advance();
     node->condition = condition();
     if (panic_) return nullptr;
@@ -243,7 +243,7 @@ Stmt* Parser::if_statement() {
 }
 
 Stmt* Parser::while_statement() {
-    auto* node = make<WhileStmt>(Place{token().where, next_});
+    auto* node = make<WhileStmt>(SourceSpan{token().where, next_});
     advance();
     node->condition = condition();
     if (panic_) return nullptr;
@@ -252,7 +252,7 @@ Stmt* Parser::while_statement() {
 }
 
 Stmt* Parser::for_statement() {
-    auto* node = make<ForStmt>(Place{token().where, next_});
+    auto* node = make<ForStmt>(SourceSpan{token().where, next_});
     advance();
     uint32_t open = next_;
     expect(Punct::LeftParen, "'('");
@@ -261,7 +261,7 @@ Stmt* Parser::for_statement() {
         if (Stmt* declared = declaration_statement()) init.push_back(declared);
     } else if (!panic_ && !accept(Punct::Semicolon)) {
         for (Expr* item : expression_list(Punct::Semicolon, "';'")) {
-            auto* stmt = make<ExpressionStmt>(item->place);
+            auto* stmt = make<ExpressionStmt>(item->span);
             stmt->expression = item;
             init.push_back(stmt);
         }
@@ -296,14 +296,14 @@ Stmt* Parser::jump_statement(Word word) {
             return nullptr;
         }
     }
-    Place place = place_from(at);
+    SourceSpan span = span_from(at);
     expect_semicolon();
     if (word == Word::Break) {
-        auto* node = make<BreakStmt>(place);
+        auto* node = make<BreakStmt>(span);
         node->levels = levels;
         return node;
     }
-    auto* node = make<ContinueStmt>(place);
+    auto* node = make<ContinueStmt>(span);
     node->levels = levels;
     return node;
 }
@@ -316,7 +316,7 @@ Stmt* Parser::return_statement() {
     if (panic_) return nullptr;
     if (function_ && node->value) function_->returns = true;
     if (!function_ && !node->value && !shader_return_) shader_return_ = node;
-    node->place = place_from(at);
+    node->span = span_from(at);
     expect_semicolon();
     return node;
 }
@@ -326,7 +326,7 @@ bool Parser::head(Stmt& node, std::span<Expr*>& args) {
     uint32_t at = next_;
     advance();
     args = arguments();
-    node.place = place_from(at);
+    node.span = span_from(at);
     return !panic_;
 }
 
@@ -342,7 +342,7 @@ Stmt* Parser::illuminate_statement() {
     std::span<Expr*> args;
     if (!head(*node, args)) return nullptr;
     if (args.size() != 1 && args.size() != 3) {
-        reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "illuminate",
+        reporter_.report(Code::RSL_ARGUMENT_FORM, node->span.where, 0, {}, "illuminate",
                          "(position) or (position, axis, angle)");
         return nullptr;
     }
@@ -360,7 +360,7 @@ Stmt* Parser::solar_statement() {
     std::span<Expr*> args;
     if (!head(*node, args)) return nullptr;
     if (args.size() > 2) {
-        reporter_.report(Code::RSL_ARGUMENT_FORM, node->place.where, 0, {}, "solar",
+        reporter_.report(Code::RSL_ARGUMENT_FORM, node->span.where, 0, {}, "solar",
                          "() or (axis, angle)");
         return nullptr;
     }

@@ -186,18 +186,18 @@ bool Parser::word_as_name(int ahead) const {
     }
 }
 
-Place Parser::place_from(uint32_t first) const {
+SourceSpan Parser::span_from(uint32_t first) const {
     const auto& tokens = ast_.tokens.tokens;
-    return place_from(Place{tokens[first].where, first}, first);
+    return span_from(SourceSpan{tokens[first].where, first}, first);
 }
 
 // From `first` to the last token read; `token` is what stands for the node.
-Place Parser::place_from(const Place& first, uint32_t token) const {
-    Place place{first.where, token};
-    if (next_ == 0) return place;
+SourceSpan Parser::span_from(const SourceSpan& first, uint32_t token) const {
+    SourceSpan span{first.where, token};
+    if (next_ == 0) return span;
     const Location& last = ast_.tokens.tokens[next_ - 1].where;
-    if (last.file == place.where.file) place.where.end = std::max(place.where.end, last.end);
-    return place;
+    if (last.file == span.where.file) span.where.end = std::max(span.where.end, last.end);
+    return span;
 }
 
 // ---- recovery -----------------------------------------------------------------------------------

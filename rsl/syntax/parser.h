@@ -55,8 +55,8 @@ class Parser {
         mark_broken();
         return &reporter_.report(info, at, args...);
     }
-    Place place_from(uint32_t first) const;
-    Place place_from(const Place& first, uint32_t token) const;
+    SourceSpan span_from(uint32_t first) const;
+    SourceSpan span_from(const SourceSpan& first, uint32_t token) const;
     void mark_broken();
     void skip_statement();
     void leave_statement(uint32_t begin);
@@ -154,8 +154,8 @@ class Parser {
     Stmt* lonely_else();
 
     template <class Node>
-    Node* make(Place place) {
-        return ast_.make<Node>(place);
+    Node* make(SourceSpan span) {
+        return ast_.make<Node>(span);
     }
 
     Ast& ast_;

@@ -181,13 +181,13 @@ bool Preprocessor::load_include(std::string file, bool quoted, const Token& at) 
         return false;
     }
     std::replace(file.begin(), file.end(), '\\', '/');  // as written on Windows
-    std::vector<std::filesystem::path> places;
-    if (quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
-    for (const std::string& directory : options_.include_directories) places.push_back(directory);
-    if (!quoted) places.push_back(std::filesystem::path(files_.back().path).parent_path());
+    std::vector<std::filesystem::path> folders;
+    if (quoted) folders.push_back(std::filesystem::path(files_.back().path).parent_path());
+    for (const std::string& directory : options_.include_directories) folders.push_back(directory);
+    if (!quoted) folders.push_back(std::filesystem::path(files_.back().path).parent_path());
     bool outside = false;
-    for (const std::filesystem::path& place : places) {
-        std::filesystem::path path = in_any_case(place / file);
+    for (const std::filesystem::path& folder : folders) {
+        std::filesystem::path path = in_any_case(folder / file);
         std::string text;
         if (!options_.files.contains(path.string())) {
             outside = true;

@@ -71,7 +71,7 @@ void report_singular(const Scene& scene, const Node& node, Diagnostics& diagnost
 void report_non_finite(uint64_t count, std::string_view name, const ShaderInstance* look,
                        Diagnostics& diagnostics) {
     Location where;
-    if (look && look->shader().definition) where = look->shader().definition->place.where;
+    if (look && look->shader().definition) where = look->shader().definition->span.where;
     diagnostics.report(Code::SHADER_NON_FINITE, where, count, name);
 }
 

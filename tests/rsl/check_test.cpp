@@ -27,7 +27,7 @@ std::vector<Expected> expected_findings(const fs::path& path) {
         if (!line.starts_with("//! ")) continue;
         std::istringstream words(line.substr(4));
         Expected e;
-        words >> e.place >> e.severity >> e.code >> std::ws;
+        words >> e.span >> e.severity >> e.code >> std::ws;
         std::getline(words, e.text);
         all.push_back(e);
     }
@@ -50,7 +50,7 @@ int check_folder(const char* folder) {
         for (size_t i = 0; i < findings.size(); ++i) {
             LineColumn at = source.diagnostics.files.line_column(findings[i].where.file,
                                                                  findings[i].where.begin);
-            EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].place);
+            EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].span);
             EXPECT_EQ(severity_name(findings[i].severity), expected[i].severity);
             EXPECT_EQ(findings[i].info->code, expected[i].code);
             std::string said = findings[i].message + "\n" + findings[i].help;
