@@ -72,12 +72,11 @@ uint32_t AnimationReader::sampler_for(Raw& raw, Link link, Layout layout) {
         sampler = std::move(raw.sampler);
     } else {  // another layout of the same keys: read them again, with the findings unheard
         Diagnostics unheard;
-        Extraction again{unheard, x_.options};
-        again.docs = x_.docs;
-        again.text_bytes = x_.text_bytes;
-        again.made_bytes = x_.made_bytes;
+        Extraction again(unheard, x_.options);
+        again.documents.see(x_.documents);
+        again.budget.resume(x_.budget);
         if (!read_sampler(again, link, sampler)) return kNone;
-        x_.made_bytes = again.made_bytes;
+        x_.budget.resume(again.budget);
     }
     uint32_t dims = sampler.tangent_dims;
     lay_out(sampler.values, sampler.stride, 1, layout);
@@ -166,7 +165,7 @@ void AnimationReader::read_clips(uint32_t doc) {
                 Link animation = resolve(x_, {doc, &child}, "url", {"animation"});
                 if (!animation) continue;
                 auto [first, end] = channels_of_[animation.element];
-                if (!reserve_memory(x_, (end - first) * sizeof(uint32_t), clip.where)) continue;
+                if (!x_.budget.reserve((end - first) * sizeof(uint32_t), clip.where)) continue;
                 for (uint32_t c = first; c < end; ++c) {
                     clip.channels.push_back(c);
                     x_.scene.channels[c].in_clip = true;
@@ -209,7 +208,7 @@ void AnimationReader::check_duplicates() {
 }
 
 void AnimationReader::resolve_bindings() {
-    for (Extraction::PendingBinding& pending : x_.pending_bindings) {
+    for (PendingBinding& pending : x_.pending_bindings) {
         ParamBinding binding = pending.binding;
         binding.ref =
             targets_.resolve(pending.doc, binding.target, binding.where, 0, Code::MAT_BIND_TARGET);
@@ -224,8 +223,8 @@ void AnimationReader::resolve_bindings() {
 void read_animations(Extraction& x) {
     AnimationReader reader(x);
     // A clip may link to an animation of another document, which adds that document.
-    for (uint32_t doc = 0; doc < x.docs.size(); ++doc) reader.read_document(doc);
-    for (uint32_t doc = 0; doc < x.docs.size(); ++doc) reader.read_clips(doc);
+    for (uint32_t doc = 0; doc < x.documents.size(); ++doc) reader.read_document(doc);
+    for (uint32_t doc = 0; doc < x.documents.size(); ++doc) reader.read_clips(doc);
     reader.check_duplicates();
     reader.resolve_bindings();
 }

@@ -99,7 +99,7 @@ uint32_t camera_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!reserve_memory(x, sizeof(Camera), x.where(link))) return kNone;
+    if (!x.budget.reserve(sizeof(Camera), x.where(link))) return kNone;
     uint32_t number = uint32_t(x.scene.cameras.size());
     at->second = number;
     Camera camera;

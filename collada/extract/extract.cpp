@@ -67,7 +67,7 @@ void reserve_lists(Extraction& x, const Document& document) {
     }
     for (const ListRow& row : kLists) {
         auto found = counts.find(row.element);
-        if (found != counts.end()) row.reserve(x.scene, found->second, most_made_bytes(x));
+        if (found != counts.end()) row.reserve(x.scene, found->second, x.budget.most());
     }
 }
 
@@ -97,7 +97,7 @@ void read_visual_scene(Extraction& x, Link scene) {
             if (root != kNone) x.scene.roots.push_back(root);
         }
     // The first root is read first, so that what it shows gets the first numbers.
-    std::reverse(x.pending_nodes.begin(), x.pending_nodes.end());
+    x.nodes.reverse();
     read_pending_nodes(x);
     read_evaluated_camera(x, scene);
     x.scene.rsl_materials = rsl_extra_materials(x, scene);
@@ -107,7 +107,7 @@ void read_visual_scene(Extraction& x, Link scene) {
 }  // namespace
 
 bool extract_into(Extraction& x, const Document& document) {
-    add_document(x, document, real_path(document.path()));
+    x.documents.add(document, real_path(document.path()));
     Asset& asset = x.scene.documents[0].asset;
     asset.meter = x.options.meter.value_or(asset.meter);
     asset.up_axis = x.options.up_axis.value_or(asset.up_axis);
@@ -132,7 +132,7 @@ bool extract_into(Extraction& x, const Document& document) {
 
 std::optional<SceneData> extract(const Document& document, Diagnostics& diag,
                                  const ExtractOptions& options) {
-    Extraction x{diag, options};
+    Extraction x(diag, options);
     if (!extract_into(x, document)) return std::nullopt;
     return std::move(x.scene);
 }

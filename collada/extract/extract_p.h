@@ -2,9 +2,9 @@
 // element and fills its list of SceneData; `made` remembers which element became which entry.
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -12,9 +12,11 @@
 
 #include "collada/document/findings.h"
 #include "collada/extract/extract.h"
+#include "collada/extract/image_folders_p.h"
+#include "collada/extract/linked_documents_p.h"
+#include "collada/extract/memory_budget_p.h"
 #include "collada/scene/scene.h"
 #include "collada/schema/links.h"
-#include "runtime/base/allowed_paths.h"
 
 namespace kinora::collada {
 
@@ -25,84 +27,101 @@ struct Link {
     explicit operator bool() const { return element != nullptr; }
 };
 
-// ShaderInstance-ups that many elements repeat, made once.
+// Look-ups that many elements repeat, made once.
 struct GeometrySymbols {
     std::vector<uint32_t> groups;                                // the first of each symbol
     std::unordered_map<std::string_view, uint32_t> first_group;  // by symbol
     std::map<std::pair<uint32_t, std::string>, std::vector<uint32_t>> sets;  // group, semantic
 };
-using NewParams = std::unordered_map<std::string_view, const Element*>;
 struct NameIndex {
     size_t known = 0;  // entries of the list that are in it
     std::unordered_map<std::string, uint32_t> at;
 };
-// What a folder has for a name that is not there, by lower-case name and by stem.
-struct FolderImages {
-    struct Best {
-        size_t rank;
-        std::string name;
-    };
-    std::unordered_map<std::string, std::string> by_name;
-    std::unordered_map<std::string, Best> by_stem;
+
+// The <newparam>s of elements, by sid.
+class NewParams {
+  public:
+    // Seen from `from`: in the elements around it, inside out; or null.
+    const Element* find(const Element& from, std::string_view sid);
+
+  private:
+    using Table = std::unordered_map<std::string_view, const Element*>;
+    std::unordered_map<const Element*, Table> of_;      // by the element around them
+    std::unordered_map<const Element*, Table> inside_;  // an effect's profiles
 };
 
+// Nodes whose index is given out and whose content is still to be read.
+class NodeQueue {
+  public:
+    void add(uint32_t index, Link node) {
+        filled_.push_back(false);
+        waiting_.push_back({index, node});
+    }
+    void reverse() { std::reverse(waiting_.begin(), waiting_.end()); }
+    bool empty() const { return waiting_.empty(); }
+    std::pair<uint32_t, Link> take() {
+        auto last = waiting_.back();
+        waiting_.pop_back();
+        return last;
+    }
+    bool is_filled(uint32_t index) const { return filled_[index]; }
+    void set_filled(uint32_t index) { filled_[index] = true; }
+
+  private:
+    std::vector<std::pair<uint32_t, Link>> waiting_;
+    std::vector<bool> filled_;
+};
+
+// The parts of instances that can only be resolved when all nodes are known.
+struct PendingBinding {
+    uint32_t node, mesh, material;  // scene.nodes[node].meshes[mesh].materials[material]
+    ParamBinding binding;
+    uint32_t doc;
+};
+struct PendingSkin {
+    uint32_t node, mesh;
+    Link instance;
+};
+
+// One run of extract(): the scene that grows, and what is known of the documents behind it.
 struct Extraction {
+    Extraction(Diagnostics& diagnostics, const ExtractOptions& extract_options)
+        : diag(diagnostics), options(extract_options) {}
+    Extraction(const Extraction&) = delete;
+
     Diagnostics& diag;
     const ExtractOptions& options;
-    SceneData scene{};
-    std::optional<AllowedPaths> trees{};  // where files may lie, made by inside_tree
-    std::optional<Version> schema{};      // whose rules documents are held to; none: their own
-
-    std::vector<const Document*> docs{};  // same order as scene.documents
-    std::vector<std::unique_ptr<Document>> owned{};
-    std::unordered_map<std::string, uint32_t> doc_by_path{};  // kNone: it cannot be read
-    std::unordered_map<uint64_t, uint32_t> conversion_of{};   // doc pair -> index, kNone: identity
-    // What links may multiply (many elements may name one array) is counted: see reserve_memory().
-    uint64_t text_bytes = 0;    // of all documents
-    uint64_t made_bytes = 0;    // of structs and lists
-    uint64_t parsed_bytes = 0;  // of text, each time it is parsed
-    bool over_limit = false;
-    std::unordered_set<uint32_t> disordered{};  // documents whose NODE_ORDER was reported
+    SceneData scene;
+    MemoryBudget budget{diag};
+    LinkedDocuments documents{diag, options, budget, scene};
+    ImageFolders image_folders;
 
     // Definitions by element; kNone: tried and not usable (reported).
-    std::unordered_map<const Element*, uint32_t> made{};
+    std::unordered_map<const Element*, uint32_t> made;
     // Elements (of a value, or around one) that a channel may name.
-    std::unordered_map<const Element*, TargetRef> target_of{};
-    std::unordered_map<uint32_t, GeometrySymbols> symbols_of_geometry{};
-    std::unordered_map<const Element*, NewParams> newparams_of{};      // by the element around them
-    std::unordered_map<const Element*, NewParams> newparams_inside{};  // an effect's profiles
-    std::unordered_map<uint64_t, NameIndex> params_of_effect{};        // by the effect's place
-    std::unordered_map<uint32_t, NameIndex> setparams_of_material{};
-    std::unordered_map<std::string, uint32_t> doc_by_link{};  // by the path as linked
-    std::unordered_map<std::string, FolderImages> folders{};
-    size_t listed_files = 0;                           // of all folders
-    std::unordered_set<const Element*> read_arrays{};  // whose numbers were parsed and checked
-    // Nodes whose index is given out and whose content is still to be read.
-    std::vector<std::pair<uint32_t, Link>> pending_nodes{};
-    std::vector<bool> node_filled{};
+    std::unordered_map<const Element*, TargetRef> target_of;
+    NewParams newparams;
+    std::unordered_map<uint32_t, GeometrySymbols> symbols_of_geometry;
+    std::unordered_map<uint64_t, NameIndex> params_of_effect;  // by the effect's position
+    std::unordered_map<uint32_t, NameIndex> setparams_of_material;
+
+    NodeQueue nodes;
     uint32_t reached_nodes = kNone;  // those behind are read by read_everything
-
-    // The parts of instances that can only be resolved when all nodes are known.
-    struct PendingBinding {
-        uint32_t node, mesh, material;  // scene.nodes[node].meshes[mesh].materials[material]
-        ParamBinding binding;
-        uint32_t doc;
-    };
-    struct PendingSkin {
-        uint32_t node, mesh;
-        Link instance;
-    };
-    std::vector<PendingBinding> pending_bindings{};
-    std::vector<PendingSkin> pending_skins{};
+    std::vector<PendingBinding> pending_bindings;
+    std::vector<PendingSkin> pending_skins;
     // Where targets of a morph were left out: weight as written -> weight kept, or kNone.
-    std::unordered_map<uint32_t, std::vector<uint32_t>> morph_remap{};
+    std::unordered_map<uint32_t, std::vector<uint32_t>> morph_remap;
+    std::unordered_set<const Element*> read_arrays;  // whose numbers were parsed and checked
+    std::unordered_set<uint32_t> disordered;         // documents whose NODE_ORDER was reported
 
-    const Document& document(uint32_t doc) const { return *docs[doc]; }
-    Location where(Link link) const { return docs[link.doc]->location(*link.element); }
+    const Document& document(uint32_t doc) const { return documents[doc]; }
+    Location where(Link link) const { return documents[link.doc].location(*link.element); }
     Location where(Link link, std::string_view attribute) const {
-        return docs[link.doc]->location(*link.element, attribute);
+        return documents[link.doc].location(*link.element, attribute);
     }
-    Location text_where(Link link) const { return docs[link.doc]->text_location(*link.element); }
+    Location text_where(Link link) const {
+        return documents[link.doc].text_location(*link.element);
+    }
 };
 
 // extract.cpp: fills x.scene; false when there is nothing to show.
@@ -122,29 +141,14 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds);
 inline constexpr size_t kMostSameId = 256;
 // The element with this id in one document whose name is in `kinds`, or null; reports nothing.
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds);
-// Adds a document already read; its <asset> is read.
-uint32_t add_document(Extraction& x, const Document& document, const std::string& real);
-// About what `made` or `target_of` hold for an element.
-inline constexpr uint64_t kBookBytes = 64;
-// To be asked before memory is taken for what a link leads to. False, and reported once, when it
-// would pass 8 times the bytes of the documents' texts and some megabytes; leave the thing out.
-bool reserve_memory(Extraction& x, uint64_t bytes, Location where);
-uint64_t most_made_bytes(const Extraction& x);  // the limit
-// The same for the time of parsing a text that other elements may name, too.
-bool reserve_parsing_memory(Extraction& x, Link array);
-// Index into scene.conversions for things of `to` used in `from`; kNone if the same.
-uint32_t conversion(Extraction& x, uint32_t from, uint32_t to);
-
 // asset.cpp
 Asset read_asset(const Document& document, Diagnostics& diag);
 void read_time_range(Extraction& x, Link visual_scene);
 
-// paths.cpp -------------------------------------------------------------------------------
+// images.cpp -------------------------------------------------------------------------------
 
 // Reports what is unportable about the spelling of a file's URI.
 void check_file_uri(Extraction& x, std::string_view uri, Location where);
-// True when `path` (existing or not) lies in the folder tree of the root document, or all may.
-bool inside_tree(Extraction& x, const std::string& path);
 
 // transparency.cpp: marks materials that the formula makes invisible; reports them.
 void check_transparency(Extraction& x);
@@ -252,8 +256,6 @@ void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& ef
 void read_rsl(Extraction& x, Link profile, uint32_t effect_number, Effect& effect);
 void read_params(Extraction& x, Link owner, ParamScope scope, uint32_t effect_number,
                  Effect& effect);
-// The <newparam sid> seen from `from`: in the elements around it, inside out; or null.
-const Element* find_newparam(Extraction& x, const Element& from, std::string_view sid);
 // Index into effect.samplers of the texture `name`, or kNone (reported).
 uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect);
 // A <setparam> of a surface or sampler: the material's own image. False if it sets something else.

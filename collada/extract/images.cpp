@@ -1,4 +1,5 @@
-// collada/extract/images.cpp: the file an <image> means, wherever exporters said it was.
+// collada/extract/images.cpp: the file an <image> means, wherever exporters said it was, and what
+// is wrong with its name.
 #include <algorithm>
 #include <filesystem>
 
@@ -37,13 +38,13 @@ bool is_file(const std::string& path) {
 
 constexpr size_t kMostFiles = 10'000, kMostListed = 100'000;  // of a folder, of all folders
 
-// The images of a folder, by the names under which they may be asked for.
-FolderImages list_folder(Extraction& x, const std::string& folder) {
-    FolderImages images;
+}  // namespace
+
+void ImageFolders::list(const std::string& folder, Images& images) {
     std::error_code error;
     fs::directory_iterator at(folder.empty() ? "." : folder, error), end;
     for (size_t seen = 0; !error && at != end && seen < kMostFiles; at.increment(error), ++seen) {
-        if (++x.listed_files > kMostListed) break;
+        if (++listed_ > kMostListed) break;
         std::error_code no_file;
         if (!at->is_regular_file(no_file)) continue;
         std::string found = at->path().filename().string();
@@ -55,19 +56,17 @@ FolderImages list_folder(Extraction& x, const std::string& folder) {
         auto known = std::find(std::begin(kExtensions), std::end(kExtensions), extension);
         if (known == std::end(kExtensions)) continue;
         size_t rank = size_t(known - std::begin(kExtensions));
-        auto [best, fresh] = images.by_stem.try_emplace(name_stem, FolderImages::Best{rank, found});
+        auto [best, fresh] = images.by_stem.try_emplace(name_stem, Best{rank, found});
         if (!fresh && rank < best->second.rank) best->second = {rank, found};
     }
-    return images;
 }
 
-// The best match in a folder: the name in another case, then another image of that stem. A folder
-// is listed once.
-std::string search_folder(Extraction& x, const std::string& folder, std::string_view wanted) {
-    auto at = x.folders.find(folder);
-    if (at == x.folders.end()) {
-        if (x.listed_files > kMostListed || x.folders.size() > kMostFiles) return {};
-        at = x.folders.emplace(folder, list_folder(x, folder)).first;
+std::string ImageFolders::find(const std::string& folder, std::string_view wanted) {
+    auto at = folders_.find(folder);
+    if (at == folders_.end()) {
+        if (listed_ > kMostListed || folders_.size() > kMostFiles) return {};
+        at = folders_.try_emplace(folder).first;
+        list(folder, at->second);
     }
     std::string name = lower(wanted);
     auto same = at->second.by_name.find(name);
@@ -76,16 +75,19 @@ std::string search_folder(Extraction& x, const std::string& folder, std::string_
     return like == at->second.by_stem.end() ? "" : folder + like->second.name;
 }
 
+namespace {
+
 std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std::string_view uri,
                        Location where) {
-    bool inside = inside_tree(x, path);
+    bool inside = x.documents.allowed_paths().contains(path);
     if (inside && is_file(path)) return path;
     const std::string& beside = x.document(doc).directory();
     std::string_view name = file_name(path);
     std::string found;
-    if (inside) found = search_folder(x, path.substr(0, path.size() - name.size()), name);
-    if (found.empty()) found = search_folder(x, beside, name);
-    if (!found.empty() && inside_tree(x, found)) {  // it may be a link that leads out
+    if (inside) found = x.image_folders.find(path.substr(0, path.size() - name.size()), name);
+    if (found.empty()) found = x.image_folders.find(beside, name);
+    if (!found.empty() &&
+        x.documents.allowed_paths().contains(found)) {  // it may be a link that leads out
         bool case_only = lower(found) == lower(path);
         x.diag.report(case_only ? Code::FILE_CASE : Code::FILE_FALLBACK, where, uri, found);
         return found;
@@ -97,6 +99,12 @@ std::string find_image(Extraction& x, uint32_t doc, const std::string& path, std
     return {};
 }
 
+// "C:/", also behind "../../": how exporters made absolute paths relative.
+bool names_drive(std::string_view path) {
+    while (path.starts_with("../")) path.remove_prefix(3);
+    return starts_with_drive(path);
+}
+
 // 1.5 may make an image instead of loading it.
 bool is_created(const Element& image) {
     for (const Element& child : image.children())
@@ -106,11 +114,26 @@ bool is_created(const Element& image) {
 
 }  // namespace
 
+void check_file_uri(Extraction& x, std::string_view uri, Location where) {
+    if (uri.find('\\') != uri.npos) x.diag.report(Code::FILE_BACKSLASH, where, uri);
+    if (uri.find(' ') != uri.npos) x.diag.report(Code::FILE_SPACE, where, uri);
+    std::string path(uri);
+    for (char& c : path)
+        if (c == '\\') c = '/';
+    bool scheme = takes_file_scheme(path);
+    bool host = path.starts_with("//") && !path.starts_with("///") &&
+                !starts_with_drive(std::string_view(path).substr(2));
+    if (host && scheme)
+        x.diag.report(Code::FILE_HOST, where, uri);
+    else if (path.starts_with('/') || names_drive(path))
+        x.diag.report(Code::FILE_ABSOLUTE, where, uri);
+}
+
 uint32_t image_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!reserve_memory(x, sizeof(Image), x.where(link))) return kNone;
+    if (!x.budget.reserve(sizeof(Image), x.where(link))) return kNone;
     Image image;
     image.id = e.value("id");
     image.name = e.value("name");

@@ -118,7 +118,7 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     if (!target) return;
     MeshInstance mesh;
     mesh.where = x.where(link, "url");
-    mesh.conversion = conversion(x, link.doc, target.doc);
+    mesh.conversion = x.documents.conversion(link.doc, target.doc);
     if (controlled) {
         if (!read_controller(x, target, mesh)) return;
     } else {
@@ -146,7 +146,8 @@ void read_light_instance(Extraction& x, Link link, Node& node) {
     if (!target) return;
     uint32_t light = light_index(x, target);
     if (light == kNone) return;
-    node.lights.push_back({light, conversion(x, link.doc, target.doc), x.where(link, "url")});
+    node.lights.push_back(
+        {light, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
 }
 
 void read_camera_instance(Extraction& x, Link link, Node& node) {
@@ -154,7 +155,8 @@ void read_camera_instance(Extraction& x, Link link, Node& node) {
     if (!target) return;
     uint32_t camera = camera_index(x, target);
     if (camera == kNone) return;
-    node.cameras.push_back({camera, conversion(x, link.doc, target.doc), x.where(link, "url")});
+    node.cameras.push_back(
+        {camera, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
 }
 
 }  // namespace kinora::collada

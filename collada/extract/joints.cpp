@@ -59,7 +59,7 @@ class JointResolver {
         scene_.build(x.scene.nodes, x.scene.roots);
         rest_.build(x.scene.nodes, all);
     }
-    void resolve_instance(const Extraction::PendingSkin& pending);
+    void resolve_instance(const PendingSkin& pending);
 
   private:
     struct Found {
@@ -82,9 +82,9 @@ const NameIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, 
     constexpr uint64_t kBytesPerNode = 192;  // of the three maps
     auto [at, fresh] = skeletons_.try_emplace(roots);
     if (!fresh) return &at->second;
-    if (x_.over_limit) return nullptr;
+    if (x_.budget.is_spent()) return nullptr;
     at->second.build(x_.scene.nodes, roots);
-    if (reserve_memory(x_, at->second.count * kBytesPerNode, where)) return &at->second;
+    if (x_.budget.reserve(at->second.count * kBytesPerNode, where)) return &at->second;
     at->second = {};
     return nullptr;
 }
@@ -106,7 +106,7 @@ JointResolver::Found JointResolver::find(const std::string& name, JointNames kin
     return {};
 }
 
-void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
+void JointResolver::resolve_instance(const PendingSkin& pending) {
     MeshInstance& mesh = x_.scene.nodes[pending.node].meshes[pending.mesh];
     const Skin& skin = x_.scene.skins[mesh.skin];
     Location where = x_.where(pending.instance);
@@ -116,7 +116,7 @@ void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
     else
         skeleton = index_below(mesh.skeleton_roots, where);
     uint64_t bytes = skin.joints.size() * sizeof(uint32_t);
-    if (!reserve_memory(x_, bytes, where)) {
+    if (!x_.budget.reserve(bytes, where)) {
         mesh.skin = kNone;
         return;
     }
@@ -144,8 +144,7 @@ void JointResolver::resolve_instance(const Extraction::PendingSkin& pending) {
 void resolve_joints(Extraction& x) {
     if (x.pending_skins.empty()) return;
     JointResolver resolver(x);
-    for (const Extraction::PendingSkin& pending : x.pending_skins)
-        resolver.resolve_instance(pending);
+    for (const PendingSkin& pending : x.pending_skins) resolver.resolve_instance(pending);
 }
 
 }  // namespace kinora::collada

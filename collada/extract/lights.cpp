@@ -70,7 +70,7 @@ uint32_t light_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     const Element& e = *link.element;
-    if (!reserve_memory(x, sizeof(Light), x.where(link))) return kNone;
+    if (!x.budget.reserve(sizeof(Light), x.where(link))) return kNone;
     Light light;
     light.id = e.value("id");
     light.name = e.value("name");

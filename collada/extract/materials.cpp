@@ -1,4 +1,5 @@
-// collada/extract/materials.cpp: materials: an effect and the parameters they set.
+// collada/extract/materials.cpp: effects with the profiles that can be rendered, and materials: an
+// effect and the parameters they set.
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
 
@@ -75,7 +76,7 @@ uint32_t make_material(Extraction& x, Link owner, const Element* instance) {
     auto [at, fresh] = x.made.emplace(owner.element, kNone);
     if (!fresh) return at->second;
     uint32_t& result = at->second;
-    if (!reserve_memory(x, sizeof(Material), x.where(owner))) return kNone;
+    if (!x.budget.reserve(sizeof(Material), x.where(owner))) return kNone;
     Material material;
     material.id = owner.element->value("id");
     material.name = owner.element->value("name");
@@ -115,6 +116,30 @@ std::vector<uint32_t> rsl_extra_materials(Extraction& x, Link owner) {
             materials.push_back(material);
     }
     return materials;
+}
+
+uint32_t effect_index(Extraction& x, Link link) {
+    auto [at, fresh] = x.made.emplace(link.element, kNone);
+    if (!fresh) return at->second;
+    const Element& e = *link.element;
+    if (!x.budget.reserve(sizeof(Effect), x.where(link))) return kNone;
+    // Nothing below makes another effect, so the number is known before it is added.
+    uint32_t number = at->second = uint32_t(x.scene.effects.size());
+    Effect effect;
+    effect.id = e.value("id");
+    effect.name = e.value("name");
+    effect.document = link.doc;
+    effect.where = x.where(link);
+    read_params(x, link, ParamScope::Effect, number, effect);
+    for (const Element& child : e.children()) {
+        if (child.name == "profile_COMMON" && !effect.common)
+            read_common(x, {link.doc, &child}, number, effect);
+        if (child.name == "profile_RSL" && !effect.rsl)
+            read_rsl(x, {link.doc, &child}, number, effect);
+    }
+    if (!effect.common && !effect.rsl) x.diag.report(Code::FX_NO_PROFILE, effect.where, effect.id);
+    x.scene.effects.push_back(std::move(effect));
+    return number;
 }
 
 }  // namespace kinora::collada

@@ -13,7 +13,7 @@ uint32_t MeshReader::source_index(Link link) {
     DoubleSource data = read_double_source(x, link);
     if (data.values.empty()) return kNone;
     bool fits =
-        reserve_memory(x, sizeof(FloatSource) + data.values.size() * sizeof(float), x.where(link));
+        x.budget.reserve(sizeof(FloatSource) + data.values.size() * sizeof(float), x.where(link));
     if (!fits) return kNone;
     FloatSource source{std::string(link.element->value("id")), data.stride, {}};
     source.values.resize(data.values.size());
@@ -27,7 +27,7 @@ namespace {
 
 void read_positions(MeshReader& mesh, Link source) {
     DoubleSource data = read_double_source(mesh.x, source);
-    if (!reserve_memory(mesh.x, data.count * sizeof(dvec3), mesh.x.where(source))) return;
+    if (!mesh.x.budget.reserve(data.count * sizeof(dvec3), mesh.x.where(source))) return;
     mesh.geometry.positions.resize(data.count, dvec3(0.0));
     for (size_t i = 0; i < data.count; ++i) {
         dvec3& p = mesh.geometry.positions[i];
@@ -111,7 +111,7 @@ uint32_t geometry_index(Extraction& x, Link link) {
                       "vertices");
         return result;
     }
-    if (!reserve_memory(x, sizeof(Geometry), geometry.where)) return result;
+    if (!x.budget.reserve(sizeof(Geometry), geometry.where)) return result;
     MeshReader mesh{x, geometry, {}, {}, {}, nullptr};
     if (!read_vertices(mesh, {link.doc, vertices})) return result;
     for (const Element& child : mesh_element->children())

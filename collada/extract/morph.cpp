@@ -43,7 +43,7 @@ void read_targets(Extraction& x, Link link, Morph& morph, std::vector<uint32_t>&
     Link source = morph_source(x, link, "MORPH_TARGET");
     if (!source) return;
     NameSource names = read_name_source(x, source);
-    if (!reserve_memory(x, names.names.size() * 16, x.where(source))) return;
+    if (!x.budget.reserve(names.names.size() * 16, x.where(source))) return;
     for (std::string_view name : names.names) {
         uint32_t target = read_target(x, source, name, morph.geometry);
         remap.push_back(target == kNone ? kNone : uint32_t(morph.targets.size()));
@@ -84,7 +84,7 @@ uint32_t morph_index(Extraction& x, Link link) {
     morph.where = x.where(link);
     morph.method = read_method(x, element);
     Link base = resolve(x, element, "source", {"geometry", "controller"});
-    if (!base || !reserve_memory(x, sizeof(Morph), morph.where)) return result;
+    if (!base || !x.budget.reserve(sizeof(Morph), morph.where)) return result;
     if (base.element->name == "geometry") morph.geometry = geometry_index(x, base);
     if (morph.geometry == kNone) {
         x.diag.report(Code::MORPH_SOURCE, x.where(element, "source"), morph.id);

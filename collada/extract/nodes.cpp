@@ -8,10 +8,9 @@ namespace kinora::collada {
 
 uint32_t node_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
-    if (!fresh || !reserve_memory(x, sizeof(Node) + kBookBytes, x.where(link))) return at->second;
+    if (!fresh || !x.budget.reserve(sizeof(Node) + kBookBytes, x.where(link))) return at->second;
     at->second = append(x.scene.nodes, Node{});
-    x.node_filled.push_back(false);
-    x.pending_nodes.push_back({at->second, link});
+    x.nodes.add(at->second, link);
     return at->second;
 }
 
@@ -22,11 +21,12 @@ void read_node_instance(Extraction& x, Link link, Node& node) {
     if (!target) return;
     uint32_t index = node_index(x, target);
     if (index == kNone) return;
-    node.instances.push_back({index, conversion(x, link.doc, target.doc), x.where(link, "url")});
+    node.instances.push_back(
+        {index, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
 }
 
 void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
-    x.node_filled[number] = true;
+    x.nodes.set_filled(number);
     const Element& e = *link.element;
     Node node;
     node.id = e.value("id");
@@ -42,7 +42,7 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
                 node.attributes.emplace_back(item.value("name"), trim(item.text));
     size_t transforms = 0;
     for (const Element& child : e.children()) transforms += is_transform(child.name);
-    if (reserve_memory(x, transforms * (sizeof(Transform) + kBookBytes), node.where))
+    if (x.budget.reserve(transforms * (sizeof(Transform) + kBookBytes), node.where))
         node.transforms.reserve(transforms);
     for (const Element& child : e.children()) {
         Link part{link.doc, &child};
@@ -65,7 +65,7 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
             uint32_t index = node_index(x, part);
             if (index == kNone) continue;
             node.children.push_back(index);
-            if (x.node_filled[index]) continue;
+            if (x.nodes.is_filled(index)) continue;
             read_node(x, index, part, number);
         }
     }
@@ -76,10 +76,9 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
 }  // namespace
 
 void read_pending_nodes(Extraction& x) {
-    while (!x.pending_nodes.empty()) {
-        auto [index, link] = x.pending_nodes.back();
-        x.pending_nodes.pop_back();
-        if (!x.node_filled[index]) read_node(x, index, link, kNone);
+    while (!x.nodes.empty()) {
+        auto [index, link] = x.nodes.take();
+        if (!x.nodes.is_filled(index)) read_node(x, index, link, kNone);
     }
     // A node read through an instance before the node it is written in has no parent yet.
     for (uint32_t i = 0; i < x.scene.nodes.size(); ++i)

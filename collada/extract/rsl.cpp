@@ -47,7 +47,7 @@ void read_include(Extraction& x, Link link, RslShading& rsl) {
         x.diag.report(Code::RSL_INCLUDE_COMPILED, where, url);
         return;
     }
-    if (!inside_tree(x, path)) {
+    if (!x.documents.allowed_paths().contains(path)) {
         x.diag.report(Code::LINK_OUTSIDE, where, url);
         return;
     }

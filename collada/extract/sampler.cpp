@@ -99,7 +99,7 @@ bool SamplerReader::read_keys() {
         return false;
     }
     uint64_t numbers = keys + values.values.size() * 5;  // tangents of two numbers on both sides
-    if (!reserve_memory(x, sizeof(Sampler) + numbers * sizeof(double), x.where(link))) return false;
+    if (!x.budget.reserve(sizeof(Sampler) + numbers * sizeof(double), x.where(link))) return false;
     sampler.stride = values.stride;
     sampler.times.resize(keys);
     sampler.values = std::move(values.values);

@@ -139,29 +139,30 @@ uint32_t image_of_param(Extraction& x, Link param, TextureSampler& sampler, int 
         const Element* source = value.child("source");
         if (!source) return kNone;
         if (is_sampler) sampler.surface = trim(source->text);
-        const Element* surface = find_newparam(x, value, trim(source->text));
+        const Element* surface = x.newparams.find(value, trim(source->text));
         if (surface) return image_of_param(x, {param.doc, surface}, sampler, depth + 1);
         return image_by_id(x, param.doc, trim(source->text));
     }
     return kNone;
 }
 
-void add_newparams(const Element& scope, NewParams& table) {
+void add_newparams(const Element& scope,
+                   std::unordered_map<std::string_view, const Element*>& table) {
     for (const Element& child : scope.children())
         if (child.name == "newparam") table.try_emplace(child.value("sid"), &child);
 }
 
 }  // namespace
 
-const Element* find_newparam(Extraction& x, const Element& from, std::string_view sid) {
+const Element* NewParams::find(const Element& from, std::string_view sid) {
     for (const Element* scope = from.parent; scope; scope = scope->parent) {
-        auto [table, fresh] = x.newparams_of.try_emplace(scope);
+        auto [table, fresh] = of_.try_emplace(scope);
         if (fresh) add_newparams(*scope, table->second);
         auto found = table->second.find(sid);
         if (found != table->second.end()) return found->second;
         if (scope->name != "effect") continue;
         // Out of scope, but exporters declare a surface further in than its sampler.
-        auto [inner, unseen] = x.newparams_inside.try_emplace(scope);
+        auto [inner, unseen] = inside_.try_emplace(scope);
         for (const Element* profile = unseen ? scope->first_child : nullptr; profile;
              profile = profile->next)
             add_newparams(*profile, inner->second);
@@ -176,7 +177,7 @@ uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect) {
     TextureSampler sampler;
     sampler.sid = name;
     sampler.where = x.where(texture);
-    if (const Element* param = find_newparam(x, *texture.element, name)) {
+    if (const Element* param = x.newparams.find(*texture.element, name)) {
         sampler.image = image_of_param(x, {texture.doc, param}, sampler);
     } else {
         sampler.image = image_by_id(x, texture.doc, name);
@@ -198,7 +199,7 @@ TextureSampler* own_sampler(Extraction& x, const Effect& effect, uint32_t number
                             Material& material) {
     for (auto& [s, sampler] : material.samplers)
         if (s == number) return &sampler;
-    if (!reserve_memory(x, sizeof(TextureSampler) + kBookBytes, material.where)) return nullptr;
+    if (!x.budget.reserve(sizeof(TextureSampler) + kBookBytes, material.where)) return nullptr;
     return &material.samplers.emplace_back(number, effect.samplers[number]).second;
 }
 

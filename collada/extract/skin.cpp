@@ -139,7 +139,7 @@ bool SkinReader::read_joints(const Element& element) {
     join_spaced_names(x, source.doc, names);
     skin.joint_kind = names.kind;
     constexpr uint64_t kJointBytes = sizeof(std::string) + sizeof(dmat4);
-    if (!reserve_memory(x, names.names.size() * kJointBytes, x.where(source))) return false;
+    if (!x.budget.reserve(names.names.size() * kJointBytes, x.where(source))) return false;
     skin.joints.assign(names.names.begin(), names.names.end());
     skin.inverse_bind.assign(skin.joints.size(), dmat4(1.0));
     if (skin.joints.empty()) return false;
@@ -283,7 +283,7 @@ uint32_t skin_index(Extraction& x, Link link) {
     SkinReader reader{x, link.doc, skin};
     if (!reader.read_base(element)) return result;
     size_t positions = x.scene.geometries[skin.geometry].positions.size();
-    if (!reserve_memory(x, sizeof(Skin) + positions * sizeof(uint32_t), skin.where)) return result;
+    if (!x.budget.reserve(sizeof(Skin) + positions * sizeof(uint32_t), skin.where)) return result;
     skin.offsets.assign(positions + 1, 0);
     reader.read_bind_shape(element);
     if (reader.read_joints(element)) reader.read_weights(element);

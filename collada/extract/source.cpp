@@ -147,7 +147,7 @@ DoubleSource read_double_source(Extraction& x, Link source) {
         x.diag.report(Code::SRC_EMPTY, x.where(source), source.element->value("id"));
         return out;
     }
-    if (!reserve_parsing_memory(x, {source.doc, array})) return out;
+    if (!x.budget.reserve_parsing(array->text.size(), x.where({source.doc, array}))) return out;
     std::vector<double> values =
         read_doubles(x.document(source.doc), *array, x.diag, written_count(*array));
     if (x.options.everything) x.read_arrays.insert(array);
@@ -178,7 +178,8 @@ NameSource read_name_source(Extraction& x, Link source) {
     }
     if (out.array->name == "IDREF_array") out.kind = JointNames::Idref;
     if (out.array->name == "SIDREF_array") out.kind = JointNames::Sidref;
-    if (!reserve_parsing_memory(x, {source.doc, out.array})) return out;
+    if (!x.budget.reserve_parsing(out.array->text.size(), x.where({source.doc, out.array})))
+        return out;
     out.written_count = read_count(x, {source.doc, out.array}, "count", 0);
     out.names = split_words(out.array->text);
     return out;

@@ -110,24 +110,12 @@ constexpr CycleRow kCycles[] = {
     {"formula", "instance_formula", "url"},
 };
 
-// The document that a link leads to, if it was read; kNone if not.
-uint32_t linked_document(Lint& lint, uint32_t from, std::string_view file) {
-    if (file.empty()) return from;
-    std::string path = path_of_uri(lint.x.document(from), file);
-    auto known = lint.x.doc_by_link.find(path);
-    if (known != lint.x.doc_by_link.end()) return known->second;
-    auto read = lint.x.doc_by_path.find(real_path(path));
-    bool there = read != lint.x.doc_by_path.end() && read->second != kNone;
-    if (there) lint.x.doc_by_link.emplace(path, read->second);
-    return there ? read->second : kNone;
-}
-
 void add_link(Lint& lint, const CycleRow& row, Link link, Definitions& graph) {
     std::string_view url = trim(link.element->value(row.attribute));
     size_t hash = url.find('#');
     const Element* from = enclosing(*link.element, row.definition);
     if (!from || hash == url.npos) return;
-    uint32_t doc = linked_document(lint, link.doc, url.substr(0, hash));
+    uint32_t doc = hash == 0 ? link.doc : lint.x.documents.find(link.doc, url.substr(0, hash));
     if (doc == kNone) return;
     const Element* to = find_kind(lint.x.document(doc), url.substr(hash + 1), {row.definition});
     graph.add_link({link.doc, from}, {doc, to}, lint.x.where(link, row.attribute));
@@ -187,7 +175,7 @@ void lint_cycles(Lint& lint) {
     // One graph: links lead from a definition to one of its own kind.
     Definitions graph(lint);
     for (const CycleRow& row : kCycles) add_links(lint, row, graph);
-    for (uint32_t doc = 1; doc < lint.x.docs.size(); ++doc)
+    for (uint32_t doc = 1; doc < lint.x.documents.size(); ++doc)
         add_linked(lint, {doc, &lint.x.document(doc).root()}, graph);
     add_params(lint, graph);
     graph.report_cycles();

@@ -31,7 +31,7 @@ void lint_files(Lint& lint) {
         if (in_profile_rsl(*include)) continue;
         std::error_code error;
         std::string path = path_of_uri(lint.document, url);
-        if (!inside_tree(lint.x, path))
+        if (!lint.x.documents.allowed_paths().contains(path))
             lint.diag.report(Code::LINK_OUTSIDE, where, url);
         else if (!std::filesystem::is_regular_file(path, error))
             lint.diag.report(Code::FILE_MISSING, where, url);

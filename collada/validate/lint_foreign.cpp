@@ -57,14 +57,14 @@ class ForeignWalk {
         std::error_code error;
         if (is_remote(file))
             return fmt::format("their schema '{}' is no local file, and no network is used", file);
-        if (!inside_tree(lint_.x, path))
+        if (!lint_.x.documents.allowed_paths().contains(path))
             return fmt::format(
                 "their schema '{}' lies outside the scene's folder (--allow-external DIR)", file);
         if (!std::filesystem::is_regular_file(path, error))
             return fmt::format("there is no file '{}', their schema", file);
         if (!lint_.options.check_foreign) return fmt::format("their schema '{}' is not read", file);
         return lint_.options.check_foreign(
-            {document_, name_space, path, elements, *lint_.x.trees, lint_.diag});
+            {document_, name_space, path, elements, lint_.x.documents.allowed_paths(), lint_.diag});
     }
 
     Lint& lint_;
@@ -76,7 +76,7 @@ class ForeignWalk {
 }  // namespace
 
 void lint_foreign(Lint& lint) {
-    for (uint32_t doc = 0; doc < lint.x.docs.size(); ++doc) ForeignWalk(lint, doc).run();
+    for (uint32_t doc = 0; doc < lint.x.documents.size(); ++doc) ForeignWalk(lint, doc).run();
 }
 
 }  // namespace kinora::collada

@@ -35,9 +35,9 @@ std::optional<SceneData> validate(const Document& document, Diagnostics& diag,
                                   const ValidateOptions& options) {
     ExtractOptions everything = options.extract;
     everything.everything = true;
-    Extraction x{diag, everything};
-    if (options.profile == Profile::V1_4_1) x.schema = Version::V1_4_1;
-    if (options.profile == Profile::V1_5) x.schema = Version::V1_5_0;
+    Extraction x(diag, everything);
+    if (options.profile == Profile::V1_4_1) x.documents.hold_to(Version::V1_4_1);
+    if (options.profile == Profile::V1_5) x.documents.hold_to(Version::V1_5_0);
     bool shown = extract_into(x, document);
     Lint lint{x, document, x.scene, options, diag, {}, {}};
     lint.elements.reserve(document.element_count());

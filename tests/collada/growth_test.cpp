@@ -271,10 +271,10 @@ TEST(MissingImages, ListTheirFolderOnce) {
     ASSERT_TRUE(r.document);
     ExtractOptions options;
     options.everything = true;
-    Extraction x{r.diag, options};
+    Extraction x(r.diag, options);
     ASSERT_TRUE(extract_into(x, *r.document));
-    EXPECT_EQ(x.folders.size(), 1u);
-    EXPECT_EQ(x.listed_files, 21u);
+    EXPECT_EQ(x.image_folders.folder_count(), 1u);
+    EXPECT_EQ(x.image_folders.listed_files(), 21u);
     EXPECT_EQ(r.count("FILE_FALLBACK"), 20u);
     EXPECT_EQ(r.count("FILE_MISSING"), 480u);
     ASSERT_EQ(x.scene.images.size(), 500u);

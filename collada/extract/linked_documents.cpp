@@ -1,0 +1,141 @@
+// collada/extract/linked_documents.cpp: documents that links name are found, read once and
+// numbered.
+#include "collada/extract/linked_documents_p.h"
+
+#include <filesystem>
+
+#include "collada/document/findings.h"
+#include "collada/document/uri.h"
+#include "collada/extract/extract_p.h"
+#include "collada/schema/schema.h"
+
+namespace kinora::collada {
+
+namespace {
+
+bool is_file(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+}
+
+dmat4 y_up_from(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::X:  // right -y, up x, towards us z
+            return dmat4({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
+        case UpAxis::Y:
+            return dmat4(1.0);
+        case UpAxis::Z:  // right x, up z, towards us -y
+            return dmat4({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
+    }
+    return dmat4(1.0);
+}
+
+dmat4 transposed(const dmat4& m) {
+    dmat4 t;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) t[c][r] = m[r][c];
+    return t;
+}
+
+}  // namespace
+
+const AllowedPaths& LinkedDocuments::allowed_paths() {
+    if (!allowed_) {
+        const std::string& own = options_.folder;
+        std::vector<std::string> folders{own.empty() ? documents_[0]->directory() : own};
+        folders.insert(folders.end(), options_.allow_external.begin(),
+                       options_.allow_external.end());
+        allowed_ = AllowedPaths(folders);
+    }
+    return *allowed_;
+}
+
+// Each link into a document that cannot be had says so.
+void LinkedDocuments::report_unread(const std::string& path, std::string_view file,
+                                    Location where) {
+    diag_.report(is_file(path) ? Code::LINK_EXTERNAL_UNREADABLE : Code::LINK_EXTERNAL_MISSING,
+                 where, file);
+}
+
+// The file that a link means: where its URI says, else one of that name beside the document.
+std::string LinkedDocuments::path_of_link(uint32_t from, std::string_view file, Location where) {
+    const Document& document = *documents_[from];
+    std::string path = path_of_uri(document, file);
+    bool found = allowed_paths().contains(path) && is_file(path);
+    std::string beside = document.directory() + path.substr(path.find_last_of('/') + 1);
+    if (found || beside == path || !allowed_paths().contains(beside) || !is_file(beside))
+        return path;
+    diag_.report(Code::FILE_FALLBACK, where, file, beside);
+    return beside;
+}
+
+uint32_t LinkedDocuments::linked(uint32_t from, std::string_view file, Location where) {
+    // The system is asked once a path: thousands of links may name one document.
+    std::string written = path_of_uri(*documents_[from], file);
+    auto linked = by_link_.find(written);
+    if (linked != by_link_.end()) return linked->second;
+    std::string path = path_of_link(from, file, where);
+    if (!allowed_paths().contains(path)) {
+        diag_.report(Code::LINK_OUTSIDE, where, file);
+        return kNone;
+    }
+    std::string real = real_path(path);
+    auto known = by_path_.find(real);
+    if (known != by_path_.end()) {
+        if (known->second == kNone)
+            report_unread(path, file, where);
+        else
+            by_link_.emplace(written, known->second);
+        return known->second;
+    }
+    if (documents_.size() >= options_.max_documents) {
+        diag_.report(Code::LINK_TOO_MANY, where,
+                     fmt::format("more than {} linked documents", options_.max_documents));
+        return kNone;
+    }
+    std::optional<Document> document;
+    if (is_file(path)) document = read_document(path, diag_);
+    if (!document) {
+        report_unread(path, file, where);
+        by_path_[real] = kNone;
+        return kNone;
+    }
+    owned_.push_back(std::make_unique<Document>(std::move(*document)));
+    return by_link_[written] = add(*owned_.back(), real);
+}
+
+uint32_t LinkedDocuments::find(uint32_t from, std::string_view file) {
+    std::string path = path_of_uri(*documents_[from], file);
+    auto known = by_link_.find(path);
+    if (known != by_link_.end()) return known->second;
+    auto read = by_path_.find(real_path(path));
+    if (read == by_path_.end() || read->second == kNone) return kNone;
+    by_link_.emplace(path, read->second);
+    return read->second;
+}
+
+uint32_t LinkedDocuments::add(const Document& document, const std::string& real_path) {
+    uint32_t index = size();
+    documents_.push_back(&document);
+    budget_.add_text(diag_.files.text(document.file()).size());
+    by_path_[real_path] = index;
+    check_elements(document, diag_, schema_.value_or(document.version()));
+    scene_.documents.push_back({document.path(), read_asset(document, diag_), document.file()});
+    return index;
+}
+
+uint32_t LinkedDocuments::conversion(uint32_t from, uint32_t to) {
+    if (from == to) return kNone;
+    auto [at, fresh] = conversion_of_.emplace(uint64_t(from) << 32 | to, kNone);
+    if (!fresh) return at->second;
+    const Asset& user = scene_.documents[from].asset;
+    const Asset& used = scene_.documents[to].asset;
+    if (user.meter == used.meter && user.up_axis == used.up_axis) return kNone;
+    dmat4 m = transposed(y_up_from(user.up_axis)) * y_up_from(used.up_axis);
+    double scale = used.meter / user.meter;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) m[c][r] *= scale;
+    return at->second = append(scene_.conversions, m);
+}
+
+}  // namespace kinora::collada
