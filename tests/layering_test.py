@@ -24,6 +24,7 @@ PACKAGES = {
     r"asmjit/": r"jit/(x64|a64)/.*",
     r"embree3/": r"raytrace/embree(_p\.h|\.cpp)|tests/bench/.*",
     r"expat\.h": r"collada/document/.*|tests/.*",
+    r"dtl/": r"runtime/programs/validate/unified_diff\.cpp",
     r"libxml/": r"runtime/programs/validate/foreign_schema\.cpp",
     r"OpenImageIO/": r"runtime/images_module/.*|tests/.*",
     r"CLI/": r"runtime/programs/.*",
