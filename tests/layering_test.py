@@ -25,6 +25,7 @@ PACKAGES = {
     r"embree3/": r"raytrace/embree(_p\.h|\.cpp)|tests/bench/.*",
     r"expat\.h": r"collada/document/.*|tests/.*",
     r"dtl/": r"runtime/programs/validate/unified_diff\.cpp",
+    r"utf8\.h": r"runtime/base/text_encoding\.cpp|runtime/programs/validate/escaped_text\.cpp",
     r"libxml/": r"runtime/programs/validate/foreign_schema\.cpp",
     r"OpenImageIO/": r"runtime/images_module/.*|tests/.*",
     r"CLI/": r"runtime/programs/.*",
