@@ -8,7 +8,7 @@
 #include <emmintrin.h>
 #endif
 
-#include "collada/text/encoding_p.h"
+#include "runtime/base/text_encoding.h"
 
 namespace kinora::collada {
 

@@ -6,26 +6,9 @@
 #include <span>
 
 #include "collada/text/encoding_p.h"
+#include "runtime/base/text_encoding.h"
 
 namespace kinora::collada {
-
-void append_utf8(std::string& out, uint32_t c) {
-    if (c < 0x80) {
-        out += char(c);
-    } else if (c < 0x800) {
-        out += char(0xC0 | c >> 6);
-        out += char(0x80 | (c & 63));
-    } else if (c < 0x10000) {
-        out += char(0xE0 | c >> 12);
-        out += char(0x80 | (c >> 6 & 63));
-        out += char(0x80 | (c & 63));
-    } else {
-        out += char(0xF0 | c >> 18);
-        out += char(0x80 | (c >> 12 & 63));
-        out += char(0x80 | (c >> 6 & 63));
-        out += char(0x80 | (c & 63));
-    }
-}
 
 namespace {
 
@@ -100,27 +83,6 @@ bool valid_utf8(std::string_view text) {
 }
 
 namespace {
-
-std::string utf8_from_utf16(std::string_view bytes, bool big_endian) {
-    auto unit = [&](size_t i) {
-        uint8_t a = uint8_t(bytes[i]), b = uint8_t(bytes[i + 1]);
-        return uint32_t(big_endian ? a << 8 | b : b << 8 | a);
-    };
-    std::string out;
-    out.reserve(bytes.size() / 2 + 16);
-    for (size_t i = 0; i + 1 < bytes.size(); i += 2) {
-        uint32_t c = unit(i);
-        bool high = c >= 0xD800 && c < 0xDC00;
-        if (high && i + 3 < bytes.size() && (unit(i + 2) & 0xFC00) == 0xDC00) {
-            c = 0x10000 + ((c - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
-            i += 2;
-        } else if (c >= 0xD800 && c < 0xE000) {
-            c = 0xFFFD;  // half a pair: the replacement character
-        }
-        append_utf8(out, c);
-    }
-    return out;
-}
 
 // The encoding named in <?xml ... encoding="..."?>, in lower case; "" if none.
 std::string declared_encoding(std::string_view text) {

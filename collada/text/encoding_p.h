@@ -17,8 +17,8 @@ struct DecodedText {
 DecodedText decode_text(std::string bytes);
 
 std::string utf8_from_latin1(std::string_view bytes);
+// Surrogates and longer forms than needed pass.
 bool valid_utf8(std::string_view text);
-void append_utf8(std::string& out, uint32_t code_point);
 
 // %20 as a space; what is no such triple, and %00, stays.
 std::string percent_decode(std::string_view text);

@@ -70,7 +70,7 @@ const char* read_short_doubles(const char* begin, const char* p, const char* end
                                       _mm_andnot_si128(behind, load(p + stop - kBytes - 1)));
         digits = _mm_and_si128(_mm_sub_epi8(digits, nought), last_bytes(count));
         if (bits(_mm_cmpeq_epi8(_mm_min_epu8(digits, nine), digits)) != 0xFFFF) break;
-        // Clinger's case of scale_decimal(): 15 digits are below 2^53.
+        // Both are exact as doubles (15 digits are below 2^53), so one division rounds once.
         double magnitude = double(int64_t(sixteen_digits(digits))) / kExactPowersOfTen[fraction];
         *next++ =
             std::bit_cast<double>(std::bit_cast<uint64_t>(magnitude) | uint64_t(negative) << 63);

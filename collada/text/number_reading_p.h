@@ -1,9 +1,8 @@
-// collada/text/number_reading_p.h: one number of a list, eight digits at a time.
+// collada/text/number_reading_p.h: the usual short numbers of a list.
 //
 // A byte of a word of eight is a digit when it is 0..9 after xor with '0'; the run of digits is
 // shifted to the word's top, which puts zeros before it, and summed in three multiplications.
-// Numbers of up to 19 digits and a small power of ten, nearly all there are, become the nearest
-// double by one division; what is longer is left to std::from_chars.
+// What is longer is left to fast_float.
 #pragma once
 
 #include <bit>
@@ -24,9 +23,6 @@ inline bool is_number_space(char c) {
 }
 
 namespace scan {
-
-inline constexpr uint64_t kPowersOfTen[] = {1,      10,      100,      1000,     10000,
-                                            100000, 1000000, 10000000, 100000000};
 
 // Eight bytes as digits, the first in the lowest byte; others than digits are above 9.
 inline uint64_t load_digits(const char* p) {
@@ -52,39 +48,11 @@ inline uint64_t digits_value(uint64_t digits, int count) {
     return (high + low) >> 32;
 }
 
-// Adds up to 24 digits to `value` and `count`; the end. Beyond 19 digits `value` is of no use.
-inline const char* take_digits(const char* p, uint64_t& value, int& count) {
-    for (int word = 0; word < 3; ++word) {
-        uint64_t digits = load_digits(p);
-        int run = digit_run(digits);
-        if (run == 0) break;
-        value = value * kPowersOfTen[run] + digits_value(digits, run);
-        count += run;
-        p += run;
-        if (run < 8) break;
-    }
-    return p;
-}
-
 }  // namespace scan
 
 inline constexpr double kExactPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-// The rest of scale_decimal.
-bool scale_long_decimal(uint64_t mantissa, int exponent, double& value);
-
-// The double nearest to mantissa * 10^exponent; false when that is not among the easy cases.
-inline bool scale_decimal(uint64_t mantissa, int exponent, double& value) {
-    // Clinger's case: both are exact as doubles, so one operation rounds once.
-    if (mantissa <= uint64_t(1) << 53 && exponent >= -22 && exponent <= 22) {
-        double m = double(int64_t(mantissa));
-        value = exponent < 0 ? m / kExactPowersOfTen[-exponent] : m * kExactPowersOfTen[exponent];
-        return true;
-    }
-    return scale_long_decimal(mantissa, exponent, value);
-}
 
 // The bytes before the first space, looking at 16 of them: 16 when there is none. Found before
 // anything is read, so that the work on one number and the search for the next overlap.
@@ -100,36 +68,8 @@ inline int solid_run(const char* p) {
 #endif
 }
 
-// Reads the number that [p, stop) is. False: it may be one all the same. kScanReach bytes from `p`
-// on must be readable.
-inline bool scan_double(const char* p, const char* stop, double& value) {
-    bool negative = *p == '-';
-    p += negative;
-    uint64_t mantissa = 0;
-    int digits = 0, exponent = 0;
-    p = scan::take_digits(p, mantissa, digits);
-    if (*p == '.') {
-        int before = digits;
-        p = scan::take_digits(p + 1, mantissa, digits);
-        exponent = before - digits;
-    }
-    if (digits == 0 || digits > 19) return false;
-    if ((*p | 32) == 'e') {
-        bool down = p[1] == '-';
-        p += 1 + (down || p[1] == '+');
-        uint64_t power = scan::load_digits(p);
-        int run = scan::digit_run(power);
-        if (run == 0 || run > 4) return false;
-        power = scan::digits_value(power, run);
-        exponent += down ? -int(power) : int(power);
-        p += run;
-    }
-    if (p != stop || !scale_decimal(mantissa, exponent, value)) return false;
-    value = std::bit_cast<double>(std::bit_cast<uint64_t>(value) | uint64_t(negative) << 63);
-    return true;
-}
-
-// The same for whole numbers of up to eight digits.
+// Reads the whole number of up to eight digits that [p, stop) is. False: it may be one all the
+// same. kScanReach bytes from `p` on must be readable.
 inline bool scan_int(const char* p, const char* stop, int32_t& value) {
     bool negative = *p == '-';
     p += negative;

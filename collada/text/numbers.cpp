@@ -1,4 +1,6 @@
 // collada/text/numbers.cpp: the numbers and words of a text, whatever the locale.
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -91,6 +93,12 @@ int32_t slow_int(std::string_view word, size_t at, NumberFaults& faults) {
     if (!digits.empty()) return int32_t(negative ? -value : value);
     if (faults.number.length == 0) faults.number = {at, word.size()};
     return 0;
+}
+
+// A finite number that is the whole word; false: it may be one all the same.
+bool usual_double(const char* p, const char* stop, double& value) {
+    auto [end, error] = fast_float::from_chars(p, stop, value);
+    return end == stop && error == std::errc{} && std::isfinite(value);
 }
 
 const char* word_end(const char* p, const char* end) {
@@ -206,7 +214,7 @@ size_t count_words(std::string_view text) {
 }
 
 std::vector<double> scan_doubles(std::string_view text, size_t expected, NumberFaults& faults) {
-    return scan_list<double, scan_double, slow_double>(text, expected, faults);
+    return scan_list<double, usual_double, slow_double>(text, expected, faults);
 }
 
 std::vector<int32_t> scan_ints(std::string_view text, size_t expected, NumberFaults& faults) {

@@ -52,9 +52,9 @@ void ask(LowerCall& c, QueryKind kind, bool of_point) {
     Value known = b.m(true);
     for (int k = 0; k < length; ++k) {
         std::vector<Value> answer =
-            c.low.service("query", std::array{b.i(int32_t(kind)), c.args[0].c[0],
-                                              b.i(type_letter(variable.type.base)),
-                                              b.i(array ? k : -1), b.i(length), anchor});
+            c.low.service(Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0],
+                                                     b.i(type_letter(variable.type.base)),
+                                                     b.i(array ? k : -1), b.i(length), anchor});
         Value here = b.logical_not(b.op(jit::Op::IEq, answer[0], b.i(0)));
         known = b.logical_and(known, here);
         for (size_t i = 0; i < size_t(values[size_t(k)].size()); ++i) {
@@ -109,9 +109,9 @@ void shadername(LowerCall& c) {
             return c.set(c.b.i(intern(layer->shader->name)));
     c.low.out.uses_rng = true;
     Value anchor = c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point);
-    std::vector<Value> answer =
-        c.low.service("query", std::array{c.b.i(int32_t(QueryKind::ShaderName)), c.args[0].c[0],
-                                          c.b.i('s'), c.b.i(-1), c.b.i(1), anchor});
+    std::vector<Value> answer = c.low.service(
+        Service::query, std::array{c.b.i(int32_t(QueryKind::ShaderName)), c.args[0].c[0],
+                                   c.b.i('s'), c.b.i(-1), c.b.i(1), anchor});
     Value known = c.b.logical_not(c.b.op(jit::Op::IEq, answer[0], c.b.i(0)));
     c.set(c.b.select(known, c.b.bits(answer[1]), c.b.i(0)));
 }
@@ -121,9 +121,9 @@ void ray_fact(LowerCall& c, const char* name) {
     auto& b = c.b;
     c.low.out.uses_rng = true;
     std::vector<Value> answer = c.low.service(
-        "query", std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern(name)),
-                            b.i(type_letter(c.result_type())), b.i(-1), b.i(1),
-                            c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point)});
+        Service::query, std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern(name)),
+                                   b.i(type_letter(c.result_type())), b.i(-1), b.i(1),
+                                   c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point)});
     if (c.result_type() == BaseType::String) return c.set(b.bits(answer[1]));
     for (size_t k = 0; k < size_t(c.result.size()); ++k) c.result.c[k] = answer[1 + k];
 }

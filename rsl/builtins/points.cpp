@@ -77,7 +77,7 @@ void bake3d(LowerCall& c) {
                                c.b.mul(scale, c.b.max(c.pair("radiusscale", 1), c.b.f(0)))};
     channels.numbers.resize(size_t(kPointFloats), c.b.f(0));
     args.insert(args.end(), channels.numbers.begin(), channels.numbers.end());
-    e.service("bake3d", args);
+    e.service(Service::bake3d, args);
 }
 
 // Each "channel", variable pair is set if the file has the channel; 1 if it has them all.
@@ -97,8 +97,8 @@ void texture3d(LowerCall& c) {
     }
     auto [P, N, scale] = file_point(c, 1);
     std::vector<Value> answer =
-        e.service("texture3d", std::array{c.args[0].c[0], c.b.i(intern(channels.text)), P[0], P[1],
-                                          P[2], N[0], N[1], N[2], scale});
+        e.service(Service::texture3d, std::array{c.args[0].c[0], c.b.i(intern(channels.text)), P[0],
+                                                 P[1], P[2], N[0], N[1], N[2], scale});
     size_t next = 1;
     Value all = c.b.m(true);
     for (size_t k = 0; k < c.output_pairs.size(); ++k) {
@@ -124,7 +124,7 @@ void photons(LowerCall& c) {
     Value estimator = c.b.ftoi(c.pair("estimator", 50));
     Value file = named ? c.args[0].c[0] : c.text_pair("filename");
     std::vector<Value> light = e.service(
-        "photons",
+        Service::photons,
         std::array{file, c.b.i(int32_t(kind)), estimator, P[0], P[1], P[2], N[0], N[1], N[2]});
     c.set(V3{light[0], light[1], light[2]});
 }

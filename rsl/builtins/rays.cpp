@@ -25,9 +25,9 @@ void trace(LowerCall& c) {
     V3 P = c.v3(0), R = c.v3(1);
     auto seed = c.low.sample_seed(c.call.site);
     std::vector<Value> hit = c.low.service(
-        "trace", std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
-                            c.pair("maxdist", kFar), c.pair("bias", -1), samples(c, 1),
-                            c.pair("samplecone", 0), c.text_pair("label")});
+        Service::trace, std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
+                                   c.pair("maxdist", kFar), c.pair("bias", -1), samples(c, 1),
+                                   c.pair("samplecone", 0), c.text_pair("label")});
     if (c.result_type() == BaseType::Float)
         c.set(hit[3]);
     else
@@ -39,9 +39,10 @@ V3 let_through(LowerCall& c) {
     if (!traces(c)) return c.low.f3(1);
     V3 from = c.v3(0), to = c.v3(1);
     auto seed = c.low.sample_seed(c.call.site);
-    std::vector<Value> share = c.low.service(
-        "transmission", std::array{seed[0], seed[1], from[0], from[1], from[2], to[0], to[1], to[2],
-                                   samples(c, 1), c.pair("samplecone", 0), c.pair("bias", -1)});
+    std::vector<Value> share =
+        c.low.service(Service::transmission,
+                      std::array{seed[0], seed[1], from[0], from[1], from[2], to[0], to[1], to[2],
+                                 samples(c, 1), c.pair("samplecone", 0), c.pair("bias", -1)});
     return {share[0], share[1], share[2]};
 }
 void transmission(LowerCall& c) {
@@ -71,7 +72,7 @@ void occlusion(LowerCall& c) {
     V3 P = c.v3(first), N = c.v3(first + 1);
     auto seed = c.low.sample_seed(c.call.site);
     std::vector<Value> answer = c.low.service(
-        "occlusion",
+        Service::occlusion,
         std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2], c.f(first + 2), cone(c),
                    c.pair("maxdist", kFar), c.pair("bias", -1), c.pair("falloff", 0),
                    c.pair("falloffmode", 0), c.text_pair("environmentmap")});
@@ -91,8 +92,8 @@ void indirectdiffuse(LowerCall& c) {
     Value far = of_map ? c.b.f(0) : c.pair("maxdist", kFar);
     Value map = of_map ? c.args[0].c[0] : c.text_pair("environmentmap");
     std::vector<Value> light = c.low.service(
-        "indirectdiffuse", std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2], c.f(2),
-                                      cone(c), far, c.pair("bias", -1), map});
+        Service::indirectdiffuse, std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2],
+                                             c.f(2), cone(c), far, c.pair("bias", -1), map});
     c.set(V3{light[0], light[1], light[2]});
     set_pair(c, "environmentcolor", &light[3]);
 }
@@ -114,9 +115,9 @@ void areashadow(LowerCall& c) {
         };
         V3 Q = e.fma(across, offset(k % kSide, 0), e.fma(up, offset(k / kSide, 1), corner));
         auto seed = e.sample_seed(c.call.site + uint32_t(k) * 7919u);
-        std::vector<Value> through =
-            e.service("transmission", std::array{seed[0], seed[1], P[0], P[1], P[2], Q[0], Q[1],
-                                                 Q[2], e.f(1), e.f(0), c.pair("bias", -1)});
+        std::vector<Value> through = e.service(
+            Service::transmission, std::array{seed[0], seed[1], P[0], P[1], P[2], Q[0], Q[1], Q[2],
+                                              e.f(1), e.f(0), c.pair("bias", -1)});
         for (size_t i = 0; i < 3; ++i) sum[i] = c.b.add(sum[i], through[i]);
     }
     V3 hidden;

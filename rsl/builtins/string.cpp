@@ -20,8 +20,8 @@ void too_long(LowerCall& c) {
 }
 
 // A service that makes a string; one that is too long is reported where the shader runs.
-Value make_text(LowerCall& c, std::string_view name, std::span<const Value> args) {
-    Value text = c.low.service(name, args)[0];
+Value make_text(LowerCall& c, Service maker, std::span<const Value> args) {
+    Value text = c.low.service(maker, args)[0];
     Value bad = c.b.op(jit::Op::IEq, text, c.b.i(intern(kTooLong)));
     c.b.fault(c.b.fault_site(c.where(), fmt::format("a string of more than {} bytes", kMostText)),
               c.b.logical_and(c.low.running, bad));
@@ -37,7 +37,7 @@ Value join(LowerCall& c, Value a, Value b) {
     }
     if (first && first->empty()) return b;
     if (second && second->empty()) return a;
-    return make_text(c, "concat", std::array{a, b});
+    return make_text(c, Service::concat, std::array{a, b});
 }
 
 void concat(LowerCall& c) {
@@ -53,7 +53,7 @@ void match(LowerCall& c) {
     if (known_pattern && known_text)
         c.set(c.b.f(matches(*known_pattern, *known_text) ? 1.0f : 0.0f));
     else
-        c.set(c.low.service("match", std::array{pattern, text})[0]);
+        c.set(c.low.service(Service::match, std::array{pattern, text})[0]);
 }
 
 // The numbers of a value as services take them: strings as ids bit for bit.
@@ -150,16 +150,16 @@ void format(LowerCall& c) {
     if (!text) {
         Piece all;
         if (unknown_format(c, all))
-            c.set(make_text(c, "format", service_arguments(c, c.f(0), all.values)));
+            c.set(make_text(c, Service::format, service_arguments(c, c.f(0), all.values)));
         return;
     }
     check_count(c, conversions(*text).size());
     Value result = c.b.i(0);
     for (const Piece& piece : pieces_of(c, *text)) {
         Value format = c.b.i(intern(piece.format));
-        Value part = piece.values.empty()
-                         ? c.b.i(intern(format_text(piece.format, {})))
-                         : make_text(c, "format", service_arguments(c, format, piece.values));
+        Value part = piece.values.empty() ? c.b.i(intern(format_text(piece.format, {})))
+                                          : make_text(c, Service::format,
+                                                      service_arguments(c, format, piece.values));
         result = join(c, result, part);
     }
     c.set(result);
@@ -176,13 +176,13 @@ void print(LowerCall& c) {
     if (!text) {
         Piece all;
         if (unknown_format(c, all))
-            c.low.service("print", service_arguments(c, c.f(0), all.values));
+            c.low.service(Service::print, service_arguments(c, c.f(0), all.values));
         return;
     }
     check_count(c, conversions(*text).size());
     for (const Piece& piece : pieces_of(c, *text)) {
         Value format = c.b.i(intern(piece.format));
-        c.low.service("print", service_arguments(c, format, piece.values));
+        c.low.service(Service::print, service_arguments(c, format, piece.values));
     }
 }
 
@@ -195,7 +195,7 @@ void debug(LowerCall& c) {
                              : is_triple(type)          ? "%p"
                                                         : "%f";
     std::string text = "debug " + std::string(type_name(type)) + ": " + conversion + "\n";
-    c.low.service("print", service_arguments(c, c.b.i(intern(text)), numbers(c, c.args[0])));
+    c.low.service(Service::print, service_arguments(c, c.b.i(intern(text)), numbers(c, c.args[0])));
 }
 
 }  // namespace lower_string

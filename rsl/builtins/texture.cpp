@@ -71,8 +71,9 @@ void set_with_differences(LowerCall& c, std::vector<Value> here, const std::vect
 
 std::vector<Value> look_up(LowerCall& c, const Lookup& at, Value blur, Value swidth, Value twidth) {
     return c.low.service(
-        "texture", std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx, at.dsdy, at.dtdy,
-                              blur, swidth, twidth, c.text_pair("filter"), c.pair("fill", 0)});
+        Service::texture,
+        std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx, at.dsdy, at.dtdy, blur, swidth,
+                   twidth, c.text_pair("filter"), c.pair("fill", 0)});
 }
 
 // "sblur" and "tblur" widen the footprint by shares of the image after the widths have scaled it.
@@ -144,10 +145,10 @@ void trace_environment(LowerCall& c) {
     if (!e.options.want_Ci) return;
     V3 P = e.read_global(Global::P).v3(), R = footprint(c).at;
     auto seed = e.sample_seed(c.call.site);
-    set_texels(c,
-               e.service("trace", std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
-                                             c.pair("maxdist", 1e30f), c.pair("bias", -1),
-                                             c.pair("samples", 1), c.pair("blur", 0), c.b.i(0)}));
+    set_texels(c, e.service(Service::trace,
+                            std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
+                                       c.pair("maxdist", 1e30f), c.pair("bias", -1),
+                                       c.pair("samples", 1), c.pair("blur", 0), c.b.i(0)}));
 }
 
 // The footprint's sides are those along u and v: maps of directions and depths have no s and t.
@@ -158,7 +159,7 @@ void environment(LowerCall& c) {
     Footprint f = footprint(c);
     V3 dx = e.scale(f.dx, width(c, "swidth")), dy = e.scale(f.dy, width(c, "twidth"));
     auto lookup = [&](const V3& R) {
-        return e.service("environment",
+        return e.service(Service::environment,
                          std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2],
                                     dy[0], dy[1], dy[2], c.pair("blur", 0), c.pair("fill", 0)});
     };
@@ -189,9 +190,10 @@ void trace_shadow(LowerCall& c) {
     V3 P = footprint(c).at, to;
     if (!light_position(c, P, to)) return;
     auto seed = e.sample_seed(c.call.site);
-    std::vector<Value> through = e.service(
-        "transmission", std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
-                                   c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
+    std::vector<Value> through =
+        e.service(Service::transmission,
+                  std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
+                             c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
     for (Value& x : through) x = c.b.sub(e.f(1), x);
     if (c.result_type() == BaseType::Float)  // of coloured shadows the mean, as of occlusion()
         through[0] = c.b.mul(c.b.add(through[0], c.b.add(through[1], through[2])), e.f(1.0f / 3));
@@ -207,9 +209,10 @@ void shadow(LowerCall& c) {
     Footprint f = footprint(c);
     V3 P = f.at;
     V3 dx = e.scale(f.dx, width(c, "swidth")), dy = e.scale(f.dy, width(c, "twidth"));
-    set_texels(c, e.service("shadow", std::array{c.f(0), P[0], P[1], P[2], dx[0], dx[1], dx[2],
-                                                 dy[0], dy[1], dy[2], c.pair("bias", -1),
-                                                 c.pair("blur", 0), c.pair("samples", 16)}));
+    set_texels(
+        c, e.service(Service::shadow,
+                     std::array{c.f(0), P[0], P[1], P[2], dx[0], dx[1], dx[2], dy[0], dy[1], dy[2],
+                                c.pair("bias", -1), c.pair("blur", 0), c.pair("samples", 16)}));
 }
 
 // J. F. Blinn, Simulation of Wrinkled Surfaces, 1978: the surface P + h n has the normal
@@ -258,14 +261,14 @@ void bake(LowerCall& c) {
     args.insert(args.end(), {at.s, at.t, e.f(0), e.f(0), e.f(0), e.f(0), radius, e.f(-1)});
     args.insert(args.end(), value.c.begin(), value.c.begin() + value.size());
     args.resize(11 + size_t(kPointFloats), e.f(0));
-    e.service("bake3d", args);
+    e.service(Service::bake3d, args);
 }
 
 // textureinfo(name, field, variable): 1, and the variable set, if the fact is known and fits.
 void textureinfo(LowerCall& c) {
     auto& e = c.low;
     auto& b = c.b;
-    std::vector<Value> answer = e.service("textureinfo", std::array{c.f(0), c.f(1)});
+    std::vector<Value> answer = e.service(Service::textureinfo, std::array{c.f(0), c.f(1)});
     const Expr& variable = *c.call.args[2];
     BaseType type = variable.type.base;
     size_t each = size_t(component_count(type));

@@ -107,9 +107,10 @@ void Lowering::gather(const GatherStmt& stmt) {
         }
     }
     auto seed = sample_seed(uint32_t(out.gathers.size()) * 2654435761u + 77);
-    Value set = service("gather", std::array{seed[0], seed[1], b.i(int(out.gathers.size())),
-                                             b.i(gather_depth_), P[0], P[1], P[2], D[0], D[1], D[2],
-                                             angle, samples, maxdist, bias, label, b.i(flags)})[0];
+    Value set =
+        service(Service::gather, std::array{seed[0], seed[1], b.i(int(out.gathers.size())),
+                                            b.i(gather_depth_), P[0], P[1], P[2], D[0], D[1], D[2],
+                                            angle, samples, maxdist, bias, label, b.i(flags)})[0];
     out.gathers.push_back(std::move(wanted));
 
     ++gather_depth_;

@@ -14,7 +14,7 @@ Value Lowering::record_set(const V3& position) {
         out.uses_lights = true;
         return b.i(0);
     }
-    return service("lights", position)[0];
+    return service(Service::lights, position)[0];
 }
 
 Value Lowering::record_field(Value set, Value record, int column, jit::Type type) {

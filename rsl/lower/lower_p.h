@@ -281,7 +281,7 @@ class Lowering : public Emitter {
     // The ints that seed a call's samples: the point's, and this place's with its loop iterations.
     std::array<Value, 2> sample_seed(uint32_t site);
 
-    std::vector<Value> service(std::string_view name, std::span<const Value> args);
+    std::vector<Value> service(Service service, std::span<const Value> args);
 
     // Parameters of layers that are done, for displacement() and surface().
     struct Message {

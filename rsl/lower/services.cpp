@@ -5,85 +5,45 @@ namespace kinora::rsl {
 
 namespace {
 
-// Signatures as rsl/model/renderer_services.h lists them: i int, f float; p, v, n the three floats
-// of a point, vector or normal in the kernel's "current". Directions into an environment map are
-// numbers in the map's space.
-struct ServiceRow {
-    std::string_view name;
-    std::string params;
-    std::string results;
-    bool pure;
-};
-const ServiceRow kServices[] = {
-    {"lights", "p", "i", true},
-    {"texture", "iffffffffffif", "ffff", true},
-    {"environment", "iffffffffffff", "ffff", true},
-    {"shadow", "ipvvfff", "fff", true},
-    {"textureinfo", "ii", "iffffffffffffffff", true},
-    {"trace", "iipvffffi", "ffff", true},
-    {"transmission", "iippfff", "fff", true},
-    {"occlusion", "iipnffffffi", "fvfff", true},
-    {"indirectdiffuse", "iipnffffi", "ffffff", true},
-    {"gather", "iiiipvffffii", "i", false},
-    {"query", "iiiiii", "iffffffffffffffff", true},
-    {"bake3d", "iii" + std::string(8 + kPointFloats, 'f'), "", false},
-    {"texture3d", "iifffffff", "i" + std::string(kPointFloats, 'f'), true},
-    {"photons", "iiipn", "fff", true},
-    {"transform", "i", "ffffffffffffffffffffffff", true},
-    {"print", "iffffffffffffffff", "", false},
-    {"concat", "ii", "i", true},
-    {"format", "iffffffffffffffff", "i", true},
-    {"match", "ii", "f", true},
-};
-
-// What of a signature is a triple in space; Float: a number.
-BaseType spatial(char letter) {
-    return letter == 'p'   ? BaseType::Point
-           : letter == 'v' ? BaseType::Vector
-           : letter == 'n' ? BaseType::Normal
-                           : BaseType::Float;
+BaseType spatial_type(char kind) {
+    return kind == 'p' ? BaseType::Point : kind == 'v' ? BaseType::Vector : BaseType::Normal;
 }
 
-std::vector<jit::Type> types(std::string_view letters) {
+// Types of a list of rsl/model/services.def.
+std::vector<jit::Type> types(std::string_view list) {
     std::vector<jit::Type> result;
-    for (char c : letters)
-        result.insert(result.end(), size_t(component_count(spatial(c))),
-                      c == 'i' ? jit::Type::I : jit::Type::F);
+    for_each_service_value(list, [&](const ServiceValue& value) {
+        result.insert(result.end(), size_t(value.width()),
+                      value.kind == 'i' ? jit::Type::I : jit::Type::F);
+    });
     return result;
 }
 
-// body(triple) for each triple among the values, which may change it.
-template <class Body>
-void for_each_place(std::string_view letters, std::span<Value> values, Body&& body) {
-    size_t at = 0;
-    for (char c : letters) {
-        Lowered x{spatial(c), {}};
-        size_t width = size_t(x.size());
-        if (is_spatial(x.type)) {
-            std::copy_n(&values[at], width, x.c.begin());
-            x = body(x);
-            std::copy_n(x.c.begin(), width, &values[at]);
-        }
-        at += width;
-    }
+// moved(triple) in place of each point, vector and normal of a list.
+template <class Moved>
+void move_triples(std::string_view list, std::span<Value> numbers, Moved&& moved) {
+    for_each_service_value(list, [&](const ServiceValue& value) {
+        if (!value.is_spatial()) return;
+        Lowered x{spatial_type(value.kind), {}};
+        std::copy_n(&numbers[size_t(value.first)], 3, x.c.begin());
+        x = moved(x);
+        std::copy_n(x.c.begin(), 3, &numbers[size_t(value.first)]);
+    });
 }
 
 }  // namespace
 
-std::vector<Value> Lowering::service(std::string_view name, std::span<const Value> args) {
-    for (const ServiceRow& row : kServices) {
-        if (row.name != name) continue;
-        int slot =
-            b.declare_service({std::string(name), types(row.params), types(row.results), row.pure});
-        if (!bends_normals()) return b.service(slot, running, args);
-        std::vector<Value> given(args.begin(), args.end());
-        for_each_place(row.params, given, [&](const Lowered& x) { return out_of_layer(x); });
-        std::vector<Value> answer = b.service(slot, running, given);
-        for_each_place(row.results, answer, [&](const Lowered& x) { return into_layer(x); });
-        return answer;
-    }
-    CHECK(false);
-    return {};
+std::vector<Value> Lowering::service(Service service, std::span<const Value> args) {
+    const ServiceForm& form = service_form(service);
+    CHECK_EQ(args.size(), size_t(argument_count(service)));
+    int slot = b.declare_service(
+        {std::string(form.name), types(form.arguments), types(form.results), form.pure});
+    if (!bends_normals()) return b.service(slot, running, args);
+    std::vector<Value> given(args.begin(), args.end());
+    move_triples(form.arguments, given, [&](const Lowered& x) { return out_of_layer(x); });
+    std::vector<Value> answer = b.service(slot, running, given);
+    move_triples(form.results, answer, [&](const Lowered& x) { return into_layer(x); });
+    return answer;
 }
 
 V3 Lowering::du(const V3& v) {

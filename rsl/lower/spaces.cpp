@@ -92,7 +92,7 @@ void Lowering::unknown_space(const std::string& name, Location where) {
 }
 
 Lowering::Space Lowering::variable_space(Value name) {
-    std::vector<Value> parts = service("transform", std::span(&name, 1));
+    std::vector<Value> parts = service(Service::transform, std::span(&name, 1));
     auto matrix = [&](size_t first) {
         Lowered m = convert(lowered(BaseType::Float, b.f(1)), BaseType::Matrix);
         for (size_t row = 0; row < 4; ++row)

@@ -1,5 +1,6 @@
 // rsl/model/renderer_services.h: the contract between compiled shaders and a renderer: how kernel
-// inputs and outputs are named, what light records hold, and the functions that shaders call.
+// inputs and outputs are named, what light records hold, and what the values of services mean that
+// services.def lists.
 //
 // clang-format off
 // Kernel inputs (component suffixes: .x .y .z for point-like, .r .g .b for color, none for float):
@@ -37,6 +38,8 @@
 #include <string>
 #include <string_view>
 
+#include "rsl/model/services.h"
+
 namespace kinora::rsl {
 
 // Columns of a light record, as RecordField reads them. L points from the surface to the light,
@@ -57,58 +60,15 @@ enum LightUniform {
 // An ambient record has no direction: it is seen by ambient() only, never by illuminance.
 enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 
-// clang-format off
-// Services by name; parameters and results are floats unless noted, in this order:
-//   lights        (P0 xyz) -> int handle of a record set at P0, the same written to all lanes; set
-//                  0 (no call) is the lights at P
-//   texture       (int name, channel, s, t, dsdx, dtdx, dsdy, dtdy, blur, swidth, twidth,
-//                  int filter, fill) -> r g b a, starting at the channel
-//   environment   (int name, channel, R xyz, dRdx xyz, dRdy xyz, blur, fill) -> r g b a
-//   shadow        (int name, P xyz, dPdx xyz, dPdy xyz, bias (< 0: not given), blur, samples) -> r g b
-//   textureinfo   (int name, int field) -> int count, 16 values: so many numbers are known; -1: the
-//                  first value is a string's id
-//                  Those that shoot rays begin with two ints, the seed: the point's rng and the
-//                  place of the call with its loop iterations.
-//   trace         (seed, P xyz, R xyz, maxdist, bias, samples, cone, int label) -> r g b, distance of
-//                  the nearest (1e30 for a miss); bias < 0: the point's own error bound
-//   transmission  (seed, from xyz, to xyz, samples, cone, bias) -> r g b
-//   occlusion     (seed, P xyz, N xyz, samples, cone, maxdist, bias, falloff, falloffmode, int
-//                  environment map) -> share blocked, mean open direction xyz, r g b of the map
-//                  along what is open
-//   indirectdiffuse (seed, P xyz, N xyz, samples, cone, maxdist, bias, int environment map) -> r g b,
-//                  r g b of it that the map gives
-//   gather        (seed, int index in LoweredShader::gathers, int nesting 0.., P xyz, D xyz, cone,
-//                  samples, maxdist, bias, int label, int flags of GatherFlag) -> int record set,
-//                  the same written to all lanes: one record a sample, columns GatherColumn, then
-//                  the results' components
-//   query         (int QueryKind, int name, int type letter as in rsl/model/builtin.h, int element of an
-//                  array or -1, int length, int rng or 0) -> int known, up to 16 numbers (ids of
-//                  strings bit for bit)
-//   bake3d        (int file, int channels "float a,color b", int rng, P xyz, N xyz, radius (0: not
-//                  given), its scale (< 0: P and N are in the file's space, not in current),
-//                  kPointFloats numbers) -> nothing
-//   texture3d     (int file, int channels, P xyz, N xyz, scale as of bake3d) -> int bits of the
-//                  channels found, kPointFloats numbers
-//   photons       (int file, int PhotonKind, int number of photons, P xyz, N xyz) -> r g b
-//   transform     (int space) -> 12 floats to_current, 12 floats from_current (names not constant)
-//   concat        (int, int) -> int; match (int pattern, int text) -> 1 or 0; format (as print) ->
-//                 int: the same for every renderer, rsl/model/string_functions.h
-//   print         (int format, 16 values: those the format's %f %d %c %p %v %n %m %s take, in order,
-//                  strings as ids bit for bit, the rest 0) -> nothing
-// clang-format on
-inline constexpr std::string_view kServiceNames[] = {
-    "lights", "texture", "environment", "shadow",  "trace",          "transmission", "transform",
-    "print",  "concat",  "format",      "match",   "textureinfo",    "query",        "occlusion",
-    "gather", "bake3d",  "texture3d",   "photons", "indirectdiffuse"};
-
 // A ray of a gather: columns of its record, then the wanted results in their order.
 enum GatherColumn { kGatherState = 0, kGatherResults = 1 };
 enum GatherState { kGatherMiss = 0, kGatherHit = 1, kGatherNone = 2 };  // None: no such sample here
 enum GatherFlag { kGatherCosine = 1, kGatherNoRays = 2 };
 inline constexpr int kGatherLevels = 8;  // gathers inside one another
-inline constexpr int kPointFloats = 32;  // numbers of one point of a point file
+// Numbers of one point of a point file.
+inline constexpr int kPointFloats = service_argument(Service::bake3d, "values").count;
 
-// Who is asked by the service "query".
+// What the service "query" looks in.
 enum class QueryKind : int32_t {
     Attribute,
     Option,

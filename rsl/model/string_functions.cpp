@@ -182,18 +182,18 @@ void match(const jit::ServiceCall& call) {
     });
 }
 
-struct ServiceRow {
-    std::string_view name;
-    jit::ServiceFn function;
-};
-constexpr ServiceRow kServices[] = {{"concat", concat}, {"format", format}, {"match", match}};
-static_assert(std::size(kServices) == std::size(kStringServices));
-
 }  // namespace
 
-jit::ServiceFn string_service(std::string_view name) {
-    for (const ServiceRow& row : kServices)
-        if (row.name == name) return row.function;
+jit::ServiceFn string_service(Service service) {
+    switch (service) {
+#define SERVICE(name, arguments, results, effects, doc) \
+    case Service::name:                                 \
+        return nullptr;
+#define STRING_SERVICE(name, arguments, results, effects, doc) \
+    case Service::name:                                        \
+        return name;
+#include "rsl/model/services.def"
+    }
     return nullptr;
 }
 

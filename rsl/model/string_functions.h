@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jit/ir/kernel.h"
+#include "rsl/model/services.h"
 
 namespace kinora::rsl {
 
@@ -21,7 +22,7 @@ struct Conversion {
 std::vector<Conversion> conversions(std::string_view format);
 
 // The most numbers that the services "format" and "print" take.
-inline constexpr int kMostFormatValues = 16;
+inline constexpr int kMostFormatValues = service_argument(Service::print, "values").count;
 
 // The format with its conversions replaced, a float at a time; strings are interned ids bit for
 // bit, missing values 0. A float without precision is the shortest decimal that reads back; %d
@@ -46,12 +47,10 @@ std::string escape_format(std::string_view text);
 // product at most.
 bool matches(std::string_view pattern, std::string_view text);
 
-// The services "concat", "format" and "match" (rsl/model/renderer_services.h), the same for every
-// renderer; null for other names. Each does its work once for each distinct set of arguments of a
-// call. Once a million strings or 256 MB of them exist no new ones are made: the result is "". A
-// string of more than kMostText bytes is not made: the result is kTooLong instead, which lowered
-// code reports.
-inline constexpr std::string_view kStringServices[] = {"concat", "format", "match"};
-jit::ServiceFn string_service(std::string_view name);
+// The string services of services.def, the same for every renderer; null for the others. Each does
+// its work once for each distinct set of arguments of a call. Once a million strings or 256 MB of
+// them exist no new ones are made: the result is "". A string of more than kMostText bytes is not
+// made: the result is kTooLong instead, which lowered code reports.
+jit::ServiceFn string_service(Service service);
 
 }  // namespace kinora::rsl

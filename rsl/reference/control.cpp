@@ -185,7 +185,7 @@ RefFlow Reference<Real>::gather(const GatherStmt& stmt) {
     };
     bool shoots = expr(*stmt.category).text() != "samplepattern";
     add(*stmt.position), add(*stmt.direction), add(*stmt.angle), add(*stmt.samples);
-    std::vector<double> rays = service("gather", args);
+    std::vector<double> rays = service(Service::gather, args);
     size_t next = 0;
     auto number = [&] { return next < rays.size() ? rays[next++] : 0; };
     int count = int(number());

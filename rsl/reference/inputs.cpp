@@ -166,32 +166,33 @@ auto Reference<Real>::array_parameter(const Symbol& symbol) -> std::vector<Item>
 
 namespace {
 
-// Where places, directions and normals stand among a service's arguments (results: -1 - index).
+// Where points, directions and normals stand among a service's arguments (results: -1 - index). By
+// hand: lowering follows the letters of services.def, and the differential tests compare the two.
 struct Triple {
-    std::string_view service;
+    Service service;
     int at;
     BaseType type;
 };
 constexpr Triple kTriples[] = {
-    {"shadow", 1, BaseType::Point},          {"shadow", 4, BaseType::Vector},
-    {"shadow", 7, BaseType::Vector},         {"trace", 2, BaseType::Point},
-    {"trace", 5, BaseType::Vector},          {"transmission", 2, BaseType::Point},
-    {"transmission", 5, BaseType::Point},    {"occlusion", 2, BaseType::Point},
-    {"occlusion", 5, BaseType::Normal},      {"occlusion", -2, BaseType::Vector},
-    {"indirectdiffuse", 2, BaseType::Point}, {"indirectdiffuse", 5, BaseType::Normal},
-    {"gather", 4, BaseType::Point},          {"gather", 7, BaseType::Vector},
-    {"photons", 3, BaseType::Point},         {"photons", 6, BaseType::Normal},
+    {Service::shadow, 1, BaseType::Point},          {Service::shadow, 4, BaseType::Vector},
+    {Service::shadow, 7, BaseType::Vector},         {Service::trace, 2, BaseType::Point},
+    {Service::trace, 5, BaseType::Vector},          {Service::transmission, 2, BaseType::Point},
+    {Service::transmission, 5, BaseType::Point},    {Service::occlusion, 2, BaseType::Point},
+    {Service::occlusion, 5, BaseType::Normal},      {Service::occlusion, -2, BaseType::Vector},
+    {Service::indirectdiffuse, 2, BaseType::Point}, {Service::indirectdiffuse, 5, BaseType::Normal},
+    {Service::gather, 4, BaseType::Point},          {Service::gather, 7, BaseType::Vector},
+    {Service::photons, 3, BaseType::Point},         {Service::photons, 6, BaseType::Normal},
 };
 
 }  // namespace
 
 template <class Real>
-std::vector<double> Reference<Real>::service(std::string_view name, std::vector<double> args) {
+std::vector<double> Reference<Real>::service(Service service, std::vector<double> args) {
     if (!in.service) return {};
     auto move = [&](std::vector<double>& numbers, bool results) {
         for (const Triple& t : kTriples) {
             size_t at = size_t(t.at < 0 ? -1 - t.at : t.at);
-            if (t.service != name || (t.at < 0) != results || at + 3 > numbers.size()) continue;
+            if (t.service != service || (t.at < 0) != results || at + 3 > numbers.size()) continue;
             Item x(t.type);
             for (size_t k = 0; k < 3; ++k) x.c[k] = Number(Real(numbers[at + k]));
             x = results ? into_layer(x) : out_of_layer(x);
@@ -199,7 +200,7 @@ std::vector<double> Reference<Real>::service(std::string_view name, std::vector<
         }
     };
     if (bends_normals()) move(args, false);
-    std::vector<double> answer = in.service(name, args);
+    std::vector<double> answer = in.service(service, args);
     if (bends_normals()) move(answer, true);
     return answer;
 }
@@ -213,7 +214,7 @@ std::vector<double> Reference<Real>::service(std::string_view name, std::vector<
     template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                       \
     template auto Reference<Real>::parameter(const Symbol&, int)->Item;                    \
     template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;      \
-    template std::vector<double> Reference<Real>::service(std::string_view, std::vector<double>);
+    template std::vector<double> Reference<Real>::service(Service, std::vector<double>);
 KINORA_INPUT_METHODS(float)
 KINORA_INPUT_METHODS(double)
 

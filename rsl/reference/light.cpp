@@ -131,7 +131,7 @@ void texture(RefCall<Real>& c) {
                Real(0.5) * ((d - a) + (e - b)) * y;
     };
     from_map(c, [&](Real x, Real y) {
-        return c.eval.service("texture",
+        return c.eval.service(Service::texture,
                               {double(c.f(0).x), channel, double(coordinate(Global::s, 1, x, y)),
                                double(coordinate(Global::t, 2, x, y))});
     });
@@ -159,7 +159,7 @@ void environment(RefCall<Real>& c) {
         for (double x : {double(c.pair("maxdist", Real(1e30)).x), double(c.pair("bias", -1).x),
                          double(c.pair("samples", 1).x), double(c.pair("blur", 0).x), 0.0})
             args.push_back(x);
-        return from_service(c, c.eval.service("trace", args));
+        return from_service(c, c.eval.service(Service::trace, args));
     }
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
     Real du = c.eval.global(Global::du).c[0].x, dv = c.eval.global(Global::dv).c[0].x;
@@ -171,7 +171,7 @@ void environment(RefCall<Real>& c) {
         return at.x + Real(0.5) * ((q - p) + (s - r)) * x + Real(0.5) * ((r - p) + (s - q)) * y;
     };
     from_map(c, [&](Real x, Real y) {
-        return c.eval.service("environment",
+        return c.eval.service(Service::environment,
                               {double(c.f(0).x), channel, double(component(0, x, y)),
                                double(component(1, x, y)), double(component(2, x, y))});
     });
@@ -194,7 +194,7 @@ void trace_shadow(RefCall<Real>& c) {
     args.push_back(double(c.pair("samples", 1).x));
     args.push_back(double(c.pair("blur", 0).x));
     args.push_back(double(c.pair("bias", -1).x));
-    std::vector<double> through = c.eval.service("transmission", args);
+    std::vector<double> through = c.eval.service(Service::transmission, args);
     for (double& x : through) x = 1 - x;
     if (c.result.type == BaseType::Float && through.size() == 3)
         through = {(through[0] + through[1] + through[2]) / 3};
@@ -204,8 +204,8 @@ template <class Real>
 void shadow(RefCall<Real>& c) {
     if (is_scene(c)) return trace_shadow(c);
     Vec<Real> p = middle(c);
-    from_service(c, c.eval.service("shadow", {double(c.f(0).x), double(p[0].x), double(p[1].x),
-                                              double(p[2].x)}));
+    from_service(c, c.eval.service(Service::shadow, {double(c.f(0).x), double(p[0].x),
+                                                     double(p[1].x), double(p[2].x)}));
 }
 
 // The normal of P + h n for heights h of a map, whose slopes are differences over the footprint (J.
@@ -224,7 +224,7 @@ void bump(RefCall<Real>& c) {
     double channel = c.call.channel ? double(c.eval.expr(*c.call.channel).c[0].x) : 0;
     auto height = [&](Real by_s, Real by_t) {
         std::vector<double> texels = c.eval.service(
-            "texture",
+            Service::texture,
             {double(c.f(0).x), channel, double(s.x + by_s * ds), double(t.x + by_t * dt)});
         return texels.empty() ? Real(0) : Real(texels[0]);
     };
@@ -245,7 +245,7 @@ void textureinfo(RefCall<Real>& c) {
     const Type type = c.call.args[2]->type;
     size_t each = size_t(component_count(type.base));
     std::vector<double> answer =
-        c.eval.service("textureinfo", {double(c.f(0).x), double(c.f(1).x)});
+        c.eval.service(Service::textureinfo, {double(c.f(0).x), double(c.f(1).x)});
     bool text = type.base == BaseType::String;
     double count = answer.empty() ? 0 : answer[0];
     bool known = text ? count == -1 : count >= double(each);

@@ -36,7 +36,7 @@ std::vector<double> ask_transmission(RefCall<Real>& c) {
     std::vector<double> args = seeded(c, 0, 2);
     for (double x : {pair(c, "samples", 1), pair(c, "samplecone", 0), pair(c, "bias", -1)})
         args.push_back(x);
-    return c.eval.service("transmission", args);
+    return c.eval.service(Service::transmission, args);
 }
 
 // Sets args[1] where the renderer knows the answer.
@@ -45,8 +45,8 @@ void ask(RefCall<Real>& c, QueryKind kind) {
     const Type type = c.call.args[1]->type;
     int letter = "fcpvnms"[int(type.base)];
     std::vector<double> answer =
-        c.eval.service("query", {double(int(kind)), double(c.args[0].c[0].x), double(letter),
-                                 type.is_array() ? 0.0 : -1.0, 1, 0});
+        c.eval.service(Service::query, {double(int(kind)), double(c.args[0].c[0].x), double(letter),
+                                        type.is_array() ? 0.0 : -1.0, 1, 0});
     bool known = at(answer, 0) != 0;
     c.set(Dual<Real>(Real(known)));
     for (size_t k = 0; known && k < c.args[1].size(); ++k)
@@ -57,8 +57,8 @@ template <class Real>
 void fact(RefCall<Real>& c, const char* name) {
     int letter = "fcpvnms"[int(c.result.type)];
     set_from(c,
-             c.eval.service("query", {double(int(QueryKind::RayInfo)), double(intern(name)),
-                                      double(letter), -1, 1, 0}),
+             c.eval.service(Service::query, {double(int(QueryKind::RayInfo)), double(intern(name)),
+                                             double(letter), -1, 1, 0}),
              1);
 }
 
@@ -69,7 +69,7 @@ void photons(RefCall<Real>& c, PhotonKind kind) {
                                 double(int(kind)), double(int(pair(c, "estimator", 50)))};
     for (size_t k = named ? 1 : 0; k < c.args.size(); ++k) add(args, c.args[k]);
     args.resize(9, 0.0);
-    set_from(c, c.eval.service("photons", args));
+    set_from(c, c.eval.service(Service::photons, args));
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void trace(RefCall<Real>& c) {
     for (double x : {pair(c, "maxdist", 1e30), pair(c, "bias", -1), pair(c, "samples", 1),
                      pair(c, "samplecone", 0), pair(c, "label", 0)})
         args.push_back(x);
-    set_from(c, c.eval.service("trace", args), c.result.type == BaseType::Float ? 3 : 0);
+    set_from(c, c.eval.service(Service::trace, args), c.result.type == BaseType::Float ? 3 : 0);
 }
 template <class Real>
 void transmission(RefCall<Real>& c) {
@@ -99,7 +99,7 @@ void occlusion(RefCall<Real>& c) {
          {pair(c, "coneangle", 1.5707963268), pair(c, "maxdist", 1e30), pair(c, "bias", -1),
           pair(c, "falloff", 0), pair(c, "falloffmode", 0), pair(c, "environmentmap", 0)})
         args.push_back(x);
-    std::vector<double> answer = c.eval.service("occlusion", args);
+    std::vector<double> answer = c.eval.service(Service::occlusion, args);
     set_from(c, answer);
     for (auto& [name, value] : c.pairs)
         for (auto [output, first] : {std::pair("environmentdir", 1), {"environmentcolor", 4}})
@@ -117,7 +117,7 @@ void indirectdiffuse(RefCall<Real>& c) {
          {pair(c, "coneangle", 1.5707963268), of_map ? 0 : pair(c, "maxdist", 1e30),
           pair(c, "bias", -1), of_map ? double(c.args[0].c[0].x) : pair(c, "environmentmap", 0)})
         args.push_back(x);
-    std::vector<double> answer = c.eval.service("indirectdiffuse", args);
+    std::vector<double> answer = c.eval.service(Service::indirectdiffuse, args);
     set_from(c, answer);
     for (auto& [name, value] : c.pairs)
         for (size_t k = 0; k < 3 && name == "environmentcolor"; ++k)
@@ -130,7 +130,7 @@ void areashadow(RefCall<Real>& c) {
     for (size_t k = 0; k < 3; ++k)
         args.push_back(0.5 * double(c.args[3].c[k].x + c.args[4].c[k].x));
     for (double x : {1.0, 0.0, pair(c, "bias", -1)}) args.push_back(x);
-    std::vector<double> through = c.eval.service("transmission", args);
+    std::vector<double> through = c.eval.service(Service::transmission, args);
     for (double& x : through) x = 1 - x;
     set_from(c, through);
 }
@@ -178,7 +178,7 @@ void texture3d(RefCall<Real>& c) {
         add(args, c.args[2]);
         args.push_back(1);
     }
-    std::vector<double> answer = c.eval.service("texture3d", args);
+    std::vector<double> answer = c.eval.service(Service::texture3d, args);
     int bits = int(at(answer, 0)), all = 1;
     size_t next = 1;
     int channel = 0;

@@ -29,11 +29,10 @@ struct ReferenceLight {
     std::vector<std::pair<std::string, std::vector<double>>> messages;
 };
 
-// What a renderer answers; the defaults are a world without textures and other objects. Names,
-// order and number of arguments and results as in rsl/model/renderer_services.h; strings as intern
-// ids.
+// What a renderer answers; the defaults are a world without textures and other objects. Arguments
+// and results in the order of rsl/model/services.def; strings as intern ids.
 using ReferenceService =
-    std::function<std::vector<double>(std::string_view name, std::span<const double> args)>;
+    std::function<std::vector<double>(Service service, std::span<const double> args)>;
 
 // The point, by the names of kernel inputs ("P.x", "dPdu.x", "param:0:Kd", "space:world:to_current:
 // 03"): what is missing is 0, a missing space is the identity.

@@ -174,7 +174,7 @@ class Reference {
     Vec<Real> normal_of(const Vec<Real>& p);
     Item parameter(const Symbol& symbol, int element);
     std::vector<Item> array_parameter(const Symbol& symbol);
-    std::vector<double> service(std::string_view name, std::vector<double> args);
+    std::vector<double> service(Service service, std::vector<double> args);
 
     // spaces.cpp; matrices on row vectors
     Matrix space(const std::string& name, const char* direction) const;

@@ -87,7 +87,7 @@ class Records {
     int width_;
 };
 
-// Rows of the service's arguments (rsl/model/renderer_services.h).
+// Rows of the service's arguments (rsl/model/services.def).
 struct Row {
     enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags };
 };

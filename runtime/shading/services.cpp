@@ -34,14 +34,15 @@ Grid& grid_of(const jit::ServiceCall& call) {
 }
 
 // Kernels that move vertices see no lights and no other surfaces.
-bool zeros_without_grid(const jit::ServiceCall& call, int results) {
+template <rsl::Service service>
+bool zeros_without_grid(const jit::ServiceCall& call) {
     if (host_of(call).grid) return false;
-    std::fill_n(call.results, results * kLanes, 0.0f);
+    rsl::answer_zeros<service>(call);
     return true;
 }
 
 void lights(const jit::ServiceCall& call) {
-    if (zeros_without_grid(call, 1)) return;
+    if (zeros_without_grid<rsl::Service::lights>(call)) return;
     Grid& grid = grid_of(call);
     int32_t handle = grid.shading->lights_at(grid, call);
     for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
@@ -65,22 +66,22 @@ void shadow(const jit::ServiceCall& call) {
 }
 
 void trace(const jit::ServiceCall& call) {
-    if (zeros_without_grid(call, 4)) return;
+    if (zeros_without_grid<rsl::Service::trace>(call)) return;
     Grid& grid = grid_of(call);
     grid.shading->trace(grid, call);
 }
 void transmission(const jit::ServiceCall& call) {
-    if (zeros_without_grid(call, 3)) return;
+    if (zeros_without_grid<rsl::Service::transmission>(call)) return;
     Grid& grid = grid_of(call);
     grid.shading->transmission(grid, call);
 }
 void occlusion(const jit::ServiceCall& call) {
-    if (zeros_without_grid(call, 4)) return;
+    if (zeros_without_grid<rsl::Service::occlusion>(call)) return;
     Grid& grid = grid_of(call);
     grid.shading->occlusion(grid, call);
 }
 void indirectdiffuse(const jit::ServiceCall& call) {
-    if (zeros_without_grid(call, 3)) return;
+    if (zeros_without_grid<rsl::Service::indirectdiffuse>(call)) return;
     Grid& grid = grid_of(call);
     grid.shading->indirect_diffuse(grid, call);
 }
@@ -93,7 +94,7 @@ void query(const jit::ServiceCall& call) {
     answer_query(host_of(call), call);
 }
 void bake3d(const jit::ServiceCall& call) {
-    if (zeros_without_grid(call, 0)) return;
+    if (zeros_without_grid<rsl::Service::bake3d>(call)) return;
     Grid& grid = grid_of(call);
     grid.shading->bake(grid, call);
 }
@@ -140,30 +141,29 @@ void print(const jit::ServiceCall& call) {
         std::fputs(print_text(call, 0).c_str(), stdout);
 }
 
-constexpr rsl::ServiceRow kRows[] = {
-    {"textureinfo", texture_info},
-    {"lights", lights},
-    {"texture", texture},
-    {"environment", environment},
-    {"shadow", shadow},
-    {"trace", trace},
-    {"transmission", transmission},
-    {"transform", transform},
-    {"print", print},
-    {"query", query},
-    {"occlusion", occlusion},
-    {"bake3d", bake3d},
-    {"gather", gather_service},
-    {"photons", photons},
-    {"texture3d", texture3d},
-    {"indirectdiffuse", indirectdiffuse},
+constexpr rsl::ServiceTable kServices = {
+    .lights = lights,
+    .texture = texture,
+    .environment = environment,
+    .shadow = shadow,
+    .textureinfo = texture_info,
+    .trace = trace,
+    .transmission = transmission,
+    .occlusion = occlusion,
+    .indirectdiffuse = indirectdiffuse,
+    .gather = gather_service,
+    .query = query,
+    .bake3d = bake3d,
+    .texture3d = texture3d,
+    .photons = photons,
+    .transform = transform,
+    .print = print,
 };
-static_assert(rsl::has_all_services(kRows));
 
 }  // namespace
 
 jit::ServiceFn find_service(std::string_view name) {
-    return rsl::find_service(kRows, name);
+    return rsl::find_service(kServices, name);
 }
 
 }  // namespace kinora

@@ -1,5 +1,4 @@
-// runtime/shading/services.h: what shaders ask of the renderer while they run
-// (rsl/model/renderer_services.h).
+// runtime/shading/services.h: what shaders call while they run (rsl/model/services.def).
 #pragma once
 
 #include <string_view>
@@ -8,7 +7,7 @@
 
 namespace kinora {
 
-// The function behind a service's name; every name of rsl::kServiceNames has one (CHECK).
+// The function behind a service's name; an unknown name stops the program.
 jit::ServiceFn find_service(std::string_view name);
 
 }  // namespace kinora

@@ -394,7 +394,8 @@ bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t no
     auto asks = [](const std::shared_ptr<const jit::Kernel>& kernel) {
         return kernel &&
                std::any_of(kernel->services.begin(), kernel->services.end(), [](const auto& s) {
-                   return s.name == "transform" || s.name == "query";
+                   return s.name == rsl::service_name(rsl::Service::transform) ||
+                          s.name == rsl::service_name(rsl::Service::query);
                });
     };
     return asks(look.full.pair.point) || asks(look.full.pair.frame);

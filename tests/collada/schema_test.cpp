@@ -9,8 +9,8 @@
 #include <random>
 
 #include "collada/schema/element_types_p.h"
-#include "collada/text/encoding_p.h"
 #include "collada/validate/validate.h"
+#include "runtime/base/text_encoding.h"
 #include "tests/collada/reading.h"
 
 namespace kinora::collada {

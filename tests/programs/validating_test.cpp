@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "runtime/programs/validate/image_size.h"
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 #include "runtime/programs/validate/rules.h"
 #include "runtime/programs/validate/unified_diff.h"
 

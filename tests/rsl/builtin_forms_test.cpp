@@ -114,9 +114,10 @@ std::map<std::string, std::vector<float>> run_on(const char* target, const Form&
     }
     for (const jit::Kernel* kernel : {run.kernels.point.get(), run.kernels.frame.get()})
         for (size_t k = 0; kernel && k < kernel->services.size(); ++k)
-            if (!string_service(kernel->services[k].name))
-                run.services[kernel->services[k].name] =
-                    answer_of(kernel->services[k].results.size(), std::make_index_sequence<64>());
+            if (Service service = find_service(kernel->services[k].name).value();
+                !string_service(service))
+                run.services[service] =
+                    answer_of(size_t(result_count(service)), std::make_index_sequence<64>());
     for (int i = 0; i < kPoints; ++i) {
         float x = float(i) / kPoints;
         run.inputs["s"].push_back(x);

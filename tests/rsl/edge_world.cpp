@@ -2,8 +2,6 @@
 // be.
 #include "tests/rsl/edge_world.h"
 
-#include <utility>
-
 #include "rsl/model/service_table.h"
 #include "runtime/base/check.h"
 #include "tests/rsl/shading_world.h"
@@ -143,65 +141,64 @@ void add_edge_lights(RunShader& run, Random& random, size_t points) {
     }
 }
 
-const jit::ServiceInfo& service_of(const RunShader& run, std::string_view name) {
-    for (const jit::Kernel* kernel : {run.kernels.point.get(), run.kernels.frame.get()})
-        for (size_t k = 0; kernel && k < kernel->services.size(); ++k)
-            if (kernel->services[k].name == name) return kernel->services[k];
-    check_failed("tests/rsl/edge_world.cpp", 0, "unknown service " + std::string(name));
-}
-
 // Results that are ints: how many values follow, handles of record sets, ids of strings.
-void repair_ints(std::string_view name, int32_t type, Random& random, std::span<float> results) {
+void repair_ints(Service service, int32_t type, Random& random, std::span<float> results) {
     auto whole = [&](size_t k, int32_t value) { results[k] = std::bit_cast<float>(value); };
-    if (name == "lights" || name == "gather") {
+    if (service == Service::lights || service == Service::gather) {
         whole(0, 0);  // one answer for all lanes: the lights
-    } else if (name == "query" && type == 's') {
+    } else if (service == Service::query && type == 's') {
         whole(0, int32_t(random.next() % 2));
         for (size_t k = 1; k < results.size(); ++k) whole(k, intern("world"));
-    } else if (name == "textureinfo") {
+    } else if (service == Service::textureinfo) {
         whole(0, int32_t(random.next() % 18) - 1);
         if (std::bit_cast<int32_t>(results[0]) < 0) whole(1, intern("texture"));
-    } else if (name == "query" || name == "texture3d") {
+    } else if (service == Service::query || service == Service::texture3d) {
         whole(0, int32_t(random.next() % 4));
     }
 }
 
-// The same for the same bits of the arguments; any NaN is one.
-template <size_t service>
+// A hash of a lane's arguments, in which any NaN is one.
+uint64_t argument_hash(Service service, const jit::ServiceCall& call, int lane) {
+    uint64_t hash = uint64_t(service) + 1;
+    auto add = [&](const ServiceValue& value) {
+        for (int k = value.first; k < value.first + value.width(); ++k) {
+            float x = call.args[k * jit::kMaxLanes + lane];
+            uint32_t bits = value.kind != 'i' && x != x ? 0x7fc00000 : std::bit_cast<uint32_t>(x);
+            hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+        }
+    };
+    for_each_service_value(service_form(service).arguments, add);
+    return hash;
+}
+
+// The same for the same bits of the arguments.
+template <Service service>
 void edge_service(const jit::ServiceCall& call) {
-    std::string_view name = kServiceNames[service];
     RunShader& run = *static_cast<RunShader*>(call.grid);
-    const jit::ServiceInfo& info = service_of(run, name);
-    std::vector<float> results(info.results.size());
+    float results[result_count(service) + 1];
     for (int lane = 0; lane < call.lanes; ++lane) {
         if (!(call.mask >> lane & 1)) continue;
-        Random random{service + 1};
-        int32_t type = 0;
-        for (size_t k = 0; k < info.params.size(); ++k) {
-            float x = call.args[k * jit::kMaxLanes + size_t(lane)];
-            bool number = info.params[k] == jit::Type::F;
-            uint32_t bits = number && x != x ? 0x7fc00000 : std::bit_cast<uint32_t>(x);
-            random.state = (random.state ^ bits) * 0x9e3779b97f4a7c15u;
-            if (k == 2) type = int32_t(bits);
-        }
+        Random random{argument_hash(service, call, lane)};
         // A sum, as lanes have no order.
         uint64_t told = random.state ^ uint64_t(call.first + lane);
-        if (!info.pure) run.told += told * 0xbf58476d1ce4e5b9u;
-        for (float& x : results) x = random.next() % 2 ? random.uniform(0, 1) : random.wild();
-        repair_ints(name, type, random, results);
-        for (size_t k = 0; k < results.size(); ++k)
-            call.results[k * jit::kMaxLanes + size_t(lane)] = results[k];
+        if (!service_form(service).pure) run.told += told * 0xbf58476d1ce4e5b9u;
+        std::span<float> answer(results, size_t(result_count(service)));
+        for (float& x : answer) x = random.next() % 2 ? random.uniform(0, 1) : random.wild();
+        int32_t type = 0;
+        if constexpr (service == Service::query)
+            type = std::bit_cast<int32_t>(
+                call.args[service_argument(service, "type").first * jit::kMaxLanes + lane]);
+        repair_ints(service, type, random, answer);
+        for (size_t k = 0; k < answer.size(); ++k)
+            call.results[k * jit::kMaxLanes + size_t(lane)] = answer[k];
     }
 }
 
-template <size_t... service>
-void add_services_of(RunShader& run, std::index_sequence<service...>) {
-    auto add = [&](size_t k, jit::ServiceFn function) {
-        if (!string_service(kServiceNames[k]))
-            run.services[std::string(kServiceNames[k])] = function;
-    };
-    (add(service, edge_service<service>), ...);
-}
+constexpr ServiceTable kEdgeWorld = {
+#define SERVICE(name, arguments, results, effects, doc) edge_service<Service::name>,
+#define STRING_SERVICE(name, arguments, results, effects, doc)
+#include "rsl/model/services.def"
+};
 
 }  // namespace
 
@@ -209,7 +206,7 @@ void add_edge_world(RunShader& run, uint64_t seed, size_t points) {
     Random random{seed * 31 + 7};
     add_missing_inputs(run, random, points);
     add_edge_lights(run, random, points);
-    add_services_of(run, std::make_index_sequence<std::size(kServiceNames)>());
+    run.set_services(kEdgeWorld);
 }
 
 }  // namespace kinora::rsl

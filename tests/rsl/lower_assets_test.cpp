@@ -26,11 +26,25 @@ void texture_service(const jit::ServiceCall& call) {
     for (int k = 0; k < 4 * jit::kMaxLanes; ++k) call.results[k] = 0.5f;
 }
 
-// 0 of all results: of gather the record set 0.
-template <int results>
-void nothing(const jit::ServiceCall& call) {
-    std::fill_n(call.results, results * jit::kMaxLanes, 0.0f);
-}
+// Of what is not looked up all results are 0: of gather the record set 0.
+constexpr ServiceTable kServiceTable = {
+    .lights = answer_zeros<Service::lights>,
+    .texture = texture_service,
+    .environment = texture_service,
+    .shadow = answer_zeros<Service::shadow>,
+    .textureinfo = answer_zeros<Service::textureinfo>,
+    .trace = texture_service,
+    .transmission = answer_zeros<Service::transmission>,
+    .occlusion = answer_zeros<Service::occlusion>,
+    .indirectdiffuse = answer_zeros<Service::indirectdiffuse>,
+    .gather = answer_zeros<Service::gather>,
+    .query = answer_zeros<Service::query>,
+    .bake3d = answer_zeros<Service::bake3d>,
+    .texture3d = answer_zeros<Service::texture3d>,
+    .photons = answer_zeros<Service::photons>,
+    .transform = answer_zeros<Service::transform>,
+    .print = answer_zeros<Service::print>,
+};
 
 void set_up(RunShader& shader) {
     shader.set3("N", 0, 0, 1);
@@ -38,20 +52,7 @@ void set_up(RunShader& shader) {
     shader.set3("I", 0.1f, 0.2f, -2);
     shader.set3("P", 0.3f, 0.7f, -0.4f);
     shader.lights.resize(2);
-    shader.services["texture"] = texture_service;
-    shader.services["environment"] = texture_service;
-    shader.services["trace"] = texture_service;
-    for (const char* name : {"lights", "gather"}) shader.services.try_emplace(name, nothing<1>);
-    shader.services.try_emplace("shadow", nothing<3>);
-    shader.services.try_emplace("transform", nothing<24>);
-    shader.services.try_emplace("print", nothing<0>);
-    shader.services["transmission"] = nothing<3>;
-    shader.services["indirectdiffuse"] = nothing<6>;
-    shader.services["photons"] = nothing<3>;
-    shader.services["occlusion"] = nothing<7>;
-    shader.services["query"] = nothing<17>;
-    shader.services["texture3d"] = nothing<33>;
-    shader.services["bake3d"] = nothing<0>;
+    shader.set_services(kServiceTable);
 }
 
 TEST(Assets, AllShadersLowerAndRunFinite) {

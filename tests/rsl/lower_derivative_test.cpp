@@ -90,7 +90,7 @@ TEST(LowerDerivative, BumpBendsTheNormalGiven) {
             " Ci = color(xcomp(n), ycomp(n), zcomp(n)); }");
         static float slope;
         slope = rise;
-        shader.services["texture"] = [](const jit::ServiceCall& call) {
+        shader.services[Service::texture] = [](const jit::ServiceCall& call) {
             for (int k = 0; k < jit::kMaxLanes; ++k)
                 call.results[k] = slope * call.args[2 * jit::kMaxLanes + k];
         };
@@ -126,7 +126,7 @@ TEST(LowerDerivative, MapsHaveDerivatives) {
         "N);"
         " color u = Du(a), w = Dv(a); Ci = color(comp(u, 0), comp(u, 1), comp(w, 1));"
         " Oi = color(comp(Du(e), 0), comp(Dv(e), 1), comp(Dv(e), 0)); }");
-    shader.services["texture"] = shader.services["environment"] = shows_coordinate;
+    shader.services[Service::texture] = shader.services[Service::environment] = shows_coordinate;
     auto out = shader.run();
     EXPECT_NEAR(out["Ci.r"][0], 2, 1e-5);
     EXPECT_NEAR(out["Ci.g"][0], 3, 1e-5);
@@ -162,7 +162,7 @@ TEST(LowerDerivative, FilterstepSpansThePixel) {
 
 TEST(LowerDerivative, TexturesGetTheirFootprint) {
     OnPlane shader("surface t() { Ci = color texture(\"a\", 2 * s, v); }");
-    shader.services["texture"] = [](const jit::ServiceCall& call) {
+    shader.services[Service::texture] = [](const jit::ServiceCall& call) {
         for (int k = 0; k < jit::kMaxLanes; ++k) {
             call.results[k] = call.args[4 * jit::kMaxLanes + k];                       // dsdx
             call.results[jit::kMaxLanes + k] = call.args[7 * jit::kMaxLanes + k];      // dtdy

@@ -179,7 +179,7 @@ TEST(Recursion, SendsOtherRaysAtEachLevel) {
     ASSERT_TRUE(run.ok()) << run.findings();
     static std::set<std::pair<int32_t, int32_t>> seeds;
     seeds.clear();
-    run.services["trace"] = [](const jit::ServiceCall& call) {
+    run.services[Service::trace] = [](const jit::ServiceCall& call) {
         seeds.insert({std::bit_cast<int32_t>(call.args[0]),
                       std::bit_cast<int32_t>(call.args[jit::kMaxLanes])});
         std::fill_n(call.results, 4 * jit::kMaxLanes, 0.0f);

@@ -12,6 +12,7 @@
 #include "jit/compiler.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "rsl/model/service_table.h"
 #include "rsl/model/string_functions.h"
 #include "runtime/base/arena.h"
 
@@ -58,6 +59,9 @@ class RunShader {
     }
 
     bool ok() const { return kernels.point != nullptr; }
+    void set_services(const ServiceTable& table) {
+        for (Service service : kServices) services[service] = table[service];
+    }
     // All findings, as a user sees them.
     std::string findings() const {
         std::string all = verdict;
@@ -100,7 +104,7 @@ class RunShader {
     jit::KernelPair kernels;
     std::map<std::string, std::vector<float>> inputs;
     std::vector<TestLight> lights;
-    std::map<std::string, jit::ServiceFn> services;
+    std::map<Service, jit::ServiceFn> services;
     static constexpr int32_t kNoRecords = 1;  // the handle of a record set without records
     int faults = 0;  // sites that reported in the last run, of the frame kernel too
     // For services with effects, which get this RunShader as their grid: a hash of all they were
@@ -169,6 +173,17 @@ class RunShader {
         return {int32_t(lights.size()), list.data()};
     }
 
+    jit::ServiceFn function_of(const std::string& name) const {
+        Service service = find_service(name).value();
+        auto given = services.find(service);
+        jit::ServiceFn function = given != services.end() ? given->second : string_service(service);
+        if (!function) {
+            fprintf(stderr, "the test gives no service '%s'\n", name.c_str());
+            abort();
+        }
+        return function;
+    }
+
     std::vector<float> run_kernel(const jit::Kernel& kernel, int count, const float* frame,
                                   const jit::RecordSet* records) {
         auto in = arena.allocate_span<const float*>(kernel.inputs.size() + 1);
@@ -178,15 +193,7 @@ class RunShader {
         for (size_t k = 0; k < kernel.outputs.size(); ++k) outs[k] = column(0, count);
         auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size() + 1);
         for (size_t k = 0; k < kernel.services.size(); ++k)
-            functions[k] = services.count(kernel.services[k].name)
-                               ? services.at(kernel.services[k].name)
-                               : string_service(kernel.services[k].name);
-        for (size_t k = 0; k < kernel.services.size(); ++k)
-            if (!functions[k]) {
-                fprintf(stderr, "the test gives no service '%s'\n",
-                        kernel.services[k].name.c_str());
-                abort();
-            }
+            functions[k] = function_of(kernel.services[k].name);
         auto reported = arena.allocate_span<uint8_t>(kernel.fault_sites.size() + 1);
         std::fill(reported.begin(), reported.end(), uint8_t(0));
         jit::KernelArgs args;

@@ -37,59 +37,67 @@ inline Columns random_point(uint64_t seed, size_t points) {
 }
 
 // What services answer, the same for kernels and the reference: smooth in a few arguments.
-inline double answer(std::string_view name, const double* args, int result) {
-    int first = name == "texture" || name == "environment" ? 2 : name == "shadow" ? 1 : 0;
-    if (name == "trace" || name == "transmission") first = 2;  // behind the seed
-    int count = name == "texture" ? 2 : 3;
+inline double answer(Service service, const double* args, int result) {
+    bool seeded = service == Service::trace || service == Service::transmission;
+    bool of_map = service == Service::texture || service == Service::environment;
+    int first = seeded || of_map ? 2 : service == Service::shadow ? 1 : 0;
+    int count = service == Service::texture ? 2 : 3;
     double sum = 0.3 * result;
     for (int k = 0; k < count; ++k) sum += args[first + k] * (0.7 + 0.2 * k);
     return 0.5 + 0.4 * std::sin(sum);
 }
+constexpr int kAnswerArguments = 6;
 
-template <int kService>
-void kernel_service(const jit::ServiceCall& call) {
-    std::string_view name = kServiceNames[kService];
-    int results = name == "lights" || name == "print" ? 0 : name == "transform" ? 24 : 4;
-    if (name == "shadow" || name == "transmission") results = 3;
+template <Service service>
+void answer_smoothly(const jit::ServiceCall& call) {
     for (int lane = 0; lane < call.lanes; ++lane) {
-        double args[6];
-        for (int k = 0; k < 6 && results; ++k)
+        double args[kAnswerArguments] = {};
+        for (int k = 0; k < std::min(kAnswerArguments, argument_count(service)); ++k)
             args[k] = double(call.args[k * jit::kMaxLanes + lane]);
-        for (int k = 0; k < results; ++k)
-            call.results[k * jit::kMaxLanes + lane] = float(answer(name, args, k));
-        if (name == "lights") call.results[lane] = std::bit_cast<float>(0);
+        for (int k = 0; k < result_count(service); ++k)
+            call.results[k * jit::kMaxLanes + lane] = float(answer(service, args, k));
     }
-}
-
-// Services behind the first eight answer 0 to both.
-template <int results>
-void zero_service(const jit::ServiceCall& call) {
-    std::fill_n(call.results, results * jit::kMaxLanes, 0.0f);
 }
 
 inline void gather_nothing(const jit::ServiceCall& call) {
     std::fill_n(call.results, jit::kMaxLanes, std::bit_cast<float>(RunShader::kNoRecords));
 }
 
-inline std::vector<double> reference_service(std::string_view name, std::span<const double> args) {
-    auto known = std::find(std::begin(kServiceNames), std::end(kServiceNames), name);
-    if (known - std::begin(kServiceNames) >= 8) return {};
-    double padded[6] = {};
-    std::copy_n(args.begin(), std::min<size_t>(args.size(), 6), padded);
+// Of the others all is 0, for kernels and the reference.
+inline constexpr ServiceTable kSmoothWorld = {
+    .lights = answer_zeros<Service::lights>,
+    .texture = answer_smoothly<Service::texture>,
+    .environment = answer_smoothly<Service::environment>,
+    .shadow = answer_smoothly<Service::shadow>,
+    .textureinfo = answer_zeros<Service::textureinfo>,
+    .trace = answer_smoothly<Service::trace>,
+    .transmission = answer_smoothly<Service::transmission>,
+    .occlusion = answer_zeros<Service::occlusion>,
+    .indirectdiffuse = answer_zeros<Service::indirectdiffuse>,
+    .gather = gather_nothing,
+    .query = answer_zeros<Service::query>,
+    .bake3d = answer_zeros<Service::bake3d>,
+    .texture3d = answer_zeros<Service::texture3d>,
+    .photons = answer_zeros<Service::photons>,
+    .transform = answer_smoothly<Service::transform>,
+    .print = answer_zeros<Service::print>,
+};
+
+inline std::vector<double> reference_service(Service service, std::span<const double> args) {
+    constexpr Service kAnswered[] = {Service::texture, Service::environment, Service::shadow,
+                                     Service::trace, Service::transmission};
+    if (std::find(std::begin(kAnswered), std::end(kAnswered), service) == std::end(kAnswered))
+        return {};
+    double padded[kAnswerArguments] = {};
+    std::copy_n(args.begin(), std::min<size_t>(args.size(), kAnswerArguments), padded);
     std::vector<double> results;
-    for (int k = 0; k < 4; ++k) results.push_back(double(float(answer(name, padded, k))));
+    for (int k = 0; k < result_count(service); ++k)
+        results.push_back(double(float(answer(service, padded, k))));
     return results;
 }
 
 inline void add_services(RunShader& run) {
-    run.services = {{"lights", kernel_service<0>},        {"texture", kernel_service<1>},
-                    {"environment", kernel_service<2>},   {"shadow", kernel_service<3>},
-                    {"trace", kernel_service<4>},         {"transmission", kernel_service<5>},
-                    {"transform", kernel_service<6>},     {"print", kernel_service<7>},
-                    {"query", zero_service<17>},          {"occlusion", zero_service<7>},
-                    {"indirectdiffuse", zero_service<6>}, {"photons", zero_service<3>},
-                    {"texture3d", zero_service<33>},      {"bake3d", zero_service<0>},
-                    {"gather", gather_nothing},           {"textureinfo", zero_service<17>}};
+    run.set_services(kSmoothWorld);
 }
 
 inline void add_lights(RunShader& run, ReferenceInputs& inputs) {

@@ -134,7 +134,7 @@ TEST(Strings, PrintIsKeptAndComesInPiecesOfItsFormat) {
     RunShader run(
         "surface t() { matrix m = s; printf(\"a %m b %m\\n\", m, m); debug(s); Ci = 0; }");
     ASSERT_TRUE(run.ok()) << run.findings();
-    run.services["print"] = [](const jit::ServiceCall& call) {
+    run.services[Service::print] = [](const jit::ServiceCall& call) {
         std::vector<float> values;
         for (int k = 0; k < kMostFormatValues; ++k)
             values.push_back(call.args[(1 + k) * jit::kMaxLanes]);

@@ -42,13 +42,13 @@ bool same_bits(float a, float b) {
 
 // A service as the reference asks for it: one lane, doubles.
 rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& kernel) {
-    return [&](std::string_view name, std::span<const double> arguments) -> std::vector<double> {
-        if (name == "gather") return {0.0};  // no rays, as shade_service has it
-        bool called = false;
+    return [&](rsl::Service service, std::span<const double> arguments) -> std::vector<double> {
+        if (service == rsl::Service::gather) return {0.0};  // no rays, as shade_services has it
         std::vector<jit::Type> params, results;
+        bool called = false;
         for (const auto* k : {kernel.pair().point.get(), kernel.pair().frame.get()})
             for (size_t s = 0; k && s < k->services.size(); ++s)
-                if (k->services[s].name == name) {
+                if (k->services[s].name == rsl::service_name(service)) {
                     called = true;
                     params = k->services[s].params;
                     results = k->services[s].results;
@@ -63,7 +63,7 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
             in[a * jit::kMaxLanes] =
                 is_int ? jit::float_of(int32_t(arguments[a])) : float(arguments[a]);
         }
-        shade_service(name)({const_cast<Patch*>(&patch), in.data(), out.data(), 1, 0, 1});
+        shade_services()[service]({const_cast<Patch*>(&patch), in.data(), out.data(), 1, 0, 1});
         std::vector<double> answer;
         for (size_t r = 0; r < results.size(); ++r) {
             float value = out[r * jit::kMaxLanes];
@@ -153,7 +153,8 @@ void compare_with_reference(const ShadeStack& stack, const Patch& patch,
                 worst.meet(double(values[i]), found->second, name, i);
     }
     for (const jit::ServiceInfo& service : kernel.pair().point->services)
-        if (service.name == "texture" || service.name == "environment")
+        if (service.name == rsl::service_name(rsl::Service::texture) ||
+            service.name == rsl::service_name(rsl::Service::environment))
             std::printf("reference: reads %s unfiltered, so large pixels differ\n",
                         service.name.c_str());
     std::printf("reference: %zu points compared, %zu near a decision left out\n", compared,

@@ -86,12 +86,12 @@ void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
     }
     for (size_t o = 0; o < kernel.outputs.size(); ++o) out_.push_back(column(patch.count(), 0));
     for (const jit::ServiceInfo& service : kernel.services)
-        services_.push_back(shade_service(service.name));
+        services_.push_back(rsl::find_service(shade_services(), service.name));
     faults_.assign(kernel.fault_sites.size() + 1, 0);
     size_t scratch = kernel.scratch_bytes;
     if (pair_.frame) {
         for (const jit::ServiceInfo& service : pair_.frame->services)
-            frame_services_.push_back(shade_service(service.name));
+            frame_services_.push_back(rsl::find_service(shade_services(), service.name));
         frame_faults_.assign(pair_.frame->fault_sites.size() + 1, 0);
         scratch = std::max(scratch, pair_.frame->scratch_bytes);
     }

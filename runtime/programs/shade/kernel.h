@@ -9,6 +9,7 @@
 #include "jit/compiler.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "rsl/model/service_table.h"
 #include "runtime/base/arena.h"
 #include "runtime/programs/shade/grid.h"
 #include "runtime/programs/shade/source.h"
@@ -86,7 +87,7 @@ struct ShadeLight {
 };
 std::vector<ShadeLight> shade_lights();
 
-// What a service of that name answers on a patch (KernelArgs::grid).
-jit::ServiceFn shade_service(std::string_view name);
+// What services answer on a patch (KernelArgs::grid).
+const rsl::ServiceTable& shade_services();
 
 }  // namespace kinora

@@ -46,11 +46,6 @@ void transmission(const jit::ServiceCall& call) {
     for (int k = 0; k < 3; ++k) fill(call, k, 1.0f);
 }
 
-// Nothing is near, nothing is known: all results 0.
-template <int results>
-void nothing(const jit::ServiceCall& call) {
-    for (int k = 0; k < results; ++k) fill(call, k, 0.0f);
-}
 // Without a scene gather has no rays to loop over: set 1 is empty.
 void gather(const jit::ServiceCall& call) {
     fill(call, 0, jit::float_of(1));
@@ -76,30 +71,30 @@ void print(const jit::ServiceCall& call) {
         if (call.mask >> lane & 1) std::fputs(print_text(call, lane).c_str(), stdout);
 }
 
-constexpr rsl::ServiceRow kRows[] = {
-    {"textureinfo", texture_info},
-    {"lights", lights},
-    {"texture", texture},
-    {"shadow", shadow},
-    {"environment", environment},
-    {"trace", trace},
-    {"transmission", transmission},
-    {"transform", transform},
-    {"print", print},
-    {"query", nothing<17>},
-    {"occlusion", nothing<7>},
-    {"gather", gather},
-    {"bake3d", nothing<0>},
-    {"photons", nothing<3>},
-    {"texture3d", nothing<33>},
-    {"indirectdiffuse", nothing<6>},
+// Nothing is near, nothing is known.
+constexpr rsl::ServiceTable kServices = {
+    .lights = lights,
+    .texture = texture,
+    .environment = environment,
+    .shadow = shadow,
+    .textureinfo = texture_info,
+    .trace = trace,
+    .transmission = transmission,
+    .occlusion = rsl::answer_zeros<rsl::Service::occlusion>,
+    .indirectdiffuse = rsl::answer_zeros<rsl::Service::indirectdiffuse>,
+    .gather = gather,
+    .query = rsl::answer_zeros<rsl::Service::query>,
+    .bake3d = rsl::answer_zeros<rsl::Service::bake3d>,
+    .texture3d = rsl::answer_zeros<rsl::Service::texture3d>,
+    .photons = rsl::answer_zeros<rsl::Service::photons>,
+    .transform = transform,
+    .print = print,
 };
-static_assert(rsl::has_all_services(kRows));
 
 }  // namespace
 
-jit::ServiceFn shade_service(std::string_view name) {
-    return rsl::find_service(kRows, name);
+const rsl::ServiceTable& shade_services() {
+    return kServices;
 }
 
 // As in a scene without lights (docs/lights.md#defaults): a distant light from over the camera's

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 #include "runtime/programs/validate/kinora_validate.h"
 #include "runtime/programs/validate/rules.h"
 

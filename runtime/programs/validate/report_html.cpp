@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "runtime/base/display_path.h"
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 #include "runtime/programs/validate/report.h"
 
 namespace kinora {

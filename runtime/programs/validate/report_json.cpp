@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "runtime/base/display_path.h"
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 #include "runtime/programs/validate/report.h"
 
 namespace kinora {

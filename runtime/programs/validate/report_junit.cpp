@@ -2,7 +2,7 @@
 // a case a finding that fails, or one case that passes.
 #include <fmt/format.h>
 
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 #include "runtime/programs/validate/report.h"
 
 namespace kinora {

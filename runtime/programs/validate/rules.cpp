@@ -11,7 +11,7 @@
 #include "rsl/text/findings.h"
 #include "runtime/description/findings.h"
 #include "runtime/profile_rsl/findings.h"
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
 // runtime/programs/validate/scene_info_print.cpp: a scene's counts as text and JSON.
 #include <fmt/format.h>
 
-#include "runtime/programs/validate/json_text.h"
+#include "runtime/programs/validate/escaped_text.h"
 #include "runtime/programs/validate/scene_info.h"
 
 namespace kinora {

@@ -1,11 +1,11 @@
-// runtime/programs/validate/unified_diff.cpp: Myers' algorithm (An O(ND) difference algorithm,
-// 1986) in its linear-space form, and hunks with three lines around.
+// runtime/programs/validate/unified_diff.cpp: the longest common subsequence of the lines (libdtl),
+// and hunks with three lines around.
 #include "runtime/programs/validate/unified_diff.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <dtl/dtl.hpp>
 #include <unordered_map>
 #include <vector>
 
@@ -14,7 +14,6 @@ namespace kinora {
 namespace {
 
 constexpr int kContext = 3;
-constexpr int kMostDifferences = 4000;  // in one search; beyond, the range is replaced as a whole
 
 std::vector<std::string_view> split_lines(std::string_view text) {
     std::vector<std::string_view> lines;
@@ -27,92 +26,54 @@ std::vector<std::string_view> split_lines(std::string_view text) {
     return lines;
 }
 
-struct Range {
-    int begin, end;
-    int size() const { return end - begin; }
-};
-struct Point {
-    int x, y;
-};
-
-// Marks the lines of each side that the other has not.
-class LineDiff {
-  public:
-    LineDiff(const std::vector<std::string_view>& a, const std::vector<std::string_view>& b)
-        : removed(a.size()), added(b.size()) {
-        std::unordered_map<std::string_view, int> numbers;
-        for (auto line : a)
-            a_.push_back(numbers.try_emplace(line, int(numbers.size())).first->second);
-        for (auto line : b)
-            b_.push_back(numbers.try_emplace(line, int(numbers.size())).first->second);
-        compare({0, int(a.size())}, {0, int(b.size())});
-    }
+// Which lines of each side the other has not.
+struct LineDiff {
     std::vector<bool> removed, added;
-
-  private:
-    void compare(Range a, Range b) {
-        while (a.size() && b.size() && a_[size_t(a.begin)] == b_[size_t(b.begin)])
-            ++a.begin, ++b.begin;
-        while (a.size() && b.size() && a_[size_t(a.end) - 1] == b_[size_t(b.end) - 1])
-            --a.end, --b.end;
-        std::optional<Point> middle;
-        if (a.size() && b.size()) middle = split(a, b);
-        if (!middle) {
-            std::fill(removed.begin() + a.begin, removed.begin() + a.end, true);
-            std::fill(added.begin() + b.begin, added.begin() + b.end, true);
-            return;
-        }
-        compare({a.begin, middle->x}, {b.begin, middle->y});
-        compare({middle->x, a.end}, {middle->y, b.end});
-    }
-
-    // Where the paths from both ends meet; nothing when it is too far, or would not split.
-    std::optional<Point> split(Range a, Range b) {
-        int n = a.size(), m = b.size(), most = std::min((n + m + 1) / 2, kMostDifferences);
-        std::vector<int> forward(2 * size_t(most) + 3, 0), backward(2 * size_t(most) + 3, 0);
-        auto at = [&](std::vector<int>& v, int k) -> int& { return v[size_t(k + most + 1)]; };
-        int delta = n - m;
-        for (int d = 0; d <= most; ++d) {
-            for (int k = -d; k <= d; k += 2) {
-                int x = d == 0 ? 0
-                        : k == -d || (k != d && at(forward, k - 1) < at(forward, k + 1))
-                            ? at(forward, k + 1)
-                            : at(forward, k - 1) + 1;
-                int y = x - k;
-                while (x < n && y < m && y >= 0 &&
-                       a_[size_t(a.begin + x)] == b_[size_t(b.begin + y)])
-                    ++x, ++y;
-                at(forward, k) = x;
-                int back = delta - k;
-                if (delta % 2 && std::abs(back) < d && x + at(backward, back) >= n)
-                    return inner({a.begin + x, b.begin + y}, a, b);
-            }
-            for (int k = -d; k <= d; k += 2) {
-                int x = d == 0 ? 0
-                        : k == -d || (k != d && at(backward, k - 1) < at(backward, k + 1))
-                            ? at(backward, k + 1)
-                            : at(backward, k - 1) + 1;
-                int y = x - k;
-                while (x < n && y < m && y >= 0 &&
-                       a_[size_t(a.end - 1 - x)] == b_[size_t(b.end - 1 - y)])
-                    ++x, ++y;
-                at(backward, k) = x;
-                int front = delta - k;
-                if (delta % 2 == 0 && std::abs(front) <= d && x + at(forward, front) >= n)
-                    return inner({a.end - x, b.end - y}, a, b);
-            }
-        }
-        return std::nullopt;
-    }
-
-    static std::optional<Point> inner(Point p, Range a, Range b) {
-        bool inside = p.x >= a.begin && p.x <= a.end && p.y >= b.begin && p.y <= b.end;
-        bool splits = (p.x != a.begin || p.y != b.begin) && (p.x != a.end || p.y != b.end);
-        return inside && splits ? std::optional(p) : std::nullopt;
-    }
-
-    std::vector<int> a_, b_;
 };
+
+// One side: its lines as numbers, and which of them the other side has somewhere.
+struct Side {
+    std::vector<int> lines;
+    std::vector<int> shared;        // numbers
+    std::vector<size_t> shared_at;  // where they are
+
+    void keep_shared(const Side& other, size_t numbers) {
+        std::vector<bool> there(numbers, false);
+        for (int line : other.lines) there[size_t(line)] = true;
+        for (size_t i = 0; i < lines.size(); ++i) {
+            if (!there[size_t(lines[i])]) continue;
+            shared.push_back(lines[i]);
+            shared_at.push_back(i);
+        }
+    }
+};
+
+// A line that the other side has nowhere is removed or added in any case. Without those the search
+// for the longest common subsequence is short where much has changed.
+LineDiff compare_lines(const std::vector<std::string_view>& before,
+                       const std::vector<std::string_view>& after) {
+    std::unordered_map<std::string_view, int> numbers;
+    auto numbered = [&](const std::vector<std::string_view>& lines) {
+        Side side;
+        for (std::string_view line : lines)
+            side.lines.push_back(numbers.try_emplace(line, int(numbers.size())).first->second);
+        return side;
+    };
+    Side a = numbered(before), b = numbered(after);
+    a.keep_shared(b, numbers.size());
+    b.keep_shared(a, numbers.size());
+    dtl::Diff<int, std::vector<int>> search(a.shared, b.shared);
+    search.compose();
+    LineDiff diff{std::vector<bool>(before.size(), true), std::vector<bool>(after.size(), true)};
+    size_t x = 0, y = 0;
+    for (const auto& [line, edit] : search.getSes().getSequence()) {
+        if (edit.type == dtl::SES_COMMON)
+            diff.removed[a.shared_at[x]] = diff.added[b.shared_at[y]] = false;
+        x += edit.type != dtl::SES_ADD;
+        y += edit.type != dtl::SES_DELETE;
+    }
+    return diff;
+}
 
 // One line of a hunk.
 struct Line {
@@ -141,7 +102,7 @@ std::string unified_diff(std::string_view before, std::string_view after,
                          const std::string& before_name, const std::string& after_name) {
     if (before == after) return {};
     std::vector<std::string_view> a = split_lines(before), b = split_lines(after);
-    LineDiff diff(a, b);
+    LineDiff diff = compare_lines(a, b);
     std::string text = fmt::format("--- {}\n+++ {}\n", before_name, after_name);
     size_t x = 0, y = 0, written_x = 0;  // lines of a before written_x stand in some hunk
     while (x < a.size() || y < b.size()) {

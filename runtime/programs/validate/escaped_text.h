@@ -1,4 +1,4 @@
-// runtime/programs/validate/json_text.h: strings as JSON and XML spell them.
+// runtime/programs/validate/escaped_text.h: text as JSON, XML and URIs spell it.
 #pragma once
 
 #include <string>

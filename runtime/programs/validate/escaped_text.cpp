@@ -1,7 +1,8 @@
-// runtime/programs/validate/json_text.cpp: escapes.
-#include "runtime/programs/validate/json_text.h"
+// runtime/programs/validate/escaped_text.cpp: text inside JSON, XML and URIs.
+#include "runtime/programs/validate/escaped_text.h"
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 #include <cmath>
 
@@ -11,30 +12,19 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-// Bytes of the UTF-8 sequence at `at`; 0 if there is none. Overlong forms, surrogates and what lies
-// beyond U+10FFFF are none (Unicode, table 3-7).
-size_t sequence_length(std::string_view text, size_t at) {
-    auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : uint8_t(0); };
-    uint8_t first = byte(at), second = byte(at + 1);
-    if (first < 0x80) return 1;
-    size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4) return 0;
-    for (size_t i = 1; i < length; ++i)
-        if ((byte(at + i) & 0xC0) != 0x80) return 0;
-    if (first == 0xE0 && second < 0xA0) return 0;
-    if (first == 0xED && second > 0x9F) return 0;
-    if (first == 0xF0 && second < 0x90) return 0;
-    if (first == 0xF4 && second > 0x8F) return 0;
-    return length;
-}
-
-// Calls take(piece) for each character, with U+FFFD for bytes that are none.
+// Calls take(piece) for each character, with U+FFFD for each byte that is part of none.
 template <class Take>
 void each_character(std::string_view text, Take take) {
-    for (size_t at = 0; at < text.size();) {
-        size_t length = sequence_length(text, at);
-        take(length ? text.substr(at, length) : kReplacement);
-        at += length ? length : 1;
+    const char *at = text.data(), *end = at + text.size();
+    while (at < end) {
+        for (const char* valid = utf8::find_invalid(at, end); at < valid;) {
+            const char* first = at;
+            utf8::unchecked::next(at);
+            take(std::string_view(first, size_t(at - first)));
+        }
+        if (at == end) break;
+        take(kReplacement);
+        ++at;
     }
 }
 
