@@ -1,7 +1,9 @@
-// rsl/builtins/color.cpp: rows of the built-in table: colors and components.
+// rsl/builtins/color.cpp: colors and components.
+#include <algorithm>
+
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -62,6 +64,41 @@ void ctransform(LowerCall& c) {
 }
 
 }  // namespace lower_color
+
+namespace ref {
+namespace {
+
+template <class Real>
+size_t element(RefCall<Real>& c, size_t i, int length) {
+    Real x = c.f(i).x;
+    return size_t(c.eval.decide(int(x > 0 ? std::min(x, Real(length - 1)) : Real(0))));
+}
+
+// The component that arguments first, first + 1 name.
+template <class Real>
+size_t component(RefCall<Real>& c) {
+    if (c.args[0].type != BaseType::Matrix) return element(c, 1, 3);
+    return element(c, 1, 4) * 4 + element(c, 2, 4);
+}
+
+template <class Real>
+void comp(RefCall<Real>& c) {
+    c.set(c.args[0].c[component(c)]);
+}
+
+template <class Real>
+void setcomp(RefCall<Real>& c) {
+    c.args[0].c[component(c)] = c.args.back().c[0];
+}
+
+template <class Real>
+void ctransform(RefCall<Real>& c) {
+    bool both = c.args.size() == 3;
+    c.set(c.eval.color_space(c.v(both ? 2 : 1), both ? c.text(0) : "rgb", c.text(both ? 1 : 0)));
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

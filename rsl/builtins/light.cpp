@@ -1,7 +1,7 @@
-// rsl/builtins/light.cpp: rows of the built-in table: lights and illumination.
+// rsl/builtins/light.cpp: lights and illumination.
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -114,6 +114,79 @@ void specularbrdf(LowerCall& c) {
 }
 
 }  // namespace lower_light
+
+namespace ref {
+namespace {
+
+template <class Real>
+Vec<Real> color_of(const std::array<double, 3>& c) {
+    return {Dual<Real>(Real(c[0])), Dual<Real>(Real(c[1])), Dual<Real>(Real(c[2]))};
+}
+
+// Sum over the lights within `angle` of N of Cl * weight(L normalised).
+template <class Real, class F>
+void sum_lights(RefCall<Real>& c, const Vec<Real>& N, double ReferenceLight::*off, F weight,
+                Dual<Real> angle = Dual<Real>(Real(1.57079632679))) {
+    Vec<Real> sum{};
+    if (!(rsl::length(N).x > 0)) return c.set(sum);  // faces nothing
+    c.eval.for_each_light(&N, angle, [&](const ReferenceLight& light, const Vec<Real>& L) {
+        Dual<Real> k = weight(rsl::normalize(L));
+        k = Real(1 - light.*off) * k;
+        sum = sum + k * color_of<Real>(light.Cl);
+    });
+    c.set(sum);
+}
+
+template <class Real>
+Dual<Real> highlight(const Vec<Real>& L, const Vec<Real>& N, const Vec<Real>& V,
+                     const Dual<Real>& roughness) {
+    using Number = Dual<Real>;
+    Vec<Real> H = rsl::normalize(L + V);
+    Number exponent = Number(1) / rsl::max(roughness, Number(Real(kLeastRoughness)));
+    return rsl::pow(rsl::max(Number(0), dot(N, H)), exponent);
+}
+
+template <class Real>
+void ambient(RefCall<Real>& c) {
+    Vec<Real> sum{};
+    for (const ReferenceLight& light : c.eval.in.lights)
+        if (light.kind == kLightAmbient) sum = sum + color_of<Real>(light.Cl);
+    c.set(sum);
+}
+
+// RenderMan Interface 3.2, section 15: N and V are expected to have length 1; phong() sees to it.
+template <class Real>
+void diffuse(RefCall<Real>& c) {
+    bool cone = c.args.size() == 3;
+    Vec<Real> N = c.v(cone ? 1 : 0);
+    auto weight = [&](const Vec<Real>& L) { return rsl::max(Dual<Real>(0), dot(L, N)); };
+    if (cone)
+        sum_lights(c, N, &ReferenceLight::nondiffuse, weight, c.f(2));
+    else
+        sum_lights(c, N, &ReferenceLight::nondiffuse, weight);
+}
+template <class Real>
+void specular(RefCall<Real>& c) {
+    Vec<Real> N = c.v(0), V = c.v(1);
+    sum_lights(c, N, &ReferenceLight::nonspecular,
+               [&](const Vec<Real>& L) { return highlight(L, N, V, c.f(2)); });
+}
+template <class Real>
+void phong(RefCall<Real>& c) {
+    Vec<Real> N = rsl::normalize(c.v(0)), V = rsl::normalize(c.v(1));
+    Vec<Real> R = (Real(2) * dot(V, N)) * N - V;
+    sum_lights(c, N, &ReferenceLight::nonspecular, [&](const Vec<Real>& L) {
+        return rsl::pow(rsl::max(Dual<Real>(0), dot(R, L)), c.f(2));
+    });
+}
+template <class Real>
+void specularbrdf(RefCall<Real>& c) {
+    Dual<Real> k = highlight(rsl::normalize(c.v(0)), c.v(1), c.v(2), c.f(3));
+    c.set({k, k, k});
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

@@ -1,8 +1,8 @@
-// rsl/builtins/math.cpp: rows of the built-in table: mathematics of floats and, componentwise, of
-// triples.
+// rsl/builtins/math.cpp: mathematics of floats and, componentwise, of triples.
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/components_p.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -113,115 +113,109 @@ void smoothstep(LowerCall& c) {
     c.result = r;
 }
 
-// The change of x across the shading point: |Du(x) du| + |Dv(x) dv|.
-Value filter_width(LowerCall& c, Value x) {
-    Value du = c.b.mul(c.b.op(jit::Op::Du, x), c.low.read_global(Global::du).c[0]);
-    Value dv = c.b.mul(c.b.op(jit::Op::Dv, x), c.low.read_global(Global::dv).c[0]);
-    return c.b.add(c.b.abs(du), c.b.abs(dv));
-}
-
-// The shares of the RI's filters that lie below u, -1 to 1 over their support: integrals of
-// 1 - |x|, of exp(-2 x^2) (an odd polynomial, off by 2e-5 at most), and of Catmull and Rom's cubic.
-Value below_box(LowerCall& c, Value u) {
-    return c.b.fma(u, c.b.f(0.5f), c.b.f(0.5f));
-}
-Value below_triangle(LowerCall& c, Value u) {
-    auto& b = c.b;
-    return b.add(b.f(0.5f), b.mul(u, b.fma(b.abs(u), b.f(-0.5f), b.f(1))));
-}
-Value below_gaussian(LowerCall& c, Value u) {
-    auto& b = c.b;
-    constexpr float kOdd[] = {0.028227837f, -0.13371288f, 0.32582935f, -0.55624279f, 0.83589848f};
-    Value square = b.mul(u, u), p = b.f(kOdd[0]);
-    for (size_t k = 1; k < std::size(kOdd); ++k) p = b.fma(p, square, b.f(kOdd[k]));
-    return b.fma(u, p, b.f(0.5f));
-}
-Value below_catmull_rom(LowerCall& c, Value u) {
-    auto& b = c.b;
-    Value a = b.abs(b.add(u, u));  // 0 to 2
-    auto poly = [&](std::initializer_list<float> coefficients) {
-        Value p = b.f(0);
-        for (float k : coefficients) p = c.low.fma(p, a, b.f(k));
-        return p;
-    };
-    Value inner = poly({0.375f, -2.5f / 3, 0, 1, 0});
-    Value outer = poly({-0.125f, 2.5f / 3, -2, 2, -1.0f / 6});
-    Value half = b.select(b.lt(a, b.f(1)), inner, outer);
-    return b.add(b.f(0.5f), b.select(b.lt(u, b.f(0)), b.neg(half), half));
-}
-struct StepFilter {
-    std::string_view name;
-    Value (*below)(LowerCall& c, Value u);
-};
-constexpr StepFilter kStepFilters[] = {{"box", below_box},
-                                       {"triangle", below_triangle},
-                                       {"gaussian", below_gaussian},
-                                       {"catmull-rom", below_catmull_rom}};
-
-// Where none is named, and in place of one that is not known.
-const StepFilter& filter_of(LowerCall& c) {
-    if (!c.has_pair("filter")) return kStepFilters[0];
-    const std::string* text = c.low.constant_text(c.text_pair("filter"));
-    for (const StepFilter& filter : kStepFilters)
-        if (text && filter.name == *text) return filter;
-    c.low.report(Code::RSL_FILTER_UNKNOWN, c.where(), text ? *text : "", c.call.name);
-    return kStepFilters[0];
-}
-
-Value filtered(LowerCall& c, Value share) {
-    const StepFilter& filter = filter_of(c);
-    if (filter.below == below_box) return share;
-    Value u = c.low.clamp(c.b.fma(share, c.b.f(2), c.b.f(-1)), c.b.f(-1), c.b.f(1));
-    return filter.below(c, u);
-}
-
-// The step averaged over a box: how much of [low, high] lies above the edge.
-void filterstep(LowerCall& c) {
-    c.report_unknown_pairs();
-    auto& b = c.b;
-    Value low = c.f(1), high = c.f(1);
-    if (c.args.size() == 3) {
-        low = b.min(c.f(1), c.f(2));
-        high = b.max(c.f(1), c.f(2));
-    }
-    Value half = c.args.size() == 3 ? b.f(0) : b.mul(filter_width(c, c.f(1)), b.f(0.5f));
-    // As in texture(), the one that names the direction counts where both are given.
-    Value widen = c.has_pair("swidth") ? c.pair("swidth", 1) : c.pair("width", 1);
-    if (c.args.size() == 3) {
-        Value centre = b.mul(b.add(low, high), b.f(0.5f));
-        half = b.mul(b.sub(high, low), b.f(0.5f));
-        low = high = centre;
-    }
-    half = b.mul(half, widen);
-    Value width = b.add(half, half);
-    Value share = c.low.div(b.sub(b.add(high, half), c.f(0)), width);
-    Value hard = b.select(b.lt(c.f(1), c.f(0)), b.f(0), b.f(1));
-    Value soft = c.low.clamp(filtered(c, share), b.f(0), b.f(1));
-    c.set(b.select(b.lt(width, b.f(1.17549435e-38f)), hard, soft));
-}
-
-template <jit::Op op>
-void derivative(LowerCall& c) {
-    Lowered r{c.result_type(), {}};
-    for (size_t k = 0; k < size_t(r.size()); ++k) r.c[k] = c.b.op(op, c.args[0].c[k]);
-    c.result = r;
-}
-
-// Deriv(a, b) = Du(a) / Du(b) + Dv(a) / Dv(b).
-void total_derivative(LowerCall& c) {
-    Lowered r{c.result_type(), {}};
-    Value du = c.b.op(jit::Op::Du, c.f(1)), dv = c.b.op(jit::Op::Dv, c.f(1));
-    for (size_t k = 0; k < size_t(r.size()); ++k) {
-        Value by_u = c.low.div(c.b.op(jit::Op::Du, c.args[0].c[k]), du);
-        Value by_v = c.low.div(c.b.op(jit::Op::Dv, c.args[0].c[k]), dv);
-        r.c[k] = c.b.add(by_u, by_v);
-    }
-    c.result = r;
-}
-
-void spline(LowerCall& c);  // rsl/builtins/spline.cpp
-
 }  // namespace lower_math
+
+namespace ref {
+namespace {
+
+template <class Real>
+Dual<Real> smooth(RefCall<Real>& c, const Dual<Real>& lo, const Dual<Real>& hi,
+                  const Dual<Real>& x) {
+    if (c.eval.decide(x.x < lo.x)) return {};  // docs/numerics.md#steps-and-limits: in this order
+    if (c.eval.decide(x.x >= hi.x)) return Real(1);
+    Dual<Real> t = clamp((x - lo) / (hi - lo), Dual<Real>(0), Dual<Real>(1));
+    return t * t * (Dual<Real>(3) - Real(2) * t);
+}
+
+// x - y floor(x / y) in [0, y), as if exact (docs/numerics.md#modulo).
+template <class Real>
+Dual<Real> modulo(RefCall<Real>& c, const Dual<Real>& x, const Dual<Real>& y) {
+    if (std::fabs(y.x) < Real(FLT_MIN)) return {};
+    Real turns = c.eval.decide(std::floor(x.x / y.x));
+    // Row 54: beyond 2^24 turns only the range is promised.
+    if (!(std::fabs(turns) < Real(1 << 24))) c.eval.no_promise();
+    Real r = std::fmod(x.x, y.x);
+    if (r != 0 && (r < 0) != (y.x < 0)) r += y.x;
+    if (c.eval.decide(float(r) == float(y.x))) return {};  // stays below y when rounded
+    return {r, x.u - turns * y.u, x.v - turns * y.v};
+}
+
+#define KINORA_UNARY(name, formula)        \
+    template <class Real>                  \
+    void name(RefCall<Real>& c) {          \
+        each(c, [&](size_t k) {            \
+            Dual<Real> x = c.args[0].c[k]; \
+            return formula;                \
+        });                                \
+    }
+
+KINORA_UNARY(radians, Real(3.14159265358979323846 / 180) * x)
+KINORA_UNARY(degrees, Real(180 / 3.14159265358979323846) * x)
+KINORA_UNARY(sin, rsl::sin(x))
+KINORA_UNARY(cos, rsl::cos(x))
+KINORA_UNARY(tan, rsl::tan(x))
+KINORA_UNARY(asin, rsl::asin(x))
+KINORA_UNARY(acos, rsl::acos(x))
+KINORA_UNARY(exp, rsl::exp(x))
+KINORA_UNARY(sqrt, rsl::sqrt(x))
+KINORA_UNARY(abs, rsl::abs(x))
+KINORA_UNARY(sign, whole(c, Real(x.x > 0) - Real(x.x < 0)))
+KINORA_UNARY(floor, whole(c, std::floor(x.x)))
+KINORA_UNARY(ceil, whole(c, std::ceil(x.x)))
+KINORA_UNARY(inversesqrt, x.x > 0
+                              ? chain(x, 1 / std::sqrt(x.x), Real(-0.5) / (x.x * std::sqrt(x.x)))
+                              : Dual<Real>())
+// Half rounds up.
+KINORA_UNARY(round, whole(c, std::floor(x.x) + Real(x.x - std::floor(x.x) >= Real(0.5))))
+#undef KINORA_UNARY
+
+#define KINORA_FOLD(name, formula)                       \
+    template <class Real>                                \
+    void name(RefCall<Real>& c) {                        \
+        each(c, [&](size_t k) {                          \
+            Dual<Real> x = at(c, 0, k);                  \
+            for (size_t i = 1; i < c.args.size(); ++i) { \
+                Dual<Real> y = at(c, i, k);              \
+                x = formula;                             \
+            }                                            \
+            return x;                                    \
+        });                                              \
+    }
+
+KINORA_FOLD(pow, rsl::pow(x, y))
+KINORA_FOLD(mod, modulo(c, x, y))
+KINORA_FOLD(min, rsl::min(x, y))
+KINORA_FOLD(max, rsl::max(x, y))
+KINORA_FOLD(step, whole(c, Real(y.x < x.x ? 0 : 1)))
+#undef KINORA_FOLD
+
+template <class Real>
+void atan(RefCall<Real>& c) {
+    c.set(c.args.size() == 2 ? atan2(c.f(0), c.f(1))
+                             : chain(c.f(0), std::atan(c.f(0).x), 1 / (1 + c.f(0).x * c.f(0).x)));
+}
+template <class Real>
+void log(RefCall<Real>& c) {
+    if (c.args.size() == 2) return c.set(rsl::log(c.f(0)) / rsl::log(c.f(1)));
+    each(c, [&](size_t k) { return rsl::log(c.args[0].c[k]); });
+}
+template <class Real>
+void clamp(RefCall<Real>& c) {
+    each(c, [&](size_t k) { return rsl::clamp(at(c, 0, k), at(c, 1, k), at(c, 2, k)); });
+}
+template <class Real>
+void mix(RefCall<Real>& c) {
+    Dual<Real> one(1);  // not a + (b - a) alpha, which loses all of b beside a huge a
+    each(c,
+         [&](size_t k) { return at(c, 0, k) * (one - at(c, 2, k)) + at(c, 1, k) * at(c, 2, k); });
+}
+template <class Real>
+void smoothstep(RefCall<Real>& c) {
+    each(c, [&](size_t k) { return smooth(c, at(c, 0, k), at(c, 1, k), at(c, 2, k)); });
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 
@@ -279,23 +273,6 @@ const Builtin kRows[] = {
     {"smoothstep", "f=fff c=ccc p=ppp v=vvv n=nnn", lower::smoothstep,
      KINORA_RSL_REF(ref::smoothstep), kPure, 2,
      "0 below min, 1 above max, a Hermite ramp between: smoothstep(min, max, x)."},
-    {"filterstep", "f=ff~ f=fff~", lower::filterstep, KINORA_RSL_REF(ref::filterstep), kDerivative,
-     4,
-     "step filtered over the width of s, or from s1 to s2: filterstep(edge, s1 [, s2]); \"filter\" "
-     "box (if none is named) triangle gaussian catmull-rom, \"width\" or, before it, \"swidth\".",
-     kSurface | kDisplacement | kVolume},
-    {"spline",
-     "f=ffffff* c=fccccc* p=fppppp* v=fvvvvv* n=fnnnnn* f=sffffff* "
-     "c=sfccccc* p=sfppppp* v=sfvvvvv* n=sfnnnnn* f=ff[] c=fc[] p=fp[] "
-     "v=fv[] n=fn[] f=sff[] c=sfc[] p=sfp[] v=sfv[] n=sfn[]",
-     lower::spline, KINORA_RSL_REF(ref::spline), kPure, 4,
-     "Value at x of the spline through the knots (Catmull-Rom unless a basis is named)."},
-    {"Du", "f=f c=c v=p v=v v=n", lower::derivative<jit::Op::Du>, KINORA_RSL_REF(ref::Du),
-     kDerivative, 8, "Derivative along u.", kSurface | kDisplacement | kVolume},
-    {"Dv", "f=f c=c v=p v=v v=n", lower::derivative<jit::Op::Dv>, KINORA_RSL_REF(ref::Dv),
-     kDerivative, 8, "Derivative along v.", kSurface | kDisplacement | kVolume},
-    {"Deriv", "f=ff c=cf v=pf v=vf v=nf", lower::total_derivative, KINORA_RSL_REF(ref::Deriv),
-     kDerivative, 8, "Du(a) / Du(b) + Dv(a) / Dv(b).", kSurface | kDisplacement | kVolume},
 };
 
 }  // namespace

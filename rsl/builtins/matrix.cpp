@@ -1,7 +1,8 @@
-// rsl/builtins/matrix.cpp: rows of the built-in table: matrices.
+// rsl/builtins/matrix.cpp: matrices.
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/matrices_p.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -36,6 +37,37 @@ void scale(LowerCall& c) {
 }
 
 }  // namespace lower_matrix
+
+namespace ref {
+namespace {
+
+template <class Real>
+void mtransform(RefCall<Real>& c) {
+    change_space(c, BaseType::Matrix);
+}
+
+template <class Real>
+void determinant(RefCall<Real>& c) {
+    Matrix<Real> m = matrix(c.args[0]);
+    c.set(determinant_of(std::vector(m.begin(), m.end()), 4));
+}
+
+template <class Real>
+void translate(RefCall<Real>& c) {
+    Matrix<Real> m = identity<Real>();
+    for (size_t k = 0; k < 3; ++k) m[12 + k] = c.v(1)[k];
+    c.result = moved(product(m, matrix(c.args[0])));
+}
+
+template <class Real>
+void scale(RefCall<Real>& c) {
+    Matrix<Real> m = identity<Real>();
+    for (size_t k = 0; k < 3; ++k) m[k * 5] = c.v(1)[k];
+    c.result = moved(product(m, matrix(c.args[0])));
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

@@ -1,10 +1,10 @@
-// rsl/builtins/message.cpp: rows of the built-in table: messages between shaders and questions to
-// the renderer.
+// rsl/builtins/message.cpp: messages between shaders and questions to the renderer.
 #include <algorithm>
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/reference_p.h"
+#include "rsl/reference/service_calls_p.h"
 
 namespace kinora::rsl {
 
@@ -148,6 +148,86 @@ void raylength(LowerCall& c) {
 }
 
 }  // namespace lower_message
+
+namespace ref {
+namespace {
+
+// Sets args[1] where the renderer knows the answer.
+template <class Real>
+void ask(RefCall<Real>& c, QueryKind kind) {
+    const Type type = c.call.args[1]->type;
+    int letter = "fcpvnms"[int(type.base)];
+    std::vector<double> answer =
+        c.eval.service(Service::query, {double(int(kind)), double(c.args[0].c[0].x), double(letter),
+                                        type.is_array() ? 0.0 : -1.0, 1, 0});
+    bool known = at(answer, 0) != 0;
+    c.set(Dual<Real>(Real(known)));
+    for (size_t k = 0; known && k < c.args[1].size(); ++k)
+        c.args[1].c[k] = Dual<Real>(Real(at(answer, 1 + k)));
+}
+
+template <class Real>
+void fact(RefCall<Real>& c, const char* name) {
+    int letter = "fcpvnms"[int(c.result.type)];
+    set_from(c,
+             c.eval.service(Service::query, {double(int(QueryKind::RayInfo)), double(intern(name)),
+                                             double(letter), -1, 1, 0}),
+             1);
+}
+
+#define KINORA_ASK(name, kind)    \
+    template <class Real>         \
+    void name(RefCall<Real>& c) { \
+        ask(c, QueryKind::kind);  \
+    }
+KINORA_ASK(surface_message, Surface)
+KINORA_ASK(displacement_message, Displacement)
+KINORA_ASK(atmosphere, Atmosphere)
+KINORA_ASK(incident, Incident)
+KINORA_ASK(opposite, Opposite)
+KINORA_ASK(attribute, Attribute)
+KINORA_ASK(option, Option)
+KINORA_ASK(rendererinfo, RendererInfo)
+KINORA_ASK(rayinfo, RayInfo)
+#undef KINORA_ASK
+
+#define KINORA_FACT(function, name)   \
+    template <class Real>             \
+    void function(RefCall<Real>& c) { \
+        fact(c, name);                \
+    }
+KINORA_FACT(raydepth, "depth")
+KINORA_FACT(raylabel, "label")
+KINORA_FACT(rayorigin, "origin")
+KINORA_FACT(raydirection, "direction")
+KINORA_FACT(raylength, "length")
+#undef KINORA_FACT
+
+template <class Real>
+void isshadowray(RefCall<Real>& c) {  // it looks as the camera does
+    c.set(Dual<Real>(0));
+}
+
+template <class Real>
+void lightsource(RefCall<Real>& c) {
+    const Type type = c.call.args[1]->type;
+    size_t each = size_t(component_count(type.base)),
+           length = std::max(c.arrays[1].size(), size_t(1));
+    std::vector<double> found = c.eval.messages(c.text(0), each * length);
+    c.set(Dual<Real>(Real(found.empty() ? 0 : 1)));
+    for (size_t k = 0; k < found.size(); ++k) {
+        RefValue<Real>& item = type.is_array() ? c.arrays[1][k / each] : c.args[1];
+        item.c[k % each] = Real(found[k]);
+    }
+}
+
+template <class Real>
+void shadername(RefCall<Real>& c) {
+    c.set(Dual<Real>(Real(intern(c.args.empty() ? c.eval.layer->shader->name : ""))));
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

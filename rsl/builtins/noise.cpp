@@ -1,7 +1,7 @@
-// rsl/builtins/noise.cpp: rows of the built-in table: noise and random numbers.
+// rsl/builtins/noise.cpp: noise and random numbers.
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -39,6 +39,89 @@ void random(LowerCall& c) {
 }
 
 }  // namespace lower_noise
+
+namespace ref {
+namespace {
+
+// Arguments as coordinates one after the other: points have three.
+template <class Real>
+std::vector<Dual<Real>> coordinates(const RefCall<Real>& c, size_t first, size_t end) {
+    std::vector<Dual<Real>> list;
+    for (size_t i = first; i < end; ++i)
+        list.insert(list.end(), c.args[i].c.begin(), c.args[i].c.begin() + long(c.args[i].size()));
+    return list;
+}
+
+// Slopes by central differences in double: their error is far below what float noise has.
+template <class Real>
+void smooth_noise(RefCall<Real>& c, const std::vector<Dual<Real>>& p,
+                  const std::vector<Dual<Real>>& period) {
+    constexpr double h = 1e-4;
+    int n = int(p.size()), components = int(c.result.size());
+    double wide[4], period_wide[4];
+    Real x[4], period_x[4], out[3];
+    for (size_t d = 0; d < p.size(); ++d) {
+        wide[d] = double(x[d] = p[d].x);
+        if (!period.empty()) period_wide[d] = double(period_x[d] = period[d].x);
+    }
+    bool periodic = !period.empty();
+    jit::math::noise_reference(x, n, components, periodic ? period_x : nullptr, out);
+    for (int k = 0; k < components; ++k) c.result.c[size_t(k)] = out[k];
+    for (size_t d = 0; d < p.size(); ++d) {
+        if (p[d].u == 0 && p[d].v == 0) continue;
+        double before[3], after[3], at = wide[d];
+        wide[d] = at - h;
+        jit::math::noise_reference(wide, n, components, periodic ? period_wide : nullptr, before);
+        wide[d] = at + h;
+        jit::math::noise_reference(wide, n, components, periodic ? period_wide : nullptr, after);
+        wide[d] = at;
+        for (size_t k = 0; k < size_t(components); ++k) {
+            Real slope = Real((after[k] - before[k]) / (2 * h));
+            c.result.c[k].u += slope * p[d].u;
+            c.result.c[k].v += slope * p[d].v;
+        }
+    }
+}
+
+template <class Real>
+void noise(RefCall<Real>& c) {
+    smooth_noise(c, coordinates(c, 0, c.args.size()), {});
+}
+// All coordinates, then their periods.
+template <class Real>
+void pnoise(RefCall<Real>& c) {
+    size_t half = c.args.size() / 2;
+    smooth_noise(c, coordinates(c, 0, half), coordinates(c, half, 2 * half));
+}
+template <class Real>
+void cellnoise(RefCall<Real>& c) {
+    std::vector<Dual<Real>> p = coordinates(c, 0, c.args.size());
+    Real x[4], out[3];
+    for (size_t d = 0; d < p.size(); ++d) {
+        x[d] = p[d].x;
+        c.eval.decide(std::isfinite(x[d]) ? std::floor(std::clamp(x[d], Real(-1e9), Real(1e9)))
+                                          : Real(0));
+    }
+    jit::math::cellnoise_reference(x, int(p.size()), int(c.result.size()), out);
+    for (size_t k = 0; k < c.result.size(); ++k) c.result.c[k] = out[k];
+}
+
+// The keys: the point, the call's place in the text, the functions it is inlined in, the turns of
+// the loops around it (docs/decisions.md#random-numbers-without-state).
+template <class Real>
+void random(RefCall<Real>& c) {
+    for (size_t k = 0; k < c.result.size(); ++k) {
+        uint32_t site = (c.eval.inline_path * 2654435761u) ^ (c.call.site * 40503u + uint32_t(k));
+        std::vector<int32_t> keys = {
+            int32_t(int64_t(c.eval.in.values.count("rng") ? c.eval.in.values.at("rng") : 0)),
+            int32_t(site)};
+        keys.insert(keys.end(), c.eval.loop_counters.begin(), c.eval.loop_counters.end());
+        c.result.c[k] = Real(jit::math::hash01_reference(keys));
+    }
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

@@ -1,8 +1,9 @@
-// rsl/builtins/points.cpp: rows of the built-in table: point files and photon maps.
+// rsl/builtins/points.cpp: point files and photon maps.
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
 #include "rsl/model/pairs.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/reference_p.h"
+#include "rsl/reference/service_calls_p.h"
 
 namespace kinora::rsl {
 
@@ -130,6 +131,85 @@ void photons(LowerCall& c) {
 }
 
 }  // namespace lower_points
+
+namespace ref {
+namespace {
+
+template <class Real>
+void photons(RefCall<Real>& c, PhotonKind kind) {
+    bool named = c.args[0].type == BaseType::String;
+    std::vector<double> args = {named ? double(c.args[0].c[0].x) : pair(c, "filename", 0),
+                                double(int(kind)), double(int(pair(c, "estimator", 50)))};
+    for (size_t k = named ? 1 : 0; k < c.args.size(); ++k) add(args, c.args[k]);
+    args.resize(9, 0.0);
+    set_from(c, c.eval.service(Service::photons, args));
+}
+
+template <class Real>
+void photonmap(RefCall<Real>& c) {
+    photons(c, PhotonKind::Map);
+}
+
+template <class Real>
+void caustic(RefCall<Real>& c) {
+    photons(c, PhotonKind::Caustic);
+}
+
+template <class Real>
+void subsurface(RefCall<Real>& c) {
+    photons(c, PhotonKind::Subsurface);
+}
+
+template <class Real>
+void bake3d(RefCall<Real>& c) {  // what is written is no value of the point
+    c.set(Dual<Real>(1));
+}
+
+template <class Real>
+void texture3d(RefCall<Real>& c) {
+    std::string channels;
+    for (size_t k = c.call.pairs, p = 0; k + 1 < c.call.args.size(); k += 2) {
+        if (c.call.args[k + 1]->type.is_array()) continue;
+        auto& [name, value] = c.pairs[p++];
+        if (is_output_pair(c.call, k + 1))
+            channels +=
+                (channels.empty() ? "" : ",") + std::string(type_name(value.type)) + " " + name;
+    }
+    std::vector<double> args = {double(c.args[0].c[0].x), double(intern(channels))};
+    if (c.eval.bends_normals()) {  // in the file's space, with minus its scale
+        auto world = c.eval.space("world", "from_current");
+        RefValue<Real> P = c.args[1], N = c.args[2];
+        P.type = BaseType::Point, N.type = BaseType::Normal;
+        Vec<Real> n = normalize(vec(c.eval.by_matrix(N, world)));
+        add(args, c.eval.by_matrix(P, world));
+        add(args, RefValue<Real>(BaseType::Normal, n[0], n[1], n[2]));
+        double squares = 0;
+        for (size_t k = 0; k < 12; ++k)
+            if (k % 4 < 3) squares += double(world[k].x) * double(world[k].x);
+        args.push_back(-std::sqrt(squares / 3));
+    } else {
+        add(args, c.args[1]);
+        add(args, c.args[2]);
+        args.push_back(1);
+    }
+    std::vector<double> answer = c.eval.service(Service::texture3d, args);
+    int bits = int(at(answer, 0)), all = 1;
+    size_t next = 1;
+    int channel = 0;
+    for (size_t k = c.call.pairs, p = 0; k + 1 < c.call.args.size(); k += 2) {
+        if (c.call.args[k + 1]->type.is_array()) continue;
+        RefValue<Real>& value = c.pairs[p++].second;
+        if (!is_output_pair(c.call, k + 1)) continue;
+        bool known = bits >> channel++ & 1;
+        all = all && known;
+        for (size_t i = 0; i < value.size(); ++i, ++next)
+            if (known) value.c[i] = Dual<Real>(Real(at(answer, next)));
+    }
+    c.set(Dual<Real>(Real(all)));
+}
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

@@ -1,10 +1,13 @@
-// rsl/builtins/string.cpp: rows of the built-in table: strings and printing.
+// rsl/builtins/string.cpp: strings and printing.
 #include <fmt/format.h>
+
+#include <bit>
+#include <regex>
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/lower_p.h"
 #include "rsl/model/string_functions.h"
-#include "rsl/reference/builtins.h"
+#include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
@@ -199,6 +202,41 @@ void debug(LowerCall& c) {
 }
 
 }  // namespace lower_string
+
+namespace ref {
+namespace {
+
+template <class Real>
+void concat(RefCall<Real>& c) {
+    std::string all;
+    for (size_t i = 0; i < c.args.size(); ++i) all = limited_text(all + c.text(i));
+    c.set(Dual<Real>(Real(intern(all))));
+}
+
+template <class Real>
+void match(RefCall<Real>& c) {
+    bool found = std::regex_search(c.text(1), std::regex(c.text(0), std::regex::extended));
+    c.set(Dual<Real>(Real(found)));
+}
+
+template <class Real>
+void format(RefCall<Real>& c) {
+    std::vector<float> values;
+    for (size_t i = 1; i < c.args.size(); ++i) {
+        const RefValue<Real>& value = c.args[i];
+        for (size_t k = 0; k < value.size(); ++k)
+            values.push_back(value.type == BaseType::String
+                                 ? std::bit_cast<float>(int32_t(value.c[k].x))
+                                 : float(value.c[k].x));
+    }
+    c.set(Dual<Real>(Real(intern(limited_text(format_text(c.text(0), values))))));
+}
+
+template <class Real>
+void printf(RefCall<Real>&) {}  // what is printed is no value of the point
+
+}  // namespace
+}  // namespace ref
 
 namespace {
 

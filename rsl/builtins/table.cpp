@@ -61,9 +61,13 @@ std::vector<Signature> parse_signatures(std::string_view text) {
 
 const std::vector<std::span<const Builtin>>& builtin_groups() {
     static const std::vector<std::span<const Builtin>> groups = {
-        builtins_math(),   builtins_geometric(), builtins_color(),  builtins_noise(),
-        builtins_light(),  builtins_rays(),      builtins_points(), builtins_texture(),
-        builtins_matrix(), builtins_string(),    builtins_message()};
+        builtins_math(),        builtins_filterstep(),    builtins_spline(),
+        builtins_derivatives(), builtins_geometric(),     builtins_reflection(),
+        builtins_spaces(),      builtins_color(),         builtins_noise(),
+        builtins_light(),       builtins_rays(),          builtins_occlusion(),
+        builtins_points(),      builtins_texture(),       builtins_environment(),
+        builtins_bump(),        builtins_texture_files(), builtins_matrix(),
+        builtins_string(),      builtins_message()};
     return groups;
 }
 

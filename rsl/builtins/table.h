@@ -11,13 +11,22 @@ namespace kinora::rsl {
 
 // The groups, each defined in rsl/builtins/<group>.cpp. A name may have several rows in one group.
 std::span<const Builtin> builtins_math();
+std::span<const Builtin> builtins_filterstep();
+std::span<const Builtin> builtins_spline();
+std::span<const Builtin> builtins_derivatives();
 std::span<const Builtin> builtins_geometric();
+std::span<const Builtin> builtins_reflection();
+std::span<const Builtin> builtins_spaces();
 std::span<const Builtin> builtins_color();
 std::span<const Builtin> builtins_noise();
 std::span<const Builtin> builtins_light();
 std::span<const Builtin> builtins_rays();
+std::span<const Builtin> builtins_occlusion();
 std::span<const Builtin> builtins_points();
 std::span<const Builtin> builtins_texture();
+std::span<const Builtin> builtins_environment();
+std::span<const Builtin> builtins_bump();
+std::span<const Builtin> builtins_texture_files();
 std::span<const Builtin> builtins_matrix();
 std::span<const Builtin> builtins_string();
 std::span<const Builtin> builtins_message();

@@ -18,9 +18,9 @@ namespace kinora::rsl {
 // only.
 constexpr float kLeastRoughness = 1e-6f;
 
-struct LowerCall;  // rsl/lower*.h: arguments in, IR values out
+struct LowerCall;  // rsl/lower: arguments in, IR values out
 template <class Real>
-struct RefCall;  // rsl/reference*.h: arguments in, numbers out; Real = float or double
+struct RefCall;  // rsl/reference: arguments in, numbers out; Real = float or double
 
 using LowerFn = void (*)(LowerCall&);
 

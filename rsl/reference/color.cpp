@@ -1,4 +1,4 @@
-// rsl/reference/color.cpp: components, and colors between rgb, hsv, hsl, xyz, xyY and YIQ, at one
+// rsl/reference/color.cpp: colors between rgb, hsv, hsl, xyz, xyY and YIQ, at one
 // point. A grey has hue 0 (docs/numerics.md#colors).
 #include <algorithm>
 #include <cctype>
@@ -103,41 +103,4 @@ template Vec<float> Reference<float>::color_space(const Vec<float>&, const std::
 template Vec<double> Reference<double>::color_space(const Vec<double>&, const std::string&,
                                                     const std::string&);
 
-namespace ref {
-
-namespace {
-
-template <class Real>
-size_t element(RefCall<Real>& c, size_t i, int length) {
-    Real x = c.f(i).x;
-    return size_t(c.eval.decide(int(x > 0 ? std::min(x, Real(length - 1)) : Real(0))));
-}
-// The component that arguments first, first + 1 name.
-template <class Real>
-size_t component(RefCall<Real>& c) {
-    if (c.args[0].type != BaseType::Matrix) return element(c, 1, 3);
-    return element(c, 1, 4) * 4 + element(c, 2, 4);
-}
-
-}  // namespace
-
-template <class Real>
-void comp(RefCall<Real>& c) {
-    c.set(c.args[0].c[component(c)]);
-}
-template <class Real>
-void setcomp(RefCall<Real>& c) {
-    c.args[0].c[component(c)] = c.args.back().c[0];
-}
-template <class Real>
-void ctransform(RefCall<Real>& c) {
-    bool both = c.args.size() == 3;
-    c.set(c.eval.color_space(c.v(both ? 2 : 1), both ? c.text(0) : "rgb", c.text(both ? 1 : 0)));
-}
-
-KINORA_RSL_DEFINE_REF(comp)
-KINORA_RSL_DEFINE_REF(setcomp)
-KINORA_RSL_DEFINE_REF(ctransform)
-
-}  // namespace ref
 }  // namespace kinora::rsl

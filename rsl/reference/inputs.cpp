@@ -205,15 +205,27 @@ std::vector<double> Reference<Real>::service(Service service, std::vector<double
     return answer;
 }
 
-#define KINORA_INPUT_METHODS(Real)                                                         \
-    template Real Reference<Real>::number(const std::string&, Real) const;                 \
-    template auto Reference<Real>::input(const std::string&, BaseType, const std::string&, \
-                                         const std::string&) const->Item;                  \
-    template auto Reference<Real>::first_value(Global)->Item;                              \
-    template auto Reference<Real>::kernel_value(Global)->Item;                             \
-    template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                       \
-    template auto Reference<Real>::parameter(const Symbol&, int)->Item;                    \
-    template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;      \
+// A parameter of the light of this turn of illuminance.
+template <class Real>
+std::vector<double> Reference<Real>::messages(std::string_view name, size_t count) const {
+    if (!light) return {};
+    if (count == 1 && name == "__nondiffuse") return {light->nondiffuse};
+    if (count == 1 && name == "__nonspecular") return {light->nonspecular};
+    for (auto& [known, numbers] : light->messages)
+        if (known == name && numbers.size() == count) return numbers;
+    return {};
+}
+
+#define KINORA_INPUT_METHODS(Real)                                                          \
+    template Real Reference<Real>::number(const std::string&, Real) const;                  \
+    template auto Reference<Real>::input(const std::string&, BaseType, const std::string&,  \
+                                         const std::string&) const->Item;                   \
+    template auto Reference<Real>::first_value(Global)->Item;                               \
+    template auto Reference<Real>::kernel_value(Global)->Item;                              \
+    template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                        \
+    template auto Reference<Real>::parameter(const Symbol&, int)->Item;                     \
+    template auto Reference<Real>::array_parameter(const Symbol&)->std::vector<Item>;       \
+    template std::vector<double> Reference<Real>::messages(std::string_view, size_t) const; \
     template std::vector<double> Reference<Real>::service(Service, std::vector<double>);
 KINORA_INPUT_METHODS(float)
 KINORA_INPUT_METHODS(double)

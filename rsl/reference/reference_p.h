@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "rsl/reference/builtins.h"
+#include "rsl/model/builtin.h"
 #include "rsl/reference/dual_p.h"
 #include "rsl/reference/reference.h"
 
@@ -284,9 +284,5 @@ void Reference<Real>::for_each_light(const Vec<Real>* axis, const Number& angle,
         if (in_cone(L, axis, angle)) f(l, L);
     }
 }
-
-#define KINORA_RSL_DEFINE_REF(name)        \
-    template void name(RefCall<float>& c); \
-    template void name(RefCall<double>& c);
 
 }  // namespace kinora::rsl
