@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/ir/kernel.h"
+#include "jit/ir/kernel_call.h"
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
 #include "runtime/shading/shader_instance.h"
@@ -33,9 +33,7 @@ struct KernelHost {
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
 
-constexpr size_t padded(size_t count) {
-    return (count + jit::kMaxLanes - 1) / jit::kMaxLanes * jit::kMaxLanes;
-}
+using jit::padded;
 
 // How the rays came about that see a grid's points.
 enum class RayKind : uint8_t { Camera, Specular, Diffuse, Transmission };

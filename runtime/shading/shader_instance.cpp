@@ -378,17 +378,18 @@ void BoundKernel::update(const FrameContext& context, const ShaderInstance& look
         float value = number(inputs[i]);
         std::fill_n(const_cast<float*>(in[i]), kRow, value);
     }
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.count = 1;
-    args.fault = frame_faults.data();
-    args.services = frame_services.data();
     KernelHost host{&scene, &look, nullptr};
-    args.grid = &host;
     Arena::Mark mark = arena.mark();
-    args.scratch = static_cast<std::byte*>(arena.allocate(pair.frame->scratch_bytes));
-    pair.frame->run(args);
+    jit::KernelCall{.kernel = *pair.frame,
+                    .count = 1,
+                    .in = in,
+                    .out = out,
+                    .row_floats = kRow,
+                    .scratch = arena.allocate_span<std::byte>(pair.frame->scratch_bytes),
+                    .faults = frame_faults,
+                    .services = frame_services,
+                    .host = &host}
+        .run();
     arena.release(mark);
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out[i][0];
 }

@@ -56,7 +56,6 @@ class BoundKernel {
     // Runs the frame kernel and fills the frame block. No allocation.
     void update(const FrameContext& context, const ShaderInstance& look);
     const jit::Kernel& kernel() const { return *pair.point; }
-    const float* frame_block() const { return frame.data(); }
     bool empty() const { return !pair.point; }
 
     jit::KernelPair pair;

@@ -155,17 +155,18 @@ void Shading::run_kernel(const BoundKernel& bound, Grid& grid, std::span<float* 
     std::span<const float*> in = grid.arena->allocate_span<const float*>(bound.columns.size());
     for (size_t i = 0; i < in.size(); ++i) in[i] = grid.columns[bound.columns[i]];
     Thread& own = thread(grid.thread);
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.frame = bound.frame_block();
-    args.scratch = static_cast<std::byte*>(grid.arena->allocate(bound.kernel().scratch_bytes));
-    args.fault = own.faults[2 * grid.look->index + (&bound != &grid.look->full)].data();
-    args.services = bound.services.data();
-    args.record_sets = grid.record_sets.data();
-    args.grid = &grid.host;
-    args.count = int32_t(grid.count());
-    bound.kernel().run(args);
+    jit::KernelCall{.kernel = bound.kernel(),
+                    .count = grid.count(),
+                    .in = in,
+                    .out = out,
+                    .row_floats = padded(grid.count()),
+                    .frame = bound.frame,
+                    .scratch = grid.arena->allocate_span<std::byte>(bound.kernel().scratch_bytes),
+                    .faults = own.faults[2 * grid.look->index + (&bound != &grid.look->full)],
+                    .services = bound.services,
+                    .record_sets = grid.record_sets,
+                    .host = &grid.host}
+        .run();
 }
 
 void Shading::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
