@@ -10,7 +10,8 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/description/findings.h"
 #include "runtime/images/point_store.h"
-#include "runtime/shading/shading_p.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 
@@ -152,12 +153,16 @@ void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
 
 // ---- writing ------------------------------------------------------------------------------------
 
+void Bakes::begin_frame(size_t threads) {
+    points_.resize(std::max(points_.size(), threads));
+}
+
 // One point a pixel: what its first sample sees, through transparent layers too. Rays that shaders
 // shoot bake nothing.
-void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
+void Bakes::add(const Grid& grid, const jit::ServiceCall& call) {
     enum { File = 0, Channels, P = 3, N = 6, Radius = 9, Scale, Numbers };
     if (grid.depth > 0 || !grid.shadows) return;
-    Thread& own = thread(grid.thread);
+    std::vector<BakedPoint>& points = points_[grid.memory.number];
     Rows rows{call};
     ToWorld to_world(scene_);
     for (int lane = 0; lane < call.lanes; ++lane) {
@@ -171,7 +176,7 @@ void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
         point.pixel_y = grid.hits.pixel_y[hit];
         point.pixel_x = grid.hits.pixel_x[hit];
         point.layer = grid.hits.layer[hit];
-        point.order = uint32_t(own.bakes.size());
+        point.order = uint32_t(points.size());
         float radius = rows.number(Radius, lane), scale = rows.number(Scale, lane);
         bool as_is = scale < 0;
         vec3 place = as_is ? rows.triple(P, lane) : to_world.place(rows.triple(P, lane));
@@ -185,7 +190,7 @@ void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
         std::copy_n(head, kPointHead, point.numbers);
         for (int k = 0; k < rsl::kPointFloats; ++k)
             point.numbers[kPointHead + k] = rows.number(Numbers + k, lane);
-        own.bakes.push_back(point);
+        points.push_back(point);
     }
 }
 
@@ -222,10 +227,10 @@ PointFile joined(std::span<const BakedPoint* const> points) {
 
 }  // namespace
 
-void Shading::flush_bakes(bool whole, Diagnostics& diagnostics) {
+void Bakes::flush(bool whole, Diagnostics& diagnostics) {
     std::vector<const BakedPoint*> all;
-    for (auto& own : threads_)
-        for (const BakedPoint& point : own->bakes) all.push_back(&point);
+    for (const auto& points : points_)
+        for (const BakedPoint& point : points) all.push_back(&point);
     auto key = [](const BakedPoint* p) {
         return std::tie(rsl::interned(p->file), p->pixel_y, p->pixel_x, p->layer, p->order);
     };
@@ -243,9 +248,9 @@ void Shading::flush_bakes(bool whole, Diagnostics& diagnostics) {
         scene_.points->forget(name);
         begin = end;
     }
-    for (auto& own : threads_) own->bakes.clear();
+    for (auto& points : points_) points.clear();
     for (auto& [path, error] : scene_.points->take_errors())
-        if (reported_points_.insert(path).second)
+        if (reported_.insert(path).second)
             diagnostics.report(Code::POINT_FILE_UNREADABLE, Location{}, path, error);
 }
 

@@ -8,15 +8,16 @@
 
 #include "runtime/description/affine_map.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/shading_p.h"
-#include "runtime/shading/spaces.h"
+#include "runtime/scene/spaces.h"
+#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 
 void want_columns(Grid& grid, std::span<const uint16_t> wanted) {
     for (uint16_t column : wanted)
         if (!grid.columns[column])
-            grid.columns[column] = grid.arena->allocate_span<float>(padded(grid.count())).data();
+            grid.columns[column] =
+                grid.memory.arena.allocate_span<float>(padded(grid.count())).data();
 }
 
 void want_triple(Grid& grid, uint16_t first) {
@@ -390,7 +391,7 @@ class Gather {
 }  // namespace
 
 void gather(Grid& grid) {
-    Gather(grid, grid.shading->camera_from_accel_, grid.shading->eye_).run();
+    Gather(grid, grid.frame.camera_from_accel, grid.frame.eye).run();
     // Padding lanes are copies of the last point.
     size_t last = grid.count() - 1;
     for (float* column : grid.columns)

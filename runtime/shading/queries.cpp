@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/scene/scene.h"
-#include "runtime/shading/spaces.h"
+#include "runtime/scene/spaces.h"
 
 namespace kinora {
 

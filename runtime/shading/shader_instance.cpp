@@ -9,9 +9,9 @@
 
 #include "runtime/base/check.h"
 #include "runtime/scene/scene.h"
+#include "runtime/scene/spaces.h"
 #include "runtime/shading/grid.h"
 #include "runtime/shading/services.h"
-#include "runtime/shading/spaces.h"
 
 namespace kinora {
 
