@@ -27,7 +27,7 @@ struct ToWorld {
     explicit ToWorld(const Scene& scene)
         : point(glm::inverse(scene.view.camera_from_world)),
           normal(glm::transpose(dmat3(scene.view.camera_from_world))) {}
-    vec3 place(vec3 P) const { return vec3(dvec3(point * dvec4(dvec3(P), 1.0))); }
+    vec3 position(vec3 P) const { return vec3(dvec3(point * dvec4(dvec3(P), 1.0))); }
     vec3 direction(vec3 N) const {
         dvec3 n = normal * dvec3(N);
         double length = glm::length(n);
@@ -44,7 +44,7 @@ struct Rows {
     }
 };
 
-// Weights of the neighbours; the first alone where the place is its own.
+// Weights of the neighbours; the first alone where the position is its own.
 size_t weigh(std::span<PointCloud::Near> near, const PointFile& file, float* weights) {
     if (near.empty()) return 0;
     float radius = file.point(near[0].point)[kPointHead - 1];
@@ -107,7 +107,8 @@ void look_up_points(const KernelHost& host, const jit::ServiceCall& call) {
         if (!found.cloud) continue;
         vec3 P = rows.triple(2, lane), N = rows.triple(5, lane);
         bool as_is = rows.number(8, lane) < 0;
-        Mean mean(*found.cloud, as_is ? P : to_world.place(P), as_is ? N : to_world.direction(N));
+        Mean mean(*found.cloud, as_is ? P : to_world.position(P),
+                  as_is ? N : to_world.direction(N));
         if (mean.count == 0) continue;
         int32_t known = 0;
         int next = 1;
@@ -135,7 +136,7 @@ void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
             bool scattered = kind == rsl::PhotonKind::Subsurface;
             PointStore::Lookup found =
                 host.scene->points->find(file, scattered ? kDiffusion : kPower);
-            vec3 P = to_world.place(rows.triple(3, lane));
+            vec3 P = to_world.position(rows.triple(3, lane));
             vec3 N = to_world.direction(rows.triple(6, lane));
             if (found.cloud && scattered) {
                 int offset = found.channels[0].offset >= 0 ? found.channels[0].offset
@@ -179,14 +180,15 @@ void Bakes::add(const Grid& grid, const jit::ServiceCall& call) {
         point.order = uint32_t(points.size());
         float radius = rows.number(Radius, lane), scale = rows.number(Scale, lane);
         bool as_is = scale < 0;
-        vec3 place = as_is ? rows.triple(P, lane) : to_world.place(rows.triple(P, lane));
+        vec3 position = as_is ? rows.triple(P, lane) : to_world.position(rows.triple(P, lane));
         vec3 normal = as_is ? rows.triple(N, lane) : to_world.direction(rows.triple(N, lane));
         // Half the diagonal of the pixel's footprint, so that neighbours touch.
         if (!(radius > 0))
             radius = 0.70710678f * std::max(glm::length(kinora::triple(grid.hits.dPdx, hit)),
                                             glm::length(kinora::triple(grid.hits.dPdy, hit)));
         radius *= std::abs(scale);
-        float head[kPointHead] = {place.x, place.y, place.z, normal.x, normal.y, normal.z, radius};
+        float head[kPointHead] = {position.x, position.y, position.z, normal.x,
+                                  normal.y,   normal.z,   radius};
         std::copy_n(head, kPointHead, point.numbers);
         for (int k = 0; k < rsl::kPointFloats; ++k)
             point.numbers[kPointHead + k] = rows.number(Numbers + k, lane);

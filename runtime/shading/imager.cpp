@@ -19,7 +19,7 @@ namespace kinora {
 
 namespace {
 
-// Services take pixel and place of a point from its hit: here there is a pixel only.
+// Services take the pixel and position of a point from its hit: here there is a pixel only.
 raytrace::HitBatch no_hits(size_t first, size_t count, int width, Arena& arena) {
     size_t rows = padded(count);
     std::span<float> zeros = arena.allocate_span<float>(rows);

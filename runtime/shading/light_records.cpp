@@ -240,7 +240,7 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
     }
     uint32_t handle = grid.next_record_set;
     grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
-    if (++grid.record_calls > kMostLightPlaces) {
+    if (++grid.record_calls > kMostLightQuestions) {
         grid.memory.counters.unlit += 1;
         grid.record_sets[handle] = {};
         return int32_t(handle);

@@ -38,7 +38,7 @@ class LightRecords {
 
   private:
     jit::RecordSet make_records(Grid& grid, LightPoints at);
-    // Run a light's kernel; the place behind its last record.
+    // Run a light's kernel; the slot behind its last record.
     jit::Record* plain_records(Grid& grid, const LightPoints& at, size_t light, jit::Record* next);
     jit::Record* area_records(Grid& grid, const LightPoints& at, size_t light, jit::Record* next);
     jit::Record make_record(Grid& grid, const LightPoints& at, const LightOutputs& statement,

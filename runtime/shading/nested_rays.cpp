@@ -1,4 +1,5 @@
-// runtime/shading/nested_rays.cpp: rays that shaders shoot, set up in one place, and what they see.
+// runtime/shading/nested_rays.cpp: rays that shaders shoot, set up here for all services, and what
+// they see.
 #include "runtime/shading/nested_rays.h"
 
 #include <algorithm>

@@ -117,7 +117,7 @@ class Lanes {
         float n = number(row, lane);
         return n >= 1 ? int(std::min(n + 0.5f, float(kMostSamples))) : 1;
     }
-    // Of all samples of the call at this lane: the point, the place of the call, its loops.
+    // Of all samples of the call at this lane: the point, the call in the source, its loops.
     uint32_t seed(int lane) const;
 
   private:

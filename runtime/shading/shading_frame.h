@@ -12,9 +12,9 @@ namespace kinora {
 
 struct Scene;
 
-// How often a point may ask for the lights at places of its own, some 8 KB each time: a march may,
+// How often a point may ask for the lights at points of its own, some 8 KB each time: a march may,
 // a loop that does not end must not take all memory.
-inline constexpr uint32_t kMostLightPlaces = 8192;
+inline constexpr uint32_t kMostLightQuestions = 8192;
 
 struct ShadingCounters {
     raytrace::TraceCounters trace;  // shadow and reflection rays
@@ -22,7 +22,7 @@ struct ShadingCounters {
     uint64_t light_points = 0;      // light kernels
     uint64_t opacity_points = 0;    // opacity kernels
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
-    uint64_t unlit = 0;             // questions for lights beyond kMostLightPlaces
+    uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
     void operator+=(const ShadingCounters& o);
 };
 

@@ -20,7 +20,7 @@ namespace {
 constexpr int kLanes = jit::kMaxLanes;
 
 // Fills batches with the samples of all lanes and hands each full one to flush(first sample of the
-// batch). add(lane, k) adds one ray with slot = its place in the batch.
+// batch). add(lane, k) adds one ray with slot = its index in the batch.
 template <class Count, class Add, class Flush>
 void in_batches(const Lanes& lanes, raytrace::RayBatch& rays, Count&& count, Add&& add,
                 Flush&& flush) {

@@ -376,7 +376,7 @@ bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t no
             case Source::Value:
                 if (animated(input.index)) return true;
                 break;
-            case Source::Placed:
+            case Source::Spatial:
                 for (uint32_t k = 0; k < 3; ++k)
                     if (animated(input.index + k)) return true;
                 break;
