@@ -23,7 +23,6 @@ LARGER = {
     "runtime/build/SceneBuilder": (8, 62, 17),
     "runtime/gltf/GltfExport": (7, 59, 28),
     "runtime/gltf/GltfImport": (12, 53, 23),
-    "runtime/shading/Shading": (11, 54, 16),
 }
 
 DEFINED = re.compile(

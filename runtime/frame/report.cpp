@@ -122,7 +122,7 @@ void report_shading(const Scene& scene, const ShadingCounters& shading,
                     Diagnostics& diagnostics) {
     if (uint64_t lost = shading.too_deep + counters.too_deep)
         diagnostics.report(Code::LAYER_LIMIT, Location{}, lost, settings.max_layers);
-    if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightPlaces);
+    if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightQuestions);
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();

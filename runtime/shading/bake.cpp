@@ -10,7 +10,8 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/description/findings.h"
 #include "runtime/images/point_store.h"
-#include "runtime/shading/shading_p.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 
@@ -26,7 +27,7 @@ struct ToWorld {
     explicit ToWorld(const Scene& scene)
         : point(glm::inverse(scene.view.camera_from_world)),
           normal(glm::transpose(dmat3(scene.view.camera_from_world))) {}
-    vec3 place(vec3 P) const { return vec3(dvec3(point * dvec4(dvec3(P), 1.0))); }
+    vec3 position(vec3 P) const { return vec3(dvec3(point * dvec4(dvec3(P), 1.0))); }
     vec3 direction(vec3 N) const {
         dvec3 n = normal * dvec3(N);
         double length = glm::length(n);
@@ -43,7 +44,7 @@ struct Rows {
     }
 };
 
-// Weights of the neighbours; the first alone where the place is its own.
+// Weights of the neighbours; the first alone where the position is its own.
 size_t weigh(std::span<PointCloud::Near> near, const PointFile& file, float* weights) {
     if (near.empty()) return 0;
     float radius = file.point(near[0].point)[kPointHead - 1];
@@ -106,7 +107,8 @@ void look_up_points(const KernelHost& host, const jit::ServiceCall& call) {
         if (!found.cloud) continue;
         vec3 P = rows.triple(2, lane), N = rows.triple(5, lane);
         bool as_is = rows.number(8, lane) < 0;
-        Mean mean(*found.cloud, as_is ? P : to_world.place(P), as_is ? N : to_world.direction(N));
+        Mean mean(*found.cloud, as_is ? P : to_world.position(P),
+                  as_is ? N : to_world.direction(N));
         if (mean.count == 0) continue;
         int32_t known = 0;
         int next = 1;
@@ -134,7 +136,7 @@ void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
             bool scattered = kind == rsl::PhotonKind::Subsurface;
             PointStore::Lookup found =
                 host.scene->points->find(file, scattered ? kDiffusion : kPower);
-            vec3 P = to_world.place(rows.triple(3, lane));
+            vec3 P = to_world.position(rows.triple(3, lane));
             vec3 N = to_world.direction(rows.triple(6, lane));
             if (found.cloud && scattered) {
                 int offset = found.channels[0].offset >= 0 ? found.channels[0].offset
@@ -152,12 +154,16 @@ void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
 
 // ---- writing ------------------------------------------------------------------------------------
 
+void Bakes::begin_frame(size_t threads) {
+    points_.resize(std::max(points_.size(), threads));
+}
+
 // One point a pixel: what its first sample sees, through transparent layers too. Rays that shaders
 // shoot bake nothing.
-void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
+void Bakes::add(const Grid& grid, const jit::ServiceCall& call) {
     enum { File = 0, Channels, P = 3, N = 6, Radius = 9, Scale, Numbers };
     if (grid.depth > 0 || !grid.shadows) return;
-    Thread& own = thread(grid.thread);
+    std::vector<BakedPoint>& points = points_[grid.memory.number];
     Rows rows{call};
     ToWorld to_world(scene_);
     for (int lane = 0; lane < call.lanes; ++lane) {
@@ -171,21 +177,22 @@ void Shading::bake(const Grid& grid, const jit::ServiceCall& call) {
         point.pixel_y = grid.hits.pixel_y[hit];
         point.pixel_x = grid.hits.pixel_x[hit];
         point.layer = grid.hits.layer[hit];
-        point.order = uint32_t(own.bakes.size());
+        point.order = uint32_t(points.size());
         float radius = rows.number(Radius, lane), scale = rows.number(Scale, lane);
         bool as_is = scale < 0;
-        vec3 place = as_is ? rows.triple(P, lane) : to_world.place(rows.triple(P, lane));
+        vec3 position = as_is ? rows.triple(P, lane) : to_world.position(rows.triple(P, lane));
         vec3 normal = as_is ? rows.triple(N, lane) : to_world.direction(rows.triple(N, lane));
         // Half the diagonal of the pixel's footprint, so that neighbours touch.
         if (!(radius > 0))
             radius = 0.70710678f * std::max(glm::length(kinora::triple(grid.hits.dPdx, hit)),
                                             glm::length(kinora::triple(grid.hits.dPdy, hit)));
         radius *= std::abs(scale);
-        float head[kPointHead] = {place.x, place.y, place.z, normal.x, normal.y, normal.z, radius};
+        float head[kPointHead] = {position.x, position.y, position.z, normal.x,
+                                  normal.y,   normal.z,   radius};
         std::copy_n(head, kPointHead, point.numbers);
         for (int k = 0; k < rsl::kPointFloats; ++k)
             point.numbers[kPointHead + k] = rows.number(Numbers + k, lane);
-        own.bakes.push_back(point);
+        points.push_back(point);
     }
 }
 
@@ -222,10 +229,10 @@ PointFile joined(std::span<const BakedPoint* const> points) {
 
 }  // namespace
 
-void Shading::flush_bakes(bool whole, Diagnostics& diagnostics) {
+void Bakes::flush(bool whole, Diagnostics& diagnostics) {
     std::vector<const BakedPoint*> all;
-    for (auto& own : threads_)
-        for (const BakedPoint& point : own->bakes) all.push_back(&point);
+    for (const auto& points : points_)
+        for (const BakedPoint& point : points) all.push_back(&point);
     auto key = [](const BakedPoint* p) {
         return std::tie(rsl::interned(p->file), p->pixel_y, p->pixel_x, p->layer, p->order);
     };
@@ -243,9 +250,9 @@ void Shading::flush_bakes(bool whole, Diagnostics& diagnostics) {
         scene_.points->forget(name);
         begin = end;
     }
-    for (auto& own : threads_) own->bakes.clear();
+    for (auto& points : points_) points.clear();
     for (auto& [path, error] : scene_.points->take_errors())
-        if (reported_points_.insert(path).second)
+        if (reported_.insert(path).second)
             diagnostics.report(Code::POINT_FILE_UNREADABLE, Location{}, path, error);
 }
 

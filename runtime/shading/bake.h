@@ -1,6 +1,14 @@
-// runtime/shading/bake.h: point files as shaders read them: the services texture3d and photons.
+// runtime/shading/bake.h: point files as shaders read them, the services texture3d and photons, and
+// as bake3d writes them.
 #pragma once
 
+#include <set>
+#include <string>
+#include <vector>
+
+#include "rsl/model/renderer_services.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/images/point_file.h"
 #include "runtime/shading/grid.h"
 
 namespace kinora {
@@ -13,5 +21,28 @@ void look_up_points(const KernelHost& host, const jit::ServiceCall& call);
 // them (H. W. Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, eq. 7.6), channel
 // "power". Subsurface: as texture3d of "_ssdiffusion", else of "_radiance_t".
 void look_up_photons(const KernelHost& host, const jit::ServiceCall& call);
+
+// A point of bake3d: P, N, radius, then its channels' numbers.
+struct BakedPoint {
+    int32_t file = 0, channels = 0;  // interned
+    uint32_t pixel_y = 0, pixel_x = 0, layer = 0, order = 0;
+    float numbers[kPointHead + rsl::kPointFloats];
+};
+
+class Bakes {
+  public:
+    explicit Bakes(const Scene& scene) : scene_(scene) {}
+    void begin_frame(size_t threads);
+    // A call at a grid's points: kept with their pixels.
+    void add(const Grid& grid, const jit::ServiceCall& call);
+    // Writes the files in picture order, if the picture is `whole`, and forgets all points. Reports
+    // what could not be written or read, each file that could not be read once.
+    void flush(bool whole, Diagnostics& diagnostics);
+
+  private:
+    const Scene& scene_;
+    std::vector<std::vector<BakedPoint>> points_;  // by thread
+    std::set<std::string> reported_;               // files that could not be read
+};
 
 }  // namespace kinora

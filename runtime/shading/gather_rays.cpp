@@ -7,7 +7,10 @@
 #include <glm/geometric.hpp>
 
 #include "raytrace/sampling.h"
-#include "runtime/shading/nested_rays_p.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/hit_shader.h"
+#include "runtime/shading/nested_rays.h"
+#include "runtime/shading/ray_services.h"
 
 namespace kinora {
 
@@ -63,7 +66,7 @@ bool any_of_surface(std::span<const GatherResult> results) {
 // One statement's records: columns [record][state, results...][lane].
 class Records {
   public:
-    Records(Shading::GatherMemory& memory, int count, int width, size_t first)
+    Records(GatherMemory& memory, int count, int width, size_t first)
         : memory_(memory), width_(width) {
         size_t columns = size_t(count) * size_t(width);
         memory.values.assign(columns * kLanes, 0.0f);
@@ -83,7 +86,7 @@ class Records {
     }
 
   private:
-    Shading::GatherMemory& memory_;
+    GatherMemory& memory_;
     int width_;
 };
 
@@ -131,10 +134,59 @@ void record_ray(Records& records, std::span<const RayColumn> columns, uint32_t r
     }
 }
 
+void copy_colors(std::span<const GatherResult> results, std::span<float* const> columns,
+                 const raytrace::ShadeResult& from, size_t count) {
+    size_t c = 0;
+    for (const GatherResult& result : results) {
+        bool Ci = result.name == "surface:Ci", Oi = result.name == "surface:Oi";
+        for (size_t k = 0; k < 3 && (Ci || Oi); ++k)
+            std::copy_n(Ci ? from.Ci[k] : from.Oi[k], count, columns[c + k]);
+        c += size_t(rsl::component_count(result.type));
+    }
+}
+
+// What is known of a hit without its shader.
+void fill_geometry(std::span<const GatherResult> results, std::span<float* const> columns,
+                   const raytrace::HitBatch& hits, const ShadingFrame& frame,
+                   ThreadMemory& memory) {
+    bool wanted = false;
+    for (const GatherResult& result : results)
+        wanted |= result.name == "surface:P" || find_primitive(result.name);
+    if (!wanted) return;
+    static const ShaderInstance plain;  // no parameters, so that hits of all looks go together
+    for (size_t begin = 0; begin < hits.count; begin += kGridPoints) {
+        Arena::Mark mark = memory.arena.mark();
+        size_t n = std::min(kGridPoints, hits.count - begin);
+        std::span<uint32_t> points = memory.arena.allocate_span<uint32_t>(n);
+        for (size_t i = 0; i < n; ++i) points[i] = uint32_t(begin + i);
+        Grid grid(frame, memory, hits, points, &plain);
+        grid.columns = memory.arena.allocate_span<float*>(kColVarying);
+        std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
+        auto row_of = [](const GatherResult& result) {
+            return find_primitive(result.name == "surface:P" ? "primitive:P" : result.name);
+        };
+        for (const GatherResult& result : results)
+            if (const PrimitiveRow* row = row_of(result))
+                for (int k = 0; k < row->components; ++k) {
+                    uint16_t column = uint16_t(row->column + k);
+                    want_columns(grid, {&column, 1});
+                }
+        gather(grid);
+        size_t c = 0;
+        for (const GatherResult& result : results) {
+            if (const PrimitiveRow* row = row_of(result))
+                for (size_t k = 0; k < size_t(row->components); ++k)
+                    std::copy_n(grid.columns[row->column + k], n, columns[c + k] + begin);
+            c += size_t(rsl::component_count(result.type));
+        }
+        memory.arena.release(mark);
+    }
+}
+
 }  // namespace
 
 // The rays of one batch: what they meet goes into their records.
-struct Shading::GatherJob {
+struct GatherRays::Job {
     Grid& grid;
     std::span<const GatherResult> results;
     Records& records;
@@ -143,24 +195,35 @@ struct Shading::GatherJob {
     int32_t label;
 };
 
-int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
+void GatherRays::begin_frame(size_t threads) {
+    memories_.resize(std::max(memories_.size(), threads));
+}
+
+GatherMemory& GatherRays::records_of(const Grid& grid, int nesting) {
+    // A light may run within a turn of the gather of the surface it lights.
+    uint32_t room =
+        grid.depth + (grid.look->kind == ShaderInstanceKind::Light ? kMostDepth + 1 : 0);
+    auto& memories = memories_[grid.memory.number];
+    size_t index = size_t(room) * rsl::kGatherLevels + size_t(nesting);
+    while (memories.size() <= index) memories.push_back(std::make_unique<GatherMemory>());
+    return *memories[index];
+}
+
+int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
     int any = std::countr_zero(call.mask);
     const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Row::Request, any))];
     int level = lanes.integer(Row::Level, any), flags = lanes.integer(Row::Flags, any);
-    bool shoots =
-        !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < ray_depth() && !stopped();
+    bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < frame_.ray_depth &&
+                  !frame_.stopped();
     RayCounts counts = count_rays(grid, lanes, shoots);
 
-    Thread& own = thread(grid.thread);
-    // A light may run within a turn of the gather of the surface it lights.
-    uint32_t room =
-        grid.depth + (grid.look->kind == ShaderInstanceKind::Light ? kMostDepth + 1 : 0);
-    GatherMemory& memory = own.gather_memory(room, level);
+    ThreadMemory& own = grid.memory;
+    GatherMemory& memory = records_of(grid, level);
     Records records(memory, counts.most, record_width(results), size_t(call.first));
     Arena::Mark mark = own.arena.mark();
     std::span<const RayColumn> of_ray = ray_columns(results, own.arena);
-    mat3 accel_from_camera = glm::transpose(camera_from_accel_);
+    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
     NestedWavefront nested(own);
     raytrace::RayBatch& rays = nested->rays;
     rays.reserve(kGridPoints);
@@ -171,7 +234,7 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
     auto flush = [&] {
         size_t n = rays.count;
         if (n > 0 && shoots)
-            shade_gathered({grid, results, records, {lane_of, n}, {sample_of, n}, label}, rays);
+            shade({grid, results, records, {lane_of, n}, {sample_of, n}, label}, rays);
         rays.count = 0;
     };
     for (int lane = 0; lane < kLanes; ++lane)
@@ -191,7 +254,7 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
             for (uint32_t k = 0; k < uint32_t(n); ++k) {
                 // A cone without width is its axis.
                 vec3 dir = angle > 0 ? cone.direction(k, seed) : cone.z;
-                record_ray(records, of_ray, k, lane, P, camera_from_accel_ * dir, reach);
+                record_ray(records, of_ray, k, lane, P, frame_.camera_from_accel * dir, reach);
                 if (counts.share[lane] == 0) continue;
                 lane_of[rays.count] = uint8_t(lane);
                 sample_of[rays.count] = k;
@@ -209,14 +272,15 @@ int32_t Shading::gather_rays(Grid& grid, const jit::ServiceCall& call) {
     return handle;
 }
 
-void Shading::shade_gathered(const GatherJob& job, raytrace::RayBatch& rays) {
+void GatherRays::shade(const Job& job, raytrace::RayBatch& rays) {
     Grid& grid = job.grid;
-    Thread& own = thread(grid.thread);
+    ThreadMemory& own = grid.memory;
     Arena::Mark mark = own.arena.mark();
     NestedWavefront nested(own);
     nested->hits.reserve(kGridPoints);
-    const raytrace::HitBatch& hits = raytrace::trace(
-        scene_.accel, rays, raytrace::kMaskAll, grid.depth + 1, nested->hits, own.counters.trace);
+    const raytrace::HitBatch& hits =
+        raytrace::trace(frame_.scene.accel, rays, raytrace::kMaskAll, grid.depth + 1, nested->hits,
+                        own.counters.trace);
     if (hits.count == 0) return;
     size_t components = 0;
     for (const GatherResult& result : job.results)
@@ -229,14 +293,10 @@ void Shading::shade_gathered(const GatherJob& job, raytrace::RayBatch& rays) {
     if (any_of_surface(job.results)) {
         raytrace::ShadeResult result = take_colors(own.arena, hits.count);
         HitOutputs outputs{job.results, columns};
-        RayTag outer_ray = std::exchange(own.ray, deeper(grid, RayKind::Specular, job.label));
-        const HitOutputs* outer = std::exchange(own.outputs, &outputs);
-        shade(hits, grid.thread, result);
-        own.outputs = outer;
-        own.ray = outer_ray;
+        hits_.shade(hits, deeper(grid, RayKind::Specular, job.label), own, result, &outputs);
         copy_colors(job.results, columns, result, hits.count);
     }
-    fill_geometry(job.results, columns, hits, grid.thread);
+    fill_geometry(job.results, columns, hits, frame_, own);
     // Origin and direction stand already.
     size_t at = 0;
     for (const GatherResult& result : job.results) {
@@ -257,57 +317,6 @@ void Shading::shade_gathered(const GatherJob& job, raytrace::RayBatch& rays) {
                 job.records.at(record, rsl::kGatherResults + int(c), lane) = columns[c][h];
     }
     own.arena.release(mark);
-}
-
-void Shading::copy_colors(std::span<const GatherResult> results, std::span<float* const> columns,
-                          const raytrace::ShadeResult& from, size_t count) {
-    size_t c = 0;
-    for (const GatherResult& result : results) {
-        bool Ci = result.name == "surface:Ci", Oi = result.name == "surface:Oi";
-        for (size_t k = 0; k < 3 && (Ci || Oi); ++k)
-            std::copy_n(Ci ? from.Ci[k] : from.Oi[k], count, columns[c + k]);
-        c += size_t(rsl::component_count(result.type));
-    }
-}
-
-// What is known of a hit without its shader.
-void Shading::fill_geometry(std::span<const GatherResult> results, std::span<float* const> columns,
-                            const raytrace::HitBatch& hits, int thread_id) {
-    bool wanted = false;
-    for (const GatherResult& result : results)
-        wanted |= result.name == "surface:P" || find_primitive(result.name);
-    if (!wanted) return;
-    static const ShaderInstance plain;  // no parameters, so that hits of all looks go together
-    Thread& own = thread(thread_id);
-    for (size_t begin = 0; begin < hits.count; begin += kGridPoints) {
-        Arena::Mark mark = own.arena.mark();
-        size_t n = std::min(kGridPoints, hits.count - begin);
-        std::span<uint32_t> points = own.arena.allocate_span<uint32_t>(n);
-        for (size_t i = 0; i < n; ++i) points[i] = uint32_t(begin + i);
-        Grid grid(scene_, hits, points, &plain);
-        grid.shading = this;
-        grid.arena = &own.arena;
-        grid.columns = own.arena.allocate_span<float*>(kColVarying);
-        std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
-        auto row_of = [](const GatherResult& result) {
-            return find_primitive(result.name == "surface:P" ? "primitive:P" : result.name);
-        };
-        for (const GatherResult& result : results)
-            if (const PrimitiveRow* row = row_of(result))
-                for (int k = 0; k < row->components; ++k) {
-                    uint16_t column = uint16_t(row->column + k);
-                    want_columns(grid, {&column, 1});
-                }
-        gather(grid);
-        size_t c = 0;
-        for (const GatherResult& result : results) {
-            if (const PrimitiveRow* row = row_of(result))
-                for (size_t k = 0; k < size_t(row->components); ++k)
-                    std::copy_n(grid.columns[row->column + k], n, columns[c + k] + begin);
-            c += size_t(rsl::component_count(result.type));
-        }
-        own.arena.release(mark);
-    }
 }
 
 }  // namespace kinora

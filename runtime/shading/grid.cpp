@@ -8,15 +8,16 @@
 
 #include "runtime/description/affine_map.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/shading_p.h"
-#include "runtime/shading/spaces.h"
+#include "runtime/scene/spaces.h"
+#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 
 void want_columns(Grid& grid, std::span<const uint16_t> wanted) {
     for (uint16_t column : wanted)
         if (!grid.columns[column])
-            grid.columns[column] = grid.arena->allocate_span<float>(padded(grid.count())).data();
+            grid.columns[column] =
+                grid.memory.arena.allocate_span<float>(padded(grid.count())).data();
 }
 
 void want_triple(Grid& grid, uint16_t first) {
@@ -148,7 +149,7 @@ struct Triple {
     }
 };
 
-// A grid's columns filled run by run: hits of one row share all but their place on the triangle.
+// A grid's columns filled run by run: hits of one row share all but their point on the triangle.
 class Gather {
   public:
     Gather(Grid& grid, const mat3& rotation, vec3 eye)
@@ -182,7 +183,7 @@ class Gather {
                 continue;
             }
             enter(row);
-            if (P_) places(begin, end);
+            if (P_) positions(begin, end);
             if (I_) volume_ ? segments(begin, end) : directions(begin, end);
             if (Ng_) geometric_normals(begin, end);
             if (N_) normals(begin, end);
@@ -230,7 +231,7 @@ class Gather {
             hits_.u[hit], hits_.v[hit]};
     }
 
-    void places(size_t begin, size_t end) const {
+    void positions(size_t begin, size_t end) const {
         for (size_t i = begin; i < end; ++i)
             P_.set(i, rotation_ * (triple(hits_.P, grid_.points[i]) - eye_));
     }
@@ -251,7 +252,7 @@ class Gather {
     void open_ends(size_t begin, size_t end) {
         for (float* rows : grid_.columns)
             if (rows) std::fill(rows + begin, rows + end, 0.0f);
-        if (P_) places(begin, end);
+        if (P_) positions(begin, end);
         if (I_) segments(begin, end);
         for (size_t i = begin; i < end; ++i) {
             vec3 back = rotation_ * -glm::normalize(triple(hits_.dir, grid_.points[i]));
@@ -265,11 +266,11 @@ class Gather {
             Ng_.set(i, rotation_ * triple(hits_.Ng, grid_.points[i]));
     }
     // Unit where the mixture would not come out as between the normals of a still, baked mesh.
-    vec3 placed_normal(vec3 entry) const {
+    vec3 current_normal(vec3 entry) const {
         vec3 n = normals_ * entry;
         return unit_corners_ ? unit_or_zero(n) : n;
     }
-    vec3 placed_normal(const vec4& entry) const { return placed_normal(vec3(entry)); }
+    vec3 current_normal(const vec4& entry) const { return current_normal(vec3(entry)); }
     void normals(size_t begin, size_t end) const {
         const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
         const vec4* entries = shape_->rest_normals.data();
@@ -278,8 +279,8 @@ class Gather {
             const uint32_t* c = corners + 3 * size_t(hits_.primitive[hit]);
             float u = hits_.u[hit], v = hits_.v[hit];
             vec3 N = unit_corners_
-                         ? (1 - u - v) * placed_normal(entries[c[0]]) +
-                               u * placed_normal(entries[c[1]]) + v * placed_normal(entries[c[2]])
+                         ? (1 - u - v) * current_normal(entries[c[0]]) +
+                               u * current_normal(entries[c[1]]) + v * current_normal(entries[c[2]])
                          : normals_ * vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] +
                                            v * entries[c[2]]);
             float square = glm::dot(N, N);
@@ -321,8 +322,8 @@ class Gather {
 
     // Of the unit normal n = m / |m|: n_u = (m_u - n (n . m_u)) / |m|.
     void normal_partials(size_t i, const Corner& c, const AffineMap& map) const {
-        vec3 n0 = placed_normal(c.normal(0)), n1 = placed_normal(c.normal(1)),
-             n2 = placed_normal(c.normal(2));
+        vec3 n0 = current_normal(c.normal(0)), n1 = current_normal(c.normal(1)),
+             n2 = current_normal(c.normal(2));
         vec3 m = (1 - c.u - c.v) * n0 + c.u * n1 + c.v * n2;
         float length = glm::length(m);
         vec3 n = length > 0 ? m / length : vec3(0);
@@ -390,7 +391,7 @@ class Gather {
 }  // namespace
 
 void gather(Grid& grid) {
-    Gather(grid, grid.shading->camera_from_accel_, grid.shading->eye_).run();
+    Gather(grid, grid.frame.camera_from_accel, grid.frame.eye).run();
     // Padding lanes are copies of the last point.
     size_t last = grid.count() - 1;
     for (float* column : grid.columns)

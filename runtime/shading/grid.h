@@ -5,17 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "jit/ir/kernel.h"
+#include "jit/ir/kernel_call.h"
 #include "raytrace/wavefront.h"
-#include "runtime/base/arena.h"
 #include "runtime/shading/shader_instance.h"
+#include "runtime/shading/shading_frame.h"
 
 namespace kinora {
 
-struct Scene;
-class Shading;
-
+class LightShadows;
 struct Grid;
+struct GridServices;
 
 // What services see of a kernel that moves vertices.
 struct VertexHost {
@@ -23,7 +22,7 @@ struct VertexHost {
     std::string* prints;  // of this part of the vertices
 };
 
-// What KernelArgs::grid points to: a frame kernel has no grid.
+// What KernelCall::host points to: a frame kernel has no grid.
 struct KernelHost {
     const Scene* scene;
     const ShaderInstance* look;
@@ -32,10 +31,10 @@ struct KernelHost {
 };
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
+inline constexpr size_t kRecordSets = 256;   // handles a grid may hold at once
+inline constexpr size_t kGatherSets = kRecordSets - rsl::kGatherLevels;  // the last ones
 
-constexpr size_t padded(size_t count) {
-    return (count + jit::kMaxLanes - 1) / jit::kMaxLanes * jit::kMaxLanes;
-}
+using jit::padded;
 
 // How the rays came about that see a grid's points.
 enum class RayKind : uint8_t { Camera, Specular, Diffuse, Transmission };
@@ -46,29 +45,29 @@ struct RayTag {
 };
 
 // Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
-// Lives on the stack of shade(); what services see through KernelArgs::grid.
+// Lives on the stack of whatever shades it; what services see through KernelCall::host.
 struct Grid {
-    Grid(const Scene& s, const raytrace::HitBatch& h, std::span<const uint32_t> p,
-         const ShaderInstance* l)
-        : scene(s), hits(h), points(p), look(l) {}
+    Grid(const ShadingFrame& f, ThreadMemory& m, const raytrace::HitBatch& h,
+         std::span<const uint32_t> p, const ShaderInstance* l)
+        : frame(f), memory(m), scene(f.scene), hits(h), points(p), look(l) {}
     Grid(const Grid&) = delete;
 
+    const ShadingFrame& frame;
+    ThreadMemory& memory;
     const Scene& scene;
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
     const ShaderInstance* look;
     KernelHost host{&scene, look, this};
     uint32_t depth = 0;
-    int thread = 0;
-    Shading* shading = nullptr;
-    Arena* arena = nullptr;
-    std::span<float*> columns;              // by Column
-    std::span<jit::RecordSet> record_sets;  // [0]: lights at P
+    const GridServices* services = nullptr;  // behind the services that its kernels call
+    std::span<float*> columns;               // by Column
+    std::span<jit::RecordSet> record_sets;   // [0]: lights at P
     uint32_t next_record_set = 1;
-    int32_t record_group = -1;  // first lane of the group that lights_at served last
-    Arena::Mark record_mark{};  // where its records begin
-    uint32_t record_calls = 0;  // of the group
-    bool shadows = true;        // false inside opacity kernels
+    int32_t record_group = -1;              // first lane of the group that lights_at served last
+    Arena::Mark record_mark{};              // where its records begin
+    uint32_t record_calls = 0;              // of the group
+    const LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
     RayTag ray;
     std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null

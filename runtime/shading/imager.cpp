@@ -3,20 +3,23 @@
 // P is the pixel's centre in the raster, Ci and alpha the pixel's (associated), Oi its coverage in
 // all components: the film keeps no more. alpha becomes the picture's; an imager that leaves alpha
 // alone and writes Oi sets it to the mean of Oi.
+#include "runtime/shading/imager.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "raytrace/sampling.h"
 #include "runtime/base/parallel.h"
-#include "runtime/shading/shading_p.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
 namespace {
 
-// Services take pixel and place of a point from its hit: here there is a pixel only.
+// Services take the pixel and position of a point from its hit: here there is a pixel only.
 raytrace::HitBatch no_hits(size_t first, size_t count, int width, Arena& arena) {
     size_t rows = padded(count);
     std::span<float> zeros = arena.allocate_span<float>(rows);
@@ -95,18 +98,18 @@ bool writes(const ShaderInstance& look, rsl::Global global) {
 
 }  // namespace
 
-size_t Shading::image_pixels(raytrace::Film& film, size_t first, size_t count,
-                             raytrace::NanPolicy nan) {
-    const ShaderInstance& look = *scene_.looks[scene_.imager];
-    int thread_id = thread_index();
-    Arena& arena = thread(thread_id).arena;
+size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
+                          raytrace::NanPolicy nan) {
+    const Scene& scene = frame_.scene;
+    const ShaderInstance& look = *scene.looks[scene.imager];
+    ThreadMemory& memory = *threads_[size_t(thread_index())];
+    Arena& arena = memory.arena;
     Arena::Mark mark = arena.mark();
     raytrace::HitBatch hits = no_hits(first, count, film.width, arena);
     std::span<uint32_t> points = arena.allocate_span<uint32_t>(count);
     for (uint32_t i = 0; i < count; ++i) points[i] = i;
-    Grid grid(scene_, hits, points, &look);
-    prepare_grid(grid, thread_id);
-    grid.shadows = false;  // there is no place in the scene to look from
+    Grid grid(frame_, memory, hits, points, &look);
+    kernels_.prepare(grid, {});
     want_columns(grid, look.full.columns);
     for (float* column : grid.columns)
         if (column) std::fill_n(column, padded(count), 0.0f);
@@ -118,7 +121,8 @@ size_t Shading::image_pixels(raytrace::Film& film, size_t first, size_t count,
     fill(kColP + 1, [&](size_t i) { return float(hits.pixel_y[i]) + 0.5f; });
     fill(kColOne, [](size_t) { return 1.0f; });
     fill(kColRng, [&](size_t i) {
-        return jit::float_of(int32_t(raytrace::hash(hits.pixel_x[i], hits.pixel_y[i], seed_)));
+        return jit::float_of(
+            int32_t(raytrace::hash(hits.pixel_x[i], hits.pixel_y[i], frame_.seed)));
     });
     for (size_t k = 0; k < 3; ++k) {
         fill(kColCi + k, [&](size_t i) { return film.rgba[first + i][int(k)]; });
@@ -127,9 +131,9 @@ size_t Shading::image_pixels(raytrace::Film& film, size_t first, size_t count,
     fill(kColAlpha, [&](size_t i) { return film.rgba[first + i].w; });
     for (const VaryingParam& param : look.varying)
         for (uint32_t c = 0; c < param.components; ++c)
-            if (const float* plane = plane_of(scene_, film, param, c))
+            if (const float* plane = plane_of(scene, film, param, c))
                 fill(param.column + c, [&](size_t i) { return plane[first + i]; });
-    std::span<float*> out = run_for_colors(look.full, grid);
+    std::span<float*> out = kernels_.run(look.full, grid);
     ImagerOutputs outputs = find_outputs(look.full.kernel());
     bool mean_of_Oi =
         writes(look, rsl::Global::Oi) && !writes(look, rsl::Global::alpha) && outputs.Oi[0] >= 0;
@@ -151,15 +155,15 @@ size_t Shading::image_pixels(raytrace::Film& film, size_t first, size_t count,
     return bad;
 }
 
-size_t Shading::run_imager(raytrace::Film& film, raytrace::NanPolicy nan) {
+size_t Imager::run(raytrace::Film& film, raytrace::NanPolicy nan) {
     size_t runs = (film.rgba.size() + kGridPoints - 1) / kGridPoints;
     std::atomic<size_t> bad = 0;
     parallel_for(0, runs, 1, [&](size_t begin, size_t end) {
         std::optional<raytrace::DenormalGuard> flush;
-        if (scene_.options.math == jit::math::Tier::Fast) flush.emplace();
+        if (frame_.scene.options.math == jit::math::Tier::Fast) flush.emplace();
         for (size_t r = begin; r < end; ++r)
-            bad += image_pixels(film, r * kGridPoints,
-                                std::min(kGridPoints, film.rgba.size() - r * kGridPoints), nan);
+            bad += run_pixels(film, r * kGridPoints,
+                              std::min(kGridPoints, film.rgba.size() - r * kGridPoints), nan);
     });
     return bad;
 }

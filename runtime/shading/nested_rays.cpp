@@ -1,5 +1,6 @@
-// runtime/shading/nested_rays.cpp: rays that shaders shoot, set up in one place, and what they see.
-#include "runtime/shading/nested_rays_p.h"
+// runtime/shading/nested_rays.cpp: rays that shaders shoot, set up here for all services, and what
+// they see.
+#include "runtime/shading/nested_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,10 @@
 
 #include "raytrace/sampling.h"
 #include "rsl/model/renderer_services.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/hit_shader.h"
+#include "runtime/shading/hits_p.h"
+#include "runtime/shading/transmission.h"
 
 namespace kinora {
 
@@ -25,8 +30,8 @@ constexpr int kUsualDepth = 16;
 RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
     RayStart start;
     start.hit = grid.points[std::min(point, grid.count() - 1)];
-    const mat3& camera_from_accel = grid.shading->camera_from_accel();
-    vec3 eye = grid.shading->eye();
+    const mat3& camera_from_accel = grid.frame.camera_from_accel;
+    vec3 eye = grid.frame.eye;
     vec3 on_surface = triple(grid.hits.P, start.hit);
     if (camera_from_accel * (on_surface - eye) == P) {
         start.P = on_surface;
@@ -55,7 +60,7 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
                    grid.hits, start.hit);
     if (bias > 0) rays.tnear[i] = bias;
     if (!grid.scene.volumes.empty())
-        rays.medium[i] = grid.shading->nested_medium(grid.hits, start.hit, dir);
+        rays.medium[i] = nested_medium(grid.scene, grid.hits, start.hit, dir);
     rays.sample[i] = path;
     rays.share[i] = share;
     rays.slot[i] = slot;
@@ -122,7 +127,7 @@ float share_left(Grid& grid, size_t point) {
 
 // Who asks for deeper rays gets them.
 float least_share(const Grid& grid) {
-    int deeper = std::max(0, int(grid.shading->ray_depth()) - kUsualDepth);
+    int deeper = std::max(0, int(grid.frame.ray_depth) - kUsualDepth);
     return kLeastShare[std::min(grid.depth, 3u)] * std::pow(1 + kCallCost, -float(deeper));
 }
 
@@ -154,61 +159,49 @@ RayTag deeper(const Grid& grid, RayKind kind, int32_t label) {
     return tag;
 }
 
-raytrace::ShadeResult take_colors(Arena& arena, size_t count) {
-    raytrace::ShadeResult result;
-    for (size_t k = 0; k < 3; ++k) {
-        result.Ci[k] = arena.allocate_span<float>(padded(count)).data();
-        result.Oi[k] = arena.allocate_span<float>(padded(count)).data();
-    }
-    return result;
-}
-
 // Rays that meet nothing (more) run through the atmosphere to the scene's end.
-void Shading::see_beyond(int thread_id, const raytrace::RayBatch& rays,
-                         const raytrace::HitBatch& hits, std::span<Seen> seen) {
-    Thread& own = thread(thread_id);
-    Arena::Mark mark = own.arena.mark();
-    NestedWavefront nested(own);
+void NestedRays::see_beyond(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                            const RayTag& tag, ThreadMemory& memory, std::span<SeenByRay> seen) {
+    Arena::Mark mark = memory.arena.mark();
+    NestedWavefront nested(memory);
     nested->hits.reserve(kGridPoints);
-    const raytrace::HitBatch& ends = raytrace::missed(rays, hits, miss_distance(), nested->hits);
-    raytrace::ShadeResult result = take_colors(own.arena, ends.count);
-    shade_misses(ends, thread_id, result);
+    const raytrace::HitBatch& ends =
+        raytrace::missed(rays, hits, frame_.miss_distance, nested->hits);
+    raytrace::ShadeResult result = take_colors(memory.arena, ends.count);
+    hits_.shade_misses(ends, tag, memory, result);
     for (size_t k = 0; k < ends.count; ++k) {
-        Seen& at = seen[rays.slot[ends.ray[k]]];
+        SeenByRay& at = seen[rays.slot[ends.ray[k]]];
         at.color += at.open * triple(result.Ci, k);
         at.open *= vec3(1.0f) - stopped_by(triple(result.Oi, k));
     }
-    own.arena.release(mark);
+    memory.arena.release(mark);
 }
 
-// Colour along each ray through what is not opaque, what of it is still open behind, and the
-// distance of the nearest surface. Consumes the rays.
-void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
-                  std::span<Seen> seen) {
-    Thread& own = thread(thread_id);
+void NestedRays::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
+                     ThreadMemory& memory, std::span<SeenByRay> seen) {
+    const raytrace::Accel& accel = frame_.scene.accel;
     for (size_t r = 0; r < rays.count; ++r) seen[rays.slot[r]] = {};
-    RayTag outer = std::exchange(own.ray, tag);
-    const HitOutputs* outputs = std::exchange(own.outputs, nullptr);
-    Arena::Mark mark = own.arena.mark();
+    Arena::Mark mark = memory.arena.mark();
     for (int layer = 0; rays.count > 0; ++layer) {
-        NestedWavefront nested(own);
+        NestedWavefront nested(memory);
         nested->hits.reserve(kGridPoints);
-        const raytrace::HitBatch& hits = raytrace::trace(scene_.accel, rays, raytrace::kMaskAll,
-                                                         depth, nested->hits, own.counters.trace);
-        if (miss_distance() > 0 && hits.count < rays.count) see_beyond(thread_id, rays, hits, seen);
+        const raytrace::HitBatch& hits = raytrace::trace(accel, rays, raytrace::kMaskAll, depth,
+                                                         nested->hits, memory.counters.trace);
+        if (frame_.miss_distance > 0 && hits.count < rays.count)
+            see_beyond(rays, hits, tag, memory, seen);
         if (hits.count == 0) break;
-        if (layer == max_layers_) {  // what is left is not seen
+        if (layer == frame_.max_layers) {  // what is left is not seen
             for (size_t h = 0; h < hits.count; ++h) seen[rays.slot[hits.ray[h]]].open = vec3(0.0f);
-            own.counters.too_deep += hits.count;
+            memory.counters.too_deep += hits.count;
             break;
         }
-        Arena::Mark layer_mark = own.arena.mark();
-        raytrace::ShadeResult result = take_colors(own.arena, hits.count);
-        shade(hits, thread_id, result);
+        Arena::Mark layer_mark = memory.arena.mark();
+        raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
+        hits_.shade(hits, tag, memory, result);
         size_t kept = 0;
         for (size_t h = 0; h < hits.count; ++h) {
             uint32_t r = hits.ray[h], slot = rays.slot[r];
-            Seen& at = seen[slot];
+            SeenByRay& at = seen[slot];
             at.color += at.open * triple(result.Ci, h);
             at.open *= vec3(1.0f) - stopped_by(triple(result.Oi, h));
             at.distance = std::min(at.distance, hits.t[h]);
@@ -216,18 +209,16 @@ void Shading::see(int thread_id, raytrace::RayBatch& rays, uint32_t depth, const
                 at.open = vec3(0.0f);
                 continue;
             }
-            uint32_t medium = medium_behind(hits, h);
-            raytrace::pass_through(scene_.accel, rays, kept, hits, h);
+            uint32_t medium = medium_behind(frame_.scene, hits, h);
+            raytrace::pass_through(accel, rays, kept, hits, h);
             rays.medium[kept++] = medium;
         }
         rays.passing = true;
         rays.count = kept;
-        own.arena.release(layer_mark);
+        memory.arena.release(layer_mark);
     }
     rays.passing = false;
-    own.arena.release(mark);
-    own.ray = outer;
-    own.outputs = outputs;
+    memory.arena.release(mark);
 }
 
 }  // namespace kinora

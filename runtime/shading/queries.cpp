@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/scene/scene.h"
-#include "runtime/shading/spaces.h"
+#include "runtime/scene/spaces.h"
 
 namespace kinora {
 
@@ -28,10 +28,10 @@ bool fits(const Question& question, rsl::Type type) {
 }
 
 // A point, vector or normal in "current" space.
-void place(rsl::BaseType type, const dmat4& current_from_space, const double* values,
-           Answer& answer) {
-    dvec3 placed = place_parameter(type, current_from_space, values);
-    for (uint32_t c = 0; c < 3; ++c) answer[c] = float(placed[int(c)]);
+void to_current(rsl::BaseType type, const dmat4& current_from_space, const double* values,
+                Answer& answer) {
+    dvec3 current = parameter_in_current(type, current_from_space, values);
+    for (uint32_t c = 0; c < 3; ++c) answer[c] = float(current[int(c)]);
 }
 
 // The row of the surface that the point lies on, for a light the point it lights; kNone: none.
@@ -42,13 +42,13 @@ uint32_t surface_row(const Asker& asker) {
 }
 
 // The same from the look's "shader" space: a surface's is that of what wears it.
-void place(rsl::BaseType type, const Asker& asker, const ShaderInstance& look, const double* values,
-           Answer& answer) {
+void to_current(rsl::BaseType type, const Asker& asker, const ShaderInstance& look,
+                const double* values, Answer& answer) {
     uint32_t node = look.node;
     uint32_t row = node == kNone ? surface_row(asker) : kNone;
     if (row != kNone && asker.scene.surfaces[row].look == look.index)
         node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
-    place(type, current_from_space(asker.scene, "shader", node), values, answer);
+    to_current(type, current_from_space(asker.scene, "shader", node), values, answer);
 }
 
 rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
@@ -84,8 +84,9 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
         if (rsl::is_spatial(type) && !v.of_displacement()) {  // the mesh's: in the object's space
             uint32_t shape = asker.scene.surfaces[row].shape;
             const double values[] = {answer[0], answer[1], answer[2]};
-            place(type, current_from_space(asker.scene, "object", asker.scene.shapes[shape].node),
-                  values, answer);
+            to_current(type,
+                       current_from_space(asker.scene, "object", asker.scene.shapes[shape].node),
+                       values, answer);
         }
         return true;
     }
@@ -108,8 +109,8 @@ bool from_source(const Asker& asker, const ShaderInstance& look, const ParamSour
         return count == 1 ? values[0] : values[std::min(uint32_t(element) * width + c, count - 1)];
     };
     if (rsl::is_spatial(type.base) && count >= 3) {
-        place(type.base, asker, look, values + std::min(uint32_t(element) * width, count - 3),
-              answer);
+        to_current(type.base, asker, look, values + std::min(uint32_t(element) * width, count - 3),
+                   answer);
         return true;
     }
     for (uint32_t c = 0; c < width; ++c) answer[c] = float(number(c));
@@ -131,7 +132,7 @@ bool from_default(const Asker& asker, const ShaderInstance& look,
     const float* numbers = value.numbers.data() + element * width;
     if (value.in_shader_space) {
         const double values[] = {numbers[0], numbers[1], numbers[2]};
-        place(parameter.type.base, asker, look, values, answer);
+        to_current(parameter.type.base, asker, look, values, answer);
         return true;
     }
     for (size_t c = 0; c < width; ++c) answer[c] = numbers[c];

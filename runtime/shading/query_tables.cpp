@@ -8,7 +8,6 @@
 #include "runtime/description/play_range.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/queries.h"
-#include "runtime/shading/shading.h"
 
 namespace kinora {
 
@@ -214,11 +213,11 @@ vec3 of_hit(const Asker& asker, const float* const columns[3]) {
     return {columns[0][hit], columns[1][hit], columns[2][hit]};
 }
 Fact origin(const Asker& asker) {
-    const Shading& shading = *asker.grid->shading;
-    return shading.camera_from_accel() * (of_hit(asker, asker.grid->hits.org) - shading.eye());
+    const ShadingFrame& frame = asker.grid->frame;
+    return frame.camera_from_accel * (of_hit(asker, asker.grid->hits.org) - frame.eye);
 }
 Fact direction(const Asker& asker) {
-    return asker.grid->shading->camera_from_accel() *
+    return asker.grid->frame.camera_from_accel *
            glm::normalize(of_hit(asker, asker.grid->hits.dir));
 }
 Fact length(const Asker& asker) {

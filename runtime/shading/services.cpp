@@ -8,11 +8,13 @@
 #include "rsl/model/renderer_services.h"
 #include "rsl/model/service_table.h"
 #include "runtime/images/texture.h"
+#include "runtime/scene/scene.h"
+#include "runtime/scene/spaces.h"
 #include "runtime/shading/bake.h"
+#include "runtime/shading/light_records.h"
 #include "runtime/shading/print.h"
 #include "runtime/shading/queries.h"
-#include "runtime/shading/shading_p.h"
-#include "runtime/shading/spaces.h"
+#include "runtime/shading/ray_services.h"
 
 namespace kinora {
 
@@ -44,7 +46,7 @@ bool zeros_without_grid(const jit::ServiceCall& call) {
 void lights(const jit::ServiceCall& call) {
     if (zeros_without_grid<rsl::Service::lights>(call)) return;
     Grid& grid = grid_of(call);
-    int32_t handle = grid.shading->lights_at(grid, call);
+    int32_t handle = grid.services->lights.at(grid, call);
     for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
 }
 
@@ -68,26 +70,26 @@ void shadow(const jit::ServiceCall& call) {
 void trace(const jit::ServiceCall& call) {
     if (zeros_without_grid<rsl::Service::trace>(call)) return;
     Grid& grid = grid_of(call);
-    grid.shading->trace(grid, call);
+    grid.services->rays.trace(grid, call);
 }
 void transmission(const jit::ServiceCall& call) {
     if (zeros_without_grid<rsl::Service::transmission>(call)) return;
     Grid& grid = grid_of(call);
-    grid.shading->transmission(grid, call);
+    grid.services->rays.transmission(grid, call);
 }
 void occlusion(const jit::ServiceCall& call) {
     if (zeros_without_grid<rsl::Service::occlusion>(call)) return;
     Grid& grid = grid_of(call);
-    grid.shading->occlusion(grid, call);
+    grid.services->rays.occlusion(grid, call);
 }
 void indirectdiffuse(const jit::ServiceCall& call) {
     if (zeros_without_grid<rsl::Service::indirectdiffuse>(call)) return;
     Grid& grid = grid_of(call);
-    grid.shading->indirect_diffuse(grid, call);
+    grid.services->rays.indirect_diffuse(grid, call);
 }
 void gather_service(const jit::ServiceCall& call) {
     Grid& grid = grid_of(call);
-    int32_t handle = grid.shading->gather_rays(grid, call);
+    int32_t handle = grid.services->gathers.gather(grid, call);
     for (int i = 0; i < kLanes; ++i) result(call, 0)[i] = jit::float_of(handle);
 }
 void query(const jit::ServiceCall& call) {
@@ -96,7 +98,7 @@ void query(const jit::ServiceCall& call) {
 void bake3d(const jit::ServiceCall& call) {
     if (zeros_without_grid<rsl::Service::bake3d>(call)) return;
     Grid& grid = grid_of(call);
-    grid.shading->bake(grid, call);
+    grid.services->bakes.add(grid, call);
 }
 void texture3d(const jit::ServiceCall& call) {
     look_up_points(host_of(call), call);
@@ -133,7 +135,7 @@ void transform(const jit::ServiceCall& call) {
 void print(const jit::ServiceCall& call) {
     const KernelHost& host = host_of(call);
     if (host.grid) {
-        host.grid->shading->print(*host.grid, call);
+        host.grid->services->prints.add(*host.grid, call);
     } else if (host.vertices) {
         for (int lane = 0; lane < call.lanes; ++lane)
             if (call.mask >> lane & 1) *host.vertices->prints += print_text(call, lane);

@@ -7,6 +7,21 @@
 
 namespace kinora {
 
+class Bakes;
+class GatherRays;
+class LightRecords;
+class Prints;
+class RayServices;
+
+// The objects that answer the kernels of a grid.
+struct GridServices {
+    LightRecords& lights;
+    RayServices& rays;
+    GatherRays& gathers;
+    Prints& prints;
+    Bakes& bakes;
+};
+
 // The function behind a service's name; an unknown name stops the program.
 jit::ServiceFn find_service(std::string_view name);
 

@@ -9,9 +9,9 @@
 
 #include "runtime/base/check.h"
 #include "runtime/scene/scene.h"
+#include "runtime/scene/spaces.h"
 #include "runtime/shading/grid.h"
 #include "runtime/shading/services.h"
-#include "runtime/shading/spaces.h"
 
 namespace kinora {
 
@@ -138,16 +138,16 @@ FrameInput resolve_param(ShaderInstance& look, const ParamName& name) {
         }
         uint32_t width = uint32_t(rsl::component_count(parameter.type.base));
         uint32_t needed = width * uint32_t(std::max(parameter.type.array_length, 1));
-        bool placed = rsl::is_spatial(parameter.type.base);
-        input.source = placed ? FrameInput::Source::Placed : FrameInput::Source::Value;
+        bool spatial = rsl::is_spatial(parameter.type.base);
+        input.source = spatial ? FrameInput::Source::Spatial : FrameInput::Source::Value;
         input.type = parameter.type.base;
         input.component = uint8_t(name.component);
-        uint32_t c = name.element * width + (placed ? 0 : name.component);
+        uint32_t c = name.element * width + (spatial ? 0 : name.component);
         if (source->by_columns && width == 16)
             c = name.element * width + name.component % 4 * 4 + name.component / 4;
         input.index = value_index(source->value, needed, c);
-        if (placed) input.space = space_index(look, "shader");
-        if (placed && source->value.count < 3) {  // one number for all three: no place to speak of
+        if (spatial) input.space = space_index(look, "shader");
+        if (spatial && source->value.count < 3) {  // one number for all three: no point to speak of
             input.source = FrameInput::Source::Value;
             input.index = source->value.offset;
         }
@@ -226,7 +226,7 @@ void bind_kernel(BoundKernel& bound, ShaderInstance& look) {
     bound.frame_faults.resize(frame.fault_sites.size() + 1);
 }
 
-void place_varying(ShaderInstance& look) {
+void assign_columns(ShaderInstance& look) {
     for (VaryingParam& varying : look.varying) {
         varying.column = varying.array ? kNoColumn : look.column_count;
         if (varying.array) continue;
@@ -238,7 +238,7 @@ void place_varying(ShaderInstance& look) {
 
 bool compile_look(ShaderInstance& look, const SceneDescription& description,
                   const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
-    place_varying(look);
+    assign_columns(look);
     std::vector<rsl::Layer> layers;
     for (uint32_t l = 0; l < look.layers.size(); ++l) {
         const ShaderUse& use = look.layers[l];
@@ -332,7 +332,7 @@ void ShaderInstance::update(const FrameContext& context) {
     if (opacity) opacity->update(context, *this);
 }
 
-dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, const double* v) {
+dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader, const double* v) {
     dvec3 value(v[0], v[1], v[2]);
     if (type == rsl::BaseType::Point) return dvec3(current_from_shader * dvec4(value, 1.0));
     dmat3 linear(current_from_shader);
@@ -351,10 +351,10 @@ void BoundKernel::update(const FrameContext& context, const ShaderInstance& look
                 return input.fixed;
             case Source::Value:
                 return float(scene.values[input.index]);
-            case Source::Placed: {
+            case Source::Spatial: {
                 const dmat4& m = current_from_space[input.space];
-                return float(
-                    place_parameter(input.type, m, &scene.values[input.index])[input.component]);
+                return float(parameter_in_current(input.type, m,
+                                                  &scene.values[input.index])[input.component]);
             }
             case Source::Space: {
                 const dmat4& m = current_from_space[input.index];
@@ -378,17 +378,18 @@ void BoundKernel::update(const FrameContext& context, const ShaderInstance& look
         float value = number(inputs[i]);
         std::fill_n(const_cast<float*>(in[i]), kRow, value);
     }
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.count = 1;
-    args.fault = frame_faults.data();
-    args.services = frame_services.data();
     KernelHost host{&scene, &look, nullptr};
-    args.grid = &host;
     Arena::Mark mark = arena.mark();
-    args.scratch = static_cast<std::byte*>(arena.allocate(pair.frame->scratch_bytes));
-    pair.frame->run(args);
+    jit::KernelCall{.kernel = *pair.frame,
+                    .count = 1,
+                    .in = in,
+                    .out = out,
+                    .row_floats = kRow,
+                    .scratch = arena.allocate_span<std::byte>(pair.frame->scratch_bytes),
+                    .faults = frame_faults,
+                    .services = frame_services,
+                    .host = &host}
+        .run();
     arena.release(mark);
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out[i][0];
 }

@@ -28,11 +28,11 @@ struct FrameContext {
 // Where a frame-rate input's number comes from, resolved by name once.
 struct FrameInput {
     enum class Source : uint8_t {
-        Fixed,   // `fixed`
-        Value,   // values[index]
-        Placed,  // component `component` of a point-like parameter at values[index], brought
-                 // from shader space to current
-        Space,   // entry (row, column) of space `index`
+        Fixed,    // `fixed`
+        Value,    // values[index]
+        Spatial,  // component `component` of a point-like parameter at values[index], brought
+                  // from shader space to current
+        Space,    // entry (row, column) of space `index`
         Time,
         Shutter,
         Near,
@@ -42,7 +42,7 @@ struct FrameInput {
     Source source = Source::Fixed;
     float fixed = 0;
     uint32_t index = 0;
-    uint32_t space = 0;     // Placed: the look's "shader" among its spaces
+    uint32_t space = 0;     // Spatial: the look's "shader" among its spaces
     uint8_t component = 0;  // or row * 4 + column
     rsl::BaseType type = rsl::BaseType::Float;
     bool inverse = false;  // Space: from_current
@@ -56,7 +56,6 @@ class BoundKernel {
     // Runs the frame kernel and fills the frame block. No allocation.
     void update(const FrameContext& context, const ShaderInstance& look);
     const jit::Kernel& kernel() const { return *pair.point; }
-    const float* frame_block() const { return frame.data(); }
     bool empty() const { return !pair.point; }
 
     jit::KernelPair pair;
@@ -100,7 +99,7 @@ struct ShaderInstance {
     std::string name;               // the material's or light's
     std::vector<ShaderUse> layers;  // displacements, then surfaces; or one light
     uint32_t done_layers = 0;       // so many first ones have run on the mesh's vertices
-    uint32_t node = kNone;          // scene node of "shader" space (lights; placed parameters)
+    uint32_t node = kNone;          // scene node of "shader" space (lights; spatial parameters)
     std::vector<VaryingParam> varying;
     uint16_t column_count = kColVarying;
     rsl::LoweredShader lowered;  // the full kernel's (module moved out)
@@ -136,7 +135,8 @@ struct ShaderInstanceOptions {
 int output_component(std::string_view suffix);
 
 // A point-like parameter, given in shader space, in current space.
-dvec3 place_parameter(rsl::BaseType type, const dmat4& current_from_shader, const double* value);
+dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader,
+                           const double* value);
 
 // Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
 // compiled (findings say why).

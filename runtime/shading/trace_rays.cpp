@@ -7,7 +7,11 @@
 
 #include "raytrace/sampling.h"
 #include "runtime/images/texture.h"
-#include "runtime/shading/nested_rays_p.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/hits_p.h"
+#include "runtime/shading/nested_rays.h"
+#include "runtime/shading/ray_services.h"
+#include "runtime/shading/transmission.h"
 
 namespace kinora {
 
@@ -16,7 +20,7 @@ namespace {
 constexpr int kLanes = jit::kMaxLanes;
 
 // Fills batches with the samples of all lanes and hands each full one to flush(first sample of the
-// batch). add(lane, k) adds one ray with slot = its place in the batch.
+// batch). add(lane, k) adds one ray with slot = its index in the batch.
 template <class Count, class Add, class Flush>
 void in_batches(const Lanes& lanes, raytrace::RayBatch& rays, Count&& count, Add&& add,
                 Flush&& flush) {
@@ -116,20 +120,31 @@ class ConeRays {
     mat3 accel_from_camera_;
 };
 
+// Of the nearest surface along each ray, kMiss without one.
+void find_distances(const raytrace::Accel& accel, const raytrace::RayBatch& rays,
+                    ThreadMemory& memory, std::span<float> out) {
+    std::fill(out.begin(), out.end(), kMiss);
+    NestedWavefront nested(memory);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& hits =
+        raytrace::trace(accel, rays, raytrace::kMaskAll, 1, nested->hits, memory.counters.trace);
+    for (size_t h = 0; h < hits.count; ++h) out[rays.slot[hits.ray[h]]] = hits.t[h];
+}
+
 }  // namespace
 
-void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
+void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
     enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label };
     Lanes lanes(call);
     vec3 color[kLanes] = {};
     float distance[kLanes], share[kLanes] = {};
     std::fill_n(distance, kLanes, kMiss);
-    if (grid.shadows && grid.depth < ray_depth() && !stopped()) {
-        Thread& own = thread(grid.thread);
-        Arena::Mark mark = own.arena.mark();
-        std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
-        mat3 accel_from_camera = glm::transpose(camera_from_accel_);
-        NestedWavefront nested(own);
+    if (grid.shadows && grid.depth < frame_.ray_depth && !frame_.stopped()) {
+        ThreadMemory& memory = grid.memory;
+        Arena::Mark mark = memory.arena.mark();
+        std::span<SeenByRay> seen = memory.arena.allocate_span<SeenByRay>(kGridPoints);
+        mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
+        NestedWavefront nested(memory);
         lanes.for_each_text(Label, [&](const Lanes& alike) {
             in_batches(
                 alike, nested->rays,
@@ -151,14 +166,14 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
                 },
                 [&](std::span<const uint8_t> lane_of) {
                     RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, lane_of[0]));
-                    see(grid.thread, nested->rays, grid.depth + 1, tag, seen);
+                    nested_.see(nested->rays, grid.depth + 1, tag, memory, seen);
                     for (size_t i = 0; i < lane_of.size(); ++i) {
                         color[lane_of[i]] += seen[i].color;
                         distance[lane_of[i]] = std::min(distance[lane_of[i]], seen[i].distance);
                     }
                 });
         });
-        own.arena.release(mark);
+        memory.arena.release(mark);
     }
     for (int lane = 0; lane < kLanes; ++lane) {
         bool many = lanes.asks(lane) && lanes.number(Spread, lane) > 0;
@@ -167,19 +182,7 @@ void Shading::trace(Grid& grid, const jit::ServiceCall& call) {
     }
 }
 
-// What passes of each ray; consumes the rays. Slots must be 0, 1, 2, ...
-void Shading::pass(int thread_id, raytrace::RayBatch& rays, std::span<vec3> through) {
-    Thread& own = thread(thread_id);
-    uint8_t blocked[kGridPoints];
-    std::fill(through.begin(), through.end(), vec3(1.0f));
-    raytrace::occluded_by_opaque(scene_.accel, rays, blocked, own.counters.trace);
-    size_t count = rays.count;
-    if (any_transparent_) pass_transparent(thread_id, rays, through.data());
-    for (size_t r = 0; r < count; ++r)
-        if (blocked[r]) through[r] = vec3(0.0f);
-}
-
-void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
+void RayServices::transmission(Grid& grid, const jit::ServiceCall& call) {
     enum { From = 2, To = 5, Samples = 8, Spread, Bias };
     Lanes lanes(call);
     vec3 sum[kLanes];
@@ -187,12 +190,12 @@ void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
         return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
     };
     for (int lane = 0; lane < kLanes; ++lane) sum[lane] = vec3(0.0f);
-    Thread& own = thread(grid.thread);
-    Arena::Mark mark = own.arena.mark();
-    std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
-    NestedWavefront nested(own);
+    ThreadMemory& memory = grid.memory;
+    Arena::Mark mark = memory.arena.mark();
+    std::span<vec3> through = memory.arena.allocate_span<vec3>(kGridPoints);
+    NestedWavefront nested(memory);
     auto open = [&](int lane) {  // nothing can lie between two points that are the same
-        return !grid.shadows || stopped() ||
+        return !grid.shadows || frame_.stopped() ||
                !has_direction(lanes.triple(To, lane) - lanes.triple(From, lane));
     };
     in_batches(
@@ -221,29 +224,29 @@ void Shading::transmission(Grid& grid, const jit::ServiceCall& call) {
                     raytrace::hash(lanes.seed(lane), k), slot);
         },
         [&](std::span<const uint8_t> lane_of) {
-            pass(grid.thread, nested->rays, through.first(lane_of.size()));
+            transmission_.pass(nested->rays, grid.ray, memory, through.first(lane_of.size()));
             for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += through[i];
         });
-    own.arena.release(mark);
+    memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane)
         lanes.set(0, lane,
                   !lanes.asks(lane) || open(lane) ? vec3(1.0f) : sum[lane] / float(count(lane)));
 }
 
-void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
+void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     enum { Falloff = kMoreArgs, Mode, Map };
     Lanes lanes(call);
-    Thread& own = thread(grid.thread);
+    ThreadMemory& memory = grid.memory;
     float blocked[kLanes] = {};
     vec3 open[kLanes] = {}, sky[kLanes] = {};
-    Arena::Mark mark = own.arena.mark();
-    std::span<vec3> through = own.arena.allocate_span<vec3>(kGridPoints);
-    std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
-    std::span<vec3> light = own.arena.allocate_span<vec3>(kGridPoints);
-    NestedWavefront nested(own), near(own);
-    ConeRays cone(grid, lanes, glm::transpose(camera_from_accel_));
+    Arena::Mark mark = memory.arena.mark();
+    std::span<vec3> through = memory.arena.allocate_span<vec3>(kGridPoints);
+    std::span<vec3> dirs = memory.arena.allocate_span<vec3>(kGridPoints);
+    std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
+    NestedWavefront nested(memory);
+    ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
     in_batches(
-        lanes, nested->rays, [&](int lane) { return stopped() ? 0 : cone.count(lane); },
+        lanes, nested->rays, [&](int lane) { return frame_.stopped() ? 0 : cone.count(lane); },
         [&](int lane, uint32_t k, uint32_t slot) {
             dirs[slot] = cone.direction(lane, k);
             cone.add(nested->rays, lane, k, slot, dirs[slot]);
@@ -251,9 +254,10 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
         [&](std::span<const uint8_t> lane_of) {
             bool by_distance = false;
             for (uint8_t lane : lane_of) by_distance |= lanes.number(Falloff, lane) > 0;
-            std::span<float> weight = own.arena.allocate_span<float>(by_distance ? kGridPoints : 0);
-            if (by_distance) distances(grid.thread, nested->rays, near->hits, weight);
-            pass(grid.thread, nested->rays, through.first(lane_of.size()));
+            std::span<float> weight =
+                memory.arena.allocate_span<float>(by_distance ? kGridPoints : 0);
+            if (by_distance) find_distances(frame_.scene.accel, nested->rays, memory, weight);
+            transmission_.pass(nested->rays, grid.ray, memory, through.first(lane_of.size()));
             for (size_t i = 0; i < lane_of.size(); ++i) {
                 int lane = lane_of[i];
                 float hidden = 1 - (through[i].x + through[i].y + through[i].z) / 3;
@@ -273,40 +277,31 @@ void Shading::occlusion(Grid& grid, const jit::ServiceCall& call) {
                     through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * fade;
             }
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
-                look_up(*scene_.textures, map, dirs.subspan(begin, end - begin),
+                look_up(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
                         sample_width(cone.count(lane_of[begin])), light.data());
                 for (size_t i = begin; i < end; ++i)
                     sky[lane_of[i]] += through[i] * light[i - begin];
             });
         });
-    own.arena.release(mark);
+    memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
         int n = lanes.asks(lane) ? cone.count(lane) : 0;
         lanes.set(0, lane, n ? blocked[lane] / float(n) : 0.0f);
         float length = glm::length(open[lane]);
-        vec3 mean = length > 0 ? camera_from_accel_ * open[lane] / length : vec3(0.0f);
+        vec3 mean = length > 0 ? frame_.camera_from_accel * open[lane] / length : vec3(0.0f);
         lanes.set(1, lane, n ? mean : lanes.triple(kN, lane));
         lanes.set(4, lane, n ? sky[lane] / float(n) : vec3(0.0f));
     }
 }
 
-// Of the nearest surface along each ray, kMiss without one.
-void Shading::distances(int thread_id, const raytrace::RayBatch& rays, raytrace::HitStore& store,
-                        std::span<float> out) {
-    std::fill(out.begin(), out.end(), kMiss);
-    store.reserve(kGridPoints);
-    const raytrace::HitBatch& hits = raytrace::trace(scene_.accel, rays, raytrace::kMaskAll, 1,
-                                                     store, thread(thread_id).counters.trace);
-    for (size_t h = 0; h < hits.count; ++h) out[rays.slot[hits.ray[h]]] = hits.t[h];
-}
-
-void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
+void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     enum { Map = kMoreArgs };
     Lanes lanes(call);
-    Thread& own = thread(grid.thread);
+    ThreadMemory& memory = grid.memory;
     vec3 sum[kLanes] = {}, sky[kLanes] = {};
     // What lies beyond the last bounce is black; a map alone costs no ray.
-    bool bounces = grid.depth < ray_depth() && grid.ray.diffuse < diffuse_depth() && !stopped();
+    bool bounces = grid.depth < frame_.ray_depth && grid.ray.diffuse < frame_.diffuse_depth &&
+                   !frame_.stopped();
     // The bounces are counted: all are followed, the later ones with fewer rays.
     float share[kLanes] = {};
     int samples[kLanes] = {};
@@ -315,12 +310,12 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
         samples[lane] = lanes.samples(kSamples, lane);
         if (bounces) share[lane] = fit_samples(grid, lanes.point(lane), samples[lane]);
     }
-    Arena::Mark mark = own.arena.mark();
-    std::span<Seen> seen = own.arena.allocate_span<Seen>(kGridPoints);
-    std::span<vec3> dirs = own.arena.allocate_span<vec3>(kGridPoints);
-    std::span<vec3> light = own.arena.allocate_span<vec3>(kGridPoints);
-    NestedWavefront nested(own);
-    ConeRays cone(grid, lanes, glm::transpose(camera_from_accel_));
+    Arena::Mark mark = memory.arena.mark();
+    std::span<SeenByRay> seen = memory.arena.allocate_span<SeenByRay>(kGridPoints);
+    std::span<vec3> dirs = memory.arena.allocate_span<vec3>(kGridPoints);
+    std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
+    NestedWavefront nested(memory);
+    ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
     auto count = [&](int lane) {
         bool shoots = bounces || lanes.integer(Map, lane) != 0;
         return shoots && cone.count(lane) > 0 ? samples[lane] : 0;
@@ -334,16 +329,17 @@ void Shading::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
                 cone.add(nested->rays, lane, k, slot, dirs[slot], share[lane]);
         },
         [&](std::span<const uint8_t> lane_of) {
-            see(grid.thread, nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), seen);
+            nested_.see(nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), memory,
+                        seen);
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
-                look_up(*scene_.textures, map, dirs.subspan(begin, end - begin),
+                look_up(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
                         sample_width(samples[lane_of[begin]]), light.data());
                 for (size_t i = begin; i < end; ++i)
                     sky[lane_of[i]] += seen[i].open * light[i - begin];
             });
             for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += seen[i].color;
         });
-    own.arena.release(mark);
+    memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
         int n = lanes.asks(lane) ? count(lane) : 0;
         lanes.set(0, lane, n ? (sum[lane] + sky[lane]) / float(n) : vec3(0.0f));

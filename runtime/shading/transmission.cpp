@@ -1,10 +1,16 @@
-// runtime/shading/transmission.cpp: rays through transparent surfaces. Each wavefront runs on the
-// calling thread; no task is started here.
+// runtime/shading/transmission.cpp: rays through transparent surfaces, and shadow rays.
+#include "runtime/shading/transmission.h"
+
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 
-#include "runtime/shading/shading_p.h"
+#include "raytrace/sampling.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 
@@ -44,28 +50,29 @@ static void aim_at(raytrace::RayBatch& rays, size_t i, vec3 end) {
 
 // Closest hits on what is not opaque, each round shaded as grids; `through` is what passes. The
 // round after the last only asks whether anything is left: that lets nothing through.
-void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* through) {
-    Thread& own = thread(thread_id);
+void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& from,
+                                    ThreadMemory& memory, vec3* through) {
+    const Scene& scene = frame_.scene;
     for (size_t r = 0; r < rays.count; ++r) through[r] = vec3(1.0f);
-    RayTag outer = own.ray;
-    own.ray.kind = RayKind::Transmission;
-    Arena::Mark mark = own.arena.mark();
+    RayTag tag = from;
+    tag.kind = RayKind::Transmission;
+    Arena::Mark mark = memory.arena.mark();
     for (int round = 0; rays.count > 0; ++round) {
-        NestedWavefront nested(own);
+        NestedWavefront nested(memory);
         nested->hits.reserve(kGridPoints);
         const raytrace::HitBatch& hits = raytrace::trace(
-            scene_.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits, own.counters.trace);
-        if (!scene_.volumes.empty()) pass_ends(thread_id, rays, hits, through);
+            scene.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits, memory.counters.trace);
+        if (!scene.volumes.empty()) pass_ends(rays, hits, tag, memory, through);
         if (hits.count == 0) break;
-        if (round == max_layers_) {
+        if (round == frame_.max_layers) {
             for (size_t h = 0; h < hits.count; ++h) through[rays.slot[hits.ray[h]]] = vec3(0.0f);
-            own.counters.too_deep += hits.count;
+            memory.counters.too_deep += hits.count;
             break;
         }
-        Arena::Mark round_mark = own.arena.mark();
-        std::span<vec3> Oi = own.arena.allocate_span<vec3>(hits.count);
-        opacity(hits, thread_id, Oi.data());
-        if (!scene_.volumes.empty()) pass_volumes(hits, thread_id, Oi.data());
+        Arena::Mark round_mark = memory.arena.mark();
+        std::span<vec3> Oi = memory.arena.allocate_span<vec3>(hits.count);
+        opacity(hits, tag, memory, Oi.data());
+        if (!scene.volumes.empty()) volumes_.pass(hits, tag, memory, Oi.data());
         size_t kept = 0;
         for (size_t h = 0; h < hits.count; ++h) {
             uint32_t r = hits.ray[h];
@@ -73,33 +80,182 @@ void Shading::pass_transparent(int thread_id, raytrace::RayBatch& rays, vec3* th
             light *= vec3(1.0f) - Oi[h];
             if (light == vec3(0.0f)) continue;
             vec3 end = triple(rays.org, r) + triple(rays.dir, r) * rays.tfar[r];
-            uint32_t medium = medium_behind(hits, h);
-            raytrace::pass_through(scene_.accel, rays, kept, hits, h);
+            uint32_t medium = medium_behind(scene, hits, h);
+            raytrace::pass_through(scene.accel, rays, kept, hits, h);
             if (std::isfinite(rays.tfar[kept])) aim_at(rays, kept, end);
             rays.medium[kept++] = medium;
         }
         rays.passing = true;
         rays.count = kept;
-        own.arena.release(round_mark);
+        memory.arena.release(round_mark);
     }
     rays.passing = false;
-    own.arena.release(mark);
-    own.ray = outer;
+    memory.arena.release(mark);
 }
 
 // Rays that reach their light inside an object: the last part of their way.
-void Shading::pass_ends(int thread_id, const raytrace::RayBatch& rays,
-                        const raytrace::HitBatch& hits, vec3* through) {
-    Thread& own = thread(thread_id);
-    Arena::Mark mark = own.arena.mark();
-    NestedWavefront nested(own);
+void Transmission::pass_ends(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                             const RayTag& ray, ThreadMemory& memory, vec3* through) {
+    Arena::Mark mark = memory.arena.mark();
+    NestedWavefront nested(memory);
     nested->hits.reserve(kGridPoints);
-    const raytrace::HitBatch& ends = raytrace::missed(rays, hits, miss_distance_, nested->hits);
-    std::span<vec3> Oi = own.arena.allocate_span<vec3>(ends.count);
+    const raytrace::HitBatch& ends =
+        raytrace::missed(rays, hits, frame_.far_distance, nested->hits);
+    std::span<vec3> Oi = memory.arena.allocate_span<vec3>(ends.count);
     std::fill(Oi.begin(), Oi.end(), vec3(0.0f));
-    pass_volumes(ends, thread_id, Oi.data());
+    volumes_.pass(ends, ray, memory, Oi.data());
     for (size_t k = 0; k < ends.count; ++k) through[rays.slot[ends.ray[k]]] *= vec3(1.0f) - Oi[k];
-    own.arena.release(mark);
+    memory.arena.release(mark);
+}
+
+void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+                        std::span<vec3> through) {
+    uint8_t blocked[kGridPoints];
+    std::fill(through.begin(), through.end(), vec3(1.0f));
+    raytrace::occluded_by_opaque(frame_.scene.accel, rays, blocked, memory.counters.trace);
+    size_t count = rays.count;
+    if (frame_.any_transparent) pass_transparent(rays, from, memory, through.data());
+    for (size_t r = 0; r < count; ++r)
+        if (blocked[r]) through[r] = vec3(0.0f);
+}
+
+// ---- opacity of what rays meet ------------------------------------------------------------------
+
+void Transmission::opacity(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
+                           vec3* Oi) {
+    const Scene& scene = frame_.scene;
+    Arena::Mark mark = memory.arena.mark();
+    std::span<uint32_t> points = memory.arena.allocate_span<uint32_t>(hits.count);
+    for (size_t l = 0; l < scene.looks.size(); ++l) {
+        const ShaderInstance& look = *scene.looks[l];
+        size_t count = 0;
+        for (uint32_t i = 0; i < hits.count; ++i)
+            if (scene.surfaces[hits.instance[i]].look == l) points[count++] = i;
+        if (count == 0) continue;
+        if (!look.opacity) {
+            for (size_t i = 0; i < count; ++i) Oi[points[i]] = vec3(1.0f);
+            continue;
+        }
+        for (size_t at = 0; at < count; at += kGridPoints)
+            run_opacity(hits, points.subspan(at, std::min(kGridPoints, count - at)), look, ray,
+                        memory, Oi);
+    }
+    memory.arena.release(mark);
+}
+
+void Transmission::run_opacity(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
+                               const ShaderInstance& look, const RayTag& ray, ThreadMemory& memory,
+                               vec3* Oi) {
+    Arena::Mark mark = memory.arena.mark();
+    Grid grid(frame_, memory, hits, points, &look);
+    kernels_.prepare(grid, ray);
+    want_columns(grid, look.opacity->columns);
+    if (look.lowered.uses_lights) lights_.want_columns(grid);
+    gather(grid);
+    if (look.lowered.uses_lights) lights_.run(grid);
+    std::span<float*> out = kernels_.run(*look.opacity, grid);
+    memory.counters.opacity_points += grid.count();
+    float* columns[3];
+    find_color(look.opacity->kernel(), out, "Oi", columns);
+    for (size_t i = 0; i < points.size(); ++i) {
+        vec3 given(1.0f);
+        for (int k = 0; k < 3; ++k)
+            if (columns[k]) given[k] = columns[k][i];
+        Oi[points[i]] = stopped_by(given);
+    }
+    memory.arena.release(mark);
+}
+
+// ---- shadow rays --------------------------------------------------------------------------------
+
+namespace {
+
+// How far a light's sample stands off the surface that shines, where the ray to it ends.
+vec3 before_sample(const raytrace::HitBatch& samples, size_t i, vec3 P, vec3 to_light) {
+    vec3 end = triple(samples.P, i);
+    // Origin, direction and the distance of a hit all round: 16 steps of the largest.
+    vec3 size = glm::max(glm::abs(end), glm::abs(P));
+    vec3 error = vec3(std::max(size.x, std::max(size.y, size.z)) * 16 * 0x1p-24f) +
+                 triple(samples.P_error, i);
+    return raytrace::offset_ray_origin(end, error, triple(samples.Ng, i), -to_light) - end;
+}
+
+// Shadow rays by the packet, and the lit points that asked for them.
+struct ShadowPacket {
+    raytrace::RayPacket16 rays;
+    uint32_t points[raytrace::kPacket];
+    int filled = 0;
+
+    void add(uint32_t point, vec3 org, vec3 dir, float tfar) {
+        rays.org_x[filled] = org.x;
+        rays.org_y[filled] = org.y;
+        rays.org_z[filled] = org.z;
+        rays.dir_x[filled] = dir.x;
+        rays.dir_y[filled] = dir.y;
+        rays.dir_z[filled] = dir.z;
+        rays.tnear[filled] = 0;
+        rays.tfar[filled] = tfar;
+        rays.mask[filled] = raytrace::kMaskOpaque;
+        rays.time[filled] = 0;
+        points[filled++] = point;
+    }
+    vec3 org(int j) const { return {rays.org_x[j], rays.org_y[j], rays.org_z[j]}; }
+    vec3 dir(int j) const { return {rays.dir_x[j], rays.dir_y[j], rays.dir_z[j]}; }
+};
+
+}  // namespace
+
+void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& light) const {
+    ThreadMemory& memory = grid.memory;
+    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
+    ShadowPacket packet;
+    NestedWavefront nested(memory);
+    raytrace::RayBatch& rest = nested->rays;
+    if (frame_.any_transparent) rest.reserve(kGridPoints);
+    rest.count = 0;
+    auto flush = [&] {
+        if (packet.filled == 0) return;
+        packet.rays.active = (1u << packet.filled) - 1;
+        uint32_t blocked = frame_.scene.accel.occluded16(packet.rays, memory.counters.trace);
+        for (int j = 0; j < packet.filled; ++j) {
+            uint32_t i = packet.points[j];
+            if (blocked >> j & 1) {
+                for (size_t k = 0; k < 3; ++k) light.Cl[k][i] = 0;
+            } else if (frame_.any_transparent) {
+                set_nested_ray(rest, rest.count, packet.org(j), packet.dir(j), packet.rays.tfar[j],
+                               grid.hits, grid.points[at.first + i]);
+                rest.slot[rest.count++] = i;
+            }
+        }
+        packet.filled = 0;
+    };
+    for (uint32_t i = 0; i < at.count; ++i) {
+        if (light.lit && jit::bits_of(light.lit[i]) == 0) continue;
+        if (light.Cl[0][i] == 0 && light.Cl[1][i] == 0 && light.Cl[2][i] == 0) continue;
+        vec3 to_light = accel_from_camera * triple(light.L, i);
+        vec3 P = triple(at.accel, i);
+        vec3 Ng = triple(at.Ng, i);
+        // A point that is on no known surface leaves its error box along the ray itself.
+        if (Ng == vec3(0)) Ng = glm::normalize(to_light);
+        vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light);
+        vec3 dir = light.solar ? to_light : P + to_light - org;
+        if (light.samples && !light.solar)
+            dir += before_sample(light.samples->hits, i, P, to_light);
+        packet.add(i, org, dir, light.solar ? std::numeric_limits<float>::infinity() : 1.0f);
+        if (packet.filled == raytrace::kPacket) flush();
+    }
+    flush();
+    if (rest.count == 0) return;
+    std::span<vec3> through = memory.arena.allocate_span<vec3>(rest.count);
+    std::span<uint32_t> points = memory.arena.allocate_span<uint32_t>(rest.count);
+    size_t count = rest.count;
+    for (size_t r = 0; r < count; ++r) {
+        points[r] = rest.slot[r];
+        rest.slot[r] = uint32_t(r);
+    }
+    transmission_.pass_transparent(rest, grid.ray, memory, through.data());
+    for (size_t r = 0; r < count; ++r)
+        for (size_t k = 0; k < 3; ++k) light.Cl[k][points[r]] *= through[r][int(k)];
 }
 
 }  // namespace kinora

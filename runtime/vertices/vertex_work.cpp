@@ -233,7 +233,7 @@ void VertexWork::run_group(Pass& pass, Group& group) {
             Arena::Mark mark = arena.mark();
             std::span<uint8_t> own = arena.allocate_span<uint8_t>(faults.size());
             std::fill(own.begin(), own.end(), uint8_t(0));
-            run_wedges(pass, group, part * kPart, std::min(count, (part + 1) * kPart), own.data(),
+            run_wedges(pass, group, part * kPart, std::min(count, (part + 1) * kPart), own,
                        prints_[part]);
             for (size_t s = 0; s < own.size(); ++s)
                 if (own[s]) std::atomic_ref(faults[s]).store(1, std::memory_order_relaxed);
@@ -249,7 +249,7 @@ void VertexWork::run_group(Pass& pass, Group& group) {
 }
 
 void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
-                            uint8_t* faults, std::string& prints) {
+                            std::span<uint8_t> faults, std::string& prints) {
     const ShaderInstance& look = *group.use.looks[pass.stage];
     const jit::Kernel& kernel = look.full.kernel();
     Arena& arena = arenas_[size_t(thread_index())];
@@ -271,17 +271,18 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
     const jit::RecordSet no_lights;
     VertexHost vertices{pass.node, &prints};
     KernelHost host{&pass.scene, &look, nullptr, &vertices};
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.frame = look.full.frame_block();
-    args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes));
-    args.fault = faults;
-    args.services = look.full.services.data();
-    args.record_sets = &no_lights;
-    args.grid = &host;
-    args.count = int32_t(count);
-    kernel.run(args);
+    jit::KernelCall{.kernel = kernel,
+                    .count = count,
+                    .in = in,
+                    .out = out,
+                    .row_floats = padded(count),
+                    .frame = look.full.frame,
+                    .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
+                    .faults = faults,
+                    .services = look.full.services,
+                    .record_sets = {&no_lights, 1},
+                    .host = &host}
+        .run();
     OutputTriple P(kernel, 'P'), N(kernel, 'N');
     uint32_t bad = 0;
     for (size_t i = 0; i < count; ++i) {
@@ -375,7 +376,7 @@ bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t no
             case Source::Value:
                 if (animated(input.index)) return true;
                 break;
-            case Source::Placed:
+            case Source::Spatial:
                 for (uint32_t k = 0; k < 3; ++k)
                     if (animated(input.index + k)) return true;
                 break;

@@ -72,8 +72,8 @@ class VertexWork {
     void weld_normals(const Mesh& mesh);
     void run_stage(Pass& pass);
     void run_group(Pass& pass, Group& group);
-    void run_wedges(const Pass& pass, Group& group, size_t begin, size_t end, uint8_t* faults,
-                    std::string& prints);
+    void run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
+                    std::span<uint8_t> faults, std::string& prints);
     void find_faces(const Pass& pass);
     vec3 face_sum(std::span<const uint32_t> wedges) const;
     void move_positions(const Pass& pass);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "jit/compiler.h"
+#include "jit/ir/kernel_call.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
 #include "runtime/base/arena.h"
@@ -153,14 +154,15 @@ inline std::vector<float> frame_block(const Compiled& compiled) {
         in.push_back(row(frame_value(*compiled.shader, info.name)));
     std::vector<float*> out;
     for (size_t k = 0; k < kernel.outputs.size(); ++k) out.push_back(row(0));
-    std::vector<uint8_t> faults(kernel.fault_sites.size() + 1);
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes + 64));
-    args.fault = faults.data();
-    args.count = 1;
-    kernel.run(args);
+    std::vector<uint8_t> faults(kernel.fault_sites.size());
+    jit::KernelCall{.kernel = kernel,
+                    .count = 1,
+                    .in = in,
+                    .out = out,
+                    .row_floats = kLanes,
+                    .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
+                    .faults = faults}
+        .run();
     std::vector<float> frame;
     for (float* lanes : out) frame.push_back(lanes[0]);
     return frame;
@@ -189,27 +191,27 @@ class Run {
         for (const jit::OutputInfo& info : kernel_.outputs) {
             out[info.name] = arena_.allocate_span<float>(points.count).data();
         }
-        faults_.resize(kernel_.fault_sites.size() + 1);
-        auto* scratch = static_cast<std::byte*>(arena_.allocate(kernel_.scratch_bytes + 64));
+        faults_.resize(kernel_.fault_sites.size());
+        auto scratch = arena_.allocate_span<std::byte>(kernel_.scratch_bytes);
         for (size_t g = 0; g < grids; ++g) {
-            auto in = arena_.allocate_span<const float*>(kernel_.inputs.size() + 1);
+            auto in = arena_.allocate_span<const float*>(kernel_.inputs.size());
             for (size_t k = 0; k < kernel_.inputs.size(); ++k)
                 in[k] = points.column(kernel_.inputs[k].name) + g * grid;
-            auto outs = arena_.allocate_span<float*>(kernel_.outputs.size() + 1);
+            auto outs = arena_.allocate_span<float*>(kernel_.outputs.size());
             for (size_t k = 0; k < kernel_.outputs.size(); ++k)
                 outs[k] = out[kernel_.outputs[k].name] + g * grid;
-            jit::KernelArgs args;
-            args.in = in.data();
-            args.out = outs.data();
-            args.frame = compiled.frame.data();
-            args.scratch = scratch;
-            args.fault = faults_.data();
-            args.count = int32_t(grid);
-            grids_.push_back(args);
+            grids_.push_back({.kernel = kernel_,
+                              .count = grid,
+                              .in = in,
+                              .out = outs,
+                              .row_floats = points.count - g * grid,
+                              .frame = compiled.frame,
+                              .scratch = scratch,
+                              .faults = faults_});
         }
     }
-    void set_records(size_t g, const jit::RecordSet* set) { grids_[g].record_sets = set; }
-    void run(size_t g) const { kernel_.run(grids_[g]); }
+    void set_records(size_t g, const jit::RecordSet* set) { grids_[g].record_sets = {set, 1}; }
+    void run(size_t g) const { grids_[g].run(); }
     size_t grids() const { return grids_.size(); }
 
     std::map<std::string, float*> out;
@@ -218,7 +220,7 @@ class Run {
     const jit::Kernel& kernel_;
     Arena arena_;
     std::vector<uint8_t> faults_;
-    std::vector<jit::KernelArgs> grids_;
+    std::vector<jit::KernelCall> grids_;
 };
 
 }  // namespace kinora

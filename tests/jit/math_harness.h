@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "jit/ir/builder.h"
+#include "jit/ir/kernel_call.h"
 #include "jit/math/math.h"
 #include "jit/target.h"
 
@@ -45,12 +46,11 @@ class MathKernel {
     // in[k] and out[k] are columns of equal length.
     std::vector<std::vector<float>> run(const std::vector<std::vector<float>>& in) const {
         size_t count = in[0].size();
-        size_t padded = (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
         std::vector<Column> ins, outs;
-        for (size_t k = 0; k < kernel_->outputs.size(); ++k) outs.emplace_back(padded);
+        for (size_t k = 0; k < kernel_->outputs.size(); ++k) outs.emplace_back(padded(count));
         for (const InputInfo& info : kernel_->inputs) {
             const std::vector<float>& column = in[size_t(std::stoi(info.name.substr(1)))];
-            ins.emplace_back(padded, column.back());
+            ins.emplace_back(padded(count), column.back());
             std::copy(column.begin(), column.end(), ins.back().data());
         }
         std::vector<const float*> in_pointers;
@@ -59,13 +59,15 @@ class MathKernel {
         for (Column& c : outs) out_pointers.push_back(c.data());
         Column scratch(kernel_->scratch_bytes / sizeof(float) + 16);
         std::vector<uint8_t> faults(kernel_->fault_sites.size() + 1);
-        KernelArgs args;
-        args.in = in_pointers.data();
-        args.out = out_pointers.data();
-        args.scratch = reinterpret_cast<std::byte*>(scratch.data());
-        args.fault = faults.data();
-        args.count = int32_t(count);
-        kernel_->run(args);
+        KernelCall{
+            .kernel = *kernel_,
+            .count = count,
+            .in = in_pointers,
+            .out = out_pointers,
+            .row_floats = padded(count),
+            .scratch = {reinterpret_cast<std::byte*>(scratch.data()), kernel_->scratch_bytes},
+            .faults = faults}
+            .run();
         std::vector<std::vector<float>> result;
         for (Column& c : outs) result.emplace_back(c.data(), c.data() + count);
         return result;

@@ -1,4 +1,5 @@
-// tests/jit/run_kernel.h: runs a kernel on plain vectors, with all that KernelArgs asks laid out.
+// tests/jit/run_kernel.h: runs a kernel on plain vectors, with all that a KernelCall needs laid
+// out.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/ir/kernel.h"
+#include "jit/ir/kernel_call.h"
 
 namespace kinora::jit::test {
 
@@ -28,10 +29,6 @@ struct AlignedFloats {
     float* data;
     size_t size;
 };
-
-inline size_t padded(int32_t count) {
-    return (static_cast<size_t>(count) + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
-}
 
 // What a run gave: bits of each output at each point, the fault bytes, and whatever a test's
 // services noted for each point.
@@ -53,40 +50,41 @@ struct RunInput {
 };
 
 inline RunResult run_kernel(const Kernel& kernel, const RunInput& input) {
+    auto points = static_cast<size_t>(input.count);
     std::vector<AlignedFloats> rows;
     std::vector<const float*> in;
     std::vector<float*> out;
     rows.reserve(kernel.inputs.size() + kernel.outputs.size());
     for (size_t k = 0; k < kernel.inputs.size(); ++k) {
-        AlignedFloats& row = rows.emplace_back(padded(input.count));
+        AlignedFloats& row = rows.emplace_back(padded(points));
         for (size_t p = 0; p < row.size; ++p) {
-            size_t point = std::min(p, static_cast<size_t>(input.count) - 1);
+            size_t point = std::min(p, points - 1);
             std::memcpy(row.data + p, &input.inputs[k][point], sizeof(float));
         }
         in.push_back(row.data);
     }
     for (size_t k = 0; k < kernel.outputs.size(); ++k)
-        out.push_back(rows.emplace_back(padded(input.count)).data);
+        out.push_back(rows.emplace_back(padded(points)).data);
     AlignedFloats frame(input.frame.size());
     if (!input.frame.empty())
         std::memcpy(frame.data, input.frame.data(), input.frame.size() * sizeof(float));
     AlignedFloats scratch(kernel.scratch_bytes / sizeof(float));
     RunResult result;
     result.fault.assign(kernel.fault_sites.size(), 0);
-
-    KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.frame = frame.data;
-    args.scratch = reinterpret_cast<std::byte*>(scratch.data);
-    args.fault = result.fault.data();
-    args.services = input.services.data();
-    args.record_sets = input.record_sets;
-    args.grid = input.grid;
-    args.count = input.count;
-    kernel.run(args);
+    KernelCall{.kernel = kernel,
+               .count = points,
+               .in = in,
+               .out = out,
+               .row_floats = padded(points),
+               .frame = {frame.data, frame.size},
+               .scratch = {reinterpret_cast<std::byte*>(scratch.data), kernel.scratch_bytes},
+               .faults = result.fault,
+               .services = input.services,
+               .record_sets = {input.record_sets, input.record_sets ? 1u : 0u},
+               .host = input.grid}
+        .run();
     for (float* row : out) {
-        auto& bits = result.out.emplace_back(static_cast<size_t>(input.count));
+        auto& bits = result.out.emplace_back(points);
         std::memcpy(bits.data(), row, bits.size() * sizeof(float));
     }
     return result;

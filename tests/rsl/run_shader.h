@@ -6,10 +6,12 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "jit/compiler.h"
+#include "jit/ir/kernel_call.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
 #include "rsl/model/service_table.h"
@@ -82,9 +84,9 @@ class RunShader {
         arena.reset();
         faults = 0, told = 0;
         std::vector<float> frame;
-        if (kernels.frame) frame = run_kernel(*kernels.frame, 1, nullptr, nullptr);
+        if (kernels.frame) frame = run_kernel(*kernels.frame, 1, {}, {});
         const jit::RecordSet records[] = {light_records(), {}};  // kNoRecords: what a gather finds
-        std::vector<float> flat = run_kernel(*kernels.point, count, frame.data(), records);
+        std::vector<float> flat = run_kernel(*kernels.point, count, frame, records);
         std::map<std::string, std::vector<float>> result;
         for (size_t k = 0; k < kernels.point->outputs.size(); ++k)
             result[kernels.point->outputs[k].name] = {flat.begin() + long(k) * count,
@@ -112,13 +114,11 @@ class RunShader {
     uint64_t told = 0;
 
   private:
-    static constexpr size_t kPad = jit::kMaxLanes;
     static constexpr size_t kMessages = 64;  // numbers that lightsource() may ask for
 
     float* column(float value, int count) {
-        size_t padded = (size_t(count) + kPad - 1) / kPad * kPad;
-        float* data = arena.allocate_span<float>(padded).data();
-        std::fill(data, data + padded, value);
+        float* data = arena.allocate_span<float>(jit::padded(size_t(count))).data();
+        std::fill_n(data, jit::padded(size_t(count)), value);
         return data;
     }
 
@@ -184,29 +184,31 @@ class RunShader {
         return function;
     }
 
-    std::vector<float> run_kernel(const jit::Kernel& kernel, int count, const float* frame,
-                                  const jit::RecordSet* records) {
-        auto in = arena.allocate_span<const float*>(kernel.inputs.size() + 1);
+    std::vector<float> run_kernel(const jit::Kernel& kernel, int count,
+                                  std::span<const float> frame,
+                                  std::span<const jit::RecordSet> records) {
+        auto in = arena.allocate_span<const float*>(kernel.inputs.size());
         for (size_t k = 0; k < kernel.inputs.size(); ++k)
             in[k] = input_column(kernel.inputs[k].name, count);
-        auto outs = arena.allocate_span<float*>(kernel.outputs.size() + 1);
+        auto outs = arena.allocate_span<float*>(kernel.outputs.size());
         for (size_t k = 0; k < kernel.outputs.size(); ++k) outs[k] = column(0, count);
-        auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size() + 1);
+        auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size());
         for (size_t k = 0; k < kernel.services.size(); ++k)
             functions[k] = function_of(kernel.services[k].name);
-        auto reported = arena.allocate_span<uint8_t>(kernel.fault_sites.size() + 1);
+        auto reported = arena.allocate_span<uint8_t>(kernel.fault_sites.size());
         std::fill(reported.begin(), reported.end(), uint8_t(0));
-        jit::KernelArgs args;
-        args.in = in.data();
-        args.out = outs.data();
-        args.frame = frame;
-        args.scratch = static_cast<std::byte*>(arena.allocate(kernel.scratch_bytes + 64));
-        args.fault = reported.data();
-        args.services = functions.data();
-        args.record_sets = records;
-        args.grid = this;
-        args.count = count;
-        kernel.run(args);
+        jit::KernelCall{.kernel = kernel,
+                        .count = size_t(count),
+                        .in = in,
+                        .out = outs,
+                        .row_floats = jit::padded(size_t(count)),
+                        .frame = frame,
+                        .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
+                        .faults = reported,
+                        .services = functions,
+                        .record_sets = records,
+                        .host = this}
+            .run();
         faults += int(std::count(reported.begin(), reported.end(), uint8_t(1)));
         std::vector<float> flat;
         for (size_t k = 0; k < kernel.outputs.size(); ++k)

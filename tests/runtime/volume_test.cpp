@@ -316,8 +316,8 @@ TEST(Interior, AMarchThatAsksForLightsTooOftenSaysSo) {
             .light("sun", "<directional><color>1 1 1</color></directional>");
         Rendering r(scene.text());
         r.frame(2, 2);
-        EXPECT_EQ(r.count("LIGHT_LIMIT"), rounds > int(kMostLightPlaces)) << r.findings();
-        EXPECT_EQ(r.color(1, 1).x, float(std::min(rounds, int(kMostLightPlaces))));
+        EXPECT_EQ(r.count("LIGHT_LIMIT"), rounds > int(kMostLightQuestions)) << r.findings();
+        EXPECT_EQ(r.color(1, 1).x, float(std::min(rounds, int(kMostLightQuestions))));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 
+#include "jit/ir/kernel_call.h"
 #include "raytrace/accel.h"
 #include "runtime/base/check.h"
 #include "runtime/base/stats.h"
@@ -16,10 +17,6 @@ namespace kinora {
 namespace {
 
 constexpr size_t kSlice = 1024;  // points in one call, as the renderer has it
-
-size_t padded(size_t count) {
-    return (count + jit::kMaxLanes - 1) / jit::kMaxLanes * jit::kMaxLanes;
-}
 
 const std::vector<float>& output(const ShadeOutputs& outputs, const std::string& name,
                                  const std::vector<float>& missing) {
@@ -67,8 +64,8 @@ bool ShadeKernel::compile(const ShadeStack& stack, const jit::Target* target,
 }
 
 float* ShadeKernel::column(size_t count, float value) {
-    float* data = arena_.allocate_span<float>(padded(count)).data();
-    std::fill_n(data, padded(count), value);
+    float* data = arena_.allocate_span<float>(jit::padded(count)).data();
+    std::fill_n(data, jit::padded(count), value);
     return data;
 }
 
@@ -80,7 +77,7 @@ void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
         float* data = column(patch.count(), 0);
         PatchInput input(patch, info.name);
         CHECK(input.found);
-        for (size_t i = 0; i < padded(patch.count()) && patch.count() > 0; ++i)
+        for (size_t i = 0; i < jit::padded(patch.count()) && patch.count() > 0; ++i)
             data[i] = input.value(patch[std::min(i, patch.count() - 1)]);
         in_.push_back(data);
     }
@@ -95,7 +92,7 @@ void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
         frame_faults_.assign(pair_.frame->fault_sites.size() + 1, 0);
         scratch = std::max(scratch, pair_.frame->scratch_bytes);
     }
-    scratch_ = static_cast<std::byte*>(arena_.allocate(scratch + 64));
+    scratch_ = arena_.allocate_span<std::byte>(scratch);
     fill_records();
 }
 
@@ -132,16 +129,17 @@ void ShadeKernel::run_frame() {
     }
     std::vector<float*> out;
     for (size_t o = 0; o < kernel.outputs.size(); ++o) out.push_back(column(1, 0));
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.scratch = scratch_;
-    args.fault = frame_faults_.data();
-    args.services = frame_services_.data();
-    args.record_sets = record_sets_;
-    args.grid = const_cast<Patch*>(patch_);
-    args.count = 1;
-    kernel.run(args);
+    jit::KernelCall{.kernel = kernel,
+                    .count = 1,
+                    .in = in,
+                    .out = out,
+                    .row_floats = jit::padded(1),
+                    .scratch = scratch_,
+                    .faults = frame_faults_,
+                    .services = frame_services_,
+                    .record_sets = record_sets_,
+                    .host = const_cast<Patch*>(patch_)}
+        .run();
     frame_.clear();
     for (float* value : out) frame_.push_back(*value);
     arena_.release(mark);
@@ -153,20 +151,21 @@ void ShadeKernel::run() {
     run_frame();
     std::vector<const float*> in(in_.size());
     std::vector<float*> out(out_.size());
-    jit::KernelArgs args;
-    args.in = in.data();
-    args.out = out.data();
-    args.frame = frame_.data();
-    args.scratch = scratch_;
-    args.fault = faults_.data();
-    args.services = services_.data();
-    args.record_sets = record_sets_;
-    args.grid = const_cast<Patch*>(patch_);
+    jit::KernelCall call{.kernel = *pair_.point,
+                         .in = in,
+                         .out = out,
+                         .frame = frame_,
+                         .scratch = scratch_,
+                         .faults = faults_,
+                         .services = services_,
+                         .record_sets = record_sets_,
+                         .host = const_cast<Patch*>(patch_)};
     for (size_t at = 0; at < patch_->count(); at += kSlice) {
         for (size_t k = 0; k < in.size(); ++k) in[k] = in_[k] + at;
         for (size_t k = 0; k < out.size(); ++k) out[k] = out_[k] + at;
-        args.count = int32_t(std::min(kSlice, patch_->count() - at));
-        pair_.point->run(args);
+        call.count = std::min(kSlice, patch_->count() - at);
+        call.row_floats = jit::padded(patch_->count()) - at;
+        call.run();
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,7 @@ class ShadeKernel {
     std::vector<float> frame_;
     std::vector<jit::ServiceFn> services_, frame_services_;
     std::vector<uint8_t> faults_, frame_faults_;
-    std::byte* scratch_ = nullptr;
+    std::span<std::byte> scratch_;
     std::vector<jit::Record> records_;
     jit::RecordSet record_sets_[2];  // the lights; the empty set of gather
 };

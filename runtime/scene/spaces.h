@@ -1,4 +1,4 @@
-// runtime/shading/spaces.h: the coordinate systems that shaders name.
+// runtime/scene/spaces.h: the coordinate systems that shaders name.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,16 @@
-// runtime/shading/nested_rays_p.h: rays that shaders shoot: where they begin, how they spread, and
-// the batches they go in; for the files that answer ray services only.
+// runtime/shading/nested_rays.h: rays that shaders shoot: where they begin, how they spread, and
+// what they see.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <span>
 
-#include "runtime/shading/shading_p.h"
+#include "runtime/shading/grid.h"
 
 namespace kinora {
+
+class HitShader;
 
 inline constexpr float kMiss = 1e30f;       // distance of a ray that met nothing
 inline constexpr int kMostSamples = 65536;  // of one call at one point
@@ -52,8 +56,28 @@ struct Cone {
 // Rays that see something: `type` and `label` are interned texts.
 RayTag deeper(const Grid& grid, RayKind kind, int32_t label);
 
-// Memory for the colours of that many hits.
-raytrace::ShadeResult take_colors(Arena& arena, size_t count);
+// What a ray saw.
+struct SeenByRay {
+    vec3 color{0.0f};
+    vec3 open{1.0f};         // share of what lies behind that is let through
+    float distance = 1e30f;  // of the nearest surface
+};
+
+class NestedRays {
+  public:
+    NestedRays(const ShadingFrame& frame, HitShader& hits) : frame_(frame), hits_(hits) {}
+    // Colour along each ray through what is not opaque, what of it is still open behind, and the
+    // distance of the nearest surface, by slot. Consumes the rays.
+    void see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag, ThreadMemory& memory,
+             std::span<SeenByRay> seen);
+
+  private:
+    void see_beyond(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                    const RayTag& tag, ThreadMemory& memory, std::span<SeenByRay> seen);
+
+    const ShadingFrame& frame_;
+    HitShader& hits_;
+};
 
 // Lanes of a service call, by name of the argument row.
 class Lanes {
@@ -93,7 +117,7 @@ class Lanes {
         float n = number(row, lane);
         return n >= 1 ? int(std::min(n + 0.5f, float(kMostSamples))) : 1;
     }
-    // Of all samples of the call at this lane: the point, the place of the call, its loops.
+    // Of all samples of the call at this lane: the point, the call in the source, its loops.
     uint32_t seed(int lane) const;
 
   private:

@@ -1,5 +1,5 @@
-// runtime/shading/spaces.cpp: the coordinate systems that shaders name.
-#include "runtime/shading/spaces.h"
+// runtime/scene/spaces.cpp: the coordinate systems that shaders name.
+#include "runtime/scene/spaces.h"
 
 #include <algorithm>
 #include <glm/matrix.hpp>

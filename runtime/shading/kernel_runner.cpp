@@ -1,0 +1,106 @@
+// runtime/shading/kernel_runner.cpp: grids through kernels.
+#include "runtime/shading/kernel_runner.h"
+
+#include <algorithm>
+
+#include "jit/ir/kernel_call.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+namespace {
+
+// Rows of faults by look and kernel.
+size_t fault_row(const ShaderInstance& look, const BoundKernel& bound) {
+    return 2 * look.index + (&bound != &look.full);
+}
+
+// Calls f(kernel, its row of faults) for each kernel of all looks.
+template <class F>
+void for_each_kernel(const Scene& scene, F&& f) {
+    for (const auto& look : scene.looks) {
+        f(look->full.kernel(), fault_row(*look, look->full));
+        if (look->opacity) f(look->opacity->kernel(), fault_row(*look, *look->opacity));
+    }
+}
+
+}  // namespace
+
+void KernelRunner::begin_frame(size_t threads) {
+    faults_.resize(std::max(faults_.size(), threads));
+    for (auto& faults : faults_) {
+        faults.resize(2 * scene_.looks.size());
+        for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
+            faults[row].assign(kernel.fault_sites.size(), 0);
+        });
+    }
+}
+
+void KernelRunner::report_faults(Diagnostics& diagnostics) const {
+    for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
+        for (size_t s = 0; s < kernel.fault_sites.size(); ++s) {
+            bool hit = std::any_of(faults_.begin(), faults_.end(),
+                                   [&](const auto& faults) { return faults[row][s] != 0; });
+            const jit::FaultSite& site = kernel.fault_sites[s];
+            if (hit) diagnostics.report(Code::SHADER_FAULT, site.where, site.message);
+        }
+    });
+}
+
+void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
+    Arena& arena = grid.memory.arena;
+    grid.depth = grid.hits.depth;
+    grid.services = &services_;
+    grid.ray = ray;
+    grid.columns = arena.allocate_span<float*>(grid.look->column_count);
+    std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
+    grid.calls = arena.allocate_span<uint16_t>(padded(grid.count()));
+    std::fill(grid.calls.begin(), grid.calls.end(), uint16_t(0));
+    grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
+    std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
+}
+
+std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
+    const jit::Kernel& kernel = bound.kernel();
+    Arena& arena = grid.memory.arena;
+    size_t rows = padded(grid.count());
+    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
+    for (float*& column : out) column = arena.allocate_span<float>(rows).data();
+    std::span<const float*> in = arena.allocate_span<const float*>(bound.columns.size());
+    for (size_t i = 0; i < in.size(); ++i) in[i] = grid.columns[bound.columns[i]];
+    jit::KernelCall{.kernel = kernel,
+                    .count = grid.count(),
+                    .in = in,
+                    .out = out,
+                    .row_floats = rows,
+                    .frame = bound.frame,
+                    .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
+                    .faults = faults_[grid.memory.number][fault_row(*grid.look, bound)],
+                    .services = bound.services,
+                    .record_sets = grid.record_sets,
+                    .host = &grid.host}
+        .run();
+    return out;
+}
+
+raytrace::ShadeResult take_colors(Arena& arena, size_t count) {
+    raytrace::ShadeResult result;
+    for (size_t k = 0; k < 3; ++k) {
+        result.Ci[k] = arena.allocate_span<float>(padded(count)).data();
+        result.Oi[k] = arena.allocate_span<float>(padded(count)).data();
+    }
+    return result;
+}
+
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+                float* color[3]) {
+    for (int k = 0; k < 3; ++k) color[k] = nullptr;
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+        std::string_view full = kernel.outputs[o].name;
+        if (full.size() != name.size() + 2 || !full.starts_with(name)) continue;
+        color[full.back() == 'r' ? 0 : full.back() == 'g' ? 1 : 2] = out[o];
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,42 @@
+// runtime/shading/kernel_runner.h: runs kernels over grids and collects the faults they report.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/shading/grid.h"
+
+namespace kinora {
+
+class KernelRunner {
+  public:
+    // `services` answer the kernels' calls.
+    KernelRunner(const Scene& scene, const GridServices& services)
+        : scene_(scene), services_(services) {}
+
+    // Forgets all faults.
+    void begin_frame(size_t threads);
+    // One finding for each source line that reported a fault.
+    void report_faults(Diagnostics& diagnostics) const;
+
+    // Gives the grid what a kernel of its look takes, its columns still null. `ray`: of its hits.
+    void prepare(Grid& grid, const RayTag& ray) const;
+    // Runs a kernel of the grid's look; its output rows, from the thread's arena.
+    std::span<float*> run(const BoundKernel& bound, Grid& grid);
+
+  private:
+    const Scene& scene_;
+    const GridServices& services_;
+    std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]
+};
+
+// Memory for the colours of that many hits.
+raytrace::ShadeResult take_colors(Arena& arena, size_t count);
+
+// The three outputs "name.r" ... of a kernel, null where it has none.
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+                float* color[3]);
+
+}  // namespace kinora

@@ -1,0 +1,163 @@
+// runtime/shading/light_bindings.cpp: from the names in lights' and surfaces' shaders to columns.
+#include "runtime/shading/light_bindings.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+namespace {
+
+int find_output(const jit::Kernel& kernel, const std::string& name) {
+    for (size_t o = 0; o < kernel.outputs.size(); ++o)
+        if (kernel.outputs[o].name == name) return int(o);
+    return -1;
+}
+
+// The light's __category: a comma separated list.
+std::string categories_of(const ShaderInstance& light) {
+    for (const ParamSource& source : light.layers[0].params)
+        if (source.name == "__category" && !source.strings.empty()) return source.strings[0];
+    for (const rsl::ShaderParameter& p : light.shader().parameters)
+        if (p.name == "__category" && p.constant && !p.constant->strings.empty())
+            return p.constant->strings[0];
+    return "";
+}
+
+// The parts of a text between separators: calls each(part) until one is true.
+template <class Each>
+bool any_part(std::string_view text, char separator, Each&& each) {
+    for (size_t at = 0; at <= text.size();) {
+        size_t end = std::min(text.find(separator, at), text.size());
+        if (each(text.substr(at, end - at))) return true;
+        at = end + 1;
+    }
+    return false;
+}
+
+std::string_view trimmed(std::string_view text) {
+    size_t first = text.find_first_not_of(' ');
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
+// "a", "a,b" (any of them), "a|b", "a&-b"; & binds closer than |, - stands before a name.
+bool has_category(std::string_view own, std::string_view wanted) {
+    auto has = [&](std::string_view name) {
+        name = trimmed(name);
+        bool without = name.starts_with("-");
+        if (without) name = trimmed(name.substr(1));
+        return any_part(own, ',', [&](std::string_view part) { return trimmed(part) == name; }) !=
+               without;
+    };
+    if (wanted.find_first_of("|&") == std::string_view::npos)
+        return any_part(wanted, ',', [&](std::string_view name) { return has(name); });
+    return any_part(wanted, '|', [&](std::string_view both) {
+        return !any_part(both, '&', [&](std::string_view name) { return !has(name); });
+    });
+}
+
+// A light's float parameter: bound to a value, which may be animated, or its constant default.
+LightNumber number_of(const ShaderInstance& light, std::string_view name) {
+    for (const ParamSource& source : light.layers[0].params)
+        if (source.name == name && source.value.present()) return {source.value.offset, 0};
+    for (const rsl::ShaderParameter& p : light.shader().parameters)
+        if (p.name == name && p.constant && !p.constant->numbers.empty())
+            return {kNone, p.constant->numbers[0]};
+    return {};
+}
+
+LightOutputs statement_of(const ShaderInstance& look, size_t index,
+                          const LightDefinition& definition, ShadowMode mode) {
+    const jit::Kernel& kernel = look.full.kernel();
+    const rsl::LightStatement& from = look.lowered.light_statements[index];
+    LightOutputs statement;
+    statement.kind = from.kind;
+    std::string prefix = "light:" + std::to_string(index) + ":";
+    for (size_t k = 0; k < 3; ++k) {
+        statement.L[k] = find_output(kernel, prefix + "L." + "xyz"[k]);
+        statement.Cl[k] = find_output(kernel, prefix + "Cl." + "rgb"[k]);
+        statement.Ol[k] = find_output(kernel, prefix + "Ol." + "rgb"[k]);
+    }
+    statement.lit = find_output(kernel, prefix + "lit");
+    statement.casts_shadow = from.casts_shadow;
+    if (definition.shadows) statement.casts_shadow = *definition.shadows;
+    if (mode == ShadowMode::Explicit) statement.casts_shadow = definition.shadows.value_or(false);
+    if (mode == ShadowMode::Off || from.kind == rsl::kLightAmbient) statement.casts_shadow = false;
+    return statement;
+}
+
+// Has the light a parameter that a variable of the type can take?
+bool parameter_fits(const ShaderInstance& light, std::string_view name, rsl::Type type) {
+    for (const rsl::ShaderParameter& p : light.shader().parameters) {
+        if (p.name != name) continue;
+        bool triples = rsl::is_triple(p.type.base) && rsl::is_triple(type.base);
+        return (p.type.base == type.base || triples) && p.type.array_length == type.array_length;
+    }
+    return false;
+}
+
+// Triples are read as any triple.
+int find_component(const jit::Kernel& kernel, const std::string& name, rsl::BaseType type, int k) {
+    if (rsl::component_count(type) == 1) return find_output(kernel, name);
+    if (type == rsl::BaseType::Matrix) return find_output(kernel, name + "." + std::to_string(k));
+    int output = find_output(kernel, name + "." + "xyz"[k]);
+    return output >= 0 ? output : find_output(kernel, name + "." + "rgb"[k]);
+}
+
+// What a surface reads of a light: its categories' bits, the outputs behind its messages.
+LightBinding binding_of(const ShaderInstance& surface, const ShaderInstance& light) {
+    LightBinding binding;
+    std::string own = categories_of(light);
+    for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
+        binding.categories |= int32_t(has_category(own, surface.lowered.categories[c])) << c;
+    binding.nondiffuse = number_of(light, "__nondiffuse");
+    binding.nonspecular = number_of(light, "__nonspecular");
+    const jit::Kernel& kernel = light.full.kernel();
+    for (size_t m = 0; m < surface.lowered.light_messages.size(); ++m) {
+        rsl::Type type = surface.lowered.light_message_types[m];
+        std::string name = "message:" + surface.lowered.light_messages[m];
+        int length = std::max(type.array_length, 1);
+        bool known = parameter_fits(light, surface.lowered.light_messages[m], type);
+        for (int e = 0; e < length; ++e) {
+            std::string element = type.is_array() ? name + "[" + std::to_string(e) + "]" : name;
+            for (int k = 0; k < rsl::component_count(type.base); ++k)
+                binding.messages.push_back(known ? find_component(kernel, element, type.base, k)
+                                                 : -1);
+        }
+        binding.known.push_back(known);
+    }
+    return binding;
+}
+
+}  // namespace
+
+float LightNumber::at_present(const Scene& scene) const {
+    return value == kNone ? fixed : float(scene.values[value]);
+}
+
+LightBindings::LightBindings(const Scene& scene) {
+    for (const LightSource& light : scene.lights) {
+        const ShaderInstance& look = *scene.looks[light.look];
+        auto& statements = statements_.emplace_back();
+        for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
+            statements.push_back(statement_of(look, s, scene.description->lights[light.definition],
+                                              scene.options.shadows));
+    }
+    for (const auto& look : scene.looks) {
+        auto& row = bindings_.emplace_back();
+        if (look->kind == ShaderInstanceKind::Light) continue;
+        for (const LightSource& light : scene.lights)
+            row.push_back(binding_of(*look, *scene.looks[light.look]));
+    }
+}
+
+bool LightBindings::directed(size_t light) const {
+    return std::any_of(statements_[light].begin(), statements_[light].end(),
+                       [](const auto& s) { return s.kind != rsl::kLightAmbient; });
+}
+
+}  // namespace kinora

@@ -1,0 +1,50 @@
+// runtime/shading/light_bindings.h: the names of lights' outputs and parameters, resolved once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rsl/model/renderer_services.h"
+#include "runtime/shading/shader_instance.h"
+
+namespace kinora {
+
+// Output columns of one illuminate or solar statement (-1: the kernel has none).
+struct LightOutputs {
+    rsl::LightKind kind = rsl::kLightAmbient;
+    bool casts_shadow = false;
+    int L[3], Cl[3], Ol[3], lit = -1;
+};
+
+// A number of a light that may be animated: in Scene::values, or fixed (`value` is kNone).
+struct LightNumber {
+    uint32_t value = kNone;
+    float fixed = 0;
+    float at_present(const Scene& scene) const;
+};
+
+// What one surface look reads of one light.
+struct LightBinding {
+    int32_t categories = 0;
+    LightNumber nondiffuse, nonspecular;
+    std::vector<int> messages;   // output columns
+    std::vector<int32_t> known;  // per message: the light has that parameter
+};
+
+class LightBindings {
+  public:
+    explicit LightBindings(const Scene& scene);
+    // Of light `light` among Scene::lights, in the order of its source.
+    std::span<const LightOutputs> statements(size_t light) const { return statements_[light]; }
+    // What look `look` among Scene::looks, no light's, reads of it.
+    const LightBinding& binding(size_t look, size_t light) const { return bindings_[look][light]; }
+    // Whether some statement sends light from somewhere.
+    bool directed(size_t light) const;
+
+  private:
+    std::vector<std::vector<LightOutputs>> statements_;  // [light]
+    std::vector<std::vector<LightBinding>> bindings_;    // [look][light]
+};
+
+}  // namespace kinora

@@ -1,0 +1,58 @@
+// runtime/shading/ray_services.h: the services that shoot rays (rsl/model/renderer_services.h), for
+// one lane group of a grid.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/shading/grid.h"
+
+namespace kinora {
+
+class HitShader;
+class NestedRays;
+class Transmission;
+
+class RayServices {
+  public:
+    RayServices(const ShadingFrame& frame, NestedRays& nested, Transmission& transmission)
+        : frame_(frame), nested_(nested), transmission_(transmission) {}
+
+    void trace(Grid& grid, const jit::ServiceCall& call);
+    void transmission(Grid& grid, const jit::ServiceCall& call);
+    void occlusion(Grid& grid, const jit::ServiceCall& call);
+    void indirect_diffuse(Grid& grid, const jit::ServiceCall& call);
+
+  private:
+    const ShadingFrame& frame_;
+    NestedRays& nested_;
+    Transmission& transmission_;
+};
+
+// The records of one gather statement at one depth; kept from frame to frame.
+struct GatherMemory {
+    std::vector<float> values;
+    std::vector<const float*> columns;
+    std::vector<jit::Record> records;
+};
+
+class GatherRays {
+  public:
+    GatherRays(const ShadingFrame& frame, HitShader& hits) : frame_(frame), hits_(hits) {}
+
+    void begin_frame(size_t threads);
+    // All rays of a statement; the handle of its records.
+    int32_t gather(Grid& grid, const jit::ServiceCall& call);
+
+  private:
+    struct Job;
+    GatherMemory& records_of(const Grid& grid, int nesting);
+    void shade(const Job& job, raytrace::RayBatch& rays);
+
+    const ShadingFrame& frame_;
+    HitShader& hits_;
+    // [thread][depth and nesting]
+    std::vector<std::vector<std::unique_ptr<GatherMemory>>> memories_;
+};
+
+}  // namespace kinora

@@ -1,0 +1,82 @@
+// runtime/shading/shading_frame.h: the frame that is shaded, and each thread's memory for it.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "raytrace/wavefront.h"
+#include "runtime/base/arena.h"
+
+namespace kinora {
+
+struct Scene;
+
+// How often a point may ask for the lights at points of its own, some 8 KB each time: a march may,
+// a loop that does not end must not take all memory.
+inline constexpr uint32_t kMostLightQuestions = 8192;
+
+struct ShadingCounters {
+    raytrace::TraceCounters trace;  // shadow and reflection rays
+    uint64_t points = 0;            // surface kernels
+    uint64_t light_points = 0;      // light kernels
+    uint64_t opacity_points = 0;    // opacity kernels
+    uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
+    uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
+    void operator+=(const ShadingCounters& o);
+};
+
+// What is the same for all that is shaded in a frame. Set by Shading before the first hit.
+struct ShadingFrame {
+    const Scene& scene;
+    mat3 camera_from_accel{1.0f};
+    vec3 eye{0.0f};  // accel space
+    uint32_t seed = 0;
+    int max_layers = 256;        // surfaces that a ray sees through
+    uint32_t ray_depth = 0;      // of the deepest ray that is shot
+    uint32_t diffuse_depth = 0;  // bounces of indirectdiffuse
+    bool any_transparent = false;
+    // Where rays that meet nothing end: the camera's far clip where its file has one, else the far
+    // side of the scene: the eye's distance from the centre plus the diagonal.
+    float far_distance = 0;
+    float miss_distance = 0;  // the same where some volume lies on the way, else 0
+    const std::atomic<int>* stop = nullptr;
+
+    bool stopped() const { return stop && stop->load(std::memory_order_relaxed) != 0; }
+};
+
+// One thread's memory. Nested shading (reflections, opacity of shadow rays) takes its rays and hits
+// by depth, so that an outer wavefront is never overwritten.
+struct ThreadMemory {
+    explicit ThreadMemory(size_t n) : number(n) {}
+
+    struct Level {
+        raytrace::RayBatch rays;
+        raytrace::HitStore hits;
+    };
+    size_t number;  // of the thread
+    Arena arena{1 << 20};
+    ShadingCounters counters;
+    std::vector<std::unique_ptr<Level>> levels;
+    size_t level = 0;  // levels in use
+};
+using ThreadMemories = std::vector<std::unique_ptr<ThreadMemory>>;
+
+// Takes the next level of nested wavefronts for its scope.
+class NestedWavefront {
+  public:
+    explicit NestedWavefront(ThreadMemory& memory) : memory_(memory) {
+        if (memory.level == memory.levels.size())
+            memory.levels.push_back(std::make_unique<ThreadMemory::Level>());
+        level_ = memory.levels[memory.level++].get();
+    }
+    ~NestedWavefront() { --memory_.level; }
+    NestedWavefront(const NestedWavefront&) = delete;
+    ThreadMemory::Level* operator->() { return level_; }
+
+  private:
+    ThreadMemory& memory_;
+    ThreadMemory::Level* level_;
+};
+
+}  // namespace kinora
