@@ -9,8 +9,8 @@
 #include <random>
 
 #include "runtime/build/build_scene.h"
-#include "runtime/gltf/import.h"
-#include "runtime/gltf/json_text.h"
+#include "runtime/gltf/import/import.h"
+#include "runtime/gltf/file/json_scan.h"
 #include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {

@@ -1,0 +1,128 @@
+// runtime/gltf/import/materials.cpp: glTF's materials as gltf_pbr and gltf_unlit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/import/import_p.h"
+
+namespace kinora {
+
+namespace {
+
+// A number of an extension's object, or `otherwise`.
+double extension_number(const tinygltf::ExtensionMap& extensions, const char* extension,
+                        const char* name, double otherwise) {
+    auto found = extensions.find(extension);
+    if (found == extensions.end() || !found->second.Has(name)) return otherwise;
+    const tinygltf::Value& value = found->second.Get(name);
+    return value.IsNumber() && std::isfinite(value.GetNumberAsDouble()) ? value.GetNumberAsDouble()
+                                                                        : otherwise;
+}
+
+std::vector<double> extension_color(const tinygltf::ExtensionMap& extensions, const char* extension,
+                                    const char* name) {
+    std::vector<double> color(3, 1.0);
+    auto found = extensions.find(extension);
+    if (found == extensions.end() || !found->second.Has(name)) return color;
+    const tinygltf::Value& value = found->second.Get(name);
+    for (size_t k = 0; k < 3 && value.IsArray() && k < value.ArrayLen(); ++k)
+        if (value.Get(int(k)).IsNumber() && std::isfinite(value.Get(int(k)).GetNumberAsDouble()))
+            color[k] = std::max(value.Get(int(k)).GetNumberAsDouble(), 0.0);
+    return color;
+}
+
+// The first `count` of a factor, each within [0, most]; missing and not finite ones are
+// `otherwise`.
+std::vector<double> factor(const std::vector<double>& numbers, size_t count, double otherwise) {
+    std::vector<double> result(count, otherwise);
+    for (size_t k = 0; k < count && k < numbers.size(); ++k)
+        if (std::isfinite(numbers[k])) result[k] = std::max(numbers[k], 0.0);
+    return result;
+}
+
+}  // namespace
+
+void GltfImport::set_number(ShaderUse& use, const char* name, std::span<const double> numbers) {
+    ParamSource source;
+    source.name = name;
+    source.value = {append(numbers, numbers.size()), uint32_t(numbers.size())};
+    use.params.push_back(std::move(source));
+}
+
+void GltfImport::set_string(ShaderUse& use, const std::string& name, std::string text) {
+    ParamSource source;
+    source.name = name;
+    source.strings = {std::move(text)};
+    use.params.push_back(std::move(source));
+}
+
+void GltfImport::import_materials() {
+    for (uint32_t m = 0; m < model_.materials.size(); ++m) import_material(m);
+    // What primitives without a material wear (glTF 2.0, 3.9.6): all defaults.
+    MaterialDefinition& plain = out_.materials.emplace_back();
+    plain.id = unique_id("default material", "material", model_.materials.size());
+    plain.name = "default material";
+    plain.hide_backfaces = true;
+    plain.surfaces.push_back({library_shader("gltf_pbr", diagnostics_), {}});
+}
+
+void GltfImport::import_material(uint32_t index) {
+    const tinygltf::Material& from = model_.materials[index];
+    std::string pointer = fmt::format("/materials/{}", index);
+    MaterialDefinition& to = out_.materials.emplace_back();
+    to.name = from.name;
+    to.id = unique_id(from.name, "material", index);
+    to.hide_backfaces = !from.doubleSided;
+    bool unlit = from.extensions.contains("KHR_materials_unlit");
+    ShaderUse use;
+    use.shader = library_shader(unlit ? "gltf_unlit" : "gltf_pbr", diagnostics_);
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    std::vector<double> base = factor(pbr.baseColorFactor, 4, 1.0);
+    set_number(use, "base_color", std::span(base).first(3));
+    set_number(use, "base_alpha", std::span(base).last(1));
+    set_string(use, "alpha_mode", from.alphaMode);
+    auto one = [&](const char* name, double value) { set_number(use, name, std::span(&value, 1)); };
+    one("alpha_cutoff", std::isfinite(from.alphaCutoff) ? from.alphaCutoff : 0.5);
+    auto map = [&](const char* name, const auto& info, bool data, const char* place) {
+        set_map(use, name, {info.index, info.texCoord, info.extensions}, data, pointer + place);
+    };
+    map("base_color", pbr.baseColorTexture, false, "/pbrMetallicRoughness/baseColorTexture");
+    if (!unlit) {
+        one("metallic", factor({pbr.metallicFactor}, 1, 1.0)[0]);
+        one("roughness", factor({pbr.roughnessFactor}, 1, 1.0)[0]);
+        map("metallic_roughness", pbr.metallicRoughnessTexture, true,
+            "/pbrMetallicRoughness/metallicRoughnessTexture");
+        one("normal_scale", std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1);
+        map("normal", from.normalTexture, true, "/normalTexture");
+        one("occlusion_strength", factor({from.occlusionTexture.strength}, 1, 1.0)[0]);
+        map("occlusion", from.occlusionTexture, true, "/occlusionTexture");
+        double strength = extension_number(from.extensions, "KHR_materials_emissive_strength",
+                                           "emissiveStrength", 1.0);
+        std::vector<double> emissive = factor(from.emissiveFactor, 3, 0.0);
+        for (double& e : emissive) e *= std::max(strength, 0.0);
+        set_number(use, "emissive", emissive);
+        map("emissive", from.emissiveTexture, false, "/emissiveTexture");
+        double ior = extension_number(from.extensions, "KHR_materials_ior", "ior", 1.5);
+        double r = (ior - 1) / (ior + 1);  // KHR_materials_ior; an ior of 0 reflects all
+        one("dielectric_F0", r * r);
+        constexpr const char* kSpecular = "KHR_materials_specular";
+        one("specular", extension_number(from.extensions, kSpecular, "specularFactor", 1.0));
+        set_number(use, "specular_color",
+                   extension_color(from.extensions, kSpecular, "specularColorFactor"));
+        if (auto found = from.extensions.find(kSpecular);
+            found != from.extensions.end() &&
+            (found->second.Has("specularTexture") || found->second.Has("specularColorTexture")))
+            report(Code::GLTF_VALUE, pointer + "/extensions/" + kSpecular,
+                   "the textures of KHR_materials_specular are left out");
+        // A flag, not the roughness itself: what decides the control flow makes a kernel of its
+        // own.
+        one("mirrors", pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0);
+    }
+    to.surfaces.push_back(std::move(use));
+    if (from.extras.IsObject() && from.extras.Has("kinora_rsl")) import_rsl(index);
+}
+
+}  // namespace kinora
