@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 
+#include "runtime/base/percent_encoding.h"
 #include "runtime/description/findings.h"
 #include "runtime/gltf/file/check.h"
 #include "runtime/gltf/file/json_scan.h"
@@ -57,25 +58,6 @@ std::string read_bytes(const std::string& path, size_t limit, std::vector<unsign
     bytes.resize(std::min(size_t(size), limit));
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
     return "";
-}
-
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-std::string percent_decode(const std::string& text) {
-    std::string out;
-    for (size_t i = 0; i < text.size(); ++i) {
-        int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-        int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
-        bool escape = low >= 0 && high + low > 0;
-        out += escape ? char(high * 16 + low) : text[i];
-        if (escape) i += 2;
-    }
-    return out;
 }
 
 uint32_t little_endian_32(const unsigned char* at) {
@@ -164,8 +146,8 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
 
 constexpr size_t kQuotedData = 40;  // characters of a data URI that a message holds
 
-// tinygltf's or the JSON parser's words as one line, and the place that the parser names.
-Location error_place(const GltfFile& file, std::string& error) {
+// tinygltf's or the JSON parser's words as one line, and the position that the parser names.
+Location error_location(const GltfFile& file, std::string& error) {
     while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
     for (char& c : error)
         if (c == '\n') c = ' ';
@@ -213,9 +195,9 @@ bool load_model(const std::vector<unsigned char>& bytes, std::span<const char> j
 // they say that a reader must know more.
 std::string check_version(std::string_view json) {
     auto number = [&](const char* pointer) {
-        std::optional<JsonRange> place = json_find(json, pointer);
+        std::optional<JsonRange> range = json_find(json, pointer);
         SourceMap map;
-        return place ? json_string(json, *place, kNoFile, map) : std::string();
+        return range ? json_string(json, *range, kNoFile, map) : std::string();
     };
     std::string version = number("/asset/version"), least = number("/asset/minVersion");
     if (!version.empty() && version != "2" && !version.starts_with("2."))
@@ -268,7 +250,7 @@ bool may_read_gltf(const GltfFile& file, const ImportOptions& options, const std
 
 Location gltf_location(const GltfFile& file, const std::string& pointer) {
     if (file.file == kNoFile) return {};
-    std::optional<JsonRange> range = json_place(file.json, pointer);
+    std::optional<JsonRange> range = json_nearest(file.json, pointer);
     if (!range) return {file.file, 0, 0};
     return {file.file, range->begin, pointer.empty() ? range->begin + 1 : range->end};
 }
@@ -282,8 +264,8 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     auto fail = [&](const std::string& why) {
         if (file.file == kNoFile) file.file = diagnostics.files.add(path, "");
         std::string text = why;
-        Location place = error_place(file, text);
-        diagnostics.report(Code::GLTF_INVALID, place, text);
+        Location where = error_location(file, text);
+        diagnostics.report(Code::GLTF_INVALID, where, text);
         return std::nullopt;
     };
     std::vector<unsigned char> bytes;

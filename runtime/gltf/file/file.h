@@ -1,4 +1,4 @@
-// runtime/gltf/file/file.h: a glTF file with its buffers in memory; for import_gltf*.cpp only.
+// runtime/gltf/file/file.h: a glTF file with its buffers in memory.
 #pragma once
 
 #include <optional>
@@ -46,7 +46,7 @@ std::string gltf_path(const GltfFile& file, const std::string& uri);
 // followed.
 bool may_read_gltf(const GltfFile& file, const ImportOptions& options, const std::string& path);
 
-// The place of a JSON pointer in the file.
+// The location of a JSON pointer's value in the file, or of the nearest around it.
 Location gltf_location(const GltfFile& file, const std::string& pointer);
 
 }  // namespace kinora

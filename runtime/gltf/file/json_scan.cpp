@@ -1,4 +1,4 @@
-// runtime/gltf/file/json_scan.cpp: a scanner of JSON (RFC 8259) that keeps byte places.
+// runtime/gltf/file/json_scan.cpp: a scanner of JSON (RFC 8259) that keeps byte positions.
 #include "runtime/gltf/file/json_scan.h"
 
 #include <algorithm>
@@ -192,7 +192,7 @@ JsonShape json_shape(std::string_view text) {
     return shape;
 }
 
-std::optional<JsonRange> json_place(std::string_view text, std::string_view pointer) {
+std::optional<JsonRange> json_nearest(std::string_view text, std::string_view pointer) {
     return find(text, pointer).range;
 }
 

@@ -1,5 +1,5 @@
-// runtime/gltf/file/json_scan.h: places in a JSON text, and its shape, before and without making values
-// of it.
+// runtime/gltf/file/json_scan.h: positions in a JSON text, and its shape, before and without making
+// values of it.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct JsonRange {
 
 // Where the value that an RFC 6901 pointer ("/meshes/3/primitives") names stands, or the nearest
 // value around it that is there. Nothing only if the text does not begin with a value. O(text).
-std::optional<JsonRange> json_place(std::string_view text, std::string_view pointer);
+std::optional<JsonRange> json_nearest(std::string_view text, std::string_view pointer);
 
 // The value itself where it is there.
 std::optional<JsonRange> json_find(std::string_view text, std::string_view pointer);
