@@ -22,7 +22,6 @@ LARGER = {
     "rsl/text/Preprocessor": (3, 51, 17),
     "runtime/build/SceneBuilder": (8, 62, 17),
     "runtime/gltf/export/GltfExport": (7, 59, 28),
-    "runtime/gltf/import/GltfImport": (12, 53, 23),
     "runtime/shading/Shading": (11, 54, 16),
 }
 

@@ -1,4 +1,6 @@
 // runtime/gltf/import/accessor_reader.cpp: the numbers of accessors, every byte checked.
+#include "runtime/gltf/import/accessor_reader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <cstring>
 
 #include "runtime/description/findings.h"
-#include "runtime/gltf/import/import_p.h"
 
 namespace kinora {
 
@@ -75,28 +76,29 @@ bool fits(size_t size, size_t offset, size_t stride, size_t bytes, size_t count)
 }  // namespace
 
 // The bytes of a buffer view; null data where it is not sound.
-GltfImport::View GltfImport::view_bytes(int view, const std::string& pointer, int accessor) {
-    if (!exists(view, model_.bufferViews.size(), "buffer view", pointer)) return {};
+AccessorReader::View AccessorReader::view_bytes(int view, const std::string& pointer,
+                                                int accessor) {
+    if (!report_.exists(view, model_.bufferViews.size(), "buffer view", pointer)) return {};
     const tinygltf::BufferView& from = model_.bufferViews[size_t(view)];
-    std::string place = fmt::format("/bufferViews/{}", view);
-    if (!exists(from.buffer, model_.buffers.size(), "buffer", place + "/buffer")) return {};
+    std::string own = fmt::format("/bufferViews/{}", view);
+    if (!report_.exists(from.buffer, model_.buffers.size(), "buffer", own + "/buffer")) return {};
     const std::vector<unsigned char>& data = model_.buffers[size_t(from.buffer)].data;
     if (from.byteOffset > data.size() || from.byteLength > data.size() - from.byteOffset) {
-        report(
-            Code::GLTF_ACCESSOR, place, accessor,
+        report_.add(
+            Code::GLTF_ACCESSOR, own, accessor,
             fmt::format("its buffer view {} reaches past the end of buffer {}", view, from.buffer));
         return {};
     }
     return {data.data() + from.byteOffset, from.byteLength, from.byteStride};
 }
 
-bool GltfImport::read_accessor(int accessor, const std::string& pointer, Numbers& out) {
+bool AccessorReader::read(int accessor, const std::string& pointer, AccessorNumbers& out) {
     out = {};
-    if (!exists(accessor, model_.accessors.size(), "accessor", pointer)) return false;
+    if (!report_.exists(accessor, model_.accessors.size(), "accessor", pointer)) return false;
     const tinygltf::Accessor& from = model_.accessors[size_t(accessor)];
-    std::string place = fmt::format("/accessors/{}", accessor);
+    std::string own = fmt::format("/accessors/{}", accessor);
     auto refuse = [&](const std::string& why) {
-        report(Code::GLTF_ACCESSOR, place, accessor, why);
+        report_.add(Code::GLTF_ACCESSOR, own, accessor, why);
         return false;
     };
     const ComponentRow* component = find_component(from.componentType);
@@ -106,13 +108,13 @@ bool GltfImport::read_accessor(int accessor, const std::string& pointer, Numbers
     size_t bytes = component->bytes * out.width;
     View view;
     if (from.bufferView >= 0) {
-        view = view_bytes(from.bufferView, place + "/bufferView", accessor);
+        view = view_bytes(from.bufferView, own + "/bufferView", accessor);
         if (!view.data) return false;
         if (view.stride == 0) view.stride = bytes;
         if (!fits(view.size, from.byteOffset, view.stride, bytes, from.count))
             return refuse("it reaches past the end of its buffer view");
     }
-    if (from.count > SIZE_MAX / 64 || !charge(from.count * out.width * sizeof(float), place))
+    if (from.count > SIZE_MAX / 64 || !budget_.charge(from.count * out.width * sizeof(float), own))
         return refuse("it has too many elements");
     out.values.assign(from.count * out.width, 0.0f);
     if (view.data)
@@ -121,16 +123,16 @@ bool GltfImport::read_accessor(int accessor, const std::string& pointer, Numbers
                 out.values[i * out.width + k] = float(component->number(
                     view.data + from.byteOffset + i * view.stride + k * component->bytes,
                     from.normalized));
-    return !from.sparse.isSparse || read_sparse(accessor, pointer, out);
+    return !from.sparse.isSparse || read_sparse(accessor, out);
 }
 
 // Elements that stand apart (glTF 2.0, 3.6.2.3).
-bool GltfImport::read_sparse(int accessor, const std::string&, Numbers& out) {
+bool AccessorReader::read_sparse(int accessor, AccessorNumbers& out) {
     const tinygltf::Accessor& from = model_.accessors[size_t(accessor)];
     const auto& sparse = from.sparse;
-    std::string place = fmt::format("/accessors/{}/sparse", accessor);
+    std::string own = fmt::format("/accessors/{}/sparse", accessor);
     auto refuse = [&](const std::string& why) {
-        report(Code::GLTF_ACCESSOR, place, accessor, why);
+        report_.add(Code::GLTF_ACCESSOR, own, accessor, why);
         return false;
     };
     const ComponentRow* index = find_component(sparse.indices.componentType);
@@ -138,8 +140,8 @@ bool GltfImport::read_sparse(int accessor, const std::string&, Numbers& out) {
     if (!index || !index->index) return refuse("its sparse indices are not unsigned integers");
     if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
         return refuse("its sparse part has negative numbers");
-    View indices = view_bytes(sparse.indices.bufferView, place + "/indices/bufferView", accessor);
-    View values = view_bytes(sparse.values.bufferView, place + "/values/bufferView", accessor);
+    View indices = view_bytes(sparse.indices.bufferView, own + "/indices/bufferView", accessor);
+    View values = view_bytes(sparse.values.bufferView, own + "/values/bufferView", accessor);
     if (!indices.data || !values.data) return false;
     size_t count = size_t(sparse.count), bytes = component->bytes * out.width;
     size_t first_index = size_t(sparse.indices.byteOffset);
@@ -160,49 +162,49 @@ bool GltfImport::read_sparse(int accessor, const std::string&, Numbers& out) {
 }
 
 // Indices keep all their bits: a float holds 24.
-bool GltfImport::read_indices(int accessor, const std::string& pointer,
-                              std::vector<uint32_t>& out) {
-    if (!exists(accessor, model_.accessors.size(), "accessor", pointer)) return false;
+bool AccessorReader::read_indices(int accessor, const std::string& pointer,
+                                  std::vector<uint32_t>& out) {
+    if (!report_.exists(accessor, model_.accessors.size(), "accessor", pointer)) return false;
     const tinygltf::Accessor& from = model_.accessors[size_t(accessor)];
     const ComponentRow* component = find_component(from.componentType);
-    std::string place = fmt::format("/accessors/{}", accessor);
+    std::string own = fmt::format("/accessors/{}", accessor);
     if (!component || !component->index || from.type != TINYGLTF_TYPE_SCALAR) {
-        report(Code::GLTF_ACCESSOR, place, accessor, "indices are unsigned integers");
+        report_.add(Code::GLTF_ACCESSOR, own, accessor, "indices are unsigned integers");
         return false;
     }
     if (from.bufferView < 0 || from.sparse.isSparse) {
-        Numbers numbers;
-        if (!read_accessor(accessor, pointer, numbers)) return false;
+        AccessorNumbers numbers;
+        if (!read(accessor, pointer, numbers)) return false;
         for (float value : numbers.values) out.push_back(uint32_t(value));
         return true;
     }
-    View view = view_bytes(from.bufferView, place + "/bufferView", accessor);
+    View view = view_bytes(from.bufferView, own + "/bufferView", accessor);
     if (!view.data) return false;
     if (view.stride == 0) view.stride = component->bytes;
     if (!fits(view.size, from.byteOffset, view.stride, component->bytes, from.count)) {
-        report(Code::GLTF_ACCESSOR, place, accessor, "it reaches past the end of its buffer view");
+        report_.add(Code::GLTF_ACCESSOR, own, accessor,
+                    "it reaches past the end of its buffer view");
         return false;
     }
-    if (!charge(from.count * sizeof(uint32_t), place)) return false;
+    if (!budget_.charge(from.count * sizeof(uint32_t), own)) return false;
     out.resize(from.count);
     for (size_t i = 0; i < from.count; ++i)
         out[i] = uint32_t(component->number(view.data + from.byteOffset + i * view.stride, false));
     return true;
 }
 
-// An attribute of `count` vertices with one of the widths; not finite numbers become 0.
-bool GltfImport::read_vertices(int accessor, std::span<const uint32_t> widths, size_t count,
-                               const std::string& pointer, Numbers& out) {
-    if (!read_accessor(accessor, pointer, out)) return false;
+bool AccessorReader::read_vertices(int accessor, std::span<const uint32_t> widths, size_t count,
+                                   const std::string& pointer, AccessorNumbers& out) {
+    if (!read(accessor, pointer, out)) return false;
     if (std::find(widths.begin(), widths.end(), out.width) == widths.end()) {
-        report(Code::GLTF_ACCESSOR, pointer, accessor,
-               fmt::format("this attribute cannot have {} numbers a vertex", out.width));
+        report_.add(Code::GLTF_ACCESSOR, pointer, accessor,
+                    fmt::format("this attribute cannot have {} numbers a vertex", out.width));
         return false;
     }
     if (out.count() != count) {
-        report(Code::GLTF_ACCESSOR, pointer, accessor,
-               fmt::format("it has {} vertices, the primitive's positions are {}", out.count(),
-                           count));
+        report_.add(Code::GLTF_ACCESSOR, pointer, accessor,
+                    fmt::format("it has {} vertices, the primitive's positions are {}", out.count(),
+                                count));
         return false;
     }
     for (float& value : out.values)

@@ -1,11 +1,12 @@
 // runtime/gltf/import/animations.cpp: glTF's animations as channels; each is a clip.
+#include "runtime/gltf/import/animations.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
 #include "runtime/description/findings.h"
-#include "runtime/gltf/import/import_p.h"
 
 namespace kinora {
 
@@ -54,43 +55,29 @@ anim::Sampler make_sampler(const std::vector<double>& times, const std::vector<f
 
 }  // namespace
 
-// Which properties of nodes any channel writes: those get values even where the file has none.
-void GltfImport::find_animated() {
-    moves_.assign(model_.nodes.size(), 0);
-    for (const tinygltf::Animation& animation : model_.animations)
-        for (const tinygltf::AnimationChannel& channel : animation.channels) {
-            if (channel.target_node < 0 || size_t(channel.target_node) >= moves_.size()) continue;
-            uint8_t& moves = moves_[size_t(channel.target_node)];
-            if (channel.target_path == "translation") moves |= kMovesTranslation;
-            if (channel.target_path == "rotation") moves |= kMovesRotation;
-            if (channel.target_path == "scale") moves |= kMovesScale;
-            if (channel.target_path == "weights") moves |= kMovesWeights;
-        }
-}
-
 // What a channel writes; no numbers where that is nothing that is shown.
-GltfImport::Target GltfImport::target_of(const tinygltf::AnimationChannel& channel) const {
+AnimationImporter::Written AnimationImporter::written_by(
+    const tinygltf::AnimationChannel& channel) const {
     uint32_t node = uint32_t(channel.target_node);
     const NodeSlots& slots = slots_[node];
     if (channel.target_path == "translation") return {slots.translation, 3, node};
     if (channel.target_path == "rotation") return {slots.rotation, 4, node};
     if (channel.target_path == "scale") return {slots.scale, 3, node};
-    uint32_t morph = node_morphs_[node];
-    if (channel.target_path != "weights" || morph == kNone) return {};
-    ValueSlot weights = out_.morphs[morph].weights;
-    return {weights.offset, weights.count, uint32_t(out_.nodes.size()) + morph};
+    if (channel.target_path != "weights" || slots.morph == kNone) return {};
+    ValueSlot weights = out_.morphs[slots.morph].weights;
+    return {weights.offset, weights.count, uint32_t(out_.nodes.size()) + slots.morph};
 }
 
-std::optional<anim::Sampler> GltfImport::sampler_of(uint32_t animation, uint32_t channel,
-                                                    uint32_t stride) {
+std::optional<anim::Sampler> AnimationImporter::sampler_of(uint32_t animation, uint32_t channel,
+                                                           uint32_t stride) {
     const tinygltf::Animation& from = model_.animations[animation];
     int index = from.channels[channel].sampler;
     std::string pointer = fmt::format("/animations/{}/channels/{}/sampler", animation, channel);
-    if (!exists(index, from.samplers.size(), "sampler", pointer)) return std::nullopt;
+    if (!report_.exists(index, from.samplers.size(), "sampler", pointer)) return std::nullopt;
     const tinygltf::AnimationSampler& sampler = from.samplers[size_t(index)];
     pointer = fmt::format("/animations/{}/samplers/{}", animation, index);
-    auto refuse = [&](const std::string& place, const std::string& why) {
-        report(Code::GLTF_ANIMATION, pointer + place, from.name, why);
+    auto refuse = [&](const std::string& member, const std::string& why) {
+        report_.add(Code::GLTF_ANIMATION, pointer + member, from.name, why);
         return std::nullopt;
     };
     auto row = std::find_if(std::begin(kInterpolations), std::end(kInterpolations),
@@ -98,9 +85,9 @@ std::optional<anim::Sampler> GltfImport::sampler_of(uint32_t animation, uint32_t
     if (row == std::end(kInterpolations))
         return refuse("/interpolation",
                       fmt::format("'{}' is no interpolation", sampler.interpolation));
-    Numbers input, output;
-    if (!read_accessor(sampler.input, pointer + "/input", input) ||
-        !read_accessor(sampler.output, pointer + "/output", output))
+    AccessorNumbers input, output;
+    if (!accessors_.read(sampler.input, pointer + "/input", input) ||
+        !accessors_.read(sampler.output, pointer + "/output", output))
         return std::nullopt;
     if (input.width != 1) return refuse("/input", "times are single numbers");
     bool rotation = from.channels[channel].target_path == "rotation";
@@ -108,17 +95,18 @@ std::optional<anim::Sampler> GltfImport::sampler_of(uint32_t animation, uint32_t
     if (output.width != (weights ? 1 : stride))
         return refuse("/output", fmt::format("{} numbers an element, not {}", output.width,
                                              weights ? 1 : stride));
-    if (stride == 0 || !charge(output.values.size() * 8 * row->parts, pointer)) return std::nullopt;
+    if (stride == 0 || !budget_.charge(output.values.size() * 8 * row->parts, pointer))
+        return std::nullopt;
     std::vector<double> times(input.values.begin(), input.values.end());
     anim::SamplerRepairs repairs;
     anim::Sampler made = make_sampler(times, output.values, stride, *row, rotation, repairs);
     if (std::string text = to_text(repairs); !text.empty())
-        report(Code::GLTF_ANIMATION, pointer, from.name, text);
+        report_.add(Code::GLTF_ANIMATION, pointer, from.name, text);
     if (made.empty()) return std::nullopt;
     return made;
 }
 
-anim::Animation GltfImport::animation_of(uint32_t index) {
+anim::Animation AnimationImporter::animation_of(uint32_t index) {
     const tinygltf::Animation& from = model_.animations[index];
     std::vector<anim::Sampler> samplers;
     std::vector<anim::Channel> channels;
@@ -126,13 +114,14 @@ anim::Animation GltfImport::animation_of(uint32_t index) {
         const tinygltf::AnimationChannel& channel = from.channels[c];
         std::string pointer = fmt::format("/animations/{}/channels/{}/target", index, c);
         if (channel.target_node < 0) continue;  // an extension's target
-        if (!exists(channel.target_node, model_.nodes.size(), "node", pointer + "/node")) continue;
-        Target target = target_of(channel);
+        if (!report_.exists(channel.target_node, model_.nodes.size(), "node", pointer + "/node"))
+            continue;
+        Written target = written_by(channel);
         if (target.slot == kNone || target.count == 0) {
-            if (shown_[size_t(channel.target_node)])
-                report(Code::GLTF_ANIMATION, pointer, from.name,
-                       fmt::format("node {} has no {} to write", channel.target_node,
-                                   channel.target_path));
+            if (tree_.shown[size_t(channel.target_node)])
+                report_.add(Code::GLTF_ANIMATION, pointer, from.name,
+                            fmt::format("node {} has no {} to write", channel.target_node,
+                                        channel.target_path));
             continue;
         }
         std::optional<anim::Sampler> sampler = sampler_of(index, c, target.count);
@@ -148,8 +137,7 @@ anim::Animation GltfImport::animation_of(uint32_t index) {
     return anim::make_animation(std::move(samplers), std::move(channels));
 }
 
-// All at once; an animation that drives what an earlier one drives is left to --clip.
-void GltfImport::import_animations() {
+void AnimationImporter::import_animations(UniqueIds& ids) {
     std::vector<anim::Sampler> samplers;
     std::vector<anim::Channel> channels;
     std::set<uint32_t> driven;
@@ -157,7 +145,7 @@ void GltfImport::import_animations() {
         auto own = std::make_shared<anim::Animation>(animation_of(a));
         if (own->channels.empty()) continue;
         ClipDefinition clip;
-        clip.name = unique_id(model_.animations[a].name, "animation", a);
+        clip.name = ids.id(model_.animations[a].name, "animation", a);
         anim::TimeRange range = anim::time_range(*own);
         clip.start = range.begin;
         clip.end = range.end;
@@ -165,8 +153,8 @@ void GltfImport::import_animations() {
         bool meets = std::any_of(own->channels.begin(), own->channels.end(),
                                  [&](const anim::Channel& c) { return driven.contains(c.slot); });
         if (meets) {
-            report(Code::GLTF_ANIMATIONS_MEET, fmt::format("/animations/{}", a), clip.name,
-                   clip.name);
+            report_.add(Code::GLTF_ANIMATIONS_MEET, fmt::format("/animations/{}", a), clip.name,
+                        clip.name);
         } else {
             for (anim::Channel channel : own->channels) {
                 driven.insert(channel.slot);

@@ -1,9 +1,9 @@
 // runtime/gltf/import/tangents.cpp: TANGENT as numbers that stay right when the surface is moved.
+#include "runtime/gltf/import/tangents.h"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-
-#include "runtime/gltf/import/import_p.h"
 
 namespace kinora {
 
@@ -37,8 +37,8 @@ bool solve_affine(const dvec3 (&P)[3], const dvec3 (&uv)[3], dvec3& dPdu, dvec3&
 // texture coordinates (what u and v are to a shader). u and v hold whatever moves or mirrors the
 // triangle, and n falls out where the shader makes T normal to N. `tangent_flip` is -1 where the
 // file's bitangent (N x T) w points away from growing v.
-void GltfImport::add_tangents(const std::vector<dvec3>& positions, uint32_t first_vertex,
-                              std::span<const float> tangents, PrimitiveGroup& group) {
+void add_tangents(const std::vector<dvec3>& positions, uint32_t first_vertex,
+                  std::span<const float> tangents, PrimitiveGroup& group) {
     const VertexAttribute* uv = find_attribute(group, "TEXCOORD");
     const VertexAttribute* normals = find_attribute(group, "NORMAL");
     if (!uv || !normals) return;
