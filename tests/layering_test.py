@@ -30,7 +30,7 @@ PACKAGES = {
     r"libxml/": r"runtime/programs/validate/foreign_schema\.cpp",
     r"OpenImageIO/": r"runtime/images_module/.*|tests/.*",
     r"CLI/": r"runtime/programs/.*",
-    r"tiny_gltf": r"runtime/gltf/(import_file\.h|tinygltf\.cpp)",
+    r"tiny_gltf": r"runtime/gltf/file/(file\.h|tinygltf\.cpp)",
     r"SDL|imgui": r"runtime/programs/.*",
     r"llvm": r"(?!)",
 }

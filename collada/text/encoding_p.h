@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/base/percent_encoding.h"
+
 namespace kinora::collada {
 
 struct DecodedText {
@@ -19,8 +21,5 @@ DecodedText decode_text(std::string bytes);
 std::string utf8_from_latin1(std::string_view bytes);
 // Surrogates and longer forms than needed pass.
 bool valid_utf8(std::string_view text);
-
-// %20 as a space; what is no such triple, and %00, stays.
-std::string percent_decode(std::string_view text);
 
 }  // namespace kinora::collada

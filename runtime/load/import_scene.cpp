@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "runtime/dae/import.h"
-#include "runtime/gltf/import.h"
+#include "runtime/gltf/import/import.h"
 
 namespace kinora {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/gltf/import.h"
+#include "runtime/gltf/import/import.h"
 #include "runtime/images/image_io.h"
 
 namespace kinora {

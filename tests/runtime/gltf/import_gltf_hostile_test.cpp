@@ -9,8 +9,8 @@
 #include <random>
 
 #include "runtime/build/build_scene.h"
-#include "runtime/gltf/import.h"
-#include "runtime/gltf/json_text.h"
+#include "runtime/gltf/import/import.h"
+#include "runtime/gltf/file/json_scan.h"
 #include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
@@ -138,9 +138,9 @@ TEST(GltfHostile, EachLieHasItsFindingAndPlace) {
         ASSERT_TRUE(found) << lie.name << "\n" << d->findings();
         ASSERT_LT(found->where.begin, text.size());
         if (!lie.pointer) continue;
-        // The place is that of the value (or of the nearest value around one that is not there).
-        std::optional<JsonRange> place = json_place(text, lie.pointer);
-        EXPECT_EQ(found->where.begin, place->begin) << lie.name;
+        // The position is that of the value (or of the nearest value around one that is not there).
+        std::optional<JsonRange> range = json_nearest(text, lie.pointer);
+        EXPECT_EQ(found->where.begin, range->begin) << lie.name;
     }
 }
 
@@ -322,7 +322,7 @@ TEST(JsonText, PointersFindTheirValues) {
     EXPECT_EQ(value("/d"), "true");
     EXPECT_EQ(value("/a/2"), "none");
     EXPECT_EQ(value("/e"), "none");
-    EXPECT_EQ(json_place(text, "/a/7/x")->begin, text.find('['));
+    EXPECT_EQ(json_nearest(text, "/a/7/x")->begin, text.find('['));
     EXPECT_EQ(json_elements(text, "/a").size(), 2u);
     EXPECT_EQ(json_number(text, "/a/1/é/1", 0), 5000);
 }

@@ -1,0 +1,93 @@
+// runtime/gltf/export/attributes.cpp: which vertex attributes are written, and glTF's names for
+// them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/export/export_p.h"
+
+namespace kinora {
+
+namespace {
+
+// What import_gltf makes of COLOR_0 and TANGENT.
+constexpr const char* kDerived[] = {"vertex_alpha", "tangent_u", "tangent_v", "tangent_flip"};
+
+bool is_derived(const std::string& semantic) {
+    return std::find(std::begin(kDerived), std::end(kDerived), semantic) != std::end(kDerived);
+}
+
+bool reads(const std::vector<ShaderUse>& layers, const std::string& semantic) {
+    for (const ShaderUse& layer : layers)
+        for (const rsl::ShaderParameter& p : layer.shader->parameters)
+            if (p.name == semantic) return true;
+    return false;
+}
+
+// Whether a shader sees it: a parameter is bound to it, or named like it.
+bool is_read(const GltfLook& look, const VertexAttribute& a) {
+    for (const VertexBinding& b : look.bound.vertex_bindings)
+        if (b.semantic == a.semantic && (b.set == kNone || b.set == a.set)) return true;
+    const MaterialDefinition& m = look.definition;
+    return reads(m.surfaces, a.semantic) || reads(m.displacements, a.semantic) ||
+           reads(m.transformations, a.semantic) || reads(m.interior, a.semantic) ||
+           reads(m.exterior, a.semantic);
+}
+
+}  // namespace
+
+GltfLook GltfExport::look_of(const MeshUse& use, const PrimitiveGroup& group) {
+    const MaterialUse* bound = nullptr;
+    for (const MaterialUse& m : use.materials)
+        if (m.symbol == group.symbol) bound = &m;
+    // What has no material wears default_surface, which glTF's own default (a metal) is far from.
+    if (plain_.surfaces.empty())
+        plain_.surfaces.emplace_back().shader =
+            description_.default_surface ? description_.default_surface
+                                         : library_shader("default_surface", diagnostics_);
+    bool is_plain = !bound || bound->material == kNone;
+    GltfLook look{is_plain ? plain_ : description_.materials[bound->material],
+                  bound ? *bound : unbound_, is_plain, false};
+    const std::vector<ShaderUse>& surfaces = look.definition.surfaces;
+    look.is_gltf = !surfaces.empty() && (is_library_shader(surfaces.back(), "gltf_pbr") ||
+                                         is_library_shader(surfaces.back(), "gltf_unlit"));
+    return look;
+}
+
+// In the order of their sets. What glTF's own materials show has glTF's names; what only shaders
+// read has names of the application's own, "_HEAT", which viewers leave alone (glTF 2.0, 3.7.2.1).
+// Texture coordinates are for both.
+std::vector<GltfAttribute> GltfExport::attributes_of(const GltfLook& look,
+                                                     const PrimitiveGroup& group) {
+    std::vector<const VertexAttribute*> sorted;
+    for (const VertexAttribute& a : group.attributes) sorted.push_back(&a);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](auto* a, auto* b) { return a->set < b->set; });
+    std::vector<GltfAttribute> result;
+    std::map<std::string, uint32_t> seen;  // of each semantic
+    for (const VertexAttribute* a : sorted) {
+        bool texcoord = a->semantic == "TEXCOORD", color = a->semantic == "COLOR";
+        bool wide_enough = texcoord ? a->stride >= 2 : !color || a->stride >= 3;
+        bool own = !texcoord && !color;
+        if (a->semantic == "NORMAL" || a->semantic == "POSITION") continue;
+        if (look.is_gltf && is_derived(a->semantic)) continue;
+        bool tangent = look.is_gltf && a->semantic == "TANGENT" && a->stride == 4;
+        if (own && !tangent && !is_read(look, *a)) continue;
+        if (!wide_enough || a->stride == 0 || (a->stride > 4 && !texcoord)) {
+            if (is_read(look, *a))
+                lost(fmt::format("material '{}'", look.definition.id),
+                     fmt::format("its vertex input '{}' of {} numbers", a->semantic, a->stride));
+            continue;
+        }
+        uint32_t index = seen[a->semantic]++;
+        std::string name = a->semantic;
+        if (!own || index > 0) name += fmt::format("_{}", index);
+        if (!texcoord && !tangent && !(color && look.is_gltf)) name = "_" + name;
+        result.push_back({std::move(name), a, texcoord ? 2 : a->stride});
+    }
+    return result;
+}
+
+}  // namespace kinora

@@ -1,0 +1,206 @@
+// runtime/gltf/export/meshes.cpp: meshes: one vertex for each tuple of indices, influences, targets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/build/mesh.h"
+#include "runtime/description/pair_numbers.h"
+#include "runtime/gltf/export/export_p.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
+constexpr size_t kMostShortIndices = 65535;  // the index 65535 itself restarts a primitive
+
+const VertexAttribute* normals_of(const PrimitiveGroup& group) {
+    for (const VertexAttribute& a : group.attributes)
+        if (a.semantic == "NORMAL" && a.stride >= 3) return &a;
+    return nullptr;
+}
+
+vec3 unit_normal(vec3 n) {
+    float length = glm::length(n);
+    return length > 0 && std::isfinite(length) ? n / length : vec3(0, 0, 1);
+}
+
+void push(std::vector<float>& numbers, vec3 v) {
+    numbers.insert(numbers.end(), {v.x, v.y, v.z});
+}
+
+// The numbers as glTF has them: t grows upwards, v downwards; tangents have length 1, their last
+// number is a sign.
+void push(std::vector<float>& numbers, const GltfAttribute& a, uint32_t corner) {
+    const float* v =
+        &a.attribute->values[size_t(a.attribute->corners[corner]) * a.attribute->stride];
+    if (a.name == "TANGENT") {
+        push(numbers, unit_normal(vec3(v[0], v[1], v[2])));
+        numbers.push_back(v[3] < 0 ? -1.0f : 1.0f);
+        return;
+    }
+    for (uint32_t i = 0; i < a.width; ++i) numbers.push_back(std::isfinite(v[i]) ? v[i] : 0.0f);
+    if (a.name.starts_with("TEXCOORD_")) numbers.back() = 1.0f - numbers.back();
+}
+
+}  // namespace
+
+uint32_t GltfExport::mesh(const MeshUse& use) {
+    const MeshDefinition& definition = description_.meshes[use.mesh];
+    std::string key = fmt::format("{} {} {}", use.mesh, use.morph, use.skin);
+    for (const PrimitiveGroup& group : definition.groups)
+        key += fmt::format(" {}", material(use, group));
+    auto [found, fresh] = meshes_.try_emplace(key, kNone);
+    if (!fresh) return found->second;
+    auto [built, is_new] = built_.try_emplace(use.mesh);
+    if (is_new) built->second = build_mesh(definition, true);
+    Json primitives = Json::array();
+    for (uint32_t g = 0; g < definition.groups.size(); ++g)
+        if (!definition.groups[g].triangles.empty())
+            primitives.push_back(primitive(use, definition.groups[g], built->second, g));
+    if (primitives.empty()) return kNone;
+    Json result = {{"primitives", primitives}};
+    if (!definition.id.empty()) result["name"] = definition.id;
+    json_["meshes"].push_back(result);
+    return found->second = uint32_t(json_["meshes"].size() - 1);
+}
+
+Json GltfExport::primitive(const MeshUse& use, const PrimitiveGroup& group, const Mesh& built,
+                           uint32_t group_index) {
+    const MeshDefinition& definition = description_.meshes[use.mesh];
+    std::vector<GltfAttribute> others = attributes_of(look_of(use, group), group);
+    // A normal's number names its position too (build_mesh); each further attribute splits on.
+    std::vector<uint32_t> vertex = built.groups[group_index].normal_corners;
+    auto renumber = [&](const std::vector<uint32_t>& entries) {
+        PairNumbers pairs(vertex.size());
+        uint32_t next = 0;
+        for (size_t c = 0; c < vertex.size(); ++c) {
+            vertex[c] = pairs.number(vertex[c], entries[c], next);
+            next += vertex[c] == next;
+        }
+        return next;
+    };
+    uint32_t count = renumber(group.triangles);
+    for (const GltfAttribute& a : others) count = renumber(a.attribute->corners);
+    std::vector<uint32_t> corners(count);  // the first corner of each vertex
+    for (size_t c = vertex.size(); c-- > 0;) corners[vertex[c]] = uint32_t(c);
+
+    std::vector<float> positions, normals;
+    std::vector<uint32_t> position_index;
+    for (uint32_t c : corners) {
+        position_index.push_back(group.triangles[c]);
+        push(positions, vec3(definition.positions[group.triangles[c]]));
+        push(normals,
+             unit_normal(vec3(built.normals[built.groups[group_index].normal_corners[c]])));
+    }
+    Json attributes = {{"POSITION", accessor(positions, 3, kVertexTarget, true)},
+                       {"NORMAL", accessor(normals, 3, kVertexTarget, false)}};
+    for (const GltfAttribute& a : others) {
+        std::vector<float> numbers;
+        for (uint32_t c : corners) push(numbers, a, c);
+        attributes[a.name] = accessor(numbers, a.width, kVertexTarget, false);
+    }
+    if (use.skin != kNone) add_influences(use, position_index, attributes);
+    Json result = {{"attributes", attributes}};
+    result["indices"] =
+        count <= kMostShortIndices
+            ? accessor(std::vector<uint16_t>(vertex.begin(), vertex.end()), 1, kIndexTarget, false)
+            : accessor(vertex, 1, kIndexTarget, false);
+    if (uint32_t m = material(use, group); m != kNone) result["material"] = m;
+    if (use.morph != kNone) add_targets(use, built, group_index, corners, result);
+    return result;
+}
+
+// All influences, the strongest first, four a set, their weights adding up to 1.
+void GltfExport::add_influences(const MeshUse& use, const std::vector<uint32_t>& positions,
+                                Json& attributes) {
+    const SkinDefinition& skin = description_.skins[use.skin];
+    struct Influence {
+        uint32_t joint;
+        float weight;
+    };
+    uint32_t still = uint32_t(skin.inverse_bind.size());  // the joint of the bind shape
+    std::vector<std::vector<Influence>> all;
+    size_t most = 1;
+    for (uint32_t p : positions) {
+        std::vector<Influence>& list = all.emplace_back();
+        if (p + 1 < skin.offsets.size())
+            for (uint32_t i = skin.offsets[p]; i < skin.offsets[p + 1]; ++i)
+                if (skin.weights[i] > 0)
+                    list.push_back(
+                        {skin.joints[i] < 0 ? still : uint32_t(skin.joints[i]), skin.weights[i]});
+        std::stable_sort(list.begin(), list.end(),
+                         [](auto& a, auto& b) { return a.weight > b.weight; });
+        if (list.empty()) list.push_back({0, 1.0f});  // what has no weight follows the root joint
+        // A joint may stand twice; glTF wants each once a vertex.
+        for (size_t i = 0; i < list.size(); ++i)
+            for (size_t k = i + 1; k < list.size();)
+                if (list[k].joint == list[i].joint) {
+                    list[i].weight += list[k].weight;
+                    list.erase(list.begin() + long(k));
+                } else {
+                    ++k;
+                }
+        double sum = 0;
+        for (const Influence& i : list) sum += double(i.weight);
+        for (Influence& i : list) i.weight = float(double(i.weight) / sum);
+        most = std::max(most, list.size());
+    }
+    for (size_t set = 0; set < (most + 3) / 4; ++set) {
+        std::vector<uint16_t> joints;
+        std::vector<float> weights;
+        for (const std::vector<Influence>& list : all)
+            for (size_t i = 4 * set; i < 4 * set + 4; ++i) {
+                joints.push_back(i < list.size() ? uint16_t(list[i].joint) : 0);
+                weights.push_back(i < list.size() ? list[i].weight : 0.0f);
+            }
+        attributes[fmt::format("JOINTS_{}", set)] = accessor(joints, 4, kVertexTarget, false);
+        attributes[fmt::format("WEIGHTS_{}", set)] = accessor(weights, 4, kVertexTarget, false);
+    }
+}
+
+// Differences from the base, whatever the method: (1 - sum of w) base + sum of w target is base +
+// sum of w (target - base). Normals of a target: the file's where its corners are the base's,
+// smooth ones where the base has none either, else they stay.
+void GltfExport::add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
+                             const std::vector<uint32_t>& corners, Json& primitive) {
+    const MorphDefinition& morph = description_.morphs[use.morph];
+    const MeshDefinition& base = description_.meshes[use.mesh];
+    const PrimitiveGroup& group = base.groups[group_index];
+    const std::vector<uint32_t>& normal_corners = built.groups[group_index].normal_corners;
+    for (uint32_t t : morph.targets) {
+        const MeshDefinition& target = description_.meshes[t];
+        auto moved = [&](uint32_t p) {
+            if (p >= target.positions.size()) return base.positions[p];
+            return morph.relative ? base.positions[p] + target.positions[p] : target.positions[p];
+        };
+        std::vector<float> positions, normals;
+        for (uint32_t c : corners)
+            push(positions, vec3(moved(group.triangles[c]) - base.positions[group.triangles[c]]));
+        const VertexAttribute* given =
+            group_index < target.groups.size() ? normals_of(target.groups[group_index]) : nullptr;
+        Mesh smooth;
+        if (!normals_of(group)) {
+            MeshDefinition shape = base;
+            for (uint32_t p = 0; p < shape.positions.size(); ++p) shape.positions[p] = moved(p);
+            smooth = build_mesh(shape, true);
+            given = nullptr;
+        }
+        bool fits = given && given->corners.size() == group.triangles.size();
+        for (uint32_t c : corners) {
+            vec3 from = unit_normal(vec3(built.normals[normal_corners[c]])), to = from;
+            if (!smooth.normals.empty()) to = unit_normal(vec3(smooth.normals[normal_corners[c]]));
+            if (fits) {
+                const float* v = &given->values[size_t(given->corners[c]) * given->stride];
+                to = vec3(v[0], v[1], v[2]) + (morph.relative ? from : vec3(0));
+            }
+            push(normals, to - from);
+        }
+        primitive["targets"].push_back({{"POSITION", accessor(positions, 3, kVertexTarget, true)},
+                                        {"NORMAL", accessor(normals, 3, kVertexTarget, false)}});
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,40 @@
+// runtime/gltf/file/report.h: findings of a glTF file by JSON pointer.
+#pragma once
+
+#include <string>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/gltf/file/file.h"
+
+namespace kinora {
+
+// The first kMaxGltfFindings are reported, the rest is counted.
+class GltfReport {
+  public:
+    GltfReport(const GltfFile& file, Diagnostics& diagnostics)
+        : file_(file), diagnostics_(diagnostics) {}
+
+    // The finding, or null where there are too many.
+    template <class... Args>
+    Finding* add(const FindingInfo& info, const std::string& pointer, const Args&... args) {
+        if (++count_ > kMaxGltfFindings) return nullptr;
+        Finding& finding = diagnostics_.report(info, location(pointer), args...);
+        finding.id_path = pointer;
+        return &finding;
+    }
+
+    // Whether a list of `count` has that index; a finding where not.
+    bool exists(int index, size_t count, const char* what, const std::string& pointer);
+
+    // How many findings were only counted, as a finding.
+    void finish();
+
+    Location location(const std::string& pointer) const { return gltf_location(file_, pointer); }
+
+  private:
+    const GltfFile& file_;
+    Diagnostics& diagnostics_;
+    size_t count_ = 0;
+};
+
+}  // namespace kinora

@@ -1,0 +1,13 @@
+// runtime/gltf/import/cameras.h: glTF's cameras.
+#pragma once
+
+#include "runtime/gltf/import/rsl.h"
+#include "runtime/gltf/import/unique_ids.h"
+
+namespace kinora {
+
+// `meter`: metres per unit of the world that the description is in.
+void import_cameras(const tinygltf::Model& model, double meter, RslExtras& rsl, UniqueIds& ids,
+                    const GltfReport& report, SceneDescription& out);
+
+}  // namespace kinora

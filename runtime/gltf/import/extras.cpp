@@ -1,0 +1,66 @@
+// runtime/gltf/import/extras.cpp: extras of scenes and nodes that kinora-convert writes.
+#include "runtime/gltf/import/extras.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/gltf/file/value.h"
+
+namespace kinora {
+
+void import_scene_extras(const tinygltf::Model& model, RslExtras& rsl, SceneDescription& out) {
+    if (model.scenes.empty()) return;
+    size_t index = size_t(std::max(model.defaultScene, 0));
+    if (index >= model.scenes.size()) index = 0;
+    const tinygltf::Value& extras = model.scenes[index].extras;
+    out.picture = rsl.picture_shaders(extras, fmt::format("/scenes/{}", index));
+    auto take = [&](const char* name, std::optional<double>& to) {
+        if (std::optional<double> value = number_member(extras, name)) to = value;
+    };
+    take("kinora_start_time", out.start_time);
+    take("kinora_end_time", out.end_time);
+    take("kinora_frame_rate", out.frame_rate);
+    const tinygltf::Value* clips = member(extras, "kinora_clips");
+    for (size_t c = 0; clips && clips->IsArray() && c < clips->ArrayLen(); ++c) {
+        const tinygltf::Value& clip = clips->Get(int(c));
+        const tinygltf::Value* name = member(clip, "name");
+        std::optional<double> start = number_member(clip, "start"),
+                              end = number_member(clip, "end");
+        if (name && name->IsString() && start && end)
+            out.clips.push_back({name->Get<std::string>(), *start, *end});
+    }
+}
+
+std::optional<KinoraAxes> find_axes(const tinygltf::Model& model, const std::vector<int>& roots) {
+    for (int root : roots) {
+        if (root < 0) continue;
+        const tinygltf::Value* axes = member(model.nodes[size_t(root)].extras, "kinora_axes");
+        if (!axes) continue;
+        std::string up = string_member(*axes, "up");
+        const tinygltf::Value* meter = member(*axes, "meter");
+        bool known = up == "X" || up == "Y" || up == "Z";
+        if (!known || !meter || !meter->IsNumber()) continue;
+        double value = meter->GetNumberAsDouble();
+        if (value > 1e-15 && value < 1e15) return KinoraAxes{root, value, UpAxis(up[0] - 'X')};
+    }
+    return std::nullopt;
+}
+
+void import_attributes(const tinygltf::Value& extras, NodeDefinition& to) {
+    const tinygltf::Value* attributes = member(extras, "kinora_attributes");
+    if (!attributes || !attributes->IsObject()) return;
+    for (const std::string& name : attributes->Keys()) {
+        const tinygltf::Value& value = attributes->Get(name);
+        UserAttribute& attribute = to.attributes.emplace_back();
+        attribute.name = name;
+        if (value.IsString()) attribute.text = value.Get<std::string>();
+        if (value.IsNumber()) attribute.numbers.push_back(value.GetNumberAsDouble());
+        for (size_t k = 0; value.IsArray() && k < value.ArrayLen(); ++k)
+            if (value.Get(int(k)).IsNumber())
+                attribute.numbers.push_back(value.Get(int(k)).GetNumberAsDouble());
+    }
+}
+
+}  // namespace kinora

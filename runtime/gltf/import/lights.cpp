@@ -1,0 +1,67 @@
+// runtime/gltf/import/lights.cpp: KHR_lights_punctual as lights in RSL.
+#include "runtime/gltf/import/lights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/import/values.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr double kLumensPerWatt = 683;  // Blender's exporter, its lighting mode "Standard"
+
+// cd/m2 that are 1.0 in the picture. Blender's lights in watts come as hundreds of candela or lux:
+// radiance 1 there is 683 cd/m2 here.
+double nits_of_one(const tinygltf::Model& model, GltfReport& report) {
+    if (!model.asset.generator.starts_with("Khronos glTF Blender I/O")) return 1;
+    bool watts = std::any_of(model.lights.begin(), model.lights.end(),
+                             [](const tinygltf::Light& l) { return l.intensity >= 100; });
+    if (watts) report.add(Code::GLTF_LIGHT_WATTS, "/extensions/KHR_lights_punctual/lights");
+    return watts ? kLumensPerWatt : 1;
+}
+
+}  // namespace
+
+void import_lights(const tinygltf::Model& model, RslExtras& rsl, UniqueIds& ids, GltfReport& report,
+                   Diagnostics& diagnostics, SceneDescription& out) {
+    double scale = 1 / nits_of_one(model, report);
+    for (size_t l = 0; l < model.lights.size(); ++l) {
+        const tinygltf::Light& from = model.lights[l];
+        std::string pointer = fmt::format("/extensions/KHR_lights_punctual/lights/{}", l);
+        LightDefinition& to = out.lights.emplace_back();
+        to.name = from.name;
+        to.id = ids.id(from.name, "light", l);
+        to.where = report.location(pointer);
+        if (rsl.import_light(from.extras, pointer, to)) continue;
+        bool known = from.type == "directional" || from.type == "point" || from.type == "spot";
+        if (!known) {
+            report.add(Code::GLTF_VALUE, pointer + "/type",
+                       fmt::format("'{}' is no light; it stays dark", from.type));
+        }
+        std::string name = known ? from.type : "point";
+        to.shader.shader = library_shader("gltf_" + name, diagnostics);
+        std::vector<double> color = {1, 1, 1};
+        for (size_t k = 0; k < 3 && k < from.color.size(); ++k)
+            if (std::isfinite(from.color[k])) color[k] = std::max(from.color[k], 0.0);
+        set_number(to.shader, "lightcolor", color, out.values);
+        auto one = [&](const char* param, double value) {
+            set_number(to.shader, param, std::span(&value, 1), out.values);
+        };
+        bool shines = known && std::isfinite(from.intensity) && from.intensity > 0;
+        one("intensity", shines ? from.intensity * scale : 0.0);
+        if (name == "directional") continue;
+        one("range", std::isfinite(from.range) ? std::max(from.range, 0.0) : 0.0);
+        if (name != "spot") continue;
+        double outer = std::clamp(from.spot.outerConeAngle, 1e-4, kPi / 2);
+        one("outer_angle", outer);
+        one("inner_angle", std::clamp(from.spot.innerConeAngle, 0.0, outer));
+    }
+}
+
+}  // namespace kinora

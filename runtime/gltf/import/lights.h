@@ -1,0 +1,12 @@
+// runtime/gltf/import/lights.h: KHR_lights_punctual as lights in RSL.
+#pragma once
+
+#include "runtime/gltf/import/rsl.h"
+#include "runtime/gltf/import/unique_ids.h"
+
+namespace kinora {
+
+void import_lights(const tinygltf::Model& model, RslExtras& rsl, UniqueIds& ids, GltfReport& report,
+                   Diagnostics& diagnostics, SceneDescription& out);
+
+}  // namespace kinora

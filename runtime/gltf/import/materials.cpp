@@ -1,0 +1,142 @@
+// runtime/gltf/import/materials.cpp: glTF's materials as gltf_pbr and gltf_unlit.
+#include "runtime/gltf/import/materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/gltf/file/value.h"
+#include "runtime/gltf/import/values.h"
+
+namespace kinora {
+
+namespace {
+
+// A number of an extension's object, or `otherwise`.
+double extension_number(const tinygltf::ExtensionMap& extensions, const char* extension,
+                        const char* name, double otherwise) {
+    auto found = extensions.find(extension);
+    if (found == extensions.end()) return otherwise;
+    return number_member(found->second, name).value_or(otherwise);
+}
+
+std::vector<double> extension_color(const tinygltf::ExtensionMap& extensions, const char* extension,
+                                    const char* name) {
+    std::vector<double> color(3, 1.0);
+    auto found = extensions.find(extension);
+    if (found == extensions.end() || !found->second.Has(name)) return color;
+    const tinygltf::Value& value = found->second.Get(name);
+    for (size_t k = 0; k < 3 && value.IsArray() && k < value.ArrayLen(); ++k)
+        if (value.Get(int(k)).IsNumber() && std::isfinite(value.Get(int(k)).GetNumberAsDouble()))
+            color[k] = std::max(value.Get(int(k)).GetNumberAsDouble(), 0.0);
+    return color;
+}
+
+// The first `count` of a factor, each within [0, most]; missing and not finite ones are
+// `otherwise`.
+std::vector<double> factor(const std::vector<double>& numbers, size_t count, double otherwise) {
+    std::vector<double> result(count, otherwise);
+    for (size_t k = 0; k < count && k < numbers.size(); ++k)
+        if (std::isfinite(numbers[k])) result[k] = std::max(numbers[k], 0.0);
+    return result;
+}
+
+// Of tinygltf's TextureInfo, NormalTextureInfo or OcclusionTextureInfo.
+template <class T>
+GltfTextureInfo info_of(const T& info) {
+    return {info.index, info.texCoord, info.extensions};
+}
+
+}  // namespace
+
+void MaterialImporter::import_materials(UniqueIds& ids) {
+    inputs_.resize(model_.materials.size() + 1);
+    for (uint32_t m = 0; m < model_.materials.size(); ++m) import_material(m, ids);
+    // What primitives without a material wear (glTF 2.0, 3.9.6): all defaults.
+    MaterialDefinition& plain = out_.materials.emplace_back();
+    plain.id = ids.id("default material", "material", model_.materials.size());
+    plain.name = "default material";
+    plain.hide_backfaces = true;
+    plain.surfaces.push_back({library_shader("gltf_pbr", diagnostics_), {}});
+}
+
+void MaterialImporter::import_material(uint32_t index, UniqueIds& ids) {
+    const tinygltf::Material& from = model_.materials[index];
+    std::string pointer = fmt::format("/materials/{}", index);
+    MaterialDefinition& to = out_.materials.emplace_back();
+    to.name = from.name;
+    to.id = ids.id(from.name, "material", index);
+    to.hide_backfaces = !from.doubleSided;
+    to.surfaces.push_back(shader_of(from, pointer));
+    if (const tinygltf::Value* rsl = member(from.extras, "kinora_rsl"))
+        inputs_[index] = rsl_.import_material(*rsl, pointer + "/extras/kinora_rsl", to);
+}
+
+void MaterialImporter::set_one(ShaderUse& use, const char* name, double value) {
+    set_number(use, name, std::span(&value, 1), out_.values);
+}
+
+ShaderUse MaterialImporter::shader_of(const tinygltf::Material& from, const std::string& pointer) {
+    bool unlit = from.extensions.contains("KHR_materials_unlit");
+    ShaderUse use;
+    use.shader = library_shader(unlit ? "gltf_unlit" : "gltf_pbr", diagnostics_);
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    std::vector<double> base = factor(pbr.baseColorFactor, 4, 1.0);
+    set_number(use, "base_color", std::span(base).first(3), out_.values);
+    set_number(use, "base_alpha", std::span(base).last(1), out_.values);
+    set_string(use, "alpha_mode", from.alphaMode);
+    set_one(use, "alpha_cutoff", std::isfinite(from.alphaCutoff) ? from.alphaCutoff : 0.5);
+    textures_.set_map(use, "base_color", info_of(pbr.baseColorTexture), false,
+                      pointer + "/pbrMetallicRoughness/baseColorTexture");
+    if (unlit) return use;
+    set_lit(from, pointer, use);
+    set_reflection(from, pointer, use);
+    // A flag, not the roughness itself: what decides the control flow makes a kernel of its own.
+    set_one(use, "mirrors", pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0);
+    return use;
+}
+
+void MaterialImporter::set_lit(const tinygltf::Material& from, const std::string& pointer,
+                               ShaderUse& use) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    auto map = [&](const char* name, const auto& info, bool data, const char* of) {
+        textures_.set_map(use, name, info_of(info), data, pointer + of);
+    };
+    set_one(use, "metallic", factor({pbr.metallicFactor}, 1, 1.0)[0]);
+    set_one(use, "roughness", factor({pbr.roughnessFactor}, 1, 1.0)[0]);
+    map("metallic_roughness", pbr.metallicRoughnessTexture, true,
+        "/pbrMetallicRoughness/metallicRoughnessTexture");
+    set_one(use, "normal_scale",
+            std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1);
+    map("normal", from.normalTexture, true, "/normalTexture");
+    set_one(use, "occlusion_strength", factor({from.occlusionTexture.strength}, 1, 1.0)[0]);
+    map("occlusion", from.occlusionTexture, true, "/occlusionTexture");
+    double strength = extension_number(from.extensions, "KHR_materials_emissive_strength",
+                                       "emissiveStrength", 1.0);
+    std::vector<double> emissive = factor(from.emissiveFactor, 3, 0.0);
+    for (double& e : emissive) e *= std::max(strength, 0.0);
+    set_number(use, "emissive", emissive, out_.values);
+    map("emissive", from.emissiveTexture, false, "/emissiveTexture");
+}
+
+// KHR_materials_ior and KHR_materials_specular.
+void MaterialImporter::set_reflection(const tinygltf::Material& from, const std::string& pointer,
+                                      ShaderUse& use) {
+    double ior = extension_number(from.extensions, "KHR_materials_ior", "ior", 1.5);
+    double r = (ior - 1) / (ior + 1);  // KHR_materials_ior; an ior of 0 reflects all
+    set_one(use, "dielectric_F0", r * r);
+    constexpr const char* kSpecular = "KHR_materials_specular";
+    set_one(use, "specular", extension_number(from.extensions, kSpecular, "specularFactor", 1.0));
+    set_number(use, "specular_color",
+               extension_color(from.extensions, kSpecular, "specularColorFactor"), out_.values);
+    auto found = from.extensions.find(kSpecular);
+    if (found != from.extensions.end() &&
+        (found->second.Has("specularTexture") || found->second.Has("specularColorTexture")))
+        report_.add(Code::GLTF_VALUE, pointer + "/extensions/" + kSpecular,
+                    "the textures of KHR_materials_specular are left out");
+}
+
+}  // namespace kinora

@@ -1,0 +1,20 @@
+// runtime/gltf/import/node_tree.h: the nodes that a scene reaches, as trees.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/gltf/file/report.h"
+
+namespace kinora {
+
+struct GltfNodeTree {
+    std::vector<int> roots;                       // as the scene lists them, unchecked
+    std::vector<bool> shown;                      // per node: the scene reaches it
+    std::vector<std::vector<uint32_t>> children;  // per node, each with one parent
+};
+
+// Of the model's scene, or of all nodes without a parent where there is no scene.
+GltfNodeTree read_node_tree(const tinygltf::Model& model, GltfReport& report);
+
+}  // namespace kinora

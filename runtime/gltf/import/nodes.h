@@ -1,0 +1,47 @@
+// runtime/gltf/import/nodes.h: glTF's nodes with what hangs on them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/gltf/import/materials.h"
+#include "runtime/gltf/import/morphs.h"
+#include "runtime/gltf/import/node_properties.h"
+#include "runtime/gltf/import/node_tree.h"
+#include "runtime/gltf/import/skins.h"
+
+namespace kinora {
+
+class NodeImporter {
+  public:
+    // `moving` is moving_properties(model); `axes_node` (-1: none) stands for the axes and the unit
+    // of the world, and its transform is left off.
+    NodeImporter(const tinygltf::Model& model, const GltfNodeTree& tree,
+                 const std::vector<uint8_t>& moving, int axes_node,
+                 const MaterialImporter& materials, MorphImporter& morphs, SkinImporter& skins,
+                 GltfReport& report, SceneDescription& out);
+
+    void import_nodes(UniqueIds& ids);
+
+    const std::vector<NodeSlots>& slots() const { return slots_; }
+
+  private:
+    void import_transforms(uint32_t node);
+    bool usable(const std::vector<double>& numbers, size_t count, uint32_t node, const char* name);
+    bool usable_matrix(uint32_t node);
+    void import_content(uint32_t node);
+    MeshUse mesh_use(uint32_t node);
+
+    const tinygltf::Model& model_;
+    const GltfNodeTree& tree_;
+    const std::vector<uint8_t>& moving_;
+    int axes_node_;
+    const MaterialImporter& materials_;
+    MorphImporter& morphs_;
+    SkinImporter& skins_;
+    GltfReport& report_;
+    SceneDescription& out_;
+    std::vector<NodeSlots> slots_;  // per node
+};
+
+}  // namespace kinora

@@ -1,0 +1,278 @@
+// runtime/gltf/import/rsl.cpp: extras.kinora_rsl: RSL shaders on what glTF has.
+#include "runtime/gltf/import/rsl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/description/texture_name.h"
+#include "runtime/gltf/file/json_scan.h"
+#include "runtime/gltf/file/value.h"
+#include "runtime/gltf/import/attribute_name.h"
+#include "runtime/gltf/import/values.h"
+#include "runtime/profile_rsl/effect_shaders.h"
+#include "runtime/profile_rsl/findings.h"
+
+namespace kinora {
+
+namespace {
+
+// A string is a file's name unless it holds code.
+bool is_file_name(const std::string& text) {
+    return text.ends_with(".sl") && text.find('\n') == std::string::npos;
+}
+
+std::optional<bool> bool_member(const tinygltf::Value& object, const char* name) {
+    const tinygltf::Value* value = member(object, name);
+    if (!value || !value->IsBool()) return std::nullopt;
+    return value->Get<bool>();
+}
+
+// "TEXCOORD_2" or "_HEAT" for a parameter.
+VertexBinding vertex_input(const std::string& param, const std::string& semantic) {
+    AttributeName name =
+        semantic.starts_with('_') ? own_attribute(semantic) : numbered_attribute(semantic);
+    if (name.name.empty()) return {param, semantic, kNone};
+    return {param, name.name, name.set};
+}
+
+}  // namespace
+
+PictureShaders RslExtras::picture_shaders(const tinygltf::Value& extras,
+                                          const std::string& pointer) {
+    PictureShaders picture;
+    const tinygltf::Value* rsl = member(extras, "kinora_rsl");
+    if (!rsl) return picture;
+    std::string own = pointer + "/extras/kinora_rsl";
+    picture.atmosphere = read_stage(*rsl, "atmosphere", rsl::ShaderKind::Volume, own);
+    picture.imagers = read_stage(*rsl, "imagers", rsl::ShaderKind::Imager, own);
+    return picture;
+}
+
+bool RslExtras::import_light(const tinygltf::Value& extras, const std::string& pointer,
+                             LightDefinition& to) {
+    const tinygltf::Value* rsl = member(extras, "kinora_rsl");
+    if (!rsl) return false;
+    std::vector<ShaderUse> uses =
+        read_stage(*rsl, "light", rsl::ShaderKind::Light, pointer + "/extras/kinora_rsl");
+    if (uses.empty()) return false;
+    to.shader = std::move(uses.front());
+    to.ambient = bool_member(*rsl, "ambient").value_or(false);
+    if (std::optional<bool> shadows = bool_member(*rsl, "shadows")) to.shadows = *shadows;
+    return true;
+}
+
+std::vector<VertexBinding> RslExtras::import_material(const tinygltf::Value& rsl,
+                                                      const std::string& pointer,
+                                                      MaterialDefinition& to) {
+    struct Row {
+        const char* name;
+        rsl::ShaderKind kind;
+        std::vector<ShaderUse> MaterialDefinition::*stack;
+    };
+    constexpr Row kRows[] = {
+        {"surface", rsl::ShaderKind::Surface, &MaterialDefinition::surfaces},
+        {"displacement", rsl::ShaderKind::Displacement, &MaterialDefinition::displacements},
+        {"transformation", rsl::ShaderKind::Transformation, &MaterialDefinition::transformations},
+        {"volume", rsl::ShaderKind::Volume, &MaterialDefinition::interior},
+        {"exterior", rsl::ShaderKind::Volume, &MaterialDefinition::exterior},
+        {"light", rsl::ShaderKind::Light, &MaterialDefinition::lights},
+    };
+    bool any = false;
+    std::vector<const rsl::Shader*> shaders;
+    for (const Row& row : kRows) {
+        any |= member(rsl, row.name) != nullptr;
+        std::vector<ShaderUse> uses = read_stage(rsl, row.name, row.kind, pointer);
+        for (const ShaderUse& use : uses) shaders.push_back(use.shader.get());
+        if (!uses.empty()) to.*row.stack = std::move(uses);
+    }
+    if (!any) report_.add(Code::GLTF_RSL, pointer, "it names no shader of a stage");
+    std::vector<VertexBinding> bindings;
+    if (const tinygltf::Value* inputs = member(rsl, "inputs"))
+        for (const std::string& param : member_names(*inputs))
+            bindings.push_back(vertex_input(param, string_member(*inputs, param.c_str())));
+    const tinygltf::Value* params = member(rsl, "params");
+    if (!params || shaders.empty()) return bindings;
+    for (const std::string& key : member_names(*params))
+        if (std::none_of(shaders.begin(), shaders.end(),
+                         [&](const rsl::Shader* s) { return find_parameter(*s, key); }))
+            report_unknown(*shaders.front(), key, pointer + "/params/" + key);
+    return bindings;
+}
+
+// A stage is one layer or a list of them, bottom first.
+std::vector<ShaderUse> RslExtras::read_stage(const tinygltf::Value& object, const char* stage,
+                                             rsl::ShaderKind kind, const std::string& pointer) {
+    std::vector<ShaderUse> uses;
+    const tinygltf::Value* value = member(object, stage);
+    if (!value) return uses;
+    const tinygltf::Value* params = member(object, "params");
+    auto add = [&](const tinygltf::Value& layer, const std::string& layer_pointer) {
+        ShaderUse use = read_layer(layer, params, kind, layer_pointer);
+        if (use.shader) uses.push_back(std::move(use));
+    };
+    std::string own = pointer + "/" + stage;
+    if (!value->IsArray()) add(*value, own);
+    for (size_t i = 0; value->IsArray() && i < value->ArrayLen(); ++i)
+        add(value->Get(int(i)), fmt::format("{}/{}", own, i));
+    return uses;
+}
+
+// No shader where there is none of that kind. `params` are those of all layers.
+ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Value* params,
+                                rsl::ShaderKind kind, const std::string& pointer) {
+    ShaderUse use;
+    std::string name = string_member(layer, "shader");
+    Shaders shaders = compile(layer, pointer);
+    for (auto& shader : shaders)
+        if (!use.shader && shader->kind == kind && (name.empty() || shader->name == name))
+            use.shader = shader;
+    if (!use.shader) {
+        if (!shaders.empty())
+            diagnostics_.report(Code::RSL_SHADER_MISSING, report_.location(pointer),
+                                rsl::shader_kind_name(kind),
+                                name.empty() ? "" : fmt::format(" named '{}'", name));
+        return use;
+    }
+    set_params(layer, params, pointer, use);
+    if (const tinygltf::Value* sets = member(layer, "texcoords"))
+        for (ParamSource& source : use.params)
+            if (const tinygltf::Value* set = member(*sets, source.name.c_str()))
+                if (set->IsNumber())
+                    source.texcoord = fmt::format("TEXCOORD_{}", set->GetNumberAsInt());
+    return use;
+}
+
+// The shaders that a layer's value holds: of a file, of code, or one of the program's own.
+RslExtras::Shaders RslExtras::compile(const tinygltf::Value& layer, const std::string& pointer) {
+    std::string text = layer.IsString() ? layer.Get<std::string>() : "";
+    std::string file = is_file_name(text) ? text : string_member(layer, "file");
+    std::string library = string_member(layer, "library");
+    std::string code_pointer = layer.IsString() ? pointer : pointer + "/code";
+    rsl::CompileOptions options;
+    options.include_directories = options_.include_directories;
+    options.files = out_.readable;
+    Shaders shaders;
+    auto take = [&](auto compiled) {
+        for (auto& shader : compiled) shaders.push_back(std::move(shader));
+    };
+    if (!library.empty()) {
+        if (auto shader = library_shader(library, diagnostics_))
+            shaders.push_back(std::move(shader));
+        else
+            report_.add(Code::GLTF_RSL, pointer,
+                        fmt::format("there is no library shader '{}'", library));
+    } else if (!file.empty()) {
+        std::string path = gltf_path(file_, file);
+        if (may_read_gltf(file_, options_, path))
+            take(rsl::compile_file(path, options, diagnostics_));
+        else
+            report_.add(Code::GLTF_FILE, pointer, path, "it lies outside the scene's folder");
+    } else if (std::optional<JsonRange> range = json_find(file_.json, code_pointer)) {
+        rsl::ShaderSource source;
+        std::string code = json_string(file_.json, *range, file_.file, source.map);
+        source.text = code;
+        take(rsl::compile(source, options, diagnostics_));
+    } else {
+        report_.add(Code::GLTF_RSL, pointer, "it has no file, no code and no library");
+    }
+    return shaders;
+}
+
+// Those of the layer itself, then those of all layers that this shader has.
+void RslExtras::set_params(const tinygltf::Value& layer, const tinygltf::Value* params,
+                           const std::string& pointer, ShaderUse& use) {
+    if (const tinygltf::Value* own = member(layer, "params"))
+        for (const std::string& key : member_names(*own)) {
+            std::string param_pointer = pointer + "/params/" + key;
+            if (find_parameter(*use.shader, key))
+                set_param(use, key, own->Get(key), param_pointer);
+            else
+                report_unknown(*use.shader, key, param_pointer);
+        }
+    if (params)
+        for (const std::string& key : member_names(*params))
+            if (find_parameter(*use.shader, key))
+                set_param(use, key, params->Get(key), pointer + "/params/" + key);
+}
+
+void RslExtras::set_param(ShaderUse& use, const std::string& name, const tinygltf::Value& value,
+                          const std::string& pointer) {
+    const rsl::ShaderParameter& parameter = *find_parameter(*use.shader, name);
+    ParamSource source;
+    source.name = name;
+    source.where = report_.location(pointer);
+    auto refuse = [&](const std::string& what) {
+        report_.add(Code::RSL_BIND_TYPE, pointer, name, rsl::type_name(parameter.type), what);
+    };
+    if (parameter.type.base == rsl::BaseType::String) {
+        if (!read_strings(value, pointer, source))
+            return refuse("what is no string and no texture");
+    } else {
+        std::vector<double> numbers;
+        if (!append_numbers(value, numbers) || numbers.empty()) return refuse("what is no number");
+        uint32_t needed = uint32_t(rsl::component_count(parameter.type.base)) *
+                          uint32_t(std::max(parameter.type.array_length, 1));
+        bool fits = numbers.size() == needed || (numbers.size() == 1 && needed == 3);
+        if (!fits) return refuse(fmt::format("{} numbers", numbers.size()));
+        source.value = {append_values(out_.values, numbers, numbers.size()),
+                        uint32_t(numbers.size())};
+    }
+    use.params.push_back(std::move(source));
+}
+
+// A string, the path of a file that may be read, or a texture; false for other values.
+bool RslExtras::read_strings(const tinygltf::Value& value, const std::string& pointer,
+                             ParamSource& source) {
+    if (value.IsString()) {
+        std::string text = value.Get<std::string>();
+        std::string path = gltf_path(file_, text);
+        bool is_own = may_read_gltf(file_, options_, path);
+        std::error_code code;
+        bool is_file = !path.empty() && std::filesystem::is_regular_file(path, code);
+        if (is_file && !is_own)
+            report_.add(Code::GLTF_FILE, pointer, path, "it lies outside the scene's folder");
+        source.strings = {is_file && is_own ? path : text};
+        return true;
+    }
+    const tinygltf::Value* texture = member(value, "texture");
+    if (!texture || !texture->IsNumber()) return false;
+    source.strings = {texture_of(value, texture->GetNumberAsInt(), pointer)};
+    return true;
+}
+
+// A texture's name with what the writer's name held beside its path (texture_name.h).
+std::string RslExtras::texture_of(const tinygltf::Value& value, int texture,
+                                  const std::string& pointer) {
+    bool is_data = bool_member(value, "data").value_or(false);
+    std::string name = textures_.texture_name(texture, is_data, pointer);
+    if (name.empty()) return name;
+    const tinygltf::Value* look = member(value, "look");
+    if (look && look->IsString()) {
+        std::string path = parse_texture_name(name).path;
+        name = texture_name_string(parse_texture_name(path + '\x1f' + look->Get<std::string>()));
+    }
+    std::vector<double> uv;
+    const tinygltf::Value* uv_value = member(value, "uv");  // TextureName::uv
+    if (uv_value && append_numbers(*uv_value, uv) && uv.size() == 4) {
+        TextureName parsed = parse_texture_name(name);
+        std::copy(uv.begin(), uv.end(), parsed.uv.begin());
+        name = texture_name_string(parsed);
+    }
+    return name;
+}
+
+void RslExtras::report_unknown(const rsl::Shader& shader, const std::string& name,
+                               const std::string& pointer) {
+    Finding* finding = report_.add(Code::RSL_BIND_UNKNOWN, pointer, shader.name, name);
+    if (!finding) return;
+    std::vector<std::string_view> names;
+    for (const auto& p : shader.parameters) names.push_back(p.name);
+    if (std::string_view near = nearest_name(name, names); !near.empty())
+        finding->help = fmt::format("did you mean '{}'?", near);
+}
+
+}  // namespace kinora

@@ -1,0 +1,46 @@
+// runtime/gltf/import/textures.h: glTF's textures, samplers and images as names that shaders look
+// up.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/description/scene_description.h"
+#include "runtime/gltf/file/byte_budget.h"
+
+namespace kinora {
+
+// Any of tinygltf's texture infos.
+struct GltfTextureInfo {
+    int index, set;
+    const tinygltf::ExtensionMap& extensions;
+};
+
+class TextureImporter {
+  public:
+    // Moves images out of file.model.
+    TextureImporter(GltfFile& file, const ImportOptions& options, GltfReport& report,
+                    ByteBudget& budget, SceneDescription& out)
+        : file_(file), options_(options), report_(report), budget_(budget), out_(out) {}
+
+    // The name of a texture (texture_name.h); "" where it cannot be read.
+    std::string texture_name(int texture, bool data, const std::string& pointer);
+
+    // Gives a shader X_map and what goes with it (assets/shaders/gltf_pbr.sl).
+    void set_map(ShaderUse& use, const std::string& name, const GltfTextureInfo& info, bool data,
+                 const std::string& pointer);
+
+  private:
+    std::string image_path(int image, const std::string& pointer);
+
+    GltfFile& file_;
+    const ImportOptions& options_;
+    GltfReport& report_;
+    ByteBudget& budget_;
+    SceneDescription& out_;
+    std::map<int, std::string> images_;  // their paths
+};
+
+}  // namespace kinora
