@@ -71,7 +71,7 @@ vec3 careful_normal(const Corners& corners, size_t i) {
     return largest > 0 ? vec3(n / largest) : vec3(0.0f);
 }
 
-void place(const Row& row, Block& block, size_t i) {
+void apply_placement(const Row& row, Block& block, size_t i) {
     vec3 p{block.P[0][i], block.P[1][i], block.P[2][i]};
     vec3 error{block.error[0][i], block.error[1][i], block.error[2][i]};
     place_point(row.placement, p, error);
@@ -120,7 +120,7 @@ void apply_rows(const std::vector<Row>& rows, const uint32_t* instance, size_t c
                 {std::abs(block.N[0][i]), std::abs(block.N[1][i]), std::abs(block.N[2][i])});
             if (largest > 0)
                 for (int c = 0; c < 3; ++c) block.N[c][i] /= largest;
-            place(row, block, i);
+            apply_placement(row, block, i);
         }
         if (row.seen.mirrored)
             for (int c = 0; c < 3; ++c) block.N[c][i] = -block.N[c][i];

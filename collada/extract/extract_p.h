@@ -71,7 +71,7 @@ struct Extraction {
     std::unordered_map<uint32_t, GeometrySymbols> symbols_of_geometry{};
     std::unordered_map<const Element*, NewParams> newparams_of{};      // by the element around them
     std::unordered_map<const Element*, NewParams> newparams_inside{};  // an effect's profiles
-    std::unordered_map<uint64_t, NameIndex> params_of_effect{};        // by the effect's place
+    std::unordered_map<uint64_t, NameIndex> params_of_effect{};        // by the effect's location
     std::unordered_map<uint32_t, NameIndex> setparams_of_material{};
     std::unordered_map<std::string, uint32_t> doc_by_link{};  // by the path as linked
     std::unordered_map<std::string, FolderImages> folders{};

@@ -100,8 +100,8 @@ uint32_t find_param(Extraction& x, const Effect& effect, std::string_view sid) {
             if (effect.params[i].sid == sid) return uint32_t(i);
         return kNone;
     }
-    uint64_t place = uint64_t(effect.where.file) << 32 | effect.where.begin;
-    NameIndex& index = x.params_of_effect[place];
+    uint64_t location = uint64_t(effect.where.file) << 32 | effect.where.begin;
+    NameIndex& index = x.params_of_effect[location];
     for (; index.known < effect.params.size(); ++index.known)
         index.at.insert_or_assign(effect.params[index.known].sid, uint32_t(index.known));
     auto found = index.at.find(std::string(sid));

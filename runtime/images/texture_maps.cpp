@@ -57,7 +57,7 @@ vec4 row_times(vec3 p, const std::array<float, 16>& m) {
 
 // A point as the map sees it: s, t in 0..1 from the lower left, and its depth.
 struct Seen {
-    vec2 place{0, 0};
+    vec2 position{0, 0};
     float depth = 0;
     bool inside = false;
 };
@@ -65,9 +65,9 @@ Seen seen_from(const TextureFacts& facts, vec3 world) {
     vec4 screen = row_times(world, facts.world_to_screen);
     float depth = row_times(world, facts.world_to_camera).z;
     if (!(screen.w > 0) || !(depth > 0)) return {};
-    vec2 place = (vec2(screen) / screen.w + 1.0f) * 0.5f;
-    bool inside = place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
-    return {place, depth, inside};
+    vec2 position = (vec2(screen) / screen.w + 1.0f) * 0.5f;
+    bool inside = position.x >= 0 && position.x <= 1 && position.y >= 0 && position.y <= 1;
+    return {position, depth, inside};
 }
 
 constexpr float kSlope = 0.002f;  // bias as a share of the depth, where none is given
@@ -83,7 +83,7 @@ float share_behind(const StoredImage& image, const Seen& at, vec2 extent, float 
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i) {
             vec2 offset = (vec2(float(i), float(j)) + 0.5f) / float(side) - 0.5f;
-            vec2 p = at.place + offset * extent;
+            vec2 p = at.position + offset * extent;
             if (!(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1)) continue;
             float z =
                 pyramid.texel(0, int(p.x * float(level.width)), int(p.y * float(level.height)))[0];
@@ -94,8 +94,8 @@ float share_behind(const StoredImage& image, const Seen& at, vec2 extent, float 
 
 // ---- six faces ----------------------------------------------------------------------------------
 
-// Face of a direction and the place on it, as OpenEXR lays out its cubes (ImfEnvmap.h): faces +x -x
-// +y -y +z -z from the top, the outermost texels' centres on the cube's edges.
+// Face of a direction and the position on it, as OpenEXR lays out its cubes (ImfEnvmap.h): faces +x
+// -x +y -y +z -z from the top, the outermost texels' centres on the cube's edges.
 struct OnFace {
     int face;
     float s, t;
@@ -154,7 +154,8 @@ void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current
         vec2 extent(1.0f / float(facts.width), 1.0f / float(facts.height));
         for (int from : {Dx, Dy}) {
             Seen beside = seen(p + triple(call, from, i));
-            if (beside.depth > 0) extent = glm::max(extent, glm::abs(beside.place - at.place));
+            if (beside.depth > 0)
+                extent = glm::max(extent, glm::abs(beside.position - at.position));
         }
         float blur = argument(call, Blur, i), samples = argument(call, Samples, i);
         extent = glm::min(extent, vec2(0.1f)) + std::clamp(blur, 0.0f, 1.0f);

@@ -94,7 +94,7 @@ class RestBounds {
 
     const collada::SceneData& scene_;
     std::vector<PlacedNode> placed_;
-    std::map<uint32_t, dmat4> world_;  // of a node's first place
+    std::map<uint32_t, dmat4> world_;  // of a node's first occurrence
     Bounds bounds_;
     bool any_ = false;
 };
