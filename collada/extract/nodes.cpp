@@ -17,14 +17,6 @@ uint32_t node_index(Extraction& x, Link link) {
 
 namespace {
 
-void read_node_instance(Extraction& x, Link link, Node& node) {
-    Link target = resolve(x, link, "url", {"node"});
-    if (!target) return;
-    uint32_t index = node_index(x, target);
-    if (index == kNone) return;
-    node.instances.push_back({index, conversion(x, link.doc, target.doc), x.where(link, "url")});
-}
-
 void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
     x.node_filled[number] = true;
     const Element& e = *link.element;

@@ -1,22 +1,14 @@
 // collada/validate/lint_nodes.cpp: node matrices that flatten, that a skin ignores; many
 // influences.
 #include <algorithm>
-#include <cmath>
 
 #include "collada/scene/node_occurrences.h"
 #include "collada/validate/lint_p.h"
+#include "runtime/base/transform_matrix.h"
 
 namespace kinora::collada {
 
 namespace {
-
-bool flattens(const dmat4& m) {
-    dvec3 a(m[0]), b(m[1]), c(m[2]);
-    double volume = a.x * (b.y * c.z - b.z * c.y) - b.x * (a.y * c.z - a.z * c.y) +
-                    c.x * (a.y * b.z - a.z * b.y);
-    double size = std::hypot(a.x, a.y, a.z) * std::hypot(b.x, b.y, b.z) * std::hypot(c.x, c.y, c.z);
-    return !(std::abs(volume) > 1e-12 * size);
-}
 
 std::string label(const Node& node) {
     return node.id.empty() ? node.name : node.id;
@@ -29,7 +21,7 @@ constexpr const char* kInstead[] = {"", "binds it with its matrix", "moves it wi
 void check_flat(Lint& lint, const NodeOccurrences& occurrences, const NodeOccurrence& occurrence) {
     const Node& node = lint.scene.nodes[occurrence.node];
     bool shows = !node.meshes.empty() || !node.children.empty() || !node.instances.empty();
-    if (shows && !occurrences.animated(occurrence.node) && flattens(occurrence.local))
+    if (shows && !occurrences.animated(occurrence.node) && is_singular(occurrence.local))
         lint.diag.report(Code::NODE_SINGULAR, node.where, label(node));
 }
 
