@@ -117,11 +117,14 @@ OnFace face_of(vec3 d) {
 }  // namespace
 
 void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::textureinfo, name).first;
+    };
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         float values[16] = {};
-        int32_t name = jit::bits_of(argument(call, 0, i));
-        const std::string& field = rsl::interned(jit::bits_of(argument(call, 1, i)));
+        int32_t name = jit::bits_of(argument(call, at("map"), i));
+        const std::string& field = rsl::interned(jit::bits_of(argument(call, at("field"), i)));
         int count = 0;
         // To ask whether a file is there is no use of it.
         const Texture* texture = store.find(name);
@@ -136,38 +139,43 @@ void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
 
 void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current,
                    TextureStore& store) {
-    enum { Name, P = 1, Dx = 4, Dy = 7, Bias = 10, Blur, Samples };
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::shadow, name).first;
+    };
     mat4 to_world(world_from_current);
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = 0;
-        const Texture* texture = find_texture(store, jit::bits_of(argument(call, Name, i)));
+        const Texture* texture = find_texture(store, jit::bits_of(argument(call, at("map"), i)));
         if (!texture || !texture->image->error.empty() || !texture->image->facts.has_matrices)
             continue;
         const TextureFacts& facts = texture->image->facts;
         auto seen = [&](vec3 current) {
             return seen_from(facts, vec3(to_world * vec4(current, 1)));
         };
-        vec3 p = triple(call, P, i);
-        Seen at = seen(p);
-        if (!at.inside) continue;
+        vec3 p = triple(call, at("P"), i);
+        Seen point = seen(p);
+        if (!point.inside) continue;
         vec2 extent(1.0f / float(facts.width), 1.0f / float(facts.height));
-        for (int from : {Dx, Dy}) {
+        for (int from : {at("dPdx"), at("dPdy")}) {
             Seen beside = seen(p + triple(call, from, i));
             if (beside.depth > 0)
-                extent = glm::max(extent, glm::abs(beside.position - at.position));
+                extent = glm::max(extent, glm::abs(beside.position - point.position));
         }
-        float blur = argument(call, Blur, i), samples = argument(call, Samples, i);
+        float blur = argument(call, at("blur"), i), samples = argument(call, at("samples"), i);
         extent = glm::min(extent, vec2(0.1f)) + std::clamp(blur, 0.0f, 1.0f);
         int side =
             int(std::ceil(std::sqrt(std::clamp(samples, 1.0f, float(kMostSide * kMostSide)))));
-        float hidden = share_behind(*texture->image, at, extent, argument(call, Bias, i), side);
+        float hidden =
+            share_behind(*texture->image, point, extent, argument(call, at("bias"), i), side);
         for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = hidden;
     }
 }
 
 void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_t mask) {
-    enum { Name, Channel, R, Dx = 5, Dy = 8, Blur = 11, Fill };
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::environment, name).first;
+    };
     alignas(64) float s[kLanes] = {}, t[kLanes] = {}, ds[kLanes] = {}, zero[kLanes] = {},
                       one[kLanes];
     int face[kLanes] = {};
@@ -175,18 +183,20 @@ void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_
     float size = float(image.faces[0].levels[0].width);
     for (int i = 0; i < kLanes; ++i) {
         if (!(mask >> i & 1)) continue;
-        vec3 d = triple(call, R, i), dx = triple(call, Dx, i), dy = triple(call, Dy, i);
-        OnFace at = face_of(d);
+        vec3 d = triple(call, at("R"), i), dx = triple(call, at("dRdx"), i),
+             dy = triple(call, at("dRdy"), i);
+        OnFace on = face_of(d);
         float large = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         auto on_texels = [&](float x) { return ((x + 1) * 0.5f * (size - 1) + 0.5f) / size; };
-        face[i] = at.face;
-        s[i] = on_texels(at.s), t[i] = on_texels(at.t);
+        face[i] = on.face;
+        s[i] = on_texels(on.s), t[i] = on_texels(on.t);
         float width = std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))) / (2 * large);
         ds[i] = width >= 0 ? std::min(width, 1.0f) : 0;
     }
     auto row = [&](int index) { return call.args + index * kLanes; };
-    TextureLanes lanes{row(Channel), s,         t,   ds,  zero,      zero,
-                       ds,           row(Blur), one, one, row(Fill), call.results};
+    TextureLanes lanes{
+        row(at("channel")), s,           t, ds, zero, zero, ds, row(at("blur")), one, one,
+        row(at("fill")),    call.results};
     TextureName modes;
     modes.wrap_s = modes.wrap_t = TextureWrap::Clamp;
     for (int f = 0; f < 6; ++f) {
