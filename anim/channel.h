@@ -17,7 +17,7 @@ struct Channel {
     uint32_t owner = 0;  // bit set when one of these numbers changes
 };
 
-// Place of COLLADA's `matrix(column)(row)` within a slot that holds a <matrix>: matrix(3)(0) is 3.
+// Index of COLLADA's `matrix(column)(row)` within a slot that holds a <matrix>: matrix(3)(0) is 3.
 constexpr uint32_t matrix_slot(uint32_t column, uint32_t row) {
     return row * 4 + column;
 }

@@ -24,14 +24,14 @@ struct StaticGroup {
 
 // What instanced rows of one Geometry::shape share. A shape that has never deformed has a static
 // scene of MEDIUM quality; at its first deformation it gets a dynamic one, to be refitted.
-struct Shape {
+struct InstancedShape {
     uint32_t first_row = 0;
     bool dynamic = false;
     EmbreeScene scene;
     EmbreeMesh mesh;
 };
 
-struct Row {
+struct GeometryState {
     Geometry seen;          // as given to the last update
     bool usable = false;    // false: left out, an issue says why
     bool attached = false;  // Instanced: in the top scene (its matrix has an inverse)
@@ -66,9 +66,9 @@ struct BackgroundBuild {
 
 struct Accel::State {
     AccelPolicy policy;
-    std::vector<Row> rows;
+    std::vector<GeometryState> rows;
     std::vector<std::unique_ptr<StaticGroup>> groups;
-    std::vector<Shape> shapes;
+    std::vector<InstancedShape> shapes;
     HitMap map;
     EmbreeScene top;
     AccelUpdate report;

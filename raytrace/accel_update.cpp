@@ -49,7 +49,7 @@ bool Updater::must_start_anew(std::span<const Geometry> geometry) const {
 }
 
 void Updater::map_row(uint32_t row) {
-    const Row& r = s.rows[row];
+    const GeometryState& r = s.rows[row];
     HitMap::Row& m = s.map.rows[row];
     m.id = r.seen.id;
     m.body = r.seen.body == kNone ? row : r.seen.body;
@@ -86,7 +86,7 @@ void Updater::add_static_groups() {
     std::map<std::pair<bool, bool>, StaticGroup*> groups;
     std::map<std::pair<const StaticGroup*, const vec4*>, uint32_t> bases;
     for (uint32_t i = 0; i < s.rows.size(); ++i) {
-        const Row& row = s.rows[i];
+        const GeometryState& row = s.rows[i];
         const Geometry& g = row.seen;
         if (g.kind != GeometryKind::Static || !row.usable) continue;
         watch(g);
@@ -118,7 +118,7 @@ void Updater::add_static_groups() {
 }
 
 void Updater::add_deforming(uint32_t index) {
-    Row& row = s.rows[index];
+    GeometryState& row = s.rows[index];
     row.slot = uint32_t(s.map.slots.size());
     s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
     if (row.usable) rebuild(row, deforming_quality(), watch(row.seen).sum);
@@ -126,7 +126,7 @@ void Updater::add_deforming(uint32_t index) {
 
 // Replaces the row's mesh: a new one is the only way to another quality, and the sure way to a tree
 // built from the vertices as they are.
-void Updater::rebuild(Row& row, BuildQuality quality, double area) {
+void Updater::rebuild(GeometryState& row, BuildQuality quality, double area) {
     const Geometry& g = row.seen;
     if (row.attached) s.top.detach(row.slot);
     row.mesh = EmbreeMesh(g.positions, g.triangles, quality, mask_of(g), filtered(g));
@@ -139,7 +139,7 @@ void Updater::rebuild(Row& row, BuildQuality quality, double area) {
 }
 
 bool Updater::update_deforming(uint32_t index, const Geometry& now) {
-    Row& row = s.rows[index];
+    GeometryState& row = s.rows[index];
     const bool same = same_buffers(row.seen, now);
     if (same && row.seen.positions_version == now.positions_version) return false;
     row.seen = now;
@@ -158,7 +158,7 @@ bool Updater::update_deforming(uint32_t index, const Geometry& now) {
     return true;
 }
 
-void Updater::refit_or_rebuild(Row& row) {
+void Updater::refit_or_rebuild(GeometryState& row) {
     if (row.quality == BuildQuality::Medium) {  // always_rebuild
         watch(row.seen);
         row.mesh.vertices_moved();
@@ -182,7 +182,7 @@ void Updater::refit_or_rebuild(Row& row) {
 }
 
 // The mesh grew past low_limit before: LOW at each update, until it has been calm for a while.
-void Updater::rebuild_low(Row& row, double area) {
+void Updater::rebuild_low(GeometryState& row, double area) {
     const double limit = double(s.policy.refit_limit);
     const bool calm = area < limit * row.area_at_build && row.area_at_build < limit * area;
     const int calm_updates = calm ? row.calm_updates + 1 : 0;

@@ -17,10 +17,10 @@ enum class GeometryKind : uint8_t {
     Instanced,  // moves rigidly or is repeated: one structure per shape, one matrix per row
 };
 
-// One placed surface. The buffers stay the caller's and must keep their places until the row's next
-// change is told to update(): update() and Accel::surface_points read them and, for Deforming and
-// Instanced rows, every ray does.
-// Accel space = world space relative to the caller's scene origin, as floats.
+// One placed surface. The buffers stay the caller's and must keep their addresses until the row's
+// next change is told to update(): update() and Accel::surface_points read them and, for Deforming
+// and Instanced rows, every ray does. Accel space = world space relative to the caller's scene
+// origin, as floats.
 struct Geometry {
     uint32_t id = 0;  // the caller's name for this row; hits carry it
     GeometryKind kind = GeometryKind::Static;

@@ -16,7 +16,7 @@ struct Corners {
     float p[3][3][kBlock];  // corner, component, hit
 };
 
-void gather(const std::vector<Row>& rows, size_t count, const uint32_t* instance,
+void gather(const std::vector<GeometryState>& rows, size_t count, const uint32_t* instance,
             const uint32_t* primitive, Corners& corners) {
     for (size_t i = 0; i < kBlock; ++i) {
         size_t from = std::min(i, count - 1);  // the tail repeats the last hit
@@ -71,7 +71,7 @@ vec3 careful_normal(const Corners& corners, size_t i) {
     return largest > 0 ? vec3(n / largest) : vec3(0.0f);
 }
 
-void place(const Row& row, Block& block, size_t i) {
+void apply_placement(const GeometryState& row, Block& block, size_t i) {
     vec3 p{block.P[0][i], block.P[1][i], block.P[2][i]};
     vec3 error{block.error[0][i], block.error[1][i], block.error[2][i]};
     place_point(row.placement, p, error);
@@ -111,16 +111,16 @@ void normalize(Block& block) {
 }
 
 // Instances and mirrors are rarer than plain rows: lane by lane.
-void apply_rows(const std::vector<Row>& rows, const uint32_t* instance, size_t count,
+void apply_rows(const std::vector<GeometryState>& rows, const uint32_t* instance, size_t count,
                 Block& block) {
     for (size_t i = 0; i < count; ++i) {
-        const Row& row = rows[instance[i]];
+        const GeometryState& row = rows[instance[i]];
         if (row.seen.kind == GeometryKind::Instanced) {
             float largest = std::max(
                 {std::abs(block.N[0][i]), std::abs(block.N[1][i]), std::abs(block.N[2][i])});
             if (largest > 0)
                 for (int c = 0; c < 3; ++c) block.N[c][i] /= largest;
-            place(row, block, i);
+            apply_placement(row, block, i);
         }
         if (row.seen.mirrored)
             for (int c = 0; c < 3; ++c) block.N[c][i] = -block.N[c][i];
@@ -131,7 +131,7 @@ void apply_rows(const std::vector<Row>& rows, const uint32_t* instance, size_t c
 
 void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_t* primitive,
                            const float* u, const float* v, const SurfacePoints& out) const {
-    const std::vector<Row>& rows = state_->rows;
+    const std::vector<GeometryState>& rows = state_->rows;
     Corners corners;
     Block block;
     for (size_t first = 0; first < count; first += kBlock) {

@@ -12,7 +12,7 @@ void Updater::start_background() {
     build.scene = EmbreeScene(true, s.policy.robust);
     for (auto& group : s.groups) build.scene.attach(group->mesh, group->slot);
     for (uint32_t i = 0; i < s.rows.size(); ++i) {
-        Row& row = s.rows[i];
+        GeometryState& row = s.rows[i];
         const Geometry& g = row.seen;
         if (g.kind != GeometryKind::Deforming || !row.usable) continue;
         auto& copy = build.copies.emplace_back();
@@ -36,14 +36,14 @@ void Updater::take_up_background() {
     BackgroundBuild& build = *s.background;
     build.thread.join();
     for (auto& copy : build.copies) {
-        Row& row = s.rows[copy.row];
+        GeometryState& row = s.rows[copy.row];
         copy.mesh.vertices_moved_to(row.seen.positions);
         row.mesh = std::move(copy.mesh);
         row.quality = BuildQuality::Refit;
         row.area_at_build = copy.area;
         row.calm_updates = 0;
     }
-    for (Row& row : s.rows)
+    for (GeometryState& row : s.rows)
         if (row.seen.kind == GeometryKind::Instanced && row.attached)
             build.scene.attach(row.instance, row.slot);
     s.top = std::move(build.scene);

@@ -6,7 +6,7 @@
 
 namespace kinora::raytrace {
 
-void Updater::build_shape(Shape& shape, bool dynamic) {
+void Updater::build_shape(InstancedShape& shape, bool dynamic) {
     const Geometry& g = s.rows[shape.first_row].seen;
     watch(g);
     shape.dynamic = dynamic;
@@ -23,7 +23,7 @@ void Updater::build_shape(Shape& shape, bool dynamic) {
 }
 
 void Updater::add_instanced(uint32_t index) {
-    Row& row = s.rows[index];
+    GeometryState& row = s.rows[index];
     row.slot = uint32_t(s.map.slots.size());
     s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
     if (!row.usable) return;
@@ -41,9 +41,9 @@ void Updater::add_instanced(uint32_t index) {
 
 // The first row of a shape speaks for it. Returns whether its tree changed.
 bool Updater::update_shape(uint32_t index, const Geometry& now) {
-    Row& row = s.rows[index];
+    GeometryState& row = s.rows[index];
     if (row.shape == kNone || s.shapes[row.shape].first_row != index) return false;
-    Shape& shape = s.shapes[row.shape];
+    InstancedShape& shape = s.shapes[row.shape];
     const bool same = same_buffers(row.seen, now);
     if (same && row.seen.positions_version == now.positions_version) return false;
     dmat4 matrix = row.seen.accel_from_local;  // compared by update_instance
@@ -52,7 +52,7 @@ bool Updater::update_shape(uint32_t index, const Geometry& now) {
     if (!same || !shape.dynamic) {
         build_shape(shape, same);
         // Instances hold on to the scene they were made of.
-        for (Row& r : s.rows)
+        for (GeometryState& r : s.rows)
             if (r.shape == row.shape && r.attached) {
                 s.top.detach(r.slot);
                 r.attached = false;
@@ -66,7 +66,7 @@ bool Updater::update_shape(uint32_t index, const Geometry& now) {
 }
 
 bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_changed) {
-    Row& row = s.rows[index];
+    GeometryState& row = s.rows[index];
     if (row.shape == kNone) return false;
     const bool moved =
         std::memcmp(&row.seen.accel_from_local, &now.accel_from_local, sizeof(dmat4)) != 0;
@@ -89,7 +89,7 @@ bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_ch
 
 void Updater::limit_origins() {
     s.largest_origin = kLargest;
-    for (const Row& row : s.rows)
+    for (const GeometryState& row : s.rows)
         if (row.seen.kind == GeometryKind::Instanced && row.attached)
             s.largest_origin = std::min(s.largest_origin, row.placement.largest_origin);
 }

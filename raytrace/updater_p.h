@@ -29,16 +29,16 @@ class Updater {
     void add_static_groups();
     void add_deforming(uint32_t row);
     void add_instanced(uint32_t row);
-    void build_shape(Shape& shape, bool dynamic);
+    void build_shape(InstancedShape& shape, bool dynamic);
     void map_row(uint32_t row);
     bool sound(const Geometry& g);
     void note(GeometryIssue issue, uint32_t id, uint32_t count);
     BoxAreas watch(const Geometry& g);
 
     bool update_deforming(uint32_t row, const Geometry& now);
-    void refit_or_rebuild(Row& row);
-    void rebuild(Row& row, BuildQuality quality, double area);
-    void rebuild_low(Row& row, double area);
+    void refit_or_rebuild(GeometryState& row);
+    void rebuild(GeometryState& row, BuildQuality quality, double area);
+    void rebuild_low(GeometryState& row, double area);
     bool update_shape(uint32_t row, const Geometry& now);
     bool update_instance(uint32_t row, const Geometry& now, bool shape_changed);
 
@@ -51,7 +51,7 @@ class Updater {
     }
 
     Accel::State& s;
-    std::map<uint32_t, uint32_t> shape_of_;  // Geometry::shape -> index of its Shape
+    std::map<uint32_t, uint32_t> shape_of_;  // Geometry::shape -> index in AccelState::shapes
     bool want_background_ = false;
 };
 

@@ -287,7 +287,7 @@ void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hi
     move(r.pixel_x), move(r.pixel_y), move(r.sample), move(r.share), move(r.medium), move(r.slot);
     r.layer[to] = hits.layer[k] + 1;
     const uint32_t body = accel.body(hits.instance[k]);
-    if (hits.beside[k]) {  // one more at the same place
+    if (hits.beside[k]) {  // one more at the same point
         r.passed_last[to] = body;
         return;
     }

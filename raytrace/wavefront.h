@@ -41,7 +41,7 @@ struct HitBatch {
     const uint32_t* sample;
     const uint32_t* layer;           // surfaces already passed by this ray
     const uint32_t* ray;             // index of the ray in the batch that was traced
-    const uint32_t* beside;          // 1: at the place of the surface that the ray went on from
+    const uint32_t* beside;          // 1: at the point of the surface that the ray went on from
     const RayBatch* rays = nullptr;  // that batch; rays->medium[ray[k]] is what hit k came through
 };
 
@@ -120,8 +120,8 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
 const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance, HitStore& store);
 
 // Ray `to` of the batch becomes the ray of hit k as it goes on behind it, its footprint, slot and
-// all; it meets what other bodies have at the very place of the hit before what lies behind, each
-// body once. `to` must not lie behind the ray's old place (hits come in the order of rays); the
+// all; it meets what other bodies have at the very point of the hit before what lies behind, each
+// body once. `to` must not lie behind the ray's old index (hits come in the order of rays); the
 // layer counts on, the medium is the caller's to set. Afterwards RayBatch::passing must be set,
 // and all rays of the batch be such.
 void pass_through(const Accel& accel, RayBatch& rays, size_t to, const HitBatch& hits, size_t k);

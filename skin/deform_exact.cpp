@@ -8,12 +8,12 @@
 
 namespace kinora::skin {
 
-void exact_normal(const float* palette, const float* weights, const uint32_t* places,
+void exact_normal(const float* palette, const float* weights, const uint32_t* offsets,
                   uint32_t rounds, uint32_t vertex, const float* rest, float* normal) {
     dvec3 c[3] = {dvec3(0), dvec3(0), dvec3(0)};
     for (uint32_t r = 0; r < rounds; ++r) {
         const uint32_t entry = entry_of(rounds, r, vertex);
-        const float* m = palette + places[entry];
+        const float* m = palette + offsets[entry];
         double w = weights[entry];
         if (w == 0) continue;  // padding
         for (int i = 0; i < 3; ++i) c[i] += w * dvec3(m[4 * i], m[4 * i + 1], m[4 * i + 2]);

@@ -20,44 +20,44 @@ constexpr uint32_t kBlock = 16;
 // acc = or += weight * matrix by influence k of kLanes vertices. A vertex's matrix fills 4 / kLanes
 // vectors; w[v] stands for the vertex's weights of this set.
 template <class V, uint32_t kSet, uint32_t k, bool kFirst>
-KINORA_INLINE void add_influence(const float* palette, const uint32_t* places,
+KINORA_INLINE void add_influence(const float* palette, const uint32_t* offsets,
                                  const typename V::Weights* w, typename V::Vec acc[4]) {
     constexpr uint32_t kParts = 4 / V::kLanes;
 #pragma GCC unroll 4
     for (uint32_t i = 0; i < 4; ++i) {
         const uint32_t vertex = i / kParts, part = i % kParts;
-        const float* matrix = palette + places[vertex * kSet + k];
+        const float* matrix = palette + offsets[vertex * kSet + k];
         const auto m = V::load(matrix + part * 4 * V::kLanes);
         const auto weight = V::template weight<k>(w[vertex]);
         acc[i] = kFirst ? V::mul(m, weight) : V::fma(m, weight, acc[i]);
     }
 }
 
-// One set of 1..4 influences; `weights` and `places` are at the first of the kLanes vertices.
+// One set of 1..4 influences; `weights` and `offsets` are at the first of the kLanes vertices.
 template <class V, uint32_t kSet, bool kFirst>
-KINORA_INLINE void add_set(const float* palette, const float* weights, const uint32_t* places,
+KINORA_INLINE void add_set(const float* palette, const float* weights, const uint32_t* offsets,
                            typename V::Vec acc[4]) {
     typename V::Weights w[V::kLanes];
 #pragma GCC unroll 4
     for (uint32_t v = 0; v < V::kLanes; ++v) w[v] = V::weights(weights + v * kSet);
-    add_influence<V, kSet, 0, kFirst>(palette, places, w, acc);
-    if constexpr (kSet > 1) add_influence<V, kSet, 1, false>(palette, places, w, acc);
-    if constexpr (kSet > 2) add_influence<V, kSet, 2, false>(palette, places, w, acc);
-    if constexpr (kSet > 3) add_influence<V, kSet, 3, false>(palette, places, w, acc);
+    add_influence<V, kSet, 0, kFirst>(palette, offsets, w, acc);
+    if constexpr (kSet > 1) add_influence<V, kSet, 1, false>(palette, offsets, w, acc);
+    if constexpr (kSet > 2) add_influence<V, kSet, 2, false>(palette, offsets, w, acc);
+    if constexpr (kSet > 3) add_influence<V, kSet, 3, false>(palette, offsets, w, acc);
 }
 
 // Columns c[0..3] of the blended matrices of vertices vertex .. vertex + kLanes - 1 of a block.
 // kRounds: the block's rounds if at most four, else 0.
 template <class V, uint32_t kRounds>
-KINORA_INLINE void blend(const float* palette, const float* weights, const uint32_t* places,
+KINORA_INLINE void blend(const float* palette, const float* weights, const uint32_t* offsets,
                          uint32_t rounds, uint32_t vertex, typename V::Vec c[4]) {
     typename V::Vec acc[4];
     constexpr uint32_t kSet = kRounds ? kRounds : 4;
-    add_set<V, kSet, true>(palette, weights + vertex * kSet, places + vertex * kSet, acc);
+    add_set<V, kSet, true>(palette, weights + vertex * kSet, offsets + vertex * kSet, acc);
     if constexpr (kRounds == 0) {
         for (uint32_t done = 4; done < rounds; done += 4) {
             const float* w = weights + done * kBlock;
-            const uint32_t* p = places + done * kBlock;
+            const uint32_t* p = offsets + done * kBlock;
             switch (rounds - done) {
                 case 1:
                     add_set<V, 1, false>(palette, w + vertex, p + vertex, acc);
@@ -131,7 +131,7 @@ KINORA_INLINE uint32_t store_unit(const typename V::Vec n[4], const typename V::
 struct BlockView {
     const float* palette;
     const float* weights;
-    const uint32_t* places;
+    const uint32_t* offsets;
     uint32_t rounds;
     const float* rest_positions;
     const float* rest_normals;
@@ -145,7 +145,7 @@ KINORA_INLINE void redo_normals(uint32_t outside, const BlockView& b, uint32_t q
     for (uint32_t bit = 0; bit < 4 * V::kLanes; ++bit) {
         if (!(outside >> bit & 1)) continue;
         const uint32_t vertex = quad + (bit % 4) * V::kLanes + bit / 4;
-        exact_normal(b.palette, b.weights, b.places, b.rounds, vertex, b.rest_normals + 4 * vertex,
+        exact_normal(b.palette, b.weights, b.offsets, b.rounds, vertex, b.rest_normals + 4 * vertex,
                      b.normals + 4 * vertex);
     }
 }
@@ -160,7 +160,7 @@ KINORA_INLINE void deform_block(const BlockView& b) {
         for (uint32_t group = 0; group < 4; ++group) {
             const uint32_t vertex = quad + group * V::kLanes;
             typename V::Vec c[4];
-            blend<V, kRounds>(b.palette, b.weights, b.places, b.rounds, vertex, c);
+            blend<V, kRounds>(b.palette, b.weights, b.offsets, b.rounds, vertex, c);
             if constexpr (kPositions)
                 V::store(b.positions + 4 * vertex,
                          transform_position<V>(c, b.rest_positions + 4 * vertex));
@@ -181,7 +181,7 @@ void deform_blocks(const DeformTask& task, size_t begin_block, size_t end_block)
         const size_t first = task.first[block], at = (block - begin_block) * 4 * kBlock;
         const BlockView view{task.palette,
                              task.weights + first * kBlock,
-                             task.places + first * kBlock,
+                             task.offsets + first * kBlock,
                              static_cast<uint32_t>(task.first[block + 1] - first),
                              task.rest_positions + at,
                              task.rest_normals + at,

@@ -10,12 +10,12 @@
 namespace kinora::skin {
 
 // Blocks of 16 vertices. The float arrays hold 4 floats a vertex and start at the first block to be
-// done; first, weights and places are the whole arrays of InfluenceBlocks.
+// done; first, weights and offsets are the whole arrays of InfluenceBlocks.
 struct DeformTask {
     const float* palette;
     const uint32_t* first;
     const float* weights;
-    const uint32_t* places;
+    const uint32_t* offsets;
     const float* rest_positions;
     const float* rest_normals;
     float* positions;
@@ -39,8 +39,8 @@ extern const DeformKernel kAvx512Kernel;
 inline constexpr float kLeastSafe = 1e-30f;
 inline constexpr float kMostSafe = 1e30f;
 
-// The normal of one vertex (0..15) of a block in double; weights, places: the block's.
-void exact_normal(const float* palette, const float* weights, const uint32_t* places,
+// The normal of one vertex (0..15) of a block in double; weights, offsets: the block's.
+void exact_normal(const float* palette, const float* weights, const uint32_t* offsets,
                   uint32_t rounds, uint32_t vertex, const float* rest, float* normal);
 
 }  // namespace kinora::skin

@@ -7,11 +7,11 @@
 namespace kinora::skin {
 namespace {
 
-constexpr uint32_t kPlace = sizeof(JointMatrix) / sizeof(float);
+constexpr uint32_t kMatrixFloats = sizeof(JointMatrix) / sizeof(float);
 constexpr double kSumTolerance = 1e-3;  // docs/numerics.md#skins: sums nearer to 1 need no warning
 
 struct RawInfluence {
-    uint32_t place;
+    uint32_t offset;
     double weight;
 };
 
@@ -30,7 +30,7 @@ void collect(const InfluenceSource& source, size_t vertex, std::vector<RawInflue
         } else if (!std::isfinite(weight)) {
             ++repairs.non_finite;
         } else if (weight != 0) {
-            raw.push_back({static_cast<uint32_t>(joint + 1) * kPlace, weight});
+            raw.push_back({static_cast<uint32_t>(joint + 1) * kMatrixFloats, weight});
         }
     }
 }
@@ -69,7 +69,7 @@ void append_normalised(const std::vector<RawInfluence>& raw, double sum,
     size_t begin = out.size(), largest = begin;
     double rest = 1;
     for (const RawInfluence& r : raw) {
-        out.push_back({r.place, static_cast<float>(r.weight / sum)});
+        out.push_back({r.offset, static_cast<float>(r.weight / sum)});
         rest -= out.back().weight;
         if (std::abs(out.back().weight) > std::abs(out[largest].weight)) largest = out.size() - 1;
     }
@@ -89,7 +89,7 @@ CleanInfluences clean_influences(const InfluenceSource& source, SkinRepairs& rep
         double sum = sum_of(raw);
         if (std::abs(sum) < 1e-12) {  // also weights that cancel: nothing to scale to 1
             ++repairs.unweighted;
-            raw.assign(1, {root * kPlace, 1.0});
+            raw.assign(1, {root * kMatrixFloats, 1.0});
             sum = 1;
         }
         report_sum(sum, repairs);
@@ -100,7 +100,7 @@ CleanInfluences clean_influences(const InfluenceSource& source, SkinRepairs& rep
             append_normalised(raw, sum_of(raw), clean.influences);
         } else {
             for (const RawInfluence& r : raw)
-                clean.influences.push_back({r.place, static_cast<float>(r.weight)});
+                clean.influences.push_back({r.offset, static_cast<float>(r.weight)});
         }
         clean.first.push_back(static_cast<uint32_t>(clean.influences.size()));
     }
@@ -125,13 +125,13 @@ InfluenceBlocks block_influences(const CleanInfluences& clean,
             rounds = std::max(rounds, static_cast<uint32_t>(influences(lane).size()));
         size_t at = blocks.weights.size();
         blocks.weights.resize(at + size_t{rounds} * kBlock, 0.0f);
-        blocks.places.resize(at + size_t{rounds} * kBlock, 0);
+        blocks.offsets.resize(at + size_t{rounds} * kBlock, 0);
         for (uint32_t lane = 0; lane < lanes; ++lane) {
             auto own = influences(lane);
             for (uint32_t round = 0; round < rounds; ++round) {
                 size_t entry = at + entry_of(rounds, round, lane);
                 blocks.weights[entry] = round < own.size() ? own[round].weight : 0;
-                blocks.places[entry] = own[round < own.size() ? round : 0].place;
+                blocks.offsets[entry] = own[round < own.size() ? round : 0].offset;
             }
         }
         blocks.first.push_back(blocks.first.back() + rounds);

@@ -8,7 +8,7 @@
 namespace kinora::skin {
 
 struct Influence {
-    uint32_t place;  // float offset of the joint's matrix in the palette
+    uint32_t offset;  // of the joint's matrix in the palette, in floats
     float weight;
 };
 

@@ -65,7 +65,7 @@ float* floats(std::span<vec4> s, size_t at) {
 DeformTask task_at(const Run& run, size_t block) {
     size_t at = block * InfluenceBlocks::kBlock;
     return {&run.palette->c[0][0],     run.blocks.first.data(),        run.blocks.weights.data(),
-            run.blocks.places.data(),  floats(run.rest_positions, at), floats(run.rest_normals, at),
+            run.blocks.offsets.data(), floats(run.rest_positions, at), floats(run.rest_normals, at),
             floats(run.positions, at), floats(run.normals, at)};
 }
 

@@ -38,10 +38,10 @@ struct SkinRepairs {
 // 1..4; within a set the entries of one vertex are neighbours: [set][vertex][round of the set].
 struct InfluenceBlocks {
     static constexpr uint32_t kBlock = 16;
-    size_t count = 0;              // vertices
-    std::vector<uint32_t> first;   // blocks + 1: rounds before the block
-    std::vector<float> weights;    // 16 a round, and three more: kernels load four at once
-    std::vector<uint32_t> places;  // 16 a round: float offset of the joint's matrix in the palette
+    size_t count = 0;               // vertices
+    std::vector<uint32_t> first;    // blocks + 1: rounds before the block
+    std::vector<float> weights;     // 16 a round, and three more: kernels load four at once
+    std::vector<uint32_t> offsets;  // 16 a round: float offset of the joint's matrix in the palette
 };
 
 // Made by build_skin; immutable afterwards.

@@ -81,8 +81,8 @@ class Document {
     // The first element with this id in document order, or null; further ones by next_same_id.
     const Element* find(std::string_view id) const;
 
-    // Places: of the start tag, of an attribute's value (the start tag when absent), of a range of
-    // the decoded text.
+    // Locations: of the start tag, of an attribute's value (the start tag when absent), of a range
+    // of the decoded text.
     Location location(const Element& element) const;
     Location location(const Element& element, std::string_view attribute_name) const;
     Location text_location(const Element& element, size_t begin, size_t end) const;

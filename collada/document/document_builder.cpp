@@ -148,7 +148,7 @@ void DocumentBuilder::finish_text(const OpenElement& open) {
 
 void DocumentBuilder::end_element(uint32_t end) {
     OpenElement open = open_.back();
-    // An empty tag <a/> may give both events at the same place.
+    // An empty tag <a/> may give both events at the same byte.
     open.element->bytes.end = std::max(end, open.element->start_tag.end);
     finish_text(open);
     pieces_.resize(open.first_piece);

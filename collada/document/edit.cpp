@@ -72,7 +72,7 @@ std::string apply_edits(std::string_view original, std::vector<Edit> edits, size
         CHECK_LE(e.bytes.begin, e.bytes.end);
         CHECK_LE(e.bytes.end, original.size());
     }
-    // An edit is in the way when its range, or its place if it inserts, is inside an earlier one's.
+    // An edit is in the way when its range, or its byte if it inserts, is inside an earlier one's.
     std::vector<const Edit*> made;
     auto before = [](const Edit* a, const Edit* b) { return a->bytes.begin < b->bytes.begin; };
     auto overlap = [](const Edit& a, const Edit& b) {
@@ -84,7 +84,7 @@ std::string apply_edits(std::string_view original, std::vector<Edit> edits, size
     };
     size_t dropped = 0;
     for (const Edit& e : edits) {
-        // `made` is sorted and free of overlaps, so only neighbours by place can be in the way.
+        // `made` is sorted and free of overlaps, so only neighbours by offset can be in the way.
         auto at = std::upper_bound(made.begin(), made.end(), &e, before);
         bool in_the_way = false;
         for (auto m = at; m != made.end() && (*m)->bytes.begin < e.bytes.end; ++m)
@@ -100,7 +100,7 @@ std::string apply_edits(std::string_view original, std::vector<Edit> edits, size
         else
             made.insert(at, &e);
     }
-    // At one place inserts come before the range that begins there.
+    // At one byte inserts come before the range that begins there.
     std::stable_sort(made.begin(), made.end(), [](const Edit* a, const Edit* b) {
         if (a->bytes.begin != b->bytes.begin) return a->bytes.begin < b->bytes.begin;
         return a->bytes.end == a->bytes.begin && b->bytes.end != b->bytes.begin;

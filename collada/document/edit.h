@@ -10,13 +10,13 @@
 
 namespace kinora::collada {
 
-// Puts `text` in the place of `bytes`; begin == end inserts before that byte, an empty text erases.
+// Puts `text` instead of `bytes`; begin == end inserts before that byte, an empty text erases.
 struct Edit {
     ByteRange bytes;
     std::string text;
 };
 
-// The text with all edits made. They may come in any order; inserts at one place keep the order
+// The text with all edits made. They may come in any order; inserts at one byte keep the order
 // given and stand before what replaces the bytes that follow. Each range lies in the text
 // (checked). An edit that would overlap an earlier range is left out: of two fixes of the same
 // bytes the one given first is made, and reading the result again finds what is left.

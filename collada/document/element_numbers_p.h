@@ -9,7 +9,7 @@ namespace kinora::collada {
 
 // Each reads all numbers of the text. What is no number becomes 0 (SRC_NUMBER), a decimal comma is
 // understood (SRC_COMMA_DECIMAL), NaN and infinities are kept; of each kind the first is reported
-// with its place. `expected` as in scan_doubles().
+// with its location. `expected` as in scan_doubles().
 std::vector<double> read_doubles(const Document& document, const Element& element,
                                  Diagnostics& diag, size_t expected = 0);
 // Values beyond 32 bits are clamped, which puts them out of every range.

@@ -37,7 +37,7 @@ ElementIndex::ElementIndex(const Document& document) {
 const Element& ElementIndex::at(uint32_t offset) const {
     auto after = std::upper_bound(
         elements_.begin(), elements_.end(), offset,
-        [](uint32_t place, const Element* element) { return place < element->bytes.begin; });
+        [](uint32_t wanted, const Element* element) { return wanted < element->bytes.begin; });
     if (after == elements_.begin()) return *elements_.front();
     const Element* element = after[-1];
     // What an XML error cut off has no end of its own and reaches to the end of the file.
@@ -52,10 +52,10 @@ void ElementIndex::number_children(const Element& parent) {
     if (!numbered_.insert(&parent).second) return;
     std::unordered_map<std::string_view, std::pair<const Element*, uint32_t>> last;
     for (const Element& child : parent.children()) {
-        auto [place, is_first] = last.try_emplace(child.name, &child, 1);
+        auto [known, is_first] = last.try_emplace(child.name, &child, 1);
         if (is_first) continue;
-        numbers_.try_emplace(place->second.first, 1);  // the first of several
-        numbers_[&child] = ++place->second.second;
+        numbers_.try_emplace(known->second.first, 1);  // the first of several
+        numbers_[&child] = ++known->second.second;
     }
 }
 

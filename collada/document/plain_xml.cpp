@@ -118,7 +118,7 @@ class PlainXml {
     }
 
   private:
-    uint32_t place(const char* p) const { return uint32_t(p - begin_); }
+    uint32_t offset(const char* p) const { return uint32_t(p - begin_); }
     bool at(std::string_view what) const {
         return size_t(end_ - p_) >= what.size() && !std::memcmp(p_, what.data(), what.size());
     }
@@ -136,7 +136,7 @@ class PlainXml {
         while (is(*p_, kName)) ++p_;
         return true;
     }
-    // The place behind the next `what`; null where there is none.
+    // The character behind the next `what`; null where there is none.
     const char* behind(std::string_view what) const {
         size_t found = std::string_view(p_, size_t(end_ - p_)).find(what);
         return found == std::string_view::npos ? nullptr : p_ + found + what.size();
@@ -215,8 +215,8 @@ bool PlainXml::start_tag() {
     p_ += empty;
     if (*p_ != '>' || size_t(++p_ - tag) > kMaxToken) return false;
     if (builder_.room() != Room::Enough) return false;
-    builder_.start_element({place(tag), place(p_)}, file_name, attributes_);
-    if (empty) builder_.end_element(place(p_));
+    builder_.start_element({offset(tag), offset(p_)}, file_name, attributes_);
+    if (empty) builder_.end_element(offset(p_));
     return true;
 }
 
@@ -248,10 +248,10 @@ bool PlainXml::attribute() {
         }
     }
     std::string_view decoded(value, size_t(p_ - value));
-    ByteRange value_bytes{place(value), place(p_)};
+    ByteRange value_bytes{offset(value), offset(p_)};
     if (!plain && !decode_value(decoded)) return false;
     ++p_;
-    attributes_.push_back({file_name, decoded, {place(name), place(p_)}, value_bytes});
+    attributes_.push_back({file_name, decoded, {offset(name), offset(p_)}, value_bytes});
     return true;
 }
 
@@ -278,7 +278,7 @@ bool PlainXml::end_tag() {
     if (!take(builder_.open().back().file_name)) return false;
     skip_space();
     if (*p_++ != '>') return false;
-    builder_.end_element(place(p_));
+    builder_.end_element(offset(p_));
     return true;
 }
 
@@ -359,7 +359,7 @@ bool PlainXml::add_text(const char* run, const char* stop) {
 // Which parts of text beside elements are dropped depends on how it is cut: left to expat.
 bool PlainXml::add_decoded(const char* from, std::string_view text) {
     if (!builder_.open().back().last_child) {
-        builder_.add_text(place(from), text);
+        builder_.add_text(offset(from), text);
         return true;
     }
     return is_xml_space(text);

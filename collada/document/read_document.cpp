@@ -12,7 +12,7 @@ namespace kinora::collada {
 
 namespace {
 
-constexpr size_t kMaxBytes = 0x7fffffff;  // places are 32 bits
+constexpr size_t kMaxBytes = 0x7fffffff;  // byte offsets are 32 bits
 
 }  // namespace
 

@@ -184,6 +184,7 @@ void mend_order(Extraction& x, Link node, std::vector<Transform>& transforms);
 void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_number);
 void read_light_instance(Extraction& x, Link link, Node& node);
 void read_camera_instance(Extraction& x, Link link, Node& node);
+void read_node_instance(Extraction& x, Link link, Node& node);
 
 // lights.cpp: <shadows> of an RSL extra, "0" or "false" for none; nothing if silent.
 std::optional<bool> read_shadows(const Element& owner);

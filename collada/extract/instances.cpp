@@ -141,22 +141,30 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     node.meshes.push_back(std::move(mesh));
 }
 
-void read_light_instance(Extraction& x, Link link, Node& node) {
-    Link target = resolve(x, link, "url", {"light"});
+namespace {
+
+// An <instance_*> of one definition, put behind `instances`.
+template <class Instance>
+void read_instance(Extraction& x, Link link, std::string_view name,
+                   uint32_t (*index_of)(Extraction&, Link), std::vector<Instance>& instances) {
+    Link target = resolve(x, link, "url", {name});
     if (!target) return;
-    uint32_t light = light_index(x, target);
-    if (light == kNone) return;
-    node.lights.push_back(
-        {light, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
+    uint32_t index = index_of(x, target);
+    if (index == kNone) return;
+    instances.push_back(
+        {index, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
 }
 
+}  // namespace
+
+void read_light_instance(Extraction& x, Link link, Node& node) {
+    read_instance(x, link, "light", light_index, node.lights);
+}
 void read_camera_instance(Extraction& x, Link link, Node& node) {
-    Link target = resolve(x, link, "url", {"camera"});
-    if (!target) return;
-    uint32_t camera = camera_index(x, target);
-    if (camera == kNone) return;
-    node.cameras.push_back(
-        {camera, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
+    read_instance(x, link, "camera", camera_index, node.cameras);
+}
+void read_node_instance(Extraction& x, Link link, Node& node) {
+    read_instance(x, link, "node", node_index, node.instances);
 }
 
 }  // namespace kinora::collada

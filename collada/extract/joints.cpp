@@ -17,7 +17,7 @@ const std::string& key_of(const Node& node, Key key) {
 }
 
 // The nodes below some roots by each of their names; joints win over other nodes, then the first.
-struct NameIndex {
+struct JointIndex {
     std::unordered_map<std::string_view, uint32_t> by[KeyCount];
     size_t count = 0;  // of nodes
 
@@ -28,7 +28,7 @@ struct NameIndex {
     }
 };
 
-void NameIndex::build(const std::vector<Node>& nodes, const std::vector<uint32_t>& roots) {
+void JointIndex::build(const std::vector<Node>& nodes, const std::vector<uint32_t>& roots) {
     std::vector<bool> seen(nodes.size());
     std::vector<uint32_t> todo(roots.rbegin(), roots.rend());
     while (!todo.empty()) {
@@ -67,18 +67,18 @@ class JointResolver {
         Key key = Sid;
         bool outside = false;
     };
-    Found find(const std::string& name, JointNames kind, const NameIndex* skeleton,
+    Found find(const std::string& name, JointNames kind, const JointIndex* skeleton,
                bool reached) const;
-    const NameIndex* index_below(const std::vector<uint32_t>& roots, Location where);
+    const JointIndex* index_below(const std::vector<uint32_t>& roots, Location where);
 
     Extraction& x_;
-    NameIndex scene_;
-    NameIndex rest_;  // everything, for skins in nodes that <scene> does not reach
-    std::map<std::vector<uint32_t>, NameIndex> skeletons_;
+    JointIndex scene_;
+    JointIndex rest_;  // everything, for skins in nodes that <scene> does not reach
+    std::map<std::vector<uint32_t>, JointIndex> skeletons_;
 };
 
 // Null when there are too many large skeletons to look below each of them.
-const NameIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, Location where) {
+const JointIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, Location where) {
     constexpr uint64_t kBytesPerNode = 192;  // of the three maps
     auto [at, fresh] = skeletons_.try_emplace(roots);
     if (!fresh) return &at->second;
@@ -91,12 +91,12 @@ const NameIndex* JointResolver::index_below(const std::vector<uint32_t>& roots, 
 
 // IDREF names are ids; a SIDREF path ends in a sid.
 JointResolver::Found JointResolver::find(const std::string& name, JointNames kind,
-                                         const NameIndex* skeleton, bool reached) const {
+                                         const JointIndex* skeleton, bool reached) const {
     std::string_view last = name;
     if (kind == JointNames::Sidref) last.remove_prefix(last.find_last_of('/') + 1);
     if (last.starts_with('#')) last.remove_prefix(1);
     constexpr Key kByName[] = {Sid, Id, Name}, kById[] = {Id, Sid, Name};
-    for (const NameIndex* index : {skeleton, &scene_, &rest_}) {
+    for (const JointIndex* index : {skeleton, &scene_, &rest_}) {
         if (!index || (index == &rest_ && reached)) continue;
         for (Key key : kind == JointNames::Idref ? kById : kByName) {
             uint32_t node = index->find(last, key);
@@ -110,7 +110,7 @@ void JointResolver::resolve_instance(const PendingSkin& pending) {
     MeshInstance& mesh = x_.scene.nodes[pending.node].meshes[pending.mesh];
     const Skin& skin = x_.scene.skins[mesh.skin];
     Location where = x_.where(pending.instance);
-    const NameIndex* skeleton = nullptr;
+    const JointIndex* skeleton = nullptr;
     if (mesh.skeleton_roots.empty())
         x_.diag.report(Code::SKIN_NO_SKELETON, where);
     else

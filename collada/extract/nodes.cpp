@@ -16,15 +16,6 @@ uint32_t node_index(Extraction& x, Link link) {
 
 namespace {
 
-void read_node_instance(Extraction& x, Link link, Node& node) {
-    Link target = resolve(x, link, "url", {"node"});
-    if (!target) return;
-    uint32_t index = node_index(x, target);
-    if (index == kNone) return;
-    node.instances.push_back(
-        {index, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
-}
-
 void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
     x.nodes.set_filled(number);
     const Element& e = *link.element;

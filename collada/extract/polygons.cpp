@@ -142,7 +142,7 @@ void TriangleList::read_triangles() {
             if (gather(3 * t, 3)) shapes_.add(corners_);
 }
 
-// The places of corners that follow one another; false when one of them is not usable.
+// The positions of corners that follow one another; false when one of them is not usable.
 bool TriangleList::gather(uint32_t first, uint32_t count) {
     corners_.resize(count);
     for (uint32_t c = 0; c < count; ++c) {

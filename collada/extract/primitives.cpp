@@ -100,8 +100,8 @@ Inputs read_inputs(MeshReader& mesh, Link primitive) {
     return inputs;
 }
 
-// The place of number `n` of the joined <p>.
-Location number_place(Extraction& x, Link primitive, const PrimitiveIndices& p, size_t n) {
+// The location of number `n` of the joined <p>.
+Location number_location(Extraction& x, Link primitive, const PrimitiveIndices& p, size_t n) {
     size_t vertex = n / p.stride;
     auto after = std::upper_bound(p.parts.begin(), p.parts.end(), vertex,
                                   [](size_t v, const auto& part) { return v < part.first; });
@@ -133,7 +133,7 @@ std::vector<bool> usable_vertices(MeshReader& mesh, Link primitive, const Primit
         uint32_t v = next_beyond(p, use, 0, count);
         if (v == count) continue;
         size_t number = size_t(v) * p.stride + use.offset;
-        Location where = number_place(mesh.x, primitive, p, number);
+        Location where = number_location(mesh.x, primitive, p, number);
         int32_t index = p.numbers[number];
         if (index < 0)
             mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);

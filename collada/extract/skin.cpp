@@ -6,6 +6,7 @@
 #include "collada/document/element_numbers_p.h"
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/transform_matrix.h"
 
 namespace kinora::collada {
 
@@ -22,14 +23,6 @@ bool all_finite(const double* values, size_t count) {
     for (size_t i = 0; i < count; ++i)
         if (!std::isfinite(values[i])) return false;
     return true;
-}
-
-bool singular(const dmat4& m) {
-    dvec3 a(m[0]), b(m[1]), c(m[2]);
-    double det = a.x * (b.y * c.z - b.z * c.y) - b.x * (a.y * c.z - a.z * c.y) +
-                 c.x * (a.y * b.z - a.z * b.y);
-    double size = std::hypot(a.x, a.y, a.z) * std::hypot(b.x, b.y, b.z) * std::hypot(c.x, c.y, c.z);
-    return !(std::abs(det) > 1e-12 * size);
 }
 
 // All names that a node answers to and that hold a space.
@@ -157,7 +150,7 @@ void SkinReader::read_inverse_bind(Link joints) {
         const double* rows = &data.values[j * 16];
         if (!all_finite(rows, 16)) continue;
         skin.inverse_bind[j] = matrix_of_rows(rows);
-        if (singular(skin.inverse_bind[j]))
+        if (is_singular(skin.inverse_bind[j]))
             x.diag.report(Code::SKIN_IBM_SINGULAR, x.where(source), skin.joints[j]);
     }
 }

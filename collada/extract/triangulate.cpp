@@ -55,7 +55,7 @@ class EarClipper {
     // Joins a hole that has a corner where the outline has one; false if it has none.
     bool join_touching(std::span<const uint32_t> hole);
     void set_outline(std::vector<uint32_t> ring) { ring_ = std::move(ring); }
-    // Where outline and holes have corners at one place, the inside of the ring is not told by the
+    // Where outline and holes have corners at one point, the inside of the ring is not told by the
     // order of its corners: what holes that touch twice part becomes rings of their own.
     void take_apart();
     bool clip();  // false: the polygon crosses itself
@@ -71,14 +71,14 @@ class EarClipper {
     bool cut_stuck(uint32_t& start, uint32_t left);
 
     static constexpr uint64_t kBudget = 100'000'000;
-    static constexpr uint32_t kMostAtOnePlace = 256;  // corners; what has more crosses itself
+    static constexpr uint32_t kMostAtOnePoint = 256;  // corners; what has more crosses itself
     std::span<const dvec2> points_;
     std::vector<uint32_t>& triangles_;
-    std::vector<uint32_t> ring_;                   // corner numbers around the (bridged) outline
-    std::vector<std::vector<uint32_t>> rings_;     // what take_apart made of it
-    std::unordered_set<dvec2, PointHash> places_;  // of ring_'s corners, once holes are joined
-    std::vector<uint32_t> next_, previous_;        // linked positions of ring_
-    std::vector<uint32_t> reflex_;                 // positions that were reflex when last looked at
+    std::vector<uint32_t> ring_;                // corner numbers around the (bridged) outline
+    std::vector<std::vector<uint32_t>> rings_;  // what take_apart made of it
+    std::unordered_set<dvec2, PointHash> corner_points_;  // of ring_, once holes are joined
+    std::vector<uint32_t> next_, previous_;               // linked positions of ring_
+    std::vector<uint32_t> reflex_;  // positions that were reflex when last looked at
     uint64_t work_ = 0;
     bool crosses_ = false;
 };
@@ -124,11 +124,11 @@ bool EarClipper::bridge(std::span<const uint32_t> hole) {
 }
 
 bool EarClipper::join_touching(std::span<const uint32_t> hole) {
-    if (places_.empty())
-        for (uint32_t i = 0; i < ring_.size(); ++i) places_.insert(at(i));
+    if (corner_points_.empty())
+        for (uint32_t i = 0; i < ring_.size(); ++i) corner_points_.insert(at(i));
     for (size_t k = 0; k < hole.size() && work_ <= kBudget; ++k) {
         dvec2 p = points_[hole[k]];
-        if (!places_.contains(p)) continue;
+        if (!corner_points_.contains(p)) continue;
         work_ += ring_.size();
         for (uint32_t i = 0; i < ring_.size(); ++i)
             if (same(at(i), p)) {
@@ -152,7 +152,7 @@ bool turns_sooner(dvec2 o, dvec2 from, dvec2 p, dvec2 q) {
     return a != b ? a < b : cross(o, p, q) < 0;
 }
 
-// At each place every edge that arrives goes on by the edge that comes first clockwise: between
+// At each point every edge that arrives goes on by the edge that comes first clockwise: between
 // the two lies the inside.
 void EarClipper::take_apart() {
     uint32_t size = uint32_t(ring_.size());
@@ -165,7 +165,7 @@ void EarClipper::take_apart() {
     for (uint32_t first = 0, end; first < size; first = end) {
         for (end = first + 1; end < size && same(at(order[first]), at(order[end])); ++end) {
         }
-        bool crowded = end - first > kMostAtOnePlace;
+        bool crowded = end - first > kMostAtOnePoint;
         crosses_ |= crowded;
         for (uint32_t n = first; n < end; ++n) {
             uint32_t i = order[n], best = i;
@@ -207,14 +207,14 @@ bool EarClipper::opens_to(uint32_t i, dvec2 p) const {
 }
 
 // From the ring's corner i to the hole's corner `first`, once around, and back; where both are one
-// place, no way leads there or back.
+// point, no way leads there or back.
 void EarClipper::insert(uint32_t i, std::span<const uint32_t> hole, size_t first) {
     size_t skip = same(at(i), points_[hole[first]]);
     std::vector<uint32_t> joined(ring_.begin(), ring_.begin() + std::ptrdiff_t(i) + 1);
     for (size_t k = skip; k <= hole.size(); ++k) joined.push_back(hole[(first + k) % hole.size()]);
     joined.insert(joined.end(), ring_.begin() + std::ptrdiff_t(i + skip), ring_.end());
     ring_ = std::move(joined);
-    for (uint32_t corner : hole) places_.insert(points_[corner]);
+    for (uint32_t corner : hole) corner_points_.insert(points_[corner]);
 }
 
 bool EarClipper::is_ear(uint32_t i) {

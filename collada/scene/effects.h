@@ -124,7 +124,7 @@ enum class RslStage : uint8_t { Surface, Displacement, Light, Volume, Transforma
 
 struct RslCode {
     std::string text;
-    SourceMap map;     // text offset -> place in the .dae or the .sl
+    SourceMap map;     // text offset -> location in the .dae or the .sl
     std::string path;  // of the included file; the document's for <code>
 };
 

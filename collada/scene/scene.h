@@ -94,7 +94,7 @@ struct NodeInstance {
     Location where;
 };
 
-// A node definition. It may occur at several places of the tree (instance_node); the tree has no
+// A node definition. It may occur several times in the tree (instance_node); the tree has no
 // cycles and unrolls to at most ExtractOptions::max_node_instances nodes.
 struct Node {
     std::string id, sid, name;

@@ -8,9 +8,9 @@ namespace {
 
 using Kind = Particle::Kind;
 
-std::string place_name(const ContentModel::Place& place) {
-    if (place.kind == Kind::Any) return "an element";
-    return place.kind == Kind::Math ? "<math>" : "<" + std::string(place.name) + ">";
+std::string child_name(const ContentModel::Position& position) {
+    if (position.kind == Kind::Any) return "an element";
+    return position.kind == Kind::Math ? "<math>" : "<" + std::string(position.name) + ">";
 }
 
 // "<a>", "one of <a>, <b>"
@@ -18,7 +18,7 @@ std::string one_of(const ContentModel& model, const std::vector<uint16_t>& next)
     constexpr size_t kMost = 12;
     std::string out = next.size() > 1 ? "one of " : "";
     for (size_t i = 0; i < next.size() && i < kMost; ++i)
-        out += (i ? ", " : "") + place_name(model.places[next[i]]);
+        out += (i ? ", " : "") + child_name(model.positions[next[i]]);
     return next.size() > kMost ? out + ", ..." : out;
 }
 
@@ -47,13 +47,13 @@ void ElementChecker::check_children(const Element& element, const ElementType& t
             continue;
         }
         at = next;
-        const ContentModel::Place& place = model.places[at];
-        if (place.type)
-            check(child, *place.type, kept);
-        else if (place.kind == Kind::Any)
+        const ContentModel::Position& position = model.positions[at];
+        if (position.type)
+            check(child, *position.type, kept);
+        else if (position.kind == Kind::Any)
             check_any(child, kept);
     }
-    if (!model.places[at].last) missing_children(element, type, at);
+    if (!model.positions[at].last) missing_children(element, type, at);
 }
 
 uint16_t ElementChecker::step(const ContentModel& model, uint16_t at, const Element& child) {
@@ -75,39 +75,39 @@ bool ElementChecker::misplaced_often(const ElementType& type, const Element& chi
 uint16_t ElementChecker::misplaced(const Element& element, const ElementType& type, uint16_t at,
                                    const Element& child, bool kept) {
     const ContentModel& model = type.rules().content;
-    uint16_t place = foreign(child) ? uint16_t(0) : model.find(child.name);
-    if (!place) {
+    uint16_t position = foreign(child) ? uint16_t(0) : model.find(child.name);
+    if (!position) {
         unknown_child(element, type, at, child, kept);
         return at;
     }
     std::vector<uint16_t> way = model.way(at, child.name);
     if (way.empty()) {
         disordered_child(element, type, child);
-        check(child, *model.places[place].type, kept);
+        check(child, *model.positions[position].type, kept);
         return at;
     }
     // What was jumped over is missing, or comes later and is then out of order.
     bool later = true, often = misplaced_often(type, child);
     for (size_t i = 0; i + 1 < way.size() && !often; ++i)
-        later = later && has_child(child.next, model.places[way[i]].name);
+        later = later && has_child(child.next, model.positions[way[i]].name);
     if (!later && first(Code::SCHEMA_MIN_OCCURS, &type, child.name))
         diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(child), element.name,
                      one_of(model, model.missing(at, child.name)) + " before <" +
                          std::string(child.name) + ">");
-    check(child, *model.places[way.back()].type, kept);
+    check(child, *model.positions[way.back()].type, kept);
     return way.back();
 }
 
 void ElementChecker::unknown_child(const Element& element, const ElementType& type, uint16_t at,
                                    const Element& child, bool kept) {
     const ElementType* other = type.row ? other_version_.find(type.name) : nullptr;
-    uint16_t place =
+    uint16_t position =
         other && !foreign(child) ? other->rules().content.find(child.name) : uint16_t(0);
-    if (place) {
+    if (position) {
         if (first(Code::SCHEMA_VERSION, &type, child.name))
             diag_.report(Code::SCHEMA_VERSION, document_.location(child), child.name,
                          is_15(types_.version()) ? "1.5" : "1.4");
-        return check(child, *other->rules().content.places[place].type, kept);
+        return check(child, *other->rules().content.positions[position].type, kept);
     }
     const ContentModel& model = type.rules().content;
     if (foreign(child) || types_.has_element(child.name) ||
@@ -115,8 +115,9 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
         if (!first(Code::SCHEMA_UNEXPECTED, &type, child.name)) return;
         Finding& finding = diag_.report(
             Code::SCHEMA_UNEXPECTED, document_.location(child), child.name, element.name,
-            model.places[at].next.empty() ? ""
-                                          : ", expected " + one_of(model, model.places[at].next));
+            model.positions[at].next.empty()
+                ? ""
+                : ", expected " + one_of(model, model.positions[at].next));
         if (foreign(child) && child.name.find(':') == child.name.npos)
             finding.help =
                 fmt::format("it is of the namespace '{}', not COLLADA's", namespaces_.of(child));
@@ -133,11 +134,11 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
 void ElementChecker::disordered_child(const Element& element, const ElementType& type,
                                       const Element& child) {
     const ContentModel& model = type.rules().content;
-    uint16_t place = model.find(child.name);
+    uint16_t position = model.find(child.name);
     if (misplaced_often(type, child)) return;
     // The first sibling before it that could follow it: it stands too late.
     for (const Element* e = element.first_child; e && e != &child; e = e->next) {
-        if (e->name == child.name || model.way(place, e->name).empty()) continue;
+        if (e->name == child.name || model.way(position, e->name).empty()) continue;
         if (first(Code::SCHEMA_ORDER, &type, child.name))
             diag_.report(Code::SCHEMA_ORDER, document_.location(child), child.name, e->name);
         return;
@@ -165,7 +166,7 @@ void ElementChecker::missing_children(const Element& element, const ElementType&
     std::vector<uint16_t> missing = model.missing(at, {});
     std::string what = one_of(model, missing);
     uint16_t only = missing.size() == 1 ? missing[0] : uint16_t(0);
-    if (only && model.places[only].name == model.places[at].name) what = "another " + what;
+    if (only && model.positions[only].name == model.positions[at].name) what = "another " + what;
     diag_.report(Code::SCHEMA_MIN_OCCURS, document_.location(element), element.name, what);
 }
 

@@ -63,7 +63,8 @@ class ElementChecker {
     const ElementTypes& other_version_;
     Namespaces namespaces_;
     std::unordered_map<std::string_view, const Element*> shared_ids_;  // of those used twice
-    // Whether so many children of that name stood in wrong places that all has been said of them.
+    // Whether so many children of that name stood in wrong positions that all has been said of
+    // them.
     bool misplaced_often(const ElementType& type, const Element& child);
 
     size_t suggestions_ = 0;

@@ -122,7 +122,7 @@ class ModelBuilder {
                 all = one;
             } else if (one.nullable) {
                 all = follow(all, one);
-            } else {  // only from the copy before: a (a (a)?)?, so that one place suffices
+            } else {  // only from the copy before: a (a (a)?)?, so that one position suffices
                 connect(before.last, one.first);
                 if (i < particle.low) all.last.clear();
                 add(all.last, one.last);
@@ -163,14 +163,14 @@ class ModelBuilder {
             case Particle::Kind::Element:
             case Particle::Kind::Any:
             case Particle::Kind::Math:
-                return place(particle);
+                return add_position(particle);
         }
         return {};
     }
 
-    Ends place(const Particle& particle) {
-        uint16_t at = uint16_t(model_.places.size());
-        ContentModel::Place& p = model_.places.emplace_back();
+    Ends add_position(const Particle& particle) {
+        uint16_t at = uint16_t(model_.positions.size());
+        ContentModel::Position& p = model_.positions.emplace_back();
         p.kind = particle.kind;
         if (p.kind == Particle::Kind::Element) p.name = particle.name, p.type_name = particle.type;
         if (!one_rank_) ++rank_;
@@ -186,7 +186,7 @@ class ModelBuilder {
     }
 
     void connect(const std::vector<uint16_t>& from, const std::vector<uint16_t>& to) {
-        for (uint16_t p : from) add(model_.places[p].next, to);
+        for (uint16_t p : from) add(model_.positions[p].next, to);
     }
 
     Ends follow(const Ends& a, const Ends& b) {
@@ -211,26 +211,26 @@ Particle parse_content(std::string_view cell) {
 
 ContentModel build_model(std::string_view cell, Version version) {
     ContentModel model;
-    model.places.emplace_back();
+    model.positions.emplace_back();
     Ends ends = ModelBuilder(model, version).build(parse_content(cell));
-    model.places[0].next = ends.first;
-    model.places[0].last = ends.nullable;
-    for (uint16_t p : ends.last) model.places[p].last = true;
+    model.positions[0].next = ends.first;
+    model.positions[0].last = ends.nullable;
+    for (uint16_t p : ends.last) model.positions[p].last = true;
     return model;
 }
 
 uint16_t ContentModel::find(std::string_view name) const {
-    for (size_t i = 1; i < places.size(); ++i)
-        if (places[i].name == name) return uint16_t(i);
+    for (size_t i = 1; i < positions.size(); ++i)
+        if (positions[i].name == name) return uint16_t(i);
     return 0;
 }
 
 std::vector<uint16_t> ContentModel::missing(uint16_t at, std::string_view name) const {
     std::vector<uint16_t> found;
     size_t least = ~size_t(0);
-    for (uint16_t next : places[at].next) {
-        if (!name.empty() && places[next].name == name) continue;
-        bool there = name.empty() && places[next].last;
+    for (uint16_t next : positions[at].next) {
+        if (!name.empty() && positions[next].name == name) continue;
+        bool there = name.empty() && positions[next].last;
         size_t steps = there ? 1 : way(next, name).size() + 1;
         if (!there && steps == 1) continue;  // no way from here
         if (steps < least) found.clear(), least = steps;
@@ -240,14 +240,14 @@ std::vector<uint16_t> ContentModel::missing(uint16_t at, std::string_view name) 
 }
 
 std::vector<uint16_t> ContentModel::way(uint16_t at, std::string_view name) const {
-    std::vector<uint16_t> from(places.size(), 0), queue{at};
-    std::vector<bool> seen(places.size());
+    std::vector<uint16_t> from(positions.size(), 0), queue{at};
+    std::vector<bool> seen(positions.size());
     for (size_t i = 0; i < queue.size(); ++i) {
-        for (uint16_t next : places[queue[i]].next) {
+        for (uint16_t next : positions[queue[i]].next) {
             if (seen[next]) continue;
             seen[next] = true;
             from[next] = queue[i];
-            if (name.empty() ? !places[next].last : places[next].name != name) {
+            if (name.empty() ? !positions[next].last : positions[next].name != name) {
                 queue.push_back(next);
                 continue;
             }

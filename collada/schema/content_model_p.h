@@ -25,38 +25,39 @@ struct Particle {
 // CHECKs that the cell is written as elements.def says.
 Particle parse_content(std::string_view cell);
 
-// A content model as a position automaton (Glushkov): being at a place means that the child it
-// stands for was the last one. COLLADA's models are deterministic, so that one place suffices.
+// A content model as a position automaton (Glushkov): being at a position means that the child
+// it stands for was the last one. COLLADA's models are deterministic, so that one position
+// suffices.
 struct ContentModel {
-    struct Place {
+    struct Position {
         std::string_view name;  // of the child; "" for %any and for the start
         Particle::Kind kind = Particle::Kind::Element;
         std::string_view type_name;
         const ElementType* type = nullptr;
-        uint16_t rank = 0;           // places that may alternate share one: the order of children
+        uint16_t rank = 0;           // the same for positions that may alternate: their order
         bool last = false;           // the element may end here
-        std::vector<uint16_t> next;  // places that may follow
+        std::vector<uint16_t> next;  // positions that may follow
     };
-    std::vector<Place> places;  // [0] is the start
+    std::vector<Position> positions;  // [0] is the start
 
-    bool empty() const { return places.size() == 1; }
-    // The place after `at` for a child of COLLADA's namespace, or 0.
+    bool empty() const { return positions.size() == 1; }
+    // The position after `at` for a child of COLLADA's namespace, or 0.
     uint16_t step(uint16_t at, std::string_view name) const {
-        for (uint16_t next : places[at].next)
-            if (places[next].name == name) return next;
+        for (uint16_t next : positions[at].next)
+            if (positions[next].name == name) return next;
         return 0;
     }
     uint16_t step(uint16_t at, Particle::Kind kind) const {
-        for (uint16_t next : places[at].next)
-            if (places[next].kind == kind) return next;
+        for (uint16_t next : positions[at].next)
+            if (positions[next].kind == kind) return next;
         return 0;
     }
-    uint16_t find(std::string_view name) const;  // the first place of this name, or 0
-    // What comes first on the shortest ways from `at` to a place of this name, or ("") to the end:
-    // what is missing there.
+    uint16_t find(std::string_view name) const;  // the first position of this name, or 0
+    // What comes first on the shortest ways from `at` to a position of this name, or ("") to the
+    // end: what is missing there.
     std::vector<uint16_t> missing(uint16_t at, std::string_view name) const;
-    // The shortest way from `at` to a place of this name, or ("") to one where the element may end:
-    // the places entered. Empty if there is none.
+    // The shortest way from `at` to a position of this name, or ("") to one where the element may
+    // end: the positions entered. Empty if there is none.
     std::vector<uint16_t> way(uint16_t at, std::string_view name) const;
 };
 

@@ -107,10 +107,10 @@ ElementRules ElementTypes::parse(const ElementType& type) const {
         if (rules.attributes.back().name.starts_with("xml:")) rules.foreign_xml = true;
     }
     rules.content = build_model(type.row->content, version_);
-    for (ContentModel::Place& place : rules.content.places) {
-        if (place.type_name.empty()) continue;
-        place.type = find(place.type_name);
-        CHECK(place.type);  // a row that names a type without one
+    for (ContentModel::Position& position : rules.content.positions) {
+        if (position.type_name.empty()) continue;
+        position.type = find(position.type_name);
+        CHECK(position.type);  // a row that names a type without one
     }
     parse_text(type.row->text, rules, version_);
     return rules;
@@ -126,7 +126,7 @@ const ElementType* ElementTypes::of_element(const Element& element) const {
     const ElementType* parent = of_element(*element.parent);  // as deep as a document may be
     if (!parent) return global(element.name);
     const ContentModel& content = parent->rules().content;
-    if (uint16_t place = content.find(element.name)) return content.places[place].type;
+    if (uint16_t position = content.find(element.name)) return content.positions[position].type;
     return global(element.name);
 }
 

@@ -20,13 +20,13 @@ class UriWalk {
     // `type`: null where the table does not know the element.
     void visit(const Element& element, const ElementType* type) {
         for (const Attribute& a : element.attributes)
-            if (is_uri(a, type) && a.name != "xml:base") places.push_back({&element, &a, a.value});
+            if (is_uri(a, type) && a.name != "xml:base") values.push_back({&element, &a, a.value});
         if (type && type->rules().has_text && is_uri_type(type->rules().text))
-            places.push_back({&element, nullptr, element.text});
+            values.push_back({&element, nullptr, element.text});
         for (const Element& child : element.children()) visit(child, type_of(child, type));
     }
 
-    std::vector<UriPlace> places;
+    std::vector<UriValue> values;
 
   private:
     static bool is_uri(const Attribute& a, const ElementType* type) {
@@ -41,7 +41,8 @@ class UriWalk {
     const ElementType* type_of(const Element& child, const ElementType* parent) const {
         if (parent && !parent->rules().anything) {
             const ContentModel& content = parent->rules().content;
-            if (uint16_t place = content.find(child.name)) return content.places[place].type;
+            if (uint16_t position = content.find(child.name))
+                return content.positions[position].type;
         }
         return types_.global(child.name);
     }
@@ -51,10 +52,10 @@ class UriWalk {
 
 }  // namespace
 
-std::vector<UriPlace> uri_places(const Document& document) {
+std::vector<UriValue> uri_values(const Document& document) {
     UriWalk walk(document.version());
     walk.visit(document.root(), &ElementTypes::of(document.version()).root());
-    return std::move(walk.places);
+    return std::move(walk.values);
 }
 
 }  // namespace kinora::collada

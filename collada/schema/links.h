@@ -9,7 +9,7 @@
 namespace kinora::collada {
 
 // A value that is a URI by the element table: an attribute's, or (null) the element's text.
-struct UriPlace {
+struct UriValue {
     const Element* element;
     const Attribute* attribute;
     std::string_view value;
@@ -17,6 +17,6 @@ struct UriPlace {
 
 // All of them but xml:base, in document order. Of elements that the table does not know url, source
 // and target are taken for URIs.
-std::vector<UriPlace> uri_places(const Document& document);
+std::vector<UriValue> uri_values(const Document& document);
 
 }  // namespace kinora::collada

@@ -15,7 +15,7 @@ std::vector<const Element*> schema_order(const Document& document, const Element
     std::vector<std::pair<uint16_t, const Element*>> ranked;
     uint16_t rank = 0;  // what the table does not know stays behind what it stands behind
     for (const Element* child : children) {
-        if (uint16_t place = model.find(child->name)) rank = model.places[place].rank;
+        if (uint16_t position = model.find(child->name)) rank = model.positions[position].rank;
         ranked.emplace_back(rank, child);
     }
     std::stable_sort(ranked.begin(), ranked.end(),

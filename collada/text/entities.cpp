@@ -11,10 +11,10 @@ namespace {
 constexpr std::string_view kPredefined[] = {"lt", "gt", "amp", "quot", "apos"};
 
 // What holds '&' without meaning a reference, and how it ends.
-struct Opaque {
+struct OpaqueMarkup {
     std::string_view opens, closes;
 };
-constexpr Opaque kOpaque[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+constexpr OpaqueMarkup kOpaque[] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
 // Declarations, whose literals may hold anything; <!DOCTYPE ends where its subset begins.
 constexpr std::string_view kDeclarations[] = {"<!ENTITY", "<!NOTATION", "<!DOCTYPE"};
 
@@ -37,7 +37,7 @@ size_t behind_declaration(std::string_view text, size_t at) {
 // Behind markup that may hold '&', or `at` + 1.
 size_t behind_markup(std::string_view text, size_t at) {
     std::string_view rest = text.substr(at);
-    for (const Opaque& o : kOpaque)
+    for (const OpaqueMarkup& o : kOpaque)
         if (rest.starts_with(o.opens)) return behind(text, o.closes, at + o.opens.size());
     for (std::string_view declaration : kDeclarations)
         if (rest.starts_with(declaration)) return behind_declaration(text, at + declaration.size());

@@ -45,7 +45,7 @@ uint64_t sixteen_digits(__m128i digits) {
 }  // namespace
 
 // The 16 bytes that end with the word hold its digits behind the point; the 16 that end one byte
-// earlier hold those before it in the places they have without the point. A word without a point
+// earlier hold those before it at the positions they have without the point. A word without a point
 // has it where the space is.
 const char* read_short_doubles(const char* begin, const char* p, const char* end, double*& out) {
     if (p - begin < kBytes || end - p < kScanReach) return p;

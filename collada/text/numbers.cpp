@@ -134,7 +134,7 @@ struct Words {
         end = tail + left;
     }
     std::string_view word() const { return {p, size_t(stop - p)}; }
-    size_t place() const { return offset + size_t(p - begin); }  // in the text
+    size_t position() const { return offset + size_t(p - begin); }  // in the text
 
     const char *begin, *p, *end, *stop = nullptr;
     size_t offset = 0;  // of `begin` in the text
@@ -164,7 +164,7 @@ std::vector<T> scan_list(std::string_view text, size_t expected, NumberFaults& f
         values.insert(values.end(), piece, out);
         if (!words.next()) break;
         T value = 0;
-        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.place(), faults);
+        if (!Scan(words.p, words.stop, value)) value = Slow(words.word(), words.position(), faults);
         values.push_back(value);
         words.p = words.stop;
     }

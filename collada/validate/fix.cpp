@@ -46,7 +46,7 @@ constexpr int kMostRounds = 64;
 struct Round {
     std::vector<Edit> edits;
     std::vector<FixCount> counts;
-    std::set<std::pair<uint32_t, uint32_t>> places;  // one place is repaired by one code
+    std::set<std::pair<uint32_t, uint32_t>> ranges;  // one is repaired by one code
 };
 
 Round find_fixes(const Document& document, const Diagnostics& diagnostics, const SceneData* scene,
@@ -63,7 +63,7 @@ Round find_fixes(const Document& document, const Diagnostics& diagnostics, const
         fixer->fix(context);
         size_t made = 0;
         for (Edit& edit : context.edits) {
-            if (!round.places.emplace(edit.bytes.begin, edit.bytes.end).second) continue;
+            if (!round.ranges.emplace(edit.bytes.begin, edit.bytes.end).second) continue;
             round.edits.push_back(std::move(edit));
             ++made;
         }

@@ -83,21 +83,21 @@ void fix_comma_decimals(FixContext& context) {
 // Besides those reported, all attributes that can only be links into this document: readers differ
 // in which of them they look at.
 void fix_missing_hash(FixContext& context) {
-    std::set<uint32_t> places;
+    std::set<uint32_t> offsets;
     for (const Finding* finding : context.findings) {
         if (finding->info == &Code::SCHEMA_PATTERN) continue;  // of anything
         uint32_t at = finding->where.begin;
         while (at < finding->where.end && std::isspace(uint8_t(context.text[at]))) ++at;
-        places.insert(at);
+        offsets.insert(at);
     }
     for (const Element* element : context.elements.all()) {
         if (in_private_data(*element)) continue;
         const Attribute* source = element->attribute("source");
         bool link = source && (element->name == "input" || element->name == "accessor" ||
                                element->name == "channel");
-        if (link && context.document.find(source->value)) places.insert(source->value_bytes.begin);
+        if (link && context.document.find(source->value)) offsets.insert(source->value_bytes.begin);
     }
-    for (uint32_t at : places) context.edits.push_back({{at, at}, "#"});
+    for (uint32_t at : offsets) context.edits.push_back({{at, at}, "#"});
 }
 
 void fix_path(FixContext& context) {

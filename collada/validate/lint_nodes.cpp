@@ -1,22 +1,14 @@
 // collada/validate/lint_nodes.cpp: node matrices that flatten, that a skin ignores; many
 // influences.
 #include <algorithm>
-#include <cmath>
 
-#include "collada/scene/node_places.h"
+#include "collada/scene/node_occurrences.h"
 #include "collada/validate/lint_p.h"
+#include "runtime/base/transform_matrix.h"
 
 namespace kinora::collada {
 
 namespace {
-
-bool flattens(const dmat4& m) {
-    dvec3 a(m[0]), b(m[1]), c(m[2]);
-    double volume = a.x * (b.y * c.z - b.z * c.y) - b.x * (a.y * c.z - a.z * c.y) +
-                    c.x * (a.y * b.z - a.z * b.y);
-    double size = std::hypot(a.x, a.y, a.z) * std::hypot(b.x, b.y, b.z) * std::hypot(c.x, c.y, c.z);
-    return !(std::abs(volume) > 1e-12 * size);
-}
 
 std::string label(const Node& node) {
     return node.id.empty() ? node.name : node.id;
@@ -26,20 +18,21 @@ std::string label(const Node& node) {
 constexpr const char* kInstead[] = {"", "binds it with its matrix", "moves it with its matrix",
                                     "moves it with what its matrix has below the joints' ancestor"};
 
-void check_flat(Lint& lint, const NodePlaces& places, const NodePlace& place) {
-    const Node& node = lint.scene.nodes[place.node];
+void check_flat(Lint& lint, const NodeOccurrences& occurrences, const NodeOccurrence& occurrence) {
+    const Node& node = lint.scene.nodes[occurrence.node];
     bool shows = !node.meshes.empty() || !node.children.empty() || !node.instances.empty();
-    if (shows && !places.animated(place.node) && flattens(place.local))
+    if (shows && !occurrences.animated(occurrence.node) && is_singular(occurrence.local))
         lint.diag.report(Code::NODE_SINGULAR, node.where, label(node));
 }
 
-void check_skin(Lint& lint, const NodePlaces& places, uint32_t place, const MeshInstance& mesh) {
+void check_skin(Lint& lint, const NodeOccurrences& occurrences, uint32_t occurrence,
+                const MeshInstance& mesh) {
     const Skin& skin = lint.scene.skins[mesh.skin];
-    auto [rest, start, moving] = places.skin_poses(place, mesh);
+    auto [rest, start, moving] = occurrences.skin_poses(occurrence, mesh);
     SkinSpace space = skin_place(skin.bind_shape_matrix, rest, start).space;
     if (space != SkinSpace::World)
         lint.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where,
-                         label(lint.scene.nodes[places.places()[place].node]), skin.id,
+                         label(lint.scene.nodes[occurrences.all()[occurrence].node]), skin.id,
                          kInstead[size_t(space)]);
     size_t mirroring = mirroring_joints(skin.bind_shape_matrix, moving);
     if (mirroring && mirroring < moving.size())
@@ -60,11 +53,12 @@ void check_influences(Lint& lint, const Skin& skin) {
 }  // namespace
 
 void lint_nodes(Lint& lint) {
-    NodePlaces places(lint.scene);
-    for (const NodePlace& place : places.places()) check_flat(lint, places, place);
-    for (uint32_t place = 0; place < places.places().size(); ++place)
-        for (const MeshInstance& mesh : lint.scene.nodes[places.places()[place].node].meshes)
-            if (mesh.skin != kNone) check_skin(lint, places, place, mesh);
+    NodeOccurrences occurrences(lint.scene);
+    for (const NodeOccurrence& occurrence : occurrences.all())
+        check_flat(lint, occurrences, occurrence);
+    for (uint32_t occurrence = 0; occurrence < occurrences.all().size(); ++occurrence)
+        for (const MeshInstance& mesh : lint.scene.nodes[occurrences.all()[occurrence].node].meshes)
+            if (mesh.skin != kNone) check_skin(lint, occurrences, occurrence, mesh);
     for (const Skin& skin : lint.scene.skins) check_influences(lint, skin);
 }
 

@@ -36,7 +36,7 @@ struct ValidateOptions {
     std::function<std::string(const ForeignElements&)> check_foreign;
 };
 
-// Reports, sorted by place and each once: the element table's findings, those of reading every
+// Reports, sorted by location and each once: the element table's findings, those of reading every
 // element (not only what <scene> reaches), and those of the lint rules of lint.def. The typed scene
 // is returned for further checks (profile_RSL); without a visual scene it has no roots.
 std::optional<SceneData> validate(const Document& document, Diagnostics& diag,

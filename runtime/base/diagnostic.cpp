@@ -140,13 +140,13 @@ void Diagnostics::set_severity(std::string_view code, Severity severity) {
 
 void Diagnostics::sort_unique() {
     std::lock_guard lock(mutex_);
-    auto place = [](const Finding& f) { return std::tie(f.where.file, f.where.begin); };
+    auto location = [](const Finding& f) { return std::tie(f.where.file, f.where.begin); };
     std::stable_sort(findings_.begin(), findings_.end(),
-                     [&](const Finding& a, const Finding& b) { return place(a) < place(b); });
+                     [&](const Finding& a, const Finding& b) { return location(a) < location(b); });
     std::vector<Finding> kept;
-    std::set<std::pair<std::string_view, std::string>> here;  // of the place of kept.back()
+    std::set<std::pair<std::string_view, std::string>> here;  // of the location of kept.back()
     for (Finding& f : findings_) {
-        if (!kept.empty() && place(kept.back()) != place(f)) here.clear();
+        if (!kept.empty() && location(kept.back()) != location(f)) here.clear();
         if (here.emplace(f.info->code, f.message).second) kept.push_back(std::move(f));
     }
     findings_ = std::move(kept);
@@ -176,7 +176,7 @@ int Diagnostics::count(Severity severity) const {
 
 namespace {
 
-constexpr size_t kWidestLine = 200;  // longer lines (number lists) are shown around the place only
+constexpr size_t kWidestLine = 200;  // of longer lines (number lists) a part is shown
 
 bool continues_character(char c) {
     return (uint8_t(c) & 0xC0) == 0x80;
@@ -199,7 +199,7 @@ std::string printable(std::string_view text) {
     return out;
 }
 
-std::string place_text(Location where, const SourceFiles& files) {
+std::string location_text(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return "kinora";
     LineColumn at = files.line_column(where.file, where.begin);
     return fmt::format("{}:{}:{}", printable(display_path(files.name(where.file))), at.line,
@@ -240,14 +240,14 @@ std::string caret_text(Location where, const SourceFiles& files) {
 }  // namespace
 
 std::string format_finding(const Finding& finding, const SourceFiles& files) {
-    std::string text = fmt::format("{}: {}: {} [{}]\n", place_text(finding.where, files),
+    std::string text = fmt::format("{}: {}: {} [{}]\n", location_text(finding.where, files),
                                    severity_name(finding.severity), printable(finding.message),
                                    finding.info->code);
     if (!finding.id_path.empty()) text += fmt::format("    in {}\n", printable(finding.id_path));
     text += caret_text(finding.where, files);
     for (const Note& note : finding.notes) {
-        text +=
-            fmt::format("{}: note: {}\n", place_text(note.where, files), printable(note.message));
+        text += fmt::format("{}: note: {}\n", location_text(note.where, files),
+                            printable(note.message));
         text += caret_text(note.where, files);
     }
     if (!finding.help.empty()) text += fmt::format("    help: {}\n", printable(finding.help));

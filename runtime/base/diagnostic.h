@@ -1,5 +1,5 @@
 // runtime/base/diagnostic.h: findings about the user's input. A finding is a row of its library's
-// findings.def plus values, a place (file and byte range) and, in documents, an id path.
+// findings.def plus values, a location (file and byte range) and, in documents, an id path.
 // Reading never gives up at the first one: report and carry on.
 #pragma once
 
@@ -82,7 +82,7 @@ class SourceFiles {
     std::shared_ptr<Texts> texts_ = std::make_shared<Texts>();
 };
 
-// A further place that explains a finding: "in expansion of macro 'X'", "first defined here".
+// A further location that explains a finding: "in expansion of macro 'X'", "first defined here".
 struct Note {
     Location where;
     std::string message;
@@ -116,11 +116,11 @@ class Diagnostics {
     int count(Severity severity) const;
     bool has_errors() const { return count(Severity::Error) > 0; }
     void clear() { findings_.clear(); }
-    // Orders findings by file and place (those of one place as reported) and drops all but the
-    // first with the same code, place and message.
+    // Orders findings by location (those of one location as reported) and drops all but the
+    // first with the same code, location and message.
     void sort_unique();
-    // Drops findings from the `first` on that say what an earlier one says (code, place, message);
-    // never errors.
+    // Drops findings from the `first` on that say what an earlier one says (code, location,
+    // message); never errors.
     void drop_repeats(size_t first);
 
   private:

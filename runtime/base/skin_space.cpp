@@ -28,7 +28,7 @@ constexpr double kWritten = 1e-3;  // numbers of files have few digits
 constexpr double kNothing = 1e-5;  // and matrices that are the identity were multiplied as floats
 
 // What no pose of the bind tells: is what moves node and joints in the joints' results? Turns and
-// scales show it better than places, which poses move more.
+// scales show it better than positions, which poses move more.
 SkinSpace guess(const SkinPose& pose) {
     const dmat4 identity(1.0);
     bool turns = apart(pose.shared, identity, 3) > kWritten;

@@ -89,4 +89,12 @@ dmat4 quaternion_matrix(const double* v) {
     return m;
 }
 
+bool is_singular(const dmat4& m) {
+    dvec3 a(m[0]), b(m[1]), c(m[2]);
+    double volume = a.x * (b.y * c.z - b.z * c.y) - b.x * (a.y * c.z - a.z * c.y) +
+                    c.x * (a.y * b.z - a.z * b.y);
+    double box = std::hypot(a.x, a.y, a.z) * std::hypot(b.x, b.y, b.z) * std::hypot(c.x, c.y, c.z);
+    return !(std::abs(volume) > 1e-12 * box);
+}
+
 }  // namespace kinora

@@ -17,4 +17,8 @@ dmat4 skew_matrix(const double* v);
 // x y z w of any length (glTF 2.0, 3.5.3); zero or not finite: the identity.
 dmat4 quaternion_matrix(const double* v);
 
+// Whether the linear part makes a solid flat: its volume, as a share of that of a box with edges of
+// the columns' lengths, is next to 0 or no number.
+bool is_singular(const dmat4& m);
+
 }  // namespace kinora

@@ -1,4 +1,4 @@
-// runtime/images/point_store.cpp: point files by name, and the points near a place.
+// runtime/images/point_store.cpp: point files by name, and the points near a position.
 #include "runtime/images/point_store.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ PointCloud::PointCloud(PointFile from) : file(std::move(from)) {
     order_.resize(file.count());
     axis_.resize(file.count());
     std::iota(order_.begin(), order_.end(), 0u);
-    // Points without a place are no one's neighbours.
+    // Points without a position are no one's neighbours.
     std::erase_if(order_, [&](uint32_t p) {
-        return !std::isfinite(place(p, 0)) || !std::isfinite(place(p, 1)) ||
-               !std::isfinite(place(p, 2));
+        return !std::isfinite(coordinate(p, 0)) || !std::isfinite(coordinate(p, 1)) ||
+               !std::isfinite(coordinate(p, 2));
     });
     build(0, order_.size(), 0);
 }
@@ -33,8 +33,8 @@ void PointCloud::build(size_t begin, size_t end, int depth) {
     for (int k = 0; k < 3; ++k) low[k] = HUGE_VALF, high[k] = -HUGE_VALF;
     for (size_t i = begin; i < end; ++i)
         for (int k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], place(order_[i], k));
-            high[k] = std::max(high[k], place(order_[i], k));
+            low[k] = std::min(low[k], coordinate(order_[i], k));
+            high[k] = std::max(high[k], coordinate(order_[i], k));
         }
     int axis = 0;
     for (int k = 1; k < 3; ++k)
@@ -42,7 +42,7 @@ void PointCloud::build(size_t begin, size_t end, int depth) {
     size_t middle = begin + (end - begin) / 2;
     std::nth_element(order_.begin() + long(begin), order_.begin() + long(middle),
                      order_.begin() + long(end), [&](uint32_t a, uint32_t b) {
-                         float x = place(a, axis), y = place(b, axis);
+                         float x = coordinate(a, axis), y = coordinate(b, axis);
                          return x != y ? x < y : a < b;
                      });
     axis_[middle] = uint8_t(axis);
@@ -145,11 +145,11 @@ PointStore::Lookup PointStore::find(int32_t path, int32_t channels) {
     if (fresh) {
         PointFile file;
         const std::string& name = rsl::interned(path);
-        auto [place, outside] = trees_.find(name);
+        auto [file_path, outside] = trees_.find(name);
         entry->second.error =
             name.empty() ? ""  // a parameter that is not filled in
             : outside ? "it lies outside the scene's folder (--allow-external DIR lets it be read)"
-                      : read_point_file(place, file);
+                      : read_point_file(file_path, file);
         if (!name.empty() && entry->second.error.empty())
             entry->second.cloud = std::make_unique<PointCloud>(std::move(file));
     }

@@ -15,7 +15,7 @@
 
 namespace kinora {
 
-// The points of a file and a balanced tree over their places.
+// The points of a file and a balanced tree over their positions.
 class PointCloud {
   public:
     explicit PointCloud(PointFile file);
@@ -37,7 +37,7 @@ class PointCloud {
     void build(size_t begin, size_t end, int depth);
     struct Search;
     void search(Search& s, size_t begin, size_t end) const;
-    float place(uint32_t point, int axis) const { return file.point(point)[axis]; }
+    float coordinate(uint32_t point, int axis) const { return file.point(point)[axis]; }
 
     std::vector<uint32_t> order_;  // the middle of each range splits it
     std::vector<uint8_t> axis_;    // by position in order_

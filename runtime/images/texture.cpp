@@ -67,12 +67,13 @@ struct DirectionRows {
     alignas(64) float s[kLanes], t[kLanes], ds[kLanes], dt[kLanes];
     uint32_t mask = 0;
 };
-DirectionRows directions(const jit::ServiceCall& call) {
+DirectionRows directions_of(const jit::ServiceCall& call) {
     DirectionRows rows;
     constexpr float kPiF = 3.14159265358979f;
     for (int i = 0; i < kLanes; ++i) {
         float v[9];  // R, dRdx, dRdy
-        for (int k = 0; k < 9; ++k) v[k] = argument(call, 2 + k)[i];
+        constexpr int kFirst = rsl::service_argument(rsl::Service::environment, "R").first;
+        for (int k = 0; k < 9; ++k) v[k] = argument(call, kFirst + k)[i];
         float large = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
         float sum = v[0] + v[1] + v[2];
         bool usable = large > 0 && large < HUGE_VALF && sum == sum;
@@ -110,43 +111,59 @@ const Texture* find_texture(TextureStore& store, int32_t name) {
 }
 
 void lookup_texture(const jit::ServiceCall& call, TextureStore& store) {
-    enum { Name, Channel, S, T, Dsdx, Dtdx, Dsdy, Dtdy, Blur, Swidth, Twidth, Filter, Fill };
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::texture, name).first;
+    };
     auto row = [&](int index) { return argument(call, index); };
-    TextureLanes lanes{row(Channel), row(S),    row(T),      row(Dsdx),   row(Dtdx), row(Dsdy),
-                       row(Dtdy),    row(Blur), row(Swidth), row(Twidth), row(Fill), call.results};
+    const float *map = row(at("map")), *filters = row(at("filter")), *fill = row(at("fill"));
+    TextureLanes lanes{row(at("channel")),
+                       row(at("s")),
+                       row(at("t")),
+                       row(at("dsdx")),
+                       row(at("dtdx")),
+                       row(at("dsdy")),
+                       row(at("dtdy")),
+                       row(at("blur")),
+                       row(at("swidth")),
+                       row(at("twidth")),
+                       fill,
+                       call.results};
     for (uint32_t left = call.mask; left;) {
-        uint32_t same = lanes_like_first(row(Name), left);
-        same = lanes_like_first(row(Filter), same);
+        uint32_t same = lanes_like_first(map, left);
+        same = lanes_like_first(filters, same);
         left &= ~same;
-        int32_t filter = jit::bits_of(row(Filter)[std::countr_zero(same)]);
-        if (const Texture* texture = texture_of(store, row(Name), same))
+        int32_t filter = jit::bits_of(filters[std::countr_zero(same)]);
+        if (const Texture* texture = texture_of(store, map, same))
             sample_texture(texture->image->pyramid, texture->modes, filter_of(filter), same, lanes);
         else
-            fill_lanes(same, row(Fill), call.results);
+            fill_lanes(same, fill, call.results);
     }
 }
 
 void lookup_environment(const jit::ServiceCall& call, TextureStore& store) {
-    enum { Name, Channel, Blur = 11, Fill = 12 };
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::environment, name).first;
+    };
     auto row = [&](int index) { return argument(call, index); };
-    DirectionRows at = directions(call);
-    TextureLanes lanes{row(Channel),  at.s,          at.t,      at.ds,
-                       kZeros.data(), kZeros.data(), at.dt,     row(Blur),
-                       kOnes.data(),  kOnes.data(),  row(Fill), call.results};
+    const float *map = row(at("map")), *fill = row(at("fill"));
+    DirectionRows directions = directions_of(call);
+    TextureLanes lanes{row(at("channel")), directions.s,  directions.t,  directions.ds,
+                       kZeros.data(),      kZeros.data(), directions.dt, row(at("blur")),
+                       kOnes.data(),       kOnes.data(),  fill,          call.results};
     TextureName modes;
     modes.wrap_t = TextureWrap::Clamp;
-    fill_lanes(call.mask & ~at.mask, row(Fill), call.results);
-    for (uint32_t left = call.mask & at.mask; left;) {
-        uint32_t same = lanes_like_first(row(Name), left);
+    fill_lanes(call.mask & ~directions.mask, fill, call.results);
+    for (uint32_t left = call.mask & directions.mask; left;) {
+        uint32_t same = lanes_like_first(map, left);
         left &= ~same;
-        const Texture* texture = texture_of(store, row(Name), same);
+        const Texture* texture = texture_of(store, map, same);
         if (texture && !texture->image->faces.empty()) {
             lookup_cube(*texture->image, call, same);
         } else if (texture) {
             modes.nearest = texture->modes.nearest;
             sample_texture(texture->image->pyramid, modes, TextureFilter::Anisotropic, same, lanes);
         } else {
-            fill_lanes(same, row(Fill), call.results);
+            fill_lanes(same, fill, call.results);
         }
     }
 }

@@ -57,7 +57,7 @@ vec4 row_times(vec3 p, const std::array<float, 16>& m) {
 
 // A point as the map sees it: s, t in 0..1 from the lower left, and its depth.
 struct Seen {
-    vec2 place{0, 0};
+    vec2 position{0, 0};
     float depth = 0;
     bool inside = false;
 };
@@ -65,9 +65,9 @@ Seen seen_from(const TextureFacts& facts, vec3 world) {
     vec4 screen = row_times(world, facts.world_to_screen);
     float depth = row_times(world, facts.world_to_camera).z;
     if (!(screen.w > 0) || !(depth > 0)) return {};
-    vec2 place = (vec2(screen) / screen.w + 1.0f) * 0.5f;
-    bool inside = place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
-    return {place, depth, inside};
+    vec2 position = (vec2(screen) / screen.w + 1.0f) * 0.5f;
+    bool inside = position.x >= 0 && position.x <= 1 && position.y >= 0 && position.y <= 1;
+    return {position, depth, inside};
 }
 
 constexpr float kSlope = 0.002f;  // bias as a share of the depth, where none is given
@@ -83,7 +83,7 @@ float share_behind(const StoredImage& image, const Seen& at, vec2 extent, float 
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i) {
             vec2 offset = (vec2(float(i), float(j)) + 0.5f) / float(side) - 0.5f;
-            vec2 p = at.place + offset * extent;
+            vec2 p = at.position + offset * extent;
             if (!(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1)) continue;
             float z =
                 pyramid.texel(0, int(p.x * float(level.width)), int(p.y * float(level.height)))[0];
@@ -94,8 +94,8 @@ float share_behind(const StoredImage& image, const Seen& at, vec2 extent, float 
 
 // ---- six faces ----------------------------------------------------------------------------------
 
-// Face of a direction and the place on it, as OpenEXR lays out its cubes (ImfEnvmap.h): faces +x -x
-// +y -y +z -z from the top, the outermost texels' centres on the cube's edges.
+// Face of a direction and the position on it, as OpenEXR lays out its cubes (ImfEnvmap.h): faces +x
+// -x +y -y +z -z from the top, the outermost texels' centres on the cube's edges.
 struct OnFace {
     int face;
     float s, t;
@@ -117,11 +117,14 @@ OnFace face_of(vec3 d) {
 }  // namespace
 
 void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::textureinfo, name).first;
+    };
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         float values[16] = {};
-        int32_t name = jit::bits_of(argument(call, 0, i));
-        const std::string& field = rsl::interned(jit::bits_of(argument(call, 1, i)));
+        int32_t name = jit::bits_of(argument(call, at("map"), i));
+        const std::string& field = rsl::interned(jit::bits_of(argument(call, at("field"), i)));
         int count = 0;
         // To ask whether a file is there is no use of it.
         const Texture* texture = store.find(name);
@@ -136,37 +139,43 @@ void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
 
 void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current,
                    TextureStore& store) {
-    enum { Name, P = 1, Dx = 4, Dy = 7, Bias = 10, Blur, Samples };
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::shadow, name).first;
+    };
     mat4 to_world(world_from_current);
     for (int i = 0; i < kLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = 0;
-        const Texture* texture = find_texture(store, jit::bits_of(argument(call, Name, i)));
+        const Texture* texture = find_texture(store, jit::bits_of(argument(call, at("map"), i)));
         if (!texture || !texture->image->error.empty() || !texture->image->facts.has_matrices)
             continue;
         const TextureFacts& facts = texture->image->facts;
         auto seen = [&](vec3 current) {
             return seen_from(facts, vec3(to_world * vec4(current, 1)));
         };
-        vec3 p = triple(call, P, i);
-        Seen at = seen(p);
-        if (!at.inside) continue;
+        vec3 p = triple(call, at("P"), i);
+        Seen point = seen(p);
+        if (!point.inside) continue;
         vec2 extent(1.0f / float(facts.width), 1.0f / float(facts.height));
-        for (int from : {Dx, Dy}) {
+        for (int from : {at("dPdx"), at("dPdy")}) {
             Seen beside = seen(p + triple(call, from, i));
-            if (beside.depth > 0) extent = glm::max(extent, glm::abs(beside.place - at.place));
+            if (beside.depth > 0)
+                extent = glm::max(extent, glm::abs(beside.position - point.position));
         }
-        float blur = argument(call, Blur, i), samples = argument(call, Samples, i);
+        float blur = argument(call, at("blur"), i), samples = argument(call, at("samples"), i);
         extent = glm::min(extent, vec2(0.1f)) + std::clamp(blur, 0.0f, 1.0f);
         int side =
             int(std::ceil(std::sqrt(std::clamp(samples, 1.0f, float(kMostSide * kMostSide)))));
-        float hidden = share_behind(*texture->image, at, extent, argument(call, Bias, i), side);
+        float hidden =
+            share_behind(*texture->image, point, extent, argument(call, at("bias"), i), side);
         for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = hidden;
     }
 }
 
 void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_t mask) {
-    enum { Name, Channel, R, Dx = 5, Dy = 8, Blur = 11, Fill };
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::environment, name).first;
+    };
     alignas(64) float s[kLanes] = {}, t[kLanes] = {}, ds[kLanes] = {}, zero[kLanes] = {},
                       one[kLanes];
     int face[kLanes] = {};
@@ -174,18 +183,20 @@ void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_
     float size = float(image.faces[0].levels[0].width);
     for (int i = 0; i < kLanes; ++i) {
         if (!(mask >> i & 1)) continue;
-        vec3 d = triple(call, R, i), dx = triple(call, Dx, i), dy = triple(call, Dy, i);
-        OnFace at = face_of(d);
+        vec3 d = triple(call, at("R"), i), dx = triple(call, at("dRdx"), i),
+             dy = triple(call, at("dRdy"), i);
+        OnFace on = face_of(d);
         float large = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         auto on_texels = [&](float x) { return ((x + 1) * 0.5f * (size - 1) + 0.5f) / size; };
-        face[i] = at.face;
-        s[i] = on_texels(at.s), t[i] = on_texels(at.t);
+        face[i] = on.face;
+        s[i] = on_texels(on.s), t[i] = on_texels(on.t);
         float width = std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))) / (2 * large);
         ds[i] = width >= 0 ? std::min(width, 1.0f) : 0;
     }
     auto row = [&](int index) { return call.args + index * kLanes; };
-    TextureLanes lanes{row(Channel), s,         t,   ds,  zero,      zero,
-                       ds,           row(Blur), one, one, row(Fill), call.results};
+    TextureLanes lanes{
+        row(at("channel")), s,           t, ds, zero, zero, ds, row(at("blur")), one, one,
+        row(at("fill")),    call.results};
     TextureName modes;
     modes.wrap_s = modes.wrap_t = TextureWrap::Clamp;
     for (int f = 0; f < 6; ++f) {

@@ -28,7 +28,7 @@ inline float4 load_texel(const FloatTexel* texel) {
     std::memcpy(&value, texel, sizeof value);
     return value;
 }
-// The bits of a half moved to a float's place are the value times 2^-112.
+// The bits of a half, shifted to where a float has them, are the value times 2^-112.
 inline float4 load_texel(const HalfTexel* texel) {
     using long2 = uint64_t __attribute__((vector_size(16)));
     using short8 = uint16_t __attribute__((vector_size(16)));
@@ -41,7 +41,7 @@ inline float4 load_texel(const HalfTexel* texel) {
 }
 
 // One size of the image. Texels lie in 8x8 tiles, tiles in rows, row 0 at the bottom (t = 0):
-// the place of (x, y) is the sum of a part of x and a part of y.
+// the index of (x, y) is the sum of a part of x and a part of y.
 struct TextureLevel {
     static constexpr int kTile = 8;
     int width, height;

@@ -68,7 +68,7 @@ int texel_index(TextureWrap wrap, int i, int n) {
 }
 
 template <class Texel>
-struct Sampler {
+struct TexelSampler {
     const TexturePyramid& pyramid;
     const TextureName& modes;
     const Texel* texels;
@@ -197,7 +197,7 @@ void find_footprints(const TexturePyramid& pyramid, const TextureName& modes, Te
 }
 
 template <class Texel>
-float4 sample_lane(const Sampler<Texel>& sampler, TextureFilter filter, const Footprints& at,
+float4 sample_lane(const TexelSampler<Texel>& sampler, TextureFilter filter, const Footprints& at,
                    int i) {
     bool magnified = at.lod[i] == 0.0f && at.taps[i] == 1.0f;
     bool nearest = magnified ? sampler.modes.nearest_magnified : sampler.modes.nearest_minified;
@@ -227,7 +227,7 @@ void store_result(float4 texel, int colors, const TextureLanes& lanes, int i) {
 }
 
 template <class Texel>
-void sample_lanes(const Sampler<Texel>& sampler, TextureFilter filter, uint32_t mask,
+void sample_lanes(const TexelSampler<Texel>& sampler, TextureFilter filter, uint32_t mask,
                   const TextureLanes& lanes) {
     Footprints at;
     find_footprints(sampler.pyramid, sampler.modes, filter, lanes, at);
@@ -263,10 +263,10 @@ void sample_texture(const TexturePyramid& pyramid, const TextureName& modes, Tex
                     uint32_t mask, const TextureLanes& lanes) {
     if (modes.nearest) filter = TextureFilter::Nearest;
     if (pyramid.is_half())
-        sample_lanes(Sampler<HalfTexel>{pyramid, modes, pyramid.half_texels()}, filter, mask,
+        sample_lanes(TexelSampler<HalfTexel>{pyramid, modes, pyramid.half_texels()}, filter, mask,
                      lanes);
     else
-        sample_lanes(Sampler<FloatTexel>{pyramid, modes, pyramid.float_texels()}, filter, mask,
+        sample_lanes(TexelSampler<FloatTexel>{pyramid, modes, pyramid.float_texels()}, filter, mask,
                      lanes);
 }
 

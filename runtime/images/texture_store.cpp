@@ -67,9 +67,8 @@ const Texture* TextureStore::find(int32_t name) {
     uint32_t chunk_index = uint32_t(name) >> kChunkBits;
     if (chunk_index < kChunks) {
         if (Chunk* chunk = chunks_[chunk_index].load(std::memory_order_acquire)) {
-            uint32_t place = uint32_t(name) & ((1u << kChunkBits) - 1);
-            if (const Texture* known = (*chunk)[place].load(std::memory_order_acquire))
-                return known;
+            uint32_t slot = uint32_t(name) & ((1u << kChunkBits) - 1);
+            if (const Texture* known = (*chunk)[slot].load(std::memory_order_acquire)) return known;
         }
     }
     return name > 0 ? meet(name) : nullptr;
@@ -91,8 +90,8 @@ const Texture* TextureStore::meet(int32_t name) {
             chunk = new Chunk{};
             chunks_[chunk_index].store(chunk, std::memory_order_release);
         }
-        uint32_t place = uint32_t(name) & ((1u << kChunkBits) - 1);
-        (*chunk)[place].store(texture.get(), std::memory_order_release);
+        uint32_t slot = uint32_t(name) & ((1u << kChunkBits) - 1);
+        (*chunk)[slot].store(texture.get(), std::memory_order_release);
     }
     return texture.get();
 }

@@ -25,7 +25,7 @@ TEST(ElementTable, IsClosedUnderItsOwnNames) {
             if (!holds_for(row.versions, version)) continue;
             const ElementType* type = types.find(row.type);
             ASSERT_TRUE(type && type->row == &row) << row.type << " has two rows";
-            EXPECT_FALSE(type->rules().content.places.empty());
+            EXPECT_FALSE(type->rules().content.positions.empty());
             ++rows;
         }
         EXPECT_GT(rows, 300u);
@@ -34,15 +34,16 @@ TEST(ElementTable, IsClosedUnderItsOwnNames) {
     }
 }
 
-// A model in which two places of one name may follow the same one could not be walked by one state.
+// A model in which two positions of one name may follow the same one could not be walked by one
+// state.
 TEST(ElementTable, ContentModelsAreDeterministic) {
     for (Version version : {Version::V1_4_1, Version::V1_5_0})
         for (const ElementRow& row : element_rows()) {
             if (!holds_for(row.versions, version)) continue;
             const ContentModel& model = ElementTypes::of(version).find(row.type)->rules().content;
-            for (const ContentModel::Place& place : model.places) {
+            for (const ContentModel::Position& position : model.positions) {
                 std::vector<std::string_view> names;
-                for (uint16_t next : place.next) names.push_back(model.places[next].name);
+                for (uint16_t next : position.next) names.push_back(model.positions[next].name);
                 std::sort(names.begin(), names.end());
                 EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << row.type;
             }
@@ -91,7 +92,7 @@ TEST(ContentModel, AcceptsWhatItsCellSays) {
             uint16_t at = 0;
             bool walked = true;
             for (char c : word) walked = walked && (at = model.step(at, std::string(1, c)));
-            walked = walked && model.places[at].last;
+            walked = walked && model.positions[at].last;
             EXPECT_EQ(walked, matches_rest(word, {parsed})) << "'" << cell << "' on " << word;
         }
     }

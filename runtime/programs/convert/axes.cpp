@@ -91,13 +91,13 @@ class AxisChange {
             edits_.push_back(collada::append_child(text_, *asset_, unit_markup + up_markup));
             return;
         }
-        auto place = [&](const Element* old) {
+        auto bytes_of = [&](const Element* old) {
             return old ? old->bytes : collada::ByteRange{end, end};
         };
-        collada::ByteRange unit_place = place(old_unit);
-        if (!old_unit && old_up) unit_place = {old_up->bytes.begin, old_up->bytes.begin};
-        edits_.push_back({unit_place, unit_markup});
-        edits_.push_back({place(old_up), up_markup});
+        collada::ByteRange unit_bytes = bytes_of(old_unit);
+        if (!old_unit && old_up) unit_bytes = {old_up->bytes.begin, old_up->bytes.begin};
+        edits_.push_back({unit_bytes, unit_markup});
+        edits_.push_back({bytes_of(old_up), up_markup});
     }
 
     static std::string unit_name(double meter) {

@@ -15,7 +15,7 @@ std::string_view trimmed(std::string_view text);
 // As COLLADA writes a matrix: by rows.
 std::string rows_text(const dmat4& m);
 
-// Text in the place of all that stands between the element's tags.
+// Text instead of all that stands between the element's tags.
 collada::Edit replace_content(const collada::Element& e, const std::string& text,
                               std::string_view original);
 

@@ -87,7 +87,7 @@ class LinkMove {
     }
 
     std::string run(Diagnostics& diag) {
-        for (const collada::UriPlace& place : collada::uri_places(document_)) move_uri(place);
+        for (const collada::UriValue& uri : collada::uri_values(document_)) move_uri(uri);
         visit_code(document_.root());
         // Links were taken as it says, and say so themselves now.
         if (const collada::Attribute* base = document_.root().attribute("xml:base"))
@@ -115,20 +115,20 @@ class LinkMove {
         return (from_ / (below.empty() ? fs::path(path) : below)).lexically_normal();
     }
 
-    void move_uri(const collada::UriPlace& place) {
-        std::string_view link = trimmed(place.value);
+    void move_uri(const collada::UriValue& uri) {
+        std::string_view link = trimmed(uri.value);
         size_t hash = std::min(link.find('#'), link.size());
         if (!is_relative(trimmed(link.substr(0, hash)))) return;
         fs::path file = found(collada::path_of_uri(document_, link.substr(0, hash)));
         // A fragment without its '#' is no file.
-        if (hash == link.size() && !names_file(*place.element) && !is_file(file)) return;
+        if (hash == link.size() && !names_file(*uri.element) && !is_file(file)) return;
         std::string name = encoded(moved(file)) + std::string(link.substr(hash));
-        if (place.attribute)
+        if (uri.attribute)
             edits_.push_back(
-                collada::set_attribute(text_, *place.element, place.attribute->name, name));
+                collada::set_attribute(text_, *uri.element, uri.attribute->name, name));
         else
-            edits_.push_back({{place.element->start_tag.end,
-                               uint32_t(text_.rfind("</", place.element->bytes.end - 1))},
+            edits_.push_back({{uri.element->start_tag.end,
+                               uint32_t(text_.rfind("</", uri.element->bytes.end - 1))},
                               collada::escape_text(name)});
     }
 

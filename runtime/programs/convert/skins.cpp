@@ -10,7 +10,7 @@
 
 #include "collada/document/write.h"
 #include "collada/extract/extract.h"
-#include "collada/scene/node_places.h"
+#include "collada/scene/node_occurrences.h"
 #include "runtime/description/findings.h"
 #include "runtime/programs/convert/axes_p.h"
 #include "runtime/programs/convert/convert.h"
@@ -64,9 +64,9 @@ std::vector<double> numbers_of(std::string_view text) {
 }
 
 // What a skinned vertex is multiplied by in the end.
-dmat4 placement(const SkinPlace& place, const SkinPose& pose) {
-    if (place.space == SkinSpace::Node) return pose.node;
-    if (place.space == SkinSpace::NodeBelow) return pose.node * glm::inverse(pose.shared);
+dmat4 placement(const SkinPlace& stand, const SkinPose& pose) {
+    if (stand.space == SkinSpace::Node) return pose.node;
+    if (stand.space == SkinSpace::NodeBelow) return pose.node * glm::inverse(pose.shared);
     return dmat4(1.0);
 }
 
@@ -111,17 +111,18 @@ class SkinChange {
         bool stays = true;     // the same to all who judge it after the change
     };
 
-    // Where no bind shape is written, the places of the joints say what is meant (skin_space.h).
+    // Where no bind shape is written, the positions of the joints say what is meant (skin_space.h).
     void judge(const collada::SceneData& scene) {
-        collada::NodePlaces places(scene);
-        for (uint32_t at = 0; at < places.places().size(); ++at)
-            for (const collada::MeshInstance& mesh : scene.nodes[places.places()[at].node].meshes) {
+        collada::NodeOccurrences occurrences(scene);
+        for (uint32_t at = 0; at < occurrences.all().size(); ++at)
+            for (const collada::MeshInstance& mesh :
+                 scene.nodes[occurrences.all()[at].node].meshes) {
                 if (mesh.skin == collada::kNone) continue;
                 const collada::Skin& skin = scene.skins[mesh.skin];
                 const Element* controller = document_.find(skin.id);
                 const Element* element = controller ? controller->child("skin") : nullptr;
                 if (!element || skin.where.file != document_.file()) continue;
-                collada::NodePlaces::SkinPoses poses = places.skin_poses(at, mesh);
+                collada::NodeOccurrences::SkinPoses poses = occurrences.skin_poses(at, mesh);
                 add(*element, skin.bind_shape_matrix, poses.rest, poses.start);
             }
     }

@@ -78,7 +78,7 @@ std::string component_suffix(BaseType type, size_t c) {
 }
 
 // Point-like values are given in shader space.
-void place(BaseType type, const dmat4& current_from_shader, double* v) {
+void move_to_current(BaseType type, const dmat4& current_from_shader, double* v) {
     dvec3 value(v[0], v[1], v[2]);
     dmat3 linear(current_from_shader);
     if (type == BaseType::Point)
@@ -103,7 +103,7 @@ void bind_value(const rsl::ShaderParameter& parameter, bool shape, size_t layer,
         std::vector<double> numbers = param.numbers;
         numbers.resize(count * width, numbers.empty() ? 0.0 : numbers.back());
         for (size_t e = 0; e < count && rsl::is_spatial(base); ++e)
-            place(base, patch.current_from_space("shader"), &numbers[e * width]);
+            move_to_current(base, patch.current_from_space("shader"), &numbers[e * width]);
         binding.kind = shape ? rsl::ParamBinding::Kind::Constant : rsl::ParamBinding::Kind::Frame;
         for (size_t e = 0; e < count; ++e)
             for (size_t c = 0; c < width; ++c) {
@@ -184,7 +184,7 @@ std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, 
         source.diagnostics.report(Code::TARGET_INTERPRETED, Location{});
     source.print_findings(options);
     patch.textures = std::make_shared<TextureStore>(options.compile.files);
-    if (shader->kind == rsl::ShaderKind::Light) patch.place_light(options.flip);
+    if (shader->kind == rsl::ShaderKind::Light) patch.set_light(options.flip);
     if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
     return std::nullopt;
 }

@@ -8,7 +8,7 @@
 
 namespace kinora {
 
-// One instruction a line, each run of code from one place in the source under that place's line:
+// One instruction a line, each run of code from one location in the source under its line:
 //   ; plastic.sl:12: Ci = Cs * diffuse(Nf);
 //     0040  vmulps zmm0, zmm1, zmm2
 // Empty for the interpreter, which has no code.

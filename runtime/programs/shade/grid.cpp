@@ -58,8 +58,8 @@ constexpr FixedRow kFixed[] = {
 }  // namespace
 
 Patch::Patch(int width, int height, bool sphere) : width_(width), height_(height), sphere_(sphere) {
-    dvec3 place = sphere ? dvec3(0, 0, kSphereDistance) : dvec3(-0.5, -0.5, kSquareDistance);
-    current_from_object_ = current_from_shader_ = glm::translate(dmat4(1.0), place);
+    dvec3 origin = sphere ? dvec3(0, 0, kSphereDistance) : dvec3(-0.5, -0.5, kSquareDistance);
+    current_from_object_ = current_from_shader_ = glm::translate(dmat4(1.0), origin);
     points_.reserve(size_t(width) * size_t(height));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -117,7 +117,7 @@ void Patch::add_sphere_point(int x, int y, uint32_t pixel) {
     points_.push_back(p);
 }
 
-void Patch::place_light(bool flip) {
+void Patch::set_light(bool flip) {
     double z = current_from_object_[3].z - (sphere_ ? 2.0 : 1.0);
     current_from_shader_ = glm::translate(dmat4(1.0), dvec3(0, 0, z));
     if (!flip) current_from_shader_ = glm::rotate(current_from_shader_, kPi, dvec3(0, 1, 0));

@@ -32,7 +32,7 @@ class Patch {
     dmat4 current_from_space(std::string_view name) const;
     // From now on "shader" space is a light's: 1 before the patch's middle, its -z towards the
     // patch as COLLADA's lights and ours have it (flip: its +z).
-    void place_light(bool flip);
+    void set_light(bool flip);
 
     // What its shader may read.
     std::shared_ptr<TextureStore> textures = std::make_shared<TextureStore>();

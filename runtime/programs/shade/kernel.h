@@ -53,7 +53,7 @@ class ShadeKernel {
     ShadeOutputs illumination() const;
     // Coordinate systems that the shader names and no scene gives: here they are the world.
     std::vector<std::string> unknown_spaces() const;
-    // One finding for each place in the shader that reported a fault while running.
+    // One finding for each location in the shader that reported a fault while running.
     void report_faults(Diagnostics& diagnostics) const;
 
     const rsl::LoweredShader& lowered() const { return lowered_; }

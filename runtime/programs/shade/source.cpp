@@ -151,7 +151,7 @@ std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource
         return source.failed(options) ? kExitShader : kExitOk;
     }
     source.shaders = rsl::compile(source.view(), options.compile, source.diagnostics);
-    source.diagnostics.sort_unique();  // by place: they came by stage
+    source.diagnostics.sort_unique();  // by location: they came by stage
     source.print_findings(options);
     if (source.shaders.empty() || source.failed(options)) return kExitShader;
     return std::nullopt;

@@ -185,8 +185,8 @@ struct Complaints {
 };
 
 // The attribute that the message names, else the element.
-Location place_of(const collada::Document& document, const Element& element,
-                  const std::string& message) {
+Location location_of(const collada::Document& document, const Element& element,
+                     const std::string& message) {
     constexpr std::string_view kAttribute = ", attribute '";
     size_t at = message.find(kAttribute);
     if (at != message.npos) {
@@ -208,7 +208,7 @@ void complain(void* data, xmlError* error) {
     std::string message = message_of(*error);
     Finding& finding =
         complaints.what.diag.add(collada::Code::SCHEMA_FOREIGN,
-                                 place_of(complaints.what.document, *element, message), message);
+                                 location_of(complaints.what.document, *element, message), message);
     finding.severity = Severity::Warning;
 }
 

@@ -70,10 +70,10 @@ Size tiff(Head h) {
     ImageSize size{0, 0, "tiff"};
     size_t at = h.u32(4);
     for (uint32_t entry = 0, count = h.u16(at); entry < count; ++entry) {
-        size_t place = at + 2 + entry * size_t(12);
-        uint32_t value = h.u16(place + 2) == 3 ? h.u16(place + 8) : h.u32(place + 8);
-        if (h.u16(place) == 256) size.width = value;
-        if (h.u16(place) == 257) size.height = value;
+        size_t field = at + 2 + entry * size_t(12);
+        uint32_t value = h.u16(field + 2) == 3 ? h.u16(field + 8) : h.u32(field + 8);
+        if (h.u16(field) == 256) size.width = value;
+        if (h.u16(field) == 257) size.height = value;
     }
     if (!size.width || !size.height) return std::nullopt;
     return size;

@@ -36,7 +36,7 @@ struct ValidateSettings {
     bool stats = false, stats_json = false;
 };
 
-// One file's findings, those of --only and above Off, by place, with id paths.
+// One file's findings, those of --only and above Off, by location, with id paths.
 struct FileResult {
     std::string name;  // as the user or the directory gave it; "<stdin>"
     bool unreadable = false;

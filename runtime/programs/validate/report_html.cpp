@@ -12,7 +12,7 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kWidestLine = 160;  // longer ones are shown around the place only
+constexpr size_t kWidestLine = 160;  // of longer ones a part is shown
 constexpr int kContextLines = 1;     // before and after
 
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
@@ -118,7 +118,7 @@ std::string excerpt(Location where, const SourceFiles& files) {
     return text + "</pre>";
 }
 
-std::string place(Location where, const SourceFiles& files) {
+std::string location_html(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return {};
     LineColumn at = files.line_column(where.file, where.begin);
     return fmt::format("{}:{}:{}", xml_text(display_path(files.name(where.file))), at.line,
@@ -131,12 +131,12 @@ std::string article(const Finding& finding, const SourceFiles& files) {
         "<article class=\"{}\" data-severity=\"{}\" data-code=\"{}\">\n<p><b class=\"{}\">{}</b> "
         "{} <code>[{}]</code></p>\n<p class=\"path\">{} {}</p>\n{}",
         severity, severity, finding.info->code, severity, severity, xml_text(finding.message),
-        finding.info->code, place(finding.where, files), xml_text(finding.id_path),
+        finding.info->code, location_html(finding.where, files), xml_text(finding.id_path),
         excerpt(finding.where, files));
     for (const Note& note : finding.notes)
         text +=
             fmt::format("<p>note: {} <span class=\"path\">{}</span></p>{}", xml_text(note.message),
-                        place(note.where, files), excerpt(note.where, files));
+                        location_html(note.where, files), excerpt(note.where, files));
     if (!finding.help.empty())
         text += fmt::format("<p class=\"help\">{}</p>", xml_text(finding.help));
     if (*finding.info->explanation)

@@ -9,7 +9,7 @@ namespace kinora {
 
 namespace {
 
-std::string place_json(Location where, const SourceFiles& files) {
+std::string location_json(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return {};
     LineColumn at = files.line_column(where.file, where.begin);
     LineColumn end = files.line_column(where.file, std::max(where.begin, where.end));
@@ -24,7 +24,7 @@ std::string finding_json(const Finding& finding, const SourceFiles& files) {
     std::string text =
         fmt::format("{{\"code\": {}, \"severity\": {}, \"message\": {}{}",
                     json_string(finding.info->code), json_string(severity_name(finding.severity)),
-                    json_string(finding.message), place_json(finding.where, files));
+                    json_string(finding.message), location_json(finding.where, files));
     if (!finding.id_path.empty())
         text += fmt::format(", \"path\": {}", json_string(finding.id_path));
     if (!finding.help.empty()) text += fmt::format(", \"help\": {}", json_string(finding.help));
@@ -32,7 +32,7 @@ std::string finding_json(const Finding& finding, const SourceFiles& files) {
     text += ", \"notes\": [";
     for (const Note& note : finding.notes)
         text += fmt::format("{}{{\"message\": {}{}}}", &note == &finding.notes.front() ? "" : ", ",
-                            json_string(note.message), place_json(note.where, files));
+                            json_string(note.message), location_json(note.where, files));
     return text + "]}";
 }
 

@@ -43,7 +43,7 @@ std::string sarif_head(const ValidateSettings&) {
     return text + "]}},\n\"columnKind\": \"unicodeCodePoints\",\n\"results\": [\n";
 }
 
-// The place of a finding without one is its file as a whole.
+// The location of a finding without one is its file as a whole.
 std::string location_json(const std::string& file, Location where, const SourceFiles& files,
                           std::string_view id_path, std::string_view message = {}) {
     std::string uri = where.file == kNoFile ? file : display_path(files.name(where.file));

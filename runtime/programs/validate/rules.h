@@ -23,7 +23,7 @@ const std::vector<const FindingInfo*>& validate_rules();
 // Of those, or of any that only the other programs report; null if there is none.
 const FindingInfo* find_rule(std::string_view code);
 
-// Its place in validate_rules(), if it is there.
+// Its index in validate_rules(), if it is there.
 std::optional<size_t> rule_index(const FindingInfo& info);
 
 std::optional<Severity> parse_severity(std::string_view name);  // "off", "hint", ...

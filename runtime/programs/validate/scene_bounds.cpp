@@ -18,13 +18,13 @@ class RestBounds {
         for (const PlacedNode& p : placed_) world_.try_emplace(p.node, p.world);
     }
 
-    std::optional<Bounds> run() {
+    std::optional<SceneBounds> run() {
         for (const PlacedNode& p : placed_)
             for (const collada::MeshInstance& mesh : scene_.nodes[p.node].meshes)
                 add(mesh, p.world);
         if (!any_) return std::nullopt;
         double meter = scene_.asset.meter;
-        return Bounds{bounds_.low * meter, bounds_.high * meter};
+        return SceneBounds{bounds_.low * meter, bounds_.high * meter};
     }
 
   private:
@@ -94,14 +94,14 @@ class RestBounds {
 
     const collada::SceneData& scene_;
     std::vector<PlacedNode> placed_;
-    std::map<uint32_t, dmat4> world_;  // of a node's first place
-    Bounds bounds_;
+    std::map<uint32_t, dmat4> world_;  // of a node's first occurrence
+    SceneBounds bounds_;
     bool any_ = false;
 };
 
 }  // namespace
 
-std::optional<Bounds> rest_bounds(const collada::SceneData& scene) {
+std::optional<SceneBounds> rest_bounds(const collada::SceneData& scene) {
     return RestBounds(scene).run();
 }
 

@@ -25,7 +25,7 @@ struct ClipInfo {
     size_t channels = 0;
 };
 
-struct Bounds {
+struct SceneBounds {
     dvec3 low{0}, high{0};
 };
 
@@ -49,14 +49,14 @@ struct SceneInfo {
     size_t channels = 0;
     std::optional<std::pair<double, double>> animated;  // first and last key, seconds
     // Of the rest pose, metres, in the file's own axes; nothing if there is no surface.
-    std::optional<Bounds> bounds;
+    std::optional<SceneBounds> bounds;
 };
 
 // What --info says of a document and of what <scene> reaches in it.
 SceneInfo scene_info(const collada::Document& document, const collada::SceneData& scene);
 
 // scene_bounds.cpp: node transforms, skins and morph weights at their rest values, metres.
-std::optional<Bounds> rest_bounds(const collada::SceneData& scene);
+std::optional<SceneBounds> rest_bounds(const collada::SceneData& scene);
 
 // The same as lines for people, and as one JSON object.
 std::string info_text(const std::string& name, const SceneInfo& info);

@@ -1,4 +1,4 @@
-// runtime/programs/validate/scene_walk.h: every place of a node in the visual scene, instances
+// runtime/programs/validate/scene_walk.h: every occurrence of a node in the visual scene, instances
 // unrolled.
 #pragma once
 

@@ -1,6 +1,6 @@
-// collada/scene/node_places.cpp: where the nodes of a scene stand, and the skins that they
+// collada/scene/node_occurrences.cpp: where the nodes of a scene occur, and the skins that they
 // instance.
-#include "collada/scene/node_places.h"
+#include "collada/scene/node_occurrences.h"
 
 #include "runtime/base/transform_matrix.h"
 
@@ -25,8 +25,8 @@ dmat4 matrix_of(const std::vector<Transform>& transforms) {
 
 }  // namespace
 
-NodePlaces::NodePlaces(const SceneData& scene)
-    : scene_(scene), nodes_(scene.nodes), place_of_(nodes_.size(), kNone) {
+NodeOccurrences::NodeOccurrences(const SceneData& scene)
+    : scene_(scene), nodes_(scene.nodes), occurrence_of_(nodes_.size(), kNone) {
     for (const Channel& channel : scene.channels)
         if (channel.ref.kind == Owner::Transform) start(channel);
     for (uint32_t root : scene.roots) walk(root);
@@ -35,7 +35,7 @@ NodePlaces::NodePlaces(const SceneData& scene)
 }
 
 // The channel's first key into the node's transforms.
-void NodePlaces::start(const Channel& channel) {
+void NodeOccurrences::start(const Channel& channel) {
     const TargetRef& ref = channel.ref;
     const Sampler& sampler = scene_.samplers[channel.sampler];
     auto& transforms = started_.try_emplace(ref.owner, nodes_[ref.owner].transforms).first->second;
@@ -45,29 +45,31 @@ void NodePlaces::start(const Channel& channel) {
 }
 
 // Without recursion, since instances may be chained as long as the file.
-void NodePlaces::walk(uint32_t root) {
+void NodeOccurrences::walk(uint32_t root) {
     std::vector<std::pair<uint32_t, uint32_t>> todo{{root, kNone}};
     while (!todo.empty()) {
         auto [at, parent] = todo.back();
         todo.pop_back();
-        if (place_of_[at] != kNone) continue;
-        uint32_t place = place_of_[at] = uint32_t(places_.size());
+        if (occurrence_of_[at] != kNone) continue;
+        uint32_t occurrence = occurrence_of_[at] = uint32_t(all_.size());
         const Node& node = nodes_[at];
         dmat4 local = matrix_of(node.transforms), first = local;
         if (auto moved = started_.find(at); moved != started_.end())
             first = matrix_of(moved->second);
         if (parent == kNone)
-            places_.push_back({at, parent, local, local, first});
+            all_.push_back({at, parent, local, local, first});
         else
-            places_.push_back(
-                {at, parent, local, places_[parent].world * local, places_[parent].start * first});
-        for (uint32_t child : node.children) todo.emplace_back(child, place);
-        for (const NodeInstance& instance : node.instances) todo.emplace_back(instance.node, place);
+            all_.push_back(
+                {at, parent, local, all_[parent].world * local, all_[parent].start * first});
+        for (uint32_t child : node.children) todo.emplace_back(child, occurrence);
+        for (const NodeInstance& instance : node.instances)
+            todo.emplace_back(instance.node, occurrence);
     }
 }
 
 // As the scene is built (SceneBuilder::add_skin).
-NodePlaces::SkinPoses NodePlaces::skin_poses(uint32_t place, const MeshInstance& mesh) const {
+NodeOccurrences::SkinPoses NodeOccurrences::skin_poses(uint32_t occurrence,
+                                                       const MeshInstance& mesh) const {
     constexpr size_t kMostAsked = 10'000;  // joints tell alike; a short file can name millions
     const Skin& skin = scene_.skins[mesh.skin];
     std::vector<bool> used(skin.inverse_bind.size());
@@ -78,21 +80,21 @@ NodePlaces::SkinPoses NodePlaces::skin_poses(uint32_t place, const MeshInstance&
     std::vector<uint32_t> joints;
     for (size_t j = 0; j < mesh.joint_nodes.size() && j < used.size(); ++j) {
         uint32_t node = mesh.joint_nodes[j];
-        if (node == kNone || place_of_[node] == kNone) continue;
-        joints.push_back(place_of_[node]);
+        if (node == kNone || occurrence_of_[node] == kNone) continue;
+        joints.push_back(occurrence_of_[node]);
         if (rest.joints.size() == kMostAsked) continue;
-        rest.joints.push_back({places_[joints.back()].world, skin.inverse_bind[j]});
-        start.joints.push_back({places_[joints.back()].start, skin.inverse_bind[j]});
+        rest.joints.push_back({all_[joints.back()].world, skin.inverse_bind[j]});
+        start.joints.push_back({all_[joints.back()].start, skin.inverse_bind[j]});
         if (used[j]) moving.push_back(rest.joints.back());
     }
     dmat4 conversion(1.0);
     if (mesh.conversion != kNone) conversion = scene_.conversions[mesh.conversion];
-    rest.node = places_[place].world * conversion;
-    start.node = places_[place].start * conversion;
+    rest.node = all_[occurrence].world * conversion;
+    start.node = all_[occurrence].start * conversion;
     uint32_t shared =
-        shared_ancestor(place, joints, kNone, [&](uint32_t p) { return places_[p].parent; });
-    if (shared != kNone) rest.shared = places_[shared].world;
-    if (shared != kNone) start.shared = places_[shared].start;
+        shared_ancestor(occurrence, joints, kNone, [&](uint32_t p) { return all_[p].parent; });
+    if (shared != kNone) rest.shared = all_[shared].world;
+    if (shared != kNone) start.shared = all_[shared].start;
     return poses;
 }
 

@@ -1,4 +1,5 @@
-// collada/scene/node_places.h: where the nodes of a scene stand, and the skins that they instance.
+// collada/scene/node_occurrences.h: where the nodes of a scene occur, and the skins that they
+// instance.
 #pragma once
 
 #include <unordered_map>
@@ -9,26 +10,26 @@
 
 namespace kinora::collada {
 
-// Where a node definition stands by the first way that leads to it; parents come first.
-struct NodePlace {
+// A node definition by the first way that leads to it; parents come first.
+struct NodeOccurrence {
     uint32_t node;
-    uint32_t parent;            // a place, or kNone
+    uint32_t parent;            // an occurrence, or kNone
     dmat4 local, world, start;  // as the file leaves it, in the world, and there at the first keys
 };
 
-class NodePlaces {
+class NodeOccurrences {
   public:
-    explicit NodePlaces(const SceneData& scene);  // which must outlive it
+    explicit NodeOccurrences(const SceneData& scene);  // which must outlive it
 
-    const std::vector<NodePlace>& places() const { return places_; }
+    const std::vector<NodeOccurrence>& all() const { return all_; }
     bool animated(uint32_t node) const { return started_.count(node) != 0; }
 
     struct SkinPoses {
         SkinPose rest, start;
         std::vector<RestJoint> moving;  // at rest, those that some vertex follows
     };
-    // Of a skin that the node at a place instances.
-    SkinPoses skin_poses(uint32_t place, const MeshInstance& mesh) const;
+    // Of a skin that the node of an occurrence instances.
+    SkinPoses skin_poses(uint32_t occurrence, const MeshInstance& mesh) const;
 
   private:
     void start(const Channel& channel);
@@ -36,8 +37,8 @@ class NodePlaces {
 
     const SceneData& scene_;
     const std::vector<Node>& nodes_;
-    std::vector<NodePlace> places_;
-    std::vector<uint32_t> place_of_;                                // by node definition
+    std::vector<NodeOccurrence> all_;
+    std::vector<uint32_t> occurrence_of_;                           // by node definition
     std::unordered_map<uint32_t, std::vector<Transform>> started_;  // of nodes that channels move
 };
 
