@@ -22,7 +22,7 @@ Value cone(LowerCall& c) {
 
 // The variable of an output pair, from three numbers.
 void set_pair(LowerCall& c, std::string_view name, const Value* triple) {
-    if (Target* variable = c.output_pair(name))
+    if (LValue* variable = c.output_pair(name))
         c.variables.store(*variable, lowered(variable->type, V3{triple[0], triple[1], triple[2]}));
 }
 

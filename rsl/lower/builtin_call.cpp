@@ -30,7 +30,7 @@ Lowered lower_builtin(const BuiltinTools& tools, const CallExpr& e) {
     for (size_t k = 0; k < plain; ++k) {
         bool output = k < declared.size() && declared[k].output;
         bool array = e.args[k]->type.is_array();
-        call.targets.push_back(output && !array ? variables.target(*e.args[k]) : Target{});
+        call.targets.push_back(output && !array ? variables.target(*e.args[k]) : LValue{});
         call.args.push_back(array    ? Lowered{}
                             : output ? variables.load(call.targets.back())
                                      : tree.expr(*e.args[k]));
@@ -88,7 +88,7 @@ void LowerCall::report_unknown_pairs() const {
     }
 }
 
-Target* LowerCall::output_pair(std::string_view name) {
+LValue* LowerCall::output_pair(std::string_view name) {
     for (auto& [key, target] : output_pairs)
         if (key == name) return &target;
     return nullptr;

@@ -42,9 +42,9 @@ struct LowerCall : BuiltinTools {
     jit::Builder& b;
     const CallExpr& call;
     std::vector<Lowered> args;    // values; of outputs, before the call; pairs are not among them
-    std::vector<Target> targets;  // of output arguments
+    std::vector<LValue> targets;  // of output arguments
     std::vector<std::pair<std::string, Lowered>> pairs;
-    std::vector<std::pair<std::string, Target>> output_pairs;  // variables that pairs name
+    std::vector<std::pair<std::string, LValue>> output_pairs;  // variables that pairs name
     Lowered result;
 
     int overload() const { return call.signature->overload; }
@@ -62,7 +62,7 @@ struct LowerCall : BuiltinTools {
     Value text_pair(std::string_view name) const;  // its string id, that of "" if absent
     // Reports pairs that the callee does not know (rsl/model/pairs.h): they have no effect.
     void report_unknown_pairs() const;
-    Target* output_pair(std::string_view name);  // null if absent
+    LValue* output_pair(std::string_view name);  // null if absent
     const Location& where() const { return call.span.where; }
 };
 

@@ -18,7 +18,7 @@ bool Calls::may_grow(const CallExpr& e) {
 
 CallArguments Calls::evaluate(const CallExpr& e) {
     const Function& f = *e.function;
-    CallArguments arguments{std::vector<Lowered>(e.args.size()), std::vector<Target>(e.args.size()),
+    CallArguments arguments{std::vector<Lowered>(e.args.size()), std::vector<LValue>(e.args.size()),
                             std::vector<int>(e.args.size(), -1)};
     auto& [values, targets, arrays] = arguments;
     for (size_t k = 0; k < e.args.size(); ++k) {

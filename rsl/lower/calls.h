@@ -18,7 +18,7 @@ namespace kinora::rsl {
 
 struct CallArguments {
     std::vector<Lowered> values;
-    std::vector<Target> targets;  // of output parameters
+    std::vector<LValue> targets;  // of output parameters
     std::vector<int> arrays;      // of array parameters, else -1
 };
 

@@ -191,7 +191,7 @@ Lowered Expressions::assign(const AssignExpr& e) {
         variables_.store(variables_.target(*e.target), result);
         return result;
     }
-    Target t = variables_.target(*e.target);
+    LValue t = variables_.target(*e.target);
     Lowered before = variables_.load(t);  // a += b is a = a + b, from left to right
     bool sums = e.op == Op::Add || e.op == Op::Subtract;
     result = sums ? sum_of(e.op, before, *e.value) : binary(e_, e.op, before, expr(*e.value));

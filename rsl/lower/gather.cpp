@@ -147,7 +147,7 @@ void Gather::turn(const GatherStmt& stmt, Value set, Value record, Results& resu
 void Gather::branch(const GatherStmt& stmt, Value set, Value record, Results& results, bool hit) {
     for (const Results::Item& item : results.items) {
         if (!hit && !item.of_ray) continue;
-        Target to = variables_.target(*item.variable);
+        LValue to = variables_.target(*item.variable);
         Lowered x = zero(e_, item.variable->type.base);
         bool text = x.type == BaseType::String;
         for (int c = 0; c < x.size(); ++c)

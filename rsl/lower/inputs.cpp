@@ -156,8 +156,9 @@ Lowered Globals::kernel_input(Global id) {
 
 // ---- parameters ---------------------------------------------------------------------------------
 
-jit::InputInfo Parameters::element_input(std::string_view name, BaseType type,
-                                         const ParamBinding& bound, int element, int component) {
+jit::InputInfo BoundParameters::element_input(std::string_view name, BaseType type,
+                                              const ParamBinding& bound, int element,
+                                              int component) {
     std::string text = "param:" + std::to_string(context_.layer_index) + ":" + std::string(name);
     if (element >= 0) text += "[" + std::to_string(element) + "]";
     text += component_suffix(type, component);
@@ -167,16 +168,16 @@ jit::InputInfo Parameters::element_input(std::string_view name, BaseType type,
 }
 
 // A binding's value, in the layer's current; `element` of an array type.
-Lowered Parameters::bound_value(const ParamBinding& bound, std::string_view name, Type type,
-                                int element) {
+Lowered BoundParameters::bound_value(const ParamBinding& bound, std::string_view name, Type type,
+                                     int element) {
     Lowered value = bound_input(bound, name, type, element);
     if (bound.plain) return value;
     return bound.kind == ParamBinding::Kind::Varying ? spaces_.from_object(value)
                                                      : spaces_.into_layer(value);
 }
 
-Lowered Parameters::bound_input(const ParamBinding& bound, std::string_view name, Type type,
-                                int element) {
+Lowered BoundParameters::bound_input(const ParamBinding& bound, std::string_view name, Type type,
+                                     int element) {
     Lowered result = zero(e_, type.base);
     size_t n = size_t(result.size());
     size_t first = size_t(element) * n;

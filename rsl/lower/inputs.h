@@ -12,9 +12,9 @@
 namespace kinora::rsl {
 
 // Parameters by their bindings.
-class Parameters {
+class BoundParameters {
   public:
-    Parameters(Emitter& emitter, LoweringContext& context, Spaces& spaces)
+    BoundParameters(Emitter& emitter, LoweringContext& context, Spaces& spaces)
         : e_(emitter), b_(emitter.b), context_(context), spaces_(spaces) {}
 
     // A binding's value, in the layer's current; `element` of an array type.
@@ -34,7 +34,7 @@ class Parameters {
 // Shader globals: inputs of the kernel until the shader writes them.
 class Globals {
   public:
-    Globals(Emitter& emitter, LoweringContext& context, Spaces& spaces, Parameters& parameters,
+    Globals(Emitter& emitter, LoweringContext& context, Spaces& spaces, BoundParameters& parameters,
             Slots& slots)
         : e_(emitter),
           b_(emitter.b),
@@ -60,7 +60,7 @@ class Globals {
     jit::Builder& b_;
     LoweringContext& context_;
     Spaces& spaces_;
-    Parameters& parameters_;
+    BoundParameters& parameters_;
     Slots& slots_;
 };
 

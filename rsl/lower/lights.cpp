@@ -11,7 +11,7 @@
 namespace kinora::rsl {
 
 // Within `angle` of the axis: cos(angle) |L| |axis| <= L . axis.
-struct Cone {
+struct LightCone {
     bool all = true;
     V3 axis{};
     Value cosine = jit::kNone;  // times the length of the axis
@@ -19,7 +19,7 @@ struct Cone {
 
 namespace {
 
-Cone cone_of(Emitter& e, TreeWalk& tree, const Expr* axis, const Expr* angle) {
+LightCone cone_of(Emitter& e, TreeWalk& tree, const Expr* axis, const Expr* angle) {
     if (!axis) return {};
     V3 a = tree.expr(*axis).v3();
     Value half = tree.value(*angle);
@@ -32,7 +32,7 @@ Cone cone_of(Emitter& e, TreeWalk& tree, const Expr* axis, const Expr* angle) {
     return {false, a, e.b.mul(cosine, e.length(a))};
 }
 
-Value inside(Emitter& e, const Cone& cone, const V3& L) {
+Value inside(Emitter& e, const LightCone& cone, const V3& L) {
     if (cone.all) return e.b.m(true);
     return e.b.le(e.mul(cone.cosine, e.length(L)), e.dot(L, cone.axis));
 }
@@ -42,7 +42,7 @@ Value inside(Emitter& e, const Cone& cone, const V3& L) {
 void Illuminance::lower(const IlluminanceStmt& stmt) {
     Lowered position = tree_.expr(*stmt.position);
     Value set = records_.set_at(position.v3());
-    Cone around = cone_of(e_, tree_, stmt.axis, stmt.angle);
+    LightCone around = cone_of(e_, tree_, stmt.axis, stmt.angle);
     loops_.replay(stmt, set,
                   [&](Value record) { light_body(stmt, set, record, around, position); });
 }
@@ -55,7 +55,7 @@ void Illuminance::light_pairs(const IlluminanceStmt& stmt) {
         if (name.starts_with("send:"))
             context_.report(Code::RSL_LIGHT_PAIR, stmt.pairs[k]->span.where, name);
         if (!is_light_output(name)) continue;
-        Target to = variables_.target(*stmt.pairs[k]);
+        LValue to = variables_.target(*stmt.pairs[k]);
         Lowered before = variables_.load(to);
         Value known;
         variables_.store(to, records_.message(std::string(name.substr(6)), stmt.pairs[k]->type,
@@ -65,7 +65,7 @@ void Illuminance::light_pairs(const IlluminanceStmt& stmt) {
 
 // One turn: the body for the lanes that this record reaches.
 void Illuminance::light_body(const IlluminanceStmt& stmt, Value set, Value record,
-                             const Cone& around, const Lowered& position) {
+                             const LightCone& around, const Lowered& position) {
     Value kind = record_uniform(b_, set, record, kLightKind, jit::Type::I);
     Value wanted = b_.logical_not(b_.op(jit::Op::IEq, kind, b_.i(kLightAmbient)));
     if (stmt.category)

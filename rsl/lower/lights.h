@@ -13,7 +13,7 @@
 
 namespace kinora::rsl {
 
-struct Cone;
+struct LightCone;
 
 class Illuminance {
   public:
@@ -32,7 +32,7 @@ class Illuminance {
     void lower(const IlluminanceStmt& stmt);
 
   private:
-    void light_body(const IlluminanceStmt& stmt, Value set, Value record, const Cone& around,
+    void light_body(const IlluminanceStmt& stmt, Value set, Value record, const LightCone& around,
                     const Lowered& position);
     void light_pairs(const IlluminanceStmt& stmt);
 

@@ -341,7 +341,7 @@ class KernelWriter final : public TreeWalk {
     Regions regions_{emitter_, slots_};
     Arrays arrays_{emitter_, context_, slots_};
     Messages messages_{emitter_.b, arrays_};
-    Parameters parameters_{emitter_, context_, spaces_};
+    BoundParameters parameters_{emitter_, context_, spaces_};
     Globals globals_{emitter_, context_, spaces_, parameters_, slots_};
     Variables variables_{emitter_, context_,    slots_,   regions_,
                          arrays_,  parameters_, globals_, *this};

@@ -158,7 +158,7 @@ std::array<Value, 2> SampleSeeds::sample(uint32_t site) {
     return {scalar_input(b_, "rng", jit::Type::I, jit::Rate::Point), seed};
 }
 
-// docs/decisions.md#random-numbers-without-state: a hash of the sample, the place of the call and
+// docs/decisions.md#random-numbers-without-state: a hash of the sample, the site of the call and
 // the loop iterations.
 Value SampleSeeds::random01(const CallExpr& call, int component) {
     context_.out.uses_rng = true;

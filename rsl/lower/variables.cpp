@@ -151,8 +151,8 @@ void Variables::check_index(Value x, int length, Location where) {
 
 // ---- targets ------------------------------------------------------------------------------------
 
-Target Variables::target(const Expr& e) {
-    Target t;
+LValue Variables::target(const Expr& e) {
+    LValue t;
     t.type = e.type.base;
     if (auto* variable = as_if<VariableExpr>(&e)) {
         if (variable->symbol->type.is_array()) {
@@ -178,17 +178,17 @@ Target Variables::target(const Expr& e) {
     return t;
 }
 
-Lowered Variables::load(const Target& t) {
+Lowered Variables::load(const LValue& t) {
     Lowered whole = t.slot >= 0 ? slots_.read(t.slot) : arrays_.load(t.array, t.index);
     if (t.component == jit::kNone) return whole;
     return lowered(BaseType::Float, pick(e_, whole.v3(), t.component));
 }
 
-void Variables::store(const Target& t, const Lowered& value) {
+void Variables::store(const LValue& t, const Lowered& value) {
     Lowered whole = value;
     whole.type = t.type;
     if (t.component != jit::kNone) {
-        Target all = t;
+        LValue all = t;
         all.component = jit::kNone;
         whole = load(all);
         for (int c = 0; c < 3; ++c)

@@ -13,7 +13,7 @@
 namespace kinora::rsl {
 
 // Where an l-value is: a slot, or an element of an array; perhaps one component of it.
-struct Target {
+struct LValue {
     BaseType type = BaseType::Void;  // of the slot or element
     int slot = -1;                   // -1: an element of `array`
     int array = -1;                  // index in Arrays
@@ -29,7 +29,7 @@ struct Target {
 class Variables {
   public:
     Variables(Emitter& emitter, LoweringContext& context, Slots& slots, Regions& regions,
-              Arrays& arrays, Parameters& parameters, Globals& globals, TreeWalk& tree)
+              Arrays& arrays, BoundParameters& parameters, Globals& globals, TreeWalk& tree)
         : e_(emitter),
           b_(emitter.b),
           context_(context),
@@ -48,9 +48,9 @@ class Variables {
     void end_scope(std::span<Stmt* const> body);
     int slot_of(const Symbol& symbol) const;
 
-    Target target(const Expr& expr);
-    Lowered load(const Target& t);
-    void store(const Target& t, const Lowered& value);
+    LValue target(const Expr& expr);
+    Lowered load(const LValue& t);
+    void store(const LValue& t, const Lowered& value);
 
     int array_of(const Symbol& symbol);
     int known_array(const Symbol& symbol) const { return state_.array_of[symbol.id]; }  // or -1
@@ -81,7 +81,7 @@ class Variables {
     Slots& slots_;
     Regions& regions_;
     Arrays& arrays_;
-    Parameters& parameters_;
+    BoundParameters& parameters_;
     Globals& globals_;
     TreeWalk& tree_;
     int symbol_base_ = int(Global::Count);  // slot of symbol 0 of this layer's Ast
