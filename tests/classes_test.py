@@ -17,7 +17,6 @@ LARGER = {
     "jit/a64/Emit": (8, 118, 7),
     "jit/x64/Emit": (8, 141, 8),
     "rsl/check/Checker": (6, 99, 14),
-    "rsl/lower/Lowering": (11, 129, 38),
     "rsl/syntax/Parser": (5, 99, 15),
     "rsl/text/Preprocessor": (3, 51, 17),
     "runtime/build/SceneBuilder": (8, 62, 17),

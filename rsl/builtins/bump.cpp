@@ -1,7 +1,7 @@
 // rsl/builtins/bump.cpp: normals bent by a map of heights.
 #include "rsl/builtins/maps_p.h"
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -15,12 +15,12 @@ using namespace lower_maps;
 // n |dPds ^ dPdt| is the first term: the N given is bent, not the face's.
 void bump(LowerCall& c) {
     c.report_unknown_pairs();
-    auto& e = c.low;
+    auto& e = c.e;
     auto& b = c.b;
     V3 N = c.v3(1), along_s = c.v3(2), along_t = c.v3(3);
     bool placed = c.args.size() == 6;
-    Lookup at = with_derivatives(c, placed ? c.f(4) : e.read_global(Global::s).c[0],
-                                 placed ? c.f(5) : e.read_global(Global::t).c[0]);
+    Lookup at = with_derivatives(c, placed ? c.f(4) : c.globals.read(Global::s).c[0],
+                                 placed ? c.f(5) : c.globals.read(Global::t).c[0]);
     Value least = e.f(1.0f / 1024);  // a texel of a large map
     Value ds = b.max(b.add(b.abs(at.dsdx), b.abs(at.dsdy)), least);
     Value dt = b.max(b.add(b.abs(at.dtdx), b.abs(at.dtdy)), least);

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -11,7 +11,7 @@ namespace lower_color {
 
 // The element of `count` that a float index names; truncated and clamped.
 Value pick(LowerCall& c, std::span<const Value> items, Value x) {
-    Value index = c.low.index(x, int(items.size()));
+    Value index = c.e.index(x, int(items.size()));
     int32_t known;
     if (c.b.constant_i(index, &known)) return items[size_t(known)];
     Value result = items[0];
@@ -21,7 +21,7 @@ Value pick(LowerCall& c, std::span<const Value> items, Value x) {
 }
 
 void put(LowerCall& c, std::span<Value> items, Value x, Value value) {
-    Value index = c.low.index(x, int(items.size()));
+    Value index = c.e.index(x, int(items.size()));
     for (size_t k = 0; k < items.size(); ++k)
         items[k] = c.b.select(c.b.op(jit::Op::IEq, index, c.b.i(int(k))), value, items[k]);
 }
@@ -42,7 +42,7 @@ void setcomp(LowerCall& c) {
         put(c, std::span(v.c.data(), 3), c.f(1), c.f(2));
         return c.set_output(0, v);
     }
-    Value row = c.low.index(c.f(1), 4);
+    Value row = c.e.index(c.f(1), 4);
     for (size_t r = 0; r < 4; ++r) {
         std::array<Value, 4> items = {v.c[4 * r], v.c[4 * r + 1], v.c[4 * r + 2], v.c[4 * r + 3]};
         put(c, items, c.f(2), c.f(3));
@@ -59,8 +59,8 @@ void ctransform(LowerCall& c) {
     const std::string* second = both ? c.text(1) : first;
     if (!first || !second) return;
     const Lowered& color = c.args.back();
-    c.result = both ? c.low.color_space(color, *first, *second, c.where())
-                    : c.low.color_space(color, "rgb", *first, c.where());
+    c.result = both ? color_space(c.e, c.context, color, *first, *second, c.where())
+                    : color_space(c.e, c.context, color, "rgb", *first, c.where());
 }
 
 }  // namespace lower_color

@@ -1,6 +1,6 @@
 // rsl/builtins/derivatives.cpp: derivatives along u and v.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/components_p.h"
 #include "rsl/reference/reference_p.h"
 
@@ -20,8 +20,8 @@ void total_derivative(LowerCall& c) {
     Lowered r{c.result_type(), {}};
     Value du = c.b.op(jit::Op::Du, c.f(1)), dv = c.b.op(jit::Op::Dv, c.f(1));
     for (size_t k = 0; k < size_t(r.size()); ++k) {
-        Value by_u = c.low.div(c.b.op(jit::Op::Du, c.args[0].c[k]), du);
-        Value by_v = c.low.div(c.b.op(jit::Op::Dv, c.args[0].c[k]), dv);
+        Value by_u = c.e.div(c.b.op(jit::Op::Du, c.args[0].c[k]), du);
+        Value by_v = c.e.div(c.b.op(jit::Op::Dv, c.args[0].c[k]), dv);
         r.c[k] = c.b.add(by_u, by_v);
     }
     c.result = r;

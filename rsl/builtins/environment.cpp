@@ -1,7 +1,7 @@
 // rsl/builtins/environment.cpp: environment maps and shadow maps.
 #include "rsl/builtins/maps_p.h"
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -15,45 +15,45 @@ struct Footprint {
     V3 at, dx, dy;
 };
 Footprint footprint(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     if (c.args.size() == 5)
         return {e.scale(e.add(e.add(c.v3(1), c.v3(2)), e.add(c.v3(3), c.v3(4))), e.f(0.25f)),
                 e.scale(e.add(e.sub(c.v3(2), c.v3(1)), e.sub(c.v3(4), c.v3(3))), e.f(0.5f)),
                 e.scale(e.add(e.sub(c.v3(3), c.v3(1)), e.sub(c.v3(4), c.v3(2))), e.f(0.5f))};
     V3 at = c.v3(1);
-    return {at, e.scale(e.du(at), e.read_global(Global::du).c[0]),
-            e.scale(e.dv(at), e.read_global(Global::dv).c[0])};
+    return {at, e.scale(e.du(at), c.globals.read(Global::du).c[0]),
+            e.scale(e.dv(at), c.globals.read(Global::dv).c[0])};
 }
 
 // The customary names of a map that is no file but the scene itself, asked by rays.
 bool is_scene(LowerCall& c) {
-    const std::string* name = c.low.constant_text(c.f(0));
+    const std::string* name = c.e.constant_text(c.f(0));
     return name && (*name == "raytrace" || *name == "reflection");
 }
 
 // What a ray from P sees in the direction; "blur" opens its cone.
 void trace_environment(LowerCall& c) {
-    auto& e = c.low;
-    if (!e.options.want_Ci) return;
-    V3 P = e.read_global(Global::P).v3(), R = footprint(c).at;
-    auto seed = e.sample_seed(c.call.site);
-    set_texels(c, e.service(Service::trace,
-                            std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
-                                       c.pair("maxdist", 1e30f), c.pair("bias", -1),
-                                       c.pair("samples", 1), c.pair("blur", 0), c.b.i(0)}));
+    if (!c.context.options.want_Ci) return;
+    V3 P = c.globals.read(Global::P).v3(), R = footprint(c).at;
+    auto seed = c.seeds.sample(c.call.site);
+    set_texels(c, c.services.call(Service::trace,
+                                  std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
+                                             c.pair("maxdist", 1e30f), c.pair("bias", -1),
+                                             c.pair("samples", 1), c.pair("blur", 0), c.b.i(0)}));
 }
 
 // The footprint's sides are those along u and v: maps of directions and depths have no s and t.
 void environment(LowerCall& c) {
     c.report_unknown_pairs();
-    auto& e = c.low;
+    auto& e = c.e;
     if (is_scene(c)) return trace_environment(c);
     Footprint f = footprint(c);
     V3 dx = e.scale(f.dx, width(c, "swidth")), dy = e.scale(f.dy, width(c, "twidth"));
     auto lookup = [&](const V3& R) {
-        return e.service(Service::environment,
-                         std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2],
-                                    dy[0], dy[1], dy[2], c.pair("blur", 0), c.pair("fill", 0)});
+        return c.services.call(
+            Service::environment,
+            std::array{c.f(0), channel(c), R[0], R[1], R[2], dx[0], dx[1], dx[2], dy[0], dy[1],
+                       dy[2], c.pair("blur", 0), c.pair("fill", 0)});
     };
     set_with_differences(c, lookup(f.at), lookup(e.add(f.at, f.dx)), lookup(e.add(f.at, f.dy)));
 }
@@ -61,31 +61,33 @@ void environment(LowerCall& c) {
 // Where the light is that the point is asked about: the light shader's own, inside illuminate or
 // solar, or that of the turn of illuminance. Outside of both there is none.
 bool light_position(LowerCall& c, const V3& P, V3& position) {
-    auto& e = c.low;
+    auto& e = c.e;
     auto& b = c.b;
     constexpr float kFarAway = 1e15f;  // lengths of a direction that comes from nowhere
-    V3 L = e.read_global(Global::L).v3();
-    if (e.kind() == ShaderKind::Light) {
-        V3 Ps = e.read_global(Global::Ps).v3();
-        position = e.in_solar ? e.fma(e.normalize(L), e.f(-kFarAway), Ps) : e.sub(Ps, L);
+    V3 L = c.globals.read(Global::L).v3();
+    if (c.context.kind() == ShaderKind::Light) {
+        V3 Ps = c.globals.read(Global::Ps).v3();
+        position =
+            c.light_shader.in_solar() ? e.fma(e.normalize(L), e.f(-kFarAway), Ps) : e.sub(Ps, L);
         return true;
     }
-    if (e.current_record == jit::kNone) return false;
-    Value kind = e.record_uniform(e.current_set, e.current_record, kLightKind, jit::Type::I);
+    if (c.lights.current().record == jit::kNone) return false;
+    Value kind = record_uniform(c.b, c.lights.current().set, c.lights.current().record, kLightKind,
+                                jit::Type::I);
     Value solar = b.op(jit::Op::IEq, kind, b.i(kLightSolar));
     position = e.fma(L, b.select(solar, e.f(kFarAway), e.f(1)), P);
     return true;
 }
 
 void trace_shadow(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     V3 P = footprint(c).at, to;
     if (!light_position(c, P, to)) return;
-    auto seed = e.sample_seed(c.call.site);
+    auto seed = c.seeds.sample(c.call.site);
     std::vector<Value> through =
-        e.service(Service::transmission,
-                  std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
-                             c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
+        c.services.call(Service::transmission,
+                        std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
+                                   c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
     for (Value& x : through) x = c.b.sub(e.f(1), x);
     if (c.result_type() == BaseType::Float)  // of coloured shadows the mean, as of occlusion()
         through[0] = c.b.mul(c.b.add(through[0], c.b.add(through[1], through[2])), e.f(1.0f / 3));
@@ -95,16 +97,16 @@ void trace_shadow(LowerCall& c) {
 // 0 lit, 1 in shadow.
 void shadow(LowerCall& c) {
     c.report_unknown_pairs();
-    auto& e = c.low;
-    if (!e.options.want_Ci && e.kind() != ShaderKind::Light) return;
+    auto& e = c.e;
+    if (!c.context.options.want_Ci && c.context.kind() != ShaderKind::Light) return;
     if (is_scene(c)) return trace_shadow(c);
     Footprint f = footprint(c);
     V3 P = f.at;
     V3 dx = e.scale(f.dx, width(c, "swidth")), dy = e.scale(f.dy, width(c, "twidth"));
-    set_texels(
-        c, e.service(Service::shadow,
-                     std::array{c.f(0), P[0], P[1], P[2], dx[0], dx[1], dx[2], dy[0], dy[1], dy[2],
-                                c.pair("bias", -1), c.pair("blur", 0), c.pair("samples", 16)}));
+    set_texels(c, c.services.call(
+                      Service::shadow,
+                      std::array{c.f(0), P[0], P[1], P[2], dx[0], dx[1], dx[2], dy[0], dy[1], dy[2],
+                                 c.pair("bias", -1), c.pair("blur", 0), c.pair("samples", 16)}));
 }
 
 }  // namespace lower_environment

@@ -1,6 +1,6 @@
 // rsl/builtins/filterstep.cpp: a step, averaged over the width of the shading point.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/components_p.h"
 #include "rsl/reference/reference_p.h"
 
@@ -10,8 +10,8 @@ namespace lower_filterstep {
 
 // The change of x across the shading point: |Du(x) du| + |Dv(x) dv|.
 Value filter_width(LowerCall& c, Value x) {
-    Value du = c.b.mul(c.b.op(jit::Op::Du, x), c.low.read_global(Global::du).c[0]);
-    Value dv = c.b.mul(c.b.op(jit::Op::Dv, x), c.low.read_global(Global::dv).c[0]);
+    Value du = c.b.mul(c.b.op(jit::Op::Du, x), c.globals.read(Global::du).c[0]);
+    Value dv = c.b.mul(c.b.op(jit::Op::Dv, x), c.globals.read(Global::dv).c[0]);
     return c.b.add(c.b.abs(du), c.b.abs(dv));
 }
 
@@ -36,7 +36,7 @@ Value below_catmull_rom(LowerCall& c, Value u) {
     Value a = b.abs(b.add(u, u));  // 0 to 2
     auto poly = [&](std::initializer_list<float> coefficients) {
         Value p = b.f(0);
-        for (float k : coefficients) p = c.low.fma(p, a, b.f(k));
+        for (float k : coefficients) p = c.e.fma(p, a, b.f(k));
         return p;
     };
     Value inner = poly({0.375f, -2.5f / 3, 0, 1, 0});
@@ -56,17 +56,17 @@ constexpr StepFilter kStepFilters[] = {{"box", below_box},
 // Where none is named, and in place of one that is not known.
 const StepFilter& filter_of(LowerCall& c) {
     if (!c.has_pair("filter")) return kStepFilters[0];
-    const std::string* text = c.low.constant_text(c.text_pair("filter"));
+    const std::string* text = c.e.constant_text(c.text_pair("filter"));
     for (const StepFilter& filter : kStepFilters)
         if (text && filter.name == *text) return filter;
-    c.low.report(Code::RSL_FILTER_UNKNOWN, c.where(), text ? *text : "", c.call.name);
+    c.context.report(Code::RSL_FILTER_UNKNOWN, c.where(), text ? *text : "", c.call.name);
     return kStepFilters[0];
 }
 
 Value filtered(LowerCall& c, Value share) {
     const StepFilter& filter = filter_of(c);
     if (filter.below == below_box) return share;
-    Value u = c.low.clamp(c.b.fma(share, c.b.f(2), c.b.f(-1)), c.b.f(-1), c.b.f(1));
+    Value u = c.e.clamp(c.b.fma(share, c.b.f(2), c.b.f(-1)), c.b.f(-1), c.b.f(1));
     return filter.below(c, u);
 }
 
@@ -89,9 +89,9 @@ void filterstep(LowerCall& c) {
     }
     half = b.mul(half, widen);
     Value width = b.add(half, half);
-    Value share = c.low.div(b.sub(b.add(high, half), c.f(0)), width);
+    Value share = c.e.div(b.sub(b.add(high, half), c.f(0)), width);
     Value hard = b.select(b.lt(c.f(1), c.f(0)), b.f(0), b.f(1));
-    Value soft = c.low.clamp(filtered(c, share), b.f(0), b.f(1));
+    Value soft = c.e.clamp(filtered(c, share), b.f(0), b.f(1));
     c.set(b.select(b.lt(width, b.f(1.17549435e-38f)), hard, soft));
 }
 

@@ -1,6 +1,6 @@
 // rsl/builtins/geometric.cpp: points, vectors and normals.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/matrices_p.h"
 #include "rsl/reference/reference_p.h"
 
@@ -20,18 +20,18 @@ void put(LowerCall& c) {
 }
 
 void length(LowerCall& c) {
-    c.set(c.low.length(c.v3(0)));
+    c.set(c.e.length(c.v3(0)));
 }
 void normalize(LowerCall& c) {
-    c.set(c.low.normalize(c.v3(0)));
+    c.set(c.e.normalize(c.v3(0)));
 }
 void distance(LowerCall& c) {
-    c.set(c.low.length(c.low.sub(c.v3(0), c.v3(1))));
+    c.set(c.e.length(c.e.sub(c.v3(0), c.v3(1))));
 }
 
 // ptlined(q, p0, p1): to the nearest point of the segment.
 void ptlined(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     V3 along = e.sub(c.v3(2), c.v3(1)), to_q = e.sub(c.v3(0), c.v3(1));
     Value t = e.clamp(e.div(e.dot(to_q, along), e.dot(along, along)), e.f(0), e.f(1));
     c.set(e.length(e.sub(to_q, e.scale(along, t))));
@@ -45,7 +45,7 @@ V3 rotated(Emitter& e, const V3& v, const V3& axis, Value sine, Value cosine) {
 
 // rotate(p, angle, p0, p1), or rotate(m, angle, axis): the rotation comes before m.
 void rotate(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     Value sine = jit::math::sin(c.b, c.f(1), e.tier), cosine = jit::math::cos(c.b, c.f(1), e.tier);
     if (c.result_type() != BaseType::Matrix) {
         V3 axis = e.normalize(e.sub(c.v3(3), c.v3(2)));
@@ -53,21 +53,21 @@ void rotate(LowerCall& c) {
         return c.set(e.add(c.v3(2), rotated(e, v, axis, sine, cosine)));
     }
     V3 axis = e.normalize(c.v3(2));
-    Lowered turn = e.convert(lowered(BaseType::Float, e.f(1)), BaseType::Matrix);
+    Lowered turn = convert(c.e, lowered(BaseType::Float, e.f(1)), BaseType::Matrix);
     for (size_t row = 0; row < 3; ++row) {
         V3 unit = e.f3(0);
         unit[row] = e.f(1);
         V3 image = rotated(e, unit, axis, sine, cosine);
         for (size_t k = 0; k < 3; ++k) turn.c[row * 4 + k] = image[k];
     }
-    c.result = e.multiply(turn, c.args[0]);
+    c.result = multiply(c.e, turn, c.args[0]);
 }
 
 // |Du(p) du ^ Dv(p) dv|
 void area(LowerCall& c) {
-    auto& e = c.low;
-    V3 along_u = e.scale(e.du(c.v3(0)), e.read_global(Global::du).c[0]);
-    V3 along_v = e.scale(e.dv(c.v3(0)), e.read_global(Global::dv).c[0]);
+    auto& e = c.e;
+    V3 along_u = e.scale(e.du(c.v3(0)), c.globals.read(Global::du).c[0]);
+    V3 along_v = e.scale(e.dv(c.v3(0)), c.globals.read(Global::dv).c[0]);
     c.set(e.length(e.cross(along_u, along_v)));
 }
 

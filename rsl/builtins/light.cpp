@@ -1,6 +1,6 @@
 // rsl/builtins/light.cpp: lights and illumination.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -11,11 +11,11 @@ namespace lower_light {
 // so far. Ambient records are visited only if `ambient`, and then alone.
 template <class Term>
 V3 sum_of_lights(LowerCall& c, const V3& position, bool ambient, Term&& term) {
-    auto& e = c.low;
-    Value set = e.record_set(position);
+    auto& e = c.e;
+    Value set = c.lights.set_at(position);
     std::array<Value, 3> sum = {e.f(0), e.f(0), e.f(0)};
-    e.for_each_record(set, sum, c.where(), [&](Value record) {
-        Value kind = e.record_uniform(set, record, kLightKind, jit::Type::I);
+    for_each_record(c.b, set, sum, c.where(), [&](Value record) {
+        Value kind = record_uniform(c.b, set, record, kLightKind, jit::Type::I);
         Value is_ambient = c.b.op(jit::Op::IEq, kind, c.b.i(kLightAmbient));
         V3 before = {sum[0], sum[1], sum[2]};
         c.b.begin_if(ambient ? is_ambient : c.b.logical_not(is_ambient));
@@ -28,23 +28,23 @@ V3 sum_of_lights(LowerCall& c, const V3& position, bool ambient, Term&& term) {
 
 // A dark record has Cl = 0, so no formula needs to ask whether it is lit.
 void ambient(LowerCall& c) {
-    c.set(sum_of_lights(c, c.low.read_global(Global::P).v3(), true,
+    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), true,
                         [&](Value set, Value record, const V3& sum) {
-                            return c.low.add(sum, c.low.record_triple(set, record, kLightCl));
+                            return c.e.add(sum, record_triple(c.b, set, record, kLightCl));
                         }));
 }
 
 Value share(LowerCall& c, Value set, Value record, int field) {
-    return c.b.sub(c.b.f(1), c.low.record_uniform(set, record, field, jit::Type::F));
+    return c.b.sub(c.b.f(1), record_uniform(c.b, set, record, field, jit::Type::F));
 }
 
 // RI 3.2: the sum of Cl * max(0, normalize(L) . N). With an axis and an angle only lights within
 // it.
 void diffuse(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     bool cone = c.args.size() == 3;
     V3 N = c.v3(cone ? 1 : 0);
-    V3 P = cone ? c.v3(0) : e.read_global(Global::P).v3();
+    V3 P = cone ? c.v3(0) : c.globals.read(Global::P).v3();
     Value limit = e.f(0);
     if (cone) {  // nothing lies outside half a turn or more
         Value all = c.b.le(e.f(3.14159f), c.f(2));
@@ -52,18 +52,18 @@ void diffuse(LowerCall& c) {
         limit = e.mul(cosine, e.length(N));
     }
     c.set(sum_of_lights(c, P, false, [&](Value set, Value record, const V3& sum) {
-        V3 L = e.normalize(e.record_triple(set, record, kLightL));
+        V3 L = e.normalize(record_triple(c.b, set, record, kLightL));
         Value cosine = e.dot(L, N);
         Value amount = c.b.max(cosine, e.f(0));
         if (cone) amount = c.b.select(c.b.lt(cosine, limit), e.f(0), amount);
         amount = e.mul(amount, share(c, set, record, kLightNondiffuse));
-        return e.fma(e.record_triple(set, record, kLightCl), amount, sum);
+        return e.fma(record_triple(c.b, set, record, kLightCl), amount, sum);
     }));
 }
 
 // RI 3.2's 1/roughness; what is not rough at all shines in one direction only, though 1/0 is 0.
 Value exponent_of(LowerCall& c, Value roughness) {
-    return c.low.div(c.low.f(1), c.b.max(roughness, c.low.f(kLeastRoughness)));
+    return c.e.div(c.e.f(1), c.b.max(roughness, c.e.f(kLeastRoughness)));
 }
 
 // RI 3.2: pow(max(0, N . H), 1/roughness), H half-way between L and V.
@@ -73,41 +73,41 @@ Value specular_term(Emitter& e, const V3& L, const V3& N, const V3& V, Value exp
 }
 
 void specular(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     V3 N = c.v3(0), V = c.v3(1);
     Value exponent = exponent_of(c, c.f(2));
-    c.set(sum_of_lights(c, e.read_global(Global::P).v3(), false,
+    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), false,
                         [&](Value set, Value record, const V3& sum) {
-                            V3 L = e.normalize(e.record_triple(set, record, kLightL));
+                            V3 L = e.normalize(record_triple(c.b, set, record, kLightL));
                             Value front = c.b.lt(e.f(0), e.dot(L, N));
                             Value amount = specular_term(e, L, N, V, exponent);
                             amount = c.b.select(front, amount, e.f(0));
                             amount = e.mul(amount, share(c, set, record, kLightNonspecular));
-                            return e.fma(e.record_triple(set, record, kLightCl), amount, sum);
+                            return e.fma(record_triple(c.b, set, record, kLightCl), amount, sum);
                         }));
 }
 
 // RI 3.2: pow(max(0, R . L), size), R the eye's mirror direction.
 void phong(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     V3 N = c.v3(0), V = c.v3(1);
     V3 unit_N = e.normalize(N), unit_V = e.normalize(V);
     V3 R = e.fma(unit_N, e.mul(e.f(2), e.dot(unit_V, unit_N)), e.neg(unit_V));
     Value size = c.f(2);
-    c.set(sum_of_lights(c, e.read_global(Global::P).v3(), false,
+    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), false,
                         [&](Value set, Value record, const V3& sum) {
-                            V3 L = e.normalize(e.record_triple(set, record, kLightL));
+                            V3 L = e.normalize(record_triple(c.b, set, record, kLightL));
                             Value front = c.b.lt(e.f(0), e.dot(L, N));
                             Value base = c.b.max(e.dot(R, L), e.f(0));
                             Value amount = e.pow_positive(base, size);
                             amount = c.b.select(front, amount, e.f(0));
                             amount = e.mul(amount, share(c, set, record, kLightNonspecular));
-                            return e.fma(e.record_triple(set, record, kLightCl), amount, sum);
+                            return e.fma(record_triple(c.b, set, record, kLightCl), amount, sum);
                         }));
 }
 
 void specularbrdf(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     Value exponent = exponent_of(c, c.f(3));
     Value term = specular_term(e, e.normalize(c.v3(0)), c.v3(1), c.v3(2), exponent);
     c.set(V3{term, term, term});

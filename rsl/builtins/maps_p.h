@@ -2,7 +2,7 @@
 // texels with their derivatives.
 #pragma once
 
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/service_calls_p.h"
 
 namespace kinora::rsl {
@@ -16,7 +16,7 @@ struct Lookup {
 
 inline Lookup with_derivatives(LowerCall& c, Value s, Value t) {
     auto& b = c.b;
-    Value du = c.low.read_global(Global::du).c[0], dv = c.low.read_global(Global::dv).c[0];
+    Value du = c.globals.read(Global::du).c[0], dv = c.globals.read(Global::dv).c[0];
     auto along = [&](jit::Op op, Value x, Value width) { return b.mul(b.op(op, x), width); };
     return {s,
             t,
@@ -27,7 +27,7 @@ inline Lookup with_derivatives(LowerCall& c, Value s, Value t) {
 }
 
 inline Value channel(LowerCall& c) {
-    return c.call.channel ? c.low.value(*c.call.channel) : c.b.f(0);
+    return c.call.channel ? c.tree.value(*c.call.channel) : c.b.f(0);
 }
 
 inline void set_texels(LowerCall& c, const std::vector<Value>& rgba) {
@@ -45,7 +45,7 @@ inline void set_with_differences(LowerCall& c, std::vector<Value> here,
                                  const std::vector<Value>& along_v) {
     auto& b = c.b;
     auto term = [&](Value beside, Value texel, Global parameter, Global width) {
-        Value x = c.low.global_input(parameter).c[0], w = c.low.global_input(width).c[0];
+        Value x = c.globals.input(parameter).c[0], w = c.globals.input(width).c[0];
         Value slope = b.op(jit::Op::Div, b.sub(beside, texel), b.op(jit::Op::Max, w, b.f(1e-12f)));
         return b.mul(slope, x);
     };
@@ -58,7 +58,7 @@ inline void set_with_differences(LowerCall& c, std::vector<Value> here,
 
 inline std::vector<Value> look_up(LowerCall& c, const Lookup& at, Value blur, Value swidth,
                                   Value twidth) {
-    return c.low.service(
+    return c.services.call(
         Service::texture,
         std::array{c.f(0), channel(c), at.s, at.t, at.dsdx, at.dtdx, at.dsdy, at.dtdy, blur, swidth,
                    twidth, c.text_pair("filter"), c.pair("fill", 0)});

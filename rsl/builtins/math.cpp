@@ -1,6 +1,6 @@
 // rsl/builtins/math.cpp: mathematics of floats and, componentwise, of triples.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/components_p.h"
 #include "rsl/reference/reference_p.h"
 
@@ -30,8 +30,7 @@ void binary(LowerCall& c) {
 template <Value (*function)(jit::Builder&, Value, jit::math::Tier)>
 void of_math(LowerCall& c) {
     Lowered r{c.result_type(), {}};
-    for (size_t k = 0; k < size_t(r.size()); ++k)
-        r.c[k] = function(c.b, c.args[0].c[k], c.low.tier);
+    for (size_t k = 0; k < size_t(r.size()); ++k) r.c[k] = function(c.b, c.args[0].c[k], c.e.tier);
     c.result = r;
 }
 
@@ -42,7 +41,7 @@ Value to_degrees(LowerCall& c, Value x) {
     return c.b.mul(x, c.b.f(57.29577951308232f));
 }
 Value sqrt(LowerCall& c, Value x) {
-    return c.low.sqrt(x);
+    return c.e.sqrt(x);
 }
 Value abs(LowerCall& c, Value x) {
     return c.b.abs(x);
@@ -64,10 +63,10 @@ Value round(LowerCall& c, Value x) {
     return c.b.select(c.b.le(c.b.f(0.5f), fraction), c.b.add(whole, c.b.f(1)), whole);
 }
 Value pow(LowerCall& c, Value x, Value y) {
-    return c.low.pow(x, y);
+    return c.e.pow(x, y);
 }
 Value mod(LowerCall& c, Value x, Value y) {
-    return c.low.mod(x, y);
+    return c.e.mod(x, y);
 }
 Value min(LowerCall& c, Value x, Value y) {
     return c.b.min(x, y);
@@ -80,20 +79,20 @@ Value step(LowerCall& c, Value edge, Value x) {
 }
 
 void atan(LowerCall& c) {
-    c.set(c.args.size() == 1 ? jit::math::atan(c.b, c.f(0), c.low.tier)
-                             : jit::math::atan2(c.b, c.f(0), c.f(1), c.low.tier));
+    c.set(c.args.size() == 1 ? jit::math::atan(c.b, c.f(0), c.e.tier)
+                             : jit::math::atan2(c.b, c.f(0), c.f(1), c.e.tier));
 }
 
 void log(LowerCall& c) {
     if (c.args.size() == 1) return of_math<jit::math::log>(c);
-    Value x = jit::math::log(c.b, c.f(0), c.low.tier);
-    c.set(c.low.div(x, jit::math::log(c.b, c.f(1), c.low.tier)));
+    Value x = jit::math::log(c.b, c.f(0), c.e.tier);
+    c.set(c.e.div(x, jit::math::log(c.b, c.f(1), c.e.tier)));
 }
 
 void clamp(LowerCall& c) {
     Lowered r{c.result_type(), {}};
     for (size_t k = 0; k < size_t(r.size()); ++k)
-        r.c[k] = c.low.limited(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
+        r.c[k] = c.e.limited(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
     c.result = r;
 }
 
@@ -102,14 +101,14 @@ void mix(LowerCall& c) {
     Lowered r{c.result_type(), {}};
     bool one = c.args[2].size() == 1;
     for (size_t k = 0; k < size_t(r.size()); ++k)
-        r.c[k] = c.low.mix(c.args[0].c[k], c.args[1].c[k], c.args[2].c[one ? 0 : k]);
+        r.c[k] = c.e.mix(c.args[0].c[k], c.args[1].c[k], c.args[2].c[one ? 0 : k]);
     c.result = r;
 }
 
 void smoothstep(LowerCall& c) {
     Lowered r{c.result_type(), {}};
     for (size_t k = 0; k < size_t(r.size()); ++k)
-        r.c[k] = c.low.smoothstep(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
+        r.c[k] = c.e.smoothstep(c.args[0].c[k], c.args[1].c[k], c.args[2].c[k]);
     c.result = r;
 }
 

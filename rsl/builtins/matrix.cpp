@@ -1,6 +1,6 @@
 // rsl/builtins/matrix.cpp: matrices.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/matrices_p.h"
 #include "rsl/reference/reference_p.h"
 
@@ -10,29 +10,30 @@ namespace lower_matrix {
 
 // mtransform("to", m), mtransform("from", "to", m)
 void mtransform(LowerCall& c) {
-    auto& e = c.low;
-    auto space = [&](size_t k) { return e.space(c.args[k].c[0], c.call.args[k]->span.where); };
+    auto space = [&](size_t k) {
+        return c.spaces.space(c.args[k].c[0], c.call.args[k]->span.where);
+    };
     Lowered m = c.args.back();
-    if (c.args.size() == 3) m = e.to_current(m, space(0));
-    c.result = e.from_current(m, space(c.args.size() - 2));
+    if (c.args.size() == 3) m = c.spaces.to_current(m, space(0));
+    c.result = c.spaces.from_current(m, space(c.args.size() - 2));
 }
 void determinant(LowerCall& c) {
-    c.set(c.low.determinant(c.args[0]));
+    c.set(determinant(c.e, c.args[0]));
 }
 // The row vector (x, y, z, 1) times m takes the place of m's last row.
 void translate(LowerCall& c) {
     Lowered m = c.args[0];
     V3 t = c.v3(1);
     for (size_t k = 0; k < 4; ++k)
-        m.c[12 + k] = c.low.fma(
-            t[0], m.c[k], c.low.fma(t[1], m.c[4 + k], c.low.fma(t[2], m.c[8 + k], m.c[12 + k])));
+        m.c[12 + k] = c.e.fma(t[0], m.c[k],
+                              c.e.fma(t[1], m.c[4 + k], c.e.fma(t[2], m.c[8 + k], m.c[12 + k])));
     c.result = m;
 }
 void scale(LowerCall& c) {
     Lowered m = c.args[0];
     for (size_t row = 0; row < 3; ++row)
         for (size_t k = 0; k < 4; ++k)
-            m.c[row * 4 + k] = c.low.mul(m.c[row * 4 + k], c.args[1].c[row]);
+            m.c[row * 4 + k] = c.e.mul(m.c[row * 4 + k], c.args[1].c[row]);
     c.result = m;
 }
 

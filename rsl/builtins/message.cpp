@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
 
@@ -18,11 +18,11 @@ struct Variable {
     std::vector<Lowered> before;
 
     explicit Variable(LowerCall& call) : c(call), expr(*call.call.args[1]), type(expr.type) {
-        before = type.is_array() ? c.low.array_values(expr) : std::vector<Lowered>{c.args[1]};
+        before = type.is_array() ? c.variables.array_values(expr) : std::vector<Lowered>{c.args[1]};
     }
     void store(std::span<const Lowered> values) {
         if (type.is_array())
-            c.low.set_array(expr, values);
+            c.variables.set_array(expr, values);
         else
             c.set_output(1, values[0]);
     }
@@ -43,8 +43,8 @@ char type_letter(BaseType type) {
 void ask(LowerCall& c, QueryKind kind, bool of_point) {
     Variable variable(c);
     auto& b = c.b;
-    if (of_point) c.low.out.uses_rng = true;
-    Value anchor = of_point ? c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point) : b.i(0);
+    if (of_point) c.context.out.uses_rng = true;
+    Value anchor = of_point ? scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point) : b.i(0);
     bool array = variable.type.is_array();
     int length = int(variable.before.size());
     bool text = variable.type.base == BaseType::String;
@@ -52,9 +52,9 @@ void ask(LowerCall& c, QueryKind kind, bool of_point) {
     Value known = b.m(true);
     for (int k = 0; k < length; ++k) {
         std::vector<Value> answer =
-            c.low.service(Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0],
-                                                     b.i(type_letter(variable.type.base)),
-                                                     b.i(array ? k : -1), b.i(length), anchor});
+            c.services.call(Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0],
+                                                       b.i(type_letter(variable.type.base)),
+                                                       b.i(array ? k : -1), b.i(length), anchor});
         Value here = b.logical_not(b.op(jit::Op::IEq, answer[0], b.i(0)));
         known = b.logical_and(known, here);
         for (size_t i = 0; i < size_t(values[size_t(k)].size()); ++i) {
@@ -63,7 +63,7 @@ void ask(LowerCall& c, QueryKind kind, bool of_point) {
         }
     }
     variable.store(values);
-    c.set(c.low.flag(known));
+    c.set(c.e.flag(known));
 }
 
 template <QueryKind kind>
@@ -75,13 +75,13 @@ void query(LowerCall& c) {
 // layers above, or of the surface that a light or volume works for.
 template <ShaderKind from, QueryKind kind>
 void of_layer(LowerCall& c) {
-    const std::string* name = c.low.constant_text(c.args[0].c[0]);
-    auto& messages = c.low.messages;
+    const std::string* name = c.e.constant_text(c.args[0].c[0]);
+    auto& messages = c.messages.list();
     for (auto m = messages.rbegin(); name && m != messages.rend(); ++m) {
         if (m->from != from || m->name != *name) continue;
         Variable variable(c);
         if (!same_kind(variable.type, m->type)) return;
-        variable.store(c.low.message_values(*m));
+        variable.store(c.messages.values(*m));
         return c.set(c.b.f(1));
     }
     ask(c, kind, true);
@@ -90,26 +90,25 @@ void of_layer(LowerCall& c) {
 // A parameter of the light that the illuminance loop is at.
 void lightsource(LowerCall& c) {
     const std::string* name = c.text(0);
-    if (!name || c.low.current_record == jit::kNone) return;
+    if (!name || c.lights.current().record == jit::kNone) return;
     Variable variable(c);
     Value known;
-    std::vector<Lowered> values =
-        c.low.light_message(*name, variable.type, variable.before, &known);
+    std::vector<Lowered> values = c.lights.message(*name, variable.type, variable.before, &known);
     variable.store(values);
-    c.set(c.low.flag(known));
+    c.set(c.e.flag(known));
 }
 
 // Name of this shader, or of the one of a kind that works on the same point; "" if there is none.
 void shadername(LowerCall& c) {
-    if (c.args.empty()) return c.set(c.b.i(intern(c.low.layer->shader->name)));
+    if (c.args.empty()) return c.set(c.b.i(intern(c.context.layer->shader->name)));
     const std::string* kind = c.text(0);
     if (!kind) return;
-    for (auto layer = c.low.layers.rbegin(); layer != c.low.layers.rend(); ++layer)
+    for (auto layer = c.context.layers.rbegin(); layer != c.context.layers.rend(); ++layer)
         if (*kind == shader_kind_name(layer->shader->kind))
             return c.set(c.b.i(intern(layer->shader->name)));
-    c.low.out.uses_rng = true;
-    Value anchor = c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point);
-    std::vector<Value> answer = c.low.service(
+    c.context.out.uses_rng = true;
+    Value anchor = scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point);
+    std::vector<Value> answer = c.services.call(
         Service::query, std::array{c.b.i(int32_t(QueryKind::ShaderName)), c.args[0].c[0],
                                    c.b.i('s'), c.b.i(-1), c.b.i(1), anchor});
     Value known = c.b.logical_not(c.b.op(jit::Op::IEq, answer[0], c.b.i(0)));
@@ -119,11 +118,11 @@ void shadername(LowerCall& c) {
 // rayinfo's facts as functions of their own.
 void ray_fact(LowerCall& c, const char* name) {
     auto& b = c.b;
-    c.low.out.uses_rng = true;
-    std::vector<Value> answer = c.low.service(
+    c.context.out.uses_rng = true;
+    std::vector<Value> answer = c.services.call(
         Service::query, std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern(name)),
                                    b.i(type_letter(c.result_type())), b.i(-1), b.i(1),
-                                   c.low.scalar_input("rng", jit::Type::I, jit::Rate::Point)});
+                                   scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point)});
     if (c.result_type() == BaseType::String) return c.set(b.bits(answer[1]));
     for (size_t k = 0; k < size_t(c.result.size()); ++k) c.result.c[k] = answer[1 + k];
 }
@@ -132,7 +131,7 @@ void raydepth(LowerCall& c) {
 }
 // BMRT's question whether the ray only asks how opaque the surface is.
 void isshadowray(LowerCall& c) {
-    c.set(c.b.f(c.low.options.want_Ci ? 0.0f : 1.0f));
+    c.set(c.b.f(c.context.options.want_Ci ? 0.0f : 1.0f));
 }
 void raylabel(LowerCall& c) {
     ray_fact(c, "label");

@@ -1,6 +1,6 @@
 // rsl/builtins/noise.cpp: noise and random numbers.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -24,18 +24,18 @@ int components(const LowerCall& c) {
 }
 
 void noise(LowerCall& c) {
-    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, c.args.size()), components(c)));
+    set(c, jit::math::noise(c.b, c.e.running, coordinates(c, 0, c.args.size()), components(c)));
 }
 void pnoise(LowerCall& c) {
     size_t half = c.args.size() / 2;
-    set(c, jit::math::noise(c.b, c.low.running, coordinates(c, 0, half), components(c),
+    set(c, jit::math::noise(c.b, c.e.running, coordinates(c, 0, half), components(c),
                             coordinates(c, half, 2 * half)));
 }
 void cellnoise(LowerCall& c) {
     set(c, jit::math::cellnoise(c.b, coordinates(c, 0, c.args.size()), components(c)));
 }
 void random(LowerCall& c) {
-    for (int k = 0; k < components(c); ++k) c.result.c[size_t(k)] = c.low.random01(c.call, k);
+    for (int k = 0; k < components(c); ++k) c.result.c[size_t(k)] = c.seeds.random01(c.call, k);
 }
 
 }  // namespace lower_noise

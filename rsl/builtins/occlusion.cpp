@@ -1,6 +1,6 @@
 // rsl/builtins/occlusion.cpp: light and shadow from all around a point, by rays.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
 
@@ -12,7 +12,7 @@ constexpr float kFar = 1e30f;
 
 // In an opacity kernel nothing is traced (docs/decisions.md#opacity).
 bool traces(LowerCall& c) {
-    return c.low.options.want_Ci;
+    return c.context.options.want_Ci;
 }
 
 // Half the hemisphere's angle unless "coneangle" narrows it; radians, from the axis.
@@ -22,8 +22,8 @@ Value cone(LowerCall& c) {
 
 // The variable of an output pair, from three numbers.
 void set_pair(LowerCall& c, std::string_view name, const Value* triple) {
-    if (Target* variable = c.output_pair(name))
-        c.low.store(*variable, lowered(variable->type, V3{triple[0], triple[1], triple[2]}));
+    if (LValue* variable = c.output_pair(name))
+        c.variables.store(*variable, lowered(variable->type, V3{triple[0], triple[1], triple[2]}));
 }
 
 // A form that begins with maps asks for what the rays know better: the maps are not read.
@@ -32,8 +32,8 @@ void occlusion(LowerCall& c) {
     if (!traces(c)) return;
     int first = c.args.size() == 4 ? 1 : 0;
     V3 P = c.v3(first), N = c.v3(first + 1);
-    auto seed = c.low.sample_seed(c.call.site);
-    std::vector<Value> answer = c.low.service(
+    auto seed = c.seeds.sample(c.call.site);
+    std::vector<Value> answer = c.services.call(
         Service::occlusion,
         std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2], c.f(first + 2), cone(c),
                    c.pair("maxdist", kFar), c.pair("bias", -1), c.pair("falloff", 0),
@@ -48,12 +48,12 @@ void indirectdiffuse(LowerCall& c) {
     c.report_unknown_pairs();
     if (!traces(c)) return;
     bool of_map = c.args[0].type == BaseType::String;
-    V3 P = of_map ? c.low.read_global(Global::P).v3() : c.v3(0), N = c.v3(1);
-    auto seed = c.low.sample_seed(c.call.site);
+    V3 P = of_map ? c.globals.read(Global::P).v3() : c.v3(0), N = c.v3(1);
+    auto seed = c.seeds.sample(c.call.site);
     // Nothing is as near as 0: every ray then asks the map.
     Value far = of_map ? c.b.f(0) : c.pair("maxdist", kFar);
     Value map = of_map ? c.args[0].c[0] : c.text_pair("environmentmap");
-    std::vector<Value> light = c.low.service(
+    std::vector<Value> light = c.services.call(
         Service::indirectdiffuse, std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2],
                                              c.f(2), cone(c), far, c.pair("bias", -1), map});
     c.set(V3{light[0], light[1], light[2]});
@@ -65,19 +65,19 @@ void indirectdiffuse(LowerCall& c) {
 void areashadow(LowerCall& c) {
     c.report_unknown_pairs();
     if (!traces(c)) return;
-    auto& e = c.low;
+    auto& e = c.e;
     V3 P = c.v3(1), corner = c.v3(2);
     V3 across = e.sub(c.v3(3), corner), up = e.sub(c.v3(4), corner);
     constexpr int kSide = 4;  // jittered cells of the source
     Value sum[3] = {e.f(0), e.f(0), e.f(0)};
     for (int k = 0; k < kSide * kSide; ++k) {
         auto offset = [&](int cell, int component) {
-            Value jitter = e.random01(c.call, 2 * k + component);
+            Value jitter = c.seeds.random01(c.call, 2 * k + component);
             return e.mul(c.b.add(e.f(float(cell)), jitter), e.f(1.0f / kSide));
         };
         V3 Q = e.fma(across, offset(k % kSide, 0), e.fma(up, offset(k / kSide, 1), corner));
-        auto seed = e.sample_seed(c.call.site + uint32_t(k) * 7919u);
-        std::vector<Value> through = e.service(
+        auto seed = c.seeds.sample(c.call.site + uint32_t(k) * 7919u);
+        std::vector<Value> through = c.services.call(
             Service::transmission, std::array{seed[0], seed[1], P[0], P[1], P[2], Q[0], Q[1], Q[2],
                                               e.f(1), e.f(0), c.pair("bias", -1)});
         for (size_t i = 0; i < 3; ++i) sum[i] = c.b.add(sum[i], through[i]);

@@ -1,6 +1,6 @@
 // rsl/builtins/points.cpp: point files and photon maps.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/model/pairs.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
@@ -26,17 +26,17 @@ struct FilePoint {
     Value scale;
 };
 FilePoint file_point(LowerCall& c, int at) {
-    auto& e = c.low;
+    auto& e = c.e;
     FilePoint point{c.v3(at), c.v3(at + 1), c.b.f(1)};
     Value name = c.has_pair("coordsystem") ? c.text_pair("coordsystem") : c.b.i(intern("world"));
     const std::string* text = e.constant_text(name);
     // The renderer's own way to world space, in double, but that it takes current for the camera's.
-    bool of_camera = !e.options.of_vertices && !e.bends_normals();
+    bool of_camera = !c.context.options.of_vertices && !c.context.bends_normals();
     if (text && (*text == "world" || text->empty()) && of_camera) return point;
     if (text && text->empty()) name = c.b.i(intern("world"));
-    auto space = e.space(name, c.where());
-    point.P = e.from_current(lowered(BaseType::Point, point.P), space).v3();
-    point.N = e.normalize(e.from_current(lowered(BaseType::Normal, point.N), space).v3());
+    auto space = c.spaces.space(name, c.where());
+    point.P = c.spaces.from_current(lowered(BaseType::Point, point.P), space).v3();
+    point.N = e.normalize(c.spaces.from_current(lowered(BaseType::Normal, point.N), space).v3());
     point.scale = e.f(-1);
     if (space.identity) return point;
     const Lowered& m = space.from_current;
@@ -51,23 +51,23 @@ FilePoint file_point(LowerCall& c, int at) {
 
 // bake3d(file, channels, P, N, "channel", value, ...) or without the list of channels.
 void bake3d(LowerCall& c) {
-    auto& e = c.low;
     c.set(c.b.f(1));
-    if (!e.options.want_Ci) return;
+    if (!c.context.options.want_Ci) return;
     int at = c.args.size() == 4 ? 2 : 1;
     Channels channels;
     for (auto& [name, value] : c.pairs)
         if (!takes_option(c.call.name, name) && value.type != BaseType::String)
             channels.add(name, value);
     if (channels.numbers.size() > size_t(kPointFloats)) {
-        e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
+        c.context.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(),
+                        kPointFloats);
         return;
     }
     auto [P, N, scale] = file_point(c, at);
-    e.out.uses_rng = true;
+    c.context.out.uses_rng = true;
     std::vector<Value> args = {c.args[0].c[0],
                                c.b.i(intern(channels.text)),
-                               e.scalar_input("rng", jit::Type::I, jit::Rate::Point),
+                               scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point),
                                P[0],
                                P[1],
                                P[2],
@@ -78,28 +78,29 @@ void bake3d(LowerCall& c) {
                                c.b.mul(scale, c.b.max(c.pair("radiusscale", 1), c.b.f(0)))};
     channels.numbers.resize(size_t(kPointFloats), c.b.f(0));
     args.insert(args.end(), channels.numbers.begin(), channels.numbers.end());
-    e.service(Service::bake3d, args);
+    c.services.call(Service::bake3d, args);
 }
 
 // Each "channel", variable pair is set if the file has the channel; 1 if it has them all.
 void texture3d(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     c.report_unknown_pairs();
     Channels channels;
     std::vector<Lowered> before;
     for (auto& [name, target] : c.output_pairs) {
-        before.push_back(e.load(target));
+        before.push_back(c.variables.load(target));
         before.back().type = target.type;
         channels.add(name, before.back());
     }
     if (channels.numbers.size() > size_t(kPointFloats)) {
-        e.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(), kPointFloats);
+        c.context.error(Code::RSL_TOO_MANY_CHANNELS, c.where(), channels.numbers.size(),
+                        kPointFloats);
         return;
     }
     auto [P, N, scale] = file_point(c, 1);
     std::vector<Value> answer =
-        e.service(Service::texture3d, std::array{c.args[0].c[0], c.b.i(intern(channels.text)), P[0],
-                                                 P[1], P[2], N[0], N[1], N[2], scale});
+        c.services.call(Service::texture3d, std::array{c.args[0].c[0], c.b.i(intern(channels.text)),
+                                                       P[0], P[1], P[2], N[0], N[1], N[2], scale});
     size_t next = 1;
     Value all = c.b.m(true);
     for (size_t k = 0; k < c.output_pairs.size(); ++k) {
@@ -109,14 +110,14 @@ void texture3d(LowerCall& c) {
         Lowered value = before[k];
         for (size_t i = 0; i < size_t(value.size()); ++i)
             value.c[i] = c.b.select(known, answer[next++], value.c[i]);
-        e.store(c.output_pairs[k].second, value);
+        c.variables.store(c.output_pairs[k].second, value);
     }
     c.set(e.flag(all));
 }
 
 template <PhotonKind kind>
 void photons(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     c.report_unknown_pairs();
     bool named = c.args[0].type == BaseType::String;
     size_t at = named ? 1 : 0;
@@ -124,7 +125,7 @@ void photons(LowerCall& c) {
     V3 N = c.args.size() > at + 1 ? c.v3(int(at) + 1) : e.f3(0);
     Value estimator = c.b.ftoi(c.pair("estimator", 50));
     Value file = named ? c.args[0].c[0] : c.text_pair("filename");
-    std::vector<Value> light = e.service(
+    std::vector<Value> light = c.services.call(
         Service::photons,
         std::array{file, c.b.i(int32_t(kind)), estimator, P[0], P[1], P[2], N[0], N[1], N[2]});
     c.set(V3{light[0], light[1], light[2]});

@@ -1,6 +1,6 @@
 // rsl/builtins/rays.cpp: rays to what is seen, and between two points.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
 
@@ -12,7 +12,7 @@ constexpr float kFar = 1e30f;
 
 // In an opacity kernel nothing is traced (docs/decisions.md#opacity).
 bool traces(LowerCall& c) {
-    return c.low.options.want_Ci;
+    return c.context.options.want_Ci;
 }
 
 // The samples of one call, as the services take them.
@@ -24,8 +24,8 @@ void trace(LowerCall& c) {
     c.report_unknown_pairs();
     if (!traces(c)) return;
     V3 P = c.v3(0), R = c.v3(1);
-    auto seed = c.low.sample_seed(c.call.site);
-    std::vector<Value> hit = c.low.service(
+    auto seed = c.seeds.sample(c.call.site);
+    std::vector<Value> hit = c.services.call(
         Service::trace, std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
                                    c.pair("maxdist", kFar), c.pair("bias", -1), samples(c, 1),
                                    c.pair("samplecone", 0), c.text_pair("label")});
@@ -37,13 +37,13 @@ void trace(LowerCall& c) {
 
 V3 let_through(LowerCall& c) {
     c.report_unknown_pairs();
-    if (!traces(c)) return c.low.f3(1);
+    if (!traces(c)) return c.e.f3(1);
     V3 from = c.v3(0), to = c.v3(1);
-    auto seed = c.low.sample_seed(c.call.site);
+    auto seed = c.seeds.sample(c.call.site);
     std::vector<Value> share =
-        c.low.service(Service::transmission,
-                      std::array{seed[0], seed[1], from[0], from[1], from[2], to[0], to[1], to[2],
-                                 samples(c, 1), c.pair("samplecone", 0), c.pair("bias", -1)});
+        c.services.call(Service::transmission,
+                        std::array{seed[0], seed[1], from[0], from[1], from[2], to[0], to[1], to[2],
+                                   samples(c, 1), c.pair("samplecone", 0), c.pair("bias", -1)});
     return {share[0], share[1], share[2]};
 }
 void transmission(LowerCall& c) {
@@ -51,7 +51,7 @@ void transmission(LowerCall& c) {
 }
 void visibility(LowerCall& c) {
     V3 t = let_through(c);
-    c.set(c.low.flag(c.b.lt(c.b.f(0), c.b.max(c.b.max(t[0], t[1]), t[2]))));
+    c.set(c.e.flag(c.b.lt(c.b.f(0), c.b.max(c.b.max(t[0], t[1]), t[2]))));
 }
 
 }  // namespace lower_rays

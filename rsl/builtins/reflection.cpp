@@ -1,6 +1,6 @@
 // rsl/builtins/reflection.cpp: reflection, refraction and the side that faces the eye.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -9,9 +9,9 @@ namespace lower_reflection {
 
 // The incoming normal turned against I: N itself where I . Nref is 0 (docs/numerics.md#vectors).
 void faceforward(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     V3 N = c.v3(0), I = c.v3(1);
-    V3 reference = c.args.size() == 3 ? c.v3(2) : e.read_global(Global::Ng).v3();
+    V3 reference = c.args.size() == 3 ? c.v3(2) : c.globals.read(Global::Ng).v3();
     c.set(e.select(c.b.lt(e.f(0), e.dot(I, reference)), e.neg(N), N));
 }
 
@@ -19,7 +19,7 @@ V3 reflected(Emitter& e, const V3& I, const V3& N) {
     return e.fma(N, e.mul(e.f(-2), e.dot(I, N)), I);
 }
 void reflect(LowerCall& c) {
-    c.set(reflected(c.low, c.v3(0), c.v3(1)));
+    c.set(reflected(c.e, c.v3(0), c.v3(1)));
 }
 
 // RI 3.2: k = 1 - eta^2 (1 - (I.N)^2); k < 0 is total reflection.
@@ -38,13 +38,13 @@ Refraction refracted(Emitter& e, const V3& I, const V3& N, Value eta) {
     return {e.select(total, e.f3(0), direction), total};
 }
 void refract(LowerCall& c) {
-    c.set(refracted(c.low, c.v3(0), c.v3(1), c.f(2)).direction);
+    c.set(refracted(c.e, c.v3(0), c.v3(1), c.f(2)).direction);
 }
 
 // Fresnel's equations for unpolarised light; I and N of length 1, eta the ratio of the outer to
 // the inner index. Total reflection, grazing light and eta = 0 give kr = 1, kt = 0.
 void fresnel(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     auto& b = c.b;
     V3 I = c.v3(0), N = c.v3(1);
     Value eta = c.f(2);

@@ -1,6 +1,6 @@
 // rsl/builtins/spaces.cpp: coordinate systems, and the normal of a surface.
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/matrices_p.h"
 #include "rsl/reference/reference_p.h"
 
@@ -10,7 +10,6 @@ namespace lower_spaces {
 
 // transform and its kin: ("to", x), ("from", "to", x), (m, x), ("from", m, x).
 void transform(LowerCall& c) {
-    auto& e = c.low;
     size_t last = c.args.size() - 1;
     Lowered x = c.args[last];
     x.type = c.result_type();
@@ -19,15 +18,15 @@ void transform(LowerCall& c) {
         if (c.args[k].type == BaseType::Matrix) {
             const Lowered& m = c.args[k];
             if (x.type == BaseType::Point)
-                x = lowered(x.type, e.transform_point(x.v3(), m));
+                x = lowered(x.type, transform_point(c.e, x.v3(), m));
             else if (x.type == BaseType::Normal)
-                x = lowered(x.type, e.transform_normal(x.v3(), e.invert(m)));
+                x = lowered(x.type, transform_normal(c.e, x.v3(), invert(c.e, m)));
             else
-                x = lowered(x.type, e.transform_vector(x.v3(), m));
+                x = lowered(x.type, transform_vector(c.e, x.v3(), m));
         } else if (k + 1 < last) {
-            x = e.to_current(x, e.space(c.args[k].c[0], where));
+            x = c.spaces.to_current(x, c.spaces.space(c.args[k].c[0], where));
         } else {
-            x = e.from_current(x, e.space(c.args[k].c[0], where));
+            x = c.spaces.from_current(x, c.spaces.space(c.args[k].c[0], where));
         }
     }
     c.result = x;
@@ -35,17 +34,17 @@ void transform(LowerCall& c) {
 
 // 0 at the near, 1 at the far clipping plane.
 void depth(LowerCall& c) {
-    auto camera = c.low.space(c.b.i(intern("camera")), c.where());
-    V3 p = c.low.from_current(lowered(BaseType::Point, c.v3(0)), camera).v3();
-    Value near = c.low.scalar_input("camera:near", jit::Type::F, jit::Rate::Frame);
-    Value far = c.low.scalar_input("camera:far", jit::Type::F, jit::Rate::Frame);
-    c.set(c.low.div(c.b.sub(p[2], near), c.b.sub(far, near)));
+    auto camera = c.spaces.space(c.b.i(intern("camera")), c.where());
+    V3 p = c.spaces.from_current(lowered(BaseType::Point, c.v3(0)), camera).v3();
+    Value near = scalar_input(c.b, "camera:near", jit::Type::F, jit::Rate::Frame);
+    Value far = scalar_input(c.b, "camera:far", jit::Type::F, jit::Rate::Frame);
+    c.set(c.e.div(c.b.sub(p[2], near), c.b.sub(far, near)));
 }
 
 // Du(p) ^ Dv(p), turned so that for the unmodified P it points along Ng: the space may be mirrored,
 // and the winding may run against u, v.
 void calculatenormal(LowerCall& c) {
-    c.set(c.low.normal_of(c.v3(0)));
+    c.set(c.globals.normal_of(c.v3(0)));
 }
 
 }  // namespace lower_spaces

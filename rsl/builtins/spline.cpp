@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/text/literal_names.h"
 
@@ -69,7 +69,7 @@ const Basis* find_basis(LowerCall& c, bool named, bool* solve) {
     std::string_view name = *text;
     *solve = cut_solve(name);
     const Basis* basis = *solve || !name.empty() ? basis_named(name) : nullptr;
-    if (!basis) c.low.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->span.where, *text);
+    if (!basis) c.context.error(Code::RSL_SPLINE_BASIS, c.call.args[0]->span.where, *text);
     return basis;
 }
 
@@ -98,21 +98,20 @@ Value knot_of(LowerCall& c, const Curve& curve, Value piece, int offset, size_t 
 // The curve at x, clamped to 0..1; NaN counts as 0.
 Lowered point_at(LowerCall& c, const Curve& curve, Value x) {
     auto& b = c.b;
-    Value scaled = b.mul(c.low.clamp(x, b.f(0), b.f(1)), b.f(float(curve.pieces)));
+    Value scaled = b.mul(c.e.clamp(x, b.f(0), b.f(1)), b.f(float(curve.pieces)));
     Value piece = b.min(b.floor(scaled), b.f(float(curve.pieces - 1)));
     Value t = b.sub(scaled, piece);
     // Weights first: at t = 0 and 1 they are exact, so the curve meets its knots exactly.
     std::array<Value, 4> weight;
     for (size_t k = 0; k < 4; ++k) {
         weight[k] = b.f(curve.basis.m[0][k]);
-        for (size_t r = 1; r < 4; ++r)
-            weight[k] = c.low.fma(weight[k], t, b.f(curve.basis.m[r][k]));
+        for (size_t r = 1; r < 4; ++r) weight[k] = c.e.fma(weight[k], t, b.f(curve.basis.m[r][k]));
     }
     Lowered result{curve.knots[0].type, {}};
     for (size_t j = 0; j < size_t(result.size()); ++j) {
         Value sum = b.f(0);
         for (size_t k = 4; k-- > 0;)
-            sum = c.low.fma(weight[k], knot_of(c, curve, piece, int(k), j), sum);
+            sum = c.e.fma(weight[k], knot_of(c, curve, piece, int(k), j), sum);
         result.c[j] = sum;
     }
     return result;
@@ -151,11 +150,12 @@ void spline(LowerCall& c) {
     if (!basis) return;
     size_t first = named ? 2 : 1;
     Curve curve{*basis, {c.args.begin() + long(first), c.args.end()}, 0};
-    if (c.call.args[first]->type.is_array()) curve.knots = c.low.array_values(*c.call.args[first]);
+    if (c.call.args[first]->type.is_array())
+        curve.knots = c.variables.array_values(*c.call.args[first]);
     int count = int(curve.knots.size());
     if (count < 4 || (count - 4) % basis->step != 0 ||
         (solving && c.result_type() != BaseType::Float))
-        return c.low.error(Code::RSL_SPLINE_KNOTS, c.where(), basis->name, count);
+        return c.context.error(Code::RSL_SPLINE_KNOTS, c.where(), basis->name, count);
     curve.pieces = (count - 4) / basis->step + 1;
     Value x = c.args[first - 1].c[0];
     if (solving) return c.set(solve(c, curve, x));

@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/model/string_functions.h"
 #include "rsl/reference/reference_p.h"
 
@@ -15,25 +15,25 @@ namespace lower_string {
 
 void check_count(LowerCall& c, size_t wanted) {
     if (wanted != c.args.size() - 1)
-        c.low.report(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
+        c.context.report(Code::RSL_FORMAT_ARGUMENTS, c.where(), wanted, c.args.size() - 1);
 }
 
 void too_long(LowerCall& c) {
-    if (!c.low.failed) c.low.error(Code::RSL_STRING_TOO_LONG, c.where(), kMostText);
+    if (!c.context.failed) c.context.error(Code::RSL_STRING_TOO_LONG, c.where(), kMostText);
 }
 
 // A service that makes a string; one that is too long is reported where the shader runs.
 Value make_text(LowerCall& c, Service maker, std::span<const Value> args) {
-    Value text = c.low.service(maker, args)[0];
+    Value text = c.services.call(maker, args)[0];
     Value bad = c.b.op(jit::Op::IEq, text, c.b.i(intern(kTooLong)));
     c.b.fault(c.b.fault_site(c.where(), fmt::format("a string of more than {} bytes", kMostText)),
-              c.b.logical_and(c.low.running, bad));
+              c.b.logical_and(c.e.running, bad));
     return text;
 }
 
 Value join(LowerCall& c, Value a, Value b) {
-    const std::string* first = c.low.constant_text(a);
-    const std::string* second = c.low.constant_text(b);
+    const std::string* first = c.e.constant_text(a);
+    const std::string* second = c.e.constant_text(b);
     if (first && second) {
         if (first->size() + second->size() > kMostText) return too_long(c), a;
         return c.b.i(intern(*first + *second));
@@ -51,18 +51,18 @@ void concat(LowerCall& c) {
 
 void match(LowerCall& c) {
     Value pattern = c.args[0].c[0], text = c.args[1].c[0];
-    const std::string* known_pattern = c.low.constant_text(pattern);
-    const std::string* known_text = c.low.constant_text(text);
+    const std::string* known_pattern = c.e.constant_text(pattern);
+    const std::string* known_text = c.e.constant_text(text);
     if (known_pattern && known_text)
         c.set(c.b.f(matches(*known_pattern, *known_text) ? 1.0f : 0.0f));
     else
-        c.set(c.low.service(Service::match, std::array{pattern, text})[0]);
+        c.set(c.services.call(Service::match, std::array{pattern, text})[0]);
 }
 
 // The numbers of a value as services take them: strings as ids bit for bit.
 std::vector<Value> numbers(LowerCall& c, const Lowered& value) {
     if (value.type == BaseType::String) return {c.b.from_bits(value.c[0])};
-    if (value.type == BaseType::Bool) return {c.low.flag(value.c[0])};
+    if (value.type == BaseType::Bool) return {c.e.flag(value.c[0])};
     return {value.c.begin(), value.c.begin() + value.size()};
 }
 
@@ -138,7 +138,7 @@ bool unknown_format(LowerCall& c, Piece& piece) {
         piece.values.insert(piece.values.end(), values.begin(), values.end());
     }
     if (piece.values.size() <= size_t(kMostFormatValues)) return true;
-    c.low.error(Code::RSL_PRINT_TOO_LONG, c.where(), piece.values.size());
+    c.context.error(Code::RSL_PRINT_TOO_LONG, c.where(), piece.values.size());
     return false;
 }
 
@@ -149,7 +149,7 @@ std::vector<Value> service_arguments(LowerCall& c, Value format, std::vector<Val
 }
 
 void format(LowerCall& c) {
-    const std::string* text = c.low.constant_text(c.args[0].c[0]);
+    const std::string* text = c.e.constant_text(c.args[0].c[0]);
     if (!text) {
         Piece all;
         if (unknown_format(c, all))
@@ -170,22 +170,22 @@ void format(LowerCall& c) {
 
 // Kernels that only ask for opacity run beside the one that prints.
 bool prints(LowerCall& c) {
-    return c.low.kind() != ShaderKind::Surface || c.low.options.want_Ci;
+    return c.context.kind() != ShaderKind::Surface || c.context.options.want_Ci;
 }
 
 void print(LowerCall& c) {
     if (!prints(c)) return;
-    const std::string* text = c.low.constant_text(c.args[0].c[0]);
+    const std::string* text = c.e.constant_text(c.args[0].c[0]);
     if (!text) {
         Piece all;
         if (unknown_format(c, all))
-            c.low.service(Service::print, service_arguments(c, c.f(0), all.values));
+            c.services.call(Service::print, service_arguments(c, c.f(0), all.values));
         return;
     }
     check_count(c, conversions(*text).size());
     for (const Piece& piece : pieces_of(c, *text)) {
         Value format = c.b.i(intern(piece.format));
-        c.low.service(Service::print, service_arguments(c, format, piece.values));
+        c.services.call(Service::print, service_arguments(c, format, piece.values));
     }
 }
 
@@ -198,7 +198,8 @@ void debug(LowerCall& c) {
                              : is_triple(type)          ? "%p"
                                                         : "%f";
     std::string text = "debug " + std::string(type_name(type)) + ": " + conversion + "\n";
-    c.low.service(Service::print, service_arguments(c, c.b.i(intern(text)), numbers(c, c.args[0])));
+    c.services.call(Service::print,
+                    service_arguments(c, c.b.i(intern(text)), numbers(c, c.args[0])));
 }
 
 }  // namespace lower_string

@@ -1,7 +1,7 @@
 // rsl/builtins/texture.cpp: filtered textures.
 #include "rsl/builtins/maps_p.h"
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -47,8 +47,7 @@ void texture(LowerCall& c) {
     else if (c.args.size() == 3)
         at = with_derivatives(c, c.f(1), c.f(2));
     else
-        at = with_derivatives(c, c.low.read_global(Global::s).c[0],
-                              c.low.read_global(Global::t).c[0]);
+        at = with_derivatives(c, c.globals.read(Global::s).c[0], c.globals.read(Global::t).c[0]);
     Lookup where = at;
     Value swidth = width(c, "swidth"), twidth = width(c, "twidth");
     blur_apart(c, at, swidth, twidth);

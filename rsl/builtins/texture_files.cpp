@@ -2,7 +2,7 @@
 // and t.
 #include "rsl/builtins/maps_p.h"
 #include "rsl/builtins/table.h"
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -14,34 +14,34 @@ using namespace lower_maps;
 // bake(file, s, t, value): a point file of points (s, t, 0), with one channel. A negative scale
 // says that they are no places in current space.
 void bake(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     auto& b = c.b;
-    if (!e.options.want_Ci) return;
-    e.out.uses_rng = true;
+    if (!c.context.options.want_Ci) return;
+    c.context.out.uses_rng = true;
     const Lowered& value = c.args[3];
     Lookup at = with_derivatives(c, c.f(1), c.f(2));
     Value across =
         b.max(b.add(b.abs(at.dsdx), b.abs(at.dsdy)), b.add(b.abs(at.dtdx), b.abs(at.dtdy)));
     Value radius = b.max(b.mul(across, e.f(0.5f)), e.f(1e-6f));
     std::vector<Value> args = {c.f(0), b.i(intern(std::string(type_name(value.type)) + " value")),
-                               e.scalar_input("rng", jit::Type::I, jit::Rate::Point)};
+                               scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point)};
     args.insert(args.end(), {at.s, at.t, e.f(0), e.f(0), e.f(0), e.f(0), radius, e.f(-1)});
     args.insert(args.end(), value.c.begin(), value.c.begin() + value.size());
     args.resize(11 + size_t(kPointFloats), e.f(0));
-    e.service(Service::bake3d, args);
+    c.services.call(Service::bake3d, args);
 }
 
 // textureinfo(name, field, variable): 1, and the variable set, if the fact is known and fits.
 void textureinfo(LowerCall& c) {
-    auto& e = c.low;
+    auto& e = c.e;
     auto& b = c.b;
-    std::vector<Value> answer = e.service(Service::textureinfo, std::array{c.f(0), c.f(1)});
+    std::vector<Value> answer = c.services.call(Service::textureinfo, std::array{c.f(0), c.f(1)});
     const Expr& variable = *c.call.args[2];
     BaseType type = variable.type.base;
     size_t each = size_t(component_count(type));
     bool array = variable.type.is_array();
     std::vector<Lowered> values =
-        array ? e.array_values(variable) : std::vector<Lowered>{c.args[2]};
+        array ? c.variables.array_values(variable) : std::vector<Lowered>{c.args[2]};
     Value known = type == BaseType::String ? b.op(jit::Op::IEq, answer[0], b.i(-1))
                                            : b.op(jit::Op::ILt, b.i(int(each) - 1), answer[0]);
     for (size_t k = 0; k < values.size() && (k + 1) * each < answer.size(); ++k) {
@@ -54,7 +54,7 @@ void textureinfo(LowerCall& c) {
         }
     }
     if (array)
-        e.set_array(variable, values);
+        c.variables.set_array(variable, values);
     else
         c.set_output(2, values[0]);
     c.set(e.flag(known));

@@ -2,7 +2,7 @@
 // (docs/numerics.md#colors).
 #include <algorithm>
 
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/values.h"
 #include "rsl/model/color_matrices.h"
 #include "rsl/text/literal_names.h"
 
@@ -136,19 +136,19 @@ std::vector<std::string_view> color_space_names() {
     return names;
 }
 
-Lowered Lowering::color_space(const Lowered& color, std::string_view from, std::string_view to,
-                              Location where) {
+Lowered color_space(Emitter& e, LoweringContext& context, const Lowered& color,
+                    std::string_view from, std::string_view to, Location where) {
     auto find = [&](std::string_view name) -> const ColorSpace* {
         for (const ColorSpace& space : kSpaces)
             if (same_name(space.name, name)) return &space;
-        error(Code::RSL_COLOR_SPACE_UNKNOWN, where, name);
+        context.error(Code::RSL_COLOR_SPACE_UNKNOWN, where, name);
         return nullptr;
     };
     const ColorSpace* source = find(from);
     const ColorSpace* target_space = find(to);
     if (!source || !target_space || source == target_space) return color;
-    V3 rgb = source->to_rgb(*this, color.v3());
-    return lowered(BaseType::Color, target_space->from_rgb(*this, rgb));
+    V3 rgb = source->to_rgb(e, color.v3());
+    return lowered(BaseType::Color, target_space->from_rgb(e, rgb));
 }
 
 }  // namespace kinora::rsl

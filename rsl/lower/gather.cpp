@@ -1,14 +1,18 @@
 // rsl/lower/gather.cpp: gather: all rays of the statement are shot by one service, then its body is
 // replayed once for each (docs/decisions.md#lights-run-once).
+#include "rsl/lower/gather.h"
+
 #include <set>
 
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
+#include "rsl/lower/records.h"
+#include "rsl/lower/values.h"
 #include "rsl/model/pairs.h"
 
 namespace kinora::rsl {
 
 // The results a statement asks for: where they go, and their first columns.
-struct Lowering::GatherResults {
+struct Gather::Results {
     struct Item {
         std::string name;
         const Expr* variable;
@@ -65,93 +69,93 @@ std::vector<std::string> gathered_parameters(const Shader& shader) {
     return {names.begin(), names.end()};
 }
 
-void Lowering::gather(const GatherStmt& stmt) {
-    if (!options.want_Ci) return;  // opacity kernels trace nothing (docs/decisions.md#opacity)
-    if (gather_depth_ >= kGatherLevels)
-        return error(Code::RSL_GATHER_NESTED, stmt.span.where, kGatherLevels);
-    V3 P = expr(*stmt.position).v3(), D = expr(*stmt.direction).v3();
-    Value angle = value(*stmt.angle), samples = value(*stmt.samples);
-    const std::string* category = constant_text(value(*stmt.category));
+void Gather::lower(const GatherStmt& stmt) {
+    if (!context_.options.want_Ci)
+        return;  // opacity kernels trace nothing (docs/decisions.md#opacity)
+    if (depth_ >= kGatherLevels)
+        return context_.error(Code::RSL_GATHER_NESTED, stmt.span.where, kGatherLevels);
+    V3 P = tree_.expr(*stmt.position).v3(), D = tree_.expr(*stmt.direction).v3();
+    Value angle = tree_.value(*stmt.angle), samples = tree_.value(*stmt.samples);
+    const std::string* category = e_.constant_text(tree_.value(*stmt.category));
     bool shoots = !category || *category != "samplepattern";
-    Value maxdist = b.f(1e30f), bias = b.f(-1), label = b.i(0);
+    Value maxdist = b_.f(1e30f), bias = b_.f(-1), label = b_.i(0);
     int flags = shoots ? 0 : kGatherNoRays;
-    GatherResults results;
+    Results results;
     std::vector<LoweredShader::GatherResult> wanted;
     int column = kGatherResults;
     for (size_t k = 1; k < stmt.pairs.size(); k += 2) {
         std::string name(pair_name(stmt.pairs, k));
         const Expr& given = *stmt.pairs[k];
         if (takes_option("gather", name))
-            report_idle_pair("gather", name, expr(given), given.span.where);
+            report_idle_pair(e_, context_, "gather", name, tree_.expr(given), given.span.where);
         if (is_gather_output(name)) {
             const Known* known = find_known(name);
             bool parameter = !known && name.starts_with("surface:");
             if ((!known && !parameter) || (known && !fits(known->type, given.type.base))) {
-                report(Code::RSL_GATHER_OUTPUT, given.span.where, name, type_name(given.type.base));
+                context_.report(Code::RSL_GATHER_OUTPUT, given.span.where, name,
+                                type_name(given.type.base));
                 continue;
             }
             wanted.push_back({name, given.type.base});
             results.items.push_back({name, &given, column, name.starts_with("ray:")});
             column += component_count(given.type.base);
         } else if (name == "maxdist") {
-            maxdist = value(given);
+            maxdist = tree_.value(given);
         } else if (name == "bias") {
-            bias = value(given);
+            bias = tree_.value(given);
         } else if (name == "label") {
-            label = value(given);
+            label = tree_.value(given);
         } else if (name == "distribution") {
-            const std::string* text = constant_text(value(given));
+            const std::string* text = e_.constant_text(tree_.value(given));
             if (text && *text == "cosine") flags |= kGatherCosine;
         } else if (!takes_option("gather", name)) {
-            report(Code::RSL_PAIR_UNKNOWN, given.span.where, name, "gather");
+            context_.report(Code::RSL_PAIR_UNKNOWN, given.span.where, name, "gather");
         }
     }
-    auto seed = sample_seed(uint32_t(out.gathers.size()) * 2654435761u + 77);
-    Value set =
-        service(Service::gather, std::array{seed[0], seed[1], b.i(int(out.gathers.size())),
-                                            b.i(gather_depth_), P[0], P[1], P[2], D[0], D[1], D[2],
-                                            angle, samples, maxdist, bias, label, b.i(flags)})[0];
-    out.gathers.push_back(std::move(wanted));
+    auto seed = seeds_.sample(uint32_t(context_.out.gathers.size()) * 2654435761u + 77);
+    Value set = services_.call(Service::gather,
+                               std::array{seed[0], seed[1], b_.i(int(context_.out.gathers.size())),
+                                          b_.i(depth_), P[0], P[1], P[2], D[0], D[1], D[2], angle,
+                                          samples, maxdist, bias, label, b_.i(flags)})[0];
+    context_.out.gathers.push_back(std::move(wanted));
 
-    ++gather_depth_;
-    replay(stmt, set, [&](Value record) { gather_turn(stmt, set, record, results, shoots); });
-    --gather_depth_;
+    ++depth_;
+    loops_.replay(stmt, set, [&](Value record) { turn(stmt, set, record, results, shoots); });
+    --depth_;
 }
 
 // Lanes whose ray hit something run the body, those whose ray met nothing the other branch.
-void Lowering::gather_turn(const GatherStmt& stmt, Value set, Value record, GatherResults& results,
-                           bool shoots) {
-    Value state = record_field(set, record, kGatherState, jit::Type::I);
-    Value entered = running;
+void Gather::turn(const GatherStmt& stmt, Value set, Value record, Results& results, bool shoots) {
+    Value state = record_field(b_, set, record, kGatherState, jit::Type::I);
+    Value entered = e_.running;
     auto lanes_in = [&](GatherState s) {
-        return b.logical_and(entered, b.op(jit::Op::IEq, state, b.i(s)));
+        return b_.logical_and(entered, b_.op(jit::Op::IEq, state, b_.i(s)));
     };
     // Without rays nothing is hit: the branch for misses runs, or the only one there is.
     bool only_body = !shoots && !stmt.missed;
-    guarded(lanes_in(only_body ? kGatherMiss : kGatherHit),
-            [&] { gather_branch(stmt, set, record, results, true); });
+    regions_.guarded(lanes_in(only_body ? kGatherMiss : kGatherHit),
+                     [&] { branch(stmt, set, record, results, true); });
     if (!stmt.missed) return;
-    Value after_hits = running;
-    running = entered;
-    guarded(lanes_in(kGatherMiss), [&] { gather_branch(stmt, set, record, results, false); });
+    Value after_hits = e_.running;
+    e_.running = entered;
+    regions_.guarded(lanes_in(kGatherMiss), [&] { branch(stmt, set, record, results, false); });
     if (after_hits != entered)
-        running = running == entered ? after_hits : b.logical_and(running, after_hits);
+        e_.running = e_.running == entered ? after_hits : b_.logical_and(e_.running, after_hits);
 }
 
 // One ray: its results into their variables, then the branch.
-void Lowering::gather_branch(const GatherStmt& stmt, Value set, Value record,
-                             GatherResults& results, bool hit) {
-    for (const GatherResults::Item& item : results.items) {
+void Gather::branch(const GatherStmt& stmt, Value set, Value record, Results& results, bool hit) {
+    for (const Results::Item& item : results.items) {
         if (!hit && !item.of_ray) continue;
-        Target to = target(*item.variable);
-        Lowered x = zero(item.variable->type.base);
+        LValue to = variables_.target(*item.variable);
+        Lowered x = zero(e_, item.variable->type.base);
         bool text = x.type == BaseType::String;
         for (int c = 0; c < x.size(); ++c)
             x.c[size_t(c)] =
-                record_field(set, record, item.column + c, text ? jit::Type::I : jit::Type::F);
-        store(to, x);
+                record_field(b_, set, record, item.column + c, text ? jit::Type::I : jit::Type::F);
+        variables_.store(to, x);
     }
-    statement(hit ? *stmt.body : *stmt.missed);
+    tree_.statement(hit ? *stmt.body : *stmt.missed);
 }
 
 }  // namespace kinora::rsl

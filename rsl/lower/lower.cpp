@@ -3,22 +3,149 @@
 
 #include <algorithm>
 
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/builtin_call.h"
+#include "rsl/lower/calls.h"
+#include "rsl/lower/expressions.h"
+#include "rsl/lower/gather.h"
+#include "rsl/lower/lights.h"
+#include "rsl/lower/messages.h"
+#include "rsl/lower/statements.h"
+#include "rsl/lower/values.h"
+#include "rsl/model/changes.h"
 
 namespace kinora::rsl {
 
 namespace {
 
+// Writes one layer: its parameters, then its body.
+class LayerWriter {
+  public:
+    LayerWriter(LoweringContext& context, SampleSeeds& seeds, Slots& slots, Spaces& spaces,
+                Globals& globals, Variables& variables, Messages& messages, Recursion& recursion,
+                LightShader& light_shader, TreeWalk& tree)
+        : context_(context),
+          seeds_(seeds),
+          slots_(slots),
+          spaces_(spaces),
+          globals_(globals),
+          variables_(variables),
+          messages_(messages),
+          recursion_(recursion),
+          light_shader_(light_shader),
+          tree_(tree) {}
+
+    void run(const Layer& next);
+    void declare(const Layer& next);  // a layer that is done: its parameters only
+
+    // What displacements that bend normals were given, to tell whether they changed it.
+    const Lowered& given_N() const { return given_N_; }
+    const Lowered& given_P() const { return given_P_; }
+
+  private:
+    void enter();  // slots for the symbols of the context's layer
+    void first_values(const Shader& shader);
+    void leave_messages(const Shader& shader);
+
+    LoweringContext& context_;
+    SampleSeeds& seeds_;
+    Slots& slots_;
+    Spaces& spaces_;
+    Globals& globals_;
+    Variables& variables_;
+    Messages& messages_;
+    Recursion& recursion_;
+    LightShader& light_shader_;
+    TreeWalk& tree_;
+    Lowered given_N_, given_P_;
+};
+
+void LayerWriter::enter() {
+    variables_.enter_layer();
+    seeds_.enter_layer();
+    recursion_.enter_layer();
+}
+
+void LayerWriter::declare(const Layer& next) {
+    for (size_t g = 0; g < size_t(Global::Count); ++g) globals_.forget(Global(g));
+    context_.layer = &next;
+    enter();
+    for (const ShaderParameter& p : next.shader->parameters)
+        if (!p.type.is_array())
+            messages_.add({next.shader->kind, std::string(p.name), p.type,
+                           variables_.parameter(*p.symbol), -1});
+}
+
+void LayerWriter::run(const Layer& next) {
+    enter();
+    first_values(*next.shader);
+    tree_.block(next.shader->definition->body->body);
+    leave_messages(*next.shader);
+}
+
+void LayerWriter::first_values(const Shader& shader) {
+    ChangeFinder finder(context_.ast());
+    finder.add(shader.definition->body);
+    for (const ShaderParameter& parameter : shader.parameters) finder.add(parameter.default_value);
+    if (context_.bends_normals() && !globals_.written(Global::P)) {
+        given_N_ = globals_.input(Global::N);
+        given_P_ = globals_.smooth_P(given_N_);
+        globals_.write(Global::N, given_N_);
+        globals_.write(Global::P, given_P_);
+    }
+    // What is written has a value from the start, so that every If can merge it.
+    for (const Symbol* symbol : finder.changes.symbols)
+        if (symbol->global && !globals_.written(symbol->global->id))
+            globals_.write(symbol->global->id, globals_.input(symbol->global->id));
+    if (shader.kind == ShaderKind::Light) light_shader_.begin(finder.changes);
+    for (const ShaderParameter& parameter : shader.parameters) {
+        bool used = std::find(finder.used.begin(), finder.used.end(), parameter.symbol) !=
+                    finder.used.end();
+        if (!used && !parameter.output) continue;
+        if (parameter.type.is_array())
+            variables_.array_of(*parameter.symbol);
+        else
+            slots_.write(variables_.slot_of(*parameter.symbol),
+                         variables_.parameter(*parameter.symbol));
+    }
+}
+
+void LayerWriter::leave_messages(const Shader& shader) {
+    for (const ShaderParameter& parameter : shader.parameters) {
+        Messages::Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
+        bool last = context_.layer == &context_.layers.back() &&
+                    context_.options.messages.empty() && context_.options.aovs.empty();
+        if (!parameter.type.is_array()) {
+            Lowered value = variables_.read(*parameter.symbol);
+            message.value = parameter.output ? value : spaces_.out_of_layer(value);
+        } else if (last) {
+            continue;  // nobody is left to ask
+        } else {
+            message.array = variables_.array_of(*parameter.symbol);
+        }
+        messages_.add(std::move(message));
+    }
+}
+
 // Writes the whole kernel: the layers in order, then the outputs.
 class Stack {
   public:
-    Stack(Lowering& lowering, std::span<const Layer> layers) : low_(lowering), layers_(layers) {}
+    Stack(Emitter& emitter, LoweringContext& context, Spaces& spaces, Globals& globals,
+          Messages& messages, LightShader& light_shader, LayerWriter& writer)
+        : e_(emitter),
+          b_(emitter.b),
+          context_(context),
+          spaces_(spaces),
+          globals_(globals),
+          messages_(messages),
+          light_shader_(light_shader),
+          writer_(writer) {}
 
     void run() {
-        for (const Layer& layer : layers_) layer.done ? declare_layer(layer) : run_layer(layer);
-        if (low_.failed) return;
-        if (layers_.back().shader->kind == ShaderKind::Light)
-            low_.light_outputs();
+        for (const Layer& layer : context_.layers)
+            layer.done ? declare_layer(layer) : run_layer(layer);
+        if (context_.failed) return;
+        if (context_.layers.back().shader->kind == ShaderKind::Light)
+            light_shader_.outputs();
         else
             write_outputs();
         write_named_outputs();
@@ -26,8 +153,8 @@ class Stack {
 
   private:
     void declare_layer(const Layer& layer) {
-        low_.layer_index = size_t(&layer - layers_.data());
-        low_.declare_layer(layer);
+        context_.layer_index = size_t(&layer - context_.layers.data());
+        writer_.declare(layer);
     }
 
     // Displacements pass P and N on among themselves; surfaces see N as it was left, and the
@@ -35,28 +162,29 @@ class Stack {
     void run_layer(const Layer& layer) {
         bool displacement = layer.shader->kind == ShaderKind::Displacement ||
                             layer.shader->kind == ShaderKind::Transformation;
-        for (size_t g = 0; g < size_t(Global::Count); ++g) low_.kill(Global(g));
+        for (size_t g = 0; g < size_t(Global::Count); ++g) globals_.forget(Global(g));
         if (!displacement) bring_back();
-        low_.layer = &layer;
-        low_.layer_index = size_t(&layer - layers_.data());
-        if (have_N_) low_.write_slot(int(Global::N), N_);
-        if (have_P_ && displacement) low_.write_slot(int(Global::P), P_);
+        context_.layer = &layer;
+        context_.layer_index = size_t(&layer - context_.layers.data());
+        if (have_N_) globals_.write(Global::N, N_);
+        if (have_P_ && displacement) globals_.write(Global::P, P_);
         // Volumes and imagers go on with what the one before them left.
-        bool behind = low_.kind() == ShaderKind::Volume || low_.kind() == ShaderKind::Imager;
+        bool behind =
+            context_.kind() == ShaderKind::Volume || context_.kind() == ShaderKind::Imager;
         if (behind && have_surface_) {
-            low_.write_slot(int(Global::Ci), lowered(BaseType::Color, Ci_));
-            low_.write_slot(int(Global::Oi), lowered(BaseType::Color, Oi_));
-            if (low_.kind() == ShaderKind::Imager)
-                low_.write_slot(int(Global::alpha), lowered(BaseType::Float, alpha_));
+            globals_.write(Global::Ci, lowered(BaseType::Color, Ci_));
+            globals_.write(Global::Oi, lowered(BaseType::Color, Oi_));
+            if (context_.kind() == ShaderKind::Imager)
+                globals_.write(Global::alpha, lowered(BaseType::Float, alpha_));
             have_surface_ = false;
         }
-        low_.run_layer(layer);
-        if (low_.failed) return;
-        left_N_ = low_.read_global(Global::N);
+        writer_.run(layer);
+        if (context_.failed) return;
+        left_N_ = globals_.read(Global::N);
         if (displacement) {
-            N_ = left_N_, P_ = low_.read_global(Global::P);
+            N_ = left_N_, P_ = globals_.read(Global::P);
             have_N_ = have_P_ = true;
-            bends_ = low_.bends_normals() ? &layer : nullptr;
+            bends_ = context_.bends_normals() ? &layer : nullptr;
         } else if (layer.shader->kind != ShaderKind::Light) {
             composite();
         }
@@ -65,73 +193,75 @@ class Stack {
     // N and P of displacements that bend normals, for the surfaces: in the kernel's current.
     void bring_back() {
         if (!bends_) return;
-        const Layer* surface = std::exchange(low_.layer, std::exchange(bends_, nullptr));
-        bool same_N = N_.c == low_.given_N.c, same_P = P_.c == low_.given_P.c;
+        const Layer* surface = std::exchange(context_.layer, std::exchange(bends_, nullptr));
+        bool same_N = N_.c == writer_.given_N().c, same_P = P_.c == writer_.given_P().c;
         if (same_N && !same_P) {  // as true displacement: N of what has moved
-            N_ = lowered(BaseType::Normal, low_.normalize(low_.normal_of(P_.v3())));
+            N_ = lowered(BaseType::Normal, e_.normalize(globals_.normal_of(P_.v3())));
             same_N = false;
         }
         if (!same_N) {
-            V3 N = low_.out_of_layer(N_).v3();
-            Value as_long = low_.div(low_.length(N_.v3()), low_.length(N));
-            N_ = lowered(BaseType::Normal, low_.scale(N, as_long));
+            V3 N = spaces_.out_of_layer(N_).v3();
+            Value as_long = e_.div(e_.length(N_.v3()), e_.length(N));
+            N_ = lowered(BaseType::Normal, e_.scale(N, as_long));
         }
-        if (!same_P) P_ = low_.out_of_layer(P_);
-        low_.layer = surface;
+        if (!same_P) P_ = spaces_.out_of_layer(P_);
+        context_.layer = surface;
         have_N_ = !same_N, have_P_ = !same_P;
     }
 
     // The new layer over those before: Ci is premultiplied by Oi.
     void composite() {
-        V3 Ci = low_.read_global(Global::Ci).v3(), Oi = low_.read_global(Global::Oi).v3();
+        V3 Ci = globals_.read(Global::Ci).v3(), Oi = globals_.read(Global::Oi).v3();
         if (have_surface_) {
             for (size_t c = 0; c < 3; ++c) {
-                Value through = low_.b.sub(low_.f(1), Oi[c]);
-                Ci[c] = low_.fma(through, Ci_[c], Ci[c]);
-                Oi[c] = low_.fma(through, Oi_[c], Oi[c]);
+                Value through = b_.sub(e_.f(1), Oi[c]);
+                Ci[c] = e_.fma(through, Ci_[c], Ci[c]);
+                Oi[c] = e_.fma(through, Oi_[c], Oi[c]);
             }
         }
-        if (low_.kind() == ShaderKind::Imager) alpha_ = low_.read_global(Global::alpha).c[0];
+        if (context_.kind() == ShaderKind::Imager) alpha_ = globals_.read(Global::alpha).c[0];
         Ci_ = Ci, Oi_ = Oi, have_surface_ = true;
     }
 
     void output(const std::string& name, BaseType type, const Lowered& value) {
         for (int c = 0; c < component_count(type); ++c)
-            low_.b.output({name + component_suffix(type, c),
-                           type == BaseType::String ? jit::Type::I : jit::Type::F},
-                          value.c[size_t(c)]);
+            b_.output({name + component_suffix(type, c),
+                       type == BaseType::String ? jit::Type::I : jit::Type::F},
+                      value.c[size_t(c)]);
     }
 
     void write_outputs() {
         if (have_surface_) {
-            low_.out.opacity = opacity();
-            if (low_.options.want_Ci) output("Ci", BaseType::Color, lowered(BaseType::Color, Ci_));
-            if (low_.options.want_Oi) output("Oi", BaseType::Color, lowered(BaseType::Color, Oi_));
+            context_.out.opacity = opacity();
+            if (context_.options.want_Ci)
+                output("Ci", BaseType::Color, lowered(BaseType::Color, Ci_));
+            if (context_.options.want_Oi)
+                output("Oi", BaseType::Color, lowered(BaseType::Color, Oi_));
         }
-        if (alpha_ != jit::kNone) low_.b.output({"alpha", jit::Type::F}, alpha_);
-        low_.out.moves_P = have_P_ && !low_.is_input(P_.v3(), "P");
-        low_.out.bends_N = have_N_ && !low_.is_input(N_.v3(), "N");
-        if (low_.options.want_N) output("N", BaseType::Normal, left_N_);
-        if (low_.options.want_P)
-            output("P", BaseType::Point, have_P_ ? P_ : low_.global_input(Global::P));
+        if (alpha_ != jit::kNone) b_.output({"alpha", jit::Type::F}, alpha_);
+        context_.out.moves_P = have_P_ && !is_input(b_, P_.v3(), "P");
+        context_.out.bends_N = have_N_ && !is_input(b_, N_.v3(), "N");
+        if (context_.options.want_N) output("N", BaseType::Normal, left_N_);
+        if (context_.options.want_P)
+            output("P", BaseType::Point, have_P_ ? P_ : globals_.input(Global::P));
     }
 
     // Output parameters wanted by the film or by lightsource(): the topmost layer's.
     void write_named_outputs() {
         auto write = [&](const std::string& prefix, const std::vector<std::string>& names) {
             for (const std::string& name : names) {
-                auto found = std::find_if(low_.messages.rbegin(), low_.messages.rend(),
+                auto found = std::find_if(messages_.list().rbegin(), messages_.list().rend(),
                                           [&](auto& message) { return message.name == name; });
-                if (found == low_.messages.rend()) continue;
-                std::vector<Lowered> values = low_.message_values(*found);
+                if (found == messages_.list().rend()) continue;
+                std::vector<Lowered> values = messages_.values(*found);
                 for (size_t k = 0; k < values.size(); ++k)
                     output(prefix + name +
                                (found->type.is_array() ? "[" + std::to_string(k) + "]" : ""),
                            values[k].type, values[k]);
             }
         };
-        write("aov:", low_.options.aovs);
-        write("message:", low_.options.messages);
+        write("aov:", context_.options.aovs);
+        write("message:", context_.options.messages);
     }
 
     LoweredShader::Opacity opacity() {
@@ -142,7 +272,7 @@ class Stack {
         for (Value v : Oi_) {
             rate = std::max(rate, rates[v]);
             float x;
-            ones = ones && low_.b.constant_f(v, &x) && x == 1;
+            ones = ones && b_.constant_f(v, &x) && x == 1;
         }
         if (ones) return Opacity::Opaque;
         return rate == jit::Rate::Point ? Opacity::Computed : Opacity::Constant;
@@ -150,14 +280,14 @@ class Stack {
 
     // Rates of all values so far; what a loop carries or a call gives counts as point rate.
     std::vector<jit::Rate> value_rates() {
-        const jit::Function& f = low_.b.function();
+        const jit::Function& f = b_.function();
         std::vector<jit::Rate> rates(f.insts.size(), jit::Rate::Constant);
         for (size_t k = 0; k < f.insts.size(); ++k) {
             const jit::Inst& inst = f.insts[k];
             const jit::OpInfo& info = jit::op_info(inst.op);
             jit::Rate& rate = rates[k];
             if (inst.op == jit::Op::Input || inst.op == jit::Op::InputGather)
-                rate = low_.b.module().inputs[size_t(inst.imm)].rate;
+                rate = b_.module().inputs[size_t(inst.imm)].rate;
             else if (inst.op == jit::Op::Merge)
                 rate = rates[f.insts[size_t(inst.imm)].a];
             else if (!(info.flags & jit::kPure))
@@ -168,8 +298,14 @@ class Stack {
         return rates;
     }
 
-    Lowering& low_;
-    std::span<const Layer> layers_;
+    Emitter& e_;
+    jit::Builder& b_;
+    LoweringContext& context_;
+    Spaces& spaces_;
+    Globals& globals_;
+    Messages& messages_;
+    LightShader& light_shader_;
+    LayerWriter& writer_;
     Lowered N_, P_;  // as the displacements left them
     bool have_N_ = false, have_P_ = false;
     Lowered left_N_;
@@ -179,77 +315,57 @@ class Stack {
     bool have_surface_ = false;
 };
 
+// All objects that write a kernel, in the order of their dependence. Expressions, statements and
+// calls recur through it, as a TreeWalk.
+class KernelWriter final : public TreeWalk {
+  public:
+    KernelWriter(jit::Builder& builder, std::span<const Layer> layers, const LowerOptions& options,
+                 Diagnostics& diagnostics, LoweredShader& result)
+        : emitter_(builder, options.math), context_(layers, options, diagnostics, result) {}
+
+    bool write() {
+        stack_.run();
+        return !context_.failed;
+    }
+    Lowered expr(const Expr& e) override { return expressions_.expr(e); }
+    void statement(const Stmt& stmt) override { statements_.statement(stmt); }
+    void block(std::span<Stmt* const> body) override { statements_.block(body); }
+
+  private:
+    Emitter emitter_;
+    LoweringContext context_;
+    Spaces spaces_{emitter_, context_};
+    Services services_{emitter_, context_, spaces_};
+    SampleSeeds seeds_{emitter_, context_};
+    Slots slots_{emitter_.b};
+    Regions regions_{emitter_, slots_};
+    Arrays arrays_{emitter_, context_, slots_};
+    Messages messages_{emitter_.b, arrays_};
+    BoundParameters parameters_{emitter_, context_, spaces_};
+    Globals globals_{emitter_, context_, spaces_, parameters_, slots_};
+    Variables variables_{emitter_, context_,    slots_,   regions_,
+                         arrays_,  parameters_, globals_, *this};
+    Loops loops_{emitter_, context_, slots_, regions_, arrays_, variables_, seeds_};
+    LightRecords lights_{emitter_, context_, services_};
+    LightShader light_shader_{emitter_, context_, slots_, regions_, globals_, loops_, *this};
+    Illuminance illuminance_{emitter_,   context_, slots_,  regions_,
+                             variables_, loops_,   lights_, *this};
+    Gather gather_{emitter_, context_, services_, seeds_, regions_, variables_, loops_, *this};
+    Recursion recursion_{emitter_, context_,   seeds_, slots_,  regions_,  arrays_,
+                         globals_, variables_, loops_, lights_, messages_, *this};
+    Calls calls_{emitter_,   context_, seeds_,     slots_, arrays_,
+                 variables_, loops_,   recursion_, *this};
+    BuiltinTools tools_{emitter_,   context_, spaces_,       services_, seeds_, globals_,
+                        variables_, lights_,  light_shader_, messages_, *this};
+    Expressions expressions_{tools_, slots_, regions_, arrays_, calls_};
+    Statements statements_{emitter_,     context_,      regions_, variables_, loops_,
+                           illuminance_, light_shader_, gather_,  *this};
+    LayerWriter writer_{context_,   seeds_,    slots_,     spaces_,       globals_,
+                        variables_, messages_, recursion_, light_shader_, *this};
+    Stack stack_{emitter_, context_, spaces_, globals_, messages_, light_shader_, writer_};
+};
+
 }  // namespace
-
-void Lowering::enter_layer() {
-    symbol_base_ = int(slots_.size());
-    slots_.resize(slots_.size() + ast().symbol_count);
-    array_of_.assign(ast().symbol_count, -1);
-    lent_slot_.assign(ast().symbol_count, -1);
-    in_memory_ = memory_arrays(ast());
-    inline_path = inline_path * 31 + 7;
-    recursive_.clear();
-}
-
-void Lowering::declare_layer(const Layer& next) {
-    for (size_t g = 0; g < size_t(Global::Count); ++g) kill(Global(g));
-    layer = &next;
-    enter_layer();
-    for (const ShaderParameter& p : next.shader->parameters)
-        if (!p.type.is_array())
-            messages.push_back(
-                {next.shader->kind, std::string(p.name), p.type, parameter(*p.symbol), -1});
-}
-
-void Lowering::run_layer(const Layer& next) {
-    const Shader& shader = *next.shader;
-    enter_layer();
-
-    ChangeFinder finder(ast());
-    finder.add(shader.definition->body);
-    for (const ShaderParameter& parameter : shader.parameters) finder.add(parameter.default_value);
-    if (bends_normals() && !live(Global::P)) {
-        given_N = global_input(Global::N);
-        given_P = smooth_P(given_N);
-        write_slot(int(Global::N), given_N);
-        write_slot(int(Global::P), given_P);
-    }
-    // What is written has a value from the start, so that every If can merge it.
-    for (const Symbol* symbol : finder.changes.symbols)
-        if (symbol->global && !live(symbol->global->id))
-            write_slot(int(symbol->global->id), global_input(symbol->global->id));
-    if (shader.kind == ShaderKind::Light) begin_light(finder.changes);
-    for (const ShaderParameter& parameter : shader.parameters) {
-        bool used = std::find(finder.used.begin(), finder.used.end(), parameter.symbol) !=
-                    finder.used.end();
-        if (!used && !parameter.output) continue;
-        if (parameter.type.is_array())
-            array_of(*parameter.symbol);
-        else
-            write_slot(slot_of(*parameter.symbol), this->parameter(*parameter.symbol));
-    }
-    block(shader.definition->body->body);
-    for (const ShaderParameter& parameter : shader.parameters) {
-        Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
-        bool last = layer == &layers.back() && options.messages.empty() && options.aovs.empty();
-        if (!parameter.type.is_array())
-            message.value =
-                parameter.output ? read(*parameter.symbol) : out_of_layer(read(*parameter.symbol));
-        else if (last)
-            continue;  // nobody is left to ask
-        else
-            message.array = array_of(*parameter.symbol);
-        messages.push_back(std::move(message));
-    }
-}
-
-std::vector<Lowered> Lowering::message_values(const Message& message) {
-    if (message.array < 0) return {message.value};
-    std::vector<Lowered> values;
-    for (int k = 0; k < message.type.array_length; ++k)
-        values.push_back(load_element(message.array, b.i(k)));
-    return values;
-}
 
 std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOptions& options,
                                    Diagnostics& diagnostics) {
@@ -259,89 +375,8 @@ std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOpt
         result.module.name += (result.module.name.empty() ? "" : "+") + layer.shader->name;
     jit::add_function(result.module, "kernel", {});
     jit::Builder builder(result.module, 0);
-    Lowering lowering(builder, options, diagnostics, result);
-    lowering.layers = layers;
-    Stack(lowering, layers).run();
-    if (lowering.failed) return std::nullopt;
+    if (!KernelWriter(builder, layers, options, diagnostics, result).write()) return std::nullopt;
     builder.finish();
-    return result;
-}
-
-// ---- what decides a kernel's shape --------------------------------------------------------------
-
-namespace {
-
-// Follows uniform values from parameters into conditions, through the variables between.
-class ShapeWalk {
-  public:
-    explicit ShapeWalk(const Shader& shader) : sources_(shader.ast->symbol_count) {
-        visit(shader.definition->body);
-        for (const Function* function : shader.functions) visit(function->body);
-        std::vector<const Symbol*> open(conditions_.begin(), conditions_.end());
-        reached.resize(shader.ast->symbol_count);
-        while (!open.empty()) {
-            const Symbol* symbol = open.back();
-            open.pop_back();
-            if (std::exchange(reached[symbol->id], 1)) continue;
-            auto& from = sources_[symbol->id];
-            open.insert(open.end(), from.begin(), from.end());
-        }
-    }
-
-    std::vector<uint8_t> reached;  // by Symbol::id
-
-  private:
-    template <class F>
-    void for_each_variable(const Expr& e, F&& f) {
-        if (auto* variable = as_if<VariableExpr>(&e)) f(variable->symbol);
-        for_each_operand(e, [&](const Expr* operand) { for_each_variable(*operand, f); });
-    }
-
-    void condition(const Expr* e) {
-        if (!e || e->rate == Rate::Varying) return;
-        for_each_variable(*e, [&](const Symbol* symbol) { conditions_.push_back(symbol); });
-    }
-
-    void flows(const Expr& from, const Symbol* to) {
-        for_each_variable(from, [&](const Symbol* s) { sources_[to->id].push_back(s); });
-    }
-
-    void visit(const Stmt* stmt) {
-        for_each_part(
-            *stmt, [&](const Expr* e) { visit(e); }, [&](const Stmt* part) { visit(part); });
-        if (auto* node = as_if<IfStmt>(stmt)) condition(node->condition);
-        if (auto* node = as_if<WhileStmt>(stmt)) condition(node->condition);
-        if (auto* node = as_if<ForStmt>(stmt)) condition(node->condition);
-        if (auto* node = as_if<DeclareStmt>(stmt))
-            for (const Symbol* symbol : node->symbols)
-                if (symbol->initial) flows(*symbol->initial, symbol);
-    }
-
-    void visit(const Expr* e) {
-        for_each_operand(*e, [&](const Expr* operand) { visit(operand); });
-        if (auto* node = as_if<SelectExpr>(e)) condition(node->condition);
-        if (auto* node = as_if<AssignExpr>(e)) {
-            for_each_variable(*node->target,
-                              [&](const Symbol* symbol) { flows(*node->value, symbol); });
-        }
-        auto* call = as_if<CallExpr>(e);
-        if (!call || !call->function) return;
-        for (size_t k = 0; k < call->args.size(); ++k)
-            flows(*call->args[k], call->function->parameters[k]);
-    }
-
-    std::vector<std::vector<const Symbol*>> sources_;  // by Symbol::id
-    std::vector<const Symbol*> conditions_;
-};
-
-}  // namespace
-
-std::vector<bool> shape_parameters(const Shader& shader) {
-    ShapeWalk walk(shader);
-    std::vector<bool> result;
-    for (const ShaderParameter& parameter : shader.parameters)
-        result.push_back(parameter.type.base == BaseType::String ||
-                         walk.reached[parameter.symbol->id]);
     return result;
 }
 

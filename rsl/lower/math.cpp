@@ -4,11 +4,18 @@
 #include <cfloat>
 #include <cmath>
 
+#include "rsl/model/renderer_services.h"
+
 namespace kinora::rsl {
 
 bool Emitter::is_zero(Value v) {
     float x;
     return b.constant_f(v, &x) && x == 0;
+}
+
+const std::string* Emitter::constant_text(Value string_id) {
+    int32_t id;
+    return b.constant_i(string_id, &id) ? &interned(id) : nullptr;
 }
 
 Value Emitter::mul(Value x, Value y) {

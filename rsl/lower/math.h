@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 
 #include "jit/ir/builder.h"
 #include "jit/math/math.h"
@@ -45,6 +46,8 @@ class Emitter {
     Value f(float x) { return b.f(x); }
     V3 f3(float x) { return {b.f(x), b.f(x), b.f(x)}; }
     bool is_zero(Value v);
+    // The text of a string id that is known, else null.
+    const std::string* constant_text(Value string_id);
     // Bool to float: 1 or 0.
     Value flag(Value mask) { return b.select(mask, b.f(1), b.f(0)); }
 
@@ -75,8 +78,10 @@ class Emitter {
     V3 select(Value mask, const V3& x, const V3& y);
     Value dot(const V3& x, const V3& y);
     V3 cross(const V3& x, const V3& y);
-    Value length(const V3& x);  // docs/numerics.md#vectors
-    V3 normalize(const V3& x);  // docs/numerics.md#vectors
+    Value length(const V3& x);                                 // docs/numerics.md#vectors
+    V3 normalize(const V3& x);                                 // docs/numerics.md#vectors
+    V3 du(const V3& x) { return derivative(jit::Op::Du, x); }  // of all components
+    V3 dv(const V3& x) { return derivative(jit::Op::Dv, x); }
 
     // Where `mask`: the values `body` returns, else `outer`; body's code runs only when some lane
     // needs it.
@@ -84,6 +89,9 @@ class Emitter {
     void rarely(Value mask, std::span<Value> values, Body&& body);
 
   private:
+    V3 derivative(jit::Op op, const V3& x) {
+        return {b.op(op, x[0]), b.op(op, x[1]), b.op(op, x[2])};
+    }
     // x scaled by a power of two so that its square neither over- nor underflows, its squared
     // length, and (if wanted) what undoes the scale.
     struct Scaled {

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
-#include "rsl/lower/lower_p.h"
+#include "rsl/lower/calls.h"
+#include "rsl/lower/values.h"
+#include "rsl/model/builtin.h"
 #include "rsl/model/limits.h"
 
 namespace kinora::rsl {
@@ -40,51 +42,41 @@ Value calls_allowed(Emitter& at, const CallExpr& e, Value depth, Value left) {
 
 }  // namespace
 
-Value Lowering::path_value() {
-    if (path_handed_in == jit::kNone) return b.i(int32_t(inline_path));
-    return b.iadd(b.imul(path_handed_in, b.i(int32_t(path_factor))), b.i(int32_t(inline_path)));
-}
-
-void Lowering::enter_path(uint32_t site) {
-    inline_path = inline_path * 31 + site + 1;
-    path_factor *= 31;
-}
-
 // ---- variables outside the function -------------------------------------------------------------
 
-int Lowering::outside_slot(const Outside& outside) const {
-    return outside.symbol ? slot_of(*outside.symbol) : int(outside.id);
+int Recursion::outside_slot(const Outside& outside) const {
+    return outside.symbol ? variables_.slot_of(*outside.symbol) : int(outside.id);
 }
 
-Lowered Lowering::read_outside(const Outside& outside) {
-    return outside.symbol ? read(*outside.symbol) : read_global(outside.id);
+Lowered Recursion::read_outside(const Outside& outside) {
+    return outside.symbol ? variables_.read(*outside.symbol) : globals_.read(outside.id);
 }
 
 // One value, or those of an array's elements.
-std::vector<Lowered> Lowering::outside_values(const Outside& outside) {
+std::vector<Lowered> Recursion::outside_values(const Outside& outside) {
     if (outside.array_length < 0) return {read_outside(outside)};
     std::vector<Lowered> values;
-    int array = array_of(*outside.symbol);
-    for (int k = 0; k < outside.array_length; ++k) values.push_back(load_element(array, b.i(k)));
+    int array = variables_.array_of(*outside.symbol);
+    for (int k = 0; k < outside.array_length; ++k) values.push_back(arrays_.load(array, b_.i(k)));
     return values;
 }
 
-void Lowering::store_outside(const Outside& outside, const std::vector<Lowered>& values) {
-    if (outside.array_length < 0) return write_slot(outside_slot(outside), values[0]);
-    int array = array_of(*outside.symbol);
-    for (int k = 0; k < outside.array_length; ++k) store_element(array, b.i(k), values[size_t(k)]);
+void Recursion::store_outside(const Outside& outside, const std::vector<Lowered>& values) {
+    if (outside.array_length < 0) return slots_.write(outside_slot(outside), values[0]);
+    int array = variables_.array_of(*outside.symbol);
+    for (int k = 0; k < outside.array_length; ++k) arrays_.store(array, b_.i(k), values[size_t(k)]);
 }
 
 // What the function names from outside, and the globals that hold something else than the kernel's
 // inputs, which built-ins may read. Constants and strings are read again inside: they stay known.
-void Lowering::find_outside(Recursive& r, const CallExpr& e) {
-    ChangeFinder finder(ast());
+void Recursion::find_outside(Recursive& r, const CallExpr& e) {
+    ChangeFinder finder(context_.ast());
     finder.add(*r.function);
     const Changes& changes = finder.changes;
     r.random = changes.random;
-    r.record = (changes.effects & kMessage) && current_record != jit::kNone;
+    r.record = (changes.effects & kMessage) && lights_.any_current();
     if (!changes.light_sources.empty())
-        error(Code::RSL_RECURSION, e.span.where, e.name, "holds illuminate or solar");
+        context_.error(Code::RSL_RECURSION, e.span.where, e.name, "holds illuminate or solar");
     auto written = [&](const Symbol* symbol) {
         return std::find(changes.symbols.begin(), changes.symbols.end(), symbol) !=
                changes.symbols.end();
@@ -94,48 +86,45 @@ void Lowering::find_outside(Recursive& r, const CallExpr& e) {
         bool inside = symbol->function &&
                       !(symbol->function != r.function && encloses(symbol->function, r.function));
         if (inside) continue;
-        const ParamBinding* bound = binding(symbol->name);
+        const ParamBinding* bound = context_.binding(symbol->name);
         bool known = bound && bound->kind == ParamBinding::Kind::Constant;
         bool again = symbol->kind == SymbolKind::Parameter && !symbol->assigned &&
                      (known || symbol->type.base == BaseType::String || symbol->type.is_array());
         if (again) continue;
         if (symbol->global) seen[size_t(symbol->global->id)] = true;
-        int length = symbol->type.is_array() ? arrays_[size_t(array_of(*symbol))].length : -1;
+        int length = symbol->type.is_array() ? arrays_.length(variables_.array_of(*symbol)) : -1;
         r.outside.push_back({symbol, Global::Count, length, written(symbol)});
     }
     for (size_t g = 0; g < size_t(Global::Count); ++g) {
         bool color = Global(g) == Global::Ci || Global(g) == Global::Oi;
-        if (live(Global(g)) && !seen[g] && !color)
+        if (globals_.written(Global(g)) && !seen[g] && !color)
             r.outside.push_back({nullptr, Global(g), -1, false});
     }
 }
 
 // ---- calls --------------------------------------------------------------------------------------
 
-Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& arguments) {
-    size_t known = recursive_function(e, arguments);
-    if (failed) return zero(e.type.base == BaseType::Void ? BaseType::Float : e.type.base);
-    const Recursive r = recursive_[known];
+Lowered Recursion::call(const CallExpr& e, const CallArguments& arguments) {
+    size_t known = function_for(e, arguments);
+    if (context_.failed)
+        return zero(e_, e.type.base == BaseType::Void ? BaseType::Float : e.type.base);
+    const Recursive r = functions_[known];
     const Function& f = *r.function;
 
-    bool outermost = call_depth_ == jit::kNone;
-    Value depth = outermost ? b.i(0) : call_depth_;
-    Value left = outermost ? b.i(kMaxRecursiveCalls) : read_slot(calls_left_).c[0];
-    Value allowed = outermost ? b.m(true) : calls_allowed(*this, e, depth, left);
-    Value mask = b.logical_and(running, allowed);
-    std::vector<Value> args = {mask, b.iadd(depth, b.i(1)), b.isub(left, b.i(1))};
-    if (r.random) {
-        Value path = b.iadd(b.imul(path_value(), b.i(31)), b.i(int32_t(e.site + 1)));
-        for (Value counter : loop_counters) path = b.iadd(b.imul(path, b.i(31)), counter);
-        args.push_back(path);
-    }
-    if (r.record) args.insert(args.end(), {current_set, current_record});
+    bool outermost = depth_ == jit::kNone;
+    Value depth = outermost ? b_.i(0) : depth_;
+    Value left = outermost ? b_.i(kMaxRecursiveCalls) : slots_.read(calls_left_).c[0];
+    Value allowed = outermost ? b_.m(true) : calls_allowed(e_, e, depth, left);
+    Value mask = b_.logical_and(e_.running, allowed);
+    std::vector<Value> args = {mask, b_.iadd(depth, b_.i(1)), b_.isub(left, b_.i(1))};
+    if (r.random) args.push_back(seeds_.path_into(e.site));
+    if (r.record) args.insert(args.end(), {lights_.current().set, lights_.current().record});
     std::vector<std::vector<Lowered>> before;  // of all that comes back, then
     for (size_t k = 0; k < f.parameters.size(); ++k) {
         std::vector<Lowered> values = {arguments.values[k]};
         if (int array = arguments.arrays[k]; array >= 0) {
             values.clear();
-            for (int i = 0; i < r.lengths[k]; ++i) values.push_back(load_element(array, b.i(i)));
+            for (int i = 0; i < r.lengths[k]; ++i) values.push_back(arrays_.load(array, b_.i(i)));
         }
         for (const Lowered& value : values) append(args, value);
         if (f.parameters[k]->output) before.push_back(std::move(values));
@@ -145,22 +134,22 @@ Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& argumen
         for (const Lowered& value : values) append(args, value);
         if (outside.written) before.push_back(std::move(values));
     }
-    std::vector<Value> results = b.call(r.index, mask, args);
+    std::vector<Value> results = b_.call(r.index, mask, args);
 
     // Where the call was not made everything is as before.
     auto next = results.begin();
     auto take = [&](Lowered value) {
         for (size_t c = 0; c < size_t(value.size()); ++c)
-            value.c[c] = b.select(allowed, *next++, value.c[c]);
+            value.c[c] = b_.select(allowed, *next++, value.c[c]);
         return value;
     };
     if (calls_left_ >= 0) {
-        Lowered rest = read_slot(calls_left_);
-        write_slot(calls_left_, take(rest));
+        Lowered rest = slots_.read(calls_left_);
+        slots_.write(calls_left_, take(rest));
     } else {
         ++next;
     }
-    Lowered result = zero(f.result.base == BaseType::Void ? BaseType::Float : f.result.base);
+    Lowered result = zero(e_, f.result.base == BaseType::Void ? BaseType::Float : f.result.base);
     if (f.result.base != BaseType::Void) result = take(result);
     size_t back = 0;
     for (size_t k = 0; k < f.parameters.size(); ++k) {
@@ -168,9 +157,9 @@ Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& argumen
         std::vector<Lowered>& values = before[back++];
         for (size_t i = 0; i < values.size(); ++i)
             if (arguments.arrays[k] >= 0)
-                store_element(arguments.arrays[k], b.i(int(i)), take(values[i]));
+                arrays_.store(arguments.arrays[k], b_.i(int(i)), take(values[i]));
             else
-                store(arguments.targets[k], take(values[i]));
+                variables_.store(arguments.targets[k], take(values[i]));
     }
     for (const Outside& outside : r.outside) {
         if (!outside.written) continue;
@@ -183,14 +172,13 @@ Lowered Lowering::call_recursive(const CallExpr& e, const CallArguments& argumen
 
 // The function for arrays of these lengths, written now if it is new. Its head is known before its
 // body, which may call it.
-size_t Lowering::recursive_function(const CallExpr& e, const CallArguments& arguments) {
-    bool lit = current_record != jit::kNone;
+size_t Recursion::function_for(const CallExpr& e, const CallArguments& arguments) {
+    bool lit = lights_.any_current();
     Recursive r{e.function, {}, lit, 0, {}, false, false};
-    for (int array : arguments.arrays)
-        r.lengths.push_back(array < 0 ? -1 : arrays_[size_t(array)].length);
-    for (size_t k = 0; k < recursive_.size(); ++k)
-        if (recursive_[k].function == r.function && recursive_[k].lengths == r.lengths &&
-            recursive_[k].lit == lit)
+    for (int array : arguments.arrays) r.lengths.push_back(array < 0 ? -1 : arrays_.length(array));
+    for (size_t k = 0; k < functions_.size(); ++k)
+        if (functions_[k].function == r.function && functions_[k].lengths == r.lengths &&
+            functions_[k].lit == lit)
             return k;
     find_outside(r, e);
 
@@ -208,129 +196,143 @@ size_t Lowering::recursive_function(const CallExpr& e, const CallArguments& argu
         add(outside.symbol ? outside.symbol->type.base : global_info(outside.id).type.base,
             outside.array_length, outside.written);
     if (count > kMaxValues)
-        error(Code::RSL_RECURSION, e.span.where, e.name,
-              fmt::format("works on {} numbers, at most {}", count, kMaxValues));
-    r.index = jit::add_function(b.module(), std::string(r.function->name), results);
-    b.module().call_depth = kMaxCallDepth + 1;
-    size_t at = recursive_.size();
-    recursive_.push_back(r);
-    if (!failed) write_recursive(r);
+        context_.error(Code::RSL_RECURSION, e.span.where, e.name,
+                       fmt::format("works on {} numbers, at most {}", count, kMaxValues));
+    r.index = jit::add_function(b_.module(), std::string(r.function->name), results);
+    b_.module().call_depth = kMaxCallDepth + 1;
+    size_t at = functions_.size();
+    functions_.push_back(r);
+    if (!context_.failed) write(r);
     return at;
 }
 
 // All that belongs to the function being written, put aside for the life of the guard.
-struct Lowering::Activation {
-    explicit Activation(Lowering& lowering, size_t index)
-        : low(lowering),
-          builder(std::move(lowering.b)),
-          slots(lowering.slots_),
-          array_of(lowering.array_of_),
-          lent_slot(lowering.lent_slot_) {
-        low.b = jit::Builder(builder.module(), index);
-        for (Slot& slot : low.slots_) slot.live = false;
-        std::fill(low.array_of_.begin(), low.array_of_.end(), -1);
-        std::fill(low.lent_slot_.begin(), low.lent_slot_.end(), -1);
-        swap();
-        low.in_loop_ = false;
-        low.current_set = low.current_record = low.path_handed_in = jit::kNone;
-        low.inline_path = 0;
-        low.path_factor = 1;
-    }
-    ~Activation() {
-        low.b = std::move(builder);
-        swap();
-        low.slots_ = std::move(slots);
-        low.array_of_ = std::move(array_of);
-        low.lent_slot_ = std::move(lent_slot);
-        low.in_loop_ = in_loop;
-        low.current_set = set, low.current_record = record, low.path_handed_in = path;
-        low.inline_path = inline_path;
-        low.path_factor = factor;
-        low.running = running, low.region_ = region;
-        low.call_depth_ = depth, low.calls_left_ = left;
-    }
-    void swap() {
-        std::swap(low.trail_, trail);
-        std::swap(low.loops_, loops);
-        std::swap(low.asked_, asked);
-        std::swap(low.frames_, frames);
-        std::swap(low.light_sources_, sources);
-        std::swap(low.loop_counters, counters);
-        std::swap(low.messages, messages);
-    }
+class Recursion::Activation {
+  public:
+    Activation(Recursion& r, size_t index)
+        : builder_(r.b_, index),
+          running_(r.e_.running),
+          slots_(r.slots_),
+          regions_(r.regions_),
+          arrays_(r.arrays_),
+          variables_(r.variables_),
+          loops_(r.loops_),
+          seeds_(r.seeds_),
+          lights_(r.lights_),
+          messages_(r.messages_) {}
 
-    Lowering& low;
-    jit::Builder builder;
-    std::vector<Slot> slots;
-    std::vector<int> array_of, lent_slot;
-    std::vector<Undo> trail;
-    std::vector<Loop> loops;
-    std::vector<Asked> asked;
-    std::vector<FunctionFrame> frames;
-    std::vector<LightSource> sources;
-    std::vector<Value> counters;
-    std::vector<Message> messages;
-    bool in_loop = low.in_loop_;
-    Value set = low.current_set, record = low.current_record, path = low.path_handed_in;
-    uint32_t inline_path = low.inline_path, factor = low.path_factor;
-    Value running = low.running, region = low.region_;
-    Value depth = low.call_depth_;
-    int left = low.calls_left_;
+  private:
+    // Puts a value back.
+    template <class T>
+    class Kept {
+      public:
+        explicit Kept(T& value) : value_(value), outer_(value) {}
+        ~Kept() { value_ = outer_; }
+        Kept(const Kept&) = delete;
+        Kept& operator=(const Kept&) = delete;
+
+      private:
+        T& value_;
+        T outer_;
+    };
+    // Writes another function of the module with the same builder.
+    class OtherFunction {
+      public:
+        OtherFunction(jit::Builder& builder, size_t index)
+            : builder_(builder), outer_(std::move(builder)) {
+            builder_ = jit::Builder(outer_.module(), index);
+        }
+        ~OtherFunction() { builder_ = std::move(outer_); }
+        OtherFunction(const OtherFunction&) = delete;
+        OtherFunction& operator=(const OtherFunction&) = delete;
+
+      private:
+        jit::Builder& builder_;
+        jit::Builder outer_;
+    };
+
+    OtherFunction builder_;
+    Kept<Value> running_;
+    Apart<Slots> slots_;
+    Apart<Regions> regions_;
+    Apart<Arrays> arrays_;
+    Apart<Variables> variables_;
+    Apart<Loops> loops_;
+    Apart<SampleSeeds> seeds_;
+    Apart<LightRecords> lights_;
+    Apart<Messages> messages_;
 };
 
-void Lowering::write_recursive(const Recursive& r) {
-    const Function& f = *r.function;
-    Activation activation(*this, r.index);
-    running = region_ = b.param(jit::Type::M);
-    call_depth_ = b.param(jit::Type::I);
-    Value left = b.param(jit::Type::I);
-    if (r.random) path_handed_in = b.param(jit::Type::I);
-    if (r.record) current_set = b.param(jit::Type::I), current_record = b.param(jit::Type::I);
-    auto parameters = [&](BaseType type, int length) {
-        std::vector<Lowered> values(size_t(length < 0 ? 1 : length), Lowered{type, {}});
-        for (Lowered& value : values)
-            for (size_t c = 0; c < size_t(value.size()); ++c) value.c[c] = b.param(ir_type(type));
-        return values;
-    };
-    // All parameters stand before anything else.
-    std::vector<std::vector<Lowered>> own, outer;
-    for (size_t k = 0; k < f.parameters.size(); ++k)
-        own.push_back(parameters(f.parameters[k]->type.base, r.lengths[k]));
-    for (const Outside& outside : r.outside)
-        outer.push_back(parameters(
-            outside.symbol ? outside.symbol->type.base : global_info(outside.id).type.base,
-            outside.array_length));
-    calls_left_ = new_slot(lowered(BaseType::String, left));
-    for (size_t k = 0; k < f.parameters.size(); ++k) {
-        const Symbol& parameter = *f.parameters[k];
-        if (r.lengths[k] < 0) {
-            write_slot(slot_of(parameter), own[k][0]);
-            continue;
-        }
-        int array = make_array(parameter, {parameter.type.base, r.lengths[k]});
-        for (int i = 0; i < r.lengths[k]; ++i) store_element(array, b.i(i), own[k][size_t(i)]);
-    }
-    for (size_t k = 0; k < r.outside.size(); ++k) {
-        const Outside& outside = r.outside[k];
-        if (outside.array_length >= 0)
-            make_array(*outside.symbol, {outside.symbol->type.base, outside.array_length});
-        store_outside(outside, outer[k]);
-    }
-    Lowered result = run_function(f);
+void Recursion::set_calls_left(int slot) {
+    calls_left_ = slot;
+    loops_.set_written_by_calls(slot);
+}
 
-    std::vector<Value> results = {read_slot(calls_left_).c[0]};
-    if (f.result.base != BaseType::Void) append(results, result);
-    for (size_t k = 0; k < f.parameters.size(); ++k) {
-        const Symbol& parameter = *f.parameters[k];
-        if (!parameter.output) continue;
-        if (r.lengths[k] < 0) append(results, slots_[size_t(slot_of(parameter))].value);
-        for (int i = 0; i < r.lengths[k]; ++i)
-            append(results, load_element(array_of_[parameter.id], b.i(i)));
+std::vector<Lowered> Recursion::read_parameters(BaseType type, int length) {
+    std::vector<Lowered> values(size_t(length < 0 ? 1 : length), Lowered{type, {}});
+    for (Lowered& value : values)
+        for (size_t c = 0; c < size_t(value.size()); ++c) value.c[c] = b_.param(ir_type(type));
+    return values;
+}
+
+void Recursion::write(const Recursive& r) {
+    const Function& f = *r.function;
+    Value outer_depth = depth_;
+    int outer_left = calls_left_;
+    {
+        Activation activation(*this, r.index);
+        e_.running = b_.param(jit::Type::M);
+        regions_.set_region(e_.running);
+        depth_ = b_.param(jit::Type::I);
+        Value left = b_.param(jit::Type::I);
+        if (r.random) seeds_.hand_in(b_.param(jit::Type::I));
+        if (r.record) {
+            Value set = b_.param(jit::Type::I);
+            lights_.set_current({set, b_.param(jit::Type::I)});
+        }
+        // All parameters stand before anything else.
+        std::vector<std::vector<Lowered>> own, outer;
+        for (size_t k = 0; k < f.parameters.size(); ++k)
+            own.push_back(read_parameters(f.parameters[k]->type.base, r.lengths[k]));
+        for (const Outside& outside : r.outside)
+            outer.push_back(read_parameters(
+                outside.symbol ? outside.symbol->type.base : global_info(outside.id).type.base,
+                outside.array_length));
+        set_calls_left(slots_.add(lowered(BaseType::String, left)));
+        for (size_t k = 0; k < f.parameters.size(); ++k) {
+            const Symbol& parameter = *f.parameters[k];
+            if (r.lengths[k] < 0) {
+                slots_.write(variables_.slot_of(parameter), own[k][0]);
+                continue;
+            }
+            int array = variables_.make_array(parameter, {parameter.type.base, r.lengths[k]});
+            for (int i = 0; i < r.lengths[k]; ++i) arrays_.store(array, b_.i(i), own[k][size_t(i)]);
+        }
+        for (size_t k = 0; k < r.outside.size(); ++k) {
+            const Outside& outside = r.outside[k];
+            if (outside.array_length >= 0)
+                variables_.make_array(*outside.symbol,
+                                      {outside.symbol->type.base, outside.array_length});
+            store_outside(outside, outer[k]);
+        }
+        Lowered result = loops_.run_function(f, [&] { tree_.block(f.body->body); });
+
+        std::vector<Value> results = {slots_.read(calls_left_).c[0]};
+        if (f.result.base != BaseType::Void) append(results, result);
+        for (size_t k = 0; k < f.parameters.size(); ++k) {
+            const Symbol& parameter = *f.parameters[k];
+            if (!parameter.output) continue;
+            if (r.lengths[k] < 0) append(results, slots_.read(variables_.slot_of(parameter)));
+            for (int i = 0; i < r.lengths[k]; ++i)
+                append(results, arrays_.load(variables_.known_array(parameter), b_.i(i)));
+        }
+        for (const Outside& outside : r.outside)
+            if (outside.written)
+                for (const Lowered& value : outside_values(outside)) append(results, value);
+        if (!context_.failed) b_.ret(results);
     }
-    for (const Outside& outside : r.outside)
-        if (outside.written)
-            for (const Lowered& value : outside_values(outside)) append(results, value);
-    if (!failed) b.ret(results);
+    depth_ = outer_depth;
+    calls_left_ = outer_left;
 }
 
 }  // namespace kinora::rsl

@@ -1,7 +1,41 @@
-// rsl/lower/services.cpp: calls of RendererServices, derivatives and random numbers.
-#include "rsl/lower/lower_p.h"
+// rsl/lower/services.cpp: inputs by name, calls of RendererServices, and random numbers.
+#include "rsl/lower/services.h"
+
+#include <algorithm>
+
+#include "rsl/lower/values.h"
+#include "runtime/base/check.h"
 
 namespace kinora::rsl {
+
+Lowered named_input(jit::Builder& b, const std::string& name, BaseType type, jit::Rate rate,
+                    const std::string& du_name, const std::string& dv_name) {
+    Lowered result{type, {}};
+    jit::Type t = type == BaseType::String ? jit::Type::I : jit::Type::F;
+    auto derived = [&](const std::string& from, int c) {
+        return from.empty() || from == "1" ? from : from + component_suffix(type, c);
+    };
+    for (int c = 0; c < result.size(); ++c)
+        result.c[size_t(c)] = b.input(
+            {name + component_suffix(type, c), t, rate, derived(du_name, c), derived(dv_name, c)});
+    return result;
+}
+
+Value scalar_input(jit::Builder& b, const std::string& name, jit::Type type, jit::Rate rate) {
+    return b.input({name, type, rate, "", ""});
+}
+
+bool is_input(jit::Builder& b, const V3& v, const char* name) {
+    for (int c = 0; c < 3; ++c) {
+        const jit::Inst* inst = &b.inst(v[size_t(c)]);
+        if (inst->op == jit::Op::WithSlope) inst = &b.inst(inst->a);
+        if (inst->op != jit::Op::Input) return false;
+        if (b.module().inputs[size_t(inst->imm)].name !=
+            name + component_suffix(BaseType::Point, c))
+            return false;
+    }
+    return true;
+}
 
 namespace {
 
@@ -33,45 +67,62 @@ void move_triples(std::string_view list, std::span<Value> numbers, Moved&& moved
 
 }  // namespace
 
-std::vector<Value> Lowering::service(Service service, std::span<const Value> args) {
+std::vector<Value> kernel_service(Emitter& e, Service service, std::span<const Value> args) {
     const ServiceForm& form = service_form(service);
     CHECK_EQ(args.size(), size_t(argument_count(service)));
-    int slot = b.declare_service(
+    int slot = e.b.declare_service(
         {std::string(form.name), types(form.arguments), types(form.results), form.pure});
-    if (!bends_normals()) return b.service(slot, running, args);
+    return e.b.service(slot, e.running, args);
+}
+
+std::vector<Value> Services::call(Service service, std::span<const Value> args) {
+    if (!context_.bends_normals()) return kernel_service(e_, service, args);
+    const ServiceForm& form = service_form(service);
     std::vector<Value> given(args.begin(), args.end());
-    move_triples(form.arguments, given, [&](const Lowered& x) { return out_of_layer(x); });
-    std::vector<Value> answer = b.service(slot, running, given);
-    move_triples(form.results, answer, [&](const Lowered& x) { return into_layer(x); });
+    move_triples(form.arguments, given, [&](const Lowered& x) { return spaces_.out_of_layer(x); });
+    std::vector<Value> answer = kernel_service(e_, service, given);
+    move_triples(form.results, answer, [&](const Lowered& x) { return spaces_.into_layer(x); });
     return answer;
 }
 
-V3 Lowering::du(const V3& v) {
-    return {b.op(jit::Op::Du, v[0]), b.op(jit::Op::Du, v[1]), b.op(jit::Op::Du, v[2])};
-}
-V3 Lowering::dv(const V3& v) {
-    return {b.op(jit::Op::Dv, v[0]), b.op(jit::Op::Dv, v[1]), b.op(jit::Op::Dv, v[2])};
-}
-
-std::array<Value, 2> Lowering::sample_seed(uint32_t site) {
-    out.uses_rng = true;
-    Value path = b.imul(path_value(), b.i(int32_t(2654435761u)));
-    Value seed = b.ixor(path, b.i(int32_t((site + 1) * 2246822519u)));
-    for (Value counter : loop_counters)
-        seed = b.iadd(b.imul(seed, b.i(int32_t(747796405u))), b.iadd(counter, b.i(1)));
-    return {scalar_input("rng", jit::Type::I, jit::Rate::Point), seed};
+Value SampleSeeds::path_value() {
+    if (state_.handed_in == jit::kNone) return b_.i(int32_t(state_.path));
+    return b_.iadd(b_.imul(state_.handed_in, b_.i(int32_t(state_.factor))),
+                   b_.i(int32_t(state_.path)));
 }
 
-// docs/decisions.md#random-numbers-without-state: a hash of the sample, the place of the call and
+SampleSeeds::Path SampleSeeds::enter_call(uint32_t site) {
+    Path outer{state_.path, state_.factor};
+    state_.path = state_.path * 31 + site + 1;
+    state_.factor *= 31;
+    return outer;
+}
+
+Value SampleSeeds::path_into(uint32_t site) {
+    Value path = b_.iadd(b_.imul(path_value(), b_.i(31)), b_.i(int32_t(site + 1)));
+    for (Value counter : state_.counters) path = b_.iadd(b_.imul(path, b_.i(31)), counter);
+    return path;
+}
+
+std::array<Value, 2> SampleSeeds::sample(uint32_t site) {
+    context_.out.uses_rng = true;
+    Value path = b_.imul(path_value(), b_.i(int32_t(2654435761u)));
+    Value seed = b_.ixor(path, b_.i(int32_t((site + 1) * 2246822519u)));
+    for (Value counter : state_.counters)
+        seed = b_.iadd(b_.imul(seed, b_.i(int32_t(747796405u))), b_.iadd(counter, b_.i(1)));
+    return {scalar_input(b_, "rng", jit::Type::I, jit::Rate::Point), seed};
+}
+
+// docs/decisions.md#random-numbers-without-state: a hash of the sample, the site of the call and
 // the loop iterations.
-Value Lowering::random01(const CallExpr& call, int component) {
-    out.uses_rng = true;
+Value SampleSeeds::random01(const CallExpr& call, int component) {
+    context_.out.uses_rng = true;
     uint32_t site = call.site * 40503u + uint32_t(component);
-    Value path = b.imul(path_value(), b.i(int32_t(2654435761u)));
-    std::vector<Value> keys = {scalar_input("rng", jit::Type::I, jit::Rate::Point),
-                               b.ixor(path, b.i(int32_t(site)))};
-    keys.insert(keys.end(), loop_counters.begin(), loop_counters.end());
-    return jit::math::hash01(b, keys);
+    Value path = b_.imul(path_value(), b_.i(int32_t(2654435761u)));
+    std::vector<Value> keys = {scalar_input(b_, "rng", jit::Type::I, jit::Rate::Point),
+                               b_.ixor(path, b_.i(int32_t(site)))};
+    keys.insert(keys.end(), state_.counters.begin(), state_.counters.end());
+    return jit::math::hash01(b_, keys);
 }
 
 }  // namespace kinora::rsl

@@ -1,0 +1,84 @@
+// rsl/lower/services.h: what a kernel gets from outside: inputs by name, answers of
+// RendererServices, random numbers.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rsl/lower/context.h"
+#include "rsl/lower/math.h"
+#include "rsl/lower/spaces.h"
+#include "rsl/model/services.h"
+
+namespace kinora::rsl {
+
+// A kernel's input; a type of several components has one for each.
+Lowered named_input(jit::Builder& b, const std::string& name, BaseType type, jit::Rate rate,
+                    const std::string& du = "", const std::string& dv = "");
+Value scalar_input(jit::Builder& b, const std::string& name, jit::Type type, jit::Rate rate);
+// Is v exactly the global's unmodified input?
+bool is_input(jit::Builder& b, const V3& v, const char* name);
+
+// A service of rsl/model/services.def, in the kernel's "current".
+std::vector<Value> kernel_service(Emitter& e, Service service, std::span<const Value> args);
+
+// Calls of services, in the layer's "current".
+class Services {
+  public:
+    Services(Emitter& emitter, LoweringContext& context, Spaces& spaces)
+        : e_(emitter), context_(context), spaces_(spaces) {}
+    std::vector<Value> call(Service service, std::span<const Value> args);
+
+  private:
+    Emitter& e_;
+    LoweringContext& context_;
+    Spaces& spaces_;
+};
+
+// What seeds the samples of a call: the point, the call's site, the functions it stands in and the
+// turns of the loops around it.
+class SampleSeeds {
+  public:
+    SampleSeeds(Emitter& emitter, LoweringContext& context) : b_(emitter.b), context_(context) {}
+
+    // Number of this call of random().
+    Value random01(const CallExpr& call, int component);
+    // The ints that seed a call's samples: the point's, and this site's with its loop iterations.
+    std::array<Value, 2> sample(uint32_t site);
+
+    void enter_layer() { state_.path = state_.path * 31 + 7; }
+    void push_counter(Value counter) { state_.counters.push_back(counter); }
+    void pop_counter() { state_.counters.pop_back(); }
+    Value counter() const { return state_.counters.back(); }
+
+    // The functions inlined around here, kept and restored around a body.
+    struct Path {
+        uint32_t path, factor;
+    };
+    Path enter_call(uint32_t site);
+    void leave_call(const Path& outer) { state_.path = outer.path, state_.factor = outer.factor; }
+    // For a function of the IR called at this site: the path with the loop iterations in it.
+    Value path_into(uint32_t site);
+
+    // `path`, or handed_in * factor + path inside a function of the IR.
+    struct State {
+        std::vector<Value> counters;
+        uint32_t path = 0, factor = 1;
+        Value handed_in = jit::kNone;
+    };
+    State enter_function() { return std::exchange(state_, {}); }
+    void leave_function(State&& outer) { state_ = std::move(outer); }
+    void hand_in(Value path) { state_.handed_in = path; }
+
+  private:
+    Value path_value();
+
+    jit::Builder& b_;
+    LoweringContext& context_;
+    State state_;
+};
+
+}  // namespace kinora::rsl

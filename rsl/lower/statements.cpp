@@ -1,0 +1,133 @@
+// rsl/lower/statements.cpp: branches, loops and jumps become Ifs, Loops and running masks.
+#include "rsl/lower/statements.h"
+
+#include "rsl/model/changes.h"
+
+namespace kinora::rsl {
+
+void Statements::statement(const Stmt& stmt) {
+    switch (stmt.kind) {
+        case StmtKind::Block:
+            return block(as<BlockStmt>(stmt).body);
+        case StmtKind::Declare:
+            for (const Symbol* symbol : as<DeclareStmt>(stmt).symbols) variables_.declare(*symbol);
+            return;
+        case StmtKind::Extern:
+        case StmtKind::DefineFunction:
+            return;
+        case StmtKind::Expression:
+            return evaluate(*as<ExpressionStmt>(stmt).expression);
+        case StmtKind::If:
+            return branch(as<IfStmt>(stmt));
+        case StmtKind::While:
+        case StmtKind::For:
+            return loop(stmt);
+        case StmtKind::Break:
+            return loops_.jump(as<BreakStmt>(stmt).loop, true);
+        case StmtKind::Continue:
+            return loops_.jump(as<ContinueStmt>(stmt).loop, false);
+        case StmtKind::Return:
+            return return_from(as<ReturnStmt>(stmt));
+        case StmtKind::Illuminance:
+            return illuminance_.lower(as<IlluminanceStmt>(stmt));
+        case StmtKind::Illuminate: {
+            auto& node = as<IlluminateStmt>(stmt);
+            return light_shader_.illuminate(stmt, node.position, node.axis, node.angle, *node.body);
+        }
+        case StmtKind::Solar: {
+            auto& node = as<SolarStmt>(stmt);
+            return light_shader_.illuminate(stmt, nullptr, node.axis, node.angle, *node.body);
+        }
+        case StmtKind::Gather:
+            return gather_.lower(as<GatherStmt>(stmt));
+    }
+}
+
+// A variable by itself does nothing, and an array would not even be a value.
+void Statements::evaluate(const Expr& e) {
+    if (e.kind != ExprKind::Variable) tree_.expr(e);
+}
+
+// After a statement that took lanes out, the rest runs in an If for those that are left.
+void Statements::block(std::span<Stmt* const> body) {
+    Value entered = e_.running;
+    bool left = true;
+    for (size_t k = 0; k < body.size(); ++k) {
+        if (e_.running != entered) {
+            auto rest = body.subspan(k);
+            regions_.guarded(e_.running, [&] { run_statements(rest); });
+            break;
+        }
+        if (b_.constant_m(e_.running, &left) && !left) break;
+        statement(*body[k]);
+    }
+    variables_.end_scope(body);
+}
+
+// The rest of a block whose lanes are fewer: declarations stay in the block's scope.
+void Statements::run_statements(std::span<Stmt* const> body) {
+    Value entered = e_.running;
+    for (size_t k = 0; k < body.size(); ++k) {
+        if (e_.running != entered)
+            return regions_.guarded(e_.running, [&] { run_statements(body.subspan(k)); });
+        statement(*body[k]);
+    }
+}
+
+void Statements::branch(const IfStmt& stmt) {
+    Value condition = tree_.value(*stmt.condition);
+    bool known;
+    if (b_.constant_m(condition, &known)) {
+        if (known)
+            statement(*stmt.yes);
+        else if (stmt.no)
+            statement(*stmt.no);
+        return;
+    }
+    Value before = e_.running;
+    Value yes = b_.logical_and(before, condition);
+    Value no = b_.and_not(before, condition);
+    regions_.guarded(yes, [&] { statement(*stmt.yes); });
+    if (!stmt.no) return;
+    // What is left of the first side and what the second one leaves, together.
+    Value after_yes = e_.running;
+    e_.running = before;
+    regions_.guarded(no, [&] { statement(*stmt.no); });
+    if (after_yes != before)
+        e_.running = e_.running == before ? after_yes : b_.logical_and(e_.running, after_yes);
+}
+
+void Statements::loop(const Stmt& stmt) {
+    ChangeFinder finder(context_.ast());
+    if (auto* node = as_if<WhileStmt>(&stmt)) {
+        finder.add(&stmt);
+        return loops_.run(
+            stmt, finder.changes,
+            [&] { return b_.logical_and(e_.running, tree_.value(*node->condition)); },
+            [&] { statement(*node->body); }, [] {});
+    }
+    auto& node = as<ForStmt>(stmt);
+    for (const Stmt* init : node.init) statement(*init);
+    finder.add(node.condition);
+    finder.add(node.body);
+    for (const Expr* step : node.step) finder.add(step);
+    loops_.run(
+        stmt, finder.changes,
+        [&] {
+            return node.condition ? b_.logical_and(e_.running, tree_.value(*node.condition))
+                                  : e_.running;
+        },
+        [&] { statement(*node.body); },
+        [&] {
+            for (const Expr* step : node.step) tree_.expr(*step);
+        });
+    variables_.end_scope(node.init);
+}
+
+void Statements::return_from(const ReturnStmt& stmt) {
+    if (!stmt.value) return loops_.return_from(nullptr);
+    Lowered result = tree_.expr(*stmt.value);
+    loops_.return_from(&result);
+}
+
+}  // namespace kinora::rsl
