@@ -17,7 +17,6 @@ LARGER = {
     "jit/a64/Emit": (8, 118, 7),
     "jit/x64/Emit": (8, 141, 8),
     "rsl/lower/Lowering": (11, 129, 38),
-    "rsl/syntax/Parser": (5, 99, 15),
     "runtime/build/SceneBuilder": (8, 62, 17),
     "runtime/gltf/GltfExport": (7, 59, 28),
     "runtime/gltf/GltfImport": (12, 53, 23),
