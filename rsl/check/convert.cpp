@@ -1,8 +1,5 @@
-// rsl/check/convert.cpp: implicit conversions, and expressions whose type the context chooses.
-#include <algorithm>
-
-#include "rsl/builtins/table.h"
-#include "rsl/check/check.h"
+// rsl/check/convert.cpp: which types convert to which.
+#include "rsl/check/convert.h"
 
 namespace kinora::rsl {
 
@@ -30,229 +27,30 @@ const char* conversion_help(BaseType from, BaseType to) {
     return "";
 }
 
-// Puts casts around the expression; false when there is no conversion.
-bool Checker::convert(Expr*& slot, BaseType to) {
+BaseType common_type(BaseType a, BaseType b) {
+    if (a == BaseType::Bool) a = BaseType::Float;
+    if (b == BaseType::Bool) b = BaseType::Float;
+    if (a == b) return a;
+    if (a == BaseType::Float) return is_numeric(b) ? b : BaseType::Invalid;
+    if (b == BaseType::Float) return is_numeric(a) ? a : BaseType::Invalid;
+    if (!is_triple(a) || !is_triple(b)) return BaseType::Invalid;
+    if (a == BaseType::Color || b == BaseType::Color) return BaseType::Color;
+    if (a == BaseType::Point || b == BaseType::Point) return BaseType::Point;
+    return BaseType::Vector;
+}
+
+bool convert(Ast& ast, Expr*& slot, BaseType to) {
     if (slot->type.base == to && !slot->type.is_array()) return true;
     if (slot->type.is_array() || conversion_cost(slot->type.base, to) < 0) return false;
-    if (slot->type.base == BaseType::Bool && to != BaseType::Float) convert(slot, BaseType::Float);
-    auto* cast = ast_.make<CastExpr>(slot->span);
+    if (slot->type.base == BaseType::Bool && to != BaseType::Float)
+        convert(ast, slot, BaseType::Float);
+    auto* cast = ast.make<CastExpr>(slot->span);
     cast->to = to;
     cast->implicit = true;
     cast->operand = slot;
     cast->type = {to, -1};
     slot = cast;
     return true;
-}
-
-// ---- expressions before they are checked -------------------------------------------------------
-
-namespace {
-
-// Two overloads with the same arguments: only the context tells them apart (noise, texture).
-bool chosen_by_context(std::span<const Overload> overloads) {
-    auto same = [](const Signature& a, const Signature& b) {
-        return std::equal(
-            a.arguments.begin(), a.arguments.end(), b.arguments.begin(), b.arguments.end(),
-            [](const auto& x, const auto& y) { return x.type == y.type && x.output == y.output; });
-    };
-    for (size_t i = 0; i < overloads.size(); ++i)
-        for (size_t k = 0; k < i; ++k)
-            if (overloads[i].signature.result != overloads[k].signature.result &&
-                same(overloads[i].signature, overloads[k].signature))
-                return true;
-    return false;
-}
-
-}  // namespace
-
-// Whether the context may choose the type of the unchecked expression: a (x, y, z), a call of a
-// built-in like noise(), or an operator or another built-in on such.
-bool Checker::is_flexible(const Expr& expr) const {
-    switch (expr.kind) {
-        case ExprKind::Triple:
-            return true;
-        case ExprKind::Unary:
-            return as<UnaryExpr>(expr).op == Op::Negate &&
-                   is_flexible(*as<UnaryExpr>(expr).operand);
-        case ExprKind::Binary: {
-            const auto& e = as<BinaryExpr>(expr);
-            bool arithmetic = e.op >= Op::Add && e.op <= Op::Divide;
-            return arithmetic && (is_flexible(*e.left) || is_flexible(*e.right));
-        }
-        case ExprKind::Select: {
-            const auto& e = as<SelectExpr>(expr);
-            return is_flexible(*e.yes) || is_flexible(*e.no);
-        }
-        case ExprKind::Call:
-            return is_flexible_call(as<CallExpr>(expr));
-        default:
-            return false;
-    }
-}
-
-bool Checker::is_flexible_call(const CallExpr& e) const {
-    if (!visible_functions(e.name).empty()) return false;
-    std::span<const Overload> overloads = find_builtin(e.name);
-    bool several = std::any_of(overloads.begin(), overloads.end(), [&](const Overload& o) {
-        return o.signature.result != overloads[0].signature.result;
-    });
-    if (!several) return false;
-    return std::any_of(e.args.begin(), e.args.end(),
-                       [&](const Expr* a) { return is_flexible(*a); }) ||
-           chosen_by_context(overloads);
-}
-
-// The type that an expression of no flexible parts will get; Invalid when that takes a check.
-BaseType Checker::natural_type(const Expr& expr) const {
-    if (expr.type.base != BaseType::Invalid)
-        return expr.type.is_array() ? BaseType::Invalid : expr.type.base;
-    switch (expr.kind) {
-        case ExprKind::Number:
-            return BaseType::Float;
-        case ExprKind::String:
-            return BaseType::String;
-        case ExprKind::Variable: {
-            const Symbol* symbol = find_symbol(as<VariableExpr>(expr).name);
-            return symbol && !symbol->type.is_array() ? symbol->type.base : BaseType::Invalid;
-        }
-        case ExprKind::Index: {
-            const auto* array = as_if<VariableExpr>(as<IndexExpr>(expr).array);
-            const Symbol* symbol = array ? find_symbol(array->name) : nullptr;
-            if (!symbol) return BaseType::Invalid;
-            return symbol->type.is_array() ? symbol->type.base : BaseType::Float;
-        }
-        case ExprKind::Unary:
-            return as<UnaryExpr>(expr).op == Op::Not ? BaseType::Float
-                                                     : natural_type(*as<UnaryExpr>(expr).operand);
-        case ExprKind::Binary: {
-            const auto& e = as<BinaryExpr>(expr);
-            if (e.op == Op::Cross) return BaseType::Vector;
-            if (e.op >= Op::Dot) return BaseType::Float;
-            return common_type(natural_type(*e.left), natural_type(*e.right));
-        }
-        case ExprKind::Select:
-            return common_type(natural_type(*as<SelectExpr>(expr).yes),
-                               natural_type(*as<SelectExpr>(expr).no));
-        case ExprKind::Cast:
-            return as<CastExpr>(expr).to;
-        case ExprKind::Sixteen:
-            return BaseType::Matrix;
-        case ExprKind::Call:
-            return natural_call_type(as<CallExpr>(expr));
-        default:
-            return BaseType::Invalid;
-    }
-}
-
-BaseType Checker::natural_call_type(const CallExpr& e) const {
-    std::vector<Function*> functions = visible_functions(e.name);
-    if (!functions.empty()) return functions[0]->result.base;
-    std::span<const Overload> overloads = find_builtin(e.name);
-    if (overloads.empty()) return BaseType::Invalid;
-    BaseType result = overloads[0].signature.result.base;
-    for (const Expr* argument : e.args) {
-        BaseType type = natural_type(*argument);
-        if (is_triple(type) && is_result(overloads, type)) return type;
-    }
-    return result;
-}
-
-bool Checker::is_result(std::span<const Overload> overloads, BaseType type) {
-    return std::any_of(overloads.begin(), overloads.end(),
-                       [&](const Overload& o) { return o.signature.result.base == type; });
-}
-
-// ---- what a flexible expression may be ----------------------------------------------------------
-
-namespace {
-
-constexpr TypeSet one(BaseType type) {
-    return 1u << unsigned(type);
-}
-constexpr TypeSet kTriples =
-    one(BaseType::Color) | one(BaseType::Point) | one(BaseType::Vector) | one(BaseType::Normal);
-
-// The types that one of the set converts to.
-TypeSet convertible(TypeSet from) {
-    TypeSet set = 0;
-    for (int f = 0; f < int(BaseType::Invalid); ++f)
-        for (int t = 0; from >> f & 1 && t < int(BaseType::Invalid); ++t)
-            if (conversion_cost(BaseType(f), BaseType(t)) >= 0) set |= 1u << t;
-    return set;
-}
-
-}  // namespace
-
-// The types that a part lets the whole have: those that it may have itself, or, where its type is
-// fixed, those that this converts to.
-TypeSet Checker::possible_types(const Expr& part) const {
-    if (!is_flexible(part)) {
-        BaseType natural = natural_type(part);
-        return natural == BaseType::Invalid ? ~TypeSet(0) : convertible(one(natural));
-    }
-    switch (part.kind) {
-        case ExprKind::Triple:
-            return kTriples;
-        case ExprKind::Unary:
-            return possible_types(*as<UnaryExpr>(part).operand);
-        case ExprKind::Binary:
-            return possible_types(*as<BinaryExpr>(part).left) &
-                   possible_types(*as<BinaryExpr>(part).right);
-        case ExprKind::Select:
-            return possible_types(*as<SelectExpr>(part).yes) &
-                   possible_types(*as<SelectExpr>(part).no);
-        case ExprKind::Call:
-            return possible_results(as<CallExpr>(part));
-        default:
-            return 0;
-    }
-}
-
-// Results of the overloads that the arguments may fit: max(noise(P), Cs) is no float.
-TypeSet Checker::possible_results(const CallExpr& e) const {
-    std::span<const Overload> overloads = find_builtin(e.name);
-    bool by_context = chosen_by_context(overloads);
-    std::vector<TypeSet> arguments;
-    for (const Expr* argument : e.args)
-        arguments.push_back(by_context ? ~TypeSet(0) : convertible(possible_types(*argument)));
-    TypeSet results = 0;
-    for (const Overload& o : overloads) {
-        const Signature& s = o.signature;
-        bool fits = true;
-        for (size_t i = 0; i < arguments.size() && (i < s.arguments.size() || s.repeats); ++i) {
-            Type type = i < s.arguments.size() ? s.arguments[i].type : s.repeated.type;
-            bool any = type.base == BaseType::Invalid || type.is_array();
-            fits = fits && (any || arguments[i] & one(type.base));
-        }
-        if (fits) results |= one(s.result.base);
-    }
-    return results;
-}
-
-// Whether the unchecked, flexible expression can have exactly this type.
-bool Checker::can_be(const Expr& expr, BaseType type) const {
-    if (!is_flexible(expr)) return conversion_cost(expr.type.base, type) == 0;
-    return possible_types(expr) & one(type);
-}
-
-// Whether a flexible expression shows a picture: beside a color those are colors, where noise()
-// is a factor.
-bool Checker::is_picture(const Expr& expr) const {
-    switch (expr.kind) {
-        case ExprKind::Unary:
-            return is_picture(*as<UnaryExpr>(expr).operand);
-        case ExprKind::Binary:
-            return is_picture(*as<BinaryExpr>(expr).left) ||
-                   is_picture(*as<BinaryExpr>(expr).right);
-        case ExprKind::Select:
-            return is_picture(*as<SelectExpr>(expr).yes) || is_picture(*as<SelectExpr>(expr).no);
-        case ExprKind::Call: {
-            std::string_view name = as<CallExpr>(expr).name;
-            return name == "texture" || name == "environment" || name == "trace";
-        }
-        default:
-            return false;
-    }
 }
 
 }  // namespace kinora::rsl

@@ -1,51 +1,52 @@
-// rsl/check/expression.cpp: values, variables, l-values and conversions that the context asks for.
+// rsl/check/expression.cpp: values, variables, calls, assignments, and what the context wants of
+// them.
+#include "rsl/check/expression.h"
+
 #include "rsl/builtins/table.h"
-#include "rsl/check/check.h"
+#include "rsl/check/convert.h"
 #include "rsl/syntax/ast_visit.h"
-#include "rsl/text/did_you_mean.h"
 
 namespace kinora::rsl {
 
-void Checker::expression(Expr*& slot, BaseType wanted) {
+void ExpressionChecker::expression(Expr*& slot, BaseType wanted) {
     visit_expr(*slot, [&](auto& node) { check(slot, node, wanted); });
 }
 
-// Checks the expression as a single value; its type, or Invalid after a finding.
-BaseType Checker::value(Expr*& slot, BaseType wanted) {
+BaseType ExpressionChecker::value(Expr*& slot, BaseType wanted) {
     expression(slot, wanted);
     if (slot->type.base == BaseType::Void) {
         const auto* call = as_if<CallExpr>(slot);
-        report(Code::RSL_VOID_VALUE, slot->span, call ? call->name : std::string_view("this"));
+        reporter_.report(Code::RSL_VOID_VALUE, slot->span,
+                         call ? call->name : std::string_view("this"));
         slot->type = {BaseType::Invalid, -1};
     } else if (slot->type.is_array()) {
-        report(Code::RSL_ARRAY_AS_VALUE, slot->span);
+        reporter_.report(Code::RSL_ARRAY_AS_VALUE, slot->span);
         slot->type = {BaseType::Invalid, -1};
     }
     return slot->type.base;
 }
 
-// Checks the expression and brings it to the type; `what` names who needs it.
-void Checker::convert_to(Expr*& slot, Type type, const std::string& what) {
+void ExpressionChecker::convert_to(Expr*& slot, Type type, const std::string& what) {
     if (type.is_array()) return array_value(slot, type, what);
     value(slot, type.base);
     bring_to(slot, type, what);
 }
 
-// The same for an expression that has been checked.
-void Checker::bring_to(Expr*& slot, Type type, const std::string& what) {
+void ExpressionChecker::bring_to(Expr*& slot, Type type, const std::string& what) {
     BaseType from = slot->type.base;
     if (from == BaseType::Invalid || type.base == BaseType::Invalid) return;
     if (convert(slot, type.base)) return;
-    report(Code::RSL_TYPE_MISMATCH, slot->span, what, type_name(type), type_name(from)).help =
-        conversion_help(from, type.base);
+    reporter_.report(Code::RSL_TYPE_MISMATCH, slot->span, what, type_name(type), type_name(from))
+        .help = conversion_help(from, type.base);
     slot->type = {BaseType::Invalid, -1};
 }
 
-void Checker::array_value(Expr*& slot, Type type, const std::string& what) {
+void ExpressionChecker::array_value(Expr*& slot, Type type, const std::string& what) {
     if (auto* literal = as_if<ArrayLiteralExpr>(slot)) {
         for (Expr*& item : literal->items) convert_to(item, type.element(), "the array element");
         if (literal->items.size() > size_t(type.array_length))
-            report(Code::RSL_ARRAY_LENGTH, slot->span, literal->items.size(), type.array_length);
+            reporter_.report(Code::RSL_ARRAY_LENGTH, slot->span, literal->items.size(),
+                             type.array_length);
         literal->type = type;
         return;
     }
@@ -55,15 +56,16 @@ void Checker::array_value(Expr*& slot, Type type, const std::string& what) {
                 (slot->type.array_length == type.array_length || type.array_length == 0 ||
                  slot->type.array_length == 0);
     if (!fits)
-        report(Code::RSL_TYPE_MISMATCH, slot->span, what, type_name(type), type_name(slot->type));
+        reporter_.report(Code::RSL_TYPE_MISMATCH, slot->span, what, type_name(type),
+                         type_name(slot->type));
 }
 
-void Checker::condition(Expr*& slot) {
+void ExpressionChecker::condition(Expr*& slot) {
     BaseType type = value(slot, BaseType::Float);
     if (type == BaseType::Bool || type == BaseType::Invalid) return;
     if (type == BaseType::String) return string_condition(slot);
     if (type != BaseType::Float) {
-        report(Code::RSL_CONDITION, slot->span, type_name(type));
+        reporter_.report(Code::RSL_CONDITION, slot->span, type_name(type));
         return;
     }
     auto* cast = ast_.make<CastExpr>(slot->span);
@@ -75,8 +77,8 @@ void Checker::condition(Expr*& slot) {
 }
 
 // A string alone: is it not empty?
-void Checker::string_condition(Expr*& slot) {
-    report(Code::RSL_STRING_CONDITION, slot->span);
+void ExpressionChecker::string_condition(Expr*& slot) {
+    reporter_.report(Code::RSL_STRING_CONDITION, slot->span);
     auto* empty = ast_.make<StringExpr>(slot->span);
     empty->type = {BaseType::String, -1};
     auto* node = ast_.make<BinaryExpr>(slot->span);
@@ -87,41 +89,42 @@ void Checker::string_condition(Expr*& slot) {
     slot = node;
 }
 
-void Checker::check_number(Expr*& slot, const char* what) {
+void ExpressionChecker::check_number(Expr*& slot, const char* what) {
     convert_to(slot, {BaseType::Float, -1}, what);
 }
 
 // ---- values -------------------------------------------------------------------------------------
 
-void Checker::check(Expr*&, NumberExpr& e, BaseType) {
+void ExpressionChecker::check(Expr*&, NumberExpr& e, BaseType) {
     e.type = {BaseType::Float, -1};
 }
 
-void Checker::check(Expr*&, StringExpr& e, BaseType) {
+void ExpressionChecker::check(Expr*&, StringExpr& e, BaseType) {
     e.type = {BaseType::String, -1};
 }
 
 // (x, y, z) is what the context wants, a point if it does not say.
-void Checker::check(Expr*&, TripleExpr& e, BaseType wanted) {
+void ExpressionChecker::check(Expr*&, TripleExpr& e, BaseType wanted) {
     for (Expr*& item : e.items) check_number(item, "a component");
     e.type = {is_triple(wanted) ? wanted : BaseType::Point, -1};
 }
 
-void Checker::check(Expr*&, SixteenExpr& e, BaseType) {
+void ExpressionChecker::check(Expr*&, SixteenExpr& e, BaseType) {
     for (Expr*& item : e.items) check_number(item, "a component");
     e.type = {BaseType::Matrix, -1};
 }
 
 // Only initialisers may be { }: those go to array_value().
-void Checker::check(Expr*&, ArrayLiteralExpr& e, BaseType wanted) {
-    Finding& finding = report(Code::RSL_ARRAY_AS_VALUE, e.span);
+void ExpressionChecker::check(Expr*&, ArrayLiteralExpr& e, BaseType wanted) {
+    Finding& finding = reporter_.report(Code::RSL_ARRAY_AS_VALUE, e.span);
     if (is_triple(wanted)) finding.help = "write (a, b, c)";
 }
 
-void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
+void ExpressionChecker::check(Expr*&, SelectExpr& e, BaseType wanted) {
     condition(e.condition);
     // Where nothing is wanted, the side of fixed type says what the other one is asked to be.
-    bool no_first = wanted == BaseType::Invalid && is_flexible(*e.yes) && !is_flexible(*e.no);
+    bool no_first =
+        wanted == BaseType::Invalid && types_.is_flexible(*e.yes) && !types_.is_flexible(*e.no);
     Expr*& first = no_first ? e.no : e.yes;
     Expr*& second = no_first ? e.yes : e.no;
     BaseType type = value(first, wanted);
@@ -130,7 +133,7 @@ void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
     if (yes == BaseType::Invalid || no == BaseType::Invalid) return;
     BaseType common = common_type(yes, no);
     if (common == BaseType::Invalid) {
-        report(Code::RSL_BAD_OPERANDS, e.span, "?:", type_name(yes), type_name(no));
+        reporter_.report(Code::RSL_BAD_OPERANDS, e.span, "?:", type_name(yes), type_name(no));
         return;
     }
     convert(e.yes, common);
@@ -138,10 +141,10 @@ void Checker::check(Expr*&, SelectExpr& e, BaseType wanted) {
     e.type = {common, -1};
 }
 
-void Checker::check(Expr*&, CastExpr& e, BaseType) {
+void ExpressionChecker::check(Expr*&, CastExpr& e, BaseType) {
     if (e.to == BaseType::Void) {
         value(e.operand, BaseType::Invalid);
-        report(Code::RSL_BAD_OPERAND, e.span, "void", "a value");
+        reporter_.report(Code::RSL_BAD_OPERAND, e.span, "void", "a value");
         return;
     }
     if (e.space) value(e.space, BaseType::String);
@@ -149,10 +152,11 @@ void Checker::check(Expr*&, CastExpr& e, BaseType) {
     e.type = {e.to, -1};
     if (from == BaseType::Invalid) return;
     if (e.space && !is_triple(e.to) && e.to != BaseType::Matrix) {
-        report(Code::RSL_BAD_SPACE, e.span, type_name(e.to));
+        reporter_.report(Code::RSL_BAD_SPACE, e.span, type_name(e.to));
     } else if (conversion_cost(from, e.to) < 0) {
-        report(Code::RSL_TYPE_MISMATCH, e.span, fmt::format("'{}'", type_name(e.to)),
-               "a value that converts to it", type_name(from))
+        reporter_
+            .report(Code::RSL_TYPE_MISMATCH, e.span, fmt::format("'{}'", type_name(e.to)),
+                    "a value that converts to it", type_name(from))
             .help = conversion_help(from, e.to);
     } else if (e.space || from == BaseType::Bool) {
         convert(e.operand, from == BaseType::Bool ? BaseType::Float : e.to);
@@ -162,46 +166,20 @@ void Checker::check(Expr*&, CastExpr& e, BaseType) {
 
 // ---- variables ----------------------------------------------------------------------------------
 
-namespace {
-
-// Names of other languages and what RSL has instead.
-constexpr struct {
-    std::string_view name;
-    const char* help;
-} kVariableHints[] = {
-    {"true", "write '1'"},    {"TRUE", "write '1'"},          {"false", "write '0'"},
-    {"FALSE", "write '0'"},   {"M_PI", "write 'PI'"},         {"pi", "write 'PI'"},
-    {"NULL", "write '\"\"'"}, {"Nn", "write 'normalize(N)'"}, {"V", "write '-normalize(I)'"},
-};
-
-}  // namespace
-
-void Checker::check(Expr*&, VariableExpr& e, BaseType) {
-    e.symbol = find_variable(e.name, false);
+void ExpressionChecker::check(Expr*&, VariableExpr& e, BaseType) {
+    e.symbol = scopes_.find_variable(e.name);
     bool global = e.symbol && e.symbol->global;  // perhaps hidden by what was skipped
     if (global && recovery_.declares(e.name, e.span.token)) e.symbol = nullptr;
     if (e.symbol) {
         e.type = e.symbol->type;
         return;
     }
-    if (recovery_.hides(e.name, e.span.token) || !unknown_.insert(e.name).second) return;
-    Finding& finding = report(Code::RSL_UNKNOWN_VARIABLE, e.span, e.name);
-    for (const auto& row : kVariableHints)
-        if (row.name == e.name) finding.help = row.help;
-    if (!finding.help.empty()) return;
-    if (!visible_functions(e.name).empty() || !find_builtin(e.name).empty()) {
-        finding.help = fmt::format("it is a function, which is called as '{}(...)'", e.name);
-        return;
-    }
-    std::vector<std::string_view> names = variable_names();
-    names.insert(names.end(), {"return", "break", "continue"});  // alone in a statement
-    finding.help = meant_help(e.name, names);
-    returned_ = returned_ || did_you_mean(e.name, names) == "return";
+    unknown_.variable(e);
 }
 
 // array[i], or a component of a triple.
-void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
-    bool triple = is_flexible(*e.array) && can_be(*e.array, BaseType::Color);
+void ExpressionChecker::check(Expr*& slot, IndexExpr& e, BaseType) {
+    bool triple = types_.is_flexible(*e.array) && types_.can_be(*e.array, BaseType::Color);
     expression(e.array, triple ? BaseType::Color : BaseType::Invalid);
     check_number(e.index, "an index");
     if (e.array->type.base == BaseType::Invalid) return;
@@ -210,7 +188,7 @@ void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
         return;
     }
     if (!is_triple(e.array->type)) {
-        Finding& finding = report(Code::RSL_NOT_ARRAY, e.span, type_name(e.array->type));
+        Finding& finding = reporter_.report(Code::RSL_NOT_ARRAY, e.span, type_name(e.array->type));
         if (e.array->type.base == BaseType::Matrix) finding.help = "use comp(m, row, column)";
         return;
     }
@@ -221,58 +199,69 @@ void Checker::check(Expr*& slot, IndexExpr& e, BaseType) {
     slot = component;
 }
 
-void Checker::check(Expr*&, ComponentExpr& e, BaseType) {
+void ExpressionChecker::check(Expr*&, ComponentExpr& e, BaseType) {
     e.type = {BaseType::Float, -1};
+}
+
+// ---- calls --------------------------------------------------------------------------------------
+
+// Arguments are checked before the callee is chosen, except those whose type it will choose.
+void ExpressionChecker::check(Expr*&, CallExpr& e, BaseType wanted) {
+    std::vector<Function*> functions = scopes_.find_functions(e.name);
+    bool builtin = functions.empty() && !find_builtin(e.name).empty();
+    if (builtin && calls_.take_channel(e)) check_number(e.channel, "a channel");
+    for (Expr*& argument : e.args)
+        if (!types_.is_flexible(*argument)) expression(argument, BaseType::Invalid);
+    if (functions.empty() && !builtin) return unknown_.function(e);
+    Callee callee = overloads_.choose(e, functions, wanted);
+    if (!callee) return no_form(e, functions);
+    calls_.begin(e, callee);
+    for (size_t i = 0; i < e.args.size(); ++i) {
+        if (types_.is_open(*e.args[i])) expression(e.args[i], calls_.parameter(e, i).type.base);
+        calls_.bind_argument(e, i);
+    }
+    calls_.end(e);
+}
+
+// Neither a function of the source nor a built-in one takes these arguments.
+void ExpressionChecker::no_form(CallExpr& e, std::span<Function* const> functions) {
+    if (functions.size() == 1) {
+        const Function& only = *functions[0];
+        e.type = only.result;
+        if (only.damaged) return;  // its parameters may be among what is missing
+        reporter_
+            .report(Code::RSL_ARGUMENT_COUNT, e.span, e.name, only.parameters.size(), e.args.size())
+            .notes.push_back({only.span.where, "defined here"});
+        return;
+    }
+    std::string types;
+    for (const Expr* argument : e.args) {
+        if (argument->type.base == BaseType::Invalid && !types_.is_flexible(*argument)) return;
+        if (!types.empty()) types += ", ";
+        bool triple = argument->kind == ExprKind::Triple;
+        types += !types_.is_open(*argument) ? type_name(argument->type)
+                 : triple                   ? "triple"
+                                            : "float or triple";
+    }
+    calls_.report_no_form(e, functions, types);
 }
 
 // ---- assignment ---------------------------------------------------------------------------------
 
-// The variable that a Variable, Index or Component expression is (part of); else null.
-Symbol* Checker::lvalue_symbol(Expr& target) {
-    if (auto* e = as_if<VariableExpr>(&target)) return e->symbol;
-    if (auto* e = as_if<IndexExpr>(&target)) return lvalue_symbol(*e->array);
-    if (auto* e = as_if<ComponentExpr>(&target)) return lvalue_symbol(*e->operand);
-    return nullptr;
-}
-
-// The expression has been checked. False, with a finding, if it cannot be written to.
-bool Checker::check_lvalue(Expr*& slot) {
-    if (slot->type.base == BaseType::Invalid) return false;
-    Symbol* symbol = lvalue_symbol(*slot);
-    if (!symbol) {
-        const auto* call = as_if<CallExpr>(slot);
-        Finding& finding = report(Code::RSL_NOT_ASSIGNABLE, slot->span);
-        std::string setter = call ? "set" + std::string(call->name) : "";
-        if (call && !find_builtin(setter).empty())
-            finding.help = fmt::format("write '{}(target, ..., value)'", setter);
-        return false;
-    }
-    mark_assigned(*symbol, slot->span);
-    return true;
-}
-
-void Checker::mark_assigned(Symbol& symbol, const SourceSpan& span) {
-    symbol.assigned = true;
-    bool parameter =
-        symbol.kind == SymbolKind::Parameter || symbol.kind == SymbolKind::FunctionParameter;
-    if (parameter && !symbol.output && warned_.insert(&symbol).second)
-        report(Code::RSL_PARAMETER_ASSIGNED, span, symbol.name);
-}
-
-void Checker::check(Expr*&, AssignExpr& e, BaseType) {
+void ExpressionChecker::check(Expr*&, AssignExpr& e, BaseType) {
     expression(e.target, BaseType::Invalid);
     Type type = e.target->type;
-    if (!check_lvalue(e.target)) {
+    if (!assignments_.assign(*e.target)) {
         type = {BaseType::Invalid, -1};
         value(e.value, BaseType::Invalid);
         return;
     }
     const Symbol& symbol = *lvalue_symbol(*e.target);
     bool factor = (e.op == Op::Multiply || e.op == Op::Divide) && is_triple(type) &&
-                  is_flexible(*e.value) && can_be(*e.value, BaseType::Float) &&
+                  types_.is_flexible(*e.value) && types_.can_be(*e.value, BaseType::Float) &&
                   !(type.base == BaseType::Color && is_picture(*e.value));
     if (type.is_array() && e.op != Op::None) {
-        report(Code::RSL_ARRAY_AS_VALUE, e.target->span);
+        reporter_.report(Code::RSL_ARRAY_AS_VALUE, e.target->span);
     } else if (factor) {
         value(e.value, BaseType::Float);
         bring_to(e.value, type, "the factor");
@@ -282,8 +271,8 @@ void Checker::check(Expr*&, AssignExpr& e, BaseType) {
     bool string = type.base == BaseType::String && e.op != Op::None;
     bool matrix = type.base == BaseType::Matrix && (e.op == Op::Add || e.op == Op::Subtract);
     if ((string || matrix) && e.value->type.base != BaseType::Invalid)
-        report(Code::RSL_BAD_OPERANDS, e.span, fmt::format("{}=", op_text(e.op)), type_name(type),
-               type_name(e.value->type));
+        reporter_.report(Code::RSL_BAD_OPERANDS, e.span, fmt::format("{}=", op_text(e.op)),
+                         type_name(type), type_name(e.value->type));
     e.type = type;
 }
 

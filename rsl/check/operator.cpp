@@ -1,9 +1,19 @@
 // rsl/check/operator.cpp: unary and binary operators.
-#include "rsl/check/check.h"
+#include "rsl/check/convert.h"
+#include "rsl/check/expression.h"
 
 namespace kinora::rsl {
 
-void Checker::check(Expr*&, UnaryExpr& e, BaseType wanted) {
+namespace {
+
+// One of the operands has a finding.
+bool invalid(const BinaryExpr& e) {
+    return e.left->type.base == BaseType::Invalid || e.right->type.base == BaseType::Invalid;
+}
+
+}  // namespace
+
+void ExpressionChecker::check(Expr*&, UnaryExpr& e, BaseType wanted) {
     if (e.op == Op::Not) {
         condition(e.operand);
         e.type = {BaseType::Bool, -1};
@@ -15,10 +25,10 @@ void Checker::check(Expr*&, UnaryExpr& e, BaseType wanted) {
     if (is_numeric(type))
         e.type = {type, -1};
     else
-        report(Code::RSL_BAD_OPERAND, e.span, op_text(e.op), type_name(type));
+        reporter_.report(Code::RSL_BAD_OPERAND, e.span, op_text(e.op), type_name(type));
 }
 
-void Checker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
+void ExpressionChecker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
     switch (e.op) {
         case Op::And:
         case Op::Or:
@@ -42,8 +52,8 @@ void Checker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
 // Checks both operands, the one of fixed type first, so that it can help the other: hint(type of
 // the fixed one, the flexible one) is what the flexible one is asked to be.
 template <class Hint>
-void Checker::both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint) {
-    bool left_flexible = is_flexible(*left), right_flexible = is_flexible(*right);
+void ExpressionChecker::both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint) {
+    bool left_flexible = types_.is_flexible(*left), right_flexible = types_.is_flexible(*right);
     if (left_flexible == right_flexible) {
         value(left, left_flexible ? wanted : BaseType::Invalid);
         value(right, right_flexible ? wanted : BaseType::Invalid);
@@ -55,14 +65,10 @@ void Checker::both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint) 
     value(flexible, hint(type, *flexible));
 }
 
-bool Checker::invalid(const BinaryExpr& e) const {
-    return e.left->type.base == BaseType::Invalid || e.right->type.base == BaseType::Invalid;
-}
-
-void Checker::bad_operands(BinaryExpr& e) {
+void ExpressionChecker::bad_operands(BinaryExpr& e) {
     BaseType left = e.left->type.base, right = e.right->type.base;
-    Finding& finding =
-        report(Code::RSL_BAD_OPERANDS, e.span, op_text(e.op), type_name(left), type_name(right));
+    Finding& finding = reporter_.report(Code::RSL_BAD_OPERANDS, e.span, op_text(e.op),
+                                        type_name(left), type_name(right));
     bool matrix = left == BaseType::Matrix || right == BaseType::Matrix;
     if (left == BaseType::String && right == left && e.op == Op::Add)
         finding.help = "use concat(a, b)";
@@ -74,28 +80,15 @@ void Checker::bad_operands(BinaryExpr& e) {
         finding.help = "write 'a * b'";
 }
 
-// The type both operands are brought to; Invalid if there is none.
-BaseType Checker::common_type(BaseType a, BaseType b) const {
-    if (a == BaseType::Bool) a = BaseType::Float;
-    if (b == BaseType::Bool) b = BaseType::Float;
-    if (a == b) return a;
-    if (a == BaseType::Float) return is_numeric(b) ? b : BaseType::Invalid;
-    if (b == BaseType::Float) return is_numeric(a) ? a : BaseType::Invalid;
-    if (!is_triple(a) || !is_triple(b)) return BaseType::Invalid;
-    if (a == BaseType::Color || b == BaseType::Color) return BaseType::Color;
-    if (a == BaseType::Point || b == BaseType::Point) return BaseType::Point;
-    return BaseType::Vector;
-}
-
 // A sum wants equal types. In a product with a triple, a noise() or texture() of no stated type is
 // a factor: float ("P += N * noise(P)"); but beside a color a picture is one ("Cs *
 // texture(name)").
-void Checker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
+void ExpressionChecker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
     bool product = e.op == Op::Multiply || e.op == Op::Divide;
     both_sides(e.left, e.right, wanted, [&](BaseType other, const Expr& flexible) {
         if (!is_triple(other)) return wanted;
         if (other == BaseType::Color && is_picture(flexible)) return other;
-        return product && can_be(flexible, BaseType::Float) ? BaseType::Float : other;
+        return product && types_.can_be(flexible, BaseType::Float) ? BaseType::Float : other;
     });
     if (invalid(e)) return;
     BaseType left = e.left->type.base, right = e.right->type.base;
@@ -109,23 +102,23 @@ void Checker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
 }
 
 // "P.x" as in other languages; reported.
-bool Checker::component_by_name(BinaryExpr& e) {
+bool ExpressionChecker::component_by_name(BinaryExpr& e) {
     constexpr std::string_view kPositions = "xyz", kColors = "rgb";
     const auto* name = e.op == Op::Dot ? as_if<VariableExpr>(e.right) : nullptr;
-    if (!name || name->name.size() != 1 || find_variable(name->name, false)) return false;
+    if (!name || name->name.size() != 1 || scopes_.find_variable(name->name)) return false;
     size_t position = kPositions.find(name->name[0]), color = kColors.find(name->name[0]);
     if (position == kPositions.npos && color == kColors.npos) return false;
     value(e.left, BaseType::Invalid);
     size_t k = position == kPositions.npos ? color : position;
-    report(Code::RSL_NOT_RSL, name->span, fmt::format("the component '.{}'", name->name)).help =
-        position == kPositions.npos ? fmt::format("write comp(c, {})", k)
-                                    : fmt::format("write {}comp(p)", kPositions[k]);
+    reporter_.report(Code::RSL_NOT_RSL, name->span, fmt::format("the component '.{}'", name->name))
+        .help = position == kPositions.npos ? fmt::format("write comp(c, {})", k)
+                                            : fmt::format("write {}comp(p)", kPositions[k]);
     e.type = {BaseType::Float, -1};
     return true;
 }
 
 // a . b and a ^ b.
-void Checker::check_product(BinaryExpr& e) {
+void ExpressionChecker::check_product(BinaryExpr& e) {
     if (component_by_name(e)) return;
     both_sides(e.left, e.right, BaseType::Vector, [](BaseType other, const Expr&) {
         return is_triple(other) ? other : BaseType::Vector;
@@ -139,13 +132,13 @@ void Checker::check_product(BinaryExpr& e) {
     e.type = {e.op == Op::Dot ? BaseType::Float : BaseType::Vector, -1};
 }
 
-void Checker::check_comparison(BinaryExpr& e) {
+void ExpressionChecker::check_comparison(BinaryExpr& e) {
     both_sides(e.left, e.right, BaseType::Float, [](BaseType other, const Expr&) { return other; });
     if (invalid(e)) return;
     BaseType common = common_type(e.left->type.base, e.right->type.base);
     bool equality = e.op == Op::Equal || e.op == Op::NotEqual;
     if (is_triple(common) && !equality)
-        report(Code::RSL_TRIPLE_ORDER, e.span, op_text(e.op), type_name(common));
+        reporter_.report(Code::RSL_TRIPLE_ORDER, e.span, op_text(e.op), type_name(common));
     bool applies = common == BaseType::Float || is_triple(common) ||
                    (equality && (is_numeric(common) || common == BaseType::String));
     if (!applies) return bad_operands(e);

@@ -27,8 +27,8 @@ struct GlobalInfo;  // rsl/model/globals.h
 struct Builtin;     // rsl/model/builtin.h
 struct Signature;
 
-// Where a node stands. `where` is in bytes of the user's file (for a token out of a macro: the
-// place of its use); `token` leads to the macros it came through (Ast::tokens).
+// Where a node stands. `where` is in bytes of the user's file (for a token out of a macro:
+// where it is used); `token` leads to the macros it came through (Ast::tokens).
 struct SourceSpan {
     Location where;
     uint32_t token = 0;

@@ -1,8 +1,9 @@
-// rsl/syntax/parse_expression.cpp: expressions, by precedence climbing.
+// rsl/syntax/parse_expression.cpp: operators by precedence, casts, literals, calls.
+#include "rsl/syntax/parse_expression.h"
+
 #include <cmath>
 #include <limits>
 
-#include "rsl/syntax/parser.h"
 #include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
@@ -48,12 +49,6 @@ constexpr struct {
                     {Punct::MultiplyAssign, Op::Multiply},
                     {Punct::DivideAssign, Op::Divide}};
 
-struct Depth {
-    explicit Depth(int& depth) : depth_(depth) { ++depth_; }
-    ~Depth() { --depth_; }
-    int& depth_;
-};
-
 }  // namespace
 
 int op_level(Op op) {
@@ -62,222 +57,227 @@ int op_level(Op op) {
     return 9;
 }
 
-Expr* Parser::bad_expression() {
+Expr* ExpressionParser::bad_expression() {
     height_ = 1;
-    return make<NumberExpr>(SourceSpan{token().where, next_});
+    return make<NumberExpr>(SourceSpan{cursor_.token().where, cursor_.position()});
 }
 
 // The expression parsed last is a node over the parts of the given height and of height_.
-void Parser::grow(int part_height) {
+void ExpressionParser::grow(int part_height) {
     height_ = std::max(height_, part_height) + 1;
-    if (height_ > kMostHeight) error(Code::RSL_TOO_DEEP, token());
+    if (height_ > kMostHeight) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
 }
 
-Expr* Parser::expression() {
-    Depth depth(depth_);
-    if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
-    if (panic_) return bad_expression();
+Expr* ExpressionParser::expression() {
+    Nesting::Level level(nesting_);
+    if (nesting_.too_deep()) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    if (errors_.panic()) return bad_expression();
     Expr* left = ternary();
     for (const auto& row : kAssignments) {
-        if (panic_ || !is(row.punct)) continue;
-        uint32_t at = next_;
+        if (errors_.panic() || !cursor_.is(row.punct)) continue;
+        uint32_t at = cursor_.position();
         int left_height = height_;
-        advance();
+        cursor_.advance();
         auto* node = make<AssignExpr>(left->span);
         node->op = row.op;
         node->target = left;
         node->value = expression();
         grow(left_height);
-        node->span = span_from(left->span, at);
+        node->span = cursor_.span_from(left->span, at);
         return node;
     }
     return left;
 }
 
-Expr* Parser::ternary() {
+Expr* ExpressionParser::ternary() {
     Expr* condition = binary(1);
-    if (panic_ || !is(Punct::Question)) return condition;
-    Depth depth(depth_);
-    if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
-    uint32_t at = next_;
-    advance();
+    if (errors_.panic() || !cursor_.is(Punct::Question)) return condition;
+    Nesting::Level level(nesting_);
+    if (nesting_.too_deep()) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    uint32_t at = cursor_.position();
+    cursor_.advance();
     auto* node = make<SelectExpr>(condition->span);
     node->condition = condition;
     int height = height_;
     node->yes = expression();
     height = std::max(height, height_);
-    if (!panic_) expect(Punct::Colon, "':'");
-    node->no = panic_ ? bad_expression() : ternary();
+    if (!errors_.panic()) errors_.expect(Punct::Colon, "':'");
+    node->no = errors_.panic() ? bad_expression() : ternary();
     grow(height);
-    node->span = span_from(condition->span, at);
+    node->span = cursor_.span_from(condition->span, at);
     return node;
 }
 
-Expr* Parser::binary(int lowest) {
+Expr* ExpressionParser::binary(int lowest) {
     Expr* left = unary();
-    while (!panic_) {
-        const OperatorRow* row = find_operator(token().punct);
-        bool word = !row && word_operator() != Punct::None;
-        if (word) row = find_operator(word_operator());
+    while (!errors_.panic()) {
+        const OperatorRow* row = find_operator(cursor_.token().punct);
+        bool word = !row && foreign_.word_operator() != Punct::None;
+        if (word) row = find_operator(foreign_.word_operator());
         bool doubled = !row && at_doubled_sign();
         if (doubled) row = find_operator(Punct::Subtract);
         if (!row || row->level < lowest) break;
-        uint32_t at = next_;
+        uint32_t at = cursor_.position();
         if (word)
-            reporter_.report(Code::RSL_NOT_RSL, token(), fmt::format("'{}'", token().text)).help =
-                fmt::format("write '{}'", op_text(row->op));
+            errors_
+                .report(Code::RSL_NOT_RSL, cursor_.token(),
+                        fmt::format("'{}'", cursor_.token().text))
+                .help = fmt::format("write '{}'", op_text(row->op));
         int left_height = height_;
-        if (!doubled) advance();
+        if (!doubled) cursor_.advance();
         auto* node = make<BinaryExpr>(left->span);
         node->op = row->op;
         node->left = left;
         node->right = doubled ? negated(row->level + 1) : binary(row->level + 1);
         grow(left_height);
-        node->span = span_from(left->span, at);
+        node->span = cursor_.span_from(left->span, at);
         left = node;
     }
     return left;
 }
 
 // "a--b": RSL has no decrement, so this is a - (-b).
-bool Parser::at_doubled_sign() const {
-    bool operand = token(1).kind == TokenKind::Identifier || token(1).kind == TokenKind::Number ||
-                   is(Punct::LeftParen, 1);
-    return is(Punct::Decrement) && operand;
+bool ExpressionParser::at_doubled_sign() const {
+    bool operand = cursor_.token(1).kind == TokenKind::Identifier ||
+                   cursor_.token(1).kind == TokenKind::Number || cursor_.is(Punct::LeftParen, 1);
+    return cursor_.is(Punct::Decrement) && operand;
 }
 
 // The operand behind a "--" that stands for "- -".
-Expr* Parser::negated(int lowest) {
-    uint32_t at = next_;
-    advance();
+Expr* ExpressionParser::negated(int lowest) {
+    uint32_t at = cursor_.position();
+    cursor_.advance();
     auto* node = make<UnaryExpr>({});
     node->op = Op::Negate;
     node->operand = binary(lowest);
     grow(0);
-    node->span = span_from(at);
+    node->span = cursor_.span_from(at);
     return node;
 }
 
-Expr* Parser::unary() {
-    Depth depth(depth_);
-    if (depth_ > kMostNesting) error(Code::RSL_TOO_DEEP, token());
-    if (panic_) return bad_expression();
-    uint32_t at = next_;
-    if (accept(Punct::Add)) return unary();
-    bool negates = is(Punct::Not) || word_not();
-    Op op = is(Punct::Subtract) ? Op::Negate : negates ? Op::Not : Op::None;
+Expr* ExpressionParser::unary() {
+    Nesting::Level level(nesting_);
+    if (nesting_.too_deep()) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    if (errors_.panic()) return bad_expression();
+    uint32_t at = cursor_.position();
+    if (cursor_.accept(Punct::Add)) return unary();
+    bool negates = cursor_.is(Punct::Not) || foreign_.at_not();
+    Op op = cursor_.is(Punct::Subtract) ? Op::Negate : negates ? Op::Not : Op::None;
     if (op != Op::None) {
-        advance();
+        cursor_.advance();
         auto* node = make<UnaryExpr>({});
         node->op = op;
         node->operand = unary();
         grow(0);
-        node->span = span_from(at);
+        node->span = cursor_.span_from(at);
         return node;
     }
-    if (is_type() && !word_as_name()) return cast();
-    bool c_style = is(Punct::LeftParen) && is(Punct::RightParen, 2) && !continues(token(3).punct);
-    if (c_style && is_type(1)) return c_cast();
-    return c_style && foreign_cast() ? unary() : postfix();
+    if (cursor_.is_type() && !cursor_.word_as_name()) return cast();
+    bool c_style = cursor_.is(Punct::LeftParen) && cursor_.is(Punct::RightParen, 2) &&
+                   !continues(cursor_.token(3).punct);
+    if (c_style && cursor_.is_type(1)) return c_cast();
+    return c_style && foreign_.accept_cast() ? unary() : postfix();
 }
 
 // "color x", "vector "world" x", "float noise(P)".
-Expr* Parser::cast() {
-    uint32_t at = next_;
+Expr* ExpressionParser::cast() {
+    uint32_t at = cursor_.position();
     auto* node = make<CastExpr>({});
-    node->to = type_from_name(token().text);
-    advance();
-    if (token().kind == TokenKind::String && node->to != BaseType::String) node->space = string();
+    node->to = type_from_name(cursor_.token().text);
+    cursor_.advance();
+    if (cursor_.token().kind == TokenKind::String && node->to != BaseType::String)
+        node->space = string();
     node->operand = unary();
     grow(0);
-    node->span = span_from(at);
+    node->span = cursor_.span_from(at);
     return node;
 }
 
 // "(float) x", as in C.
-Expr* Parser::c_cast() {
-    uint32_t at = next_;
+Expr* ExpressionParser::c_cast() {
+    uint32_t at = cursor_.position();
     auto* node = make<CastExpr>({});
-    node->to = type_from_name(token(1).text);
-    next_ += 3;
+    node->to = type_from_name(cursor_.token(1).text);
+    cursor_.move_to(cursor_.position() + 3);
     node->operand = unary();
     grow(0);
-    node->span = span_from(at);
+    node->span = cursor_.span_from(at);
     return node;
 }
 
-Expr* Parser::postfix() {
+Expr* ExpressionParser::postfix() {
     Expr* operand = primary();
-    while (!panic_ && is(Punct::LeftBracket)) {
-        uint32_t at = next_;
+    while (!errors_.panic() && cursor_.is(Punct::LeftBracket)) {
+        uint32_t at = cursor_.position();
         int array_height = height_;
-        advance();
+        cursor_.advance();
         auto* node = make<IndexExpr>(operand->span);
         node->array = operand;
         node->index = expression();
         grow(array_height);
-        expect(Punct::RightBracket, "']'");
-        node->span = span_from(operand->span, at);
+        errors_.expect(Punct::RightBracket, "']'");
+        node->span = cursor_.span_from(operand->span, at);
         operand = node;
     }
     return operand;
 }
 
-Expr* Parser::primary() {
-    const Token& at = token();
+Expr* ExpressionParser::primary() {
+    const Token& at = cursor_.token();
     height_ = 1;
     if (at.kind == TokenKind::Number) return number();
     if (at.kind == TokenKind::String) return string();
-    if (is(Punct::LeftParen)) return parenthesised();
-    if (at.kind != TokenKind::Identifier || is_reserved()) {
-        syntax_error("an expression");
+    if (cursor_.is(Punct::LeftParen)) return parenthesised();
+    if (at.kind != TokenKind::Identifier || cursor_.is_reserved()) {
+        errors_.syntax_error("an expression");
         return bad_expression();
     }
-    if (is(Punct::LeftParen, 1)) return call();
-    auto* node = make<VariableExpr>(SourceSpan{at.where, next_});
+    if (cursor_.is(Punct::LeftParen, 1)) return call();
+    auto* node = make<VariableExpr>(SourceSpan{at.where, cursor_.position()});
     node->name = at.text;
-    advance();
+    cursor_.advance();
     return node;
 }
 
-Expr* Parser::number() {
-    const Token& at = token();
-    auto* node = make<NumberExpr>(SourceSpan{at.where, next_});
+Expr* ExpressionParser::number() {
+    const Token& at = cursor_.token();
+    auto* node = make<NumberExpr>(SourceSpan{at.where, cursor_.position()});
     std::string_view text = at.text;
     constexpr double kLargest = std::numeric_limits<float>::max();
     bool too_large = false;
     double value = number_value(text, too_large);
     if (too_large) value = kLargest * 2;
-    if (value > kLargest) reporter_.report(Code::RSL_BAD_NUMBER, at, text);
+    if (value > kLargest) errors_.report(Code::RSL_BAD_NUMBER, at, text);
     node->value = std::min(value, kLargest);
-    advance();
+    cursor_.advance();
     return node;
 }
 
-Expr* Parser::string() {
-    uint32_t at = next_;
+Expr* ExpressionParser::string() {
+    uint32_t at = cursor_.position();
     auto* node = make<StringExpr>({});
     std::string value;
-    for (; token().kind == TokenKind::String; advance()) value += string_value(token().text);
+    for (; cursor_.token().kind == TokenKind::String; cursor_.advance())
+        value += string_value(cursor_.token().text);
     node->value = ast_.arena.copy(value);
-    node->span = span_from(at);
+    node->span = cursor_.span_from(at);
     return node;
 }
 
 // (x), (x, y, z) or sixteen numbers.
-Expr* Parser::parenthesised() {
-    uint32_t at = next_;
-    advance();
+Expr* ExpressionParser::parenthesised() {
+    uint32_t at = cursor_.position();
+    cursor_.advance();
     std::span<Expr*> items = expression_list(Punct::RightParen, "')'");
-    if (panic_) return bad_expression();
+    if (errors_.panic()) return bad_expression();
     if (items.size() == 1) {
-        // A sum's place has its parentheses; a name or call stands for itself.
+        // The location of a sum has its parentheses; a name or call stands for itself.
         ExprKind kind = items[0]->kind;
         if (kind != ExprKind::Variable && kind != ExprKind::Call)
-            items[0]->span.where = span_from(at).where;
+            items[0]->span.where = cursor_.span_from(at).where;
         return items[0];
     }
-    SourceSpan span = span_from(at);
+    SourceSpan span = cursor_.span_from(at);
     grow(0);
     if (items.size() == 3) {
         auto* node = make<TripleExpr>(span);
@@ -289,41 +289,41 @@ Expr* Parser::parenthesised() {
         node->items = items;
         return node;
     }
-    reporter_.report(Code::RSL_ARGUMENT_FORM, span.where, token().macro, {}, "(...)",
-                     "3 numbers for a triple or 16 for a matrix");
+    errors_.report(Code::RSL_ARGUMENT_FORM, span.where, cursor_.token().macro, "(...)",
+                   "3 numbers for a triple or 16 for a matrix");
     return make<NumberExpr>(span);
 }
 
-Expr* Parser::call() {
-    uint32_t at = next_;
+Expr* ExpressionParser::call() {
+    uint32_t at = cursor_.position();
     auto* node = make<CallExpr>({});
-    node->name = token().text;
+    node->name = cursor_.token().text;
     node->site = ast_.site_count++;
-    advance();
+    cursor_.advance();
     node->args = arguments();
     grow(0);
-    node->span = span_from(at);
+    node->span = cursor_.span_from(at);
     return node;
 }
 
-std::span<Expr*> Parser::arguments() {
-    if (!expect(Punct::LeftParen, "'('")) return {};
+std::span<Expr*> ExpressionParser::arguments() {
+    if (!errors_.expect(Punct::LeftParen, "'('")) return {};
     height_ = 0;
-    if (accept(Punct::RightParen)) return {};
+    if (cursor_.accept(Punct::RightParen)) return {};
     return expression_list(Punct::RightParen, nullptr);
 }
 
-// "a, b, c" and the closing token; without `expected`, of arguments.
-std::span<Expr*> Parser::expression_list(Punct end, const char* expected) {
+std::span<Expr*> ExpressionParser::expression_list(Punct end, const char* expected) {
     std::vector<Expr*> items;
     int height = 0;
     do {
         items.push_back(expression());
         height = std::max(height, height_);
-    } while (!panic_ && accept(Punct::Comma));
-    bool statement_ends = is(Punct::Semicolon) || is(Punct::LeftBrace) || is(Punct::RightBrace);
+    } while (!errors_.panic() && cursor_.accept(Punct::Comma));
+    bool statement_ends = cursor_.is(Punct::Semicolon) || cursor_.is(Punct::LeftBrace) ||
+                          cursor_.is(Punct::RightBrace);
     if (!expected) expected = statement_ends ? "')'" : "',' or ')'";
-    if (!panic_) expect(end, expected);
+    if (!errors_.panic()) errors_.expect(end, expected);
     height_ = height;
     return ast_.arena.copy(items);
 }

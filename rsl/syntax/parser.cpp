@@ -1,305 +1,189 @@
-// rsl/syntax/parser.cpp: tokens, errors and recovery of the parser.
+// rsl/syntax/parser.cpp: shaders and functions at file level.
 #include "rsl/syntax/parser.h"
 
 #include <algorithm>
 
-#include "rsl/text/lexer.h"
+#include "rsl/text/did_you_mean.h"
 
 namespace kinora::rsl {
 
-const Token& Parser::token(int ahead) const {
-    size_t i = std::min(size_t(next_) + size_t(ahead), ast_.tokens.tokens.size() - 1);
-    return ast_.tokens.tokens[i];
-}
-
-bool Parser::accept(Punct punct) {
-    if (!is(punct)) return false;
-    advance();
-    return true;
-}
-
-bool Parser::accept(Word word) {
-    if (!is(word)) return false;
-    advance();
-    return true;
-}
-
 namespace {
 
-std::string describe(const Token& token) {
-    if (token.kind == TokenKind::End) return "the end of the file";
-    if (token.kind == TokenKind::String) return fmt::format("string {}", token.text);
-    return fmt::format("'{}'", token.text);
-}
-
-// Constructs of other languages that people write, with what to write instead.
-struct ForeignPunct {
-    Punct punct;
-    const char* help;
-};
-constexpr ForeignPunct kForeign[] = {
-    {Punct::Increment, "write 'i += 1'"},
-    {Punct::Decrement, "write 'i -= 1'"},
-    {Punct::Modulo, "write 'mod(a, b)'"},
-    {Punct::Scope, ""},
-    {Punct::BitAnd, "write '&&'"},
-    {Punct::BitOr, "write '||'"},
-    {Punct::ShiftLeft, ""},
-    {Punct::ShiftRight, ""},
-};
-
-std::string character_help(std::string_view text) {
-    if (text.starts_with("'")) return "write strings between \" and \"";
-    const char* plain = plain_character(text);
-    return *plain ? fmt::format("write a plain {}", plain) : "";
+bool is_shader_word(Word word) {
+    return word >= Word::Surface && word <= Word::Deformation;
 }
 
 }  // namespace
 
-void Parser::syntax_error(const char* expected) {
-    if (panic_) return;
-    const Token& at = token();
-    if (after_reported()) {  // and it has swallowed what is missed here
-        panic_ = true;
-        mark_broken();
-        return;
-    }
-    if (foreign_character()) return;
-    if (at.punct == Punct::Arrow) {
-        newer_language(at, "'->' (calls and members of shader objects)");
-        return;
-    }
-    for (const ForeignPunct& row : kForeign) {
-        if (row.punct != at.punct) continue;
-        Finding* finding = error(Code::RSL_NOT_RSL, at, describe(at));
-        if (finding && *row.help) finding->help = row.help;
-        return;
-    }
-    bool other = at.kind == TokenKind::Other;
-    Finding* finding = other ? error(Code::RSL_BAD_CHARACTER, at, describe(at))
-                             : error(Code::RSL_SYNTAX, at, expected, describe(at));
-    if (finding && other) finding->help = character_help(at.text);
-    if (!finding) return;
-    if (behind_nested_comment()) finding->help = "comments do not nest: the first */ ends them";
-    bool triple = at.punct == Punct::LeftBrace || at.punct == Punct::LeftBracket;
-    if (triple && std::string_view(expected) == "an expression")
-        finding->help = "a triple is written (a, b, c); only the first values of an array {a, b}";
-    if (!meant_.empty()) finding->help = fmt::format("did you mean '{}'?", meant_);
-}
-
-// A "*/" near by, before the next ';' or brace.
-bool Parser::behind_nested_comment() const {
-    constexpr int kNear = 40;
-    for (int k = 0; k < kNear && token(k).kind != TokenKind::End; ++k) {
-        Punct punct = token(k).punct;
-        if (punct == Punct::Multiply && is(Punct::Divide, k + 1) && !token(k + 1).space_before)
-            return true;
-        if (punct == Punct::LeftBrace || punct == Punct::RightBrace) return false;
-    }
-    return false;
-}
-
-bool Parser::expect(Punct punct, const char* what) {
-    if (accept(punct)) return true;
-    syntax_error(what);
-    return false;
-}
-
-// Whether the last token is a string without its end or a macro's lost use: both are reported.
-bool Parser::after_reported() const {
-    if (next_ == 0) return false;
-    const Token& last = ast_.tokens.tokens[next_ - 1];
-    bool string = last.kind == TokenKind::String;
-    return last.lost || (string && (last.text.size() < 2 || last.text.back() != '"'));
-}
-
-// A missing semicolon is reported behind the last token. Where the next token begins a line or ends
-// a block, the statement was whole: nothing is skipped.
-void Parser::expect_semicolon() {
-    if (panic_ || accept(Punct::Semicolon)) return;
-    bool whole = token().line_start || is(Punct::RightBrace) || at_end();
-    if (next_ > 0 && whole) return missing_behind("';'");
-    if (next_ > 0 && ast_.tokens.tokens[next_ - 1].lost) return;
-    syntax_error("';'");
-}
-
-// What is missing between the last token and this one, where both are whole.
-void Parser::missing_behind(const char* expected) {
-    if (after_reported()) return;  // it has swallowed what is missing
-    const Token& last = ast_.tokens.tokens[next_ - 1];
-    Location behind{last.where.file, last.where.end, last.where.end};
-    reporter_.report(Code::RSL_SYNTAX, behind, last.macro, last.spelling, expected,
-                     describe(token()));
-}
-
-std::string_view Parser::expect_name(const char* what) {
-    const Token& at = token();
-    if (at.kind != TokenKind::Identifier || is_reserved()) {
-        meant_ = decimal_comma();
-        syntax_error(what);
-        meant_.clear();
-        return {};
-    }
-    advance();
-    return at.text;
-}
-
-// Control words always are words; types and details only where they can begin something.
-bool Parser::is_reserved(int ahead) const {
-    Word word = token(ahead).word;
-    if (word == Word::None || word >= Word::Illuminance) return false;
-    return !word_as_name(ahead);
-}
-
-// A type or detail that cannot be one here, since what follows continues or ends an expression or a
-// declaration: "color = 1", "normal . I", "float point;".
-bool Parser::word_as_name(int ahead) const {
-    if (token(ahead).word < Word::Float || token(ahead).word > Word::Output) return false;
-    switch (token(ahead + 1).punct) {
-        case Punct::Assign:
-        case Punct::AddAssign:
-        case Punct::SubtractAssign:
-        case Punct::MultiplyAssign:
-        case Punct::DivideAssign:
-        case Punct::Equal:
-        case Punct::NotEqual:
-        case Punct::Less:
-        case Punct::LessEqual:
-        case Punct::Greater:
-        case Punct::GreaterEqual:
-        case Punct::And:
-        case Punct::Or:
-        case Punct::Multiply:
-        case Punct::Divide:
-        case Punct::Dot:
-        case Punct::Cross:
-        case Punct::Question:
-        case Punct::Colon:
-        case Punct::Comma:
-        case Punct::Semicolon:
-        case Punct::RightParen:
-        case Punct::LeftBracket:
-        case Punct::RightBracket:
-            return true;
-        default:
-            return false;
-    }
-}
-
-SourceSpan Parser::span_from(uint32_t first) const {
-    const auto& tokens = ast_.tokens.tokens;
-    return span_from(SourceSpan{tokens[first].where, first}, first);
-}
-
-// From `first` to the last token read; `token` is what stands for the node.
-SourceSpan Parser::span_from(const SourceSpan& first, uint32_t token) const {
-    SourceSpan span{first.where, token};
-    if (next_ == 0) return span;
-    const Location& last = ast_.tokens.tokens[next_ - 1].where;
-    if (last.file == span.where.file) span.where.end = std::max(span.where.end, last.end);
-    return span;
-}
-
-// ---- recovery -----------------------------------------------------------------------------------
-
-void Parser::mark_broken() {
-    recovery_.break_definition();
-    for (Function* f = function_; f; f = f->parent) f->damaged = true;
-}
-
-// The tokens from `begin` on to here are not in the tree.
-void Parser::lose(uint32_t begin, bool parameters) {
-    recovery_.lose(ast_.tokens.tokens, begin, next_, parameters, false);
-}
-
-void Parser::skip_balanced(Punct open, Punct close) {
-    int depth = 0;
-    do {
-        depth += is(open);
-        depth -= is(close);
-        advance();
-    } while (depth > 0 && !at_end());
-}
-
-namespace {
-
-bool begins_statement(const Token& token) {
-    return token.word >= Word::Float && token.word <= Word::Gather && token.word != Word::Else;
-}
-
-}  // namespace
-
-// To the end of the broken statement: behind its ';', or before a '}' or a line that surely begins
-// another statement.
-void Parser::skip_statement() {
-    panic_ = false;
-    for (bool first = true; !at_end() && !is(Punct::RightBrace); first = false) {
-        if (accept(Punct::Semicolon)) return;
-        if (!first && token().line_start && begins_statement(token())) return;
-        if (begins_shader()) return;
-        if (is(Punct::LeftBrace)) {
-            skip_balanced(Punct::LeftBrace, Punct::RightBrace);
-            return;
-        }
-        advance();
-    }
-}
-
-// After an error in the statement that begins at the token.
-void Parser::leave_statement(uint32_t begin) {
-    if (!panic_) return;
-    skip_statement();
-    lose(begin);
-}
-
-// A line that surely begins another shader.
-bool Parser::begins_shader() const {
-    bool shader = token().word >= Word::Surface && token().word <= Word::Deformation;
-    return shader && token().line_start && token(1).kind == TokenKind::Identifier &&
-           is(Punct::LeftParen, 2);
-}
-
-// A line that surely begins another shader or function.
-bool Parser::begins_definition() const {
-    if (!token().line_start || token(1).kind != TokenKind::Identifier) return false;
-    return begins_shader() || (is_type() && is(Punct::LeftParen, 2));
-}
-
-void Parser::skip_definition() {
-    panic_ = false;
-    for (bool first = true; !at_end() && !is(Punct::LeftBrace); first = false, advance())
-        if (!first && begins_definition()) return;
-    if (is(Punct::LeftBrace)) skip_balanced(Punct::LeftBrace, Punct::RightBrace);
-    while (accept(Punct::Semicolon)) {
-    }
-}
-
-// Index of the token behind the ')' that closes the '(' at `open`; the end token if none does.
-uint32_t Parser::after_parens(uint32_t open) const {
-    const auto& tokens = ast_.tokens.tokens;
-    int depth = 0;
-    for (uint32_t i = open; i < tokens.size(); ++i) {
-        if (tokens[i].punct == Punct::Semicolon && depth == 0) break;
-        depth += tokens[i].punct == Punct::LeftParen;
-        depth -= tokens[i].punct == Punct::RightParen;
-        if (depth == 0) return i + 1;
-        if (tokens[i].punct == Punct::LeftBrace || tokens[i].punct == Punct::RightBrace) break;
-    }
-    return uint32_t(tokens.size() - 1);
-}
+Parser::Parser(Ast& ast, Reporter& reporter)
+    : ast_(ast),
+      cursor_(ast.tokens.tokens),
+      errors_(cursor_, reporter),
+      foreign_(cursor_, errors_),
+      expressions_(ast, cursor_, errors_, foreign_, nesting_),
+      declarations_(ast, cursor_, errors_, foreign_, expressions_, open_),
+      statements_(ast, cursor_, errors_, foreign_, nesting_, open_, expressions_, declarations_) {}
 
 void Parser::run() {
-    while (!at_end() && !reporter_.full()) {
-        uint32_t begin = next_;
-        panic_ = false;
-        recovery_.begin_definition(begin);
+    while (!cursor_.at_end() && !errors_.full()) {
+        uint32_t begin = cursor_.position();
+        errors_.begin_definition();
+        statements_.begin_definition();
         definition();
-        if (panic_) {
-            skip_definition();
-            recovery_.lose(ast_.tokens.tokens, begin, next_, false, true);
-        }
-        if (next_ == begin) advance();
+        errors_.leave_definition(begin);
+        if (cursor_.position() == begin) cursor_.advance();
     }
+}
+
+void Parser::definition() {
+    if (cursor_.accept(Punct::Semicolon) || newer_definition() || shader_definition()) return;
+    if (!file_variable()) function_definition();
+}
+
+bool Parser::newer_definition() {
+    if (cursor_.token().text == "plugin" && cursor_.token(1).kind == TokenKind::String &&
+        cursor_.is(Punct::Semicolon, 2)) {
+        errors_.report(Code::RSL_PLUGIN, cursor_.token());
+        for (int k = 0; k < 3; ++k) cursor_.advance();
+        return true;
+    }
+    if (cursor_.token(1).kind != TokenKind::Identifier) return false;
+    if (cursor_.token().text == "class")
+        return errors_.newer_language(cursor_.token(), "'class' (shader objects)");
+    if (cursor_.token().text == "struct")
+        return errors_.newer_language(cursor_.token(), "'struct'");
+    if (cursor_.token().text == "shader" && cursor_.is(Punct::LeftParen, 2)) {
+        errors_.error(Code::RSL_NOT_RSL, cursor_.token(), "'shader' (Open Shading Language)");
+        return true;
+    }
+    if (cursor_.token().text == "public")
+        return errors_.newer_language(cursor_.token(), "'public' (shader objects)");
+    return false;
+}
+
+// "float x = 1;" outside shaders and functions.
+bool Parser::file_variable() {
+    int type = cursor_.is(Word::Uniform) || cursor_.is(Word::Varying) || cursor_.is(Word::Extern);
+    bool ends = cursor_.is(Punct::Assign, type + 2) || cursor_.is(Punct::Semicolon, type + 2) ||
+                cursor_.is(Punct::Comma, type + 2) || cursor_.is(Punct::LeftBracket, type + 2);
+    if (!cursor_.is_type(type) || cursor_.token(type + 1).kind != TokenKind::Identifier || !ends)
+        return false;
+    errors_.report(Code::RSL_FILE_VARIABLE, cursor_.token(type + 1), cursor_.token(type + 1).text);
+    uint32_t begin = cursor_.position();
+    while (!cursor_.at_end() && !cursor_.is(Punct::Semicolon) &&
+           !is_shader_word(cursor_.token().word))
+        cursor_.advance();
+    errors_.lose(begin, true, true);
+    return true;
+}
+
+// "surface name(...) {...}".
+bool Parser::shader_definition() {
+    if (!is_shader_word(cursor_.token().word)) return false;
+    uint32_t at = cursor_.position();
+    // "deformation" is another name of transformation.
+    auto kind = ShaderKind(std::min(int(cursor_.token().word), int(Word::Transformation)) -
+                           int(Word::Surface));
+    cursor_.advance();
+    auto* shader = ast_.arena.make<ShaderDefinition>();
+    shader->kind = kind;
+    shader->span = SourceSpan{cursor_.token().where, cursor_.position()};
+    if (cursor_.token().kind == TokenKind::Identifier &&
+        (cursor_.is(Punct::LeftParen, 1) || cursor_.is_reserved())) {
+        shader->name = cursor_.token().text;  // any word will do
+        cursor_.advance();
+    } else {
+        shader->name = errors_.expect_name("a shader name");
+    }
+    shader->parameters = declarations_.parameters(SymbolKind::Parameter);
+    if (errors_.panic()) return true;
+    if (cursor_.is(Punct::Semicolon) && cursor_.is(Punct::LeftBrace, 1)) {
+        errors_.report(Code::RSL_SYNTAX, cursor_.token(), "'{'", "';'").help = "leave the ';' out";
+        cursor_.advance();
+    }
+    shader->body = shader_body(*shader);
+    shader->span.token = at;
+    ast_.shaders.push_back(shader);
+    return true;
+}
+
+// A "return;" of the shader itself ends it. That is no RSL, but its meaning is clear: the body
+// becomes a function, as if the source had "void __body() { ... } __body();". Lights are left out,
+// since their illuminate statements stand in the body.
+BlockStmt* Parser::shader_body(ShaderDefinition& shader) {
+    open_.begin_shader();
+    BlockStmt* body = statements_.block();
+    bool ends = open_.shader_return() && shader.kind != ShaderKind::Light && !errors_.count();
+    return ends ? body_as_function(body) : body;
+}
+
+BlockStmt* Parser::body_as_function(BlockStmt* body) {
+    errors_.report(Code::RSL_SHADER_RETURN, cursor_.at(open_.shader_return()->span.token));
+    auto* f = ast_.arena.make<Function>();
+    f->name = "__body";
+    f->result = {BaseType::Void, -1};
+    f->span = body->span;
+    f->id = ast_.function_count++;
+    f->body = body;
+    open_.move_body_into(*f);
+    auto* definition = ast_.make<FunctionStmt>(body->span);
+    definition->function = f;
+    auto* call = ast_.make<CallExpr>(body->span);
+    call->name = f->name;
+    call->site = ast_.site_count++;
+    auto* statement = ast_.make<ExpressionStmt>(body->span);
+    statement->expression = call;
+    auto* whole = ast_.make<BlockStmt>(body->span);
+    whole->body = ast_.arena.copy(std::vector<Stmt*>{definition, statement});
+    return whole;
+}
+
+// "sruface x()": perhaps a misspelt kind of shader.
+void Parser::unknown_definition() {
+    const Token& at = cursor_.token();
+    if (cursor_.is_type() && cursor_.is(Punct::LeftBracket, 1)) {
+        Finding* finding = errors_.error(Code::RSL_NOT_RSL, at, "a function that returns an array");
+        if (finding) finding->help = "hand the array out through an output parameter";
+        return;
+    }
+    bool two_names =
+        at.kind == TokenKind::Identifier && cursor_.token(1).kind == TokenKind::Identifier;
+    std::vector<std::string_view> kinds;
+    for (int k = 0; k <= int(ShaderKind::Transformation); ++k)
+        kinds.push_back(shader_kind_name(ShaderKind(k)));
+    std::string_view near = two_names ? nearest_name(at.text, kinds) : std::string_view();
+    bool behind =
+        cursor_.position() > 0 && cursor_.at(cursor_.position() - 1).punct == Punct::RightBrace;
+    if (near.empty() && !(behind && at.kind == TokenKind::Identifier))
+        return errors_.syntax_error("a shader or function definition");
+    Finding* finding = errors_.error(Code::RSL_SYNTAX, at, "a shader or function definition",
+                                     fmt::format("'{}'", at.text));
+    if (!finding) return;
+    finding->help = near.empty() ? "a '}' before it may be one too many"
+                                 : fmt::format("did you mean '{}'?", near);
+}
+
+// "[uniform] [type] name (": the detail of a result is inferred.
+void Parser::function_definition() {
+    while (true) {
+        if (cursor_.is(Word::Uniform) || cursor_.is(Word::Varying) || cursor_.is(Word::Extern))
+            cursor_.advance();
+        else if (!foreign_.accept_idle_word())
+            break;
+    }
+    int name = (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1)) || foreign_.at_type();
+    bool named =
+        cursor_.token(name).kind == TokenKind::Identifier && cursor_.is(Punct::LeftParen, name + 1);
+    if (!named) {
+        unknown_definition();
+        return;
+    }
+    uint32_t behind = cursor_.after_parens(cursor_.position() + uint32_t(name) + 1);
+    if (cursor_.at(behind).punct == Punct::Semicolon) {  // a prototype: functions need none
+        cursor_.move_to(behind + 1);
+        return;
+    }
+    if (Function* f = statements_.function()) ast_.functions.push_back(f);
 }
 
 }  // namespace kinora::rsl

@@ -19,7 +19,7 @@ class Lexer {
     Lexer(std::string_view text, const SourceMap& map);
 
     Token next();  // an End token at the end, again and again
-    // What was wrong with the text up to the last token, once; `where` gets its place.
+    // What was wrong with the text up to the last token, once; `where` gets its location.
     Trouble take_trouble(Location& where);
 
     // The rest of the line as text, trimmed, comments included; the lexer goes on at the next line.

@@ -45,6 +45,8 @@ struct Token {
     uint32_t macro = 0;         // TokenStream::macros of its expansion; 0 = not out of a macro
 };
 
+using TokenList = std::vector<Token>;
+
 // One expansion of a macro.
 struct MacroUse {
     std::string_view name;

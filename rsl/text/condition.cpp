@@ -1,9 +1,16 @@
-// rsl/text/preprocess_condition.cpp: the constant expressions of #if and #elif.
+// rsl/text/condition.cpp: the constant expressions of #if and #elif.
+#include "rsl/text/condition.h"
+
 #include <charconv>
 
-#include "rsl/text/preprocess.h"
+#include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
+
+void ConditionStack::open(Location where, bool value) {
+    bool outer = !skipping();
+    open_.push_back({where, outer && value, !outer || value, false});
+}
 
 namespace {
 
@@ -33,7 +40,7 @@ constexpr OperatorRow kOperators[] = {
 
 class ConditionParser {
   public:
-    explicit ConditionParser(const std::vector<Token>& tokens) : tokens_(tokens) {}
+    explicit ConditionParser(const TokenList& tokens) : tokens_(tokens) {}
 
     bool parse(bool& value) {
         value = bool(ternary());
@@ -202,7 +209,7 @@ class ConditionParser {
         return Integer::of(!too_large && value < 9e18 ? static_cast<long long>(value) : 0);
     }
 
-    const std::vector<Token>& tokens_;
+    const TokenList& tokens_;
     size_t next_ = 0;
     int depth_ = 0, uncounted_ = 0;
     bool ok_ = true;
@@ -210,7 +217,7 @@ class ConditionParser {
 
 }  // namespace
 
-bool evaluate_condition(const std::vector<Token>& tokens, const Token& at, Reporter& reporter) {
+bool evaluate_condition(const TokenList& tokens, const Token& at, Reporter& reporter) {
     bool value = false;
     if (ConditionParser(tokens).parse(value)) return value;
     reporter.report(Code::RSL_BAD_CONDITION, tokens.empty() ? at : tokens[0], at.text);

@@ -1,0 +1,88 @@
+// rsl/check/expression.h: types and conversions of expressions. Names get their symbols, calls
+// their callees; an expression that cannot be typed becomes Invalid after one finding.
+#pragma once
+
+#include <string>
+
+#include "rsl/check/assignments.h"
+#include "rsl/check/call.h"
+#include "rsl/check/convert.h"
+#include "rsl/check/inference.h"
+#include "rsl/check/overloads.h"
+#include "rsl/check/scopes.h"
+#include "rsl/check/tree_reporter.h"
+#include "rsl/check/unknown_names.h"
+#include "rsl/syntax/parse_recovery.h"
+
+namespace kinora::rsl {
+
+// `wanted` is the type the context would like, Invalid for any. A slot holds the expression; casts
+// are put into it.
+class ExpressionChecker {
+  public:
+    ExpressionChecker(Ast& ast, TreeReporter& reporter, const CompileOptions& options,
+                      const ParseRecovery& recovery, Scopes& scopes, UnknownNames& unknown,
+                      Assignments& assignments, CallGraph& graph)
+        : ast_(ast),
+          reporter_(reporter),
+          recovery_(recovery),
+          scopes_(scopes),
+          unknown_(unknown),
+          assignments_(assignments),
+          types_(scopes),
+          overloads_(types_),
+          calls_(ast, reporter, options, scopes, overloads_, assignments, graph) {}
+
+    void expression(Expr*& slot, BaseType wanted);
+    // As a single value; its type, or Invalid after a finding.
+    BaseType value(Expr*& slot, BaseType wanted);
+    // As a value brought to the type; `what` names who needs it.
+    void convert_to(Expr*& slot, Type type, const std::string& what);
+    // The same for an expression that has been checked.
+    void bring_to(Expr*& slot, Type type, const std::string& what);
+    // As a Bool.
+    void condition(Expr*& slot);
+
+  private:
+    // expression.cpp
+    void array_value(Expr*& slot, Type type, const std::string& what);
+    void string_condition(Expr*& slot);
+    void check_number(Expr*& slot, const char* what);
+    bool convert(Expr*& slot, BaseType to) { return rsl::convert(ast_, slot, to); }
+    void check(Expr*&, NumberExpr& e, BaseType wanted);
+    void check(Expr*&, StringExpr& e, BaseType wanted);
+    void check(Expr*&, VariableExpr& e, BaseType wanted);
+    void check(Expr*& slot, IndexExpr& e, BaseType wanted);
+    void check(Expr*&, ComponentExpr& e, BaseType wanted);
+    void check(Expr*&, SelectExpr& e, BaseType wanted);
+    void check(Expr*&, AssignExpr& e, BaseType wanted);
+    void check(Expr*&, CallExpr& e, BaseType wanted);
+    void check(Expr*&, CastExpr& e, BaseType wanted);
+    void check(Expr*&, TripleExpr& e, BaseType wanted);
+    void check(Expr*&, SixteenExpr& e, BaseType wanted);
+    void check(Expr*&, ArrayLiteralExpr& e, BaseType wanted);
+    void no_form(CallExpr& e, std::span<Function* const> functions);
+
+    // operator.cpp
+    void check(Expr*&, UnaryExpr& e, BaseType wanted);
+    void check(Expr*&, BinaryExpr& e, BaseType wanted);
+    void check_arithmetic(BinaryExpr& e, BaseType wanted);
+    bool component_by_name(BinaryExpr& e);
+    void check_product(BinaryExpr& e);
+    void check_comparison(BinaryExpr& e);
+    template <class Hint>
+    void both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint);
+    void bad_operands(BinaryExpr& e);
+
+    Ast& ast_;
+    TreeReporter& reporter_;
+    const ParseRecovery& recovery_;
+    Scopes& scopes_;
+    UnknownNames& unknown_;
+    Assignments& assignments_;
+    TypeInference types_;
+    OverloadResolution overloads_;
+    CallBinder calls_;
+};
+
+}  // namespace kinora::rsl

@@ -1,0 +1,83 @@
+// rsl/text/includes.cpp: the search for an included file.
+#include "rsl/text/includes.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "rsl/text/standard_headers.h"
+#include "runtime/base/text_encoding.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+bool same_letters(std::string_view a, std::string_view b) {
+    auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+// The file of that name in whatever letter case, as systems find it whose names have none.
+std::filesystem::path in_any_case(const std::filesystem::path& path) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error)) return path;
+    std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    std::filesystem::path best;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        bool same = same_letters(entry.path().filename().string(), path.filename().string());
+        if (same && (best.empty() || entry.path() < best)) best = entry.path();
+    }
+    return best.empty() ? path : best;
+}
+
+bool read_whole_file(const std::filesystem::path& path, std::string& text) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;
+    if (std::filesystem::file_size(path, error) > kMostIncludeBytes || error) return false;
+    std::ifstream in(path, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(in), {});
+    return bool(in) || in.eof();
+}
+
+}  // namespace
+
+void Includes::read_once(const std::string& path) {
+    once_.push_back(std::filesystem::path(path).lexically_normal().string());
+}
+
+std::optional<SourceText> Includes::find(std::string file, bool quoted, const std::string& from,
+                                         const Token& at) {
+    std::replace(file.begin(), file.end(), '\\', '/');  // as written on Windows
+    std::vector<std::filesystem::path> folders;
+    if (quoted) folders.push_back(std::filesystem::path(from).parent_path());
+    for (const std::string& directory : options_.include_directories) folders.push_back(directory);
+    if (!quoted) folders.push_back(std::filesystem::path(from).parent_path());
+    bool outside = false;
+    for (const std::filesystem::path& folder : folders) {
+        std::filesystem::path path = in_any_case(folder / file);
+        std::string text;
+        if (!options_.files.contains(path.string())) {
+            outside = true;
+            continue;
+        }
+        if (!read_whole_file(path, text)) continue;
+        text = utf8_text(std::move(text));
+        std::string key = path.lexically_normal().string();
+        if (std::find(once_.begin(), once_.end(), key) != once_.end()) return std::nullopt;
+        SourceMap map;
+        map.file = files_.add(path.string(), text);
+        return SourceText{texts_.keep(std::move(text)), &texts_.keep(std::move(map)), key};
+    }
+    if (std::string_view text = standard_header(file); !text.empty()) {
+        SourceMap map;
+        map.file = files_.add("include/" + file, std::string(text));
+        return SourceText{text, &texts_.keep(std::move(map)), file, true};
+    }
+    reporter_.report(outside ? Code::RSL_INCLUDE_OUTSIDE : Code::RSL_INCLUDE_NOT_FOUND, at, file);
+    return std::nullopt;
+}
+
+}  // namespace kinora::rsl
