@@ -21,7 +21,6 @@ LARGER = {
     "rsl/syntax/Parser": (5, 99, 15),
     "rsl/text/Preprocessor": (3, 51, 17),
     "runtime/build/SceneBuilder": (8, 62, 17),
-    "runtime/gltf/export/GltfExport": (7, 59, 28),
     "runtime/shading/Shading": (11, 54, 16),
 }
 
