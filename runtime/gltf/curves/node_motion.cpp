@@ -37,7 +37,7 @@ bool NodeMotion::is_always_trs(const dmat4& before, std::span<const Transform> s
     return holds;
 }
 
-// Where the stack is translations and scales and turns each in its place, one transform's cubics
+// Where the stack is translations and scales and turns each on its own, one transform's cubics
 // are the path's: the one of the kind that moves, or null.
 const Transform* NodeMotion::only_mover(uint32_t take, std::span<const Transform> stack,
                                         TransformKind kind) const {
