@@ -17,7 +17,6 @@ LARGER = {
     "jit/a64/Emit": (8, 118, 7),
     "jit/x64/Emit": (8, 141, 8),
     "runtime/build/SceneBuilder": (8, 62, 17),
-    "runtime/gltf/export/GltfExport": (7, 59, 28),
 }
 
 DEFINED = re.compile(

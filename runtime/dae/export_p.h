@@ -72,7 +72,7 @@ class ColladaExporter {
         bool matrix = false;  // all 16 by one channel
         int quaternion = -1;  // component of one that stands as a matrix
     };
-    std::map<uint32_t, Target> targets_;  // by place in values
+    std::map<uint32_t, Target> targets_;  // by offset in values
     std::string skinned_;                 // nodes of skinned meshes, at the top
 };
 

@@ -11,7 +11,7 @@
 namespace kinora {
 
 // Reads the document (a .dae, .zae or .kmz), extracts what <scene> reaches and compiles every
-// shader bound there. Findings have their places in the .dae, also those inside shader code.
+// shader bound there. Findings have their locations in the .dae, also those inside shader code.
 // Nothing is returned when there is no scene to show; errors that leave a scene (a shader that does
 // not compile: its material becomes the default one) are in `diagnostics`.
 std::optional<SceneDescription> import_collada(const std::string& path,

@@ -79,7 +79,7 @@ anim::Animation ColladaImport::animation_of(const std::vector<bool>& wanted) {
         const collada::Channel& from = data_.channels[c];
         const collada::TargetRef& ref = from.ref;
         bool matrix = ref.whole_matrix;
-        auto [place, is_new] = made.try_emplace({from.sampler, matrix}, uint32_t(samplers.size()));
+        auto [known, is_new] = made.try_emplace({from.sampler, matrix}, uint32_t(samplers.size()));
         if (is_new) {
             anim::SamplerRepairs repairs;
             samplers.push_back(make_sampler(data_.samplers[from.sampler], matrix, repairs));
@@ -102,7 +102,7 @@ anim::Animation ColladaImport::animation_of(const std::vector<bool>& wanted) {
             out_.animated[base + number] = true;
             if (matrix && k > 0) continue;
             anim::Channel channel;
-            channel.sampler = place->second;
+            channel.sampler = known->second;
             channel.component = stride == 1 ? 0 : k;
             channel.slot = base + number;
             channel.count = matrix ? 16 : 1;

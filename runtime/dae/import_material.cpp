@@ -15,13 +15,13 @@
 namespace kinora {
 
 const EffectShaders& ColladaImport::compiled(const collada::Effect& effect) {
-    auto [place, is_new] = compiled_.try_emplace(&effect);
-    if (!is_new) return place->second;
+    auto [known, is_new] = compiled_.try_emplace(&effect);
+    if (!is_new) return known->second;
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
     options.files = out_.readable;
-    place->second = compile_effect(effect, options, diagnostics_);
-    return place->second;
+    known->second = compile_effect(effect, options, diagnostics_);
+    return known->second;
 }
 
 ValueSlot ColladaImport::param_slot(uint32_t material, uint32_t effect, uint32_t param) const {

@@ -23,7 +23,7 @@ class ColladaImport {
     void run();
 
   private:
-    // import.cpp: every animatable number gets its place in values.
+    // import.cpp: every animatable number gets an offset in values.
     void allocate_values();
     uint32_t append(const double* numbers, size_t count);
     uint32_t append(const collada::ParamValue& value);
@@ -57,7 +57,7 @@ class ColladaImport {
                                            uint32_t param) const;
     void set_texture(uint32_t material, const collada::CommonValue& value, const char* name,
                      bool data, ShaderUse& use) const;
-    // Sampler `number` of its effect, or the one its <setparam>s put in its place.
+    // Sampler `number` of its effect, or the one its <setparam>s replaced it with.
     const collada::TextureSampler& sampler_of(uint32_t material, uint32_t number) const;
 
     // import_animation.cpp

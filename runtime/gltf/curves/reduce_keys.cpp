@@ -1,4 +1,5 @@
-// runtime/gltf/curves/reduce_keys.cpp: keys whose straight pieces follow a curve within a tolerance.
+// runtime/gltf/curves/reduce_keys.cpp: keys whose straight pieces follow a curve within a
+// tolerance.
 #include "runtime/gltf/curves/reduce_keys.h"
 
 #include <algorithm>

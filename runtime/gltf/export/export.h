@@ -30,10 +30,4 @@ struct GltfExportOptions {
 std::string export_glb(const SceneDescription& description, const GltfExportOptions& options,
                        Diagnostics& diagnostics);
 
-// The two parts of such a file: the JSON, and the buffer it speaks of ("" if none).
-struct GlbParts {
-    std::string json, buffer;
-};
-GlbParts split_glb(const std::string& glb);
-
 }  // namespace kinora

@@ -1,13 +1,16 @@
-// runtime/gltf/export/meshes.cpp: meshes: one vertex for each tuple of indices, influences, targets.
+// runtime/gltf/export/meshes.cpp: meshes: one vertex for each tuple of indices, influences,
+// targets.
+#include "runtime/gltf/export/meshes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
-#include "runtime/build/mesh.h"
 #include "runtime/description/pair_numbers.h"
-#include "runtime/gltf/export/export_p.h"
+#include "runtime/gltf/export/influences.h"
 
 namespace kinora {
 
@@ -47,11 +50,11 @@ void push(std::vector<float>& numbers, const GltfAttribute& a, uint32_t corner) 
 
 }  // namespace
 
-uint32_t GltfExport::mesh(const MeshUse& use) {
+uint32_t MeshWriter::write(const MeshUse& use) {
     const MeshDefinition& definition = description_.meshes[use.mesh];
     std::string key = fmt::format("{} {} {}", use.mesh, use.morph, use.skin);
     for (const PrimitiveGroup& group : definition.groups)
-        key += fmt::format(" {}", material(use, group));
+        key += fmt::format(" {}", materials_.write(use, group));
     auto [found, fresh] = meshes_.try_emplace(key, kNone);
     if (!fresh) return found->second;
     auto [built, is_new] = built_.try_emplace(use.mesh);
@@ -59,18 +62,17 @@ uint32_t GltfExport::mesh(const MeshUse& use) {
     Json primitives = Json::array();
     for (uint32_t g = 0; g < definition.groups.size(); ++g)
         if (!definition.groups[g].triangles.empty())
-            primitives.push_back(primitive(use, definition.groups[g], built->second, g));
+            primitives.push_back(primitive(use, g, built->second));
     if (primitives.empty()) return kNone;
     Json result = {{"primitives", primitives}};
     if (!definition.id.empty()) result["name"] = definition.id;
-    json_["meshes"].push_back(result);
-    return found->second = uint32_t(json_["meshes"].size() - 1);
+    return found->second = document_.add("meshes", std::move(result));
 }
 
-Json GltfExport::primitive(const MeshUse& use, const PrimitiveGroup& group, const Mesh& built,
-                           uint32_t group_index) {
+Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const Mesh& built) {
     const MeshDefinition& definition = description_.meshes[use.mesh];
-    std::vector<GltfAttribute> others = attributes_of(look_of(use, group), group);
+    const PrimitiveGroup& group = definition.groups[group_index];
+    std::vector<GltfAttribute> others = attributes_of(looks_.look_of(use, group), group, losses_);
     // A normal's number names its position too (build_mesh); each further attribute splits on.
     std::vector<uint32_t> vertex = built.groups[group_index].normal_corners;
     auto renumber = [&](const std::vector<uint32_t>& entries) {
@@ -95,76 +97,50 @@ Json GltfExport::primitive(const MeshUse& use, const PrimitiveGroup& group, cons
         push(normals,
              unit_normal(vec3(built.normals[built.groups[group_index].normal_corners[c]])));
     }
-    Json attributes = {{"POSITION", accessor(positions, 3, kVertexTarget, true)},
-                       {"NORMAL", accessor(normals, 3, kVertexTarget, false)}};
+    Json attributes = {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)},
+                       {"NORMAL", buffer_.accessor(normals, 3, kVertexTarget, false)}};
     for (const GltfAttribute& a : others) {
         std::vector<float> numbers;
         for (uint32_t c : corners) push(numbers, a, c);
-        attributes[a.name] = accessor(numbers, a.width, kVertexTarget, false);
+        attributes[a.name] = buffer_.accessor(numbers, a.width, kVertexTarget, false);
     }
     if (use.skin != kNone) add_influences(use, position_index, attributes);
     Json result = {{"attributes", attributes}};
-    result["indices"] =
-        count <= kMostShortIndices
-            ? accessor(std::vector<uint16_t>(vertex.begin(), vertex.end()), 1, kIndexTarget, false)
-            : accessor(vertex, 1, kIndexTarget, false);
-    if (uint32_t m = material(use, group); m != kNone) result["material"] = m;
+    result["indices"] = count <= kMostShortIndices
+                            ? buffer_.accessor(std::vector<uint16_t>(vertex.begin(), vertex.end()),
+                                               1, kIndexTarget, false)
+                            : buffer_.accessor(vertex, 1, kIndexTarget, false);
+    if (uint32_t m = materials_.write(use, group); m != kNone) result["material"] = m;
     if (use.morph != kNone) add_targets(use, built, group_index, corners, result);
     return result;
 }
 
-// All influences, the strongest first, four a set, their weights adding up to 1.
-void GltfExport::add_influences(const MeshUse& use, const std::vector<uint32_t>& positions,
+// Four influences a set.
+void MeshWriter::add_influences(const MeshUse& use, const std::vector<uint32_t>& positions,
                                 Json& attributes) {
-    const SkinDefinition& skin = description_.skins[use.skin];
-    struct Influence {
-        uint32_t joint;
-        float weight;
-    };
-    uint32_t still = uint32_t(skin.inverse_bind.size());  // the joint of the bind shape
-    std::vector<std::vector<Influence>> all;
+    std::vector<std::vector<JointInfluence>> all =
+        vertex_influences(description_.skins[use.skin], positions);
     size_t most = 1;
-    for (uint32_t p : positions) {
-        std::vector<Influence>& list = all.emplace_back();
-        if (p + 1 < skin.offsets.size())
-            for (uint32_t i = skin.offsets[p]; i < skin.offsets[p + 1]; ++i)
-                if (skin.weights[i] > 0)
-                    list.push_back(
-                        {skin.joints[i] < 0 ? still : uint32_t(skin.joints[i]), skin.weights[i]});
-        std::stable_sort(list.begin(), list.end(),
-                         [](auto& a, auto& b) { return a.weight > b.weight; });
-        if (list.empty()) list.push_back({0, 1.0f});  // what has no weight follows the root joint
-        // A joint may stand twice; glTF wants each once a vertex.
-        for (size_t i = 0; i < list.size(); ++i)
-            for (size_t k = i + 1; k < list.size();)
-                if (list[k].joint == list[i].joint) {
-                    list[i].weight += list[k].weight;
-                    list.erase(list.begin() + long(k));
-                } else {
-                    ++k;
-                }
-        double sum = 0;
-        for (const Influence& i : list) sum += double(i.weight);
-        for (Influence& i : list) i.weight = float(double(i.weight) / sum);
-        most = std::max(most, list.size());
-    }
+    for (const std::vector<JointInfluence>& list : all) most = std::max(most, list.size());
     for (size_t set = 0; set < (most + 3) / 4; ++set) {
         std::vector<uint16_t> joints;
         std::vector<float> weights;
-        for (const std::vector<Influence>& list : all)
+        for (const std::vector<JointInfluence>& list : all)
             for (size_t i = 4 * set; i < 4 * set + 4; ++i) {
                 joints.push_back(i < list.size() ? uint16_t(list[i].joint) : 0);
                 weights.push_back(i < list.size() ? list[i].weight : 0.0f);
             }
-        attributes[fmt::format("JOINTS_{}", set)] = accessor(joints, 4, kVertexTarget, false);
-        attributes[fmt::format("WEIGHTS_{}", set)] = accessor(weights, 4, kVertexTarget, false);
+        attributes[fmt::format("JOINTS_{}", set)] =
+            buffer_.accessor(joints, 4, kVertexTarget, false);
+        attributes[fmt::format("WEIGHTS_{}", set)] =
+            buffer_.accessor(weights, 4, kVertexTarget, false);
     }
 }
 
 // Differences from the base, whatever the method: (1 - sum of w) base + sum of w target is base +
 // sum of w (target - base). Normals of a target: the file's where its corners are the base's,
 // smooth ones where the base has none either, else they stay.
-void GltfExport::add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
+void MeshWriter::add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
                              const std::vector<uint32_t>& corners, Json& primitive) {
     const MorphDefinition& morph = description_.morphs[use.morph];
     const MeshDefinition& base = description_.meshes[use.mesh];
@@ -198,8 +174,9 @@ void GltfExport::add_targets(const MeshUse& use, const Mesh& built, uint32_t gro
             }
             push(normals, to - from);
         }
-        primitive["targets"].push_back({{"POSITION", accessor(positions, 3, kVertexTarget, true)},
-                                        {"NORMAL", accessor(normals, 3, kVertexTarget, false)}});
+        primitive["targets"].push_back(
+            {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)},
+             {"NORMAL", buffer_.accessor(normals, 3, kVertexTarget, false)}});
     }
 }
 

@@ -16,6 +16,7 @@
 #include "runtime/base/stats.h"
 #include "runtime/dae/export.h"
 #include "runtime/description/findings.h"
+#include "runtime/gltf/document/glb.h"
 #include "runtime/gltf/export/export.h"
 #include "runtime/load/import_scene.h"
 #include "runtime/load/override_shader.h"

@@ -13,24 +13,24 @@ namespace {
 
 const std::string kFolder = KINORA_SOURCE_DIR "/assets/gltf/";
 
-// World places of the shape on the node with that name, whatever kind it is.
-std::vector<dvec3> places_of(const Scene& scene, std::string_view node) {
-    std::vector<dvec3> places;
+// World positions of the shape on the node with that name, whatever kind it is.
+std::vector<dvec3> positions_of(const Scene& scene, std::string_view node) {
+    std::vector<dvec3> positions;
     for (const Shape& shape : scene.shapes) {
         if (scene.description->nodes[scene.nodes[shape.node].definition].id != node) continue;
         const Mesh& mesh = scene.meshes[shape.mesh];
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
         for (const vec4& p : instanced ? mesh.positions : shape.positions)
-            places.push_back(instanced ? dvec3(scene.nodes[shape.node].world *
-                                               dvec4(dvec3(p) + mesh.anchor, 1.0))
-                                       : dvec3(p) + scene.origin);
+            positions.push_back(instanced ? dvec3(scene.nodes[shape.node].world *
+                                                  dvec4(dvec3(p) + mesh.anchor, 1.0))
+                                          : dvec3(p) + scene.origin);
     }
-    return places;
+    return positions;
 }
 
-double nearest(dvec3 p, const std::vector<dvec3>& places) {
+double nearest(dvec3 p, const std::vector<dvec3>& positions) {
     double best = 1e300;
-    for (dvec3 q : places) best = std::min(best, glm::length(p - q));
+    for (dvec3 q : positions) best = std::min(best, glm::length(p - q));
     return best;
 }
 
@@ -44,11 +44,11 @@ TEST(GltfFromBlender, VerticesAreWhereBlenderHasThem) {
     for (const auto& frame : frames) {
         r->frame(frame["time"].get<double>());
         for (const char* node : {"post", "box"}) {
-            std::vector<dvec3> ours = places_of(*r->scene, node), theirs;
+            std::vector<dvec3> ours = positions_of(*r->scene, node), theirs;
             for (const auto& p : frame["places"][node])
                 theirs.emplace_back(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
             ASSERT_FALSE(ours.empty()) << node;
-            // glTF splits vertices where normals do: the same set of places.
+            // glTF splits vertices where normals do: the same set of positions.
             for (dvec3 p : theirs)
                 EXPECT_LT(nearest(p, ours), 2e-5) << node << " at " << frame["time"];
             for (dvec3 p : ours) EXPECT_LT(nearest(p, theirs), 2e-5) << node;

@@ -1,5 +1,5 @@
-// tests/runtime/gltf/import_gltf_hostile_test.cpp: glTF files that lie: findings with their places,
-// no crash, no memory beyond what a file's size allows.
+// tests/runtime/gltf/import_gltf_hostile_test.cpp: glTF files that lie: findings with their
+// locations, no crash, no memory beyond what a file's size allows.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,8 +9,8 @@
 #include <random>
 
 #include "runtime/build/build_scene.h"
-#include "runtime/gltf/import/import.h"
 #include "runtime/gltf/file/json_scan.h"
+#include "runtime/gltf/import/import.h"
 #include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
@@ -308,7 +308,7 @@ TEST(GltfHostile, ChangedBytesNeverCrash) {
     }
 }
 
-// ---- places in JSON
+// ---- positions in JSON
 
 TEST(JsonText, PointersFindTheirValues) {
     std::string text = R"({ "a" : [1, {"b/c": "x\"}]", "é": [[], 5e3]}], "d": true })";

@@ -180,16 +180,17 @@ TEST(GltfAnimation, EachIsAClipAndAllPlayAtOnceUnlessTheyMeet) {
 
 // ---- skins and morphs: deformed vertices of a built scene
 
-// World places of the first shape's vertices at a time.
+// World positions of the first shape's vertices at a time.
 std::vector<dvec3> posed(Rendering& r, double time) {
     r.frame(time);
     if (!r.scene || r.scene->shapes.empty()) return {};
-    std::vector<dvec3> places;
-    for (const vec4& p : r.scene->shapes[0].positions) places.push_back(dvec3(p) + r.scene->origin);
-    return places;
+    std::vector<dvec3> positions;
+    for (const vec4& p : r.scene->shapes[0].positions)
+        positions.push_back(dvec3(p) + r.scene->origin);
+    return positions;
 }
 
-void expect_places(const std::vector<dvec3>& got, const std::vector<dvec3>& expected) {
+void expect_positions(const std::vector<dvec3>& got, const std::vector<dvec3>& expected) {
     ASSERT_EQ(got.size(), expected.size());
     for (size_t i = 0; i < got.size(); ++i)
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[i][k], expected[i][k], 2e-6) << i << " " << k;
@@ -238,9 +239,9 @@ TEST(GltfSkin, VerticesFollowTheirJointsAndNotTheirNode) {
             return dvec3(std::cos(angle) * q.x - std::sin(angle) * q.y + 0.25,
                          std::sin(angle) * q.x + std::cos(angle) * q.y, q.z);
         };
-        expect_places(posed(*r, time),
-                      {lower(s.rest[0]), 0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]),
-                       upper(s.rest[2])});
+        expect_positions(posed(*r, time),
+                         {lower(s.rest[0]), 0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]),
+                          upper(s.rest[2])});
     }
 }
 
@@ -249,7 +250,7 @@ TEST(GltfSkin, WithoutInverseBindMatricesTheyAreTheIdentity) {
     auto r = rendering_of(s.g);
     auto lower = [](dvec3 p) { return p + dvec3(-0.25, 0, 0); };
     auto upper = [](dvec3 p) { return p + dvec3(0.25, 0, 0); };
-    expect_places(
+    expect_positions(
         posed(*r, 0),
         {lower(s.rest[0]), 0.25 * lower(s.rest[1]) + 0.75 * upper(s.rest[1]), upper(s.rest[2])});
 }
@@ -274,17 +275,17 @@ TEST(GltfMorph, TargetsAddByWeightsOfTheMeshTheNodeAndChannels) {
         {{"POSITION", g.floats({0, 0, 0, 0, 0.25, 0, 0, 0, 0}, "VEC3")}}};
     g.json["meshes"][size_t(m)]["weights"] = {0.5, 0.0};
     int n = g.node({{"mesh", m}, {"translation", {0.125, 0, 0}}});
-    auto places = [](double w0, double w1) {
+    auto positions = [](double w0, double w1) {
         return std::vector<dvec3>{{0.125, 0, w0}, {0.625, 0.25 * w1, 0}, {0.125, 0.5, 0}};
     };
-    expect_places(posed(*rendering_of(g), 0), places(0.5, 0));
+    expect_positions(posed(*rendering_of(g), 0), positions(0.5, 0));
     g.json["nodes"][size_t(n)]["weights"] = {0.25, 1.0};
-    expect_places(posed(*rendering_of(g), 0), places(0.25, 1));
+    expect_positions(posed(*rendering_of(g), 0), positions(0.25, 1));
     g.json["animations"].push_back(json::object());
     g.animate(0, n, "weights", "LINEAR", {0, 2}, {0, 1, 1, -1});
     auto r = rendering_of(g);
-    expect_places(posed(*r, 1), places(0.5, 0));
-    expect_places(posed(*r, 2), places(1, -1));
+    expect_positions(posed(*r, 1), positions(0.5, 0));
+    expect_positions(posed(*r, 2), positions(1, -1));
 }
 
 // What a frame is does not depend on the one before it.

@@ -143,11 +143,11 @@ TEST(Gltf, SparseAccessorsReplaceElementsOfAViewOrOfZeros) {
         GltfText g = with_mesh([&](GltfText& s) {
             int base = has_view ? s.view(kFour.data(), 48) : -1;
             int position = s.accessor(base, 5126, 4, "VEC3");
-            std::vector<uint16_t> places = {1, 3};
+            std::vector<uint16_t> indices = {1, 3};
             std::vector<float> values = {5, 6, 7, 8, 9, 10};
             s.json["accessors"][size_t(position)]["sparse"] = {
                 {"count", 2},
-                {"indices", {{"bufferView", s.view(places.data(), 4)}, {"componentType", 5123}}},
+                {"indices", {{"bufferView", s.view(indices.data(), 4)}, {"componentType", 5123}}},
                 {"values", {{"bufferView", s.view(values.data(), 24)}}}};
             return s.mesh({{"POSITION", position}}, s.shorts({0, 1, 2}));
         });

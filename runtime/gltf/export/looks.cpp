@@ -1,12 +1,13 @@
-// runtime/gltf/export/attributes.cpp: which vertex attributes are written, and glTF's names for
-// them.
+// runtime/gltf/export/looks.cpp: what a primitive wears, and which vertex attributes are written.
+#include "runtime/gltf/export/looks.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
 #include "runtime/description/shader_library.h"
-#include "runtime/gltf/export/export_p.h"
+#include "runtime/gltf/export/params.h"
 
 namespace kinora {
 
@@ -38,7 +39,7 @@ bool is_read(const GltfLook& look, const VertexAttribute& a) {
 
 }  // namespace
 
-GltfLook GltfExport::look_of(const MeshUse& use, const PrimitiveGroup& group) {
+GltfLook GltfLooks::look_of(const MeshUse& use, const PrimitiveGroup& group) {
     const MaterialUse* bound = nullptr;
     for (const MaterialUse& m : use.materials)
         if (m.symbol == group.symbol) bound = &m;
@@ -56,11 +57,8 @@ GltfLook GltfExport::look_of(const MeshUse& use, const PrimitiveGroup& group) {
     return look;
 }
 
-// In the order of their sets. What glTF's own materials show has glTF's names; what only shaders
-// read has names of the application's own, "_HEAT", which viewers leave alone (glTF 2.0, 3.7.2.1).
-// Texture coordinates are for both.
-std::vector<GltfAttribute> GltfExport::attributes_of(const GltfLook& look,
-                                                     const PrimitiveGroup& group) {
+std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGroup& group,
+                                         LossReport& losses) {
     std::vector<const VertexAttribute*> sorted;
     for (const VertexAttribute& a : group.attributes) sorted.push_back(&a);
     std::stable_sort(sorted.begin(), sorted.end(),
@@ -77,8 +75,9 @@ std::vector<GltfAttribute> GltfExport::attributes_of(const GltfLook& look,
         if (own && !tangent && !is_read(look, *a)) continue;
         if (!wide_enough || a->stride == 0 || (a->stride > 4 && !texcoord)) {
             if (is_read(look, *a))
-                lost(fmt::format("material '{}'", look.definition.id),
-                     fmt::format("its vertex input '{}' of {} numbers", a->semantic, a->stride));
+                losses.lost(
+                    fmt::format("material '{}'", look.definition.id),
+                    fmt::format("its vertex input '{}' of {} numbers", a->semantic, a->stride));
             continue;
         }
         uint32_t index = seen[a->semantic]++;
@@ -88,6 +87,20 @@ std::vector<GltfAttribute> GltfExport::attributes_of(const GltfLook& look,
         result.push_back({std::move(name), a, texcoord ? 2 : a->stride});
     }
     return result;
+}
+
+uint32_t texcoord_index(const std::string& name, const MaterialUse& use,
+                        const PrimitiveGroup& group) {
+    std::vector<uint32_t> sets;
+    for (const VertexAttribute& a : group.attributes)
+        if (a.semantic == "TEXCOORD" && a.stride >= 2) sets.push_back(a.set);
+    std::sort(sets.begin(), sets.end());
+    for (const VertexBinding& b : use.vertex_bindings) {
+        if (b.param != name || b.semantic != "TEXCOORD" || b.set == kNone) continue;
+        auto found = std::find(sets.begin(), sets.end(), b.set);
+        if (found != sets.end()) return uint32_t(found - sets.begin());
+    }
+    return 0;
 }
 
 }  // namespace kinora

@@ -1,0 +1,67 @@
+// runtime/gltf/curves/curve_writer.h: curves of nodes as glTF's channels and samplers: exact where
+// it has them, else sampled.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "runtime/gltf/curves/channels.h"
+#include "runtime/gltf/curves/reduce_keys.h"
+#include "runtime/gltf/curves/takes.h"
+#include "runtime/gltf/document/buffer_writer.h"
+
+namespace kinora {
+
+// A node's property over time, and how near its keys must come.
+struct NodeCurve : Curve {
+    const char* name;  // glTF's path: "translation", "weights"
+    std::vector<MovingChannel> channels;
+    double tolerance = 1e-4;
+    std::vector<double> times;  // keys of the channels, more where they turn far
+    uint32_t element_width() const;
+};
+
+class CurveWriter {
+  public:
+    // `error` is GltfExportOptions::animation_error.
+    CurveWriter(std::span<const Take> takes, double error, GltfDocument& document,
+                BufferWriter& buffer);
+    ~CurveWriter();
+
+    // A curve that stays where it is needs no keys: it is written into the node, or is one key
+    // where another take may move the node elsewhere.
+    void add(uint32_t take, uint32_t node, NodeCurve curve);
+
+    // Cubics whose inner times are the thirds are cubics of the time: tangents are three times the
+    // legs over the duration. False where the channels are none with the same keys, which write
+    // values from first_value on.
+    bool add_spline(uint32_t take, uint32_t node, const NodeCurve& curve, uint32_t first_value);
+
+    // Adds an animation to the document for each take that has channels.
+    void write_animations();
+    void report(LossReport& losses) const;  // what was sampled
+    bool has_channels(uint32_t take) const;
+
+  private:
+    struct Output;  // channels and samplers of a take
+    bool add_step(uint32_t take, uint32_t node, const NodeCurve& curve);
+    void add_still(uint32_t take, uint32_t node, const NodeCurve& curve,
+                   const std::vector<double>& numbers, double tolerance);
+    void add_sampled(uint32_t take, uint32_t node, const NodeCurve& curve);
+    void add_channel(uint32_t take, uint32_t node, const NodeCurve& curve,
+                     const std::vector<double>& times, const std::vector<double>& numbers,
+                     const char* interpolation);
+
+    std::span<const Take> takes_;
+    double error_;
+    GltfDocument& document_;
+    BufferWriter& buffer_;
+    std::vector<Output> outputs_;                            // per take
+    std::map<std::vector<double>, uint32_t> key_accessors_;  // of times
+    double worst_error_ = 0;
+    uint32_t sampled_ = 0;
+};
+
+}  // namespace kinora

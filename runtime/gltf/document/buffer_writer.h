@@ -1,0 +1,31 @@
+// runtime/gltf/document/buffer_writer.h: the buffer of a glTF file, its views and accessors.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/gltf/document/document.h"
+
+namespace kinora {
+
+class BufferWriter {
+  public:
+    explicit BufferWriter(GltfDocument& document) : document_(document) {}
+
+    // A buffer view of these bytes; `target` is OpenGL's number, 0 for none.
+    uint32_t view(const void* data, size_t size, int target);
+
+    // An accessor of elements of `width` numbers: float, uint8_t, uint16_t or uint32_t. `bounds`:
+    // with "min" and "max".
+    template <class T>
+    uint32_t accessor(const std::vector<T>& numbers, uint32_t width, int target, bool bounds);
+
+    const std::string& bytes() const { return bytes_; }
+
+  private:
+    GltfDocument& document_;
+    std::string bytes_;
+};
+
+}  // namespace kinora

@@ -1,0 +1,38 @@
+// runtime/gltf/export/lights.h: lights as KHR_lights_punctual.
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "runtime/gltf/export/bounds.h"
+#include "runtime/gltf/export/rsl.h"
+
+namespace kinora {
+
+class LightWriter {
+  public:
+    LightWriter(const SceneDescription& description, const SceneBounds& bounds, const dmat4& axes,
+                RslWriter& rsl, GltfDocument& document, LossReport& losses)
+        : description_(description),
+          bounds_(bounds),
+          axes_(axes),
+          rsl_(rsl),
+          document_(document),
+          losses_(losses) {}
+
+    // A light that stands at `world` where it is first met.
+    uint32_t write(uint32_t light, const dmat4& world);
+
+  private:
+    uint32_t write_new(const LightDefinition& definition, const dmat4& world);
+
+    const SceneDescription& description_;
+    const SceneBounds& bounds_;
+    const dmat4& axes_;
+    RslWriter& rsl_;
+    GltfDocument& document_;
+    LossReport& losses_;
+    std::map<uint32_t, uint32_t> lights_;  // of definitions
+};
+
+}  // namespace kinora

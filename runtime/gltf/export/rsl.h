@@ -1,0 +1,35 @@
+// runtime/gltf/export/rsl.h: shaders as extras.kinora_rsl, which import_gltf reads.
+#pragma once
+
+#include <vector>
+
+#include "runtime/gltf/export/looks.h"
+#include "runtime/gltf/export/textures.h"
+
+namespace kinora {
+
+class RslWriter {
+  public:
+    RslWriter(const SceneDescription& description, TextureWriter& textures, LossReport& losses)
+        : description_(description), textures_(textures), losses_(losses) {}
+
+    // {"library": name} or {"code", "shader"}, and "params".
+    Json shader(const ShaderUse& use);
+    // One, or a list of layers.
+    Json stage(const std::vector<ShaderUse>& uses);
+    // "atmosphere" and "imagers"; an empty object where there are none.
+    Json picture(const PictureShaders& picture);
+    // The stages of a material on a group; an empty object where there are none.
+    Json material(const GltfLook& look, const PrimitiveGroup& group);
+
+  private:
+    void set_strings(const ParamSource& source, Json& params);
+    Json bound_stage(const std::vector<ShaderUse>& uses, const MaterialUse& bound,
+                     const PrimitiveGroup& group);
+
+    const SceneDescription& description_;
+    TextureWriter& textures_;
+    LossReport& losses_;
+};
+
+}  // namespace kinora

@@ -1,0 +1,46 @@
+// runtime/gltf/export/scene_extras.cpp: what of a scene glTF has no words for.
+#include "runtime/gltf/export/scene_extras.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace kinora {
+
+namespace {
+
+// Clips that are no animation of their own: ranges of the scene's.
+Json clip_ranges(const SceneDescription& description, std::span<const Take> takes,
+                 const CurveWriter& curves) {
+    Json ranges = Json::array();
+    for (const ClipDefinition& clip : description.clips) {
+        bool is_take = false;
+        for (uint32_t t = 0; t < takes.size(); ++t)
+            is_take |= takes[t].animation == clip.animation.get() && curves.has_channels(t);
+        if (!is_take)
+            ranges.push_back({{"name", clip.name}, {"start", clip.start}, {"end", clip.end}});
+    }
+    return ranges;
+}
+
+}  // namespace
+
+void write_scene_extras(const SceneDescription& description, std::span<const Take> takes,
+                        const CurveWriter& curves, RslWriter& rsl, GltfDocument& document,
+                        LossReport& losses) {
+    Json extras = Json::object();
+    Json ranges = clip_ranges(description, takes, curves);
+    if (!ranges.empty()) extras["kinora_clips"] = ranges;
+    if (description.start_time) extras["kinora_start_time"] = *description.start_time;
+    if (description.end_time) extras["kinora_end_time"] = *description.end_time;
+    if (description.frame_rate) extras["kinora_frame_rate"] = *description.frame_rate;
+    if (!ranges.empty()) losses.in_extras("the scene", fmt::format("{} clips", ranges.size()));
+    Json shaders = rsl.picture(description.picture);
+    if (!shaders.empty()) {
+        extras["kinora_rsl"] = shaders;
+        losses.in_extras("the scene", "its atmosphere and imagers");
+    }
+    if (!extras.empty()) document.scene()["extras"] = extras;
+}
+
+}  // namespace kinora

@@ -1,0 +1,14 @@
+// runtime/gltf/export/scene_extras.h: what of a scene glTF has no words for: clips, times, shaders.
+#pragma once
+
+#include "runtime/gltf/curves/curve_writer.h"
+#include "runtime/gltf/export/rsl.h"
+
+namespace kinora {
+
+// `curves` has written the takes.
+void write_scene_extras(const SceneDescription& description, std::span<const Take> takes,
+                        const CurveWriter& curves, RslWriter& rsl, GltfDocument& document,
+                        LossReport& losses);
+
+}  // namespace kinora
