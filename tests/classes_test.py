@@ -20,7 +20,6 @@ LARGER = {
     "rsl/lower/Lowering": (11, 129, 38),
     "rsl/syntax/Parser": (5, 99, 15),
     "rsl/text/Preprocessor": (3, 51, 17),
-    "runtime/build/SceneBuilder": (8, 62, 17),
     "runtime/gltf/GltfExport": (7, 59, 28),
     "runtime/gltf/GltfImport": (12, 53, 23),
     "runtime/shading/Shading": (11, 54, 16),

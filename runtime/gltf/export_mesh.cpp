@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/build/mesh.h"
+#include "runtime/build/shapes/mesh.h"
 #include "runtime/description/pair_numbers.h"
 #include "runtime/gltf/export_p.h"
 
