@@ -55,7 +55,7 @@ bool DiceViews::set_dice_view() {
     double aspect = camera_aspect(scene_).value_or(16.0 / 9.0);
     int width = std::max(options.width, 1);
     int height = options.height > 0 ? options.height : std::max(1, int(width / aspect + 0.5));
-    return !raytrace::is_error(place_camera(scene_, width, height));
+    return !raytrace::is_error(set_view(scene_, width, height));
 }
 
 // Where the displaced meshes are for the camera, as both stand.

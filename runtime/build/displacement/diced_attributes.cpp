@@ -74,9 +74,9 @@ void bind_diced_attributes(Scene& scene, const DisplacedMesh& mesh, DicedMesh& m
         PrimitiveGroup& group = *made.mesh.own_groups[g];
         add_attributes(scene.looks[surface.look]->varying, made.mesh, made.groups[g], group);
         for (const VertexUse* use : {&surface.transformation, &surface.displacement})
-            if (use->look != kNone)
-                add_attributes(scene.vertex_looks[use->look]->varying, made.mesh, made.groups[g],
-                               group);
+            if (use->instance != kNone)
+                add_attributes(scene.vertex_instances[use->instance]->varying, made.mesh,
+                               made.groups[g], group);
     });
     for_each_surface(scene, mesh, [&](Surface& surface, size_t g) {
         const PrimitiveGroup& old = *mesh.base.groups[g].definition;
@@ -84,8 +84,8 @@ void bind_diced_attributes(Scene& scene, const DisplacedMesh& mesh, DicedMesh& m
         surface.st = diced_attribute(surface.st, "TEXCOORD", old, group);
         rebind(scene.looks[surface.look]->varying, old, group, surface.varying);
         for (VertexUse* use : {&surface.transformation, &surface.displacement})
-            if (use->look != kNone)
-                rebind(scene.vertex_looks[use->look]->varying, old, group, use->varying);
+            if (use->instance != kNone)
+                rebind(scene.vertex_instances[use->instance]->varying, old, group, use->varying);
     });
 }
 

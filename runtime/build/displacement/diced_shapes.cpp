@@ -24,8 +24,8 @@ std::vector<VertexWork::Use> vertex_uses(const Scene& scene, std::span<const uin
         std::array<const VertexUse*, VertexWork::kStages> stages = {&surface.transformation,
                                                                     &surface.displacement};
         for (size_t s = 0; s < stages.size(); ++s) {
-            if (stages[s]->look == kNone) continue;
-            use.looks[s] = scene.vertex_looks[stages[s]->look].get();
+            if (stages[s]->instance == kNone) continue;
+            use.looks[s] = scene.vertex_instances[stages[s]->instance].get();
             use.varying[s] = stages[s]->varying;
         }
     }

@@ -27,13 +27,13 @@ Found examine(const Scene& scene, uint32_t index, std::span<const uint32_t> surf
     found.key = {shape.mesh};
     for (uint32_t s : surfaces) {
         const Surface& surface = scene.surfaces[s];
-        found.mesh.diced.push_back(surface.displacement.look != kNone);
+        found.mesh.diced.push_back(surface.displacement.instance != kNone);
         found.key.push_back(uintptr_t(surface.st));
         for (const VertexUse* use : {&surface.transformation, &surface.displacement}) {
-            found.key.push_back(use->look);
+            found.key.push_back(use->instance);
             for (const VertexAttribute* a : use->varying) found.key.push_back(uintptr_t(a));
-            if (use->look == kNone) continue;
-            const ShaderInstance& instance = *scene.vertex_looks[use->look];
+            if (use->instance == kNone) continue;
+            const ShaderInstance& instance = *scene.vertex_instances[use->instance];
             found.any = true;
             found.mesh.each_frame |= runs_each_frame(instance, scene, shape.node);
             found.by_node |= depends_on_node(instance);

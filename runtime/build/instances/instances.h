@@ -9,7 +9,7 @@
 namespace kinora {
 
 // Instances of all that the scene's surfaces, lights, volumes and camera have shaders for, lowered
-// and compiled. Writes Scene::looks, vertex_looks, volumes, atmosphere, imager and outputs, and
+// and compiled. Writes Scene::looks, vertex_instances, volumes, atmosphere, imager and outputs, and
 // what surfaces and lights have of their instances. False when a shader cannot be compiled; all
 // such have been reported.
 bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& diagnostics);

@@ -24,7 +24,7 @@ void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
                                         layers_of(material), use, shape.node);
     volumes_.add(surface, material, use);
     ShaderInstance& instance = *made.instance;
-    if (surface.displacement.look != kNone)
+    if (surface.displacement.instance != kNone)
         instance.done_layers = uint32_t(material.displacements.size());
     const PrimitiveGroup& group = *scene_.meshes[shape.mesh].groups[surface.group].definition;
     VertexInputs inputs = find_vertex_inputs(group, use, instance.layers);

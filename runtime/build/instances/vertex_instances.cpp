@@ -20,11 +20,11 @@ void VertexInstances::add(ShaderInstanceKind kind, Surface& surface, const Mater
     made.key += varying_key(*made.instance);
     VertexUse& result = displacement ? surface.displacement : surface.transformation;
     result.varying = std::move(inputs.attributes);
-    result.look = find_or_compile(std::move(made));
+    result.instance = find_or_compile(std::move(made));
 }
 
 uint32_t VertexInstances::find_or_compile(KeyedInstance made) {
-    auto [entry, is_new] = by_key_.try_emplace(made.key, uint32_t(scene_.vertex_looks.size()));
+    auto [entry, is_new] = by_key_.try_emplace(made.key, uint32_t(scene_.vertex_instances.size()));
     if (!is_new) return entry->second;
     ShaderInstance& instance = *made.instance;
     instance.index = entry->second;
@@ -35,7 +35,7 @@ uint32_t VertexInstances::find_or_compile(KeyedInstance made) {
     if (compiled && displacement && !instance.lowered.moves_P)
         entry->second = kNone;
     else
-        scene_.vertex_looks.push_back(std::move(made.instance));
+        scene_.vertex_instances.push_back(std::move(made.instance));
     return entry->second;
 }
 

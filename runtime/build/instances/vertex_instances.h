@@ -10,7 +10,7 @@
 
 namespace kinora {
 
-// Writes Scene::vertex_looks.
+// Writes Scene::vertex_instances.
 class VertexInstances {
   public:
     VertexInstances(Scene& scene, InstanceCompiler& compiler)

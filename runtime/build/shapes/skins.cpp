@@ -135,7 +135,7 @@ void SkinBinder::choose_space(const SkinDefinition& skin, Shape& shape) const {
     for (size_t j = 0; j < shape.joint_nodes.size() && !shape.in_world; ++j)
         if (shape.joint_nodes[j] == kNone)  // the node's matrix has the rest
             shape.skeleton.inverse_bind[j] = shape.conversion;
-    if (space == SkinSpace::NodeBelow) shape.placed_below = shared;
+    if (space == SkinSpace::NodeBelow) shape.applies_below = shared;
 }
 
 skin::SkinMesh skin_mesh_of(const SceneDescription& description, const MeshUse& use,
