@@ -40,12 +40,6 @@ uint32_t append(std::vector<double>& values, std::initializer_list<double> numbe
 
 }  // namespace
 
-void Bounds::add(dvec3 p) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return;
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-}
-
 DefaultCamera default_camera(const Bounds& bounds, UpAxis up, std::vector<double>& values) {
     Frame frame = frame_of(up);
     dvec3 direction = glm::normalize(frame.right + 0.6 * frame.up + frame.back);

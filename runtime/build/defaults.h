@@ -2,15 +2,10 @@
 // (docs/format.md#cameras).
 #pragma once
 
+#include "runtime/build/shapes/bounds.h"
 #include "runtime/description/scene_description.h"
 
 namespace kinora {
-
-struct Bounds {
-    dvec3 low{1e300}, high{-1e300};
-    bool empty() const { return low.x > high.x; }
-    void add(dvec3 p);
-};
 
 // yfov 37, looking along (1, 0.6, 1) of the up-axis frame at the bounds, which fill the picture.
 struct DefaultCamera {

@@ -27,7 +27,7 @@ class MemoryFile {
 
 bool is_memory_file(const std::string& name);
 
-// What to open for a name: for a memory file the path of a copy without a place in any folder, gone
+// What to open for a name: for a memory file the path of a copy that stands in no folder, gone
 // with this object; else the name itself. Thread-safe.
 class FileToOpen {
   public:

@@ -18,7 +18,7 @@ class PairNumbers {
     // The number of the pair; `next` if it is new (then it is taken).
     uint32_t number(uint32_t a, uint32_t b, uint32_t next) {
         uint64_t key = uint64_t(a) << 32 | b;
-        size_t at = place(key);
+        size_t at = slot_of(key);
         if (slots_[at].key == key) return slots_[at].number;
         slots_[at] = {key, next};
         if (2 * ++used_ > slots_.size()) grow();
@@ -26,7 +26,7 @@ class PairNumbers {
     }
     bool contains(uint32_t a, uint32_t b) const {
         uint64_t key = uint64_t(a) << 32 | b;
-        return slots_[place(key)].key == key;
+        return slots_[slot_of(key)].key == key;
     }
 
   private:
@@ -34,7 +34,7 @@ class PairNumbers {
         uint64_t key;
         uint32_t number;
     };
-    size_t place(uint64_t key) const {
+    size_t slot_of(uint64_t key) const {
         size_t at = size_t((key * 0x9e3779b97f4a7c15ull) >> shift_);  // the highest bits mix best
         while (slots_[at].key != ~0ull && slots_[at].key != key)
             at = (at + 1) & (slots_.size() - 1);
@@ -45,7 +45,7 @@ class PairNumbers {
         old.swap(slots_);
         --shift_;
         for (const Slot& slot : old)
-            if (slot.key != ~0ull) slots_[place(slot.key)] = slot;
+            if (slot.key != ~0ull) slots_[slot_of(slot.key)] = slot;
     }
 
     std::vector<Slot> slots_;

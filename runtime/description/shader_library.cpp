@@ -19,7 +19,7 @@ extern const size_t kEmbeddedShadersCount;
 std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics&) {
     static std::mutex mutex;
     static std::map<std::string, std::shared_ptr<const rsl::Shader>, std::less<>> compiled;
-    static Diagnostics library_diagnostics;  // the library's places outlive every scene
+    static Diagnostics library_diagnostics;  // locations in the library outlive every scene
     std::lock_guard lock(mutex);
     if (auto found = compiled.find(name); found != compiled.end()) return found->second;
     for (size_t i = 0; i < kEmbeddedShadersCount; ++i) {

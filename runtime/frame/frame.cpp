@@ -39,7 +39,7 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
         scene.shutter = settings.shutter;
         update_transforms(scene);
     }
-    raytrace::CameraStatus camera = place_camera(scene, settings.width, settings.height);
+    raytrace::CameraStatus camera = set_view(scene, settings.width, settings.height);
     if (!report_camera(scene, camera, diagnostics)) return false;
     {
         StageTimer timer(stats.skin);

@@ -1,4 +1,4 @@
-// runtime/load/override_shader.h: --shader MATERIAL=FILE.sl: a look tried on without editing the
+// runtime/load/override_shader.h: --shader MATERIAL=FILE.sl: a shader tried on without editing the
 // scene.
 #pragma once
 

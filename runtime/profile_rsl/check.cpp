@@ -58,7 +58,7 @@ class Check {
         for (const collada::Effect& effect : scene_.effects) effects_.push_back(checked(effect));
         for (const collada::Material& material : scene_.materials) check_setparams(material);
         for (const collada::Light& light : scene_.lights)
-            check_place(light.rsl_material, "a light", {RslStage::Light});
+            check_user(light.rsl_material, "a light", {RslStage::Light});
         check_pictures(scene_.rsl_materials);
         for (const collada::Camera& camera : scene_.cameras) check_pictures(camera.rsl_materials);
         for (const collada::Node& node : scene_.nodes)
@@ -158,8 +158,8 @@ class Check {
                                 value_text(set.value));
     }
 
-    // The material stands where only some stages have a meaning: one of them must be there.
-    void check_place(uint32_t material, const char* place, std::vector<RslStage> wanted) {
+    // What uses the material gives only some stages a meaning: one of them must be there.
+    void check_user(uint32_t material, const char* user, std::vector<RslStage> wanted) {
         const CheckedEffect* effect = effect_of(material);
         if (!effect || !effect->compiled) return;
         bool found = false;
@@ -167,18 +167,18 @@ class Check {
             bool fits = std::find(wanted.begin(), wanted.end(), pass.from->stage) != wanted.end();
             if (!fits)
                 diagnostics_.report(Code::RSL_STAGE_PLACE, pass.from->where,
-                                    stage_name(pass.from->stage), place);
+                                    stage_name(pass.from->stage), user);
             found = found || fits;
         }
         if (!found)
             diagnostics_.report(Code::RSL_STAGE_NONE, scene_.materials[material].where,
                                 scene_.effects[scene_.materials[material].effect].id,
-                                stage_name(wanted.front()), place);
+                                stage_name(wanted.front()), user);
     }
 
     void check_pictures(const std::vector<uint32_t>& materials) {
         for (uint32_t m : materials)
-            check_place(m, "a scene or camera", {RslStage::Volume, RslStage::Imager});
+            check_user(m, "a scene or camera", {RslStage::Volume, RslStage::Imager});
     }
 
     void check_binding(const collada::MaterialBinding& binding) {

@@ -10,11 +10,11 @@
 
 namespace kinora {
 
-// Compiles the code of every effect with profile_RSL and reports, at their places in the document
-// or the included file: errors of the code, stages without a shader, <bind>s and <setparam>s that
-// fit no parameter, <bind>s of instances that name none, parameters and shaders nothing uses,
-// stages where they have no meaning, files named outside `files`. Costs nothing for a scene without
-// RSL.
+// Compiles the code of every effect with profile_RSL and reports, at their locations in the
+// document or the included file: errors of the code, stages without a shader, <bind>s and
+// <setparam>s that fit no parameter, <bind>s of instances that name none, parameters and shaders
+// nothing uses, stages where they have no meaning, files named outside `files`. Costs nothing for a
+// scene without RSL.
 void check_profile_rsl(const collada::SceneData& scene,
                        const std::vector<std::string>& include_directories,
                        const AllowedPaths& files, Diagnostics& diagnostics);

@@ -1,5 +1,5 @@
 // runtime/profile_rsl/effect_shaders.h: the shaders of an effect's profile_RSL, and whether its
-// <bind>s fit them. Each function reports what is wrong at its place in the document.
+// <bind>s fit them. Each function reports what is wrong at its location in the document.
 #pragma once
 
 #include <memory>

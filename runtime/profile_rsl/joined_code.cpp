@@ -1,5 +1,5 @@
 // runtime/profile_rsl/joined_code.cpp: several <code> and <include> texts as one, with their
-// places.
+// locations.
 #include "runtime/profile_rsl/joined_code.h"
 
 #include <fmt/format.h>

@@ -7,8 +7,8 @@
 
 namespace kinora {
 
-// The texts in order, with the map from their offsets to places in the file. A code that comes from
-// another file than the first enters by #include, so that each keeps its own places.
+// The texts in order, with the map from their offsets to locations in the file. A code that comes
+// from another file than the first enters by #include, so that each keeps its own locations.
 std::string joined_code(const collada::RslShading& shading, SourceMap& map);
 
 }  // namespace kinora

@@ -37,7 +37,7 @@ raytrace::CameraOptics optics_of(const Scene& scene) {
 
 }  // namespace
 
-raytrace::CameraStatus place_camera(Scene& scene, int width, int height) {
+raytrace::CameraStatus set_view(Scene& scene, int width, int height) {
     const CameraSource& source = scene.cameras[scene.camera];
     const CameraDefinition& camera = scene.description->cameras[source.definition];
     const dmat4& world = scene.nodes[source.node].world;

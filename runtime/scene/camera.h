@@ -9,7 +9,7 @@
 namespace kinora {
 
 // Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
-raytrace::CameraStatus place_camera(Scene& scene, int width, int height);
+raytrace::CameraStatus set_view(Scene& scene, int width, int height);
 
 // Width / height of the scene's camera where its optics say so, at its base values.
 std::optional<double> camera_aspect(const Scene& scene);

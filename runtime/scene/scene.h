@@ -83,7 +83,7 @@ struct Shape {
     uint32_t morph_data = kNone;  // index into Scene::morphs
     dmat4 conversion{1.0};
     bool in_world = false;  // a skin's result is in world space; its node's matrix does not apply
-    uint32_t placed_below = kNone;      // if it does: below this node, which moves the joints, too
+    uint32_t applies_below = kNone;     // if it does: below this node, which moves the joints, too
     std::vector<uint32_t> joint_nodes;  // scene nodes
 
     // Where the triangles stand now: own buffers (accel space) for static and deforming shapes,
@@ -109,20 +109,20 @@ struct Shape {
 
 // A shader that moves a surface's vertices.
 struct VertexUse {
-    uint32_t look = kNone;  // into Scene::vertex_looks
+    uint32_t instance = kNone;  // into Scene::vertex_instances
     std::vector<const VertexAttribute*> varying;
 };
 
-// Triangles of one shape that wear one look: a row of the ray tracer.
+// Triangles of one shape that share a shader instance: a row of the ray tracer.
 struct Surface {
     uint32_t shape = kNone;
     uint32_t group = kNone;
-    uint32_t look = kNone;
+    uint32_t look = kNone;      // into Scene::looks
     uint32_t material = kNone;  // index into description.materials, kNone: the default
-    uint32_t interior = kNone;  // looks of the volumes inside and around; kNone: none
+    uint32_t interior = kNone;  // volumes inside and around, into Scene::looks; kNone: none
     uint32_t exterior = kNone;
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
-    // Vertex inputs of the look's varying parameters, in the order of ShaderInstance::varying.
+    // Vertex inputs of the instance's varying parameters, in the order of ShaderInstance::varying.
     std::vector<const VertexAttribute*> varying;
     VertexUse transformation, displacement;
 };
@@ -206,13 +206,14 @@ struct Scene {
     std::vector<LightSource> lights;
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<ShaderInstance>> looks;
-    std::vector<std::unique_ptr<ShaderInstance>> vertex_looks;  // displacements and transformations
-    uint32_t camera = 0;                                        // into cameras
-    uint32_t atmosphere = kNone;  // look of the volume outside all objects
-    uint32_t imager = kNone;      // look that the finished picture is run through
+    // Displacements and transformations.
+    std::vector<std::unique_ptr<ShaderInstance>> vertex_instances;
+    uint32_t camera = 0;          // into cameras
+    uint32_t atmosphere = kNone;  // the volume outside all objects, into looks
+    uint32_t imager = kNone;      // what the finished picture is run through, into looks
     std::vector<OutputPlane> outputs;
-    std::vector<uint32_t>
-        volumes;  // looks of interiors and exteriors: ShaderInstance::volume is k + 1
+    // Interiors and exteriors, into looks: ShaderInstance::volume is k + 1.
+    std::vector<uint32_t> volumes;
     std::vector<std::string> added;  // "default camera", "default light": what --list shows
 
     double time = 0, shutter = 0;  // of the last evaluate, seconds

@@ -58,7 +58,7 @@ void update_transforms(Scene& scene) {
         dmat4 local =
             node.conversion * node_matrix(scene.description->nodes[node.definition], scene.values);
         dmat4 world = node.parent == kNone ? local : scene.nodes[node.parent].world * local;
-        // Never the place of the frame before: all zero is singular, so it is told.
+        // Never where it stood in the frame before: all zero is singular, and reported as such.
         node.finite = is_finite(world);
         node.world = node.finite ? world : dmat4(0.0);
         scene.all_finite &= node.finite;

@@ -110,8 +110,8 @@ void pose(Scene& scene) {
         }
         dmat4 place(1.0);
         if (!shape.in_world) place = scene.nodes[shape.node].world;
-        if (shape.placed_below != kNone)
-            place = place * glm::inverse(scene.nodes[shape.placed_below].world);
+        if (shape.applies_below != kNone)
+            place = place * glm::inverse(scene.nodes[shape.applies_below].world);
         // The palette reads matrices by joint; unresolved joints stay with the bind shape.
         for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
             uint32_t node = shape.joint_nodes[j];

@@ -36,7 +36,7 @@ void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8
 
 // The longest watched edge, in pixels of the scene's view, over what none is longer than where the
 // mesh was diced for that view: 1 or less then, 2 where the camera is twice as near. 0 where
-// nothing was diced. The nodes, joints (`pose`) and the camera (`place_camera`) are up to date. No
+// nothing was diced. The nodes, joints (`pose`) and the camera (`set_view`) are up to date. No
 // allocation.
 double dice_error(Scene& scene);
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/build/mesh.h"
+#include "runtime/build/shapes/mesh.h"
 #include "runtime/gltf/export/materials.h"
 
 namespace kinora {

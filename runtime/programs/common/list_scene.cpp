@@ -96,7 +96,7 @@ std::string material_line(const Json& row) {
 template <class F>
 void for_each_shader(const Scene& scene, F&& f) {
     std::set<const rsl::Shader*> seen;
-    for (const auto* looks : {&scene.looks, &scene.vertex_looks})
+    for (const auto* looks : {&scene.looks, &scene.vertex_instances})
         for (const auto& look : *looks)
             for (const ShaderUse& use : look->layers)
                 if (seen.insert(use.shader.get()).second) f(*use.shader);

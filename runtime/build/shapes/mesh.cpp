@@ -1,5 +1,5 @@
-// runtime/build/mesh.cpp: anchors, and normals with a position of their own.
-#include "runtime/build/mesh.h"
+// runtime/build/shapes/mesh.cpp: anchors, and normals with a position of their own.
+#include "runtime/build/shapes/mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// runtime/build/mesh.h: a mesh as read to a mesh as rendered.
+// runtime/build/shapes/mesh.h: a mesh as read to a mesh as rendered.
 #pragma once
 
 #include "runtime/scene/scene.h"

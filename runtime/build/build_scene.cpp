@@ -1,0 +1,77 @@
+// runtime/build/build_scene.cpp: from a description to a scene ready for frames.
+#include "runtime/build/build_scene.h"
+
+#include "runtime/build/cameras.h"
+#include "runtime/build/displacement/displacement.h"
+#include "runtime/build/instances/instances.h"
+#include "runtime/build/lights.h"
+#include "runtime/build/rows.h"
+#include "runtime/build/shapes/bounds.h"
+#include "runtime/build/shapes/node_tree.h"
+#include "runtime/build/shapes/shapes.h"
+#include "runtime/images/point_store.h"
+#include "runtime/images/texture.h"
+#include "runtime/images/texture_store.h"
+#include "runtime/scene/values.h"
+#include "runtime/shading/shading.h"
+#include "runtime/vertices/dice_error.h"
+#include "runtime/vertices/vertex_work.h"
+
+namespace kinora {
+
+Shape::Shape() = default;
+Shape::~Shape() = default;
+Shape::Shape(Shape&&) noexcept = default;
+Shape& Shape::operator=(Shape&&) noexcept = default;
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+
+namespace {
+
+std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description,
+                                   const SceneOptions& options,
+                                   std::shared_ptr<TextureStore> textures) {
+    auto scene = std::make_unique<Scene>();
+    const AllowedPaths& readable = description->readable;
+    if (!textures) textures = std::make_shared<TextureStore>(readable, options.decode_textures);
+    scene->textures = std::move(textures);
+    scene->points = std::make_shared<PointStore>(readable);
+    scene->description = std::move(description);
+    scene->options = options;
+    scene->accel = raytrace::Accel(options.accel);
+    return scene;
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
+                                   const SceneOptions& options, Diagnostics& diagnostics,
+                                   const BuildAgain* again) {
+    const std::atomic<bool>* stop = again ? again->stop : nullptr;
+    auto stopped = [&] { return stop && *stop; };
+    std::unique_ptr<Scene> made =
+        empty_scene(std::move(description), options, again ? again->textures : nullptr);
+    Scene& scene = *made;
+
+    NodeTree tree(scene);
+    SkinBinder skins(scene, tree, node_poses(scene), diagnostics);
+    evaluate_anew(scene, options.start_time);
+    std::vector<SurfaceUse> uses = add_shapes(scene, skins, diagnostics);
+    set_bounds(scene, diagnostics);
+
+    add_cameras(scene, tree);
+    if (!choose_camera(scene, tree, diagnostics)) return nullptr;
+    add_lights(scene, tree, uses, diagnostics);
+
+    if (stopped() || !add_instances(scene, uses, diagnostics)) return nullptr;
+    if (!again) preload_textures(*scene.description, *scene.textures);
+    displace(scene, uses, again ? &again->view : nullptr, stop, diagnostics);
+    if (stopped()) return nullptr;
+
+    set_rows(scene);
+    scene.shading = std::make_unique<Shading>(scene);
+    return made;
+}
+
+}  // namespace kinora

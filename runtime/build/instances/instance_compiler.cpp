@@ -1,0 +1,20 @@
+// runtime/build/instances/instance_compiler.cpp: shader instances compiled for a scene.
+#include "runtime/build/instances/instance_compiler.h"
+
+namespace kinora {
+
+InstanceCompiler::InstanceCompiler(Scene& scene, Diagnostics& diagnostics)
+    : scene_(scene), diagnostics_(diagnostics) {
+    for (const NodeDefinition& node : scene.description->nodes)
+        if (!node.id.empty()) space_names_.push_back(node.id);
+}
+
+bool InstanceCompiler::compile(ShaderInstance& instance, ShaderInstanceOptions wanted) {
+    wanted.math = scene_.options.math;
+    wanted.target = scene_.options.target;
+    wanted.spaces = &space_names_;
+    if (scene_.options.want_dumps) wanted.dumps = &scene_.options.dumps;
+    return compile_look(instance, *scene_.description, wanted, diagnostics_);
+}
+
+}  // namespace kinora

@@ -1,0 +1,29 @@
+// runtime/build/instances/instance_compiler.h: shader instances compiled for a scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shader_instance.h"
+
+namespace kinora {
+
+// Knows what holds for all instances: the scene's options and the ids of its nodes, which shaders
+// may name as spaces. Writes SceneOptions::dumps.
+class InstanceCompiler {
+  public:
+    // The scene has all its nodes.
+    InstanceCompiler(Scene& scene, Diagnostics& diagnostics);
+
+    // `wanted` has what holds for this instance alone: light_messages, aovs, gathered. False when a
+    // shader cannot be compiled; it has been reported.
+    bool compile(ShaderInstance& instance, ShaderInstanceOptions wanted = {});
+
+  private:
+    Scene& scene_;
+    Diagnostics& diagnostics_;
+    std::vector<std::string> space_names_;
+};
+
+}  // namespace kinora

@@ -1,0 +1,82 @@
+// runtime/build/instances/output_planes.cpp: the planes that surfaces' output parameters fill.
+#include "runtime/build/instances/output_planes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/build/instances/imager.h"
+#include "runtime/description/findings.h"
+
+namespace kinora {
+
+namespace {
+
+// The output parameter of that name of the topmost layer that has one.
+const rsl::ShaderParameter* find_output(const ShaderInstance& instance, std::string_view name) {
+    for (auto layer = instance.layers.rbegin(); layer != instance.layers.rend(); ++layer)
+        for (const rsl::ShaderParameter& p : layer->shader->parameters) {
+            bool numbers = !p.type.is_array() && p.type.base != rsl::BaseType::String &&
+                           p.type.base != rsl::BaseType::Matrix;
+            if (p.output && numbers && p.name == name) return &p;
+        }
+    return nullptr;
+}
+
+// Of the first surface that has one.
+const rsl::ShaderParameter* find_output(const Scene& scene, std::string_view name) {
+    for (const auto& instance : scene.looks)
+        if (instance->kind == ShaderInstanceKind::Surface)
+            if (const rsl::ShaderParameter* found = find_output(*instance, name)) return found;
+    return nullptr;
+}
+
+std::string plane_name(std::string_view name, rsl::BaseType type, int component) {
+    if (rsl::component_count(type) == 1) return std::string(name);
+    const char* letters = type == rsl::BaseType::Color ? "RGB" : "XYZ";
+    return fmt::format("{}.{}", name, letters[component]);
+}
+
+// Where a surface has the parameter as a float and others as a colour, all components take it.
+bool fills(const std::string& output, const OutputPlane& plane) {
+    std::string wanted = "aov:" + plane.parameter;
+    bool component =
+        output.size() == wanted.size() + 2 && output.starts_with(wanted + ".") &&
+        (output.back() == "rgb"[plane.component] || output.back() == "xyz"[plane.component]);
+    return output == wanted || component;
+}
+
+}  // namespace
+
+OutputPlanes::OutputPlanes(Scene& scene, Diagnostics& diagnostics) : scene_(scene) {
+    for (const std::string& name : scene.options.aovs)
+        if (!add(name, true)) diagnostics.report(Code::AOV_UNKNOWN, Location{}, name);
+    for (const ShaderUse& use : imagers_of(scene))
+        for (const rsl::ShaderParameter& p : use.shader->parameters)
+            if (!p.type.is_array() && p.type.base != rsl::BaseType::String)
+                add(std::string(p.name), false);
+}
+
+// False where no surface has that output.
+bool OutputPlanes::add(const std::string& name, bool in_file) {
+    if (std::ranges::find(parameters_, name) != parameters_.end()) return true;
+    const rsl::ShaderParameter* found = find_output(scene_, name);
+    if (!found) return false;
+    parameters_.push_back(name);
+    for (int c = 0; c < rsl::component_count(found->type.base); ++c)
+        scene_.outputs.push_back(
+            {plane_name(name, found->type.base, c), name, uint32_t(c), in_file});
+    return true;
+}
+
+void OutputPlanes::bind(ShaderInstance& instance) const {
+    if (instance.kind != ShaderInstanceKind::Surface) return;
+    for (const OutputPlane& plane : scene_.outputs) {
+        int& output = instance.aovs.emplace_back(-1);
+        const auto& outputs = instance.full.kernel().outputs;
+        for (size_t o = 0; o < outputs.size(); ++o)
+            if (fills(outputs[o].name, plane)) output = int(o);
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,142 @@
+// runtime/build/instances/vertex_inputs.cpp: vertex inputs for the varying parameters of shaders.
+#include "runtime/build/instances/vertex_inputs.h"
+
+namespace kinora {
+
+namespace {
+
+const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic,
+                                      uint32_t set) {
+    const VertexAttribute* best = nullptr;
+    for (const VertexAttribute& a : group.attributes) {
+        if (a.semantic != semantic) continue;
+        if (set == kNone ? !best || a.set < best->set : a.set == set) best = &a;
+    }
+    return best;
+}
+
+const VertexBinding* find_binding(const MaterialUse* use, std::string_view param) {
+    if (use)
+        for (const VertexBinding& binding : use->vertex_bindings)
+            if (binding.param == param) return &binding;
+    return nullptr;
+}
+
+// Finds the inputs of one layer after the other.
+class InputFinder {
+  public:
+    InputFinder(const PrimitiveGroup& group, const MaterialUse* use) : group_(group), use_(use) {
+        inputs_.st = find_attribute(group, "TEXCOORD", kNone);
+    }
+
+    void add_layer(uint32_t index, const ShaderUse& layer) {
+        layer_ = index;
+        for (const ParamSource& source : layer.params) add_texture(source);
+        for (const rsl::GlobalInfo* global : layer.shader->globals_read)
+            if (std::string_view(global->name) == "Cs") add_color();
+        for (const rsl::ShaderParameter& p : layer.shader->parameters) add_parameter(p);
+    }
+
+    VertexInputs take() { return std::move(inputs_); }
+
+  private:
+    void add(std::string name, std::string semantic, const VertexAttribute* attribute,
+             uint32_t component, uint32_t components) {
+        VaryingParam varying;
+        varying.name = std::move(name);
+        varying.semantic = std::move(semantic);
+        varying.set = attribute ? attribute->set : kNone;
+        varying.layer = layer_;
+        varying.components = components;
+        varying.component = component;
+        inputs_.varying.push_back(std::move(varying));
+        inputs_.attributes.push_back(attribute);
+    }
+
+    const VertexAttribute* st_of(const std::string& texcoord) const {
+        const VertexBinding* binding = find_binding(use_, texcoord);
+        const VertexAttribute* found =
+            binding ? find_attribute(group_, binding->semantic, binding->set) : nullptr;
+        return found ? found : find_attribute(group_, "TEXCOORD", kNone);
+    }
+
+    // A file's texcoord names bind sets; the first one is s and t.
+    void add_texture(const ParamSource& source) {
+        if (source.strings.empty() || !source.name.ends_with("_map")) return;
+        const VertexAttribute* st = st_of(source.texcoord);
+        if (!any_texture_) {
+            any_texture_ = true;
+            if (st) inputs_.st = st;
+        } else if (st && st != inputs_.st) {
+            std::string slot = source.name.substr(0, source.name.size() - 4);
+            add(slot + "_s", "TEXCOORD", st, 0, 1);
+            add(slot + "_t", "TEXCOORD", st, 1, 1);
+        }
+    }
+
+    void add_color() {
+        const VertexAttribute* color = find_attribute(group_, "COLOR", kNone);
+        if (color && color->stride >= 3) add("Cs", "COLOR", color, 0, 3);
+    }
+
+    void add_parameter(const rsl::ShaderParameter& p) {
+        if (p.type.is_array() || p.type.base == rsl::BaseType::String) return;
+        uint32_t components = uint32_t(rsl::component_count(p.type.base));
+        const VertexBinding* binding = find_binding(use_, p.name);
+        const VertexAttribute* attribute =
+            binding ? find_attribute(group_, binding->semantic, binding->set)
+                    : find_attribute(group_, p.name, kNone);
+        if (attribute)
+            add(std::string(p.name), attribute->semantic, attribute, 0, components);
+        else if (p.name == "Pref" && components == 3)
+            add("Pref", "Pref", nullptr, 0, 3);
+    }
+
+    const PrimitiveGroup& group_;
+    const MaterialUse* use_;
+    VertexInputs inputs_;
+    uint32_t layer_ = 0;
+    bool any_texture_ = false;
+};
+
+void remove_input(VertexInputs& inputs, uint32_t layer, std::string_view name) {
+    for (size_t k = inputs.varying.size(); k-- > 0;)
+        if (inputs.varying[k].layer == layer && inputs.varying[k].name == name) {
+            inputs.varying.erase(inputs.varying.begin() + ptrdiff_t(k));
+            inputs.attributes.erase(inputs.attributes.begin() + ptrdiff_t(k));
+        }
+}
+
+VaryingParam displaced_param(const rsl::ShaderParameter& p, uint32_t layer) {
+    VaryingParam varying;
+    varying.name = std::string(p.name);
+    varying.semantic = "vertex:" + varying.name;
+    varying.layer = layer;
+    varying.text = p.type.base == rsl::BaseType::String;
+    varying.array = p.type.is_array();
+    varying.components =
+        uint32_t(rsl::component_count(p.type.base) * (varying.array ? p.type.array_length : 1));
+    return varying;
+}
+
+}  // namespace
+
+VertexInputs find_vertex_inputs(const PrimitiveGroup& group, const MaterialUse* use,
+                                std::span<const ShaderUse> layers) {
+    InputFinder finder(group, use);
+    for (uint32_t l = 0; l < layers.size(); ++l) finder.add_layer(l, layers[l]);
+    return finder.take();
+}
+
+void add_displaced_inputs(std::span<const ShaderUse> layers, uint32_t done_layers,
+                          VertexInputs& inputs) {
+    for (uint32_t l = 0; l < done_layers; ++l)
+        for (const rsl::ShaderParameter& p : layers[l].shader->parameters) {
+            if (!p.output) continue;
+            remove_input(inputs, l, p.name);
+            inputs.varying.push_back(displaced_param(p, l));
+            inputs.attributes.push_back(nullptr);
+        }
+}
+
+}  // namespace kinora

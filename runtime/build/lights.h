@@ -1,0 +1,18 @@
+// runtime/build/lights.h: the lights of a scene.
+#pragma once
+
+#include <span>
+
+#include "runtime/build/shapes/node_tree.h"
+#include "runtime/build/shapes/surface_use.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+// Every occurrence of a light, area lights before others; default lights at the camera where the
+// scene has none that light anything, or as the options say. Writes Scene::lights and added. The
+// scene has its camera.
+void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
+                Diagnostics& diagnostics);
+
+}  // namespace kinora

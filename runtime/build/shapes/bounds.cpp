@@ -1,0 +1,96 @@
+// runtime/build/shapes/bounds.cpp: how large a scene is and where.
+#include "runtime/build/shapes/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "runtime/build/shapes/pose_at.h"
+#include "runtime/description/findings.h"
+#include "runtime/vertices/deform.h"
+
+namespace kinora {
+
+namespace {
+
+void add_box(const Mesh& mesh, const dmat4& world_from_mesh, Bounds& bounds) {
+    for (int corner = 0; corner < 8; ++corner) {
+        dvec3 p((corner & 1 ? mesh.high : mesh.low).x, (corner & 2 ? mesh.high : mesh.low).y,
+                (corner & 4 ? mesh.high : mesh.low).z);
+        bounds.add(dvec3(world_from_mesh * dvec4(p, 1.0)));
+    }
+}
+
+Bounds bounds_now(const Scene& scene) {
+    Bounds bounds;
+    for (const Shape& shape : scene.shapes) {
+        if (shape.kind != raytrace::GeometryKind::Deforming) {
+            add_box(scene.meshes[shape.mesh], scene.nodes[shape.node].world * shape.conversion,
+                    bounds);
+            continue;
+        }
+        for (const vec4& p : shape.positions) bounds.add(dvec3(p) + scene.origin);
+    }
+    return bounds;
+}
+
+// The centre of the first mesh, or its last joint.
+dvec3 first_origin(const Scene& scene) {
+    const Shape& first = scene.shapes.front();
+    dvec3 origin(scene.nodes[first.node].world * dvec4(scene.meshes[first.mesh].anchor, 1.0));
+    for (uint32_t joint : first.joint_nodes)
+        if (joint != kNone && first.in_world) origin = scene.nodes[joint].world[3];
+    return origin;
+}
+
+}  // namespace
+
+void Bounds::add(dvec3 p) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return;
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+}
+
+void set_bounds(Scene& scene, Diagnostics& diagnostics) {
+    // A first guess makes the scene's own size the scale of all floats: deformed about the first
+    // mesh, then about the centre found so.
+    if (!scene.shapes.empty()) scene.origin = first_origin(scene);
+    scene.geometry.resize(scene.surfaces.size());
+    pose_now(scene);
+    Bounds bounds = bounds_now(scene);
+    if (bounds.empty()) {
+        diagnostics.report(Code::SCENE_EMPTY, Location{});
+        bounds.add(dvec3(-1.0));
+        bounds.add(dvec3(1.0));
+    }
+    scene.origin = 0.5 * (bounds.low + bounds.high);
+    scene.low = bounds.low;
+    scene.high = bounds.high;
+    scene.size = std::max(glm::length(bounds.high - bounds.low), 1e-30);
+    pose_now(scene);
+    bake_static(scene);
+}
+
+Bounds played_bounds(Scene& scene) {
+    constexpr int kSamples = 12;
+    const SceneOptions& options = scene.options;
+    Bounds bounds = bounds_now(scene);
+    if (bounds.empty()) {  // what set_bounds takes for the scene
+        bounds.add(scene.low);
+        bounds.add(scene.high);
+    }
+    double length = options.end_time - options.start_time;
+    if (scene.description->animation.channels.empty() || options.end_time <= options.start_time)
+        return bounds;
+    for (int s = 0; s <= kSamples; ++s) {
+        pose_at(scene, options.start_time + length * s / kSamples);
+        Bounds now = bounds_now(scene);
+        bounds.add(now.low);
+        bounds.add(now.high);
+    }
+    pose_at(scene, options.start_time);
+    return bounds;
+}
+
+}  // namespace kinora

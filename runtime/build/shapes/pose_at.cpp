@@ -1,0 +1,19 @@
+// runtime/build/shapes/pose_at.cpp: the shapes of a scene under construction at a time.
+#include "runtime/build/shapes/pose_at.h"
+
+#include "runtime/scene/values.h"
+#include "runtime/vertices/deform.h"
+
+namespace kinora {
+
+void pose_at(Scene& scene, double time) {
+    evaluate_anew(scene, time);
+    pose_now(scene);
+}
+
+void pose_now(Scene& scene) {
+    pose(scene);
+    deform(scene);
+}
+
+}  // namespace kinora

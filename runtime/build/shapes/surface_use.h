@@ -1,0 +1,14 @@
+// runtime/build/shapes/surface_use.h: what the description says about one surface.
+#pragma once
+
+#include "runtime/description/scene_description.h"
+
+namespace kinora {
+
+// Points into the description. One for each of Scene::surfaces.
+struct SurfaceUse {
+    const MeshUse* mesh = nullptr;
+    const MaterialUse* material = nullptr;  // null: no material has the group's symbol
+};
+
+}  // namespace kinora
