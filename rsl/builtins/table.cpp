@@ -119,7 +119,7 @@ const std::vector<std::string_view>& builtin_names() {
 std::string_view foreign_builtin(std::string_view name) {
     std::string padded = " " + std::string(name) + " ";
     for (const ForeignRow& row : kForeign)
-        if (row.names.find(padded) != std::string_view::npos) return row.span;
+        if (row.names.find(padded) != std::string_view::npos) return row.origin;
     return "";
 }
 
