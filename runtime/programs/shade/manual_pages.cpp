@@ -209,8 +209,8 @@ std::string words_page() {
 #undef PUNCT
     };
     return fmt::format(
-        "Words of the grammar: {}\n\nPunctuators, those of other languages that "
-        "findings name included: {}\n",
+        "Words of the grammar: {}\n\n"
+        "Punctuators, with those that only other languages use: {}\n",
         code_list(words), code_list(puncts));
 }
 
