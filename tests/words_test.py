@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LIMIT = 30
-PAGES = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md"]
+PAGES = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "tests/*/*/README.md"]
 
 CODE_SPAN = re.compile(r"(`+)(.+?)\1")
 PICTURE = re.compile(r"!\[([^\]]*)\]\([^)]*\)")

@@ -248,7 +248,7 @@ const Builtin kRows[] = {
      "Its arguments, one after the other. A string has 65536 bytes at most."},
     {"format", "s=s?*", lower::format, KINORA_RSL_REF(ref::format), kPure, 0,
      "Text with %f %d (floats) %c %p %v %n (triples) %m (matrices) %s (strings) replaced by the "
-     "arguments; C's width and precision may stand after the %. A string has 65536 bytes at most."},
+     "arguments. C's width and precision may stand after the %. A string has 65536 bytes at most."},
     {"match", "f=ss", lower::match, KINORA_RSL_REF(ref::match), kPure, 0,
      "1 if the pattern, a regular expression, occurs in the string: match(pattern, string)."},
     {"printf", "x=s?*", lower::print, KINORA_RSL_REF(ref::printf), kPrints, 0,

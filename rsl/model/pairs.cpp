@@ -9,17 +9,6 @@ namespace kinora::rsl {
 
 namespace {
 
-// A row: one optional parameter. texture3d and bake3d take any other name as that of a channel.
-struct OptionalParameter {
-    std::string_view name;
-    BaseType type;            // what its value must be, whoever is called; Invalid: anything
-    std::string_view takers;  // built-ins, and gather, that it is no news to, separated by spaces
-    bool result = false;      // its value is a variable that the call sets
-    // It is known and changes nothing, which is no news where its value is one of these words (what
-    // is done anyway); null: it does what it should, or has nothing to change here.
-    const char* idle = nullptr;
-};
-
 constexpr BaseType kAny = BaseType::Invalid;
 constexpr BaseType kNumber = BaseType::Float;
 constexpr BaseType kText = BaseType::String;
@@ -30,15 +19,18 @@ constexpr BaseType kText = BaseType::String;
 
 constexpr OptionalParameter kOptionalParameters[] = {
     // Rays.
-    {"samples", kNumber,
-     "trace transmission visibility areashadow texture environment shadow bump texture3d " PHOTONS},
+    {"samples", kNumber, "trace transmission visibility environment shadow"},
+    {"samples", kNumber, "areashadow texture bump texture3d " PHOTONS, false, kHint},
     {"samplecone", kNumber, "trace transmission visibility"},
     {"bias", kNumber, RAYS " gather environment shadow"},
-    {"maxdist", kNumber, "trace occlusion indirectdiffuse gather environment " PHOTONS},
+    {"maxdist", kNumber, "trace occlusion indirectdiffuse gather environment"},
+    {"maxdist", kNumber, PHOTONS, false, kHint},
     {"coneangle", kNumber, "occlusion indirectdiffuse"},
     {"falloff", kNumber, "occlusion"},
     {"falloffmode", kNumber, "occlusion"},
-    {"environmentdir", kAny, RAYS, true},
+    {"environmentdir", kAny, "occlusion", true},
+    {"environmentdir", kAny, "trace transmission visibility indirectdiffuse areashadow", true,
+     kHint},
     {"environmentmap", kText, "occlusion indirectdiffuse"},
     {"distribution", kText, "gather"},
     {"distribution", kText, "occlusion indirectdiffuse", false, "cosine"},
@@ -53,61 +45,69 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"bias0", kNumber, "shadow", false, ""},
     {"bias1", kNumber, "shadow", false, ""},
     {"gapbias", kNumber, "shadow", false, ""},
-    {"volume", kAny, "gather"},
-    {"lightcache", kAny, "gather"},
-    {"source", kNumber, "areashadow"},
+    {"volume", kAny, "gather", false, kHint},
+    {"lightcache", kAny, "gather", false, kHint},
+    {"source", kNumber, "areashadow", false, kHint},
     {"gapbias", kNumber, "areashadow", false, ""},
-    // What the renderer does anyway, or hints for methods it has no need of.
-    {"samplebase", kNumber, RAYS " gather"},
-    {"label", kText, RAYS " gather"},
+    // Hints.
+    {"samplebase", kNumber, RAYS " gather", false, kHint},
+    {"label", kText, "trace gather"},
+    {"label", kText, "transmission visibility occlusion indirectdiffuse areashadow", false, kHint},
     {"hitmode", kAny, RAYS " gather", false, "default shader"},
     {"hitsides", kAny, RAYS " gather", false, "both"},
-    {"minsamples", kAny, RAYS},
-    {"maxvariation", kAny, RAYS},
-    {"maxerror", kAny, RAYS},
-    {"maxpixeldist", kAny, RAYS},
-    {"adaptive", kAny, RAYS},
-    {"brightnesswarning", kAny, RAYS},
-    {"pointbased", kAny, RAYS},
-    {"clamp", kAny, RAYS},
-    {"maxsolidangle", kAny, RAYS},
-    {"sortbleeding", kAny, RAYS},
-    {"rayoffset", kAny, RAYS},
-    {"filemode", kAny, RAYS},
-    {"irradiancefile", kAny, RAYS},
-    {"coordsystem", kAny, RAYS},
-    {"interpolate", kAny, RAYS},
-    {"minsamples", kAny, "shadow environment"},
+    {"minsamples", kAny, RAYS, false, kHint},
+    {"maxvariation", kAny, RAYS, false, kHint},
+    {"maxerror", kAny, RAYS, false, kHint},
+    {"maxpixeldist", kAny, RAYS, false, kHint},
+    {"adaptive", kAny, RAYS, false, kHint},
+    {"brightnesswarning", kAny, RAYS, false, kHint},
+    {"pointbased", kAny, RAYS, false, kHint},
+    {"clamp", kAny, RAYS, false, kHint},
+    {"maxsolidangle", kAny, RAYS, false, kHint},
+    {"sortbleeding", kAny, RAYS, false, kHint},
+    {"rayoffset", kAny, RAYS, false, kHint},
+    {"filemode", kAny, RAYS, false, kHint},
+    {"irradiancefile", kAny, RAYS, false, kHint},
+    {"coordsystem", kAny, RAYS, false, kHint},
+    {"interpolate", kAny, RAYS, false, kHint},
+    {"minsamples", kAny, "shadow environment", false, kHint},
     // Maps.
-    {"blur", kNumber, "texture environment shadow bump areashadow"},
+    {"blur", kNumber, "texture environment shadow bump"},
+    {"blur", kNumber, "areashadow", false, kHint},
     {"sblur", kNumber, "texture"},
     {"tblur", kNumber, "texture"},
-    {"width", kNumber, "texture environment shadow areashadow filterstep"},
-    {"swidth", kNumber, "texture environment shadow areashadow filterstep"},
-    {"twidth", kNumber, "texture environment shadow areashadow"},
+    {"width", kNumber, "texture environment shadow filterstep"},
+    {"width", kNumber, "areashadow", false, kHint},
+    {"swidth", kNumber, "texture environment shadow filterstep"},
+    {"swidth", kNumber, "areashadow", false, kHint},
+    {"twidth", kNumber, "texture environment shadow"},
+    {"twidth", kNumber, "areashadow", false, kHint},
     {"fill", kNumber, "texture environment bump"},
-    {"filter", kText, "texture environment shadow areashadow bump filterstep"},
+    {"filter", kText, "texture bump filterstep"},
+    {"filter", kText, "environment shadow areashadow", false, kHint},
     // Point files.
-    {"filename", kText, RAYS " " PHOTONS},
-    {"radius", kNumber, POINTS},
+    {"filename", kText, PHOTONS},
+    {"filename", kText, RAYS, false, kHint},
+    {"radius", kNumber, "bake3d"},
+    {"radius", kNumber, "texture3d", false, kHint},
     {"coordsystem", kText, POINTS},
-    {"interpolate", kAny, POINTS},
+    {"interpolate", kAny, POINTS, false, kHint},
     {"radiusscale", kNumber, "bake3d"},
     {"filterradius", kAny, "texture3d", false, ""},
     {"filterscale", kAny, "texture3d", false, ""},
-    {"maxdepth", kAny, "texture3d"},
-    {"lerp", kAny, "texture environment shadow bump texture3d"},
-    {"expandborders", kAny, "texture environment shadow bump"},
+    {"maxdepth", kAny, "texture3d", false, kHint},
+    {"lerp", kAny, "texture environment shadow bump texture3d", false, kHint},
+    {"expandborders", kAny, "texture environment shadow bump", false, kHint},
     {"estimator", kNumber, PHOTONS},
-    {"lookup", kAny, PHOTONS},
-    {"mindist", kAny, PHOTONS},
-    {"smooth", kAny, PHOTONS},
-    {"albedo", kAny, PHOTONS},
-    {"diffusemeanfreepath", kAny, PHOTONS},
-    {"dmfp", kAny, PHOTONS},
-    {"ior", kAny, PHOTONS},
-    {"scale", kAny, PHOTONS},
-    {"unitlength", kAny, PHOTONS},
+    {"lookup", kAny, PHOTONS, false, kHint},
+    {"mindist", kAny, PHOTONS, false, kHint},
+    {"smooth", kAny, PHOTONS, false, kHint},
+    {"albedo", kAny, PHOTONS, false, kHint},
+    {"diffusemeanfreepath", kAny, PHOTONS, false, kHint},
+    {"dmfp", kAny, PHOTONS, false, kHint},
+    {"ior", kAny, PHOTONS, false, kHint},
+    {"scale", kAny, PHOTONS, false, kHint},
+    {"unitlength", kAny, PHOTONS, false, kHint},
 };
 
 #undef RAYS
@@ -129,15 +129,26 @@ bool is_variable(const Expr& e) {
            e.kind == ExprKind::Component;
 }
 
+}  // namespace
+
+bool is_taker(const OptionalParameter& option, std::string_view callee) {
+    return has_word(option.takers, callee);
+}
+
+namespace {
+
 // The callee's row; an empty callee's: the first of that name.
 const OptionalParameter* find_option(std::string_view name, std::string_view callee = {}) {
     for (const OptionalParameter& option : kOptionalParameters)
-        if (option.name == name && (callee.empty() || has_word(option.takers, callee)))
-            return &option;
+        if (option.name == name && (callee.empty() || is_taker(option, callee))) return &option;
     return nullptr;
 }
 
 }  // namespace
+
+std::span<const OptionalParameter> optional_parameters() {
+    return kOptionalParameters;
+}
 
 std::string_view pair_name(std::span<Expr* const> args, size_t value) {
     const auto* name = value > 0 ? as_if<StringExpr>(args[value - 1]) : nullptr;
@@ -155,7 +166,7 @@ bool takes_option(std::string_view callee, std::string_view name) {
 
 bool is_idle_option(std::string_view callee, std::string_view name, const std::string* text) {
     const OptionalParameter* option = find_option(name, callee);
-    if (!option || !option->idle) return false;
+    if (!option || !option->idle || option->idle == kHint) return false;
     return !text || text->empty() || !has_word(option->idle, *text);
 }
 

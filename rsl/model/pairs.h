@@ -2,11 +2,32 @@
 // parameters there are, what they take, and which are variables that the renderer writes.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "rsl/syntax/ast.h"
 
 namespace kinora::rsl {
+
+// A row: one optional parameter. texture3d and bake3d take any other name as that of a channel.
+struct OptionalParameter {
+    std::string_view name;
+    BaseType type;            // what its value must be, whoever is called; Invalid: anything
+    std::string_view takers;  // built-ins, and gather, that it is no news to, separated by spaces
+    bool result = false;      // its value is a variable that the call sets
+    // It is known and changes nothing, which is no news where its value is one of these words (what
+    // is done anyway); null: it does what it should; kHint: it changes nothing, and that is no
+    // news.
+    const char* idle = nullptr;
+};
+
+// What the renderer does anyway, or asks for a method that it has no need of.
+inline constexpr char kHint[] = "*";
+
+std::span<const OptionalParameter> optional_parameters();  // for the manual
+
+// Is the built-in of that name, or gather, among the row's takers?
+bool is_taker(const OptionalParameter& option, std::string_view callee);
 
 // Is args[value] of the call the variable of an output pair: texture3d(..., "channel", x)?
 bool is_output_pair(const CallExpr& call, size_t value);

@@ -36,6 +36,7 @@ struct ShadeOptions {
     std::string compare;              // "", "interp", "reference"
     std::string file;                 // -o
     std::vector<std::string> stages;  // dump
+    std::string markdown;             // manual: a name of manual_pages.h; "": for the terminal
 };
 
 // Reads the command line. Returns an exit code when there is nothing to do (help, usage error,

@@ -1,8 +1,7 @@
 // runtime/programs/shade/manual.cpp: the manual of the built-in functions and the shader
-// globals, from their rows.
+// globals on the terminal.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -11,112 +10,24 @@
 #include "runtime/base/diagnostic.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/kinora_shade.h"
+#include "runtime/programs/shade/manual_pages.h"
+#include "runtime/programs/shade/manual_rows.h"
 
 namespace kinora {
 
 namespace {
 
-struct EffectRow {
-    uint32_t flag;
-    const char* text;
-};
-constexpr EffectRow kEffects[] = {
-    {rsl::kVaryingResult, "differs from point to point"},
-    {rsl::kDerivative, "takes derivatives of its arguments"},
-    {rsl::kLights, "reads the lights at P"},
-    {rsl::kTraces, "traces rays"},
-    {rsl::kPrints, "prints"},
-    {rsl::kMessage, "reads another shader or the renderer's state"},
-    {rsl::kShadows, "switches a light's automatic shadows off"},
-    {rsl::kUniformOnly, "takes uniform values only"},
-};
-constexpr EffectRow kKinds[] = {
-    {rsl::kSurface, "surface"}, {rsl::kDisplacement, "displacement"},
-    {rsl::kLight, "light"},     {rsl::kVolume, "volume"},
-    {rsl::kImager, "imager"},   {rsl::kTransformation, "transformation"},
-};
-
-std::string argument_text(const rsl::Signature::Argument& argument) {
-    std::string type =
-        argument.type.base == rsl::BaseType::Invalid ? "any" : rsl::type_name(argument.type);
-    return (argument.output ? "output " : "") + type;
-}
-
-std::string prototype(const rsl::Builtin& row, const rsl::Signature& signature) {
-    std::string text = fmt::format("{} {}(", rsl::type_name(signature.result), row.name);
-    std::string separator;
-    auto add = [&](const std::string& item) {
-        text += separator + item;
-        separator = ", ";
-    };
-    for (const rsl::Signature::Argument& argument : signature.arguments)
-        add(argument_text(argument));
-    if (signature.repeats) add(argument_text(signature.repeated) + " ...");
-    if (signature.pairs) add("\"name\", value ...");
-    return text + ")";
-}
-
-// Forms that differ only in one type are one line: T abs(T), and what T may be.
-struct Form {
-    std::string text;  // with T for the type of the result
-    std::vector<std::string> types;
-    std::string plain;
-};
-
-std::string replaced(std::string text, const std::string& word, const std::string& by) {
-    for (size_t at = 0; (at = text.find(word, at)) != std::string::npos;) {
-        bool whole = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
-        if (!whole) {
-            at += word.size();
-            continue;
-        }
-        text.replace(at, word.size(), by);
-        at += by.size();
-    }
-    return text;
-}
-
-std::vector<Form> forms(const rsl::Builtin& row) {
-    std::vector<Form> result;
-    for (const rsl::Signature& signature : rsl::parse_signatures(row.signature)) {
-        std::string type = rsl::type_name(signature.result.base);
-        std::string plain = prototype(row, signature);
-        // A query's result is always a float: its variable is what differs.
-        bool open = !signature.arguments.empty() && signature.arguments.back().output &&
-                    signature.arguments.back().type.base != rsl::BaseType::Invalid;
-        if (open && signature.result.base == rsl::BaseType::Float)
-            type = rsl::type_name(signature.arguments.back().type.base);
-        std::string text = replaced(plain, open ? "output " + type : type, open ? "output T" : "T");
-        auto known = std::find_if(result.begin(), result.end(),
-                                  [&](const Form& form) { return form.text == text; });
-        if (known == result.end())
-            result.push_back({text, {type}, plain});
-        else
-            known->types.push_back(type);
-    }
-    return result;
-}
-
 std::string kinds_of(uint32_t mask) {
-    std::string text;
-    for (const EffectRow& kind : kKinds)
-        if (mask & kind.flag) text += fmt::format(" {}", kind.text);
-    return text.empty() ? " nobody" : text;
+    std::vector<std::string> names = kind_names(mask);
+    return names.empty() ? "nobody" : fmt::format("{}", fmt::join(names, " "));
 }
 
 void print_row(const rsl::Builtin& row) {
-    for (const Form& form : forms(row)) {
-        if (form.types.size() == 1)
-            std::printf("%s\n", form.plain.c_str());
-        else
-            std::printf("%s, T: %s\n", form.text.c_str(),
-                        fmt::format("{}", fmt::join(form.types, " ")).c_str());
-    }
+    for (const BuiltinForm& form : builtin_forms(row)) std::printf("%s\n", form.line().c_str());
     std::printf("    %s\n", row.doc);
-    for (const EffectRow& effect : kEffects)
-        if (row.effects & effect.flag) std::printf("    It %s.\n", effect.text);
+    for (const std::string& text : effect_texts(row)) std::printf("    It %s.\n", text.c_str());
     if (row.legal != rsl::kAnyShader)
-        std::printf("    Only in%s shaders.\n", kinds_of(row.legal).c_str());
+        std::printf("    Only in %s shaders.\n", kinds_of(row.legal).c_str());
     if (row.tolerance_ulp > 0)
         std::printf("    Precise mathematics is within %d ULP.\n", row.tolerance_ulp);
     if (!row.lower) std::printf("    Known, but not supported yet.\n");
@@ -128,7 +39,7 @@ void print_global(const rsl::GlobalInfo& global, bool whole) {
                     std::string(global.doc).c_str());
         return;
     }
-    std::printf("%s\n    %s\n    read by%s, written by%s\n",
+    std::printf("%s\n    %s\n    read by %s, written by %s\n",
                 fmt::format("{} {}", rsl::type_name(global.type), global.name).c_str(),
                 std::string(global.doc).c_str(), kinds_of(global.readers).c_str(),
                 kinds_of(global.writers).c_str());
@@ -137,6 +48,10 @@ void print_global(const rsl::GlobalInfo& global, bool whole) {
 }  // namespace
 
 int shade_manual(const ShadeOptions& options) {
+    if (!options.markdown.empty()) {
+        std::fputs(manual_page(options.markdown).c_str(), stdout);
+        return kExitOk;
+    }
     bool found = false;
     for (std::span<const rsl::Builtin> group : rsl::builtin_groups())
         for (const rsl::Builtin& row : group) {

@@ -3,6 +3,7 @@
 
 #include "runtime/images/image_io.h"
 #include "runtime/programs/common/command_line.h"
+#include "runtime/programs/shade/manual_pages.h"
 #include "runtime/programs/shade/source.h"
 
 namespace kinora {
@@ -112,6 +113,10 @@ void add_commands(CLI::App& app, ShadeOptions& o, Texts& texts) {
     CLI::App* manual = app.add_subcommand("manual", "the built-in functions and globals");
     manual->add_option("name", o.source, "a function or a global; without one, all are listed");
     manual->add_flag("--list", texts.list, "one line each (what it does without a name)");
+    manual
+        ->add_option("--markdown", o.markdown,
+                     "[PAGE]: as docs has it: builtins, globals, words or findings (builtins)")
+        ->check(one_of(manual_pages()));
     for (CLI::App* command : app.get_subcommands({})) add_telling(*command, o);
 }
 
@@ -141,6 +146,9 @@ void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
         o.compile.defines.push_back(text.find('=') == std::string::npos
                                         ? std::pair(text, std::string("1"))
                                         : name_and_value(text, "-D"));
+    if (!o.markdown.empty() && !o.source.empty())
+        throw CLI::ValidationError("--markdown",
+                                   "writes whole pages; leave '" + o.source + "' out");
     hold_to_scene(o);
     if (!o.file.empty() && !is_image_path(o.file))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
@@ -160,7 +168,8 @@ std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& o) {
     // -Werror is one word, as compilers have it; CLI11 would read -W -e -r ...
     std::replace(words.begin(), words.end(), std::string("-Werror"), std::string("--Werror"));
     return parse_command_line(
-        app, words, {}, [&] { interpret(app, texts, o); }, [&] { check_command(app, words); });
+        app, words, {{"--markdown", "builtins"}}, [&] { interpret(app, texts, o); },
+        [&] { check_command(app, words); });
 }
 
 }  // namespace kinora

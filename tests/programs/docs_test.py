@@ -1,0 +1,131 @@
+"""tests/programs/docs_test.py: the pages that scripts/docs draws from tables are current."""
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+from programs import BIN, SOURCE, ProgramTest, Result, main, run, shade, supported_targets
+
+SCRIPT = "scripts/docs"
+PAGES = ("docs/builtins.md", "docs/language.md")
+
+
+def docs(root, *words):
+    done = subprocess.run([sys.executable, root / SCRIPT, *words], capture_output=True, text=True, timeout=60,
+                          env={**os.environ, "KINORA_BIN_DIR": str(BIN)})
+    return Result(done.returncode, done.stdout, done.stderr)
+
+
+class Pages(ProgramTest):
+    def test_are_what_the_tables_say(self):
+        result = docs(SOURCE, "--check")
+        self.assertEqual(result.code, 0, f"\n{result.out}{result.err}")
+
+    def copy(self):
+        """Script and pages as a tree of their own."""
+        for path in (SCRIPT, *PAGES):
+            (self.folder / path).parent.mkdir(exist_ok=True)
+            shutil.copy(SOURCE / path, self.folder / path)
+        docs(self.folder)
+
+    def test_that_are_not_current_are_named_and_mended(self):
+        for page in PAGES:
+            self.copy()
+            path = self.folder / page
+            current = path.read_text()
+            changed = re.sub(r"\| color \|", "| colour |", current.replace("Absolute value", "Value"))
+            self.assertNotEqual(changed, current)
+            path.write_text(changed)
+            self.expect(docs(self.folder, "--check"), 1, f"{page} is not what the tables say; run scripts/docs")
+            self.assertEqual(path.read_text(), changed)
+            self.expect(docs(self.folder), 0, f"{page}: written")
+            self.assertEqual(path.read_text(), current)
+            self.expect(docs(self.folder, "--check"), 0)
+
+    def test_keep_what_is_written_by_hand(self):
+        self.copy()
+        path = self.folder / "docs/language.md"
+        path.write_text(path.read_text() + "\nBy hand.\n")
+        self.expect(docs(self.folder, "--check"), 0)
+
+    def test_without_their_marks_are_an_error(self):
+        self.copy()
+        path = self.folder / "docs/language.md"
+        path.write_text(path.read_text().replace("<!-- end of globals -->", ""))
+        self.expect(docs(self.folder), 1, "docs/language.md: needs one", "end of globals")
+
+
+class Manual(ProgramTest):
+    def test_has_an_entry_for_every_built_in(self):
+        page = self.expect(shade("manual", "--markdown"), 0).out
+        rows = re.findall(r"^(\w+) {2,}(.*)", shade("manual").out, re.M)
+        names = {name for name, _ in rows} - set(
+            re.findall(r"^GLOBAL\((\w+),", (SOURCE / "rsl/model/globals.def").read_text(), re.M))
+        self.assertEqual(names, set(re.findall(r"^### (\w+)$", page, re.M)))
+        for name in names:
+            self.assertRegex(page, rf"(?m)^(T|void|\w+) {name}\(")
+
+    def test_has_every_optional_parameter(self):
+        page = shade("manual", "--markdown").out
+        rows = re.findall(r'^    \{"(\w+)", k', (SOURCE / "rsl/model/pairs.cpp").read_text(), re.M)
+        self.assertGreater(len(rows), 50)
+        for name in rows:
+            self.assertIn(f"\n| `{name}` |", page)
+
+    def test_has_every_global_with_who_reads_and_writes_it(self):
+        page = self.expect(shade("manual", "--markdown", "globals"), 0, "| `P` | point | varying | rw | rw | r |").out
+        names = re.findall(r"^GLOBAL\((\w+),", (SOURCE / "rsl/model/globals.def").read_text(), re.M)
+        self.assertEqual(re.findall(r"^\| `(\w+)` \|", page, re.M), names)
+
+    def test_pages_that_are_none_are_usage_errors(self):
+        self.expect(shade("manual", "--markdown", "built"), 2, "'built' is none of builtins, globals")
+        self.expect(shade("manual", "sin", "--markdown"), 2, "leave 'sin' out")
+
+
+def fences(page, language):
+    return re.findall(rf"^ *```{language}\n(.*?)^ *```", page.read_text(), re.M | re.S)
+
+
+def commands(page):
+    """The words of each call of a program that the page shows."""
+    for block in fences(page, "sh"):
+        for line in block.replace("\\\n", " ").splitlines():
+            words = shlex.split(re.sub(r"\s#.*", "", line))
+            if words and words[0].startswith("kinora-"):
+                yield words[:words.index("&&")] if "&&" in words else words
+
+
+def without(words, *options):
+    """The words without these options and their values."""
+    return [w for i, w in enumerate(words) if w not in options and (i == 0 or words[i - 1] not in options)]
+
+
+def cheap(words):
+    """The same with little to compute."""
+    if words[0] == "kinora-render" and "--list" not in words:
+        frames = ["--frames", "1"] if any("####" in w for w in words) else []
+        return without(words, "--size", "--scale", "--quality", "--frames") + ["--size", "16x9", "--spp", "1", *frames]
+    if words[:2] == ["kinora-shade", "run"]:
+        return without(words, "--size") + ["--size", "16x16"]
+    return words
+
+
+class Commands(ProgramTest):
+    def test_of_the_pages_do_what_they_say(self):
+        (self.folder / "assets").symlink_to(SOURCE / "assets")
+        (self.folder / "stripes.sl").write_text(fences(SOURCE / "README.md", "c")[0])
+        targets, count = supported_targets(), 0
+        for page in (SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))):
+            for words in commands(page):
+                if "--target" in words and words[words.index("--target") + 1] not in targets:
+                    continue
+                count += 1
+                with self.subTest(page=page.name, command=shlex.join(words)):
+                    self.expect(run(*cheap(words), cwd=self.folder), 0)
+        self.assertGreater(count, 25)
+
+
+if __name__ == "__main__":
+    main()
