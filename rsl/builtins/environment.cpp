@@ -71,7 +71,7 @@ bool light_position(LowerCall& c, const V3& P, V3& position) {
             c.light_shader.in_solar() ? e.fma(e.normalize(L), e.f(-kFarAway), Ps) : e.sub(Ps, L);
         return true;
     }
-    if (c.lights.current().record == jit::kNone) return false;
+    if (!c.lights.any_current()) return false;
     Value kind = record_uniform(c.b, c.lights.current().set, c.lights.current().record, kLightKind,
                                 jit::Type::I);
     Value solar = b.op(jit::Op::IEq, kind, b.i(kLightSolar));

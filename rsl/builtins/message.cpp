@@ -90,7 +90,7 @@ void of_layer(LowerCall& c) {
 // A parameter of the light that the illuminance loop is at.
 void lightsource(LowerCall& c) {
     const std::string* name = c.text(0);
-    if (!name || c.lights.current().record == jit::kNone) return;
+    if (!name || !c.lights.any_current()) return;
     Variable variable(c);
     Value known;
     std::vector<Lowered> values = c.lights.message(*name, variable.type, variable.before, &known);
