@@ -59,7 +59,7 @@ class Key {
         bytes_ += text;
     }
 
-    // Places in the source do not change code; fault sites' do change what is reported.
+    // Source locations do not change code; fault sites' do change what is reported.
     void add_function(const Function& function) {
         add(function.insts.size());
         for (Inst inst : function.insts) {

@@ -14,8 +14,6 @@ ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).
 FOLDERS = ("jit", "rsl", "collada", "anim", "skin", "raytrace", "runtime")
 MOST = (4, 40, 25)  # files, functions, fields
 LARGER = {
-    "jit/a64/Emit": (8, 118, 7),
-    "jit/x64/Emit": (8, 141, 8),
 }
 
 DEFINED = re.compile(

@@ -14,7 +14,7 @@ bool neon_supported();
 
 // Machine code for a verified module; null if executable memory cannot be had. `assembly`, if
 // given, receives a listing with the IR beside it. "neon" runs 4 points at a time: a grid of n
-// points leaves the places of `out` from n rounded up to 4 on as they are. On other CPUs the kernel
+// points leaves the points of `out` from n rounded up to 4 on as they are. On other CPUs the kernel
 // holds its code but must not be run.
 std::shared_ptr<Kernel> emit_neon(const Module& module, std::string* assembly);
 

@@ -1,28 +1,26 @@
 // jit/a64/operands.cpp: from a value to the register that holds it now, or its memory.
-#include "jit/a64/emit_p.h"
+#include "jit/a64/operands_p.h"
+
+#include "jit/ir/planted_fault.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit::a64 {
 
 // v0..v7 and v16..v28 are free to use, v8..v15 must be kept for the caller: they are given last.
-Vec Emit::vec(int index) const {
+Vec Operands::vec(int index) {
     int id = index < 8 ? index : index < kFirstSavedRegister ? index + 8 : index - 13;
     return arm::v(static_cast<uint32_t>(id));
 }
 
-bool Emit::lies_in(const Vec& r, Value v) const {
-    return in_register(v) && vec(place(root(v)).reg).id() == r.id();
-}
-
 // The immediate of a load or store counts its own size, 0..4095 times.
-arm::Mem Emit::at(const Gp& base, int64_t offset, int bytes) {
+arm::Mem Operands::address(const Gp& base, int64_t offset, int bytes) {
     if (offset >= 0 && offset % bytes == 0 && offset / bytes < 4096)
         return arm::ptr(base, static_cast<int32_t>(offset));
     a_.mov(arm::x17, offset);
     return arm::ptr(base, arm::x17);
 }
 
-void Emit::add_offset(const Gp& to, const Gp& base, int64_t offset) {
+void Operands::add_offset(const Gp& to, const Gp& base, int64_t offset) {
     if (offset >= 0 && offset < 4096) {
         a_.add(to, base, offset);
     } else {
@@ -31,36 +29,35 @@ void Emit::add_offset(const Gp& to, const Gp& base, int64_t offset) {
     }
 }
 
-int32_t Emit::slot(Value v) const {
-    CHECK_GE(place(v).slot, 0);
-    return layout_.vectors + kVector * place(v).slot;
+int32_t Operands::slot(Value v) const {
+    int32_t index = cursor_.interval(v).slot;
+    CHECK_GE(index, 0);
+    return cursor_.code().layout.vectors + kVector * index;
 }
 
-void Emit::zero(const Vec& to) {
+void Operands::zero(const Vec& to) {
     a_.movi(to.s4(), 0);
 }
 
-void Emit::move(const Vec& to, const Vec& from) {
+void Operands::move(const Vec& to, const Vec& from) {
     if (to.id() != from.id()) a_.mov(to.b16(), from.b16());
 }
 
-void Emit::constant(const Vec& to, uint32_t bits) {
+void Operands::constant(const Vec& to, uint32_t bits) {
     if (bits == 0)
         zero(to);
     else
-        a_.ldr(to, at(kPool, state_.pool.word(bits), kVector));
+        a_.ldr(to, address(kPool, pool_.word(bits), kVector));
 }
 
-void Emit::broadcast(const Vec& to, const arm::Mem& word) {
+void Operands::broadcast(const Vec& to, const arm::Mem& word) {
     a_.ldr(to.s(), word);
     a_.dup(to.s4(), to.s(0));
 }
 
-// From where the value lies in memory.
-void Emit::load_home(const Vec& to, Value v) {
-    const Inst& i = inst(v);
-    for (int k = 0; k < 2; ++k)
-        if (saved_[k] == v) return void(a_.ldr(to, row(layout_.swap + kRow * k)));
+void Operands::load_memory(const Vec& to, Value v) {
+    const Inst& i = cursor_.inst(v);
+    if (int k = cursor_.old_row(v); k >= 0) return void(a_.ldr(to, swap_row(k)));
     bool stale = planted(PlantedFault::StaleFrameSlot) && i.imm > 0;
     switch (i.op) {
         case Op::ConstF:
@@ -69,16 +66,16 @@ void Emit::load_home(const Vec& to, Value v) {
         case Op::ConstM:
             return constant(to, i.imm != 0 ? ~0u : 0u);
         case Op::FrameLoad:
-            return broadcast(to, at(kFrameBlock, int64_t{4} * (i.imm - stale), 4));
+            return broadcast(to, address(kFrameBlock, int64_t{4} * (i.imm - stale), 4));
         case Op::Input:
-            a_.ldr(arm::x17, at(kIn, int64_t{8} * i.imm, 8));
+            a_.ldr(arm::x17, address(kIn, int64_t{8} * i.imm, 8));
             a_.ldr(to, arm::ptr(arm::x17, kGroup));
             return;
         case Op::Param:
-            a_.ldr(to, row(layout_.params + kRow * i.imm));
+            a_.ldr(to, row(cursor_.code().layout.params + kRow * i.imm));
             return;
         case Op::Loop:  // unmasked: all lanes run
-            if (!plan_.values[v].masked) return constant(to, ~0u);
+            if (!cursor_.plan(v).masked) return constant(to, ~0u);
             break;
         default:
             break;
@@ -86,37 +83,38 @@ void Emit::load_home(const Vec& to, Value v) {
     a_.ldr(to, row(slot(v)));
 }
 
-Vec Emit::reg(Value v, int scratch_index) {
-    v = root(v);
-    if (in_register(v)) return vec(place(v).reg);
-    load_home(scratch(scratch_index), v);
+Vec Operands::reg(Value v, int scratch_index) {
+    v = cursor_.root(v);
+    if (cursor_.in_register(v)) return vec(cursor_.interval(v).reg);
+    load_memory(scratch(scratch_index), v);
     return scratch(scratch_index);
 }
 
-void Emit::load(const Vec& to, Value v) {
-    v = root(v);
-    if (in_register(v))
-        move(to, vec(place(v).reg));
+bool Operands::lies_in(const Vec& r, Value v) const {
+    return cursor_.in_register(v) && vec(cursor_.interval(cursor_.root(v)).reg).id() == r.id();
+}
+
+void Operands::load(const Vec& to, Value v) {
+    v = cursor_.root(v);
+    if (cursor_.in_register(v))
+        move(to, vec(cursor_.interval(v).reg));
     else
-        load_home(to, v);
+        load_memory(to, v);
 }
 
-Vec Emit::target() const {
-    const Place& p = place(at_);
-    return p.reg >= 0 && p.in_reg(p.begin) ? vec(p.reg) : scratch(0);
+void Operands::load_register(Value v) {
+    load_memory(vec(cursor_.interval(v).reg), v);
 }
 
-void Emit::store_slot(Value v, const Vec& value) {
-    if (planted(PlantedFault::MissingSpill) && place(v).reg >= 0) return;
-    if (place(v).slot >= 0) a_.str(value, row(slot(v)));
+Vec Operands::target() const {
+    const LiveInterval& value = cursor_.interval(cursor_.at());
+    return value.in_reg(value.begin) ? vec(value.reg) : scratch(0);
 }
 
-// A Merge or LoopVar with both a register and a slot fills the slot when its last write is done.
-void Emit::copy(Value to, Value from) {
-    if (place(to).reg < 0)
-        store_slot(to, reg(from, 0));
-    else
-        load(vec(place(to).reg), from);
+void Operands::store_slot(Value v, const Vec& value) {
+    const LiveInterval& interval = cursor_.interval(v);
+    if (planted(PlantedFault::MissingSpill) && interval.reg >= 0) return;
+    if (interval.slot >= 0) a_.str(value, row(slot(v)));
 }
 
 }  // namespace kinora::jit::a64

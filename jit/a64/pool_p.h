@@ -33,7 +33,7 @@ class Pool {
         return first;
     }
 
-    void place(asmjit::a64::Assembler& a) const { a.embed(rows_.data(), rows_.size() * 16); }
+    void embed(asmjit::a64::Assembler& a) const { a.embed(rows_.data(), rows_.size() * 16); }
 
   private:
     std::vector<std::array<uint32_t, 4>> rows_ = {{0, 1, 2, 3}, {1, 2, 4, 8}};

@@ -1,7 +1,7 @@
 // jit/a64/records.cpp: records of a grid (light answers): sets[a].records[b].
-#include <cstddef>
+#include "jit/a64/records_p.h"
 
-#include "jit/a64/emit_p.h"
+#include <cstddef>
 
 namespace kinora::jit::a64 {
 
@@ -11,54 +11,35 @@ using asmjit::arm::ShiftOp;
 
 static_assert(sizeof(RecordSet) == 16 && sizeof(Record) == 16);
 
-// One lane's int. If lanes need not agree the value is that of a lane that runs the loop we are in:
-// those that have left it keep older indices.
-void Emit::lane_to(const Gp& to, Value index) {
-    index = root(index);
-    Value loop = structure_.loop_of[at_];
-    if (inst(index).op == Op::ConstI) {
-        a_.mov(to, static_cast<uint32_t>(inst(index).imm));
-    } else if (!plan_.agree[index] && loop != kNone && plan_.values[loop].masked) {
-        Vec lanes = reg(index, 0);
-        a_.str(lanes, row(layout_.lanes_a));
-        mask_bits(to, loop);
-        a_.rbit(to, to);
-        a_.clz(to, to);
-        add_offset(arm::x16, kStack, layout_.lanes_a);
-        a_.ldr(to, arm::ptr(arm::x16, to.x(), Shift(ShiftOp::kLSL, 2)));
-    } else {
-        a_.umov(to, reg(index, 1).s(0));
-    }
-}
-
 // x1 = the record set of the instruction.
-void Emit::find_set() {
-    bool known = inst(now().a).op == Op::ConstI;
-    if (!known) lane_to(arm::w0, now().a);
+void Records::find_set() {
+    const Inst& number = cursor_.inst(cursor_->a);
+    bool known = number.op == Op::ConstI;
+    if (!known) indices_.lane_to(arm::w0, cursor_->a);
     a_.ldr(arm::x1, arm::ptr(kArgs, offsetof(KernelArgs, record_sets)));
     if (!known)
         a_.add(arm::x1, arm::x1, arm::x0, Shift(ShiftOp::kLSL, 4));
-    else if (inst(now().a).imm != 0)
-        add_offset(arm::x1, arm::x1, int64_t{inst(now().a).imm} * int64_t{sizeof(RecordSet)});
+    else if (number.imm != 0)
+        operands_.add_offset(arm::x1, arm::x1, int64_t{number.imm} * int64_t{sizeof(RecordSet)});
 }
 
-void Emit::op_RecordCount() {
+void Records::op_RecordCount() {
     find_set();
     a_.ldr(arm::w0, arm::ptr(arm::x1, offsetof(RecordSet, count)));
-    a_.dup(target().s4(), arm::w0);
-    finish(target());
+    a_.dup(operands_.target().s4(), arm::w0);
+    operands_.finish(operands_.target());
 }
 
-// kRecord = the record, or null if the set is empty and that is not ruled out. It is kept from read
-// to read until control flow joins or another record is read.
-void Emit::find_record() {
-    if (record_ == root(now().b) && record_set_ == root(now().a)) return;
-    record_ = root(now().b);
-    record_set_ = root(now().a);
+// kRecord = the record, or null if the set is empty and that is not ruled out.
+void Records::find() {
+    HeldRecord::Key key{cursor_.root(cursor_->a), cursor_.root(cursor_->b)};
+    if (held_.is(key)) return;
+    held_.hold(key);
+    bool in_range = cursor_.code().plan.in_range[cursor_.at()];
     find_set();
-    lane_to(arm::w0, now().b);
+    indices_.lane_to(arm::w0, cursor_->b);
     a_.ldr(kRecord, arm::ptr(arm::x1, offsetof(RecordSet, records)));
-    if (!plan_.in_range[at_]) {
+    if (!in_range) {
         // The index is held in 0..count-1.
         a_.ldr(arm::w2, arm::ptr(arm::x1, offsetof(RecordSet, count)));
         a_.cmp(arm::w0, 0);
@@ -68,36 +49,36 @@ void Emit::find_record() {
         a_.csel(arm::w0, arm::w3, arm::w0, CondCode::kGT);
     }
     a_.add(kRecord, kRecord, arm::x0, Shift(ShiftOp::kLSL, 4));
-    if (plan_.in_range[at_]) return;
+    if (in_range) return;
     a_.cmp(arm::w2, 0);
     a_.csel(kRecord, arm::xzr, kRecord, CondCode::kLE);
 }
 
-void Emit::read_record(bool uniform) {
-    find_record();
-    Vec to = target();
+void Records::read(bool uniform) {
+    find();
+    Vec to = operands_.target();
     Label none = a_.newLabel();
-    if (!plan_.in_range[at_]) {
-        zero(to);
+    if (!cursor_.code().plan.in_range[cursor_.at()]) {
+        operands_.zero(to);
         a_.cbz(kRecord, none);
     }
     if (uniform) {
         a_.ldr(arm::x2, arm::ptr(kRecord, offsetof(Record, uniforms)));
-        broadcast(to, at(arm::x2, int64_t{4} * now().imm, 4));
+        operands_.broadcast(to, operands_.address(arm::x2, int64_t{4} * cursor_->imm, 4));
     } else {
         a_.ldr(arm::x2, arm::ptr(kRecord, offsetof(Record, columns)));
-        a_.ldr(arm::x2, at(arm::x2, int64_t{8} * now().imm, 8));
+        a_.ldr(arm::x2, operands_.address(arm::x2, int64_t{8} * cursor_->imm, 8));
         a_.ldr(to, arm::ptr(arm::x2, kGroup));
     }
     a_.bind(none);
-    finish(to);
+    operands_.finish(to);
 }
 
-void Emit::op_RecordField() {
-    read_record(false);
+void Records::op_RecordField() {
+    read(false);
 }
-void Emit::op_RecordUniform() {
-    read_record(true);
+void Records::op_RecordUniform() {
+    read(true);
 }
 
 }  // namespace kinora::jit::a64

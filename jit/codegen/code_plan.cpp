@@ -1,4 +1,4 @@
-// jit/codegen/code_plan.cpp: what needs a register, what lies in memory, what is computed in place.
+// jit/codegen/code_plan.cpp: what needs a register, what lies in memory, what its user computes.
 #include "jit/codegen/code_plan_p.h"
 
 #include "jit/ir/analysis.h"

@@ -1,5 +1,5 @@
-// jit/codegen/function_code_p.h: what every code generator knows of the function that it writes:
-// the plan, the registers, the frame in scratch, and the instruction in work.
+// jit/codegen/function_code_p.h: what is decided about a function before its code is written, for
+// any target: the plan, the registers, and the frame in scratch.
 #pragma once
 
 #include <string>
@@ -36,56 +36,34 @@ struct FrameLayout {
     int32_t bytes = 0;
 };
 
-// A step of giving a loop's variables their next values.
-struct LoopUpdate {
-    Value variable;
-    Value next;        // kNone: keep the variable's old value in a swap row instead
-    int swap_row = 0;  // 0 or 1
-};
-
-class FunctionCode {
-  public:
+// Nothing changes after construction. Frame size is known before code is written, which is done for
+// frames that fit alone.
+struct FunctionCode {
     FunctionCode(const Module& module, size_t function_index, const CodeRules& rules);
 
-    // Frame size is known before code is written, which is done for frames that fit alone.
-    size_t frame_bytes() const { return frame_bytes_; }
-    bool fits() const { return frame_bytes_ <= kMostFrameBytes; }
+    bool fits() const { return frame_bytes <= kMostFrameBytes; }
     // Something asks which lanes of a group hold points.
     bool uses_valid_lanes() const;
     // For tests: "" if the register allocation is proven right.
     std::string check() const {
-        return check_allocation(f_, structure_, plan_.values, allocation_);
+        return check_allocation(function, structure, plan.values, allocation);
     }
 
-  protected:
-    const Inst& inst(Value v) const { return f_.insts[v]; }
-    const Inst& now() const { return f_.insts[at_]; }
+    const Inst& inst(Value v) const { return function.insts[v]; }
+    // The LoopVar whose register and memory a LoopOut shares; other values are their own.
     Value root(Value v) const { return inst(v).op == Op::LoopOut ? inst(v).a : v; }
-    const Place& place(Value v) const { return allocation_.places[v]; }
+    const LiveInterval& interval(Value v) const { return allocation.intervals[v]; }
     bool is_zero(Value v) const;
-    bool in_register(Value v) const {
-        v = root(v);
-        return place(v).in_reg(at_) && v != saved_[0] && v != saved_[1];
-    }
-    // Of the array that the instruction in work reads or writes.
-    int32_t array_length() const { return f_.arrays[static_cast<size_t>(now().imm)].length; }
-    int32_t array_offset() const { return layout_.arrays[static_cast<size_t>(now().imm)]; }
-    // What the EndLoop in work does to the variables of `loop`. All change at once, and the mask
-    // with them: a variable is written when no other still reads it, and a cycle is broken by
-    // keeping one old value in memory.
-    std::vector<LoopUpdate> loop_updates(Value loop) const;
 
-    const Module& module_;
-    const Function& f_;
-    const bool is_kernel_;
-    const size_t index_;
-    Structure structure_;
-    FunctionPlan plan_;
-    Allocation allocation_;
-    FrameLayout layout_;
-    size_t frame_bytes_ = 0;
-    Value at_ = 0;                     // the instruction in work
-    Value saved_[2] = {kNone, kNone};  // variables whose old value lies in the swap rows
+    const Module& module;
+    const Function& function;
+    const size_t index;
+    const bool is_kernel;
+    const Structure structure;
+    const FunctionPlan plan;
+    const Allocation allocation;
+    FrameLayout layout;
+    size_t frame_bytes = 0;
 
   private:
     void lay_out(int lanes);

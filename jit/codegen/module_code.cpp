@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "jit/codegen/code_memory.h"
+#include "jit/ir/analysis.h"
 #include "runtime/base/check.h"
 
 namespace kinora::jit {
@@ -49,6 +50,23 @@ std::vector<size_t> reached_functions(const Module& module) {
     return order;
 }
 
+PlannedModule::PlannedModule(const Module& module, const CodeRules& rules) {
+    std::vector<size_t> frames(module.functions.size(), 0);
+    for (size_t index : reached_functions(module)) {
+        const FunctionCode& code = functions.emplace_back(module, index, rules);
+        frames[index] = code.frame_bytes;
+        fits = fits && code.fits();
+        uses_valid_lanes = uses_valid_lanes || code.uses_valid_lanes();
+    }
+    stack_bytes = deepest_stack(module, frames);
+}
+
+std::string PlannedModule::check() const {
+    for (const FunctionCode& code : functions)
+        if (std::string fault = code.check(); !fault.empty()) return fault;
+    return "";
+}
+
 std::shared_ptr<Kernel> finish_kernel(const Module& module, const char* target, FinishedCode code) {
     auto kernel = std::make_shared<CodeKernel>();
     kernel->memory = make_executable(code.bytes);
@@ -57,7 +75,7 @@ std::shared_ptr<Kernel> finish_kernel(const Module& module, const char* target, 
     kernel->scratch_bytes = code.scratch_bytes;
     kernel->code_bytes = code.bytes.size();
     kernel->machine_code = {kernel->memory->data(), code.bytes.size()};
-    kernel->places = std::move(code.places);
+    kernel->lines = std::move(code.lines);
     kernel->eh_frame = code.unwind.eh_frame(kernel->memory->data(), code.bytes.size());
     if (code.runs_here) kernel->unwind.emplace(kernel->eh_frame);
     kernel->entry = reinterpret_cast<KernelFn>(reinterpret_cast<uintptr_t>(kernel->memory->data()));
@@ -75,13 +93,13 @@ std::string text_of(const Function& function, Value at, bool fused) {
     return fused ? text + " (fused)" : text;
 }
 
-void note_place(std::vector<CodePlace>& places, size_t offset, const Location& where) {
+void note_line(std::vector<CodeLine>& lines, size_t offset, const Location& where) {
     auto same = [&](const Location& known) {
         return known.file == where.file && known.begin == where.begin && known.end == where.end;
     };
-    if (!places.empty() && same(places.back().where)) return;
-    if (!places.empty() && places.back().offset == offset) places.pop_back();
-    places.push_back({static_cast<uint32_t>(offset), where});
+    if (!lines.empty() && same(lines.back().where)) return;
+    if (!lines.empty() && lines.back().offset == offset) lines.pop_back();
+    lines.push_back({static_cast<uint32_t>(offset), where});
 }
 
 }  // namespace kinora::jit

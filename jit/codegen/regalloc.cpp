@@ -18,7 +18,7 @@ class Allocator {
     Allocator(const Function& f, const Structure& s, std::span<const ValuePlan> plan,
               const AllocationLimits& limits)
         : f_(f), s_(s), plan_(plan), limits_(limits), n_(static_cast<Value>(f.insts.size())) {
-        out_.places.resize(n_);
+        out_.intervals.resize(n_);
         for (int c = 0; c < kRegClasses; ++c) {
             all_[c] = ((1ull << limits.registers[c]) - 1) & ~((1ull << limits.first[c]) - 1);
             free_[c] = all_[c];
@@ -32,12 +32,12 @@ class Allocator {
         hoist_over_function();
         assign_slots();
         for (Value v = 0; v < n_; ++v)
-            if (plan_[v].alias != kNone) place(v) = place(plan_[v].alias);
+            if (plan_[v].alias != kNone) interval(v) = interval(plan_[v].alias);
         return std::move(out_);
     }
 
   private:
-    Place& place(Value v) { return out_.places[v]; }
+    LiveInterval& interval(Value v) { return out_.intervals[v]; }
     int cls(Value v) const { return static_cast<int>(plan_[v].cls) - 1; }
     bool wants_register(Value v) const {
         return plan_[v].cls != RegClass::None && !plan_[v].fused && plan_[v].alias == kNone &&
@@ -59,17 +59,17 @@ class Allocator {
     }
 
     void find_ranges() {
-        for (Value v = 0; v < n_; ++v) place(v).begin = place(v).end = v;
+        for (Value v = 0; v < n_; ++v) interval(v).begin = interval(v).end = v;
         for (Value v = 0; v < n_; ++v) {
             const Inst& inst = f_.insts[v];
-            if (inst.op == Op::Merge) place(v).begin = static_cast<Value>(inst.imm);
-            if (plan_[v].home) place(v).begin = 0;  // loaded before any loop around its uses
+            if (inst.op == Op::Merge) interval(v).begin = static_cast<Value>(inst.imm);
+            if (plan_[v].home) interval(v).begin = 0;  // loaded before any loop around its uses
         }
         first_use_.assign(n_, kNone);
         // Backward, so the first use met is the last one; earlier ones only move first_use_.
         for (Value at = n_; at-- > 0;) {
             uses(at, [&](Value v) {
-                Place& p = place(v);
+                LiveInterval& p = interval(v);
                 if (first_use_[v] == kNone) {
                     Value loop = loop_between(p.begin, at);
                     if (planted(PlantedFault::RangeNotStretched)) loop = kNone;
@@ -89,7 +89,7 @@ class Allocator {
         for (Value v = 0; v < n_; ++v) {
             if (!plan_[v].home || !wants_register(v) || first_use_[v] == kNone) continue;
             Value at = s_.top[first_use_[v]];
-            place(v).begin = at;
+            interval(v).begin = at;
             out_.load_next[v] = out_.load_at[at];
             out_.load_at[at] = v;
         }
@@ -106,15 +106,15 @@ class Allocator {
             if (plan_[at].clobber) spill_all(at);
             if (inst.op != Op::Merge && wants_register(at) && !plan_[at].home) {
                 if (inst.op == Op::LoopVar) take_over(at, inst.a, at);
-                if (place(at).reg < 0) give_register(at, at, at);
-                if (place(at).end == at) release(at);
+                if (interval(at).reg < 0) give_register(at, at, at);
+                if (interval(at).end == at) release(at);
             }
             track_loops(at);
         }
     }
 
     void release(Value v) {
-        Place& p = place(v);
+        LiveInterval& p = interval(v);
         if (!wants_register(v) || p.reg < 0 || occupant_[cls(v)][p.reg] != v) return;
         occupant_[cls(v)][p.reg] = kNone;
         free_[cls(v)] |= 1ull << p.reg;
@@ -122,7 +122,7 @@ class Allocator {
 
     void release_operands(Value at) {
         uses(at, [&](Value v) {
-            if (place(v).end == at) release(v);
+            if (interval(v).end == at) release(v);
         });
     }
 
@@ -131,16 +131,16 @@ class Allocator {
         for (int c = 0; c < kRegClasses; ++c)
             for (uint64_t held = all_[c] & ~free_[c]; held; held &= held - 1) {
                 Value v = occupant_[c][std::countr_zero(held)];
-                if (place(v).end <= at) release(v);
+                if (interval(v).end <= at) release(v);
             }
     }
 
     // The register of `from`, if it dies here, becomes the register of `to`.
     void take_over(Value to, Value from, Value at) {
         if (f_.insts[from].op == Op::LoopOut) from = f_.insts[from].a;
-        bool dies = place(from).end == at || planted(PlantedFault::MergeTakesLiveRegister);
+        bool dies = interval(from).end == at || planted(PlantedFault::MergeTakesLiveRegister);
         if (plan_[from].fused || plan_[from].cls != plan_[to].cls || !dies) return;
-        Place& p = place(from);
+        LiveInterval& p = interval(from);
         if (!p.in_reg(at) || p.reg < 0) return;
         Value holder = occupant_[cls(to)][p.reg];
         bool just_freed = holder == kNone && (free_[cls(to)] >> p.reg & 1);
@@ -154,7 +154,7 @@ class Allocator {
         for (Value m = s_.end_of[at] + 1; f_.insts[m].op == Op::Merge; ++m)
             if (wants_register(m)) take_over(m, f_.insts[m].b, at);
         for (Value m = s_.end_of[at] + 1; f_.insts[m].op == Op::Merge; ++m)
-            if (wants_register(m) && place(m).reg < 0) give_register(m, at, at - 1);
+            if (wants_register(m) && interval(m).reg < 0) give_register(m, at, at - 1);
     }
 
     void occupy(Value v, int reg) {
@@ -163,8 +163,8 @@ class Allocator {
         touched_[c] |= 1ull << reg;
         loop_touched_[c] |= 1ull << reg;
         occupant_[c][reg] = v;
-        place(v).reg = static_cast<int8_t>(reg);
-        place(v).reg_last = kForever;
+        interval(v).reg = static_cast<int8_t>(reg);
+        interval(v).reg_last = kForever;
     }
 
     // A free register for v, or that of the value ending last. An evicted value may be read from
@@ -183,19 +183,19 @@ class Allocator {
             }
         }
         if (victim == v) return;
-        int reg = place(victim).reg;
+        int reg = interval(victim).reg;
         evict(victim, at, last);
         occupy(v, reg);
     }
 
-    // A dying operand's register lets Fma and Select work in place.
+    // A dying operand's register lets Fma and Select write over an operand.
     int preferred(Value v, Value at) {
         int c = cls(v);
         const Inst& inst = f_.insts[v];
         const Value operands[] = {inst.c, inst.a, inst.b};
         if (inst.op != Op::Fma && inst.op != Op::Select) return std::countr_zero(free_[c]);
         for (Value from : operands) {
-            const Place& p = place(from);
+            const LiveInterval& p = interval(from);
             if (plan_[from].cls == plan_[v].cls && p.end == at && p.in_reg(at) &&
                 (free_[c] >> p.reg & 1))
                 return p.reg;
@@ -211,7 +211,7 @@ class Allocator {
         // Merges that start here may sit in registers of outer values still to be copied.
         if (inst.op == Op::Merge && static_cast<Value>(inst.imm) == at) return at;
         if (inst.op == Op::LoopVar && carries_on(static_cast<Value>(inst.imm), at)) return at;
-        return out_.places[v].end;
+        return out_.intervals[v].end;
     }
 
     bool carries_on(Value loop, Value at) const {
@@ -220,12 +220,12 @@ class Allocator {
     }
 
     void evict(Value v, Value at, Value last) {
-        Place& p = place(v);
+        LiveInterval& p = interval(v);
         int c = cls(v);
         occupant_[c][p.reg] = kNone;
         free_[c] |= 1ull << p.reg;
         if (rewritten_after(v, at)) {
-            p.reg = -1;  // it must have one place wherever it is written
+            p.reg = -1;  // it must lie in one or the other wherever it is written
             return;
         }
         Value loop = loop_between(p.begin, at);
@@ -287,7 +287,7 @@ class Allocator {
     }
 
     void hoist_to(Value v, uint64_t& free, int64_t after, uint32_t last) {
-        Place& p = place(v);
+        LiveInterval& p = interval(v);
         p.reg = static_cast<int8_t>(std::countr_zero(free));
         free &= free - 1;
         p.reg_after = after;
@@ -315,7 +315,7 @@ class Allocator {
     void hoist_over_loop(Value loop, uint64_t free, std::span<const Value> wanted) {
         for (Value v : wanted) {
             if (free == 0) return;
-            if (place(v).reg >= 0 || loop_weights_[v].first != loop) continue;
+            if (interval(v).reg >= 0 || loop_weights_[v].first != loop) continue;
             hoist_to(v, free, s_.header_of[loop], s_.end_of[loop]);
             out_.loop_hoists.push_back({loop, v});
         }
@@ -324,7 +324,7 @@ class Allocator {
     // --- spill slots, shared by values whose ranges do not meet ---
 
     bool needs_slot(Value v) const {
-        const Place& p = out_.places[v];
+        const LiveInterval& p = out_.intervals[v];
         if (!wants_register(v) || plan_[v].home) return false;
         return p.reg < 0 || p.reg_last < p.end;
     }
@@ -341,7 +341,7 @@ class Allocator {
             if (inst.op != Op::Merge) take_slot(at);
             Value ahead = planted(PlantedFault::SlotFreedEarly) ? 4 : 0;
             uses(at, [&](Value v) {
-                if (place(v).end <= at + ahead) free_slot(v);
+                if (interval(v).end <= at + ahead) free_slot(v);
             });
             if (inst.op == Op::EndLoop || inst.op == Op::EndIf) free_ended(at);
         }
@@ -351,26 +351,26 @@ class Allocator {
         if (!needs_slot(v)) return;
         int c = cls(v);
         if (free_slots_[c].empty()) {
-            place(v).slot = out_.slots[c]++;
+            interval(v).slot = out_.slots[c]++;
         } else {
-            place(v).slot = free_slots_[c].back();
+            interval(v).slot = free_slots_[c].back();
             free_slots_[c].pop_back();
         }
-        if (place(v).end > v) in_slots_.push_back(v);
+        if (interval(v).end > v) in_slots_.push_back(v);
     }
 
     void free_slot(Value v) {
-        if (place(v).slot < 0) return;
+        if (interval(v).slot < 0) return;
         auto at = std::find(in_slots_.begin(), in_slots_.end(), v);
         if (at == in_slots_.end()) return;
-        free_slots_[cls(v)].push_back(place(v).slot);
+        free_slots_[cls(v)].push_back(interval(v).slot);
         *at = in_slots_.back();
         in_slots_.pop_back();
     }
 
     void free_ended(Value at) {
         for (size_t k = in_slots_.size(); k-- > 0;)
-            if (place(in_slots_[k]).end <= at) free_slot(in_slots_[k]);
+            if (interval(in_slots_[k]).end <= at) free_slot(in_slots_[k]);
     }
 
     const Function& f_;

@@ -3,7 +3,7 @@
 // One backward pass finds how long each value lives (a value live into a loop lives to its end),
 // one forward scan assigns registers. When none is free the value whose life ends last goes to
 // memory: it is stored once, at its definition, and read from memory from then on. There is no
-// other splitting, so a value's place depends on the position only: its register up to reg_last,
+// other splitting, so where a value lies depends on the position only: its register up to reg_last,
 // its home in memory after that.
 #pragma once
 
@@ -43,8 +43,9 @@ struct Structure {
     bool in_loop(Value loop, Value at) const { return at > header_of[loop] && at <= end_of[loop]; }
 };
 
-// The place of a value: a register at positions in (reg_after, reg_last], else its memory home.
-struct Place {
+// Where a value is live and what it was given: a register at positions in (reg_after, reg_last],
+// else memory.
+struct LiveInterval {
     int8_t reg = -1;
     int32_t slot = -1;       // spill slot of its class, -1 if it needs none
     uint32_t begin = 0;      // position of the definition (an If for its Merges)
@@ -55,10 +56,10 @@ struct Place {
 };
 
 struct Allocation {
-    std::vector<Place> places;           // by value
-    std::vector<Value> load_at;          // first value to load before instruction i, ...
-    std::vector<Value> load_next;        // ... and the next one: inputs loaded late
-    std::vector<Value> function_hoists;  // constants to load before the lane loop
+    std::vector<LiveInterval> intervals;  // by value
+    std::vector<Value> load_at;           // first value to load before instruction i, ...
+    std::vector<Value> load_next;         // ... and the next one: inputs loaded late
+    std::vector<Value> function_hoists;   // constants to load before the lane loop
     std::vector<std::pair<Value, Value>> loop_hoists;  // (Loop, constant), sorted by Loop
     int slots[kRegClasses] = {};                       // spill slots used, by class
 };
@@ -73,8 +74,8 @@ struct AllocationLimits {
 Allocation allocate_registers(const Function& function, const Structure& structure,
                               std::span<const ValuePlan> plan, const AllocationLimits& limits);
 
-// Proves that each use reads the place its value was last put into, along every edge of Ifs and
-// Loops. Returns the first fault as text, "" if there is none.
+// Proves that each use reads the register or slot that its value was last written to, along every
+// edge of Ifs and Loops. Returns the first fault as text, "" if there is none.
 std::string check_allocation(const Function& function, const Structure& structure,
                              std::span<const ValuePlan> plan, const Allocation& allocation);
 

@@ -51,7 +51,7 @@ class Checker {
     }
 
   private:
-    size_t reg(Value v) const { return static_cast<size_t>(al_.places[v].reg); }
+    size_t reg(Value v) const { return static_cast<size_t>(al_.intervals[v].reg); }
     size_t cls(Value v) const {
         return plan_[v].cls == RegClass::None ? 0 : static_cast<size_t>(plan_[v].cls) - 1;
     }
@@ -63,13 +63,13 @@ class Checker {
     }
 
     void read(Value at, Value v) {
-        const Place& p = al_.places[v];
+        const LiveInterval& p = al_.intervals[v];
         if (p.in_reg(at)) {
             if (now_.registers[cls(v)][reg(v)] != v) fail(at, v, "is not in its register");
         } else if (plan_[v].cls == RegClass::None || plan_[v].home) {
             return;
         } else if (p.slot < 0) {
-            fail(at, v, "has no place");
+            fail(at, v, "has neither register nor memory");
         } else if (now_.slots[cls(v)][static_cast<size_t>(p.slot)] != v) {
             fail(at, v, "is not in its slot");
         }
@@ -77,7 +77,7 @@ class Checker {
 
     void put(Value at, Value v, bool slot_too = true) {
         if (plan_[v].cls == RegClass::None || plan_[v].fused) return;
-        const Place& p = al_.places[v];
+        const LiveInterval& p = al_.intervals[v];
         if (p.in_reg(at)) now_.registers[cls(v)][reg(v)] = v;
         if (p.slot >= 0 && (slot_too || p.reg < 0))
             now_.slots[cls(v)][static_cast<size_t>(p.slot)] = v;
@@ -156,7 +156,7 @@ class Checker {
         return end + 1;
     }
 
-    // A variable whose next value lies in its place already.
+    // A variable whose next value lies in its register or slot already.
     bool replaced(Value loop, Value v) const {
         if (v <= loop || v > s_.header_of[loop]) return false;
         Value next = f_.args_of(f_.insts[s_.end_of[loop]])[v - loop - 1];
@@ -164,7 +164,7 @@ class Checker {
     }
 
     bool share_register(Value a, Value b, Value at) const {
-        return al_.places[a].in_reg(at) && al_.places[b].in_reg(at) && cls(a) == cls(b) &&
+        return al_.intervals[a].in_reg(at) && al_.intervals[b].in_reg(at) && cls(a) == cls(b) &&
                reg(a) == reg(b);
     }
 
@@ -176,26 +176,28 @@ class Checker {
         for (int k = 0; k < op_info(inst.op).operand_count; ++k) read_operand(at, operands[k]);
     }
 
-    // Its outer value is the variable whose place it shares: nothing is copied at the If.
+    // Its outer value is the variable whose register or slot it shares: nothing is copied at the
+    // If.
     bool stays(Value m) const { return plan_[m].alias != kNone && plan_[m].alias == f_.insts[m].b; }
 
-    // What the place of such a Merge holds when its If ends: the arm if it was made there.
+    // What the register or slot of such a Merge holds when its If ends: the arm if it was made
+    // there.
     Value lies_there(Value m) const {
         Value arm = f_.insts[m].a;
         return plan_[arm].alias == plan_[m].alias ? arm : plan_[m].alias;
     }
 
-    // A Merge's place was filled at the If and must be untouched at the end.
+    // A Merge's register or slot was filled at the If and must be untouched at the end.
     void read_whole(Value at, Value m, Value wanted) {
-        const Place& p = al_.places[m];
+        const LiveInterval& p = al_.intervals[m];
         if (p.reg >= 0 ? now_.registers[cls(m)][reg(m)] != wanted
                        : p.slot >= 0 && now_.slots[cls(m)][static_cast<size_t>(p.slot)] != wanted)
-            fail(at, m, "lost its place inside its if");
+            fail(at, m, "was overwritten inside its if");
     }
 
-    // Values written in several places reach their slot when the last one is done.
+    // Values written at several points reach their slot when the last one is done.
     void store_slot(Value v) {
-        const Place& p = al_.places[v];
+        const LiveInterval& p = al_.intervals[v];
         if (p.slot >= 0) now_.slots[cls(v)][static_cast<size_t>(p.slot)] = v;
     }
 

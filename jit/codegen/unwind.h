@@ -31,7 +31,7 @@ class UnwindWriter {
     void saved(int reg, int below_end);
     void restored(int reg);
 
-    // The section for code of that size at that place, which ends with an empty record.
+    // The section for code of that size at that address, which ends with an empty record.
     std::vector<std::byte> eh_frame(const void* code, size_t bytes) const;
 
   private:

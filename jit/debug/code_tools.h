@@ -16,8 +16,9 @@
 
 namespace kinora::jit {
 
-// Shows a finished kernel to the tools that are on. `files` gives lines their text places; without
-// it kernels have names only. The interpreter's kernels have no code and are passed over.
+// Shows a finished kernel to the tools that are on. `files` gives lines their positions in the
+// text; without it kernels have names only. The interpreter's kernels have no code and are passed
+// over.
 void show_code(Kernel& kernel, const SourceFiles* files);
 
 // "kinora_plastic_avx512": how a kernel is named there.

@@ -61,16 +61,16 @@ Bytes lines(const Kernel& kernel, const SourceFiles* files) {
     bytes.put<uint64_t>(address_of(kernel));
     uint32_t at = 0;
     int64_t line = 1;
-    for (const CodePlace& place : kernel.places) {
+    for (const CodeLine& row : kernel.lines) {
         // The entry belongs to the first line, so that a breakpoint there names the file.
-        uint32_t offset = &place == &kernel.places.front() ? 0 : place.offset;
+        uint32_t offset = &row == &kernel.lines.front() ? 0 : row.offset;
         bytes.byte(2), bytes.unsigned_leb(offset - at);  // DW_LNS_advance_pc
         at = offset;
-        if (files == nullptr || place.where.file >= files->count()) continue;
-        int64_t wanted = files->line_column(place.where.file, place.where.begin).line;
-        bytes.byte(4), bytes.unsigned_leb(place.where.file + 1);  // DW_LNS_set_file
-        bytes.byte(3), bytes.signed_leb(wanted - line);           // DW_LNS_advance_line
-        bytes.byte(1);                                            // DW_LNS_copy
+        if (files == nullptr || row.where.file >= files->count()) continue;
+        int64_t wanted = files->line_column(row.where.file, row.where.begin).line;
+        bytes.byte(4), bytes.unsigned_leb(row.where.file + 1);  // DW_LNS_set_file
+        bytes.byte(3), bytes.signed_leb(wanted - line);         // DW_LNS_advance_line
+        bytes.byte(1);                                          // DW_LNS_copy
         line = wanted;
     }
     bytes.byte(2), bytes.unsigned_leb(kernel.machine_code.size() - at);

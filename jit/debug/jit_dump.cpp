@@ -59,13 +59,13 @@ uint64_t address_of(const Kernel& kernel) {
 std::string lines(const Kernel& kernel, const SourceFiles& files) {
     std::string rows;
     uint64_t count = 0;
-    for (const CodePlace& place : kernel.places) {
-        if (place.where.file >= files.count()) continue;
-        LineColumn at = files.line_column(place.where.file, place.where.begin);
-        put(rows, address_of(kernel) + place.offset);
+    for (const CodeLine& line : kernel.lines) {
+        if (line.where.file >= files.count()) continue;
+        LineColumn at = files.line_column(line.where.file, line.where.begin);
+        put(rows, address_of(kernel) + line.offset);
         put(rows, static_cast<uint32_t>(at.line));
         put(rows, static_cast<uint32_t>(at.column));
-        rows += files.name(place.where.file);
+        rows += files.name(line.where.file);
         rows += '\0';
         ++count;
     }

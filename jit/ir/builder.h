@@ -24,7 +24,7 @@ class Builder {
     const Inst& inst(Value v) { return function().insts[v]; }
     Type type(Value v) { return inst(v).type; }
 
-    // The source place given to instructions from now on.
+    // The source location given to instructions from now on.
     void set_location(Location where);
 
     // Constants and inputs.
@@ -88,7 +88,7 @@ class Builder {
     // If: begin_if(m); ...; end_if(); then merge(inner, outer) for each value that differs; outer
     // is a constant, an input, or defined before the If. (Constants and inputs may be made
     // anywhere: finish() and ret() move them to the function's start, and Merges, LoopVars and
-    // LoopOuts to their places; Values are void after that.)
+    // LoopOuts to where they belong; Values are void after that.)
     void begin_if(Value mask);
     void end_if();
     Value merge(Value inner, Value outer);

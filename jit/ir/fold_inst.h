@@ -12,7 +12,7 @@ struct Folded {
     int32_t bits = 0;    // Constant: of the instruction's type (mask: 0 or 1)
 };
 
-// May rewrite `inst` in place to a cheaper equal one (operands swapped, Mul by -1 to Neg); then the
+// May rewrite `inst` itself to a cheaper equal one (operands swapped, Mul by -1 to Neg); then the
 // kind is Keep. Only what holds for every input bit for bit (any NaN equals any NaN): x*1 and
 // x+(-0) fold, x*0 and x+0 do not. Pure ops only; others are Keep.
 Folded fold_inst(Inst& inst, std::span<const Inst> insts);

@@ -111,7 +111,7 @@ struct ServiceInfo {
     bool pure = false;  // same arguments, same results, no effect: may be merged, hoisted, dropped
 };
 
-// A place where a kernel may report at run time (loop budget, array index), by KernelArgs::fault.
+// A point where a kernel may report at run time (loop budget, array index), by KernelArgs::fault.
 struct FaultSite {
     Location where;
     std::string message;

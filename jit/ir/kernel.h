@@ -51,7 +51,7 @@ struct KernelArgs {
 using KernelFn = void (*)(const KernelArgs* args);
 
 // Code from `offset` on comes from there in the source, up to the next row's offset.
-struct CodePlace {
+struct CodeLine {
     uint32_t offset;
     Location where;  // without a file: from no line
 };
@@ -71,8 +71,8 @@ struct Kernel {
     size_t scratch_bytes = 0;
     size_t code_bytes = 0;                    // 0 for the interpreter
     std::span<const std::byte> machine_code;  // with its constants; entry first
-    std::vector<CodePlace> places;    // its lines, by offset; the last row is where code ends
-    std::vector<std::byte> eh_frame;  // the rules of its stack (jit/codegen/unwind.h)
+    std::vector<CodeLine> lines;              // by offset; the last row is where code ends
+    std::vector<std::byte> eh_frame;          // the rules of its stack (jit/codegen/unwind.h)
     std::shared_ptr<const void>
         shown;                // keeps the code known to a debugger (jit/debug/code_tools.h)
     double compile_ms = 0;    // IR to code, passes apart

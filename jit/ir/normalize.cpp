@@ -1,4 +1,5 @@
-// jit/ir/normalize.cpp: Params, constants and inputs first; Merges and loop values in their places.
+// jit/ir/normalize.cpp: Params, constants and inputs first; Merges and loop values where they
+// belong.
 #include "jit/ir/normalize.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ class Normalizer {
     }
 
     Value renamed(Value v) const {
-        // A Merge or LoopVar whose outer operand is defined after its place ends here.
+        // A Merge or LoopVar whose outer operand is defined behind it ends here.
         CHECK_LT(v, renamed_.size());
         CHECK_NE(renamed_[v], kNone);
         return renamed_[v];

@@ -261,9 +261,9 @@ class Verifier {
     void check_loop_var(const Inst& inst) {
         const Op op = at_ > 0 ? previous().op : Op::Return;
         Region& region = regions_[open_.back()];
-        bool placed =
+        bool follows =
             (op == Op::Loop || op == Op::LoopVar) && static_cast<Value>(inst.imm) == region.begin;
-        if (!placed) return fail("a loop variable follows its loop");
+        if (!follows) return fail("a loop variable follows its loop");
         if (inst.a >= region.begin)
             fail("the first value %{} is not defined before the loop", inst.a);
         ++region.vars;
@@ -274,9 +274,9 @@ class Verifier {
         if (f_.insts[inst.a].op != Op::LoopVar || f_.insts[inst.a].type != inst.type)
             return fail("%{} is no loop variable of type {}", inst.a, type_name(inst.type));
         Value end = end_of_[static_cast<Value>(f_.insts[inst.a].imm)];
-        bool placed = end != kNone;
-        for (Value k = at_ - 1; placed && k != end; --k) placed = f_.insts[k].op == Op::LoopOut;
-        if (!placed) fail("a loop's results follow its endloop");
+        bool follows = end != kNone;
+        for (Value k = at_ - 1; follows && k != end; --k) follows = f_.insts[k].op == Op::LoopOut;
+        if (!follows) fail("a loop's results follow its endloop");
     }
 
     void expect_results(const std::vector<Type>& types) {

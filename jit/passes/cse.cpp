@@ -146,7 +146,7 @@ class CommonValues {
         if (home_[v] != current_) place_before(v, loop_to_leave(home_[v]));
     }
 
-    // An equal earlier value that is visible here; else v takes its place in the table.
+    // An equal earlier value that is visible here; else v replaces it in the table.
     Value find_or_insert(Value v) {
         size_t mask = table_.size() - 1;
         for (size_t at = hash(keys_[v], epochs_[v]) & mask;; at = (at + 1) & mask) {

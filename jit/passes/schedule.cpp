@@ -2,7 +2,7 @@
 //
 // `at *= 2` at the end of a body holds up the round that follows: a machine looks ahead a hundred
 // instructions or two, which is one round of noise. So an operation that gives a variable its next
-// value moves up to the last other read of the variable, whose place it can take there.
+// value moves up to the last other read of the variable, whose register it can take there.
 #include <algorithm>
 
 #include "jit/ir/analysis.h"

@@ -1,110 +1,127 @@
-// jit/x64/calls.cpp: calls of services (C++) and of the module's own functions. No vector
-// register lives through a call (values in need lie in memory); rbx rbp r12..r15 are kept.
+// jit/x64/calls.cpp: calls of services (C++) and of the module's own functions, and their results.
+#include "jit/x64/calls_p.h"
+
+#include <cstddef>
+
 #include "jit/ir/analysis.h"
-#include "jit/x64/emit_p.h"
+#include "jit/ir/planted_fault.h"
 
 namespace kinora::jit::x64 {
 
 static_assert(sizeof(ServiceCall) <= kFrameRows - kServiceCall);
 
 // Rows of arguments; masks travel as lanes to a service, as bits to our own functions.
-void Emit::pass_arguments(int32_t to, bool to_service) {
-    std::span<const Value> args = f_.args_of(now());
+void Calls::pass_arguments(int32_t to, bool to_service) {
+    std::span<const Value> args = cursor_.args();
     for (size_t k = 0; k < args.size(); ++k) {
-        x86::Mem place = row(to + kRow * static_cast<int32_t>(k));
-        if (is_mask(root(args[k])) && !to_service)
-            a_.kmovw(place, mask_reg(args[k], 7));
+        x86::Mem row = operands_.row(to + kRow * static_cast<int32_t>(k));
+        if (operands_.is_mask(cursor_.root(args[k])) && !to_service)
+            a_.kmovw(row, operands_.mask_reg(args[k], 7));
         else
-            store_typed(place, args[k]);
+            rows_.store(row, args[k]);
     }
 }
 
-void Emit::op_Service() {
+void Calls::op_Service() {
     Label skip = a_.newLabel();
-    record_ = kNone;
-    if (gives_handle(module_.services[static_cast<size_t>(now().imm)])) {
-        // Record sets are read by all lanes: where none asks, the handle is 0 all the same.
-        a_.vxorps(xmm(scratch(0)), xmm(scratch(0)), xmm(scratch(0)));
-        a_.emit(Id::kIdVmovaps, row(layout_.service_results), scratch(0));
-    }
-    mask_bits(x86::edx, now().a);
+    held_.drop();
+    if (gives_handle(cursor_.code().module.services[static_cast<size_t>(cursor_->imm)]))
+        clear_handle();
+    masks_.lane_bits(x86::edx, cursor_->a);
     if (planted(PlantedFault::ServiceIgnoresMask)) a_.mov(x86::edx, -1);
     a_.and_(x86::edx, x86::dword_ptr(x86::r13, kValidBits));
     a_.jz(skip);
+    fill_service_call();
+    a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, services)));
+    a_.lea(x86::rdi, x86::ptr(x86::r13, kServiceCall));
+    a_.vzeroupper();
+    a_.call(x86::ptr(x86::rax, 8 * cursor_->imm, 8));
+    a_.bind(skip);
+}
+
+// Record sets are read by all lanes: where none asks, the handle is 0 all the same.
+void Calls::clear_handle() {
+    x86::Vec zero = operands_.scratch(0);
+    a_.vxorps(Operands::xmm(zero), Operands::xmm(zero), Operands::xmm(zero));
+    a_.emit(Id::kIdVmovaps, operands_.row(cursor_.code().layout.service_results), zero);
+}
+
+// The ServiceCall and its arguments, for the lanes in edx.
+void Calls::fill_service_call() {
+    const FrameLayout& layout = cursor_.code().layout;
     auto field = [](size_t offset) { return kServiceCall + static_cast<int32_t>(offset); };
     a_.mov(x86::dword_ptr(x86::r13, field(offsetof(ServiceCall, mask))), x86::edx);
-    pass_arguments(layout_.service_args, true);
+    pass_arguments(layout.service_args, true);
     a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, grid)));
     a_.mov(x86::ptr(x86::r13, field(offsetof(ServiceCall, grid))), x86::rax);
-    a_.lea(x86::rax, row(layout_.service_args));
+    a_.lea(x86::rax, operands_.row(layout.service_args));
     a_.mov(x86::ptr(x86::r13, field(offsetof(ServiceCall, args))), x86::rax);
-    a_.lea(x86::rax, row(layout_.service_results));
+    a_.lea(x86::rax, operands_.row(layout.service_results));
     a_.mov(x86::ptr(x86::r13, field(offsetof(ServiceCall, results))), x86::rax);
     a_.mov(x86::eax, x86::ebp);
     a_.shr(x86::eax, 2);
     a_.mov(x86::dword_ptr(x86::r13, field(offsetof(ServiceCall, first))), x86::eax);
     a_.mov(x86::dword_ptr(x86::r13, field(offsetof(ServiceCall, lanes))), isa_.lanes);
-    a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, services)));
-    a_.lea(x86::rdi, x86::ptr(x86::r13, kServiceCall));
-    a_.vzeroupper();
-    a_.call(x86::ptr(x86::rax, 8 * now().imm, 8));
-    a_.bind(skip);
 }
 
-void Emit::op_Call() {
+void Calls::op_Call() {
+    int32_t frame_bytes = cursor_.code().layout.bytes;
     Label skip = a_.newLabel();
-    record_ = kNone;
-    set_if_any(now().a);
+    held_.drop();
+    masks_.set_if_any(cursor_->a);
     a_.jz(skip);
-    pass_arguments(layout_.bytes, false);
-    a_.add(x86::r15, layout_.bytes);
-    a_.call(state_.entries[static_cast<size_t>(now().imm)]);
-    a_.sub(x86::r15, layout_.bytes);
+    pass_arguments(frame_bytes, false);
+    a_.add(x86::r15, frame_bytes);
+    a_.call(entries_[static_cast<size_t>(cursor_->imm)]);
+    a_.sub(x86::r15, frame_bytes);
     a_.bind(skip);
 }
 
-void Emit::op_Result() {
-    const Inst& call = inst(now().a);
-    if (call.op == Op::Service) return load_result(row(layout_.service_results + kRow * now().imm));
+void Calls::op_Result() {
+    const Inst& call = cursor_.inst(cursor_->a);
+    const FrameLayout& layout = cursor_.code().layout;
+    if (call.op == Op::Service)
+        return rows_.load_result(operands_.row(layout.service_results + kRow * cursor_->imm));
     // A callee's frame begins with its parameters and results.
-    x86::Mem from = row(layout_.bytes + kRow * (call.arg_count + now().imm));
-    if (!is_mask(at_)) return load_result(from);
-    a_.kmovw(mask_target(), from);
-    finish_mask(mask_target());
+    x86::Mem from = operands_.row(layout.bytes + kRow * (call.arg_count + cursor_->imm));
+    if (!operands_.gives_mask()) return rows_.load_result(from);
+    a_.kmovw(operands_.mask_target(), from);
+    operands_.finish_mask(operands_.mask_target());
 }
 
-void Emit::op_Return() {
-    std::span<const Value> values = f_.args_of(now());
+void Calls::op_Return() {
+    if (cursor_.code().is_kernel)
+        return_outputs();
+    else
+        return_results();
+}
+
+void Calls::return_outputs() {
+    std::span<const Value> values = cursor_.args();
     // No loop is open: its counters are free.
-    if (is_kernel_) a_.mov(x86::rdi, x86::ptr(x86::rbx, offsetof(KernelArgs, out)));
+    a_.mov(x86::rdi, x86::ptr(x86::rbx, offsetof(KernelArgs, out)));
     for (size_t k = 0; k < values.size(); ++k) {
         Value v = values[k];
-        if (is_kernel_) {
-            a_.mov(x86::r8, x86::ptr(x86::rdi, 8 * static_cast<int32_t>(k)));
-            x86::Mem to = x86::ptr(x86::r8, x86::rbp);
-            bool loaded = k > 0 && root(v) == root(values[k - 1]) && !is_mask(v) &&
-                          !in_register(v);  // it is in scratch(0) still
-            if (loaded)
-                a_.emit(Id::kIdVmovaps, to, scratch(0));
-            else
-                store_typed(to, v);
-        } else if (is_mask(root(v))) {
-            a_.kmovw(row(layout_.results + kRow * static_cast<int32_t>(k)), mask_reg(v, 7));
-        } else {
-            store_typed(row(layout_.results + kRow * static_cast<int32_t>(k)), v);
-        }
+        a_.mov(x86::r8, x86::ptr(x86::rdi, 8 * static_cast<int32_t>(k)));
+        x86::Mem to = x86::ptr(x86::r8, x86::rbp);
+        bool loaded = k > 0 && cursor_.root(v) == cursor_.root(values[k - 1]) &&
+                      !operands_.is_mask(v) && !cursor_.in_register(v);  // in scratch 0 still
+        if (loaded)
+            a_.emit(Id::kIdVmovaps, to, operands_.scratch(0));
+        else
+            rows_.store(to, v);
     }
 }
 
-void Emit::op_Fault() {
-    mask_bits(x86::eax, now().a);
-    if (planted(PlantedFault::FaultIgnoresMask)) a_.mov(x86::eax, -1);
-    Label none = a_.newLabel();
-    a_.test(x86::dword_ptr(x86::r13, kValidBits), x86::eax);
-    a_.jz(none);
-    a_.mov(x86::rax, x86::ptr(x86::rbx, offsetof(KernelArgs, fault)));
-    a_.mov(x86::byte_ptr(x86::rax, now().imm), 1);
-    a_.bind(none);
+void Calls::return_results() {
+    std::span<const Value> values = cursor_.args();
+    for (size_t k = 0; k < values.size(); ++k) {
+        int32_t offset = cursor_.code().layout.results + kRow * static_cast<int32_t>(k);
+        if (operands_.is_mask(cursor_.root(values[k])))
+            a_.kmovw(operands_.row(offset), operands_.mask_reg(values[k], 7));
+        else
+            rows_.store(operands_.row(offset), values[k]);
+    }
 }
 
 }  // namespace kinora::jit::x64

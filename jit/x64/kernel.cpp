@@ -1,11 +1,9 @@
 // jit/x64/kernel.cpp: from a module to a kernel: emits the functions it reaches, and the pool.
 #include <chrono>
-#include <deque>
 
 #include "jit/codegen/code_memory.h"
 #include "jit/codegen/module_code_p.h"
-#include "jit/ir/analysis.h"
-#include "jit/x64/emit_p.h"
+#include "jit/x64/function_writer_p.h"
 #include "jit/x64/x64.h"
 
 namespace kinora::jit {
@@ -18,12 +16,12 @@ namespace {
 constexpr Isa kAvx2 = {"avx2", 8, false, 14, 0};
 constexpr Isa kAvx512 = {"avx512", 16, true, 30, 7};
 
-void number_frame_rows(ModuleState& state, std::span<const size_t> functions) {
+void number_frame_rows(const Module& module, const PlannedModule& plan, ModuleState& state) {
     if (state.isa.wide) return;
-    state.frame_row.assign(static_cast<size_t>(state.module.frame_slots), -1);
+    state.frame_row.assign(static_cast<size_t>(module.frame_slots), -1);
     int32_t rows = 0;
-    for (size_t index : functions)
-        for (const Inst& inst : state.module.functions[index].insts) {
+    for (const FunctionCode& code : plan.functions)
+        for (const Inst& inst : code.function.insts) {
             if (inst.op != Op::FrameLoad) continue;
             int32_t& row = state.frame_row[static_cast<size_t>(inst.imm)];
             if (row < 0) row = rows++;
@@ -35,61 +33,50 @@ struct Emitted {
     asmjit::CodeHolder code;
     asmjit::StringLogger log;
     size_t scratch_bytes = 0;
-    bool fits = true;  // false: a frame is too large for code, which is not written
-    std::vector<CodePlace> places;
+    std::vector<CodeLine> lines;
     UnwindWriter unwind{kUnwindX64};
-    std::string fault;  // of the register allocation, if asked for
 };
 
-void emit_module(const Module& module, const Isa& isa, bool listing, bool check, Emitted& out) {
+void write_module(const Module& module, const PlannedModule& plan, const Isa& isa, bool listing,
+                  Emitted& out) {
     out.code.init(asmjit::Environment::host());
     if (listing) out.code.setLogger(&out.log);
     x86::Assembler a(&out.code);
     Pool pool(a, isa.wide ? 1 : 8);
-    ModuleState state{module, isa, a, pool, {}, {}};
-    std::vector<size_t> functions = reached_functions(module);
+    ModuleState state{a, isa, pool, {}, {}, kFrameRows, plan.uses_valid_lanes};
     state.entries.resize(module.functions.size());
-    for (size_t index : functions) state.entries[index] = a.newLabel();
-    number_frame_rows(state, functions);
-
-    std::deque<Emit> emits;
-    std::vector<size_t> frames(module.functions.size(), 0);
-    for (size_t index : functions) {
-        const Emit& emit = emits.emplace_back(state, index);
-        frames[index] = emit.frame_bytes();
-        out.fits = out.fits && emit.fits();
-        state.uses_valid = state.uses_valid || emit.uses_valid_lanes();
-        if (check && out.fault.empty()) out.fault = emit.check();
-    }
-    out.scratch_bytes = static_cast<size_t>(state.globals_bytes) + deepest_stack(module, frames);
-    if (!out.fits) return;
-    for (Emit& emit : emits) emit.emit_function(listing);
-    state.places.push_back({static_cast<uint32_t>(a.offset()), Location{}});
-    pool.place(a);
-    out.places = std::move(state.places);
+    for (const FunctionCode& code : plan.functions) state.entries[code.index] = a.newLabel();
+    number_frame_rows(module, plan, state);
+    out.scratch_bytes = static_cast<size_t>(state.globals_bytes) + plan.stack_bytes;
+    for (const FunctionCode& code : plan.functions) FunctionWriter(state, code).write(listing);
+    state.lines.push_back({static_cast<uint32_t>(a.offset()), Location{}});
+    pool.embed(a);
+    out.lines = std::move(state.lines);
     out.unwind = std::move(state.unwind);
 }
 
 std::shared_ptr<Kernel> emit(const Module& module, const Isa& isa, std::string* assembly) {
     auto start = std::chrono::steady_clock::now();
+    PlannedModule plan(module, isa.rules());
+    if (!plan.fits) return nullptr;
     Emitted emitted;
-    emit_module(module, isa, assembly != nullptr, false, emitted);
-    if (!emitted.fits) return nullptr;
+    write_module(module, plan, isa, assembly != nullptr, emitted);
     if (assembly != nullptr) *assembly = emitted.log.data();
     const asmjit::CodeBuffer& bytes = emitted.code.textSection()->buffer();
     return finish_kernel(module, isa.name,
                          {{bytes.data(), bytes.size()},
                           emitted.scratch_bytes,
-                          std::move(emitted.places),
+                          std::move(emitted.lines),
                           std::move(emitted.unwind),
                           start,
                           true});
 }
 
 std::string check(const Module& module, const Isa& isa) {
+    PlannedModule plan(module, isa.rules());
     Emitted emitted;
-    emit_module(module, isa, false, true, emitted);
-    return emitted.fault;
+    if (plan.fits) write_module(module, plan, isa, false, emitted);
+    return plan.check();
 }
 
 }  // namespace

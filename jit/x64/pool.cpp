@@ -47,7 +47,7 @@ void Pool::grow() {
     }
 }
 
-void Pool::place(asmjit::x86::Assembler& a) {
+void Pool::embed(asmjit::x86::Assembler& a) {
     a.align(asmjit::AlignMode::kData, 64);
     a.bind(iota_);
     uint32_t iota[16];

@@ -29,7 +29,7 @@ class Pool {
     asmjit::x86::Mem iota() const { return asmjit::x86::ptr(iota_); }
 
     // Writes everything at the end of the code.
-    void place(asmjit::x86::Assembler& a);
+    void embed(asmjit::x86::Assembler& a);
 
   private:
     size_t find(uint32_t bits);

@@ -16,7 +16,7 @@ bool avx512_supported();
 
 // Machine code for a verified module; null if executable memory cannot be had. `assembly`, if
 // given, receives a listing with the IR beside it. "avx2" runs 8 points at a time: a grid of 1..8
-// points modulo 16 leaves the last 8 places of the padding of `out` as they are.
+// points modulo 16 leaves the last 8 points of the padding of `out` as they are.
 std::shared_ptr<Kernel> emit_avx2(const Module& module, std::string* assembly);
 std::shared_ptr<Kernel> emit_avx512(const Module& module, std::string* assembly);
 

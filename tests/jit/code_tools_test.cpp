@@ -39,17 +39,17 @@ struct Compiled {
     std::shared_ptr<Kernel> kernel;
 };
 
-TEST(CodePlaces, RiseAndEndWhereConstantsBegin) {
+TEST(CodeLines, RiseAndEndWhereConstantsBegin) {
     Compiled c;
     if (c.kernel == nullptr) GTEST_SKIP() << "this CPU runs the interpreter only";
-    const auto& places = c.kernel->places;
-    ASSERT_EQ(places.size(), 3u);
-    EXPECT_EQ(places[0].where.begin, 0u);
-    EXPECT_EQ(places[1].where.begin, 7u);
-    EXPECT_LT(places[0].offset, places[1].offset);
-    EXPECT_LT(places[1].offset, places[2].offset);
-    EXPECT_LE(places[2].offset, c.kernel->machine_code.size());
-    EXPECT_EQ(places[2].where.file, kNoFile);
+    const auto& lines = c.kernel->lines;
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_EQ(lines[0].where.begin, 0u);
+    EXPECT_EQ(lines[1].where.begin, 7u);
+    EXPECT_LT(lines[0].offset, lines[1].offset);
+    EXPECT_LT(lines[1].offset, lines[2].offset);
+    EXPECT_LE(lines[2].offset, c.kernel->machine_code.size());
+    EXPECT_EQ(lines[2].where.file, kNoFile);
 }
 
 TEST(DebugObject, HoldsTheSymbolAndTheLines) {

@@ -1,4 +1,4 @@
-// tests/jit/ir_text_test.cpp: IR text reads back to what was printed; errors have their place.
+// tests/jit/ir_text_test.cpp: IR text reads back to what was printed; errors have their position.
 #include <gtest/gtest.h>
 
 #include "jit/ir/ir.h"
@@ -52,7 +52,7 @@ const Case kCases[] = {
      "error: k: %1 Add: a %0 is i, not f"},
 };
 
-TEST(IrText, ReportsErrorsAtTheirPlace) {
+TEST(IrText, ReportsErrorsAtTheirPosition) {
     for (const Case& c : kCases) {
         Diagnostics diagnostics;
         Module module = parse_module(c.text, "x.ir", diagnostics);

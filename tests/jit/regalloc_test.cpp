@@ -55,7 +55,7 @@ TEST(RegisterAllocation, IsProvenForAnyNumberOfRegisters) {
             ASSERT_EQ(check_allocation(c.function(), structure, c.plan, a), "")
                 << "seed " << seed << ", " << registers << " registers\n"
                 << print(c.module);
-            for (const Place& p : a.places) ASSERT_LT(p.reg, registers);
+            for (const LiveInterval& p : a.intervals) ASSERT_LT(p.reg, registers);
         }
     }
 }
@@ -116,7 +116,7 @@ TEST(RegisterAllocation, GivesWhatTheInnermostLoopComputesRegistersBeforeWhatLoo
     for (Value v = 0; v < insts.size(); ++v) {
         if (insts[v].op != Op::Fma) continue;
         ++computed;
-        EXPECT_TRUE(a.places[v].in_reg(a.places[v].end)) << "%" << v;
+        EXPECT_TRUE(a.intervals[v].in_reg(a.intervals[v].end)) << "%" << v;
     }
     EXPECT_EQ(computed, 20);
 }
@@ -124,9 +124,9 @@ TEST(RegisterAllocation, GivesWhatTheInnermostLoopComputesRegistersBeforeWhatLoo
 // The last position outside Ifs and Loops that reads v from its register, 0 if none.
 Value last_plain_read(const Case& c, const Structure& structure, const Allocation& a, Value v) {
     Value last = 0;
-    for (Value at = 0; at < a.places.size(); ++at)
+    for (Value at = 0; at < a.intervals.size(); ++at)
         for_each_use(c.function(), structure, c.plan, at, [&](Value used) {
-            if (used == v && structure.top[at] == at && a.places[v].in_reg(at)) last = at;
+            if (used == v && structure.top[at] == at && a.intervals[v].in_reg(at)) last = at;
         });
     return last;
 }
@@ -138,17 +138,17 @@ TEST(RegisterAllocation, CheckerFindsDamage) {
         Case c = make_case(seed);
         Structure structure(c.function());
         Allocation good = allocate(c, structure, 6, 3);
-        for (Value v = 0; v < good.places.size(); ++v) {
-            if (good.places[v].reg < 0 || c.plan[v].cls == RegClass::None) continue;
+        for (Value v = 0; v < good.intervals.size(); ++v) {
+            if (good.intervals[v].reg < 0 || c.plan[v].cls == RegClass::None) continue;
             Value read = last_plain_read(c, structure, good, v);
             for (Value w = v + 1; w < read; ++w) {
-                const Place &p = good.places[v], &q = good.places[w];
+                const LiveInterval &p = good.intervals[v], &q = good.intervals[w];
                 bool plain = structure.top[w] == w && c.function().insts[w].op != Op::Merge;
                 if (!plain || c.plan[w].cls != c.plan[v].cls || !q.in_reg(w) || q.reg == p.reg)
                     continue;
                 if (p.begin >= w || c.plan[w].home) continue;
                 Allocation bad = good;
-                bad.places[w].reg = p.reg;
+                bad.intervals[w].reg = p.reg;
                 EXPECT_NE(check_allocation(c.function(), structure, c.plan, bad), "")
                     << "seed " << seed << ": %" << w << " over %" << v;
                 ++damaged;

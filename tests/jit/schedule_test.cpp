@@ -64,7 +64,7 @@ TEST(Schedule, WaitsForAWholeIf) {
     EXPECT_EQ(loop.first(Op::Mul), loop.first(Op::Merge) + 1) << print(loop.module);
 }
 
-// x and y change places each round: neither may move.
+// x and y are exchanged each round: neither may move.
 TEST(Schedule, LeavesVariablesThatOthersTakeOver) {
     Module module;
     add_function(module, "kernel", {});

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 // "//! 12:5 error RSL_CODE text": the text stands in the message or the help. A file whose end is
 // broken on purpose has them in a .expect beside it.
 struct Expected {
-    std::string place, severity, code, text;
+    std::string position, severity, code, text;
 };
 std::vector<Expected> expected_findings(const fs::path& path) {
     fs::path beside = path;
@@ -27,7 +27,7 @@ std::vector<Expected> expected_findings(const fs::path& path) {
         if (!line.starts_with("//! ")) continue;
         std::istringstream words(line.substr(4));
         Expected e;
-        words >> e.span >> e.severity >> e.code >> std::ws;
+        words >> e.position >> e.severity >> e.code >> std::ws;
         std::getline(words, e.text);
         all.push_back(e);
     }
@@ -50,7 +50,7 @@ int check_folder(const char* folder) {
         for (size_t i = 0; i < findings.size(); ++i) {
             LineColumn at = source.diagnostics.files.line_column(findings[i].where.file,
                                                                  findings[i].where.begin);
-            EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].span);
+            EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].position);
             EXPECT_EQ(severity_name(findings[i].severity), expected[i].severity);
             EXPECT_EQ(findings[i].info->code, expected[i].code);
             std::string said = findings[i].message + "\n" + findings[i].help;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "runtime/shading/shader_instance.h"
 #include "scene_text.h"
 
 namespace kinora {

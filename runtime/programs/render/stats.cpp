@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "jit/compiler.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 

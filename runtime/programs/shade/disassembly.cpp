@@ -66,13 +66,13 @@ std::string disassembly(const jit::Kernel& kernel, const SourceFiles& files) {
     const Machine* machine = nullptr;
     for (const Machine& row : kMachines)
         if (row.target == kernel.target) machine = &row;
-    if (machine == nullptr || kernel.places.empty()) return "";
+    if (machine == nullptr || kernel.lines.empty()) return "";
     Disassembler disassembler(*machine);
     if (!disassembler.is_open()) return "";
     std::string text, last;
     size_t at = 0;
     Location where;
-    for (const jit::CodePlace& next : kernel.places) {
+    for (const jit::CodeLine& next : kernel.lines) {
         std::string title = heading(where, files);
         if (next.offset > at && title != last) text += last = title;
         disassembler.append(kernel.machine_code.subspan(at, next.offset - at), at, text);
