@@ -59,15 +59,29 @@ std::vector<Signature> parse_signatures(std::string_view text) {
     return signatures;
 }
 
-const std::vector<std::span<const Builtin>>& builtin_groups() {
-    static const std::vector<std::span<const Builtin>> groups = {
-        builtins_math(),        builtins_filterstep(),    builtins_spline(),
-        builtins_derivatives(), builtins_geometric(),     builtins_reflection(),
-        builtins_spaces(),      builtins_color(),         builtins_noise(),
-        builtins_light(),       builtins_rays(),          builtins_occlusion(),
-        builtins_points(),      builtins_texture(),       builtins_environment(),
-        builtins_bump(),        builtins_texture_files(), builtins_matrix(),
-        builtins_string(),      builtins_message()};
+const std::vector<BuiltinGroup>& builtin_groups() {
+    static const std::vector<BuiltinGroup> groups = {
+        {"Mathematics", builtins_math()},
+        {"Filtered steps", builtins_filterstep()},
+        {"Splines", builtins_spline()},
+        {"Derivatives", builtins_derivatives()},
+        {"Geometry", builtins_geometric()},
+        {"Reflection", builtins_reflection()},
+        {"Spaces", builtins_spaces()},
+        {"Colors", builtins_color()},
+        {"Noise", builtins_noise()},
+        {"Lighting", builtins_light()},
+        {"Rays", builtins_rays()},
+        {"Occlusion and indirect light", builtins_occlusion()},
+        {"Point files", builtins_points()},
+        {"Textures", builtins_texture()},
+        {"Environments and shadows", builtins_environment()},
+        {"Bump maps", builtins_bump()},
+        {"Facts about image files, baking", builtins_texture_files()},
+        {"Matrices", builtins_matrix()},
+        {"Strings and printing", builtins_string()},
+        {"Messages", builtins_message()},
+    };
     return groups;
 }
 
@@ -78,7 +92,7 @@ struct Table {
     std::vector<std::string_view> names;
 
     Table() {
-        for (std::span<const Builtin> group : builtin_groups())
+        for (const BuiltinGroup& group : builtin_groups())
             for (const Builtin& row : group) {
                 std::vector<Overload>& list = overloads[row.name];
                 if (list.empty()) names.push_back(row.name);

@@ -32,7 +32,15 @@ std::span<const Builtin> builtins_string();
 std::span<const Builtin> builtins_message();
 
 // All groups in order: for the manual and the row tests.
-const std::vector<std::span<const Builtin>>& builtin_groups();
+struct BuiltinGroup {
+    const char* title;  // of its part of the manual
+    std::span<const Builtin> rows;
+
+    operator std::span<const Builtin>() const { return rows; }
+    auto begin() const { return rows.begin(); }
+    auto end() const { return rows.end(); }
+};
+const std::vector<BuiltinGroup>& builtin_groups();
 
 // The overloads of a name in row order; empty when there is none. Valid for the life of the
 // process; thread-safe.

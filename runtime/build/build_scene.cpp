@@ -19,11 +19,6 @@
 
 namespace kinora {
 
-Shape::Shape() = default;
-Shape::~Shape() = default;
-Shape::Shape(Shape&&) noexcept = default;
-Shape& Shape::operator=(Shape&&) noexcept = default;
-
 Scene::Scene() = default;
 Scene::~Scene() = default;
 

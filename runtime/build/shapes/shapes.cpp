@@ -10,6 +10,11 @@
 
 namespace kinora {
 
+Shape::Shape() = default;
+Shape::~Shape() = default;
+Shape::Shape(Shape&&) noexcept = default;
+Shape& Shape::operator=(Shape&&) noexcept = default;
+
 namespace {
 constexpr size_t kMostSurfaces = 1'000'000;
 

@@ -17,34 +17,6 @@ namespace kinora {
 
 namespace {
 
-using Group = std::span<const rsl::Builtin>;
-
-// A group's title, by a function that is in it.
-struct Subject {
-    std::string_view function;
-    const char* title;
-};
-constexpr Subject kSubjects[] = {
-    {"sin", "Mathematics"},      {"length", "Geometry"},
-    {"ctransform", "Colors"},    {"noise", "Noise"},
-    {"diffuse", "Lighting"},     {"trace", "Rays"},
-    {"texture3d", "Points"},     {"texture", "Textures and maps"},
-    {"determinant", "Matrices"}, {"concat", "Strings and printing"},
-    {"rayinfo", "Messages"},
-};
-
-bool has_function(Group group, std::string_view name) {
-    return std::any_of(group.begin(), group.end(),
-                       [&](const rsl::Builtin& row) { return row.name == name; });
-}
-
-const char* title(Group group) {
-    for (const Subject& subject : kSubjects)
-        if (has_function(group, subject.function)) return subject.title;
-    CHECK(false);  // a group without a row of kSubjects
-    return "";
-}
-
 std::string code_list(const std::vector<std::string>& names) {
     return fmt::format("`{}`", fmt::join(names, " "));
 }
@@ -156,8 +128,8 @@ std::string builtins_page() {
         "`--math precise`. [Numerics](numerics.md) says how they are measured.\n"
         "A parameter that is accepted without effect keeps shaders of other renderers alive. "
         "Where that could change the picture, a finding says so.\n\n";
-    for (Group group : rsl::builtin_groups()) {
-        page += fmt::format("## {}\n\n", title(group));
+    for (const rsl::BuiltinGroup& group : rsl::builtin_groups()) {
+        page += fmt::format("## {}\n\n", group.title);
         std::string_view last;
         for (const rsl::Builtin& row : group) {
             if (last != row.name) page += fmt::format("### {}\n\n", row.name);
