@@ -7,6 +7,7 @@
 #include "runtime/build/shapes/mesh.h"
 #include "runtime/build/shapes/morphs.h"
 #include "runtime/description/findings.h"
+#include "runtime/vertices/vertex_work.h"
 
 namespace kinora {
 
