@@ -24,7 +24,7 @@ PACKAGES = {
     r"asmjit/": r"jit/(x64|a64)/.*",
     r"embree3/": r"raytrace/embree(_p\.h|\.cpp)|tests/bench/.*",
     r"expat\.h": r"collada/document/.*|tests/.*",
-    r"fast_float/": r"collada/text/numbers\.cpp",
+    r"fast_float/": r"collada/text/numbers\.cpp|tests/bench/.*",
     r"dtl/": r"runtime/programs/validate/unified_diff\.cpp",
     r"utf8\.h": r"runtime/base/text_encoding\.cpp|runtime/programs/validate/escaped_text\.cpp",
     r"libxml/": r"runtime/programs/validate/foreign_schema\.cpp",
