@@ -1,5 +1,6 @@
 // tests/bench/collada_bench.cpp: what reading numbers and documents costs, in bytes a second.
 #include <benchmark/benchmark.h>
+#include <fast_float/fast_float.h>
 
 #include <charconv>
 #include <cstdlib>
@@ -7,10 +8,6 @@
 #include <fstream>
 #include <random>
 #include <sstream>
-#if __has_include(<fast_float/fast_float.h>)
-#include <fast_float/fast_float.h>
-#define KINORA_FAST_FLOAT 1
-#endif
 
 #include "collada/document/element_numbers_p.h"
 #include "collada/extract/extract.h"
@@ -75,14 +72,12 @@ void BM_floats_from_chars(benchmark::State& state) {
 }
 BENCHMARK(BM_floats_from_chars)->DenseRange(0, 5);
 
-#ifdef KINORA_FAST_FLOAT
 void BM_floats_fast_float(benchmark::State& state) {
     words(state, [](const char* p, const char* end, double& value) {
         return fast_float::from_chars(p, end, value).ptr;
     });
 }
 BENCHMARK(BM_floats_fast_float)->DenseRange(0, 5);
-#endif
 
 Document list_document(const std::string& text, Diagnostics& diag) {
     return *read_document_text("t.dae", "<COLLADA><p>" + text + "</p></COLLADA>", diag);

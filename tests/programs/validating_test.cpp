@@ -4,8 +4,8 @@
 #include <random>
 #include <sstream>
 
-#include "runtime/programs/validate/image_size.h"
 #include "runtime/programs/validate/escaped_text.h"
+#include "runtime/programs/validate/image_size.h"
 #include "runtime/programs/validate/rules.h"
 #include "runtime/programs/validate/unified_diff.h"
 
