@@ -40,7 +40,7 @@ input "s" f point
 output "Ci.r" f
 function "kernel" () -> (f)
   %0 = constf 0.5
-  %1 = input.f #0
+  %1 = input.f
   %2 = lt %1, %0
   if %2
     %4 = mul %1, %1
