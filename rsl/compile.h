@@ -11,8 +11,8 @@
 namespace kinora::rsl {
 
 // Preprocesses, parses and checks all shaders of the source. Findings go to `diagnostics`, with
-// places in the file that source.map names. A shader is returned only when the whole source has no
-// error. Never throws on bad input, never hangs (limits on expansion, nesting and includes).
+// locations in the file that source.map names. A shader is returned only when the whole source has
+// no error. Never throws on bad input, never hangs (limits on expansion, nesting and includes).
 std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
                                              const CompileOptions& options,
                                              Diagnostics& diagnostics);
@@ -28,7 +28,7 @@ TokenStream preprocess(const ShaderSource& source, const CompileOptions& options
 std::shared_ptr<Ast> parse(const ShaderSource& source, const CompileOptions& options,
                            Diagnostics& diagnostics);
 
-// One token a line: place, kind, text.
+// One token a line: location, kind, text.
 std::string print_tokens(const TokenStream& tokens, const SourceFiles& files);
 // Source text again, in one canonical layout; implicit casts are left out, so that
 // print -> parse -> print gives the same text.

@@ -29,7 +29,7 @@ void check_skin(Lint& lint, const NodeOccurrences& occurrences, uint32_t occurre
                 const MeshInstance& mesh) {
     const Skin& skin = lint.scene.skins[mesh.skin];
     auto [rest, start, moving] = occurrences.skin_poses(occurrence, mesh);
-    SkinSpace space = skin_place(skin.bind_shape_matrix, rest, start).space;
+    SkinSpace space = skin_placement(skin.bind_shape_matrix, rest, start).space;
     if (space != SkinSpace::World)
         lint.diag.report(Code::SKIN_NODE_TRANSFORM, mesh.where,
                          label(lint.scene.nodes[occurrences.all()[occurrence].node]), skin.id,

@@ -27,7 +27,7 @@ class Allocator {
 
     Allocation run() {
         find_ranges();
-        place_late_loads();
+        delay_late_loads();
         scan();
         hoist_over_function();
         assign_slots();
@@ -83,7 +83,7 @@ class Allocator {
 
     // Inputs stand first in a function; they are loaded before their first use, outside any If or
     // Loop, so that they do not hold registers before it.
-    void place_late_loads() {
+    void delay_late_loads() {
         out_.load_at.assign(n_, kNone);
         out_.load_next.assign(n_, kNone);
         for (Value v = 0; v < n_; ++v) {

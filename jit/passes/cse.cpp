@@ -143,7 +143,7 @@ class CommonValues {
         }
         if (reads) return;
         home_[v] = is_leaf(key.op) ? 0 : home_of(key);
-        if (home_[v] != current_) place_before(v, loop_to_leave(home_[v]));
+        if (home_[v] != current_) move_before(v, loop_to_leave(home_[v]));
     }
 
     // An equal earlier value that is visible here; else v replaces it in the table.
@@ -190,7 +190,7 @@ class CommonValues {
         return regions_[region].begin;
     }
 
-    void place_before(Value v, Value at) {
+    void move_before(Value v, Value at) {
         if (is_leaf(r_.old[v].op)) return;
         (first_before_[at] == kNone ? first_before_[at] : next_before_[last_before_[at]]) = v;
         last_before_[at] = v;

@@ -18,9 +18,9 @@ void bump(LowerCall& c) {
     auto& e = c.e;
     auto& b = c.b;
     V3 N = c.v3(1), along_s = c.v3(2), along_t = c.v3(3);
-    bool placed = c.args.size() == 6;
-    Lookup at = with_derivatives(c, placed ? c.f(4) : c.globals.read(Global::s).c[0],
-                                 placed ? c.f(5) : c.globals.read(Global::t).c[0]);
+    bool given_st = c.args.size() == 6;
+    Lookup at = with_derivatives(c, given_st ? c.f(4) : c.globals.read(Global::s).c[0],
+                                 given_st ? c.f(5) : c.globals.read(Global::t).c[0]);
     Value least = e.f(1.0f / 1024);  // a texel of a large map
     Value ds = b.max(b.add(b.abs(at.dsdx), b.abs(at.dsdy)), least);
     Value dt = b.max(b.add(b.abs(at.dtdx), b.abs(at.dtdy)), least);
@@ -49,9 +49,9 @@ namespace {
 template <class Real>
 void bump(RefCall<Real>& c) {
     using Number = Dual<Real>;
-    bool placed = c.args.size() == 6;
-    Number s = placed ? c.f(4) : c.eval.global(Global::s).c[0];
-    Number t = placed ? c.f(5) : c.eval.global(Global::t).c[0];
+    bool given_st = c.args.size() == 6;
+    Number s = given_st ? c.f(4) : c.eval.global(Global::s).c[0];
+    Number t = given_st ? c.f(5) : c.eval.global(Global::t).c[0];
     Real du = c.eval.global(Global::du).c[0].x, dv = c.eval.global(Global::dv).c[0].x;
     auto width = [&](const Number& x) {
         return std::max(std::fabs(x.u * du) + std::fabs(x.v * dv), Real(1.0 / 1024));

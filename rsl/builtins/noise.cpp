@@ -106,7 +106,7 @@ void cellnoise(RefCall<Real>& c) {
     for (size_t k = 0; k < c.result.size(); ++k) c.result.c[k] = out[k];
 }
 
-// The keys: the point, the call's place in the text, the functions it is inlined in, the turns of
+// The keys: the point, the call's site in the text, the functions it is inlined in, the turns of
 // the loops around it (docs/decisions.md#random-numbers-without-state).
 template <class Real>
 void random(RefCall<Real>& c) {

@@ -12,7 +12,7 @@ namespace lower_texture_files {
 using namespace lower_maps;
 
 // bake(file, s, t, value): a point file of points (s, t, 0), with one channel. A negative scale
-// says that they are no places in current space.
+// says that they are no points in current space.
 void bake(LowerCall& c) {
     auto& e = c.e;
     auto& b = c.b;

@@ -60,7 +60,7 @@ struct LoweredShader {
 
 // Lowers a stack of displacement and surface layers, or one light (or other) shader. Errors of use
 // (an unknown constant space name, an array over 1 MiB, a construct not yet compiled) are findings
-// at their place in the shader source; the result is then empty.
+// at their location in the shader source; the result is then empty.
 std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOptions& options,
                                    Diagnostics& diagnostics);
 

@@ -183,7 +183,7 @@ class Front {
   private:
     const std::vector<State>& states_;
     std::string_view text_;
-    std::vector<int> mark_;  // by state: the place where it was last met
+    std::vector<int> mark_;  // by state: the position where it was last met
     std::vector<int> open_;
 };
 

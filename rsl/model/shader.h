@@ -17,7 +17,7 @@ struct ConstantValue {
     std::vector<float> numbers;
     std::vector<std::string> strings;
     bool in_shader_space =
-        false;  // numbers of points, vectors and normals that are still to be placed
+        false;  // numbers of points, vectors and normals that are still to be transformed
 };
 
 struct ShaderParameter {

@@ -43,7 +43,7 @@ SkinSpace guess(const SkinPose& pose) {
 
 }  // namespace
 
-SkinPlace skin_place(const dmat4& bind_shape, const SkinPose& rest, const SkinPose& start) {
+SkinPlacement skin_placement(const dmat4& bind_shape, const SkinPose& rest, const SkinPose& start) {
     const dmat4 identity(1.0);
     bool still = is_near(rest.node, identity, kNothing) && is_near(start.node, identity, kNothing);
     if (!is_near(bind_shape, identity, kNothing) || still) return {};

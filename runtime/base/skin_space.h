@@ -30,7 +30,7 @@ struct SkinPose {
     std::vector<RestJoint> joints;
 };
 
-struct SkinPlace {
+struct SkinPlacement {
     SkinSpace space = SkinSpace::World;
     dmat4 bind{1.0};  // BindsNode: the bind_shape_matrix
 };
@@ -40,7 +40,7 @@ struct SkinPlace {
 // right in every pose), or elsewhere (Node; what moves the joints as well is not applied twice:
 // NodeBelow). They are asked as the file leaves them (`rest`); where that is no pose of the bind,
 // at the first keys (`start`), since some exporters leave nodes as the last frame had them.
-SkinPlace skin_place(const dmat4& bind_shape, const SkinPose& rest, const SkinPose& start);
+SkinPlacement skin_placement(const dmat4& bind_shape, const SkinPose& rest, const SkinPose& start);
 
 // How many of the joints turn what they move inside out at rest.
 size_t mirroring_joints(const dmat4& bind_shape, std::span<const RestJoint> joints);

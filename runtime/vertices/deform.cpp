@@ -108,16 +108,16 @@ void pose(Scene& scene) {
             shape.palette.assign(shape.palette.size(), skin::joint_matrix(shape.world, anchors));
             continue;
         }
-        dmat4 place(1.0);
-        if (!shape.in_world) place = scene.nodes[shape.node].world;
+        dmat4 to_world(1.0);
+        if (!shape.in_world) to_world = scene.nodes[shape.node].world;
         if (shape.applies_below != kNone)
-            place = place * glm::inverse(scene.nodes[shape.applies_below].world);
+            to_world = to_world * glm::inverse(scene.nodes[shape.applies_below].world);
         // The palette reads matrices by joint; unresolved joints stay with the bind shape.
         for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
             uint32_t node = shape.joint_nodes[j];
             dmat4& world = shape.joint_world[j];
             world = node == kNone ? dmat4(1.0) : scene.nodes[node].world;
-            if (!shape.in_world) world = place * world;
+            if (!shape.in_world) world = to_world * world;
         }
         skin::pose(
             shape.skeleton, shape.joint_world, anchors, shape.palette,

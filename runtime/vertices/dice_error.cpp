@@ -95,9 +95,9 @@ void name_vertices(const Mesh& base, const DicedMesh& made,
 }
 
 double longest_rigid(const Scene& scene, const WatchedEdges& watched, const Shape& shape) {
-    dmat4 place = accel_from_rest(scene, shape, watched.anchor);
-    dmat3 turn(place);
-    dvec3 move(place[3]);
+    dmat4 to_accel = accel_from_rest(scene, shape, watched.anchor);
+    dmat3 turn(to_accel);
+    dvec3 move(to_accel[3]);
     double most = 0;
     for (size_t e = 0; e + 1 < watched.rest.size(); e += 2) {
         dvec3 from = turn * dvec3(watched.rest[e]) + move;

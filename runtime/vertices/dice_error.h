@@ -28,9 +28,9 @@ struct WatchedEdges {
 };
 
 // Chooses the edges of a mesh that was diced, before its vertices are moved. `diced` marks the
-// groups that were, `world` is world_from_mesh without its place, `triangles` counts those of all
-// meshes that are watched: the edges of all are some 20 000 at most, unless triangles that follow
-// each other lie apart. Fewer would miss the few triangles of a coarse mesh that are seen.
+// groups that were, `world` is world_from_mesh without its translation, `triangles` counts those of
+// all meshes that are watched: the edges of all are some 20 000 at most, unless triangles that
+// follow each other lie apart. Fewer would miss the few triangles of a coarse mesh that are seen.
 void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8_t> diced,
                   const dmat3& world, bool deforms, size_t triangles, WatchedEdges& out);
 

@@ -19,7 +19,7 @@ void dice_influences(std::span<const Stencil> stencils, std::vector<uint32_t>& f
             if (s.weight[k] == 0 || size_t(s.entry[k]) + 1 >= first.size()) continue;
             size_t begin = std::min<size_t>(first[s.entry[k]], most);
             size_t end = std::clamp<size_t>(first[s.entry[k] + 1], begin, most);
-            // Each corner counts by its place alone, whatever its weights sum to.
+            // Each corner counts by its position alone, whatever its weights sum to.
             double total = 0;
             for (size_t i = begin; i < end; ++i) total += weights[i];
             if (s.weight[k] == 1 || !(total > 0)) total = 1;

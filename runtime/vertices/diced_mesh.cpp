@@ -261,7 +261,7 @@ size_t DicedMesh::triangles() const {
 }
 
 std::vector<uint32_t> weld(std::span<const vec4> positions) {
-    PairNumbers planes(positions.size()), places(positions.size());
+    PairNumbers planes(positions.size()), points(positions.size());
     std::vector<uint32_t> result(positions.size());
     uint32_t plane_count = 0;
     auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); };  // -0 is 0
@@ -269,7 +269,7 @@ std::vector<uint32_t> weld(std::span<const vec4> positions) {
         const vec4& at = positions[p];
         uint32_t plane = planes.number(bits(at.x), bits(at.y), plane_count);
         plane_count += plane == plane_count;
-        result[p] = places.number(plane, bits(at.z), p);
+        result[p] = points.number(plane, bits(at.z), p);
     }
     return result;
 }

@@ -33,7 +33,7 @@ struct DicedMesh {
 };
 
 // Whether the edge between two points of a triangle must be split; `corners` are positions of the
-// base mesh. Must depend on the two places alone. Called by several threads.
+// base mesh. Must depend on the two positions alone. Called by several threads.
 using DiceTest = FunctionRef<bool(const uint32_t corners[3], DicePoint a, DicePoint b)>;
 
 // Splits the triangles of the groups that are marked in `diced`, and those of the others along the
@@ -44,7 +44,7 @@ using DiceTest = FunctionRef<bool(const uint32_t corners[3], DicePoint a, DicePo
 std::optional<DicedMesh> dice_mesh(const Mesh& base, std::span<const uint8_t> diced,
                                    DiceTest too_long, size_t limit);
 
-// The lowest index of the entries at the same place, for each.
+// The lowest index of the entries at the same position, for each.
 std::vector<uint32_t> weld(std::span<const vec4> positions);
 
 // Influences of a skin (as skin::InfluenceSource has them) and morph targets for the new vertices:

@@ -73,7 +73,7 @@ class Columns {
             std::any_of(columns_.begin() + kColVarying, columns_.end(), [](float* c) { return c; });
         for (size_t i = 0; i < count_; ++i) {
             size_t w = begin_ + i;
-            vec3 P = place(w), N = normal(w);
+            vec3 P = position(w), N = normal(w);
             set(kColP, i, P);
             set(kColN, i, N);
             set(kColI, i, space_.seen_along(P - vec3(space_.eye_object)));
@@ -82,7 +82,7 @@ class Columns {
             if (partials) derivatives(i, w, P, N, tangents);
             if (float* rng = columns_[kColRng])
                 rng[i] = jit::float_of(
-                    int32_t(raytrace::hash(source_.places[source_.group.position[w]], 0x76657274)));
+                    int32_t(raytrace::hash(source_.welds[source_.group.position[w]], 0x76657274)));
         }
         constants();
         for (float* column : columns_)  // padding lanes are copies of the last point
@@ -105,7 +105,7 @@ class Columns {
         if (columns_[column]) columns_[column][i] = value;
     }
 
-    vec3 place(size_t w) const {
+    vec3 position(size_t w) const {
         const vec4& p = source_.positions[source_.group.position[w]];
         return vec3(space_.object * dvec4(p.x, p.y, p.z, 1.0));
     }

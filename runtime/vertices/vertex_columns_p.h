@@ -24,7 +24,7 @@ struct VertexSpace {
     // Width of a pixel at distance 1 of the eye, or everywhere (orthographic), object space.
     float pixel = 0;
     bool orthographic = false;
-    // Orthographic: along the view, and what the depth of a point from the eye is by its place.
+    // Orthographic: along the view, and what the depth of a point from the eye is by its position.
     vec3 axis{0.0f}, depth{0.0f};
     // I of a point that lies so from the eye; it is linear.
     vec3 seen_along(vec3 from_eye) const {
@@ -39,7 +39,7 @@ struct VertexSource {
     std::span<const vec4> positions, normals, faces;
     const VertexAttribute* st;
     std::span<const VertexAttribute* const> varying;
-    std::span<const uint32_t> places;  // of each position: seeds random()
+    std::span<const uint32_t> welds;  // of each position: seeds random()
 };
 
 // The look's columns for wedges [begin, end), by Column; kColP is always there. Partial derivatives

@@ -130,14 +130,14 @@ VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::ve
 }
 
 void VertexWork::weld_positions(const Mesh& mesh) {
-    place_of_position_ = weld(mesh.positions);
-    std::vector<uint32_t> place_of_wedge;
+    weld_of_position_ = weld(mesh.positions);
+    std::vector<uint32_t> weld_of_wedge;
     for (const Group& group : groups_)
-        for (uint32_t p : group.made.position) place_of_wedge.push_back(place_of_position_[p]);
-    places_ = make_lists(place_of_wedge, mesh.positions.size());
+        for (uint32_t p : group.made.position) weld_of_wedge.push_back(weld_of_position_[p]);
+    welds_ = make_lists(weld_of_wedge, mesh.positions.size());
 }
 
-// Wedges at one place whose groups have the same shaders and whose normals are equal but for
+// Wedges at one position whose groups have the same shaders and whose normals are equal but for
 // rounding. The key is the lowest normal entry among them.
 void VertexWork::weld_normals(const Mesh& mesh) {
     key_of_normal_.resize(mesh.normals.size());
@@ -147,8 +147,8 @@ void VertexWork::weld_normals(const Mesh& mesh) {
         return group.made.normal[wedge - group.first_wedge];
     };
     auto looks_of = [&](uint32_t wedge) { return groups_[group_of_wedge_[wedge]].use.looks; };
-    for (size_t place = 0; place + 1 < places_.first.size(); ++place) {
-        std::span<const uint32_t> wedges = places_.of(place);
+    for (size_t weld = 0; weld + 1 < welds_.first.size(); ++weld) {
+        std::span<const uint32_t> wedges = welds_.of(weld);
         for (size_t i = 1; i < wedges.size(); ++i) {
             uint32_t n = normal_of(wedges[i]);
             for (size_t k = 0; k < i && key_of_normal_[n] == n; ++k) {
@@ -261,7 +261,7 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
                         std::span(faces_).subspan(group.first_triangle),
                         group.use.st,
                         group.use.varying[pass.stage],
-                        place_of_position_};
+                        weld_of_position_};
     std::span<float*> columns = fill_vertex_columns(look, source, pass.space, begin, end, arena);
     std::span<const float*> in = arena.allocate_span<const float*>(look.full.columns.size());
     for (size_t i = 0; i < in.size(); ++i) in[i] = columns[look.full.columns[i]];
@@ -301,7 +301,7 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
 void VertexWork::move_positions(const Pass& pass) {
     parallel_for(0, pass.positions.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t p = begin; p < end; ++p) {
-            std::span<const uint32_t> wedges = places_.of(place_of_position_[p]);
+            std::span<const uint32_t> wedges = welds_.of(weld_of_position_[p]);
             if (wedges.empty()) continue;
             vec3 sum(0.0f);
             for (uint32_t w : wedges) sum += vec3(moved_[w]);

@@ -1,11 +1,11 @@
 // runtime/vertices/vertex_work.h: displacement and transformation shaders run on a mesh's vertices.
 //
 // A kernel runs once for each wedge (a vertex as one group's corners see it), in "current" = the
-// space of the shape's node. Wedges at one place move by the mean of their displacements, so that
-// nothing cracks where texture coordinates, normals or materials change. N is the shader's where it
-// gives one (the mean over wedges that shared a normal). Else a displacement's normals are those of
-// the displaced triangles, smooth where the file's were; a transformation's are the file's, turned
-// as the triangles around them turn. Either leaves them alone where nothing moves.
+// space of the shape's node. Wedges at one position move by the mean of their displacements, so
+// that nothing cracks where texture coordinates, normals or materials change. N is the shader's
+// where it gives one (the mean over wedges that shared a normal). Else a displacement's normals are
+// those of the displaced triangles, smooth where the file's were; a transformation's are the
+// file's, turned as the triangles around them turn. Either leaves them alone where nothing moves.
 #pragma once
 
 #include <array>
@@ -82,16 +82,16 @@ class VertexWork {
     std::vector<Group> groups_;
     size_t wedge_count_ = 0;
     std::vector<uint32_t> group_of_wedge_;
-    std::vector<uint32_t> place_of_position_;  // key of places_
-    Lists places_;                             // wedges at one place
-    std::vector<uint32_t> key_of_normal_;      // key of same_normal_
-    Lists same_normal_;                        // wedges that share a place and a normal
-    std::vector<vec4> moved_, bent_;           // by wedge, in mesh space
-    std::vector<vec4> faces_;                  // by triangle: normal times twice the area
-    std::vector<vec3> before_;                 // by key of same_normal_: sum of faces
-    std::vector<Arena> arenas_;                // by thread
-    std::vector<std::string> prints_;          // by part
-    std::vector<uint32_t> not_finite_;         // by part
+    std::vector<uint32_t> weld_of_position_;  // key of welds_
+    Lists welds_;                             // wedges at one position
+    std::vector<uint32_t> key_of_normal_;     // key of same_normal_
+    Lists same_normal_;                       // wedges that share a position and a normal
+    std::vector<vec4> moved_, bent_;          // by wedge, in mesh space
+    std::vector<vec4> faces_;                 // by triangle: normal times twice the area
+    std::vector<vec3> before_;                // by key of same_normal_: sum of faces
+    std::vector<Arena> arenas_;               // by thread
+    std::vector<std::string> prints_;         // by part
+    std::vector<uint32_t> not_finite_;        // by part
     uint32_t not_finite_total_ = 0;
 };
 

@@ -26,9 +26,9 @@ const dmat4 kIdentity(1.0);
 
 TEST(SkinSpace, ABindShapeMatrixOrANodeAtTheOriginLeavesNothingToAsk) {
     SkinPose posed = pose(moved(1, 2, 3), moved(9, 0, 0), kIdentity);
-    EXPECT_EQ(skin_place(moved(0, 0, 1), posed, posed).space, SkinSpace::World);
+    EXPECT_EQ(skin_placement(moved(0, 0, 1), posed, posed).space, SkinSpace::World);
     posed.node = kIdentity;
-    EXPECT_EQ(skin_place(kIdentity, posed, posed).space, SkinSpace::World);
+    EXPECT_EQ(skin_placement(kIdentity, posed, posed).space, SkinSpace::World);
 }
 
 // Blender writes 1 -2.98023e-8 0 -1.19209e-7 for the identity.
@@ -38,7 +38,7 @@ TEST(SkinSpace, AnIdentityThatWasMultipliedAsFloatsIsOne) {
     nearly[3][0] = -1.19209e-7;
     dmat4 node = moved(1, 0, 0.5);
     SkinPose rest = pose(node, node, node);
-    SkinPlace place = skin_place(nearly, rest, rest);
+    SkinPlacement place = skin_placement(nearly, rest, rest);
     EXPECT_EQ(place.space, SkinSpace::BindsNode);
     EXPECT_EQ(place.bind, node);
 }
@@ -46,7 +46,7 @@ TEST(SkinSpace, AnIdentityThatWasMultipliedAsFloatsIsOne) {
 TEST(SkinSpace, JointsThatBringTheMeshToTheNodeNeedNoMatrix) {
     dmat4 node = moved(1, 0, 0.5);
     SkinPose rest = pose(node, node, kIdentity);
-    EXPECT_EQ(skin_place(kIdentity, rest, rest).space, SkinSpace::World);
+    EXPECT_EQ(skin_placement(kIdentity, rest, rest).space, SkinSpace::World);
 }
 
 // The armature is animated; the file leaves it at the last frame, and its joints were bound at the
@@ -56,7 +56,7 @@ TEST(SkinSpace, TheFirstKeysTellWhereTheRestOfTheFileIsNoPoseOfTheBind) {
     SkinPose rest = pose(last, last, first), start = pose(first, first, first);
     rest.shared = last;
     start.shared = first;
-    SkinPlace place = skin_place(kIdentity, rest, start);
+    SkinPlacement place = skin_placement(kIdentity, rest, start);
     EXPECT_EQ(place.space, SkinSpace::BindsNode);
     EXPECT_EQ(place.bind, first);
     for (const dmat4& now : {first, last, moved(7, 7, 7)}) {
@@ -65,7 +65,7 @@ TEST(SkinSpace, TheFirstKeysTellWhereTheRestOfTheFileIsNoPoseOfTheBind) {
     }
     // Bound at the last frame: what the file says counts, not the first keys.
     rest = pose(last, last, last), start = pose(first, first, last);
-    place = skin_place(kIdentity, rest, start);
+    place = skin_placement(kIdentity, rest, start);
     EXPECT_EQ(place.space, SkinSpace::BindsNode);
     EXPECT_EQ(place.bind, last);
 }

@@ -124,8 +124,8 @@ void SkinBinder::choose_space(const SkinDefinition& skin, Shape& shape) const {
     size_t mirroring = mirroring_joints(skin.bind_shape, moving);
     if (mirroring && mirroring < moving.size())
         diagnostics_.report(Code::SKIN_MIXED_MIRROR, skin.where, mirroring, moving.size(), skin.id);
-    SkinPlace found;
-    if (!skin.in_world) found = skin_place(skin.bind_shape, rest, start);
+    SkinPlacement found;
+    if (!skin.in_world) found = skin_placement(skin.bind_shape, rest, start);
     SkinSpace space = found.space;
     if (space != SkinSpace::World)
         diagnostics_.report(Code::SKIN_NODE_TRANSFORM, skin.where, skin.id);

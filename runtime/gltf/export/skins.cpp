@@ -34,8 +34,8 @@ std::vector<uint32_t> SkinWriter::joints_of(const MeshUse& use, uint32_t occurre
 }
 
 // `bound`: the joints that have inverse bind matrices; `shared`: their and the node's ancestor.
-SkinPlace SkinWriter::space_of(const MeshUse& use, uint32_t occurrence,
-                               std::span<const uint32_t> bound, uint32_t shared) const {
+SkinPlacement SkinWriter::space_of(const MeshUse& use, uint32_t occurrence,
+                                   std::span<const uint32_t> bound, uint32_t shared) const {
     const SkinDefinition& definition = description_.skins[use.skin];
     if (definition.in_world) return {};
     SkinPose rest, start;
@@ -48,7 +48,7 @@ SkinPlace SkinWriter::space_of(const MeshUse& use, uint32_t occurrence,
     }
     if (shared != kNone) rest.shared = occurrences_[shared].world;
     if (shared != kNone) start.shared = occurrences_[shared].start;
-    return skin_place(definition.bind_shape, rest, start);
+    return skin_placement(definition.bind_shape, rest, start);
 }
 
 // An occurrence and those above it once more below the glTF node `above`, which stands for `top`
@@ -71,7 +71,7 @@ uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
         std::span(joints).first(std::min(joints.size(), definition.inverse_bind.size()));
     uint32_t shared = shared_ancestor(occurrence, bound, kNone,
                                       [&](uint32_t n) { return occurrences_[n].parent; });
-    SkinPlace space = space_of(use, occurrence, bound, shared);
+    SkinPlacement space = space_of(use, occurrence, bound, shared);
     bool binds_node = space.space == SkinSpace::BindsNode;
     dmat4 bind_shape = binds_node ? space.bind : definition.bind_shape;
     uint32_t above = root_;

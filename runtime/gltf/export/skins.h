@@ -30,8 +30,8 @@ class SkinWriter {
   private:
     using Copies = std::map<uint32_t, uint32_t>;  // occurrence -> its node once more
     std::vector<uint32_t> joints_of(const MeshUse& use, uint32_t occurrence) const;
-    SkinPlace space_of(const MeshUse& use, uint32_t occurrence, std::span<const uint32_t> bound,
-                       uint32_t shared) const;
+    SkinPlacement space_of(const MeshUse& use, uint32_t occurrence, std::span<const uint32_t> bound,
+                           uint32_t shared) const;
     uint32_t copy(uint32_t occurrence, uint32_t above, uint32_t top, Copies& copies);
 
     const SceneDescription& description_;

@@ -64,7 +64,7 @@ std::vector<double> numbers_of(std::string_view text) {
 }
 
 // What a skinned vertex is multiplied by in the end.
-dmat4 placement(const SkinPlace& stand, const SkinPose& pose) {
+dmat4 placement(const SkinPlacement& stand, const SkinPose& pose) {
     if (stand.space == SkinSpace::Node) return pose.node;
     if (stand.space == SkinSpace::NodeBelow) return pose.node * glm::inverse(pose.shared);
     return dmat4(1.0);
@@ -129,9 +129,9 @@ class SkinChange {
 
     void add(const Element& skin, const dmat4& bind_shape, const SkinPose& rest,
              const SkinPose& start) {
-        SkinPlace before = skin_place(bind_shape, rest, start);
+        SkinPlacement before = skin_placement(bind_shape, rest, start);
         SkinPose rest_after = changed(rest, change_), start_after = changed(start, change_);
-        SkinPlace after = skin_place(bind_shape, rest_after, start_after);
+        SkinPlacement after = skin_placement(bind_shape, rest_after, start_after);
         Stand stand{&skin, bind_shape, before.space != SkinSpace::BindsNode, true};
         if (before.space == SkinSpace::BindsNode)
             stand.bind = before.bind;
