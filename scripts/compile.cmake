@@ -17,7 +17,8 @@ if(KINORA_CCACHE)
     endif()
 endif()
 find_program(KINORA_MOLD mold)
-if(KINORA_MOLD AND NOT CMAKE_CROSSCOMPILING)
+# Not with sanitizers: mold then takes members of the tests' archives that nothing calls.
+if(KINORA_MOLD AND NOT CMAKE_CROSSCOMPILING AND NOT KINORA_SANITIZE)
     add_link_options(-fuse-ld=mold)
 endif()
 
