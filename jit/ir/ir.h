@@ -89,23 +89,33 @@ struct Function {
     }
 };
 
+// What an input or output is to the front end, which packs it as it likes
+// (rsl/model/kernel_keys.h). Passes keep it and never look into it; names alone tell inputs apart.
+// All 0 in IR read from text.
+struct FrontEndKey {
+    uint64_t words[2] = {};
+    bool operator==(const FrontEndKey&) const = default;
+};
+
 // A value the kernel's caller provides. Point inputs are arrays over the grid; frame inputs are
 // read by the frame kernel only (after hoist none is left in a point kernel).
 struct InputInfo {
-    std::string name;  // "P.x": rsl/model/renderer_services.h lists the names
+    std::string name;  // "P.x", for dumps
     Type type = Type::F;
     Rate rate = Rate::Point;
     std::string du, dv;  // names of the inputs that hold its partial derivatives, "" = zero
+    FrontEndKey key = {}, du_key = {}, dv_key = {};
 };
 
 struct OutputInfo {
-    std::string name;  // "Ci.r"
+    std::string name;  // "Ci.r", for dumps
     Type type = Type::F;
+    FrontEndKey key = {};
 };
 
 // A C++ function that generated code calls; the slot is its index in Module::services.
 struct ServiceInfo {
-    std::string name;  // "texture": rsl/model/renderer_services.h lists them
+    std::string name;  // "texture": rsl/model/services.def lists them
     std::vector<Type> params;
     std::vector<Type> results;
     bool pure = false;  // same arguments, same results, no effect: may be merged, hoisted, dropped

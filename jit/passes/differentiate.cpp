@@ -181,22 +181,25 @@ class Differentiator {
     }
 
     // An input's partial is an input of its own; "1" names the coordinate itself.
-    static const std::string& partial_name(const InputInfo& input, int d) {
-        return d == 0 ? input.du : input.dv;
+    static InputInfo partial(const InputInfo& input, int d) {
+        return {.name = d == 0 ? input.du : input.dv,
+                .type = Type::F,
+                .rate = input.rate,
+                .du = "",
+                .dv = "",
+                .key = d == 0 ? input.du_key : input.dv_key};
     }
     Dual input_dual(int d, const Inst& inst) {
-        const InputInfo input = m_.inputs[static_cast<size_t>(inst.imm)];
-        const std::string& name = partial_name(input, d);
-        if (name == "1") return b_.f(1);
-        return name.empty() ? kNone : b_.input({name, Type::F, input.rate, "", ""});
+        InputInfo input = partial(m_.inputs[static_cast<size_t>(inst.imm)], d);
+        if (input.name == "1") return b_.f(1);
+        return input.name.empty() ? kNone : b_.input(input);
     }
     // The partials of an array input stand in a row of their own; all or none are named.
     Dual gather_dual(int d, const Inst& inst) {
         auto first = static_cast<int32_t>(m_.inputs.size());
         for (int32_t k = 0; k < inst.imm2; ++k) {
-            const InputInfo input = m_.inputs[static_cast<size_t>(inst.imm + k)];
-            const std::string& name = partial_name(input, d);
-            m_.inputs.push_back({name, Type::F, input.rate, "", ""});
+            InputInfo input = partial(m_.inputs[static_cast<size_t>(inst.imm + k)], d);
+            m_.inputs.push_back(std::move(input));
         }
         return b_.input_gather(first, inst.imm2, renamed(inst.a));
     }

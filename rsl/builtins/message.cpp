@@ -44,7 +44,7 @@ void ask(LowerCall& c, QueryKind kind, bool of_point) {
     Variable variable(c);
     auto& b = c.b;
     if (of_point) c.context.out.uses_rng = true;
-    Value anchor = of_point ? scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point) : b.i(0);
+    Value anchor = of_point ? rng_input(c.b) : b.i(0);
     bool array = variable.type.is_array();
     int length = int(variable.before.size());
     bool text = variable.type.base == BaseType::String;
@@ -107,7 +107,7 @@ void shadername(LowerCall& c) {
         if (*kind == shader_kind_name(layer->shader->kind))
             return c.set(c.b.i(intern(layer->shader->name)));
     c.context.out.uses_rng = true;
-    Value anchor = scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point);
+    Value anchor = rng_input(c.b);
     std::vector<Value> answer = c.services.call(
         Service::query, std::array{c.b.i(int32_t(QueryKind::ShaderName)), c.args[0].c[0],
                                    c.b.i('s'), c.b.i(-1), c.b.i(1), anchor});
@@ -120,9 +120,9 @@ void ray_fact(LowerCall& c, const char* name) {
     auto& b = c.b;
     c.context.out.uses_rng = true;
     std::vector<Value> answer = c.services.call(
-        Service::query, std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern(name)),
-                                   b.i(type_letter(c.result_type())), b.i(-1), b.i(1),
-                                   scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point)});
+        Service::query,
+        std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern(name)),
+                   b.i(type_letter(c.result_type())), b.i(-1), b.i(1), rng_input(c.b)});
     if (c.result_type() == BaseType::String) return c.set(b.bits(answer[1]));
     for (size_t k = 0; k < size_t(c.result.size()); ++k) c.result.c[k] = answer[1 + k];
 }

@@ -67,7 +67,7 @@ void bake3d(LowerCall& c) {
     c.context.out.uses_rng = true;
     std::vector<Value> args = {c.args[0].c[0],
                                c.b.i(intern(channels.text)),
-                               scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point),
+                               rng_input(c.b),
                                P[0],
                                P[1],
                                P[2],

@@ -36,8 +36,10 @@ void transform(LowerCall& c) {
 void depth(LowerCall& c) {
     auto camera = c.spaces.space(c.b.i(intern("camera")), c.where());
     V3 p = c.spaces.from_current(lowered(BaseType::Point, c.v3(0)), camera).v3();
-    Value near = scalar_input(c.b, "camera:near", jit::Type::F, jit::Rate::Frame);
-    Value far = scalar_input(c.b, "camera:far", jit::Type::F, jit::Rate::Frame);
+    auto plane = [&](KeyKind kind) {
+        return scalar_input(c.b, plain_key(kind), jit::Type::F, jit::Rate::Frame);
+    };
+    Value near = plane(KeyKind::CameraNear), far = plane(KeyKind::CameraFar);
     c.set(c.e.div(c.b.sub(p[2], near), c.b.sub(far, near)));
 }
 

@@ -24,7 +24,7 @@ void bake(LowerCall& c) {
         b.max(b.add(b.abs(at.dsdx), b.abs(at.dsdy)), b.add(b.abs(at.dtdx), b.abs(at.dtdy)));
     Value radius = b.max(b.mul(across, e.f(0.5f)), e.f(1e-6f));
     std::vector<Value> args = {c.f(0), b.i(intern(std::string(type_name(value.type)) + " value")),
-                               scalar_input(c.b, "rng", jit::Type::I, jit::Rate::Point)};
+                               rng_input(c.b)};
     args.insert(args.end(), {at.s, at.t, e.f(0), e.f(0), e.f(0), e.f(0), radius, e.f(-1)});
     args.insert(args.end(), value.c.begin(), value.c.begin() + value.size());
     args.resize(11 + size_t(kPointFloats), e.f(0));

@@ -96,7 +96,8 @@ void Gather::lower(const GatherStmt& stmt) {
                                 type_name(given.type.base));
                 continue;
             }
-            wanted.push_back({name, given.type.base});
+            int32_t variable = name.starts_with("surface:") ? name_id(name.substr(8)) : 0;
+            wanted.push_back({name, given.type.base, variable});
             results.items.push_back({name, &given, column, name.starts_with("ray:")});
             column += component_count(given.type.base);
         } else if (name == "maxdist") {

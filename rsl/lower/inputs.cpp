@@ -1,5 +1,4 @@
-// rsl/lower/inputs.cpp: the kernel's inputs: globals and parameters by the names that
-// rsl/model/renderer_services.h gives them.
+// rsl/lower/inputs.cpp: the kernel's inputs: globals and parameters.
 #include "rsl/lower/inputs.h"
 
 #include <utility>
@@ -11,49 +10,47 @@ namespace kinora::rsl {
 
 namespace {
 
-// Globals that are inputs of surfaces, with the inputs that hold their derivatives. "1" is an input
-// that is 1 everywhere.
+// A global and the input that it is.
 struct GlobalInput {
     Global id;
-    const char* name;
-    const char* du;
-    const char* dv;
+    Global input;
+    Slopes slopes = Slopes::None;
     jit::Rate rate = jit::Rate::Point;
 };
+// Those of surfaces.
 const GlobalInput kInputs[] = {
-    {Global::P, "P", "dPdu", "dPdv"},
-    {Global::dPdu, "dPdu", "", ""},
-    {Global::dPdv, "dPdv", "", ""},
-    {Global::N, "N", "dNdu", "dNdv"},
-    {Global::Ng, "Ng", "", ""},
-    {Global::I, "I", "dIdu", "dIdv"},
-    {Global::u, "u", "1", ""},
-    {Global::v, "v", "", "1"},
-    {Global::du, "du", "", ""},
-    {Global::dv, "dv", "", ""},
-    {Global::s, "s", "dsdu", "dsdv"},
-    {Global::t, "t", "dtdu", "dtdv"},
-    {Global::Ps, "P", "dPdu", "dPdv"},
-    {Global::Ns, "N", "dNdu", "dNdv"},
-    {Global::E, "E", "", "", jit::Rate::Frame},
-    {Global::time, "time", "", "", jit::Rate::Frame},
-    {Global::dtime, "dtime", "", "", jit::Rate::Frame},
+    {Global::P, Global::P, Slopes::Given},
+    {Global::dPdu, Global::dPdu},
+    {Global::dPdv, Global::dPdv},
+    {Global::N, Global::N, Slopes::Given},
+    {Global::Ng, Global::Ng},
+    {Global::I, Global::I, Slopes::Given},
+    {Global::u, Global::u, Slopes::Given},
+    {Global::v, Global::v, Slopes::Given},
+    {Global::du, Global::du},
+    {Global::dv, Global::dv},
+    {Global::s, Global::s, Slopes::Given},
+    {Global::t, Global::t, Slopes::Given},
+    {Global::Ps, Global::P, Slopes::Given},
+    {Global::Ns, Global::N, Slopes::Given},
+    {Global::E, Global::E, Slopes::None, jit::Rate::Frame},
+    {Global::time, Global::time, Slopes::None, jit::Rate::Frame},
+    {Global::dtime, Global::dtime, Slopes::None, jit::Rate::Frame},
 };
 // Those of lights: the rest is 0, but see light_global().
 const GlobalInput kLightInputs[] = {
-    {Global::Ps, "Ps", "", ""},
-    {Global::Ns, "Ns", "", ""},
-    {Global::N, "Ns", "", ""},
-    {Global::E, "E", "", "", jit::Rate::Frame},
-    {Global::time, "time", "", "", jit::Rate::Frame},
-    {Global::dtime, "dtime", "", "", jit::Rate::Frame},
+    {Global::Ps, Global::Ps},
+    {Global::Ns, Global::Ns},
+    {Global::N, Global::Ns},
+    {Global::E, Global::E, Slopes::None, jit::Rate::Frame},
+    {Global::time, Global::time, Slopes::None, jit::Rate::Frame},
+    {Global::dtime, Global::dtime, Slopes::None, jit::Rate::Frame},
 };
-
 // Those of lights on geometry, at the sample; u, v and what is along them are the mesh's.
 const GlobalInput kAreaInputs[] = {
-    {Global::P, "P", "", ""},       {Global::N, "N", "", ""},       {Global::Ng, "Ng", "", ""},
-    {Global::dPdu, "dPdu", "", ""}, {Global::dPdv, "dPdv", "", ""}, {Global::u, "u", "", ""},
-    {Global::v, "v", "", ""},       {Global::s, "s", "", ""},       {Global::t, "t", "", ""},
+    {Global::P, Global::P},       {Global::N, Global::N},       {Global::Ng, Global::Ng},
+    {Global::dPdu, Global::dPdu}, {Global::dPdv, Global::dPdv}, {Global::u, Global::u},
+    {Global::v, Global::v},       {Global::s, Global::s},       {Global::t, Global::t},
 };
 
 // Globals with a first value that no input gives.
@@ -108,8 +105,7 @@ Lowered Globals::light_global(const GlobalInfo& info) {
         V3 origin;
         for (int r = 0; r < 3; ++r)
             origin[size_t(r)] =
-                scalar_input(b_, "space:shader:to_current:" + std::to_string(r) + "3", jit::Type::F,
-                             jit::Rate::Frame);
+                scalar_input(b_, space_key("shader", true, r, 3), jit::Type::F, jit::Rate::Frame);
         return lowered(BaseType::Point, origin);
     }
     if (info.id == Global::I) {
@@ -139,16 +135,16 @@ Lowered Globals::kernel_input(Global id) {
     }
     bool behind = context_.kind() == ShaderKind::Volume || context_.kind() == ShaderKind::Imager;
     if (behind && (id == Global::Ci || id == Global::Oi))
-        return named_input(b_, std::string(info.name), type, jit::Rate::Point);
+        return global_input(b_, id, jit::Rate::Point);
     if (context_.kind() == ShaderKind::Imager && id == Global::alpha)
-        return named_input(b_, "alpha", type, jit::Rate::Point);
+        return global_input(b_, id, jit::Rate::Point);
     if (light && context_.options.area_light)
         for (const GlobalInput& row : kAreaInputs)
-            if (row.id == id) return named_input(b_, row.name, type, row.rate, row.du, row.dv);
+            if (row.id == id) return global_input(b_, row.input, row.rate, row.slopes);
     auto rows =
         light ? std::span<const GlobalInput>(kLightInputs) : std::span<const GlobalInput>(kInputs);
     for (const GlobalInput& row : rows)
-        if (row.id == id) return named_input(b_, row.name, type, row.rate, row.du, row.dv);
+        if (row.id == id) return global_input(b_, row.input, row.rate, row.slopes);
     for (const GlobalConstant& row : kConstants)
         if (row.id == id) return convert(e_, lowered(BaseType::Float, b_.f(row.value)), type);
     return light ? light_global(info) : zero(e_, type);
@@ -159,12 +155,12 @@ Lowered Globals::kernel_input(Global id) {
 jit::InputInfo BoundParameters::element_input(std::string_view name, BaseType type,
                                               const ParamBinding& bound, int element,
                                               int component) {
-    std::string text = "param:" + std::to_string(context_.layer_index) + ":" + std::string(name);
-    if (element >= 0) text += "[" + std::to_string(element) + "]";
-    text += component_suffix(type, component);
-    jit::Type t = type == BaseType::String ? jit::Type::I : jit::Type::F;
-    if (bound.kind == ParamBinding::Kind::Frame) return {text, t, jit::Rate::Frame, "", ""};
-    return {text, t, jit::Rate::Point, text + ":du", text + ":dv"};
+    KernelKey key =
+        parameter_key(uint32_t(context_.layer_index), name, element, form_of(type), component);
+    jit::Type number = type == BaseType::String ? jit::Type::I : jit::Type::F;
+    bool frame = bound.kind == ParamBinding::Kind::Frame;
+    return input_info(key, number, frame ? jit::Rate::Frame : jit::Rate::Point,
+                      frame ? Slopes::None : Slopes::Given);
 }
 
 // A binding's value, in the layer's current; `element` of an array type.

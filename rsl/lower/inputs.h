@@ -1,4 +1,4 @@
-// rsl/lower/inputs.h: the kernel's inputs: numbers by name, parameters as they are bound, globals.
+// rsl/lower/inputs.h: the kernel's inputs: parameters as they are bound, globals.
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@
 #include "jit/math/math.h"
 #include "rsl/lower/values.h"
 #include "rsl/model/builtin.h"
+#include "rsl/model/kernel_keys.h"
 #include "rsl/model/pairs.h"
 
 namespace kinora::rsl {
@@ -152,19 +153,21 @@ void LightShader::illuminate(const Stmt& stmt, const Expr* position, const Expr*
 // What is the same for all lights' sake (no L, no Ol, lit everywhere) is no output: a renderer
 // fills records for every grid, and memory is most of what that costs.
 void LightShader::outputs() {
-    auto triple = [&](const std::string& name, const Lowered& value) {
+    auto output = [&](const KernelKey& key, jit::Type type, Value value) {
+        b_.output({text(key), type, packed(key)}, value);
+    };
+    auto triple = [&](size_t k, LightColumn column, const Lowered& value) {
         if (e_.is_zero(value.c[0]) && e_.is_zero(value.c[1]) && e_.is_zero(value.c[2])) return;
         for (int c = 0; c < 3; ++c)
-            b_.output({name + component_suffix(value.type, c), jit::Type::F}, value.c[size_t(c)]);
+            output(light_key(k, column, c), jit::Type::F, value.c[size_t(c)]);
     };
     auto record = [&](size_t k, const Lowered& L, const Lowered& Cl, const Lowered& Ol, Value lit) {
-        std::string prefix = "light:" + std::to_string(k) + ":";
-        triple(prefix + "L", lowered(BaseType::Vector, e_.neg(L.v3())));
-        triple(prefix + "Cl", Cl);
-        triple(prefix + "Ol", Ol);
+        triple(k, kLightL, lowered(BaseType::Vector, e_.neg(L.v3())));
+        triple(k, kLightCl, Cl);
+        triple(k, kLightOl, Ol);
         bool everywhere = false;
         if (b_.constant_m(lit, &everywhere) && everywhere) return;
-        b_.output({prefix + "lit", jit::Type::I}, b_.select(lit, b_.i(1), b_.i(0)));
+        output(light_key(k, kLightLit), jit::Type::I, b_.select(lit, b_.i(1), b_.i(0)));
     };
     // What a light assigns behind its only statement counts too, where that lights.
     auto at_end = [&](const Source& light, Global id, int slot, const Lowered& left) {

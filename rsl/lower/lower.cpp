@@ -223,45 +223,46 @@ class Stack {
         Ci_ = Ci, Oi_ = Oi, have_surface_ = true;
     }
 
-    void output(const std::string& name, BaseType type, const Lowered& value) {
-        for (int c = 0; c < component_count(type); ++c)
-            b_.output({name + component_suffix(type, c),
-                       type == BaseType::String ? jit::Type::I : jit::Type::F},
-                      value.c[size_t(c)]);
+    void output(const KernelKey& key, jit::Type type, Value value) {
+        b_.output({text(key), type, packed(key)}, value);
+    }
+    void output(Global id, const Lowered& value) {
+        for (int c = 0; c < value.size(); ++c)
+            output(global_key(id, c), jit::Type::F, value.c[size_t(c)]);
     }
 
     void write_outputs() {
         if (have_surface_) {
             context_.out.opacity = opacity();
-            if (context_.options.want_Ci)
-                output("Ci", BaseType::Color, lowered(BaseType::Color, Ci_));
-            if (context_.options.want_Oi)
-                output("Oi", BaseType::Color, lowered(BaseType::Color, Oi_));
+            if (context_.options.want_Ci) output(Global::Ci, lowered(BaseType::Color, Ci_));
+            if (context_.options.want_Oi) output(Global::Oi, lowered(BaseType::Color, Oi_));
         }
-        if (alpha_ != jit::kNone) b_.output({"alpha", jit::Type::F}, alpha_);
-        context_.out.moves_P = have_P_ && !is_input(b_, P_.v3(), "P");
-        context_.out.bends_N = have_N_ && !is_input(b_, N_.v3(), "N");
-        if (context_.options.want_N) output("N", BaseType::Normal, left_N_);
-        if (context_.options.want_P)
-            output("P", BaseType::Point, have_P_ ? P_ : globals_.input(Global::P));
+        if (alpha_ != jit::kNone) output(global_key(Global::alpha), jit::Type::F, alpha_);
+        context_.out.moves_P = have_P_ && !is_input(b_, P_.v3(), Global::P);
+        context_.out.bends_N = have_N_ && !is_input(b_, N_.v3(), Global::N);
+        if (context_.options.want_N) output(Global::N, left_N_);
+        if (context_.options.want_P) output(Global::P, have_P_ ? P_ : globals_.input(Global::P));
     }
 
     // Output parameters wanted by the film or by lightsource(): the topmost layer's.
     void write_named_outputs() {
-        auto write = [&](const std::string& prefix, const std::vector<std::string>& names) {
+        using MakeKey = KernelKey(std::string_view, int, ComponentForm, int);
+        auto write = [&](MakeKey& key, const std::vector<std::string>& names) {
             for (const std::string& name : names) {
                 auto found = std::find_if(messages_.list().rbegin(), messages_.list().rend(),
                                           [&](auto& message) { return message.name == name; });
                 if (found == messages_.list().rend()) continue;
                 std::vector<Lowered> values = messages_.values(*found);
                 for (size_t k = 0; k < values.size(); ++k)
-                    output(prefix + name +
-                               (found->type.is_array() ? "[" + std::to_string(k) + "]" : ""),
-                           values[k].type, values[k]);
+                    for (int c = 0; c < values[k].size(); ++c)
+                        output(key(name, found->type.is_array() ? int(k) : -1,
+                                   form_of(values[k].type), c),
+                               values[k].type == BaseType::String ? jit::Type::I : jit::Type::F,
+                               values[k].c[size_t(c)]);
             }
         };
-        write("aov:", context_.options.aovs);
-        write("message:", context_.options.messages);
+        write(aov_key, context_.options.aovs);
+        write(message_key, context_.options.messages);
     }
 
     LoweredShader::Opacity opacity() {

@@ -47,6 +47,7 @@ struct LoweredShader {
     struct GatherResult {
         std::string name;  // "surface:Ci"
         BaseType type = BaseType::Float;
+        int32_t variable = 0;  // "surface:NAME": the name_id() of the hit shader's output
     };
     std::vector<std::vector<GatherResult>> gathers;
     bool uses_lights = false;  // reads record set 0

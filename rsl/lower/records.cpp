@@ -18,7 +18,7 @@ Value record_uniform(jit::Builder& b, Value set, Value record, int field, jit::T
 
 // Set 0 holds the lights at the grid's own P; any other position asks the service once.
 Value LightRecords::set_at(const V3& position) {
-    if (is_input(b_, position, "P")) {
+    if (is_input(b_, position, Global::P)) {
         context_.out.uses_lights = true;
         return b_.i(0);
     }

@@ -1,4 +1,4 @@
-// rsl/lower/services.cpp: inputs by name, calls of RendererServices, and random numbers.
+// rsl/lower/services.cpp: inputs by their keys, calls of RendererServices, and random numbers.
 #include "rsl/lower/services.h"
 
 #include <algorithm>
@@ -8,31 +8,34 @@
 
 namespace kinora::rsl {
 
-Lowered named_input(jit::Builder& b, const std::string& name, BaseType type, jit::Rate rate,
-                    const std::string& du_name, const std::string& dv_name) {
-    Lowered result{type, {}};
-    jit::Type t = type == BaseType::String ? jit::Type::I : jit::Type::F;
-    auto derived = [&](const std::string& from, int c) {
-        return from.empty() || from == "1" ? from : from + component_suffix(type, c);
-    };
+jit::InputInfo input_info(const KernelKey& key, jit::Type type, jit::Rate rate, Slopes slopes) {
+    KernelKey du, dv;
+    if (slopes == Slopes::Given)
+        du = partial_key(key, Partial::Du), dv = partial_key(key, Partial::Dv);
+    return {text(key), type, rate, text(du), text(dv), packed(key), packed(du), packed(dv)};
+}
+
+Value scalar_input(jit::Builder& b, const KernelKey& key, jit::Type type, jit::Rate rate) {
+    return b.input(input_info(key, type, rate, Slopes::None));
+}
+
+Lowered global_input(jit::Builder& b, Global input, jit::Rate rate, Slopes slopes) {
+    Lowered result{global_info(input).type.base, {}};
     for (int c = 0; c < result.size(); ++c)
-        result.c[size_t(c)] = b.input(
-            {name + component_suffix(type, c), t, rate, derived(du_name, c), derived(dv_name, c)});
+        result.c[size_t(c)] = b.input(input_info(global_key(input, c), jit::Type::F, rate, slopes));
     return result;
 }
 
-Value scalar_input(jit::Builder& b, const std::string& name, jit::Type type, jit::Rate rate) {
-    return b.input({name, type, rate, "", ""});
+Value rng_input(jit::Builder& b) {
+    return scalar_input(b, plain_key(KeyKind::Rng), jit::Type::I, jit::Rate::Point);
 }
 
-bool is_input(jit::Builder& b, const V3& v, const char* name) {
+bool is_input(jit::Builder& b, const V3& v, Global input) {
     for (int c = 0; c < 3; ++c) {
         const jit::Inst* inst = &b.inst(v[size_t(c)]);
         if (inst->op == jit::Op::WithSlope) inst = &b.inst(inst->a);
         if (inst->op != jit::Op::Input) return false;
-        if (b.module().inputs[size_t(inst->imm)].name !=
-            name + component_suffix(BaseType::Point, c))
-            return false;
+        if (key_of(b.module().inputs[size_t(inst->imm)]) != global_key(input, c)) return false;
     }
     return true;
 }
@@ -110,7 +113,7 @@ std::array<Value, 2> SampleSeeds::sample(uint32_t site) {
     Value seed = b_.ixor(path, b_.i(int32_t((site + 1) * 2246822519u)));
     for (Value counter : state_.counters)
         seed = b_.iadd(b_.imul(seed, b_.i(int32_t(747796405u))), b_.iadd(counter, b_.i(1)));
-    return {scalar_input(b_, "rng", jit::Type::I, jit::Rate::Point), seed};
+    return {rng_input(b_), seed};
 }
 
 // docs/decisions.md#random-numbers-without-state: a hash of the sample, the site of the call and
@@ -119,8 +122,7 @@ Value SampleSeeds::random01(const CallExpr& call, int component) {
     context_.out.uses_rng = true;
     uint32_t site = call.site * 40503u + uint32_t(component);
     Value path = b_.imul(path_value(), b_.i(int32_t(2654435761u)));
-    std::vector<Value> keys = {scalar_input(b_, "rng", jit::Type::I, jit::Rate::Point),
-                               b_.ixor(path, b_.i(int32_t(site)))};
+    std::vector<Value> keys = {rng_input(b_), b_.ixor(path, b_.i(int32_t(site)))};
     keys.insert(keys.end(), state_.counters.begin(), state_.counters.end());
     return jit::math::hash01(b_, keys);
 }

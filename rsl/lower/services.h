@@ -1,26 +1,30 @@
-// rsl/lower/services.h: what a kernel gets from outside: inputs by name, answers of
+// rsl/lower/services.h: what a kernel gets from outside: inputs by their keys, answers of
 // RendererServices, random numbers.
 #pragma once
 
 #include <array>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "rsl/lower/context.h"
 #include "rsl/lower/math.h"
 #include "rsl/lower/spaces.h"
+#include "rsl/model/kernel_keys.h"
 #include "rsl/model/services.h"
 
 namespace kinora::rsl {
 
-// A kernel's input; a type of several components has one for each.
-Lowered named_input(jit::Builder& b, const std::string& name, BaseType type, jit::Rate rate,
-                    const std::string& du = "", const std::string& dv = "");
-Value scalar_input(jit::Builder& b, const std::string& name, jit::Type type, jit::Rate rate);
+// One number of a kernel's inputs, with or without inputs for its changes along u and v.
+enum class Slopes : uint8_t { None, Given };
+jit::InputInfo input_info(const KernelKey& key, jit::Type type, jit::Rate rate, Slopes slopes);
+Value scalar_input(jit::Builder& b, const KernelKey& key, jit::Type type, jit::Rate rate);
+// All components of the input that a global is.
+Lowered global_input(jit::Builder& b, Global input, jit::Rate rate, Slopes slopes = Slopes::None);
+// The int that differs from point to point, and from frame to frame.
+Value rng_input(jit::Builder& b);
 // Is v exactly the global's unmodified input?
-bool is_input(jit::Builder& b, const V3& v, const char* name);
+bool is_input(jit::Builder& b, const V3& v, Global input);
 
 // A service of rsl/model/services.def, in the kernel's "current".
 std::vector<Value> kernel_service(Emitter& e, Service service, std::span<const Value> args);

@@ -50,18 +50,16 @@ Space Spaces::kernel_space(Value name, Location where) {
 Space Spaces::input_space(const std::string& name) {
     bool of_point = context_.kind() != ShaderKind::Light && (name == "object" || name == "shader");
     bool projective = contains(kProjective, name);
-    auto matrix = [&](const char* direction) {
+    auto matrix = [&](bool to_current) {
         Lowered m = convert(e_, lowered(BaseType::Float, b_.f(1)), BaseType::Matrix);
         for (int row = 0; row < 4; ++row)
             for (int column = 0; column < (projective ? 4 : 3); ++column)
                 m.c[size_t(row * 4 + column)] =
-                    scalar_input(b_,
-                                 "space:" + name + ":" + direction + ":" + std::to_string(column) +
-                                     std::to_string(row),
-                                 jit::Type::F, of_point ? jit::Rate::Point : jit::Rate::Frame);
+                    scalar_input(b_, space_key(name, to_current, column, row), jit::Type::F,
+                                 of_point ? jit::Rate::Point : jit::Rate::Frame);
         return m;
     };
-    return {false, matrix("to_current"), matrix("from_current")};
+    return {false, matrix(true), matrix(false)};
 }
 
 Lowered Spaces::into_layer(const Lowered& x) {

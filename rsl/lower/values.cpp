@@ -5,15 +5,6 @@
 
 namespace kinora::rsl {
 
-std::string component_suffix(BaseType type, int component) {
-    static const char* const kPoint[] = {".x", ".y", ".z"};
-    static const char* const kColor[] = {".r", ".g", ".b"};
-    if (type == BaseType::Color) return kColor[component];
-    if (is_triple(type)) return kPoint[component];
-    if (type == BaseType::Matrix) return "." + std::to_string(component);
-    return "";
-}
-
 Lowered zero(Emitter& e, BaseType type) {
     Lowered result{type, {}};
     Value none = type == BaseType::String ? e.b.i(0)

@@ -9,9 +9,6 @@
 
 namespace kinora::rsl {
 
-// ".x" of a point, ".r" of a color, ".7" of a matrix, "" of a float.
-std::string component_suffix(BaseType type, int component);
-
 inline jit::Type ir_type(BaseType type) {
     return type == BaseType::String ? jit::Type::I
            : type == BaseType::Bool ? jit::Type::M

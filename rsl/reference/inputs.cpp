@@ -1,29 +1,16 @@
-// rsl/reference/inputs.cpp: first values of globals and parameters, by the names of kernel inputs
-// (rsl/model/renderer_services.h).
+// rsl/reference/inputs.cpp: first values of globals and parameters, by kernel inputs
+// (rsl/model/kernel_keys.h).
+#include <algorithm>
+
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
 
 namespace {
 
-// .x .y .z, .r .g .b, .0 to .15, or nothing.
-std::string suffix(BaseType type, size_t component) {
-    if (type == BaseType::Matrix) return "." + std::to_string(component);
-    if (type == BaseType::Color) return std::string(".") + "rgb"[component];
-    return is_triple(type) ? std::string(".") + "xyz"[component] : "";
-}
-
-// Globals with their derivatives; "1" stands for a slope of 1.
-struct Row {
-    Global id;
-    const char* du;
-    const char* dv;
-};
-constexpr Row kSlopes[] = {
-    {Global::P, "dPdu", "dPdv"}, {Global::N, "dNdu", "dNdv"}, {Global::I, "dIdu", "dIdv"},
-    {Global::u, "1", ""},        {Global::v, "", "1"},        {Global::s, "dsdu", "dsdv"},
-    {Global::t, "dtdu", "dtdv"},
-};
+// Globals with derivatives.
+constexpr Global kSloped[] = {Global::P, Global::N, Global::I, Global::u,
+                              Global::v, Global::s, Global::t};
 
 template <class Real>
 RefValue<Real> spread(BaseType type, Real x) {
@@ -33,23 +20,24 @@ RefValue<Real> spread(BaseType type, Real x) {
 }  // namespace
 
 template <class Real>
-Real Reference<Real>::number(const std::string& name, Real otherwise) const {
-    auto found = in.values.find(name);
+Real Reference<Real>::number(const KernelKey& key, Real otherwise) const {
+    auto found = in.values.find(text(key));
     return found == in.values.end() ? otherwise : Real(found->second);
 }
 
 template <class Real>
-auto Reference<Real>::input(const std::string& name, BaseType type, const std::string& du,
-                            const std::string& dv) const -> Item {
+auto Reference<Real>::input(const KernelKey& first, BaseType type, Slopes slopes) const -> Item {
     Item value(type);
-    auto slope = [&](const std::string& from, size_t k) {
-        if (from == "1") return Real(1);
-        bool partial = !from.empty() && from[0] == ':';  // of a parameter
-        std::string full = partial ? name + suffix(type, k) + from : from + suffix(type, k);
-        return from.empty() ? Real(0) : number(full, 0);
+    KernelKey key = first;
+    auto slope = [&](Partial along) {
+        KernelKey partial = partial_key(key, along);
+        if (slopes == Slopes::None || partial.kind == KeyKind::None) return Real(0);
+        return partial.kind == KeyKind::One ? Real(1) : number(partial, 0);
     };
-    for (size_t k = 0; k < value.size(); ++k)
-        value.c[k] = {number(name + suffix(type, k), 0), slope(du, k), slope(dv, k)};
+    for (size_t k = 0; k < value.size(); ++k) {
+        key.component = uint8_t(k);
+        value.c[k] = {number(key, 0), slope(Partial::Du), slope(Partial::Dv)};
+    }
     return value;
 }
 
@@ -81,15 +69,16 @@ auto Reference<Real>::kernel_value(Global id) -> Item {
     if (!((info.readers | info.writers) & in_kind(layer->shader->kind))) return Item(type);
     for (const ParamBinding& bound : layer->params)  // Cs, Os
         if (bound.name == info.name)
-            return input("param:" + std::to_string(layer_index) + ":" + bound.name, type);
+            return input(parameter_key(uint32_t(layer_index), bound.name, -1, form_of(type), 0),
+                         type);
     bool behind =
         layer->shader->kind == ShaderKind::Volume || layer->shader->kind == ShaderKind::Imager;
     if (id == Global::Ci || id == Global::Oi) {  // what a volume or imager is laid over
-        if (behind) return input(std::string(info.name), type);
+        if (behind) return input(global_key(id), type);
         return spread(type, Real(id == Global::Oi));
     }
     if (id == Global::alpha && layer->shader->kind == ShaderKind::Imager)
-        return input(std::string(info.name), type);
+        return input(global_key(id), type);
     switch (id) {
         case Global::Cs:
         case Global::Os:
@@ -98,18 +87,16 @@ auto Reference<Real>::kernel_value(Global id) -> Item {
         case Global::ncomps:
             return spread(type, Real(3));
         case Global::Ps:
-            return light_shader ? input("Ps", type) : kernel_value(Global::P);
+            return light_shader ? input(global_key(Global::Ps), type) : kernel_value(Global::P);
         case Global::Ns:
-            return light_shader ? input("Ns", type) : kernel_value(Global::N);
+            return light_shader ? input(global_key(Global::Ns), type) : kernel_value(Global::N);
         default:
             break;
     }
-    if (light_shader && id == Global::N) return input("Ns", type);
+    if (light_shader && id == Global::N) return input(global_key(Global::Ns), type);
     if (light_shader && id == Global::P) {
-        auto at = [&](const char* row) {
-            return Number(number(std::string("space:shader:to_current:") + row + "3", 0));
-        };
-        return {type, at("0"), at("1"), at("2")};
+        auto at = [&](int row) { return Number(number(space_key("shader", true, row, 3), 0)); };
+        return {type, at(0), at(1), at(2)};
     }
     if (light_shader && id == Global::I) {
         Vec<Real> I = vec(global(Global::Ps)) - vec(global(Global::E));
@@ -117,9 +104,8 @@ auto Reference<Real>::kernel_value(Global id) -> Item {
     }
     bool given = id == Global::E || id == Global::time || id == Global::dtime;
     if (light_shader && !given) return Item(type);
-    for (const Row& row : kSlopes)
-        if (row.id == id) return input(std::string(info.name), type, row.du, row.dv);
-    return input(std::string(info.name), type);
+    bool sloped = std::find(std::begin(kSloped), std::end(kSloped), id) != std::end(kSloped);
+    return input(global_key(id), type, sloped ? Slopes::Given : Slopes::None);
 }
 
 // `element` of an array parameter, or -1.
@@ -143,10 +129,9 @@ auto Reference<Real>::parameter(const Symbol& symbol, int element) -> Item {
                 value.c[k] = Real(bound->constant[first * value.size() + k]);
         return value;
     }
-    std::string name = "param:" + std::to_string(layer_index) + ":" + std::string(symbol.name);
-    if (element >= 0) name += "[" + std::to_string(element) + "]";
-    if (bound->kind == ParamBinding::Kind::Frame) return into_layer(input(name, type));
-    Item varying = input(name, type, ":du", ":dv");
+    KernelKey key = parameter_key(uint32_t(layer_index), symbol.name, element, form_of(type), 0);
+    if (bound->kind == ParamBinding::Kind::Frame) return into_layer(input(key, type));
+    Item varying = input(key, type, Slopes::Given);
     return bound->plain ? varying : from_object(varying);
 }
 
@@ -217,9 +202,8 @@ std::vector<double> Reference<Real>::messages(std::string_view name, size_t coun
 }
 
 #define KINORA_INPUT_METHODS(Real)                                                          \
-    template Real Reference<Real>::number(const std::string&, Real) const;                  \
-    template auto Reference<Real>::input(const std::string&, BaseType, const std::string&,  \
-                                         const std::string&) const->Item;                   \
+    template Real Reference<Real>::number(const KernelKey&, Real) const;                    \
+    template auto Reference<Real>::input(const KernelKey&, BaseType, Slopes) const->Item;   \
     template auto Reference<Real>::first_value(Global)->Item;                               \
     template auto Reference<Real>::kernel_value(Global)->Item;                              \
     template Vec<Real> Reference<Real>::normal_of(const Vec<Real>&);                        \

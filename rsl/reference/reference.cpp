@@ -239,13 +239,11 @@ auto Reference<Real>::assign(const AssignExpr& e) -> Item {
 // ---- shaders ------------------------------------------------------------------------------------
 
 template <class Real>
-void Reference<Real>::output(const std::string& name, const Item& value) {
+void Reference<Real>::output(const KernelKey& first, const Item& value) {
+    KernelKey key = first;
     for (size_t k = 0; k < value.size(); ++k) {
-        std::string suffix = value.type == BaseType::Color    ? std::string(".") + "rgb"[k]
-                             : is_triple(value.type)          ? std::string(".") + "xyz"[k]
-                             : value.type == BaseType::Matrix ? "." + std::to_string(k)
-                                                              : "";
-        result.values[name + suffix] = double(value.c[k].x);
+        key.component = uint8_t(k);
+        result.values[text(key)] = double(value.c[k].x);
     }
 }
 
@@ -314,8 +312,9 @@ void Reference<Real>::run_layer(const Layer& next) {
     block(shader.definition->body->body);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {
-            output("aov:" + std::string(p.name), variables_[p.symbol][0]);
-            output("message:" + std::string(p.name), variables_[p.symbol][0]);
+            const Item& value = variables_[p.symbol][0];
+            output(aov_key(p.name, -1, form_of(value.type), 0), value);
+            output(message_key(p.name, -1, form_of(value.type), 0), value);
         }
     if (displacement || shader.kind == ShaderKind::Light) return;
     Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));
@@ -335,13 +334,12 @@ void Reference<Real>::light_outputs() {
     bool only = sources_.size() == 1 && sources_[0].stmt && sources_[0].lit;
     if (only) sources_[0].Cl = global(Global::Cl), sources_[0].Ol = global(Global::Ol);
     for (size_t k = 0; k < sources_.size(); ++k) {
-        std::string prefix = "light:" + std::to_string(k) + ":";
         Item to_light = sources_[k].L;
         for (size_t c = 0; c < 3; ++c) to_light.c[c] = -to_light.c[c];
-        output(prefix + "L", to_light);
-        output(prefix + "Cl", sources_[k].Cl);
-        output(prefix + "Ol", sources_[k].Ol);
-        result.values[prefix + "lit"] = sources_[k].lit;
+        output(light_key(k, kLightL), to_light);
+        output(light_key(k, kLightCl), sources_[k].Cl);
+        output(light_key(k, kLightOl), sources_[k].Ol);
+        result.values[text(light_key(k, kLightLit))] = sources_[k].lit;
     }
 }
 
@@ -354,12 +352,12 @@ ReferenceResult Reference<Real>::run() {
         return result;
     }
     if (have_surface_) {
-        output("Ci", {BaseType::Color, Ci_[0], Ci_[1], Ci_[2]});
-        output("Oi", {BaseType::Color, Oi_[0], Oi_[1], Oi_[2]});
+        output(global_key(Global::Ci), {BaseType::Color, Ci_[0], Ci_[1], Ci_[2]});
+        output(global_key(Global::Oi), {BaseType::Color, Oi_[0], Oi_[1], Oi_[2]});
     }
-    if (last.kind == ShaderKind::Imager) output("alpha", global(Global::alpha));
-    output("N", global(Global::N));
-    output("P", global(Global::P));
+    if (last.kind == ShaderKind::Imager) output(global_key(Global::alpha), global(Global::alpha));
+    output(global_key(Global::N), global(Global::N));
+    output(global_key(Global::P), global(Global::P));
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rsl/model/builtin.h"
+#include "rsl/model/kernel_keys.h"
 #include "rsl/reference/dual_p.h"
 #include "rsl/reference/reference.h"
 
@@ -166,9 +167,10 @@ class Reference {
     // Beyond what a built-in promises float and double are no judges: the point is undecided.
     void no_promise() { decide(int(sizeof(Real))); }
     // inputs.cpp
-    Item input(const std::string& name, BaseType type, const std::string& du = "",
-               const std::string& dv = "") const;
-    Real number(const std::string& name, Real otherwise) const;
+    // Of the input whose component 0 is `first`; with slopes, those that the kernel's inputs have.
+    enum class Slopes { None, Given };
+    Item input(const KernelKey& first, BaseType type, Slopes slopes = Slopes::None) const;
+    Real number(const KernelKey& key, Real otherwise) const;
     Item first_value(Global id);   // in the layer's "current"
     Item kernel_value(Global id);  // in the kernel's
     Vec<Real> normal_of(const Vec<Real>& p);
@@ -243,7 +245,7 @@ class Reference {
     void bring_back_N();
     Item given_N_, given_P_;  // to the displacements
     void run_layer(const Layer& next);
-    void output(const std::string& name, const Item& value);
+    void output(const KernelKey& first, const Item& value);  // `first`: of its component 0
     void light_outputs();
 
     std::span<const Layer> layers_;

@@ -43,11 +43,12 @@ auto Reference<Real>::from_object(const Item& x) -> Item {
 template <class Real>
 auto Reference<Real>::input_space(const std::string& name, const char* direction) const -> Matrix {
     Matrix m = identity<Real>();
+    KernelKey key = space_key(name, direction[0] == 't', 0, 0);
     for (size_t row = 0; row < 4; ++row)
-        for (size_t column = 0; column < 4; ++column)
-            m[column * 4 + row] = number("space:" + name + ":" + direction + ":" +
-                                             std::to_string(row) + std::to_string(column),
-                                         m[column * 4 + row].x);
+        for (size_t column = 0; column < 4; ++column) {
+            key.component = uint8_t(row * 4 + column);
+            m[column * 4 + row] = number(key, m[column * 4 + row].x);
+        }
     return m;
 }
 

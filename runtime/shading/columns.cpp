@@ -1,55 +1,80 @@
-// runtime/shading/columns.cpp: names of point-rate inputs to columns.
+// runtime/shading/columns.cpp: point-rate inputs to columns.
 #include "runtime/shading/columns.h"
-
-#include <string>
 
 namespace kinora {
 
 namespace {
 
+using rsl::Global;
+using rsl::KernelKey;
+using rsl::KeyKind;
+
+// The first column of a global and those of its changes along u and v.
 struct Row {
-    std::string_view name;
+    Global id;
     uint16_t column;
-    std::string_view suffixes;  // letters of the components, "" for a float
+    uint16_t du = kNoColumn;
+    uint16_t dv = kNoColumn;
 };
 constexpr Row kRows[] = {
-    {"P", kColP, "xyz"},       {"dPdu", kColdPdu, "xyz"}, {"dPdv", kColdPdv, "xyz"},
-    {"N", kColN, "xyz"},       {"Ng", kColNg, "xyz"},     {"I", kColI, "xyz"},
-    {"dNdu", kColdNdu, "xyz"}, {"dNdv", kColdNdv, "xyz"}, {"dIdu", kColdIdu, "xyz"},
-    {"dIdv", kColdIdv, "xyz"}, {"Ps", kColPs, "xyz"},     {"Ns", kColNs, "xyz"},
-    {"u", kColU, ""},          {"v", kColV, ""},          {"du", kColDu, ""},
-    {"dv", kColDv, ""},        {"s", kColS, ""},          {"t", kColT, ""},
-    {"dsdu", kColdsdu, ""},    {"dsdv", kColdsdv, ""},    {"dtdu", kColdtdu, ""},
-    {"dtdv", kColdtdv, ""},    {"rng", kColRng, ""},      {"1", kColOne, ""},
-    {"Ci", kColCi, "rgb"},     {"Oi", kColOi, "rgb"},     {"alpha", kColAlpha, ""},
+    {Global::P, kColP},
+    {Global::dPdu, kColdPdu},
+    {Global::dPdv, kColdPdv},
+    {Global::N, kColN, kColdNdu, kColdNdv},
+    {Global::Ng, kColNg},
+    {Global::I, kColI, kColdIdu, kColdIdv},
+    {Global::Ps, kColPs},
+    {Global::Ns, kColNs},
+    {Global::u, kColU},
+    {Global::v, kColV},
+    {Global::du, kColDu},
+    {Global::dv, kColDv},
+    {Global::s, kColS, kColdsdu, kColdsdv},
+    {Global::t, kColT, kColdtdu, kColdtdv},
+    {Global::Ci, kColCi},
+    {Global::Oi, kColOi},
+    {Global::alpha, kColAlpha},
 };
 
-uint16_t matrix_column(std::string_view name, std::string_view prefix, uint16_t first) {
-    if (!name.starts_with(prefix) || name.size() != prefix.size() + 2) return kNoColumn;
-    int row = name[prefix.size()] - '0', column = name[prefix.size() + 1] - '0';
-    if (row < 0 || row > 2 || column < 0 || column > 3) return kNoColumn;
-    return uint16_t(first + row * 4 + column);
+uint16_t global_column(const KernelKey& key) {
+    for (const Row& row : kRows) {
+        if (row.id != key.global()) continue;
+        uint16_t first = key.partial == rsl::Partial::None ? row.column
+                         : key.partial == rsl::Partial::Du ? row.du
+                                                           : row.dv;
+        return first == kNoColumn ? kNoColumn : uint16_t(first + key.component);
+    }
+    return kNoColumn;
+}
+
+uint16_t space_column(const KernelKey& key, uint16_t first) {
+    static const int32_t object = rsl::name_id("object"), shader = rsl::name_id("shader");
+    bool gathered = (key.name == object || key.name == shader) && key.row() < 3;
+    return gathered ? uint16_t(first + key.component) : kNoColumn;
 }
 
 }  // namespace
 
-uint16_t find_column(std::string_view name) {
-    for (const Row& row : kRows) {
-        if (row.suffixes.empty() ? name == row.name
-                                 : name.size() == row.name.size() + 2 &&
-                                       name.starts_with(row.name) && name[row.name.size()] == '.') {
-            if (row.suffixes.empty()) return row.column;
-            size_t component = row.suffixes.find(name.back());
-            if (component != std::string_view::npos) return uint16_t(row.column + component);
-        }
-    }
-    for (std::string_view space : {"object", "shader"}) {
-        for (bool to : {true, false}) {
-            std::string prefix =
-                "space:" + std::string(space) + (to ? ":to_current:" : ":from_current:");
-            uint16_t column = matrix_column(name, prefix, to ? kColToCurrent : kColFromCurrent);
-            if (column != kNoColumn) return column;
-        }
+uint16_t find_column(const KernelKey& key) {
+    switch (key.kind) {
+        case KeyKind::Global:
+            return global_column(key);
+        case KeyKind::One:
+            return kColOne;
+        case KeyKind::Rng:
+            return kColRng;
+        case KeyKind::SpaceToCurrent:
+            return space_column(key, kColToCurrent);
+        case KeyKind::SpaceFromCurrent:
+            return space_column(key, kColFromCurrent);
+        case KeyKind::None:
+        case KeyKind::CameraNear:
+        case KeyKind::CameraFar:
+        case KeyKind::Parameter:
+        case KeyKind::LightRecord:
+        case KeyKind::Aov:
+        case KeyKind::Message:
+            break;
     }
     return kNoColumn;
 }

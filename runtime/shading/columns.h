@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
+
+#include "rsl/model/kernel_keys.h"
 
 namespace kinora {
 
@@ -49,9 +50,9 @@ struct ConstantColumn {
 inline constexpr ConstantColumn kConstantColumns[] = {
     {kColOne, 1}, {kColdsdu, 1}, {kColdsdv, 0}, {kColdtdu, 0}, {kColdtdv, 1}};
 
-// Column of a kernel input's name ("P.x", "space:object:to_current:03"); varying parameters are
-// looked up by their look. kNoColumn: not a column.
+// Column of a kernel input; varying parameters are looked up by their look. kNoColumn: not a
+// column.
 inline constexpr uint16_t kNoColumn = 0xffff;
-uint16_t find_column(std::string_view name);
+uint16_t find_column(const rsl::KernelKey& key);
 
 }  // namespace kinora

@@ -21,26 +21,24 @@ struct DenormalMode {
 
 // "surface:NAME": the shader's parameter of that name where it is an output; "surface:N" its
 // normal.
+bool is_wanted(const rsl::KernelKey& key, const rsl::LoweredShader::GatherResult& result) {
+    static const int32_t normal = rsl::name_id("N");
+    if (key.kind == rsl::KeyKind::Aov) return key.name == result.variable;
+    return key.kind == rsl::KeyKind::Global && key.global() == rsl::Global::N &&
+           result.variable == normal;
+}
+
 void copy_outputs(const HitOutputs& wanted, const jit::Kernel& kernel, std::span<float* const> out,
                   std::span<const uint32_t> points) {
     size_t column = 0;
     for (const rsl::LoweredShader::GatherResult& result : wanted.wanted) {
         size_t components = size_t(rsl::component_count(result.type));
-        std::string_view name = result.name;
-        if (name.starts_with("surface:")) {
-            name.remove_prefix(8);
-            for (size_t o = 0; o < kernel.outputs.size(); ++o) {
-                std::string_view full = kernel.outputs[o].name;
-                if (full.starts_with("aov:"))
-                    full.remove_prefix(4);
-                else if (name != "N")
-                    continue;
-                if (!full.starts_with(name)) continue;
-                int k = output_component(full.substr(name.size()));
-                if (k < 0 || size_t(k) >= components) continue;
-                for (size_t i = 0; i < points.size(); ++i)
-                    wanted.columns[column + size_t(k)][points[i]] = out[o][i];
-            }
+        for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+            rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
+            size_t k = size_t(rsl::number_index(key));
+            if (!is_wanted(key, result) || k >= components) continue;
+            for (size_t i = 0; i < points.size(); ++i)
+                wanted.columns[column + k][points[i]] = out[o][i];
         }
         column += components;
     }
@@ -87,8 +85,8 @@ void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint3
     if (outputs) copy_outputs(*outputs, look.full.kernel(), out, points);
     memory.counters.points += grid.count();
     float *Ci[3], *Oi[3];
-    find_color(look.full.kernel(), out, "Ci", Ci);
-    find_color(look.full.kernel(), out, "Oi", Oi);
+    find_color(look.full.kernel(), out, rsl::Global::Ci, Ci);
+    find_color(look.full.kernel(), out, rsl::Global::Oi, Oi);
     for (int k = 0; k < 3; ++k)
         for (size_t i = 0; i < points.size(); ++i) {
             result.Ci[k][points[i]] = Ci[k] ? Ci[k][i] : 0.0f;

@@ -68,12 +68,11 @@ struct ImagerOutputs {
 ImagerOutputs find_outputs(const jit::Kernel& kernel) {
     ImagerOutputs result;
     for (size_t o = 0; o < kernel.outputs.size(); ++o) {
-        const std::string& name = kernel.outputs[o].name;
-        if (name == "alpha") result.alpha = int(o);
-        for (int k = 0; k < 3; ++k) {
-            if (name == std::string("Ci.") + "rgb"[k]) result.Ci[k] = int(o);
-            if (name == std::string("Oi.") + "rgb"[k]) result.Oi[k] = int(o);
-        }
+        rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
+        if (key.kind != rsl::KeyKind::Global) continue;
+        if (key.global() == rsl::Global::alpha) result.alpha = int(o);
+        if (key.global() == rsl::Global::Ci) result.Ci[key.component] = int(o);
+        if (key.global() == rsl::Global::Oi) result.Oi[key.component] = int(o);
     }
     return result;
 }

@@ -93,13 +93,12 @@ raytrace::ShadeResult take_colors(Arena& arena, size_t count) {
     return result;
 }
 
-void find_color(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, rsl::Global id,
                 float* color[3]) {
     for (int k = 0; k < 3; ++k) color[k] = nullptr;
     for (size_t o = 0; o < kernel.outputs.size(); ++o) {
-        std::string_view full = kernel.outputs[o].name;
-        if (full.size() != name.size() + 2 || !full.starts_with(name)) continue;
-        color[full.back() == 'r' ? 0 : full.back() == 'g' ? 1 : 2] = out[o];
+        rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
+        if (key.kind == rsl::KeyKind::Global && key.global() == id) color[key.component] = out[o];
     }
 }
 

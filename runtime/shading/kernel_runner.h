@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "rsl/model/globals.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/shading/grid.h"
 
@@ -35,8 +35,8 @@ class KernelRunner {
 // Memory for the colours of that many hits.
 raytrace::ShadeResult take_colors(Arena& arena, size_t count);
 
-// The three outputs "name.r" ... of a kernel, null where it has none.
-void find_color(const jit::Kernel& kernel, std::span<float* const> out, std::string_view name,
+// The three outputs of a kernel that a global is, null where it has none.
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, rsl::Global id,
                 float* color[3]);
 
 }  // namespace kinora

@@ -5,15 +5,16 @@
 #include <string>
 #include <string_view>
 
+#include "rsl/model/kernel_keys.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
 
 namespace {
 
-int find_output(const jit::Kernel& kernel, const std::string& name) {
+int find_output(const jit::Kernel& kernel, const rsl::KernelKey& key) {
     for (size_t o = 0; o < kernel.outputs.size(); ++o)
-        if (kernel.outputs[o].name == name) return int(o);
+        if (rsl::key_of(kernel.outputs[o]) == key) return int(o);
     return -1;
 }
 
@@ -76,13 +77,15 @@ LightOutputs statement_of(const ShaderInstance& look, size_t index,
     const rsl::LightStatement& from = look.lowered.light_statements[index];
     LightOutputs statement;
     statement.kind = from.kind;
-    std::string prefix = "light:" + std::to_string(index) + ":";
-    for (size_t k = 0; k < 3; ++k) {
-        statement.L[k] = find_output(kernel, prefix + "L." + "xyz"[k]);
-        statement.Cl[k] = find_output(kernel, prefix + "Cl." + "rgb"[k]);
-        statement.Ol[k] = find_output(kernel, prefix + "Ol." + "rgb"[k]);
+    auto find = [&](rsl::LightColumn column, int k) {
+        return find_output(kernel, rsl::light_key(index, column, k));
+    };
+    for (int k = 0; k < 3; ++k) {
+        statement.L[k] = find(rsl::kLightL, k);
+        statement.Cl[k] = find(rsl::kLightCl, k);
+        statement.Ol[k] = find(rsl::kLightOl, k);
     }
-    statement.lit = find_output(kernel, prefix + "lit");
+    statement.lit = find(rsl::kLightLit, 0);
     statement.casts_shadow = from.casts_shadow;
     if (definition.shadows) statement.casts_shadow = *definition.shadows;
     if (mode == ShadowMode::Explicit) statement.casts_shadow = definition.shadows.value_or(false);
@@ -101,11 +104,15 @@ bool parameter_fits(const ShaderInstance& light, std::string_view name, rsl::Typ
 }
 
 // Triples are read as any triple.
-int find_component(const jit::Kernel& kernel, const std::string& name, rsl::BaseType type, int k) {
-    if (rsl::component_count(type) == 1) return find_output(kernel, name);
-    if (type == rsl::BaseType::Matrix) return find_output(kernel, name + "." + std::to_string(k));
-    int output = find_output(kernel, name + "." + "xyz"[k]);
-    return output >= 0 ? output : find_output(kernel, name + "." + "rgb"[k]);
+int find_component(const jit::Kernel& kernel, const std::string& name, int element,
+                   rsl::BaseType type, int k) {
+    using rsl::ComponentForm;
+    auto find = [&](ComponentForm form) {
+        return find_output(kernel, rsl::message_key(name, element, form, k));
+    };
+    if (!rsl::is_triple(type)) return find(rsl::form_of(type));
+    int output = find(ComponentForm::Triple);
+    return output >= 0 ? output : find(ComponentForm::Color);
 }
 
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.
@@ -119,15 +126,14 @@ LightBinding binding_of(const ShaderInstance& surface, const ShaderInstance& lig
     const jit::Kernel& kernel = light.full.kernel();
     for (size_t m = 0; m < surface.lowered.light_messages.size(); ++m) {
         rsl::Type type = surface.lowered.light_message_types[m];
-        std::string name = "message:" + surface.lowered.light_messages[m];
+        const std::string& name = surface.lowered.light_messages[m];
         int length = std::max(type.array_length, 1);
-        bool known = parameter_fits(light, surface.lowered.light_messages[m], type);
-        for (int e = 0; e < length; ++e) {
-            std::string element = type.is_array() ? name + "[" + std::to_string(e) + "]" : name;
+        bool known = parameter_fits(light, name, type);
+        for (int e = 0; e < length; ++e)
             for (int k = 0; k < rsl::component_count(type.base); ++k)
-                binding.messages.push_back(known ? find_component(kernel, element, type.base, k)
-                                                 : -1);
-        }
+                binding.messages.push_back(
+                    known ? find_component(kernel, name, type.is_array() ? e : -1, type.base, k)
+                          : -1);
         binding.known.push_back(known);
     }
     return binding;

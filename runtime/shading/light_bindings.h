@@ -1,4 +1,4 @@
-// runtime/shading/light_bindings.h: the names of lights' outputs and parameters, resolved once.
+// runtime/shading/light_bindings.h: the outputs and parameters of lights, resolved once.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,6 @@
 #include "runtime/shading/shader_instance.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -76,45 +75,6 @@ rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool sha
     return binding;
 }
 
-int component_of(char suffix) {
-    constexpr std::string_view kSuffixes = "xyzrgb";
-    size_t at = kSuffixes.find(suffix);
-    return at == std::string_view::npos ? -1 : int(at % 3);
-}
-
-// "param:LAYER:NAME[k].c" in parts; false if the name is not so.
-struct ParamName {
-    uint32_t layer = 0;
-    std::string_view name;
-    uint32_t element = 0;
-    uint32_t component = 0;
-    std::string_view partial;  // "du", "dv" or ""
-};
-bool parse_param_name(std::string_view text, ParamName& out) {
-    if (!text.starts_with("param:")) return false;
-    text.remove_prefix(6);
-    auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), out.layer);
-    if (error != std::errc() || rest == text.data() + text.size() || *rest != ':') return false;
-    text.remove_prefix(size_t(rest - text.data()) + 1);
-    if (text.ends_with(":du") || text.ends_with(":dv")) {
-        out.partial = text.substr(text.size() - 2);
-        text.remove_suffix(3);
-    }
-    if (text.size() > 2 && text[text.size() - 2] == '.' && component_of(text.back()) >= 0) {
-        out.component = uint32_t(component_of(text.back()));
-        text.remove_suffix(2);
-    } else if (size_t dot = text.rfind('.'); dot != std::string_view::npos) {
-        std::from_chars(text.data() + dot + 1, text.data() + text.size(), out.component);
-        text = text.substr(0, dot);  // a matrix entry: .0 to .15
-    }
-    if (size_t bracket = text.find('['); bracket != std::string_view::npos) {
-        std::from_chars(text.data() + bracket + 1, text.data() + text.size(), out.element);
-        text = text.substr(0, bracket);
-    }
-    out.name = text;
-    return true;
-}
-
 // Index of a named space among the look's; added when new.
 uint32_t space_index(ShaderInstance& look, std::string_view space) {
     auto known = std::find(look.spaces.begin(), look.spaces.end(), space);
@@ -123,16 +83,18 @@ uint32_t space_index(ShaderInstance& look, std::string_view space) {
     return index;
 }
 
-FrameInput resolve_param(ShaderInstance& look, const ParamName& name) {
+FrameInput resolve_parameter(ShaderInstance& look, const rsl::KernelKey& key) {
     FrameInput input;
-    if (name.layer >= look.layers.size()) return input;
-    const ShaderUse& use = look.layers[name.layer];
-    const ParamSource* source = find_source(use, name.name);
+    if (key.layer >= look.layers.size()) return input;
+    const ShaderUse& use = look.layers[key.layer];
+    const std::string& name = rsl::name_of(key);
+    const ParamSource* source = find_source(use, name);
+    uint32_t element = uint32_t(std::max(key.element, 0)), component = key.component;
     for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
-        if (parameter.name != name.name || !source) continue;
+        if (parameter.name != name || !source) continue;
         if (parameter.type.base == rsl::BaseType::String) {
-            std::string text = name.element < source->strings.size() ? source->strings[name.element]
-                                                                     : std::string();
+            std::string text =
+                element < source->strings.size() ? source->strings[element] : std::string();
             input.fixed = jit::float_of(rsl::intern(text));
             return input;
         }
@@ -141,10 +103,10 @@ FrameInput resolve_param(ShaderInstance& look, const ParamName& name) {
         bool spatial = rsl::is_spatial(parameter.type.base);
         input.source = spatial ? FrameInput::Source::Spatial : FrameInput::Source::Value;
         input.type = parameter.type.base;
-        input.component = uint8_t(name.component);
-        uint32_t c = name.element * width + (spatial ? 0 : name.component);
+        input.component = key.component;
+        uint32_t c = element * width + (spatial ? 0 : component);
         if (source->by_columns && width == 16)
-            c = name.element * width + name.component % 4 * 4 + name.component / 4;
+            c = element * width + component % 4 * 4 + component / 4;
         input.index = value_index(source->value, needed, c);
         if (spatial) input.space = space_index(look, "shader");
         if (spatial && source->value.count < 3) {  // one number for all three: no point to speak of
@@ -156,60 +118,69 @@ FrameInput resolve_param(ShaderInstance& look, const ParamName& name) {
     return input;
 }
 
-FrameInput resolve_input(ShaderInstance& look, std::string_view name) {
+// A frame-rate global; nothing where it is none.
+std::optional<FrameInput> resolve_global(const rsl::KernelKey& key) {
+    using rsl::Global;
     using Source = FrameInput::Source;
     struct Row {
-        std::string_view name;
+        Global id;
         Source source;
         float fixed;
     };
     static constexpr Row kRows[] = {
-        {"time", Source::Time, 0},        {"dtime", Source::Shutter, 0},
-        {"ncomps", Source::Fixed, 3},     {"alpha", Source::Fixed, 1},
-        {"camera:near", Source::Near, 0}, {"camera:far", Source::Far, 0},
-        {"E.x", Source::Eye, 0},          {"E.y", Source::Eye, 1},
-        {"E.z", Source::Eye, 2},
+        {Global::time, Source::Time, 0},    {Global::dtime, Source::Shutter, 0},
+        {Global::ncomps, Source::Fixed, 3}, {Global::alpha, Source::Fixed, 1},
+        {Global::E, Source::Eye, 0},
     };
-    FrameInput input;
     for (const Row& row : kRows)
-        if (row.name == name) {
-            input.source = row.source;
-            input.fixed = row.fixed;
-            if (row.source == Source::Eye) input.component = uint8_t(row.fixed);
-            return input;
-        }
-    ParamName param;
-    if (parse_param_name(name, param)) return resolve_param(look, param);
-    if (name.starts_with("space:") && name.size() > 9) {
-        int row = name[name.size() - 2] - '0', column = name[name.size() - 1] - '0';
-        std::string_view space = name.substr(6, name.size() - 9);
-        input.inverse = space.ends_with(":from_current");
-        space = space.substr(0, space.rfind(':'));
-        input.index = space_index(look, space);
-        input.source = Source::Space;
-        input.component = uint8_t(row * 4 + column);
-        return input;
-    }
-    check_failed("runtime/shading/shader_instance.cpp", 0,
-                 "unknown frame input " + std::string(name));
+        if (row.id == key.global())
+            return FrameInput{.source = row.source, .fixed = row.fixed, .component = key.component};
+    return std::nullopt;
 }
 
-uint16_t resolve_column(const ShaderInstance& look, std::string_view name) {
-    if (uint16_t column = find_column(name); column != kNoColumn) return column;
-    ParamName param;
-    if (parse_param_name(name, param))
+FrameInput resolve_input(ShaderInstance& look, const rsl::KernelKey& key) {
+    using rsl::KeyKind;
+    using Source = FrameInput::Source;
+    switch (key.kind) {
+        case KeyKind::Global:
+            if (std::optional<FrameInput> input = resolve_global(key)) return *input;
+            break;
+        case KeyKind::CameraNear:
+            return {.source = Source::Near};
+        case KeyKind::CameraFar:
+            return {.source = Source::Far};
+        case KeyKind::Parameter:
+            return resolve_parameter(look, key);
+        case KeyKind::SpaceToCurrent:
+        case KeyKind::SpaceFromCurrent:
+            return {.source = Source::Space,
+                    .index = space_index(look, rsl::name_of(key)),
+                    .component = key.component,
+                    .inverse = key.kind == KeyKind::SpaceFromCurrent};
+        case KeyKind::None:
+        case KeyKind::One:
+        case KeyKind::Rng:
+        case KeyKind::LightRecord:
+        case KeyKind::Aov:
+        case KeyKind::Message:
+            break;
+    }
+    check_failed("runtime/shading/shader_instance.cpp", 0, "unknown frame input " + rsl::text(key));
+}
+
+uint16_t resolve_column(const ShaderInstance& look, const rsl::KernelKey& key) {
+    if (uint16_t column = find_column(key); column != kNoColumn) return column;
+    if (key.kind == rsl::KeyKind::Parameter)
         for (const VaryingParam& varying : look.varying)
-            if (varying.layer == param.layer && varying.name == param.name) {
-                uint32_t step = param.partial == "du" ? 1 : param.partial == "dv" ? 2 : 0;
-                return uint16_t(varying.column + step * varying.components + param.component);
-            }
-    check_failed("runtime/shading/shader_instance.cpp", 0,
-                 "unknown point input " + std::string(name));
+            if (varying.layer == key.layer && varying.name == rsl::name_of(key))
+                return uint16_t(varying.column + uint32_t(key.partial) * varying.components +
+                                uint32_t(key.component));
+    check_failed("runtime/shading/shader_instance.cpp", 0, "unknown point input " + rsl::text(key));
 }
 
 void bind_kernel(BoundKernel& bound, ShaderInstance& look) {
     for (const jit::InputInfo& input : bound.pair.point->inputs)
-        bound.columns.push_back(resolve_column(look, input.name));
+        bound.columns.push_back(resolve_column(look, rsl::key_of(input)));
     for (const jit::ServiceInfo& service : bound.pair.point->services)
         bound.services.push_back(find_service(service.name));
     if (!bound.pair.frame) return;
@@ -217,7 +188,7 @@ void bind_kernel(BoundKernel& bound, ShaderInstance& look) {
     for (const jit::ServiceInfo& service : frame.services)
         bound.frame_services.push_back(find_service(service.name));
     for (const jit::InputInfo& input : frame.inputs)
-        bound.inputs.push_back(resolve_input(look, input.name));
+        bound.inputs.push_back(resolve_input(look, rsl::key_of(input)));
     for (size_t i = 0; i < frame.inputs.size(); ++i)
         bound.in.push_back(bound.arena.allocate_span<float>(kRow).data());
     for (size_t i = 0; i < frame.outputs.size(); ++i)
@@ -300,23 +271,6 @@ bool compile_look(ShaderInstance& look, const SceneDescription& description,
     }
     look.current_from_space.resize(look.spaces.size(), dmat4(1.0));
     return true;
-}
-
-int output_component(std::string_view suffix) {
-    auto number = [&](size_t at, uint32_t& out) {
-        const char* end = suffix.data() + suffix.size();
-        return size_t(std::from_chars(suffix.data() + at, end, out).ptr - suffix.data());
-    };
-    uint32_t element = 0, component = 0, width = 1;
-    if (suffix.starts_with('[')) suffix.remove_prefix(number(1, element) + 1);
-    if (suffix.empty()) return int(element);
-    if (suffix[0] != '.' || suffix.size() < 2) return -1;
-    if (int letter = component_of(suffix[1]); letter >= 0) {
-        component = uint32_t(letter), width = 3;
-    } else {
-        number(1, component), width = 16;
-    }
-    return int(element * width + component);
 }
 
 void ShaderInstance::update_for_vertices(const FrameContext& context, uint32_t object) {

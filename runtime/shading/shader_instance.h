@@ -11,6 +11,7 @@
 #include "jit/compiler.h"
 #include "raytrace/camera.h"
 #include "rsl/lower/lower.h"
+#include "rsl/model/kernel_keys.h"
 #include "runtime/base/arena.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/shading/columns.h"
@@ -25,7 +26,7 @@ struct FrameContext {
     dvec3 eye{0.0};  // in "current"
 };
 
-// Where a frame-rate input's number comes from, resolved by name once.
+// Where a frame-rate input's number comes from, resolved by key once.
 struct FrameInput {
     enum class Source : uint8_t {
         Fixed,    // `fixed`
@@ -129,10 +130,6 @@ struct ShaderInstanceOptions {
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
 };
-
-// Which number of a parameter a kernel's output is whose name goes on behind the parameter's with
-// `suffix`: "", ".x", ".b", ".15", "[2]", "[2].y"; -1: it is another parameter's.
-int output_component(std::string_view suffix);
 
 // A point-like parameter, given in shader space, in current space.
 dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader,

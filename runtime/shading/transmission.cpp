@@ -156,7 +156,7 @@ void Transmission::run_opacity(const raytrace::HitBatch& hits, std::span<const u
     std::span<float*> out = kernels_.run(*look.opacity, grid);
     memory.counters.opacity_points += grid.count();
     float* columns[3];
-    find_color(look.opacity->kernel(), out, "Oi", columns);
+    find_color(look.opacity->kernel(), out, rsl::Global::Oi, columns);
     for (size_t i = 0; i < points.size(); ++i) {
         vec3 given(1.0f);
         for (int k = 0; k < 3; ++k)

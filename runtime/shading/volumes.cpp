@@ -124,14 +124,14 @@ void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray,
     load(kColOi, result.Oi);
     if (grid.look->lowered.uses_lights) lights_.run(grid);
     std::span<float*> out = kernels_.run(bound, grid);
-    auto store = [&](std::string_view name, float* const to[3]) {
+    auto store = [&](rsl::Global id, float* const to[3]) {
         float* from[3];
-        find_color(bound.kernel(), out, name, from);
+        find_color(bound.kernel(), out, id, from);
         for (size_t k = 0; k < 3; ++k)
             for (size_t i = 0; from[k] && i < points.size(); ++i) to[k][points[i]] = from[k][i];
     };
-    store("Ci", result.Ci);
-    store("Oi", result.Oi);
+    store(rsl::Global::Ci, result.Ci);
+    store(rsl::Global::Oi, result.Oi);
     grid.memory.arena.release(mark);
 }
 

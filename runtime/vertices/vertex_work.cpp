@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
+#include "rsl/model/kernel_keys.h"
 #include "runtime/base/parallel.h"
 #include "runtime/description/findings.h"
 #include "runtime/vertices/vertex_columns_p.h"
@@ -50,10 +51,10 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
 // Output columns of a kernel, -1 where it has none.
 struct OutputTriple {
     int c[3] = {-1, -1, -1};
-    OutputTriple(const jit::Kernel& kernel, char letter) {
+    OutputTriple(const jit::Kernel& kernel, rsl::Global id) {
         for (size_t o = 0; o < kernel.outputs.size(); ++o) {
-            const std::string& name = kernel.outputs[o].name;
-            if (name.size() == 3 && name[0] == letter && name[1] == '.') c[name[2] - 'x'] = int(o);
+            rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
+            if (key.kind == rsl::KeyKind::Global && key.global() == id) c[key.component] = int(o);
         }
     }
     vec3 at(std::span<float* const> out, size_t i) const {
@@ -67,21 +68,19 @@ bool is_finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Puts outputs "aov:NAME" and what follows (output_component) of a kernel into the attribute
-// "vertex:NAME".
+// Puts output parameters of a kernel into the attributes "vertex:NAME".
 void store_outputs(const jit::Kernel& kernel, std::span<float* const> out, size_t first,
                    size_t count, PrimitiveGroup& group) {
     for (size_t o = 0; o < kernel.outputs.size(); ++o) {
-        std::string_view name = kernel.outputs[o].name;
-        if (!name.starts_with("aov:")) continue;
-        name.remove_prefix(4);
+        rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
+        if (key.kind != rsl::KeyKind::Aov) continue;
+        const std::string& name = rsl::name_of(key);
+        int c = rsl::number_index(key);
         for (VertexAttribute& a : group.attributes) {
             std::string_view semantic = a.semantic;
             if (!semantic.starts_with("vertex:")) continue;
             semantic.remove_prefix(7);
-            if (!name.starts_with(semantic)) continue;
-            int c = output_component(name.substr(semantic.size()));
-            if (c < 0 || c >= int(a.stride)) continue;
+            if (name != semantic || c >= int(a.stride)) continue;
             for (size_t i = 0; i < count; ++i)
                 a.values[(first + i) * a.stride + size_t(c)] = out[o][i];
         }
@@ -283,7 +282,7 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
                     .record_sets = {&no_lights, 1},
                     .host = &host}
         .run();
-    OutputTriple P(kernel, 'P'), N(kernel, 'N');
+    OutputTriple P(kernel, rsl::Global::P), N(kernel, rsl::Global::N);
     uint32_t bad = 0;
     for (size_t i = 0; i < count; ++i) {
         vec3 before(columns[kColP][i], columns[kColP + 1][i], columns[kColP + 2][i]);

@@ -36,7 +36,7 @@ struct TestLight {
     std::vector<std::vector<float>> columns = {};
 };
 
-// A stack of shaders from source text to outputs. Inputs are named as in renderer_services.h and 0
+// A stack of shaders from source text to outputs. Inputs are named as kernel_keys.h says and 0
 // unless set; spaces are the identity. Services that a shader calls are looked up in `services`.
 class RunShader {
   public:

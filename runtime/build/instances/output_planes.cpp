@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "rsl/model/kernel_keys.h"
 #include "runtime/build/instances/imager.h"
 #include "runtime/description/findings.h"
 
@@ -38,12 +39,12 @@ std::string plane_name(std::string_view name, rsl::BaseType type, int component)
 }
 
 // Where a surface has the parameter as a float and others as a colour, all components take it.
-bool fills(const std::string& output, const OutputPlane& plane) {
-    std::string wanted = "aov:" + plane.parameter;
-    bool component =
-        output.size() == wanted.size() + 2 && output.starts_with(wanted + ".") &&
-        (output.back() == "rgb"[plane.component] || output.back() == "xyz"[plane.component]);
-    return output == wanted || component;
+bool fills(const rsl::KernelKey& output, const OutputPlane& plane) {
+    using rsl::ComponentForm;
+    if (output.kind != rsl::KeyKind::Aov || output.element >= 0) return false;
+    if (rsl::name_of(output) != plane.parameter || output.form == ComponentForm::Matrix)
+        return false;
+    return output.form == ComponentForm::Single || output.component == plane.component;
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ void OutputPlanes::bind(ShaderInstance& instance) const {
         int& output = instance.aovs.emplace_back(-1);
         const auto& outputs = instance.full.kernel().outputs;
         for (size_t o = 0; o < outputs.size(); ++o)
-            if (fills(outputs[o].name, plane)) output = int(o);
+            if (fills(rsl::key_of(outputs[o]), plane)) output = int(o);
     }
 }
 

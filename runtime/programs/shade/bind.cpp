@@ -71,12 +71,6 @@ int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, 
     return kExitOk;
 }
 
-std::string component_suffix(BaseType type, size_t c) {
-    if (type == BaseType::Matrix) return fmt::format(".{}", c);
-    if (type == BaseType::Color) return std::string(".") + "rgb"[c];
-    return rsl::is_triple(type) ? std::string(".") + "xyz"[c] : "";
-}
-
 // Point-like values are given in shader space.
 void move_to_current(BaseType type, const dmat4& current_from_shader, double* v) {
     dvec3 value(v[0], v[1], v[2]);
@@ -108,9 +102,9 @@ void bind_value(const rsl::ShaderParameter& parameter, bool shape, size_t layer,
         for (size_t e = 0; e < count; ++e)
             for (size_t c = 0; c < width; ++c) {
                 float value = float(numbers[e * width + c]);
-                std::string element = parameter.type.is_array() ? fmt::format("[{}]", e) : "";
-                stack.values[fmt::format("param:{}:{}{}{}", layer, param.name, element,
-                                         component_suffix(base, c))] = value;
+                int element = parameter.type.is_array() ? int(e) : -1;
+                stack.values[rsl::parameter_key(uint32_t(layer), param.name, element,
+                                                rsl::form_of(base), int(c))] = value;
                 if (shape) binding.constant.push_back(value);
             }
     }

@@ -76,16 +76,15 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
 rsl::ReferenceInputs frame_inputs(const ShadeStack& stack, const Patch& patch,
                                   const ShadeKernel& kernel) {
     rsl::ReferenceInputs inputs;
-    for (const auto& [name, value] : stack.values) inputs.values[name] = double(value);
+    for (const auto& [key, value] : stack.values) inputs.values[rsl::text(key)] = double(value);
     std::vector<std::string> spaces = kernel.unknown_spaces();
     spaces.insert(spaces.end(), {"world", "object", "shader", "screen", "NDC", "raster"});
     for (const std::string& space : spaces)
-        for (const char* way : {":to_current:", ":from_current:"})
-            for (char row = '0'; row < '4'; ++row)
-                for (char column = '0'; column < '4'; ++column) {
-                    std::string name = "space:" + space + way + row + column;
-                    float value = 0;
-                    if (space_entry(patch, name, value)) inputs.values[name] = double(value);
+        for (bool to_current : {true, false})
+            for (int row = 0; row < 4; ++row)
+                for (int column = 0; column < 4; ++column) {
+                    rsl::KernelKey key = rsl::space_key(space, to_current, row, column);
+                    inputs.values[rsl::text(key)] = double(space_entry(patch, key));
                 }
     for (const ShadeLight& light : shade_lights()) {
         rsl::ReferenceLight& out = inputs.lights.emplace_back();
@@ -126,8 +125,9 @@ void compare_with_reference(const ShadeStack& stack, const Patch& patch,
     rsl::ReferenceInputs inputs = frame_inputs(stack, patch, kernel);
     inputs.service = reference_service(patch, kernel);
     std::vector<std::pair<std::string, PatchInput>> columns;
-    for (const std::string& name : patch_input_names())
-        columns.emplace_back(name, PatchInput(patch, name));
+    const std::string rng = rsl::text(rsl::plain_key(rsl::KeyKind::Rng));
+    for (const rsl::KernelKey& key : patch_inputs())
+        columns.emplace_back(rsl::text(key), PatchInput(patch, key));
     ShadeOutputs outputs = kernel.outputs();
     Worst worst;
     size_t compared = 0, undecided = 0;
@@ -135,7 +135,7 @@ void compare_with_reference(const ShadeStack& stack, const Patch& patch,
     for (size_t i = 0; i < patch.count(); i += step) {
         for (const auto& [name, input] : columns) {
             float value = input.value(patch[i]);
-            inputs.values[name] = name == "rng" ? double(jit::bits_of(value)) : double(value);
+            inputs.values[name] = name == rng ? double(jit::bits_of(value)) : double(value);
         }
         rsl::ReferenceResult exact = rsl::run_reference<double>(stack.layers, inputs);
         rsl::ReferenceResult single = rsl::run_reference<float>(stack.layers, inputs);

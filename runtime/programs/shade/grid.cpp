@@ -11,6 +11,10 @@ namespace kinora {
 
 namespace {
 
+using rsl::Global;
+using rsl::KernelKey;
+using rsl::KeyKind;
+
 constexpr double kNear = 1.0, kFar = 100.0;
 constexpr double kSquareDistance = 2.0;  // the square fills the picture from there
 constexpr double kSphereDistance = 4.0;
@@ -25,35 +29,52 @@ float pixel_hash(uint32_t pixel) {
     return std::bit_cast<float>(h ^ (h >> 15));
 }
 
+// A global that is a triple, and its changes along u and v.
 struct TripleRow {
-    std::string_view name;
+    Global id;
     vec3 PatchPoint::*member;
+    vec3 PatchPoint::*du = nullptr;
+    vec3 PatchPoint::*dv = nullptr;
 };
 // The eye is at 0, so I = P; lights are asked at P; the points do not move.
-constexpr TripleRow kTriples[] = {
-    {"P", &PatchPoint::P},       {"Ps", &PatchPoint::P},        {"I", &PatchPoint::P},
-    {"dPdu", &PatchPoint::dPdu}, {"dIdu", &PatchPoint::dPdu},   {"dPdv", &PatchPoint::dPdv},
-    {"dIdv", &PatchPoint::dPdv}, {"N", &PatchPoint::N},         {"Ng", &PatchPoint::N},
-    {"Ns", &PatchPoint::N},      {"dNdu", &PatchPoint::dNdu},   {"dNdv", &PatchPoint::dNdv},
-    {"E", &PatchPoint::zero},    {"dPdtime", &PatchPoint::zero}};
+constexpr TripleRow kTriples[] = {{Global::P, &PatchPoint::P},
+                                  {Global::Ps, &PatchPoint::P},
+                                  {Global::I, &PatchPoint::P, &PatchPoint::dPdu, &PatchPoint::dPdv},
+                                  {Global::dPdu, &PatchPoint::dPdu},
+                                  {Global::dPdv, &PatchPoint::dPdv},
+                                  {Global::N, &PatchPoint::N, &PatchPoint::dNdu, &PatchPoint::dNdv},
+                                  {Global::Ng, &PatchPoint::N},
+                                  {Global::Ns, &PatchPoint::N},
+                                  {Global::E, &PatchPoint::zero},
+                                  {Global::dPdtime, &PatchPoint::zero}};
 
 struct SingleRow {
-    std::string_view name;
+    Global id;
     float PatchPoint::*member;
+    float PatchPoint::*du = nullptr;
+    float PatchPoint::*dv = nullptr;
 };
-constexpr SingleRow kSingles[] = {
-    {"u", &PatchPoint::u},        {"v", &PatchPoint::v},        {"s", &PatchPoint::u},
-    {"t", &PatchPoint::v},        {"du", &PatchPoint::du},      {"dv", &PatchPoint::dv},
-    {"dsdu", &PatchPoint::one},   {"dsdv", &PatchPoint::zero1}, {"dtdu", &PatchPoint::zero1},
-    {"dtdv", &PatchPoint::one},   {"1", &PatchPoint::one},      {"rng", &PatchPoint::rng},
-    {"time", &PatchPoint::zero1}, {"dtime", &PatchPoint::zero1}};
+constexpr SingleRow kSingles[] = {{Global::u, &PatchPoint::u},
+                                  {Global::v, &PatchPoint::v},
+                                  {Global::s, &PatchPoint::u, &PatchPoint::one, &PatchPoint::zero1},
+                                  {Global::t, &PatchPoint::v, &PatchPoint::zero1, &PatchPoint::one},
+                                  {Global::du, &PatchPoint::du},
+                                  {Global::dv, &PatchPoint::dv},
+                                  {Global::time, &PatchPoint::zero1},
+                                  {Global::dtime, &PatchPoint::zero1}};
 
 struct FixedRow {
-    std::string_view name;
+    Global id;
     float value;
 };
-constexpr FixedRow kFixed[] = {
-    {"ncomps", 3}, {"alpha", 1}, {"camera:near", float(kNear)}, {"camera:far", float(kFar)}};
+constexpr FixedRow kFixed[] = {{Global::ncomps, 3}, {Global::alpha, 1}};
+
+template <class Row>
+auto member_of(const Row& row, rsl::Partial partial) {
+    return partial == rsl::Partial::None ? row.member
+           : partial == rsl::Partial::Du ? row.du
+                                         : row.dv;
+}
 
 }  // namespace
 
@@ -146,43 +167,56 @@ dmat4 Patch::current_from_space(std::string_view name) const {
     return current_from_object_;
 }
 
-PatchInput::PatchInput(const Patch& patch, std::string_view name) {
-    constexpr std::string_view kParts = "xyz";
-    if (name.size() > 2 && name[name.size() - 2] == '.' &&
-        kParts.find(name.back()) != std::string_view::npos) {
-        component = int(kParts.find(name.back()));
-        for (const TripleRow& row : kTriples)
-            if (row.name == name.substr(0, name.size() - 2)) triple = row.member;
-    }
-    for (const SingleRow& row : kSingles)
-        if (row.name == name) single = row.member;
-    found = triple || single || space_entry(patch, name, fixed);
-    for (const FixedRow& row : kFixed)
-        if (row.name == name) {
-            fixed = row.value;
-            found = true;
-        }
+PatchInput::PatchInput(const Patch& patch, const KernelKey& key) {
+    found = true;
+    if (key.kind == KeyKind::Global)
+        find_global(key);
+    else if (key.kind == KeyKind::One)
+        single = &PatchPoint::one;
+    else if (key.kind == KeyKind::Rng)
+        single = &PatchPoint::rng;
+    else if (key.kind == KeyKind::CameraNear)
+        fixed = float(kNear);
+    else if (key.kind == KeyKind::CameraFar)
+        fixed = float(kFar);
+    else if (key.is_space())
+        fixed = space_entry(patch, key);
+    else
+        found = false;
 }
 
-std::vector<std::string> patch_input_names() {
-    std::vector<std::string> names;
+void PatchInput::find_global(const KernelKey& key) {
+    component = key.component;
     for (const TripleRow& row : kTriples)
-        for (const char* part : {".x", ".y", ".z"}) names.push_back(std::string(row.name) + part);
-    for (const SingleRow& row : kSingles) names.emplace_back(row.name);
-    for (const FixedRow& row : kFixed) names.emplace_back(row.name);
-    return names;
+        if (row.id == key.global()) triple = member_of(row, key.partial);
+    for (const SingleRow& row : kSingles)
+        if (row.id == key.global()) single = member_of(row, key.partial);
+    found = triple || single;
+    for (const FixedRow& row : kFixed)
+        if (row.id == key.global()) fixed = row.value, found = true;
 }
 
-bool space_entry(const Patch& patch, std::string_view name, float& value) {
-    if (!name.starts_with("space:") || name.size() < 9) return false;
-    int row = name[name.size() - 2] - '0', column = name[name.size() - 1] - '0';
-    std::string_view space = name.substr(6, name.size() - 9);
-    bool from = space.ends_with(":from_current");
-    if (!from && !space.ends_with(":to_current")) return false;
-    if (row < 0 || row > 3 || column < 0 || column > 3) return false;
-    dmat4 m = patch.current_from_space(space.substr(0, space.rfind(':')));
-    value = float(from ? glm::inverse(m)[column][row] : m[column][row]);
-    return true;
+std::vector<KernelKey> patch_inputs() {
+    std::vector<KernelKey> keys = {rsl::plain_key(KeyKind::One), rsl::plain_key(KeyKind::Rng),
+                                   rsl::plain_key(KeyKind::CameraNear),
+                                   rsl::plain_key(KeyKind::CameraFar)};
+    auto add = [&](const auto& row, int component) {
+        KernelKey key = rsl::global_key(row.id, component);
+        keys.push_back(key);
+        if (row.du) keys.push_back(rsl::partial_key(key, rsl::Partial::Du));
+        if (row.dv) keys.push_back(rsl::partial_key(key, rsl::Partial::Dv));
+    };
+    for (const TripleRow& row : kTriples)
+        for (int k = 0; k < 3; ++k) add(row, k);
+    for (const SingleRow& row : kSingles) add(row, 0);
+    for (const FixedRow& row : kFixed) keys.push_back(rsl::global_key(row.id));
+    return keys;
+}
+
+float space_entry(const Patch& patch, const KernelKey& key) {
+    dmat4 m = patch.current_from_space(rsl::name_of(key));
+    if (key.kind == KeyKind::SpaceFromCurrent) m = glm::inverse(m);
+    return float(m[key.column()][key.row()]);
 }
 
 }  // namespace kinora

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
+#include "rsl/model/kernel_keys.h"
 #include "runtime/base/math.h"
 #include "runtime/images/texture_store.h"
 
@@ -47,10 +47,10 @@ class Patch {
     std::vector<PatchPoint> points_;
 };
 
-// A point-rate kernel input by its name (rsl/model/renderer_services.h), as a member of PatchPoint;
-// the matrices of object space are taken from the patch. `found` is false for parameters.
+// A kernel input as a member of PatchPoint; the matrices of spaces are taken from the patch.
+// `found` is false for parameters.
 struct PatchInput {
-    explicit PatchInput(const Patch& patch, std::string_view name);
+    explicit PatchInput(const Patch& patch, const rsl::KernelKey& key);
     float value(const PatchPoint& point) const {
         return triple ? (point.*triple)[component] : single ? point.*single : fixed;
     }
@@ -60,12 +60,15 @@ struct PatchInput {
     float PatchPoint::*single = nullptr;
     int component = 0;
     float fixed = 0;
+
+  private:
+    void find_global(const rsl::KernelKey& key);
 };
 
-// All names of point-rate inputs without spaces and parameters: "P.x", ..., "u".
-std::vector<std::string> patch_input_names();
+// All inputs without spaces and parameters.
+std::vector<rsl::KernelKey> patch_inputs();
 
-// "space:NAME:to_current:RC" and from_current; false if the name is not so.
-bool space_entry(const Patch& patch, std::string_view name, float& value);
+// An entry of a space's matrix.
+float space_entry(const Patch& patch, const rsl::KernelKey& key);
 
 }  // namespace kinora

@@ -29,14 +29,19 @@ ShadeOutputs illuminate(const ShadeOutputs& light, const rsl::LoweredShader& low
                         const Patch& patch) {
     ShadeOutputs result;
     std::vector<float> missing(patch.count(), 0.0f);
-    for (const char* part : {"r", "g", "b"}) result[std::string("Ci.") + part] = missing;
+    auto of_Ci = [&](int k) -> std::vector<float>& {
+        return result[rsl::text(rsl::global_key(rsl::Global::Ci, k))];
+    };
+    for (int k = 0; k < 3; ++k) of_Ci(k) = missing;
     for (size_t s = 0; s < lowered.light_statements.size(); ++s) {
-        std::string prefix = "light:" + std::to_string(s) + ":";
+        auto of_light = [&](rsl::LightColumn column, int k) -> const std::vector<float>& {
+            return output(light, rsl::text(rsl::light_key(s, column, k)), missing);
+        };
         const std::vector<float>* L[3];
-        for (size_t k = 0; k < 3; ++k) L[k] = &output(light, prefix + "L." + "xyz"[k], missing);
-        for (size_t k = 0; k < 3; ++k) {
-            const std::vector<float>& Cl = output(light, prefix + "Cl." + "rgb"[k], missing);
-            std::vector<float>& Ci = result[std::string("Ci.") + "rgb"[k]];
+        for (int k = 0; k < 3; ++k) L[k] = &of_light(rsl::kLightL, k);
+        for (int k = 0; k < 3; ++k) {
+            const std::vector<float>& Cl = of_light(rsl::kLightCl, k);
+            std::vector<float>& Ci = of_Ci(k);
             for (size_t i = 0; i < patch.count(); ++i) {
                 vec3 to_light((*L[0])[i], (*L[1])[i], (*L[2])[i]);
                 float length = glm::length(to_light);
@@ -75,7 +80,7 @@ void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
     const jit::Kernel& kernel = *pair_.point;
     for (const jit::InputInfo& info : kernel.inputs) {
         float* data = column(patch.count(), 0);
-        PatchInput input(patch, info.name);
+        PatchInput input(patch, rsl::key_of(info));
         CHECK(input.found);
         for (size_t i = 0; i < jit::padded(patch.count()) && patch.count() > 0; ++i)
             data[i] = input.value(patch[std::min(i, patch.count() - 1)]);
@@ -122,8 +127,8 @@ void ShadeKernel::run_frame() {
     Arena::Mark mark = arena_.mark();
     std::vector<const float*> in;
     for (const jit::InputInfo& info : kernel.inputs) {
-        auto value = stack_->values.find(info.name);
-        PatchInput input(*patch_, info.name);
+        auto value = stack_->values.find(rsl::key_of(info));
+        PatchInput input(*patch_, rsl::key_of(info));
         in.push_back(
             column(1, value != stack_->values.end() ? value->second : input.value(PatchPoint{})));
     }
@@ -191,10 +196,9 @@ std::vector<std::string> ShadeKernel::unknown_spaces() const {
     std::vector<std::string> unknown;
     auto look = [&](const jit::Kernel& kernel) {
         for (const jit::InputInfo& input : kernel.inputs) {
-            if (!input.name.starts_with("space:")) continue;
-            std::string_view way = std::string_view(input.name).substr(6);
-            way = way.substr(0, way.rfind(':'));
-            std::string space(way.substr(0, way.rfind(':')));
+            rsl::KernelKey key = rsl::key_of(input);
+            if (!key.is_space()) continue;
+            const std::string& space = rsl::name_of(key);
             bool known = std::count(std::begin(kStandard), std::end(kStandard), space) +
                              std::count(unknown.begin(), unknown.end(), space) >
                          0;

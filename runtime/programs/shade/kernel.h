@@ -20,7 +20,7 @@ namespace kinora {
 // The stack to run, bound: a displacement gets a matte surface over it to be seen.
 struct ShadeStack {
     std::vector<rsl::Layer> layers;
-    std::map<std::string, float> values;  // by kernel input: "param:0:Kd"
+    std::map<rsl::KernelKey, float> values;  // parameters
     rsl::LowerOptions lower;
     bool light = false;
     std::vector<std::shared_ptr<const rsl::Shader>> library;  // keeps the matte

@@ -17,14 +17,23 @@ namespace {
 
 // The output's columns: three, or one for a float.
 std::vector<std::string> columns_of(const std::string& output, const ShadeOutputs& outputs) {
-    for (const std::string& name : {output, "aov:" + output})
-        if (outputs.count(name)) return {name};
-    for (const std::string& stem : {output, "aov:" + output})
-        for (const char* parts : {"rgb", "xyz"}) {
-            std::vector<std::string> names;
-            for (int k = 0; k < 3; ++k) names.push_back(stem + "." + parts[k]);
-            if (outputs.count(names[0])) return names;
-        }
+    using rsl::ComponentForm;
+    auto names = [&](auto&& key, int count) {
+        std::vector<std::string> all;
+        for (int k = 0; k < count; ++k) all.push_back(rsl::text(key(k)));
+        return outputs.count(all[0]) ? all : std::vector<std::string>();
+    };
+    if (const rsl::GlobalInfo* global = rsl::find_global(output)) {
+        auto key = [&](int k) { return rsl::global_key(global->id, k); };
+        auto found = names(key, rsl::component_count(global->type.base));
+        if (!found.empty()) return found;
+    }
+    for (ComponentForm form :
+         {ComponentForm::Single, ComponentForm::Color, ComponentForm::Triple}) {
+        auto key = [&](int k) { return rsl::aov_key(output, -1, form, k); };
+        auto found = names(key, form == ComponentForm::Single ? 1 : 3);
+        if (!found.empty()) return found;
+    }
     return {};
 }
 
