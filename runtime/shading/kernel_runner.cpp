@@ -6,7 +6,7 @@
 #include "jit/ir/kernel_call.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/kernel_host.h"
+#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 

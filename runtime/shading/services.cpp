@@ -8,11 +8,11 @@
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/shading/bake.h"
-#include "runtime/shading/kernel_host.h"
 #include "runtime/shading/light_records.h"
 #include "runtime/shading/print.h"
 #include "runtime/shading/queries.h"
 #include "runtime/shading/ray_services.h"
+#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 

@@ -11,7 +11,7 @@
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/shading/grid.h"
-#include "runtime/shading/kernel_host.h"
+#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 

@@ -13,7 +13,7 @@
 #include "rsl/lower/lower.h"
 #include "runtime/base/arena.h"
 #include "runtime/description/scene_description.h"
-#include "runtime/shading/columns.h"
+#include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
 

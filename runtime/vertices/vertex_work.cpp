@@ -11,7 +11,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/description/findings.h"
-#include "runtime/shading/kernel_host.h"
+#include "runtime/shading/scene_host.h"
 #include "runtime/vertices/vertex_columns_p.h"
 
 namespace kinora {

@@ -6,7 +6,7 @@
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/programs/shade/grid.h"
-#include "runtime/shading/kernel_host.h"
+#include "runtime/shading/kernels/kernel_host.h"
 
 namespace kinora {
 

@@ -1,6 +1,6 @@
-// runtime/shading/kernel_host.cpp: the functions that generated code calls, and hosts that know
-// nothing.
-#include "runtime/shading/kernel_host.h"
+// runtime/shading/kernels/kernel_host.cpp: the functions that generated code calls, and hosts that
+// know nothing.
+#include "runtime/shading/kernels/kernel_host.h"
 
 #include <glm/matrix.hpp>
 

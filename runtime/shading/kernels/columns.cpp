@@ -1,5 +1,5 @@
-// runtime/shading/columns.cpp: names of point-rate inputs to columns.
-#include "runtime/shading/columns.h"
+// runtime/shading/kernels/columns.cpp: names of point-rate inputs to columns.
+#include "runtime/shading/kernels/columns.h"
 
 #include <string>
 
