@@ -95,15 +95,14 @@ vec3 photon_density(const PointCloud& cloud, int offset, vec3 P, vec3 N, int wan
 
 }  // namespace
 
-void look_up_points(const KernelHost& host, const jit::ServiceCall& call) {
+void look_up_points(const Scene& scene, const jit::ServiceCall& call) {
     Rows rows{call};
-    ToWorld to_world(*host.scene);
+    ToWorld to_world(scene);
     for (int lane = 0; lane < kLanes; ++lane) {
         call.results[lane] = jit::float_of(0);
         for (int k = 0; k < rsl::kPointFloats; ++k) call.results[(1 + k) * kLanes + lane] = 0;
         if (!(call.mask >> lane & 1)) continue;
-        PointStore::Lookup found =
-            host.scene->points->find(rows.integer(0, lane), rows.integer(1, lane));
+        PointStore::Lookup found = scene.points->find(rows.integer(0, lane), rows.integer(1, lane));
         if (!found.cloud) continue;
         vec3 P = rows.triple(2, lane), N = rows.triple(5, lane);
         bool as_is = rows.number(8, lane) < 0;
@@ -123,19 +122,18 @@ void look_up_points(const KernelHost& host, const jit::ServiceCall& call) {
     }
 }
 
-void look_up_photons(const KernelHost& host, const jit::ServiceCall& call) {
+void look_up_photons(const Scene& scene, const jit::ServiceCall& call) {
     static const int32_t kPower = rsl::intern("color power");
     static const int32_t kDiffusion = rsl::intern("color _ssdiffusion,color _radiance_t");
     Rows rows{call};
-    ToWorld to_world(*host.scene);
+    ToWorld to_world(scene);
     for (int lane = 0; lane < kLanes; ++lane) {
         vec3 light(0.0f);
         int32_t file = rows.integer(0, lane);
         if ((call.mask >> lane & 1) && file != 0) {
             auto kind = rsl::PhotonKind(rows.integer(1, lane));
             bool scattered = kind == rsl::PhotonKind::Subsurface;
-            PointStore::Lookup found =
-                host.scene->points->find(file, scattered ? kDiffusion : kPower);
+            PointStore::Lookup found = scene.points->find(file, scattered ? kDiffusion : kPower);
             vec3 P = to_world.position(rows.triple(3, lane));
             vec3 N = to_world.direction(rows.triple(6, lane));
             if (found.cloud && scattered) {

@@ -10,6 +10,7 @@
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/shading/hits_p.h"
+#include "runtime/shading/kernels/point_source.h"
 
 namespace kinora {
 
@@ -150,9 +151,9 @@ struct Triple {
 };
 
 // A grid's columns filled run by run: hits of one row share all but their point on the triangle.
-class Gather {
+class HitSource : public PointSource {
   public:
-    Gather(Grid& grid, const mat3& rotation, vec3 eye)
+    HitSource(Grid& grid, const mat3& rotation, vec3 eye)
         : grid_(grid), hits_(grid.hits), scene_(grid.scene), rotation_(rotation), eye_(eye) {
         P_ = triple_rows(kColP);
         I_ = triple_rows(kColI);
@@ -172,7 +173,7 @@ class Gather {
                                 grid.columns.begin() + kColVarying, [](float* c) { return c; });
     }
 
-    void run() {
+    void fill(const PointColumns&) override {
         for (size_t begin = 0; begin < grid_.count();) {
             uint32_t row = hits_.instance[grid_.points[begin]];
             size_t end = begin + 1;
@@ -195,7 +196,6 @@ class Gather {
         if (float* rng = column(kColRng))
             for (size_t i = 0; i < grid_.count(); ++i)
                 rng[i] = jit::float_of(int32_t(random_of(hits_, grid_.points[i])));
-        constants();
     }
 
   private:
@@ -359,18 +359,13 @@ class Gather {
         mat4 to_current(to), from_current(glm::inverse(to));
         for (size_t r = 0; r < 3; ++r)
             for (size_t c = 0; c < 4; ++c) {
-                auto fill = [&](size_t first, const mat4& m) {
+                auto fill_entry = [&](size_t first, const mat4& m) {
                     if (float* row = column(first + r * 4 + c))
                         std::fill(row + begin, row + end, m[int(c)][int(r)]);
                 };
-                fill(kColToCurrent, to_current);
-                fill(kColFromCurrent, from_current);
+                fill_entry(kColToCurrent, to_current);
+                fill_entry(kColFromCurrent, from_current);
             }
-    }
-
-    void constants() const {
-        for (auto [which, value] : kConstantColumns)
-            if (float* row = column(which)) std::fill_n(row, padded(grid_.count()), value);
     }
 
     Grid& grid_;
@@ -391,12 +386,8 @@ class Gather {
 }  // namespace
 
 void gather(Grid& grid) {
-    Gather(grid, grid.frame.camera_from_accel, grid.frame.eye).run();
-    // Padding lanes are copies of the last point.
-    size_t last = grid.count() - 1;
-    for (float* column : grid.columns)
-        if (column)
-            for (size_t i = grid.count(); i < padded(grid.count()); ++i) column[i] = column[last];
+    HitSource source(grid, grid.frame.camera_from_accel, grid.frame.eye);
+    fill_columns(source, {grid.count(), grid.columns});
 }
 
 float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hit, size_t which,

@@ -13,22 +13,6 @@
 namespace kinora {
 
 class LightShadows;
-struct Grid;
-struct GridServices;
-
-// What services see of a kernel that moves vertices.
-struct VertexHost {
-    uint32_t node;        // of "object" space, which is "current"
-    std::string* prints;  // of this part of the vertices
-};
-
-// What KernelCall::host points to: a frame kernel has no grid.
-struct KernelHost {
-    const Scene* scene;
-    const ShaderInstance* look;
-    Grid* grid;
-    const VertexHost* vertices = nullptr;  // of a kernel that moves vertices
-};
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
 inline constexpr size_t kRecordSets = 256;   // handles a grid may hold at once
@@ -45,7 +29,7 @@ struct RayTag {
 };
 
 // Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
-// Lives on the stack of whatever shades it; what services see through KernelCall::host.
+// Lives on the stack of whatever shades it; services see it through GridHost.
 struct Grid {
     Grid(const ShadingFrame& f, ThreadMemory& m, const raytrace::HitBatch& h,
          std::span<const uint32_t> p, const ShaderInstance* l)
@@ -58,11 +42,9 @@ struct Grid {
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
     const ShaderInstance* look;
-    KernelHost host{&scene, look, this};
     uint32_t depth = 0;
-    const GridServices* services = nullptr;  // behind the services that its kernels call
-    std::span<float*> columns;               // by Column
-    std::span<jit::RecordSet> record_sets;   // [0]: lights at P
+    std::span<float*> columns;              // by Column
+    std::span<jit::RecordSet> record_sets;  // [0]: lights at P
     uint32_t next_record_set = 1;
     int32_t record_group = -1;              // first lane of the group that lights_at served last
     Arena::Mark record_mark{};              // where its records begin

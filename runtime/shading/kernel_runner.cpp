@@ -6,6 +6,7 @@
 #include "jit/ir/kernel_call.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 
@@ -51,7 +52,6 @@ void KernelRunner::report_faults(Diagnostics& diagnostics) const {
 void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
     Arena& arena = grid.memory.arena;
     grid.depth = grid.hits.depth;
-    grid.services = &services_;
     grid.ray = ray;
     grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
@@ -69,6 +69,7 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
     for (float*& column : out) column = arena.allocate_span<float>(rows).data();
     std::span<const float*> in = arena.allocate_span<const float*>(bound.columns.size());
     for (size_t i = 0; i < in.size(); ++i) in[i] = grid.columns[bound.columns[i]];
+    GridHost host(grid, services_);
     jit::KernelCall{.kernel = kernel,
                     .count = grid.count(),
                     .in = in,
@@ -79,7 +80,7 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
                     .faults = faults_[grid.memory.number][fault_row(*grid.look, bound)],
                     .services = bound.services,
                     .record_sets = grid.record_sets,
-                    .host = &grid.host}
+                    .host = static_cast<KernelHost*>(&host)}
         .run();
     return out;
 }

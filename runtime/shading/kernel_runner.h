@@ -10,6 +10,8 @@
 
 namespace kinora {
 
+struct GridServices;
+
 class KernelRunner {
   public:
     // `services` answer the kernels' calls.

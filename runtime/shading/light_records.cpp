@@ -121,7 +121,6 @@ jit::Record* LightRecords::plain_records(Grid& grid, const LightPoints& at, size
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     lit.lit = &grid;
     lit.lit_first = at.first;
-    lit.services = grid.services;
     lit.record_sets = grid.record_sets;
     if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
         lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);

@@ -239,15 +239,16 @@ bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::Shade
     return false;
 }
 
-void answer_query(const KernelHost& host, const jit::ServiceCall& call) {
+void answer_query(const Scene& scene, const ShaderInstance& look, const Grid* grid,
+                  const jit::ServiceCall& call) {
     constexpr int kLanes = jit::kMaxLanes;
     auto integer = [&](int row, int lane) { return jit::bits_of(call.args[row * kLanes + lane]); };
     for (int lane = 0; lane < kLanes; ++lane) {
         float* known = &call.results[lane];
         *known = jit::float_of(0);
         if (!(call.mask >> lane & 1)) continue;
-        Asker asker{*host.scene, *host.look, host.grid};
-        if (host.grid) asker.point = std::min(size_t(call.first + lane), host.grid->count() - 1);
+        Asker asker{scene, look, grid};
+        if (grid) asker.point = std::min(size_t(call.first + lane), grid->count() - 1);
         Question question{rsl::interned(integer(1, lane)), char(integer(2, lane)), integer(3, lane),
                           integer(4, lane)};
         Answer answer{};

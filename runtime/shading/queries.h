@@ -40,7 +40,9 @@ struct Question {
 using Answer = std::array<float, 16>;
 
 // The service; lanes without an answer get known = 0.
-void answer_query(const KernelHost& host, const jit::ServiceCall& call);
+// `grid`: of the points that ask; null at frame rate.
+void answer_query(const Scene& scene, const ShaderInstance& look, const Grid* grid,
+                  const jit::ServiceCall& call);
 
 // Rows of attribute(), option(), rendererinfo() and rayinfo(): facts by their customary names; a
 // prefix "Ri:" is the same without it. False where the name or the type is not known.

@@ -1,9 +1,5 @@
-// runtime/shading/services.h: what shaders call while they run (rsl/model/services.def).
+// runtime/shading/services.h: the objects that answer the kernels of a grid.
 #pragma once
-
-#include <string_view>
-
-#include "jit/ir/kernel.h"
 
 namespace kinora {
 
@@ -13,7 +9,6 @@ class LightRecords;
 class Prints;
 class RayServices;
 
-// The objects that answer the kernels of a grid.
 struct GridServices {
     LightRecords& lights;
     RayServices& rays;
@@ -21,8 +16,5 @@ struct GridServices {
     Prints& prints;
     Bakes& bakes;
 };
-
-// The function behind a service's name; an unknown name stops the program.
-jit::ServiceFn find_service(std::string_view name);
 
 }  // namespace kinora

@@ -10,7 +10,7 @@
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/shading/grid.h"
-#include "runtime/shading/services.h"
+#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 
@@ -332,7 +332,7 @@ void BoundKernel::update(const FrameContext& context, const ShaderInstance& look
         float value = number(inputs[i]);
         std::fill_n(const_cast<float*>(in[i]), kRow, value);
     }
-    KernelHost host{&scene, &look, nullptr};
+    SceneHost host(scene, look);
     Arena::Mark mark = arena.mark();
     jit::KernelCall{.kernel = *pair.frame,
                     .count = 1,
@@ -342,7 +342,7 @@ void BoundKernel::update(const FrameContext& context, const ShaderInstance& look
                     .scratch = arena.allocate_span<std::byte>(pair.frame->scratch_bytes),
                     .faults = frame_faults,
                     .services = frame_services,
-                    .host = &host}
+                    .host = static_cast<KernelHost*>(&host)}
         .run();
     arena.release(mark);
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out[i][0];

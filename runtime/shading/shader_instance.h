@@ -14,7 +14,7 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/base/arena.h"
 #include "runtime/description/scene_description.h"
-#include "runtime/shading/columns.h"
+#include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
 

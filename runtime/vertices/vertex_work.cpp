@@ -12,6 +12,7 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/base/parallel.h"
 #include "runtime/description/findings.h"
+#include "runtime/shading/scene_host.h"
 #include "runtime/vertices/vertex_columns_p.h"
 
 namespace kinora {
@@ -268,8 +269,7 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
     for (float*& row : out) row = arena.allocate_span<float>(padded(count)).data();
     // No lights: the set behind handle 0, which `lights` gives without a grid, is empty.
     const jit::RecordSet no_lights;
-    VertexHost vertices{pass.node, &prints};
-    KernelHost host{&pass.scene, &look, nullptr, &vertices};
+    VertexHost host(pass.scene, look, pass.node, prints);
     jit::KernelCall{.kernel = kernel,
                     .count = count,
                     .in = in,
@@ -280,7 +280,7 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
                     .faults = faults,
                     .services = look.full.services,
                     .record_sets = {&no_lights, 1},
-                    .host = &host}
+                    .host = static_cast<KernelHost*>(&host)}
         .run();
     OutputTriple P(kernel, rsl::Global::P), N(kernel, rsl::Global::N);
     uint32_t bad = 0;

@@ -63,7 +63,9 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
             in[a * jit::kMaxLanes] =
                 is_int ? jit::float_of(int32_t(arguments[a])) : float(arguments[a]);
         }
-        shade_services()[service]({const_cast<Patch*>(&patch), in.data(), out.data(), 1, 0, 1});
+        PatchHost host(patch);
+        find_service(rsl::service_name(service))(
+            {static_cast<KernelHost*>(&host), in.data(), out.data(), 1, 0, 1});
         std::vector<double> answer;
         for (size_t r = 0; r < results.size(); ++r) {
             float value = out[r * jit::kMaxLanes];

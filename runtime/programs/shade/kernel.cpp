@@ -88,12 +88,12 @@ void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
     }
     for (size_t o = 0; o < kernel.outputs.size(); ++o) out_.push_back(column(patch.count(), 0));
     for (const jit::ServiceInfo& service : kernel.services)
-        services_.push_back(rsl::find_service(shade_services(), service.name));
+        services_.push_back(find_service(service.name));
     faults_.assign(kernel.fault_sites.size() + 1, 0);
     size_t scratch = kernel.scratch_bytes;
     if (pair_.frame) {
         for (const jit::ServiceInfo& service : pair_.frame->services)
-            frame_services_.push_back(rsl::find_service(shade_services(), service.name));
+            frame_services_.push_back(find_service(service.name));
         frame_faults_.assign(pair_.frame->fault_sites.size() + 1, 0);
         scratch = std::max(scratch, pair_.frame->scratch_bytes);
     }
@@ -118,13 +118,14 @@ void ShadeKernel::fill_records() {
         uniforms[rsl::kLightKind] = jit::float_of(light.kind);
         records_.push_back({columns.data(), uniforms});
     }
-    record_sets_[0] = {int32_t(records_.size()), records_.data()};
+    record_sets_[kPatchLights] = {int32_t(records_.size()), records_.data()};
 }
 
 void ShadeKernel::run_frame() {
     if (!pair_.frame) return;
     const jit::Kernel& kernel = *pair_.frame;
     Arena::Mark mark = arena_.mark();
+    PatchHost host(*patch_);
     std::vector<const float*> in;
     for (const jit::InputInfo& info : kernel.inputs) {
         auto value = stack_->values.find(rsl::key_of(info));
@@ -143,7 +144,7 @@ void ShadeKernel::run_frame() {
                     .faults = frame_faults_,
                     .services = frame_services_,
                     .record_sets = record_sets_,
-                    .host = const_cast<Patch*>(patch_)}
+                    .host = static_cast<KernelHost*>(&host)}
         .run();
     frame_.clear();
     for (float* value : out) frame_.push_back(*value);
@@ -156,6 +157,7 @@ void ShadeKernel::run() {
     run_frame();
     std::vector<const float*> in(in_.size());
     std::vector<float*> out(out_.size());
+    PatchHost host(*patch_);
     jit::KernelCall call{.kernel = *pair_.point,
                          .in = in,
                          .out = out,
@@ -164,7 +166,7 @@ void ShadeKernel::run() {
                          .faults = faults_,
                          .services = services_,
                          .record_sets = record_sets_,
-                         .host = const_cast<Patch*>(patch_)};
+                         .host = static_cast<KernelHost*>(&host)};
     for (size_t at = 0; at < patch_->count(); at += kSlice) {
         for (size_t k = 0; k < in.size(); ++k) in[k] = in_[k] + at;
         for (size_t k = 0; k < out.size(); ++k) out[k] = out_[k] + at;

@@ -10,9 +10,8 @@
 #include "jit/compiler.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
-#include "rsl/model/service_table.h"
 #include "runtime/base/arena.h"
-#include "runtime/programs/shade/grid.h"
+#include "runtime/programs/shade/patch_host.h"
 #include "runtime/programs/shade/source.h"
 
 namespace kinora {
@@ -77,18 +76,7 @@ class ShadeKernel {
     std::vector<uint8_t> faults_, frame_faults_;
     std::span<std::byte> scratch_;
     std::vector<jit::Record> records_;
-    jit::RecordSet record_sets_[2];  // the lights; the empty set of gather
+    jit::RecordSet record_sets_[kPatchRecordSets];
 };
-
-// The light that shines on the patch: what kinora-shade's surfaces see.
-struct ShadeLight {
-    rsl::LightKind kind;
-    vec3 L;  // to the light, current space
-    vec3 Cl;
-};
-std::vector<ShadeLight> shade_lights();
-
-// What services answer on a patch (KernelArgs::grid).
-const rsl::ServiceTable& shade_services();
 
 }  // namespace kinora

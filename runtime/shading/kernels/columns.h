@@ -1,4 +1,5 @@
-// runtime/shading/columns.h: the point-rate inputs a kernel may ask for, as columns of a grid.
+// runtime/shading/kernels/columns.h: the point-rate inputs a kernel may ask for, as columns of a
+// grid.
 #pragma once
 
 #include <cstdint>

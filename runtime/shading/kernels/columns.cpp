@@ -1,5 +1,5 @@
-// runtime/shading/columns.cpp: point-rate inputs to columns.
-#include "runtime/shading/columns.h"
+// runtime/shading/kernels/columns.cpp: point-rate inputs to columns.
+#include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
 

@@ -1,0 +1,70 @@
+// runtime/shading/scene_host.h: a scene's answers to its kernels: at frame rate, at the points of a
+// grid and at vertices.
+#pragma once
+
+#include <string>
+
+#include "runtime/shading/kernels/kernel_host.h"
+
+namespace kinora {
+
+struct Grid;
+struct GridServices;
+struct Scene;
+struct ShaderInstance;
+
+// A shader instance of a scene at frame rate: no points, no lights, no rays.
+class SceneHost : public KernelHost {
+  public:
+    SceneHost(const Scene& scene, const ShaderInstance& look) : scene_(scene), look_(look) {}
+
+    TextureStore& textures() const override;
+    dmat4 current_from_space(std::string_view name, size_t point) const override;
+    dmat4 world_from_current() const override;
+    // At once: once per instance and frame.
+    void print(const jit::ServiceCall& call) override;
+    void query(const jit::ServiceCall& call) override;
+    void texture3d(const jit::ServiceCall& call) override;
+    void photons(const jit::ServiceCall& call) override;
+
+  protected:
+    const Scene& scene_;
+    const ShaderInstance& look_;
+};
+
+// A kernel that moves vertices: "current" is the space of `object`, a scene node.
+class VertexHost : public SceneHost {
+  public:
+    VertexHost(const Scene& scene, const ShaderInstance& look, uint32_t object, std::string& prints)
+        : SceneHost(scene, look), object_(object), prints_(prints) {}
+
+    dmat4 current_from_space(std::string_view name, size_t point) const override;
+    void print(const jit::ServiceCall& call) override;
+
+  private:
+    uint32_t object_;
+    std::string& prints_;  // of this part of the vertices
+};
+
+// A kernel over the points of a grid.
+class GridHost : public SceneHost {
+  public:
+    GridHost(Grid& grid, const GridServices& services);
+
+    dmat4 current_from_space(std::string_view name, size_t point) const override;
+    void print(const jit::ServiceCall& call) override;
+    void lights(const jit::ServiceCall& call) override;
+    void trace(const jit::ServiceCall& call) override;
+    void transmission(const jit::ServiceCall& call) override;
+    void occlusion(const jit::ServiceCall& call) override;
+    void indirect_diffuse(const jit::ServiceCall& call) override;
+    void gather(const jit::ServiceCall& call) override;
+    void query(const jit::ServiceCall& call) override;
+    void bake3d(const jit::ServiceCall& call) override;
+
+  private:
+    Grid& grid_;
+    const GridServices& services_;
+};
+
+}  // namespace kinora
