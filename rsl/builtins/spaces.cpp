@@ -72,7 +72,8 @@ void ntransform(RefCall<Real>& c) {
 template <class Real>
 void depth(RefCall<Real>& c) {
     using Number = Dual<Real>;
-    Number near(c.eval.number("camera:near", 0)), far(c.eval.number("camera:far", 0));
+    Number near(c.eval.number(plain_key(KeyKind::CameraNear), 0));
+    Number far(c.eval.number(plain_key(KeyKind::CameraFar), 0));
     RefValue<Real> p = c.args[0];
     p.type = BaseType::Point;
     c.set((c.eval.out_of_layer(p).c[2] - near) / (far - near));  // along the camera's z

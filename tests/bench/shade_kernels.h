@@ -13,6 +13,7 @@
 #include "jit/ir/kernel_call.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "rsl/model/kernel_keys.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/check.h"
 
@@ -69,15 +70,15 @@ struct Points {
             Ng[k][i] = k == 2 ? -1.0f : 0.0f;
         }
     }
-    const float* column(const std::string& name) const {
-        auto part = [](char c) { return size_t(c - 'x'); };
-        if (name.starts_with("P.")) return P[part(name.back())];
-        if (name.starts_with("N.")) return N[part(name.back())];
-        if (name.starts_with("Ng.")) return Ng[part(name.back())];
-        if (name.starts_with("I.")) return I[part(name.back())];
-        const std::string object_space = "space:object:from_current:";
-        CHECK(name.starts_with(object_space));
-        return object[size_t(name[name.size() - 2] - '0')][size_t(name.back() - '0')];
+    const float* column(const rsl::KernelKey& key) const {
+        if (key.kind == rsl::KeyKind::Global) {
+            if (key.global() == rsl::Global::P) return P[key.component];
+            if (key.global() == rsl::Global::N) return N[key.component];
+            if (key.global() == rsl::Global::Ng) return Ng[key.component];
+            if (key.global() == rsl::Global::I) return I[key.component];
+        }
+        CHECK(key.kind == rsl::KeyKind::SpaceFromCurrent && rsl::name_of(key) == "object");
+        return object[key.row()][key.column()];
     }
 };
 
@@ -125,18 +126,14 @@ inline std::vector<rsl::ParamBinding> bound_parameters(const rsl::Shader& shader
     return bindings;
 }
 
-// "param:0:NAME[.c]" and the light's own space, whose z axis is the light's backwards.
-inline float frame_value(const rsl::Shader& shader, const std::string& name) {
-    if (name.starts_with("space:shader:to_current:"))
-        return name.back() == '2' ? -kAxis[name[name.size() - 2] - '0'] : 0.0f;
-    for (const rsl::ShaderParameter& p : shader.parameters) {
-        std::string prefix = "param:0:" + std::string(p.name);
-        if (!name.starts_with(prefix)) continue;
-        if (name.size() == prefix.size()) return p.constant->numbers[0];
-        size_t component = std::string("rgbxyz").find(name.back()) % 3;
-        return p.constant->numbers[component];
-    }
-    CHECK_EQ(name, "a known frame input");
+// Parameters, and the light's own space, whose z axis is the light's backwards.
+inline float frame_value(const rsl::Shader& shader, const rsl::KernelKey& key) {
+    if (key.kind == rsl::KeyKind::SpaceToCurrent && rsl::name_of(key) == "shader")
+        return key.column() == 2 ? -kAxis[key.row()] : 0.0f;
+    for (const rsl::ShaderParameter& p : shader.parameters)
+        if (key.kind == rsl::KeyKind::Parameter && p.name == rsl::name_of(key))
+            return p.constant->numbers[key.component];
+    CHECK_EQ(rsl::text(key), "a known frame input");
     return 0;
 }
 
@@ -151,7 +148,7 @@ inline std::vector<float> frame_block(const Compiled& compiled) {
     };
     std::vector<const float*> in;
     for (const jit::InputInfo& info : kernel.inputs)
-        in.push_back(row(frame_value(*compiled.shader, info.name)));
+        in.push_back(row(frame_value(*compiled.shader, rsl::key_of(info))));
     std::vector<float*> out;
     for (size_t k = 0; k < kernel.outputs.size(); ++k) out.push_back(row(0));
     std::vector<uint8_t> faults(kernel.fault_sites.size());
@@ -196,7 +193,7 @@ class Run {
         for (size_t g = 0; g < grids; ++g) {
             auto in = arena_.allocate_span<const float*>(kernel_.inputs.size());
             for (size_t k = 0; k < kernel_.inputs.size(); ++k)
-                in[k] = points.column(kernel_.inputs[k].name) + g * grid;
+                in[k] = points.column(rsl::key_of(kernel_.inputs[k])) + g * grid;
             auto outs = arena_.allocate_span<float*>(kernel_.outputs.size());
             for (size_t k = 0; k < kernel_.outputs.size(); ++k)
                 outs[k] = out[kernel_.outputs[k].name] + g * grid;

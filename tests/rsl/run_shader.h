@@ -14,6 +14,7 @@
 #include "jit/ir/kernel_call.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "rsl/model/kernel_keys.h"
 #include "rsl/model/service_table.h"
 #include "rsl/model/string_functions.h"
 #include "runtime/base/arena.h"
@@ -128,16 +129,15 @@ class RunShader {
         return data;
     }
 
-    // "space:x:to_current:RC" is 1 where R is C; "1" is 1.
-    static float missing(const std::string& name) {
-        if (name == "1") return 1;
-        if (name.rfind("space:", 0) != 0) return 0;
-        return name[name.size() - 1] == name[name.size() - 2] ? 1.0f : 0.0f;
+    // Spaces are the identity; "1" is 1.
+    static float missing(const KernelKey& key) {
+        bool diagonal = key.is_space() && key.row() == key.column();
+        return key.kind == KeyKind::One || diagonal ? 1 : 0;
     }
 
-    const float* input_column(const std::string& name, int count) {
-        auto found = inputs.find(name);
-        if (found == inputs.end()) return column(missing(name), count);
+    const float* input_column(const jit::InputInfo& input, int count) {
+        auto found = inputs.find(input.name);
+        if (found == inputs.end()) return column(missing(key_of(input)), count);
         const std::vector<float>& points = found->second;
         float* data = column(points.back(), count);
         if (points.size() > 1)
@@ -189,7 +189,7 @@ class RunShader {
                                   std::span<const jit::RecordSet> records) {
         auto in = arena.allocate_span<const float*>(kernel.inputs.size());
         for (size_t k = 0; k < kernel.inputs.size(); ++k)
-            in[k] = input_column(kernel.inputs[k].name, count);
+            in[k] = input_column(kernel.inputs[k], count);
         auto outs = arena.allocate_span<float*>(kernel.outputs.size());
         for (size_t k = 0; k < kernel.outputs.size(); ++k) outs[k] = column(0, count);
         auto functions = arena.allocate_span<jit::ServiceFn>(kernel.services.size());
