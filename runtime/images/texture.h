@@ -9,7 +9,7 @@ namespace kinora {
 struct SceneDescription;
 class TextureStore;
 
-// The services "texture" and "environment" (rsl/model/renderer_services.h lists arguments and
+// The services "texture" and "environment" (rsl/model/services.def lists arguments and
 // results). `store` answers for names. Thread-safe; without locks and allocations once the names
 // have been met. A name is texture_name.h's string. s, t = 0, 0 is the lower left corner of the
 // image; a lookup whose s or t is NaN, and one of the name "", gives the fill colour. Grey images

@@ -1,4 +1,4 @@
-// runtime/shading/ray_services.h: the services that shoot rays (rsl/model/renderer_services.h), for
+// runtime/shading/ray_services.h: the services that shoot rays (rsl/model/services.def), for
 // one lane group of a grid.
 #pragma once
 
