@@ -31,11 +31,11 @@ stage "release tests" tests release
 if ((all)); then
     stage "ASan+UBSan build" scripts/build asan:gtests
     stage "ASan+UBSan tests" tests asan
-    stage "fuzzing of code" scripts/fuzz build/release code
+    stage "fuzzing of code" scripts/fuzz build/release code 2
     stage "fuzzing of shaders" scripts/fuzz build/release shaders
     stage "fuzzing of sources" scripts/fuzz build/asan text
     stage "libFuzzer build" scripts/build fuzzers
-    stage "fuzzing of readers" scripts/fuzz_readers 60
+    stage "fuzzing of readers" scripts/fuzz_readers 30
     stage "AArch64 build" scripts/cross-arm64
     # Emulated code is ten times slower: a tenth of the random programs.
     stage "AArch64 tests" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
