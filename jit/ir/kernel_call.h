@@ -26,8 +26,24 @@ struct KernelCall {
     std::span<const RecordSet> record_sets = {};
     void* host = nullptr;  // what services see
 
-    // CHECKs that each part is what the kernel needs, and runs all points.
+    // Checks the parts and runs all points.
     void run() const;
 };
+
+// A call whose parts were checked, to run as often as they stay as they are.
+class CheckedCall {
+  public:
+    // CHECKs that each part is what the kernel needs.
+    explicit CheckedCall(const KernelCall& call);
+    void run() const { kernel_->run(args_); }
+
+  private:
+    const Kernel* kernel_;
+    KernelArgs args_;
+};
+
+inline void KernelCall::run() const {
+    CheckedCall(*this).run();
+}
 
 }  // namespace kinora::jit

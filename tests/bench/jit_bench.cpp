@@ -196,15 +196,16 @@ void run(benchmark::State& state, const Module& module, const Target& target) {
     test::AlignedFloats frame(8), scratch(kernel->scratch_bytes / 4);
     for (int k = 0; k < 8; ++k) frame.data[k] = 0.5f + static_cast<float>(k) * 2;
     std::vector<uint8_t> fault(kernel->fault_sites.size());
-    KernelCall call{.kernel = *kernel,
-                    .count = count,
-                    .in = in,
-                    .out = out,
-                    .row_floats = count,
-                    .frame = {frame.data, frame.size},
-                    .scratch = {reinterpret_cast<std::byte*>(scratch.data), kernel->scratch_bytes},
-                    .faults = fault,
-                    .record_sets = {&lights.set, 1}};
+    CheckedCall call(
+        {.kernel = *kernel,
+         .count = count,
+         .in = in,
+         .out = out,
+         .row_floats = count,
+         .frame = {frame.data, frame.size},
+         .scratch = {reinterpret_cast<std::byte*>(scratch.data), kernel->scratch_bytes},
+         .faults = fault,
+         .record_sets = {&lights.set, 1}});
     for (auto _ : state) call.run();
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }

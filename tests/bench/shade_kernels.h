@@ -197,7 +197,7 @@ class Run {
             auto outs = arena_.allocate_span<float*>(kernel_.outputs.size());
             for (size_t k = 0; k < kernel_.outputs.size(); ++k)
                 outs[k] = out[kernel_.outputs[k].name] + g * grid;
-            grids_.push_back({.kernel = kernel_,
+            parts_.push_back({.kernel = kernel_,
                               .count = grid,
                               .in = in,
                               .out = outs,
@@ -205,11 +205,15 @@ class Run {
                               .frame = compiled.frame,
                               .scratch = scratch,
                               .faults = faults_});
+            calls_.emplace_back(parts_.back());
         }
     }
-    void set_records(size_t g, const jit::RecordSet* set) { grids_[g].record_sets = {set, 1}; }
-    void run(size_t g) const { grids_[g].run(); }
-    size_t grids() const { return grids_.size(); }
+    void set_records(size_t g, const jit::RecordSet* set) {
+        parts_[g].record_sets = {set, 1};
+        calls_[g] = jit::CheckedCall(parts_[g]);
+    }
+    void run(size_t g) const { calls_[g].run(); }
+    size_t grids() const { return calls_.size(); }
 
     std::map<std::string, float*> out;
 
@@ -217,7 +221,8 @@ class Run {
     const jit::Kernel& kernel_;
     Arena arena_;
     std::vector<uint8_t> faults_;
-    std::vector<jit::KernelCall> grids_;
+    std::vector<jit::KernelCall> parts_;  // of a grid each
+    std::vector<jit::CheckedCall> calls_;
 };
 
 }  // namespace kinora
