@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "jit/ir/kernel_call.h"
-#include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/scene_host.h"
 
@@ -40,12 +38,11 @@ void KernelRunner::begin_frame(size_t threads) {
 
 void KernelRunner::report_faults(Diagnostics& diagnostics) const {
     for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
-        for (size_t s = 0; s < kernel.fault_sites.size(); ++s) {
-            bool hit = std::any_of(faults_.begin(), faults_.end(),
-                                   [&](const auto& faults) { return faults[row][s] != 0; });
-            const jit::FaultSite& site = kernel.fault_sites[s];
-            if (hit) diagnostics.report(Code::SHADER_FAULT, site.where, site.message);
-        }
+        auto faulted = [&](size_t site) {
+            return std::any_of(faults_.begin(), faults_.end(),
+                               [&](const auto& faults) { return faults[row][site] != 0; });
+        };
+        kinora::report_faults(kernel, faulted, diagnostics);
     });
 }
 
@@ -62,26 +59,16 @@ void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
 }
 
 std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
-    const jit::Kernel& kernel = bound.kernel();
     Arena& arena = grid.memory.arena;
-    size_t rows = padded(grid.count());
-    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
-    for (float*& column : out) column = arena.allocate_span<float>(rows).data();
-    std::span<const float*> in = arena.allocate_span<const float*>(bound.columns.size());
-    for (size_t i = 0; i < in.size(); ++i) in[i] = grid.columns[bound.columns[i]];
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
     GridHost host(grid, services_);
-    jit::KernelCall{.kernel = kernel,
-                    .count = grid.count(),
-                    .in = in,
-                    .out = out,
-                    .row_floats = rows,
-                    .frame = bound.frame,
-                    .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
-                    .faults = faults_[grid.memory.number][fault_row(*grid.look, bound)],
-                    .services = bound.services,
-                    .record_sets = grid.record_sets,
-                    .host = static_cast<KernelHost*>(&host)}
-        .run();
+    bound.run({.count = grid.count(),
+               .columns = grid.columns,
+               .out = out,
+               .faults = faults_[grid.memory.number][fault_row(*grid.look, bound)],
+               .record_sets = grid.record_sets,
+               .host = host},
+              arena);
     return out;
 }
 

@@ -16,8 +16,6 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kRow = jit::kMaxLanes;
-
 const ParamSource* find_source(const ShaderUse& use, std::string_view name) {
     for (const ParamSource& source : use.params)
         if (source.name == name) return &source;
@@ -178,23 +176,12 @@ uint16_t resolve_column(const ShaderInstance& look, const rsl::KernelKey& key) {
     check_failed("runtime/shading/shader_instance.cpp", 0, "unknown point input " + rsl::text(key));
 }
 
-void bind_kernel(BoundKernel& bound, ShaderInstance& look) {
-    for (const jit::InputInfo& input : bound.pair.point->inputs)
-        bound.columns.push_back(resolve_column(look, rsl::key_of(input)));
-    for (const jit::ServiceInfo& service : bound.pair.point->services)
-        bound.services.push_back(find_service(service.name));
+void bind_kernel(SceneKernel& bound, jit::KernelPair kernels, ShaderInstance& look) {
+    bound.bind(std::move(kernels),
+               [&](const rsl::KernelKey& key) { return resolve_column(look, key); });
     if (!bound.pair.frame) return;
-    const jit::Kernel& frame = *bound.pair.frame;
-    for (const jit::ServiceInfo& service : frame.services)
-        bound.frame_services.push_back(find_service(service.name));
-    for (const jit::InputInfo& input : frame.inputs)
+    for (const jit::InputInfo& input : bound.pair.frame->inputs)
         bound.inputs.push_back(resolve_input(look, rsl::key_of(input)));
-    for (size_t i = 0; i < frame.inputs.size(); ++i)
-        bound.in.push_back(bound.arena.allocate_span<float>(kRow).data());
-    for (size_t i = 0; i < frame.outputs.size(); ++i)
-        bound.out.push_back(bound.arena.allocate_span<float>(kRow).data());
-    bound.frame.resize(size_t(bound.pair.point->frame_slots));
-    bound.frame_faults.resize(frame.fault_sites.size() + 1);
 }
 
 void assign_columns(ShaderInstance& look) {
@@ -253,8 +240,7 @@ bool compile_look(ShaderInstance& look, const SceneDescription& description,
     std::optional<rsl::LoweredShader> lowered = rsl::lower(layers, lower, diagnostics);
     if (!lowered) return false;
     look.lowered = std::move(*lowered);
-    look.full.pair = jit::compile(std::move(look.lowered.module), compile);
-    bind_kernel(look.full, look);
+    bind_kernel(look.full, jit::compile(std::move(look.lowered.module), compile), look);
     // Shadow rays ask what is not opaque, and what fills an object.
     bool shades_shadows = look.kind == ShaderInstanceKind::Surface && !look.opaque();
     bool fills = look.kind == ShaderInstanceKind::Volume && look.volume != 0 && !look.exterior;
@@ -266,8 +252,7 @@ bool compile_look(ShaderInstance& look, const SceneDescription& description,
         std::optional<rsl::LoweredShader> opacity = rsl::lower(layers, lower, diagnostics);
         if (!opacity) return false;
         look.opacity.emplace();
-        look.opacity->pair = jit::compile(std::move(opacity->module), compile);
-        bind_kernel(*look.opacity, look);
+        bind_kernel(*look.opacity, jit::compile(std::move(opacity->module), compile), look);
     }
     look.current_from_space.resize(look.spaces.size(), dmat4(1.0));
     return true;
@@ -294,58 +279,59 @@ dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader,
     return linear * value;
 }
 
-void BoundKernel::update(const FrameContext& context, const ShaderInstance& look) {
-    if (!pair.frame) return;
-    std::span<const dmat4> current_from_space = look.current_from_space;
+namespace {
+
+class SceneNumbers : public FrameNumbers {
+  public:
+    SceneNumbers(const FrameContext& context, const ShaderInstance& look,
+                 std::span<const FrameInput> inputs)
+        : context_(context), look_(look), inputs_(inputs) {}
+    float number(size_t index) const override;
+
+  private:
+    const FrameContext& context_;
+    const ShaderInstance& look_;
+    std::span<const FrameInput> inputs_;
+};
+
+float SceneNumbers::number(size_t index) const {
     using Source = FrameInput::Source;
-    const Scene& scene = context.scene;
-    auto number = [&](const FrameInput& input) -> float {
-        switch (input.source) {
-            case Source::Fixed:
-                return input.fixed;
-            case Source::Value:
-                return float(scene.values[input.index]);
-            case Source::Spatial: {
-                const dmat4& m = current_from_space[input.space];
-                return float(parameter_in_current(input.type, m,
-                                                  &scene.values[input.index])[input.component]);
-            }
-            case Source::Space: {
-                const dmat4& m = current_from_space[input.index];
-                int row = input.component / 4, column = input.component % 4;
-                return float(input.inverse ? glm::inverse(m)[column][row] : m[column][row]);
-            }
-            case Source::Time:
-                return float(scene.time);
-            case Source::Shutter:
-                return float(scene.shutter);
-            case Source::Near:
-                return float(scene.view.znear);
-            case Source::Far:
-                return float(scene.view.zfar);
-            case Source::Eye:
-                return float(context.eye[input.component]);
+    const FrameInput& input = inputs_[index];
+    const Scene& scene = context_.scene;
+    switch (input.source) {
+        case Source::Fixed:
+            return input.fixed;
+        case Source::Value:
+            return float(scene.values[input.index]);
+        case Source::Spatial: {
+            const dmat4& m = look_.current_from_space[input.space];
+            return float(
+                parameter_in_current(input.type, m, &scene.values[input.index])[input.component]);
         }
-        return 0;
-    };
-    for (size_t i = 0; i < inputs.size(); ++i) {
-        float value = number(inputs[i]);
-        std::fill_n(const_cast<float*>(in[i]), kRow, value);
+        case Source::Space: {
+            const dmat4& m = look_.current_from_space[input.index];
+            int row = input.component / 4, column = input.component % 4;
+            return float(input.inverse ? glm::inverse(m)[column][row] : m[column][row]);
+        }
+        case Source::Time:
+            return float(scene.time);
+        case Source::Shutter:
+            return float(scene.shutter);
+        case Source::Near:
+            return float(scene.view.znear);
+        case Source::Far:
+            return float(scene.view.zfar);
+        case Source::Eye:
+            return float(context_.eye[input.component]);
     }
-    SceneHost host(scene, look);
-    Arena::Mark mark = arena.mark();
-    jit::KernelCall{.kernel = *pair.frame,
-                    .count = 1,
-                    .in = in,
-                    .out = out,
-                    .row_floats = kRow,
-                    .scratch = arena.allocate_span<std::byte>(pair.frame->scratch_bytes),
-                    .faults = frame_faults,
-                    .services = frame_services,
-                    .host = static_cast<KernelHost*>(&host)}
-        .run();
-    arena.release(mark);
-    for (size_t i = 0; i < frame.size(); ++i) frame[i] = out[i][0];
+    return 0;
+}
+
+}  // namespace
+
+void SceneKernel::update(const FrameContext& context, const ShaderInstance& look) {
+    SceneHost host(context.scene, look);
+    run_frame(SceneNumbers(context, look, inputs), host);
 }
 
 }  // namespace kinora

@@ -8,12 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "jit/compiler.h"
 #include "raytrace/camera.h"
 #include "rsl/lower/lower.h"
 #include "rsl/model/kernel_keys.h"
-#include "runtime/base/arena.h"
 #include "runtime/description/scene_description.h"
+#include "runtime/shading/kernels/bound_kernel.h"
 #include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
@@ -51,23 +50,13 @@ struct FrameInput {
 
 struct ShaderInstance;
 
-// A kernel pair with its frame block.
-class BoundKernel {
+// A kernel whose frame-rate inputs come from a scene.
+class SceneKernel : public BoundKernel {
   public:
     // Runs the frame kernel and fills the frame block. No allocation.
     void update(const FrameContext& context, const ShaderInstance& look);
-    const jit::Kernel& kernel() const { return *pair.point; }
-    bool empty() const { return !pair.point; }
 
-    jit::KernelPair pair;
-    std::vector<FrameInput> inputs;                        // of the frame kernel
-    std::vector<uint16_t> columns;                         // of the point kernel's inputs
-    std::vector<jit::ServiceFn> services, frame_services;  // of both kernels, by slot
-    std::vector<float> frame;                              // the frame block
-    std::vector<uint8_t> frame_faults;
-    Arena arena;  // rows of 16 floats for the frame kernel
-    std::vector<const float*> in;
-    std::vector<float*> out;
+    std::vector<FrameInput> inputs;  // of the frame kernel
 };
 
 enum class ShaderInstanceKind : uint8_t {
@@ -104,8 +93,8 @@ struct ShaderInstance {
     std::vector<VaryingParam> varying;
     uint16_t column_count = kColVarying;
     rsl::LoweredShader lowered;  // the full kernel's (module moved out)
-    BoundKernel full;
-    std::optional<BoundKernel> opacity;  // for shadow rays, unless opaque
+    SceneKernel full;
+    std::optional<SceneKernel> opacity;  // for shadow rays, unless opaque
     std::vector<std::string> spaces;     // names of frame-rate spaces the kernels read
     std::vector<dmat4> current_from_space;
     bool hide_backfaces = false;

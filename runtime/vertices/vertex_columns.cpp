@@ -6,6 +6,7 @@
 
 #include "raytrace/sampling.h"
 #include "runtime/description/affine_map.h"
+#include "runtime/shading/kernels/point_source.h"
 #include "runtime/vertices/vertex_columns_p.h"
 #include "runtime/vertices/vertex_work.h"
 
@@ -46,10 +47,10 @@ VertexSpace::VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_
 
 namespace {
 
-class Columns {
+class Wedges : public PointSource {
   public:
-    Columns(const ShaderInstance& look, const VertexSource& source, const VertexSpace& space,
-            size_t begin, size_t end, Arena& arena)
+    Wedges(const ShaderInstance& look, const VertexSource& source, const VertexSpace& space,
+           size_t begin, size_t end, Arena& arena)
         : look_(look),
           source_(source),
           space_(space),
@@ -65,7 +66,7 @@ class Columns {
         for (uint16_t k = 0; k < 3; ++k) take(uint16_t(kColP + k));
     }
 
-    std::span<float*> run() {
+    void fill(const PointColumns&) override {
         bool tangents = columns_[kColdPdu] || columns_[kColdPdv] || columns_[kColdIdu] ||
                         columns_[kColdIdv] || columns_[kColDu] || columns_[kColDv];
         bool partials =
@@ -84,11 +85,9 @@ class Columns {
                 rng[i] = jit::float_of(
                     int32_t(raytrace::hash(source_.welds[source_.group.position[w]], 0x76657274)));
         }
-        constants();
-        for (float* column : columns_)  // padding lanes are copies of the last point
-            if (column) std::fill(column + count_, column + padded(count_), column[count_ - 1]);
-        return columns_;
+        spaces();
     }
+    std::span<float*> rows() const { return columns_; }
 
   private:
     static constexpr uint16_t kTriples[] = {kColP, kColdPdu, kColdPdv, kColN,    kColNg,
@@ -218,9 +217,7 @@ class Columns {
         }
     }
 
-    void constants() {
-        for (auto [which, value] : kConstantColumns)
-            if (float* row = columns_[which]) std::fill_n(row, count_, value);
+    void spaces() {
         for (size_t first : {size_t(kColToCurrent), size_t(kColFromCurrent)})  // the identity
             for (size_t k = 0; k < 12; ++k)
                 if (float* row = columns_[first + k])
@@ -240,7 +237,9 @@ class Columns {
 std::span<float*> fill_vertex_columns(const ShaderInstance& look, const VertexSource& source,
                                       const VertexSpace& space, size_t begin, size_t end,
                                       Arena& arena) {
-    return Columns(look, source, space, begin, end, arena).run();
+    Wedges wedges(look, source, space, begin, end, arena);
+    fill_columns(wedges, {end - begin, wedges.rows()});
+    return wedges.rows();
 }
 
 }  // namespace kinora

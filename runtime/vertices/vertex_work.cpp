@@ -263,25 +263,17 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
                         group.use.varying[pass.stage],
                         weld_of_position_};
     std::span<float*> columns = fill_vertex_columns(look, source, pass.space, begin, end, arena);
-    std::span<const float*> in = arena.allocate_span<const float*>(look.full.columns.size());
-    for (size_t i = 0; i < in.size(); ++i) in[i] = columns[look.full.columns[i]];
-    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
-    for (float*& row : out) row = arena.allocate_span<float>(padded(count)).data();
+    std::span<float*> out = take_outputs(kernel, count, arena);
     // No lights: the set behind handle 0, which `lights` gives without a grid, is empty.
     const jit::RecordSet no_lights;
     VertexHost host(pass.scene, look, pass.node, prints);
-    jit::KernelCall{.kernel = kernel,
-                    .count = count,
-                    .in = in,
-                    .out = out,
-                    .row_floats = padded(count),
-                    .frame = look.full.frame,
-                    .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
-                    .faults = faults,
-                    .services = look.full.services,
-                    .record_sets = {&no_lights, 1},
-                    .host = static_cast<KernelHost*>(&host)}
-        .run();
+    look.full.run({.count = count,
+                   .columns = columns,
+                   .out = out,
+                   .faults = faults,
+                   .record_sets = {&no_lights, 1},
+                   .host = host},
+                  arena);
     OutputTriple P(kernel, rsl::Global::P), N(kernel, rsl::Global::N);
     uint32_t bad = 0;
     for (size_t i = 0; i < count; ++i) {
@@ -335,10 +327,10 @@ void VertexWork::report(std::string_view name, Diagnostics& diagnostics) {
     for (Group& group : groups_)
         for (size_t s = 0; s < kStages; ++s) {
             if (!group.use.looks[s]) continue;
-            const auto& sites = group.use.looks[s]->full.kernel().fault_sites;
-            for (size_t f = 0; f < sites.size(); ++f)
-                if (std::exchange(group.faults[s][f], uint8_t(0)))
-                    diagnostics.report(Code::SHADER_FAULT, sites[f].where, sites[f].message);
+            auto faulted = [&](size_t site) {
+                return std::exchange(group.faults[s][site], uint8_t(0)) != 0;
+            };
+            report_faults(group.use.looks[s]->full.kernel(), faulted, diagnostics);
         }
     if (uint32_t count = std::exchange(not_finite_total_, 0))
         diagnostics.report(Code::VERTEX_NON_FINITE, Location{}, count, name);

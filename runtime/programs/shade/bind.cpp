@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <glm/matrix.hpp>
 
 #include "runtime/description/findings.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/kernel.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -71,19 +71,6 @@ int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, 
     return kExitOk;
 }
 
-// Point-like values are given in shader space.
-void move_to_current(BaseType type, const dmat4& current_from_shader, double* v) {
-    dvec3 value(v[0], v[1], v[2]);
-    dmat3 linear(current_from_shader);
-    if (type == BaseType::Point)
-        value = dvec3(current_from_shader * dvec4(value, 1.0));
-    else if (type == BaseType::Normal)
-        value = glm::transpose(glm::inverse(linear)) * value;
-    else
-        value = linear * value;
-    for (int k = 0; k < 3; ++k) v[k] = value[k];
-}
-
 void bind_value(const rsl::ShaderParameter& parameter, bool shape, size_t layer,
                 const ShadeParam& param, const Patch& patch, ShadeStack& stack) {
     rsl::ParamBinding binding;
@@ -96,8 +83,11 @@ void bind_value(const rsl::ShaderParameter& parameter, bool shape, size_t layer,
     } else {
         std::vector<double> numbers = param.numbers;
         numbers.resize(count * width, numbers.empty() ? 0.0 : numbers.back());
-        for (size_t e = 0; e < count && rsl::is_spatial(base); ++e)
-            move_to_current(base, patch.current_from_space("shader"), &numbers[e * width]);
+        for (size_t e = 0; e < count && rsl::is_spatial(base); ++e) {
+            dvec3 moved =
+                parameter_in_current(base, patch.current_from_space("shader"), &numbers[e * width]);
+            std::copy_n(&moved[0], 3, &numbers[e * width]);
+        }
         binding.kind = shape ? rsl::ParamBinding::Kind::Constant : rsl::ParamBinding::Kind::Frame;
         for (size_t e = 0; e < count; ++e)
             for (size_t c = 0; c < width; ++c) {

@@ -5,8 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
+#include "jit/ir/kernel_call.h"
 #include "rsl/reference/reference.h"
+#include "runtime/shading/kernels/columns.h"
+#include "runtime/shading/kernels/point_source.h"
 
 namespace kinora {
 
@@ -75,6 +79,41 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
     };
 }
 
+// Globals with their changes along u and v, and what else differs by point; spaces are told apart.
+std::vector<rsl::KernelKey> point_keys() {
+    std::vector<rsl::KernelKey> keys = {rsl::plain_key(rsl::KeyKind::One),
+                                        rsl::plain_key(rsl::KeyKind::Rng)};
+    for (const rsl::GlobalInfo& global : rsl::globals())
+        for (int k = 0; k < rsl::component_count(global.type.base); ++k) {
+            rsl::KernelKey key = rsl::global_key(global.id, k);
+            for (rsl::Partial partial : {rsl::Partial::None, rsl::Partial::Du, rsl::Partial::Dv}) {
+                key.partial = partial;
+                if (find_column(key) != kNoColumn) keys.push_back(key);
+            }
+        }
+    return keys;
+}
+
+// The columns of one point.
+class PointRow {
+  public:
+    PointRow() {
+        for (size_t c = 0; c < kColVarying; ++c) rows_[c] = numbers_[c];
+    }
+    void fill(const Patch& patch, size_t point) {
+        PatchPoints points(patch, point);
+        fill_columns(points, {1, rows_});
+    }
+    double number(const rsl::KernelKey& key) const {
+        float value = numbers_[find_column(key)][0];
+        return key.kind == rsl::KeyKind::Rng ? double(jit::bits_of(value)) : double(value);
+    }
+
+  private:
+    float numbers_[kColVarying][jit::kMaxLanes];
+    float* rows_[kColVarying];
+};
+
 rsl::ReferenceInputs frame_inputs(const ShadeStack& stack, const Patch& patch,
                                   const ShadeKernel& kernel) {
     rsl::ReferenceInputs inputs;
@@ -86,8 +125,17 @@ rsl::ReferenceInputs frame_inputs(const ShadeStack& stack, const Patch& patch,
             for (int row = 0; row < 4; ++row)
                 for (int column = 0; column < 4; ++column) {
                     rsl::KernelKey key = rsl::space_key(space, to_current, row, column);
-                    inputs.values[rsl::text(key)] = double(space_entry(patch, key));
+                    inputs.values[rsl::text(key)] = double(frame_number(patch, key));
                 }
+    auto add = [&](const rsl::KernelKey& key) {
+        inputs.values[rsl::text(key)] = double(frame_number(patch, key));
+    };
+    add(rsl::plain_key(rsl::KeyKind::CameraNear));
+    add(rsl::plain_key(rsl::KeyKind::CameraFar));
+    for (const rsl::GlobalInfo& global : rsl::globals())
+        for (int k = 0; k < rsl::component_count(global.type.base); ++k)
+            if (rsl::KernelKey key = rsl::global_key(global.id, k); find_column(key) == kNoColumn)
+                add(key);
     for (const ShadeLight& light : shade_lights()) {
         rsl::ReferenceLight& out = inputs.lights.emplace_back();
         out.kind = light.kind;
@@ -126,19 +174,15 @@ void compare_with_reference(const ShadeStack& stack, const Patch& patch,
                             const ShadeKernel& kernel) {
     rsl::ReferenceInputs inputs = frame_inputs(stack, patch, kernel);
     inputs.service = reference_service(patch, kernel);
-    std::vector<std::pair<std::string, PatchInput>> columns;
-    const std::string rng = rsl::text(rsl::plain_key(rsl::KeyKind::Rng));
-    for (const rsl::KernelKey& key : patch_inputs())
-        columns.emplace_back(rsl::text(key), PatchInput(patch, key));
+    const std::vector<rsl::KernelKey> keys = point_keys();
+    auto row = std::make_unique<PointRow>();
     ShadeOutputs outputs = kernel.outputs();
     Worst worst;
     size_t compared = 0, undecided = 0;
     size_t step = std::max<size_t>(1, patch.count() / kReferencePoints);
     for (size_t i = 0; i < patch.count(); i += step) {
-        for (const auto& [name, input] : columns) {
-            float value = input.value(patch[i]);
-            inputs.values[name] = name == rng ? double(jit::bits_of(value)) : double(value);
-        }
+        row->fill(patch, i);
+        for (const rsl::KernelKey& key : keys) inputs.values[rsl::text(key)] = row->number(key);
         rsl::ReferenceResult exact = rsl::run_reference<double>(stack.layers, inputs);
         rsl::ReferenceResult single = rsl::run_reference<float>(stack.layers, inputs);
         if (!exact.missing.empty()) {

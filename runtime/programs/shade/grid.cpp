@@ -1,11 +1,14 @@
 // runtime/programs/shade/grid.cpp: points of a square and a sphere with their derivatives.
 #include "runtime/programs/shade/grid.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+
+#include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
 
@@ -29,51 +32,39 @@ float pixel_hash(uint32_t pixel) {
     return std::bit_cast<float>(h ^ (h >> 15));
 }
 
-// A global that is a triple, and its changes along u and v.
+// Three columns, or one, and what they hold.
 struct TripleRow {
-    Global id;
+    uint16_t first;
     vec3 PatchPoint::*member;
-    vec3 PatchPoint::*du = nullptr;
-    vec3 PatchPoint::*dv = nullptr;
 };
-// The eye is at 0, so I = P; lights are asked at P; the points do not move.
-constexpr TripleRow kTriples[] = {{Global::P, &PatchPoint::P},
-                                  {Global::Ps, &PatchPoint::P},
-                                  {Global::I, &PatchPoint::P, &PatchPoint::dPdu, &PatchPoint::dPdv},
-                                  {Global::dPdu, &PatchPoint::dPdu},
-                                  {Global::dPdv, &PatchPoint::dPdv},
-                                  {Global::N, &PatchPoint::N, &PatchPoint::dNdu, &PatchPoint::dNdv},
-                                  {Global::Ng, &PatchPoint::N},
-                                  {Global::Ns, &PatchPoint::N},
-                                  {Global::E, &PatchPoint::zero},
-                                  {Global::dPdtime, &PatchPoint::zero}};
+// The eye is at 0, so I = P; lights are asked at P.
+constexpr TripleRow kTriples[] = {
+    {kColP, &PatchPoint::P},       {kColPs, &PatchPoint::P},      {kColI, &PatchPoint::P},
+    {kColdPdu, &PatchPoint::dPdu}, {kColdIdu, &PatchPoint::dPdu}, {kColdPdv, &PatchPoint::dPdv},
+    {kColdIdv, &PatchPoint::dPdv}, {kColN, &PatchPoint::N},       {kColNg, &PatchPoint::N},
+    {kColNs, &PatchPoint::N},      {kColdNdu, &PatchPoint::dNdu}, {kColdNdv, &PatchPoint::dNdv}};
 
 struct SingleRow {
-    Global id;
+    uint16_t column;
     float PatchPoint::*member;
-    float PatchPoint::*du = nullptr;
-    float PatchPoint::*dv = nullptr;
 };
-constexpr SingleRow kSingles[] = {{Global::u, &PatchPoint::u},
-                                  {Global::v, &PatchPoint::v},
-                                  {Global::s, &PatchPoint::u, &PatchPoint::one, &PatchPoint::zero1},
-                                  {Global::t, &PatchPoint::v, &PatchPoint::zero1, &PatchPoint::one},
-                                  {Global::du, &PatchPoint::du},
-                                  {Global::dv, &PatchPoint::dv},
-                                  {Global::time, &PatchPoint::zero1},
-                                  {Global::dtime, &PatchPoint::zero1}};
+constexpr SingleRow kSingles[] = {{kColU, &PatchPoint::u},    {kColS, &PatchPoint::u},
+                                  {kColV, &PatchPoint::v},    {kColT, &PatchPoint::v},
+                                  {kColDu, &PatchPoint::du},  {kColDv, &PatchPoint::dv},
+                                  {kColRng, &PatchPoint::rng}};
 
+// Frame-rate globals that are not 0.
 struct FixedRow {
     Global id;
     float value;
 };
 constexpr FixedRow kFixed[] = {{Global::ncomps, 3}, {Global::alpha, 1}};
 
-template <class Row>
-auto member_of(const Row& row, rsl::Partial partial) {
-    return partial == rsl::Partial::None ? row.member
-           : partial == rsl::Partial::Du ? row.du
-                                         : row.dv;
+// A space's matrix in twelve columns, row by row.
+void fill_space(const PointColumns& columns, size_t first, const dmat4& m) {
+    for (int k = 0; k < 12; ++k)
+        if (float* row = columns.rows[first + size_t(k)])
+            std::fill_n(row, columns.count, float(m[k % 4][k / 4]));
 }
 
 }  // namespace
@@ -167,53 +158,30 @@ dmat4 Patch::current_from_space(std::string_view name) const {
     return current_from_object_;
 }
 
-PatchInput::PatchInput(const Patch& patch, const KernelKey& key) {
-    found = true;
-    if (key.kind == KeyKind::Global)
-        find_global(key);
-    else if (key.kind == KeyKind::One)
-        single = &PatchPoint::one;
-    else if (key.kind == KeyKind::Rng)
-        single = &PatchPoint::rng;
-    else if (key.kind == KeyKind::CameraNear)
-        fixed = float(kNear);
-    else if (key.kind == KeyKind::CameraFar)
-        fixed = float(kFar);
-    else if (key.is_space())
-        fixed = space_entry(patch, key);
-    else
-        found = false;
-}
-
-void PatchInput::find_global(const KernelKey& key) {
-    component = key.component;
-    for (const TripleRow& row : kTriples)
-        if (row.id == key.global()) triple = member_of(row, key.partial);
-    for (const SingleRow& row : kSingles)
-        if (row.id == key.global()) single = member_of(row, key.partial);
-    found = triple || single;
-    for (const FixedRow& row : kFixed)
-        if (row.id == key.global()) fixed = row.value, found = true;
-}
-
-std::vector<KernelKey> patch_inputs() {
-    std::vector<KernelKey> keys = {rsl::plain_key(KeyKind::One), rsl::plain_key(KeyKind::Rng),
-                                   rsl::plain_key(KeyKind::CameraNear),
-                                   rsl::plain_key(KeyKind::CameraFar)};
-    auto add = [&](const auto& row, int component) {
-        KernelKey key = rsl::global_key(row.id, component);
-        keys.push_back(key);
-        if (row.du) keys.push_back(rsl::partial_key(key, rsl::Partial::Du));
-        if (row.dv) keys.push_back(rsl::partial_key(key, rsl::Partial::Dv));
+void PatchPoints::fill(const PointColumns& columns) {
+    auto fill = [&](size_t column, auto&& number) {
+        if (float* row = columns.rows[column])
+            for (size_t i = 0; i < columns.count; ++i) row[i] = number(patch_[first_ + i]);
     };
+    for (size_t column = 0; column < columns.rows.size(); ++column)
+        fill(column, [](const PatchPoint&) { return 0.0f; });
     for (const TripleRow& row : kTriples)
-        for (int k = 0; k < 3; ++k) add(row, k);
-    for (const SingleRow& row : kSingles) add(row, 0);
-    for (const FixedRow& row : kFixed) keys.push_back(rsl::global_key(row.id));
-    return keys;
+        for (int k = 0; k < 3; ++k)
+            fill(row.first + size_t(k),
+                 [&](const PatchPoint& point) { return (point.*row.member)[k]; });
+    for (const SingleRow& row : kSingles)
+        fill(row.column, [&](const PatchPoint& point) { return point.*row.member; });
+    fill_space(columns, kColToCurrent, patch_.current_from_object());
+    fill_space(columns, kColFromCurrent, glm::inverse(patch_.current_from_object()));
 }
 
-float space_entry(const Patch& patch, const KernelKey& key) {
+float frame_number(const Patch& patch, const KernelKey& key) {
+    if (key.kind == KeyKind::CameraNear) return float(kNear);
+    if (key.kind == KeyKind::CameraFar) return float(kFar);
+    if (key.kind == KeyKind::Global)
+        for (const FixedRow& row : kFixed)
+            if (row.id == key.global()) return row.value;
+    if (!key.is_space()) return 0;
     dmat4 m = patch.current_from_space(rsl::name_of(key));
     if (key.kind == KeyKind::SpaceFromCurrent) m = glm::inverse(m);
     return float(m[key.column()][key.row()]);

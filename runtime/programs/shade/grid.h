@@ -10,13 +10,13 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/base/math.h"
 #include "runtime/images/texture_store.h"
+#include "runtime/shading/kernels/point_source.h"
 
 namespace kinora {
 
 struct PatchPoint {
     vec3 P{0}, dPdu{0}, dPdv{0}, N{0}, dNdu{0}, dNdv{0};  // current space
-    vec3 zero{0};
-    float u = 0, v = 0, du = 0, dv = 0, zero1 = 0, one = 1;
+    float u = 0, v = 0, du = 0, dv = 0;
     float rng = 0;       // int, bit for bit
     uint32_t pixel = 0;  // row * width + column, rows from the top
 };
@@ -47,28 +47,18 @@ class Patch {
     std::vector<PatchPoint> points_;
 };
 
-// A kernel input as a member of PatchPoint; the matrices of spaces are taken from the patch.
-// `found` is false for parameters.
-struct PatchInput {
-    explicit PatchInput(const Patch& patch, const rsl::KernelKey& key);
-    float value(const PatchPoint& point) const {
-        return triple ? (point.*triple)[component] : single ? point.*single : fixed;
-    }
-
-    bool found = false;
-    vec3 PatchPoint::*triple = nullptr;
-    float PatchPoint::*single = nullptr;
-    int component = 0;
-    float fixed = 0;
+// The points from `first` on.
+class PatchPoints : public PointSource {
+  public:
+    explicit PatchPoints(const Patch& patch, size_t first = 0) : patch_(patch), first_(first) {}
+    void fill(const PointColumns& columns) override;
 
   private:
-    void find_global(const rsl::KernelKey& key);
+    const Patch& patch_;
+    size_t first_;
 };
 
-// All inputs without spaces and parameters.
-std::vector<rsl::KernelKey> patch_inputs();
-
-// An entry of a space's matrix.
-float space_entry(const Patch& patch, const rsl::KernelKey& key);
+// The number of a frame-rate input that is no parameter.
+float frame_number(const Patch& patch, const rsl::KernelKey& key);
 
 }  // namespace kinora

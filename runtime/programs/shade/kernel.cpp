@@ -8,9 +8,8 @@
 
 #include "jit/ir/kernel_call.h"
 #include "raytrace/accel.h"
-#include "runtime/base/check.h"
 #include "runtime/base/stats.h"
-#include "runtime/description/findings.h"
+#include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
 
@@ -54,6 +53,22 @@ ShadeOutputs illuminate(const ShadeOutputs& light, const rsl::LoweredShader& low
     return result;
 }
 
+class StackNumbers : public FrameNumbers {
+  public:
+    StackNumbers(const ShadeStack& stack, const Patch& patch, const jit::KernelPair& pair)
+        : stack_(stack), patch_(patch), pair_(pair) {}
+    float number(size_t index) const override {
+        rsl::KernelKey key = rsl::key_of(pair_.frame->inputs[index]);
+        auto value = stack_.values.find(key);
+        return value != stack_.values.end() ? value->second : frame_number(patch_, key);
+    }
+
+  private:
+    const ShadeStack& stack_;
+    const Patch& patch_;
+    const jit::KernelPair& pair_;
+};
+
 }  // namespace
 
 bool ShadeKernel::compile(const ShadeStack& stack, const jit::Target* target,
@@ -64,8 +79,11 @@ bool ShadeKernel::compile(const ShadeStack& stack, const jit::Target* target,
     if (!lowered) return false;
     lower_ms = watch.ms();
     lowered_ = std::move(*lowered);
-    pair_ = jit::compile(std::move(lowered_.module), {target, dumps, &diagnostics.files});
-    return pair_.point != nullptr;
+    jit::KernelPair pair =
+        jit::compile(std::move(lowered_.module), {target, dumps, &diagnostics.files});
+    if (!pair.point) return false;
+    bound_.bind(std::move(pair), find_column);
+    return true;
 }
 
 float* ShadeKernel::column(size_t count, float value) {
@@ -77,27 +95,13 @@ float* ShadeKernel::column(size_t count, float value) {
 void ShadeKernel::bind(const ShadeStack& stack, const Patch& patch) {
     stack_ = &stack;
     patch_ = &patch;
-    const jit::Kernel& kernel = *pair_.point;
-    for (const jit::InputInfo& info : kernel.inputs) {
-        float* data = column(patch.count(), 0);
-        PatchInput input(patch, rsl::key_of(info));
-        CHECK(input.found);
-        for (size_t i = 0; i < jit::padded(patch.count()) && patch.count() > 0; ++i)
-            data[i] = input.value(patch[std::min(i, patch.count() - 1)]);
-        in_.push_back(data);
-    }
-    for (size_t o = 0; o < kernel.outputs.size(); ++o) out_.push_back(column(patch.count(), 0));
-    for (const jit::ServiceInfo& service : kernel.services)
-        services_.push_back(find_service(service.name));
-    faults_.assign(kernel.fault_sites.size() + 1, 0);
-    size_t scratch = kernel.scratch_bytes;
-    if (pair_.frame) {
-        for (const jit::ServiceInfo& service : pair_.frame->services)
-            frame_services_.push_back(find_service(service.name));
-        frame_faults_.assign(pair_.frame->fault_sites.size() + 1, 0);
-        scratch = std::max(scratch, pair_.frame->scratch_bytes);
-    }
-    scratch_ = arena_.allocate_span<std::byte>(scratch);
+    columns_ = arena_.allocate_span<float*>(kColVarying);
+    std::fill(columns_.begin(), columns_.end(), nullptr);
+    for (uint16_t wanted : bound_.columns) columns_[wanted] = column(patch.count(), 0);
+    PatchPoints points(patch);
+    fill_columns(points, {patch.count(), columns_});
+    out_ = take_outputs(bound_.kernel(), patch.count(), arena_);
+    faults_.assign(bound_.kernel().fault_sites.size(), 0);
     fill_records();
 }
 
@@ -121,65 +125,29 @@ void ShadeKernel::fill_records() {
     record_sets_[kPatchLights] = {int32_t(records_.size()), records_.data()};
 }
 
-void ShadeKernel::run_frame() {
-    if (!pair_.frame) return;
-    const jit::Kernel& kernel = *pair_.frame;
-    Arena::Mark mark = arena_.mark();
-    PatchHost host(*patch_);
-    std::vector<const float*> in;
-    for (const jit::InputInfo& info : kernel.inputs) {
-        auto value = stack_->values.find(rsl::key_of(info));
-        PatchInput input(*patch_, rsl::key_of(info));
-        in.push_back(
-            column(1, value != stack_->values.end() ? value->second : input.value(PatchPoint{})));
-    }
-    std::vector<float*> out;
-    for (size_t o = 0; o < kernel.outputs.size(); ++o) out.push_back(column(1, 0));
-    jit::KernelCall{.kernel = kernel,
-                    .count = 1,
-                    .in = in,
-                    .out = out,
-                    .row_floats = jit::padded(1),
-                    .scratch = scratch_,
-                    .faults = frame_faults_,
-                    .services = frame_services_,
-                    .record_sets = record_sets_,
-                    .host = static_cast<KernelHost*>(&host)}
-        .run();
-    frame_.clear();
-    for (float* value : out) frame_.push_back(*value);
-    arena_.release(mark);
-}
-
 void ShadeKernel::run() {
     std::optional<raytrace::DenormalGuard> flush;  // the fast tier's mode
     if (stack_->lower.math == jit::math::Tier::Fast) flush.emplace();
-    run_frame();
-    std::vector<const float*> in(in_.size());
-    std::vector<float*> out(out_.size());
     PatchHost host(*patch_);
-    jit::KernelCall call{.kernel = *pair_.point,
-                         .in = in,
-                         .out = out,
-                         .frame = frame_,
-                         .scratch = scratch_,
-                         .faults = faults_,
-                         .services = services_,
-                         .record_sets = record_sets_,
-                         .host = static_cast<KernelHost*>(&host)};
+    bound_.run_frame(StackNumbers(*stack_, *patch_, bound_.pair), host, record_sets_);
     for (size_t at = 0; at < patch_->count(); at += kSlice) {
-        for (size_t k = 0; k < in.size(); ++k) in[k] = in_[k] + at;
-        for (size_t k = 0; k < out.size(); ++k) out[k] = out_[k] + at;
-        call.count = std::min(kSlice, patch_->count() - at);
-        call.row_floats = jit::padded(patch_->count()) - at;
-        call.run();
+        Arena::Mark mark = arena_.mark();
+        bound_.run({.first = at,
+                    .count = std::min(kSlice, patch_->count() - at),
+                    .columns = columns_,
+                    .out = out_,
+                    .faults = faults_,
+                    .record_sets = record_sets_,
+                    .host = host},
+                   arena_);
+        arena_.release(mark);
     }
 }
 
 ShadeOutputs ShadeKernel::outputs() const {
     ShadeOutputs outputs;
     for (size_t o = 0; o < out_.size(); ++o) {
-        const jit::OutputInfo& info = pair_.point->outputs[o];
+        const jit::OutputInfo& info = bound_.kernel().outputs[o];
         std::vector<float>& values = outputs[info.name];
         values = {out_[o], out_[o] + patch_->count()};
         if (info.type == jit::Type::I)
@@ -207,20 +175,18 @@ std::vector<std::string> ShadeKernel::unknown_spaces() const {
             if (!known) unknown.push_back(space);
         }
     };
-    look(*pair_.point);
-    if (pair_.frame) look(*pair_.frame);
+    look(bound_.kernel());
+    if (bound_.pair.frame) look(*bound_.pair.frame);
     return unknown;
 }
 
 void ShadeKernel::report_faults(Diagnostics& diagnostics) const {
     auto report = [&](const jit::Kernel& kernel, const std::vector<uint8_t>& faults) {
-        for (size_t i = 0; i < kernel.fault_sites.size(); ++i)
-            if (faults[i])
-                diagnostics.report(Code::SHADER_FAULT, kernel.fault_sites[i].where,
-                                   kernel.fault_sites[i].message);
+        auto faulted = [&](size_t site) { return faults[site] != 0; };
+        kinora::report_faults(kernel, faulted, diagnostics);
     };
-    report(*pair_.point, faults_);
-    if (pair_.frame) report(*pair_.frame, frame_faults_);
+    report(bound_.kernel(), faults_);
+    if (bound_.pair.frame) report(*bound_.pair.frame, bound_.frame_faults);
 }
 
 }  // namespace kinora

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "jit/compiler.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
 #include "runtime/base/arena.h"
 #include "runtime/programs/shade/patch_host.h"
 #include "runtime/programs/shade/source.h"
+#include "runtime/shading/kernels/bound_kernel.h"
 
 namespace kinora {
 
@@ -56,25 +56,20 @@ class ShadeKernel {
     void report_faults(Diagnostics& diagnostics) const;
 
     const rsl::LoweredShader& lowered() const { return lowered_; }
-    const jit::KernelPair& pair() const { return pair_; }
+    const jit::KernelPair& pair() const { return bound_.pair; }
     double lower_ms = 0;
 
   private:
-    void run_frame();
     void fill_records();
     float* column(size_t count, float value);
 
     rsl::LoweredShader lowered_;
-    jit::KernelPair pair_;
+    BoundKernel bound_;
     const ShadeStack* stack_ = nullptr;
     const Patch* patch_ = nullptr;
     Arena arena_;
-    std::vector<const float*> in_;
-    std::vector<float*> out_;
-    std::vector<float> frame_;
-    std::vector<jit::ServiceFn> services_, frame_services_;
-    std::vector<uint8_t> faults_, frame_faults_;
-    std::span<std::byte> scratch_;
+    std::span<float*> columns_, out_;
+    std::vector<uint8_t> faults_;
     std::vector<jit::Record> records_;
     jit::RecordSet record_sets_[kPatchRecordSets];
 };

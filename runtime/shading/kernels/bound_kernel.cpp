@@ -1,0 +1,91 @@
+// runtime/shading/kernels/bound_kernel.cpp: kernels with all they need, launched.
+#include "runtime/shading/kernels/bound_kernel.h"
+
+#include <algorithm>
+
+#include "jit/ir/kernel_call.h"
+#include "runtime/description/findings.h"
+
+namespace kinora {
+
+namespace {
+
+std::vector<jit::ServiceFn> services_of(const jit::Kernel& kernel) {
+    std::vector<jit::ServiceFn> services;
+    for (const jit::ServiceInfo& service : kernel.services)
+        services.push_back(find_service(service.name));
+    return services;
+}
+
+float* take_row(Arena& arena, size_t count) {
+    return arena.allocate_span<float>(jit::padded(count)).data();
+}
+
+}  // namespace
+
+void BoundKernel::bind(jit::KernelPair kernels,
+                       const std::function<uint16_t(const rsl::KernelKey&)>& column_of) {
+    pair = std::move(kernels);
+    for (const jit::InputInfo& input : pair.point->inputs)
+        columns.push_back(column_of(rsl::key_of(input)));
+    services = services_of(*pair.point);
+    if (!pair.frame) return;
+    const jit::Kernel& kernel = *pair.frame;
+    frame_services = services_of(kernel);
+    for (size_t i = 0; i < kernel.inputs.size(); ++i) in_.push_back(take_row(arena_, 1));
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) out_.push_back(take_row(arena_, 1));
+    frame.resize(size_t(pair.point->frame_slots));
+    frame_faults.resize(kernel.fault_sites.size());
+}
+
+void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
+                            std::span<const jit::RecordSet> record_sets) {
+    if (!pair.frame) return;
+    const jit::Kernel& kernel = *pair.frame;
+    for (size_t i = 0; i < in_.size(); ++i) std::fill_n(in_[i], jit::padded(1), numbers.number(i));
+    Arena::Mark mark = arena_.mark();
+    jit::KernelCall{.kernel = kernel,
+                    .count = 1,
+                    .in = {const_cast<const float* const*>(in_.data()), in_.size()},
+                    .out = out_,
+                    .row_floats = jit::padded(1),
+                    .scratch = arena_.allocate_span<std::byte>(kernel.scratch_bytes),
+                    .faults = frame_faults,
+                    .services = frame_services,
+                    .record_sets = record_sets,
+                    .host = &host}
+        .run();
+    arena_.release(mark);
+    for (size_t i = 0; i < frame.size(); ++i) frame[i] = out_[i][0];
+}
+
+void BoundKernel::run(const PointLaunch& launch, Arena& arena) const {
+    std::span<const float*> in = arena.allocate_span<const float*>(columns.size());
+    for (size_t i = 0; i < in.size(); ++i) in[i] = launch.columns[columns[i]] + launch.first;
+    std::span<float*> out = arena.allocate_span<float*>(launch.out.size());
+    for (size_t o = 0; o < out.size(); ++o) out[o] = launch.out[o] + launch.first;
+    jit::KernelCall{.kernel = kernel(),
+                    .count = launch.count,
+                    .in = in,
+                    .out = out,
+                    .row_floats = jit::padded(launch.count),
+                    .frame = frame,
+                    .scratch = arena.allocate_span<std::byte>(kernel().scratch_bytes),
+                    .faults = launch.faults,
+                    .services = services,
+                    .record_sets = launch.record_sets,
+                    .host = &launch.host}
+        .run();
+}
+
+std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena) {
+    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
+    for (float*& row : out) row = take_row(arena, count);
+    return out;
+}
+
+void report_fault(const jit::FaultSite& site, Diagnostics& diagnostics) {
+    diagnostics.report(Code::SHADER_FAULT, site.where, site.message);
+}
+
+}  // namespace kinora

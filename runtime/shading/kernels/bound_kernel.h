@@ -1,0 +1,74 @@
+// runtime/shading/kernels/bound_kernel.h: a compiled shader whose inputs, services and frame block
+// are bound, ready to run on points from any source.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "jit/compiler.h"
+#include "rsl/model/kernel_keys.h"
+#include "runtime/base/arena.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/shading/kernels/kernel_host.h"
+
+namespace kinora {
+
+// The numbers of frame-rate inputs.
+class FrameNumbers {
+  public:
+    virtual ~FrameNumbers() = default;
+    // Of the frame kernel's input `index`.
+    virtual float number(size_t index) const = 0;
+};
+
+// What a point kernel runs on. Rows have padded(count) floats from `first` on.
+struct PointLaunch {
+    size_t first = 0;                 // of the rows' points
+    size_t count = 0;                 // points, > 0
+    std::span<float* const> columns;  // by Column; those that the kernel reads are not null
+    std::span<float* const> out;      // a row an output
+    std::span<uint8_t> faults;        // a byte a site
+    std::span<const jit::RecordSet> record_sets = {};
+    KernelHost& host;
+};
+
+// A kernel pair with its frame block.
+class BoundKernel {
+  public:
+    // `column_of` gives the column of a point kernel's input; it is asked once for each.
+    void bind(jit::KernelPair kernels,
+              const std::function<uint16_t(const rsl::KernelKey&)>& column_of);
+    // Runs the frame kernel and fills the frame block. No allocation.
+    void run_frame(const FrameNumbers& numbers, KernelHost& host,
+                   std::span<const jit::RecordSet> record_sets = {});
+    // Runs the point kernel; its scratch memory is taken from `arena` and stays taken, as does what
+    // services take there.
+    void run(const PointLaunch& launch, Arena& arena) const;
+
+    const jit::Kernel& kernel() const { return *pair.point; }
+    bool empty() const { return !pair.point; }
+
+    jit::KernelPair pair;
+    std::vector<uint16_t> columns;                         // of the point kernel's inputs
+    std::vector<jit::ServiceFn> services, frame_services;  // of both kernels, by slot
+    std::vector<float> frame;                              // the frame block
+    std::vector<uint8_t> frame_faults;                     // a byte a site of the frame kernel
+
+  private:
+    Arena arena_;  // rows of kMaxLanes floats for the frame kernel
+    std::vector<float*> in_, out_;
+};
+
+// Rows for all outputs of a kernel.
+std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena);
+
+// One finding for each source line of which faulted(its site's number).
+void report_fault(const jit::FaultSite& site, Diagnostics& diagnostics);
+template <class F>
+void report_faults(const jit::Kernel& kernel, F&& faulted, Diagnostics& diagnostics) {
+    for (size_t s = 0; s < kernel.fault_sites.size(); ++s)
+        if (faulted(s)) report_fault(kernel.fault_sites[s], diagnostics);
+}
+
+}  // namespace kinora
