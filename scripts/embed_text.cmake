@@ -1,8 +1,8 @@
-# embed_text(FILE NAMESPACE STRUCT ARRAY NAME|NAME_WE PATTERN): writes FILE in the build folder, a C++
-# source whose ARRAY of STRUCT {name, text} holds the files that match PATTERN. Made again when one
+# embed_text(FILE NAMESPACE STRUCT ARRAY NAME|NAME_WE PATTERN...): writes FILE in the build folder, a C++
+# source whose ARRAY of STRUCT {name, text} holds the files that match a PATTERN. Made again when one
 # of them changes.
-function(embed_text file namespace struct array name_part pattern)
-    file(GLOB text_files CONFIGURE_DEPENDS ${pattern})
+function(embed_text file namespace struct array name_part)
+    file(GLOB text_files CONFIGURE_DEPENDS ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${text_files})
     set(data "// Made by scripts/embed_text.cmake; do not edit.\n#include <cstddef>\n${namespace} {\nstruct ${struct} { const char* name; const char* text; };\nextern const ${struct} ${array}[];\nextern const size_t ${array}Count;\nconst ${struct} ${array}[] = {\n")
     foreach(text_file ${text_files})

@@ -1,7 +1,8 @@
 // runtime/description/shader_library.cpp: finds and compiles embedded shaders. The texts are in
-// shader_library_data.cpp, which CMake makes from assets/shaders/*.sl.
+// shader_library_data.cpp, which CMake makes from assets/shaders.
 #include "runtime/description/shader_library.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -38,6 +39,16 @@ std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnos
         return compiled[std::string(name)] = std::move(shaders.front());
     }
     return nullptr;
+}
+
+const std::vector<std::string_view>& library_shader_names() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> all;
+        for (size_t i = 0; i < kEmbeddedShadersCount; ++i) all.push_back(kEmbeddedShaders[i].name);
+        std::sort(all.begin(), all.end());
+        return all;
+    }();
+    return names;
 }
 
 }  // namespace kinora

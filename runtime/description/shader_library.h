@@ -15,4 +15,7 @@ namespace kinora {
 // in the library gives null; an error in a library shader is a bug (CHECK).
 std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics& diagnostics);
 
+// All names, sorted.
+const std::vector<std::string_view>& library_shader_names();
+
 }  // namespace kinora

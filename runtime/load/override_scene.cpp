@@ -132,16 +132,20 @@ bool override_param(SceneDescription& description, const std::string& target,
         matched = true;
         change.apply(light.shader);
     }
-    auto on_imagers = [&](std::vector<ShaderUse>& imagers) {
-        for (ShaderUse& use : imagers) {
+    auto on_picture = [&](std::vector<ShaderUse>& stack) {
+        for (ShaderUse& use : stack) {
             std::string shader(use.shader->name);
             if (!glob_matches(pattern, shader, shader)) continue;
             matched = true;
             change.apply(use);
         }
     };
-    on_imagers(description.picture.imagers);
-    for (CameraDefinition& camera : description.cameras) on_imagers(camera.picture.imagers);
+    auto on_pictures = [&](PictureShaders& picture) {
+        on_picture(picture.atmosphere);
+        on_picture(picture.imagers);
+    };
+    on_pictures(description.picture);
+    for (CameraDefinition& camera : description.cameras) on_pictures(camera.picture);
     if (!matched) {
         diagnostics.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
         return false;

@@ -20,8 +20,9 @@ bool glob_matches(const std::string& pattern, const std::string& id, const std::
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 // --param MATERIAL.NAME=VALUE: `target` is MATERIAL.NAME; every shader of the materials (and of the
-// lights and imagers, these by their shader's name) that fit gets the value, instead of what the
-// scene gives or animates. One number fills a triple. False after an error, which is a finding.
+// lights, atmospheres and imagers, these two by their shader's name) that fit gets the value,
+// instead of what the scene gives or animates. One number fills a triple. False after an error,
+// which is a finding.
 bool override_param(SceneDescription& description, const std::string& target,
                     const std::string& value, Diagnostics& diagnostics);
 

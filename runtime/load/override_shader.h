@@ -1,5 +1,6 @@
-// runtime/load/override_shader.h: --shader MATERIAL=FILE.sl: a shader tried on without editing the
-// scene.
+// runtime/load/override_shader.h: shaders tried on without editing the scene: --shader,
+// --atmosphere, --imager. A shader is given as FILE.sl or as the name of one of ours
+// (library_shader_names()).
 #pragma once
 
 #include <string>
@@ -10,16 +11,28 @@
 
 namespace kinora {
 
-// Compiles FILE.sl and puts its surface (or displacement) shader on every material whose id or name
-// matches the glob `pattern`; parameters of the same name keep their sources. Errors are findings;
-// false then. A pattern that matches nothing is an error, "*" also reaches the default material.
-bool override_shader(SceneDescription& description, const std::string& pattern,
-                     const std::string& file, const std::vector<std::string>& include_directories,
-                     Diagnostics& diagnostics);
+// What all of these take besides the scene.
+struct ShaderGiven {
+    std::string shader;  // FILE.sl or a name
+    std::vector<std::string> include_directories;
+};
 
-// --imager: the picture is run through that imager instead of the scene's: "none", the name of a
-// standard one (assets/shaders), or a file with an imager shader. False when there is no such.
-bool override_imager(SceneDescription& description, const std::string& name,
-                     const std::vector<std::string>& include_directories, Diagnostics& diagnostics);
+// --shader PATTERN=SHADER: the first shader of the file that is no imager. A surface, displacement,
+// transformation or volume (as an interior) goes on every material whose id or name matches the
+// glob; a light on every light that matches or, where none does, on materials, whose geometry it
+// makes an area light. It takes the place of the others of its stage, and parameters of the same
+// name keep their sources. "*" reaches the default material too. False after an error, which is a
+// finding: no such shader, nothing that matches.
+bool override_shader(SceneDescription& description, const std::string& pattern,
+                     const ShaderGiven& given, Diagnostics& diagnostics);
+
+// --atmosphere: a volume in place of the scene's atmosphere, or "none".
+bool override_atmosphere(SceneDescription& description, const ShaderGiven& given,
+                         Diagnostics& diagnostics);
+
+// --imager: the picture is run through that imager instead of the scene's, or through none
+// ("none").
+bool override_imager(SceneDescription& description, const ShaderGiven& given,
+                     Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -95,7 +95,7 @@ class Changes(ProgramTest):
     def test_params_that_do_not_fit_are_explained(self):
         out = ("-o", self.folder / "b.png", *SMALL)
         rows = [("grey.1.kd=1", "did you mean 'Kd'?"), ("grey.1.nothing_near=1", "there are"),
-                ("nobody.Kd=1", "no material matches 'nobody'"), ("grey.1.Kd=a", "a float takes 1 number"),
+                ("nobody.Kd=1", "no material and no light of the kind wanted matches 'nobody'"), ("grey.1.Kd=a", "a float takes 1 number"),
                 ("grey.1.tint=1,2", "a color takes 3 numbers, not '1,2'"), ("Kd=1", "MATERIAL.NAME=VALUE"),
                 ("grey.1.Kd", "MATERIAL.NAME=VALUE"), ("grey.1.Kd=nan", "a float takes 1 number")]
         for param, text in rows:
@@ -151,12 +151,60 @@ class Changes(ProgramTest):
             self.assertTrue(skipped(*more))
 
 
+class Shaders(Changes):
+    """--shader, --atmosphere and --imager: files, and shaders of ours by name."""
+
+    def test_a_surface_of_ours_by_name(self):
+        by_file = self.picture("--shader", f"*={SOURCE}/assets/shaders/surface/checks.sl")
+        by_name = self.picture("--shader", "*=checks")
+        self.assertEqual(by_file, by_name)
+        self.assertNotEqual(by_name, self.picture())
+
+    def test_a_light_by_its_id(self):
+        # It shines along the view on white matte squares: Ci = Cl.
+        lamp = self.write("lamp.sl", 'light lamp(float k = 1) { solar(vector "world" (0, 0, -1), 0)'
+                          " Cl = k * color(0.2, 0.4, 1); }")
+        white = self.write("white.sl", "surface white() { Oi = 1; Ci = diffuse(normalize(N)); }")
+        words = ("--shader", f"*={white}", "--shader", f"lamp={lamp}")
+        self.assertEqual(self.sides(*words)[0], (51, 102, 255))
+        self.assertEqual(self.sides(*words, "--param", "lamp.k=0.5")[0], (26, 51, 128))
+
+    def test_a_light_on_a_material_makes_its_geometry_shine(self):
+        lamp = self.write("glow.sl", "light glow() { illuminate(P, N, PI / 2) Cl = 1; }")
+        lights = json.loads(self.expect(render(
+            self.scene, "--shader", f"red={lamp}", "--list", "lights", "--json"), 0).out)["lights"]
+        self.assertEqual(sorted(row["area"] for row in lights), [False, True])
+
+    def test_an_atmosphere_lies_between_eye_and_surface(self):
+        veil = self.write("veil.sl", "volume veil(float k = 1) { Ci = k * color(0, 1, 0); Oi = 1; }")
+        self.assertEqual(self.sides("--atmosphere", veil), ((0, 255, 0), (0, 255, 0)))
+        self.assertEqual(self.sides("--atmosphere", veil, "--param", "veil.k=0.2")[0], (0, 51, 0))
+        self.assertEqual(self.sides("--atmosphere", "none"), self.sides())
+
+    def test_what_is_not_there_is_refused_with_a_hint(self):
+        fog = self.write("fog.sl", "volume fog() { Ci = 0; Oi = 0; }")
+        for words, *said in (
+                (("--shader", "*=plastik"), "SHADER_UNKNOWN", "did you mean 'plastic'?"),
+                (("--shader", "*=tonemap"), "SHADER_OF_OTHER_KIND", "surface"),
+                (("--imager", fog), "SHADER_OF_OTHER_KIND", "imager"),
+                (("--atmosphere", "plastic"), "SHADER_OF_OTHER_KIND", "volume"),
+                (("--shader", "nosuch=plastic"), "MATERIAL_UNKNOWN", "nosuch")):
+            self.expect(render(self.scene, "-o", "b.png", *words), 2, *said)
+
+    def test_ours_are_listed_by_kind(self):
+        text = self.expect(render(self.scene, "--list", "shaders"), 0).out
+        for line in ("ours: surface plastic", "ours: imager tonemap", "ours: volume haze",
+                     "ours: light candle"):
+            self.assertIn(line + "\n", text)
+
+
 class Lists(Changes):
     def test_every_kind_is_there_as_text_and_as_json(self):
         kinds = ("cameras", "clips", "materials", "shaders", "aovs", "lights", "nodes")
         every = json.loads(self.expect(render(self.scene, "--list", "--json"), 0).out)
         self.assertEqual(sorted(every), sorted((*kinds, "added")))
         text = self.expect(render(self.scene, "--list"), 0).out
+        text += self.expect(render(self.scene, "--list", "shaders"), 0).out  # ours too
         for kind in kinds:
             one = json.loads(render(self.scene, "--list", kind, "--json").out)
             self.assertEqual(one[kind], every[kind])

@@ -205,7 +205,7 @@ TEST(OverrideImager, TakesAStandardNameAFileOrNone) {
         std::fputs(scene.text().c_str(), file);
         std::fclose(file);
         auto description = import_collada(path, {}, diagnostics);
-        EXPECT_EQ(override_imager(*description, name, {}, diagnostics), known) << name;
+        EXPECT_EQ(override_imager(*description, {name, {}}, diagnostics), known) << name;
         std::remove(path.c_str());
         const auto& list = description->picture.imagers;
         return list.empty() ? std::string("-") : list[0].shader->name;
@@ -226,7 +226,7 @@ TEST(OverrideImager, TakesParametersByTheNameOfItsShader) {
     std::fclose(file);
     auto description = import_collada(path, {}, diagnostics);
     std::remove(path.c_str());
-    ASSERT_TRUE(override_imager(*description, "background", {}, diagnostics));
+    ASSERT_TRUE(override_imager(*description, {"background", {}}, diagnostics));
     EXPECT_TRUE(override_param(*description, "background.background", "0.25,0,1", diagnostics));
     EXPECT_FALSE(override_param(*description, "background.nosuch", "1", diagnostics));
     const std::vector<ParamSource>& params = description->picture.imagers.at(0).params;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/description/play_range.h"
+#include "runtime/description/shader_library.h"
 #include "runtime/shading/shader_instance.h"
 
 namespace kinora {
@@ -124,6 +125,21 @@ std::string shader_line(const Json& row) {
     return lines;
 }
 
+// What --shader, --atmosphere and --imager take by name.
+Json ours(const Scene&) {
+    Json list = Json::array();
+    Diagnostics unused;
+    for (std::string_view name : library_shader_names())
+        list.push_back(
+            {{"name", name}, {"kind", rsl::shader_kind_name(library_shader(name, unused)->kind)}});
+    return list;
+}
+
+std::string our_line(const Json& row) {
+    return fmt::format("ours: {} {}\n", row["kind"].get<std::string>(),
+                       row["name"].get<std::string>());
+}
+
 // What --aov takes: output parameters of surfaces.
 Json aovs(const Scene& scene) {
     Json list = Json::array();
@@ -214,6 +230,7 @@ constexpr Kind kKinds[] = {
     {"clips", clips, clip_line},
     {"materials", materials, material_line},
     {"shaders", shaders, shader_line},
+    {"ours", ours, our_line},
     {"aovs", aovs, aov_line},
     {"lights", lights, light_line},
     {"nodes", nodes, node_line},
@@ -236,6 +253,12 @@ std::string_view meaning_of(std::string_view added) {
     return "";
 }
 
+// "shaders" are the scene's and what may take their place; "all" is of the scene alone.
+bool is_wanted(std::string_view row, std::string_view kind) {
+    if (row == "ours") return kind == row || kind == "shaders";
+    return kind == "all" || kind == row;
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& list_kinds() {
@@ -251,7 +274,7 @@ const std::vector<std::string_view>& list_kinds() {
 std::string list_scene(const Scene& scene, const std::string& kind) {
     std::string lines;
     for (const Kind& row : kKinds)
-        if (kind == "all" || kind == row.name)
+        if (is_wanted(row.name, kind))
             for (const Json& thing : row.rows(scene)) lines += row.line(thing);
     for (const std::string& added : scene.added)
         lines += fmt::format("added: {} ({})\n", added, meaning_of(added));
@@ -261,7 +284,7 @@ std::string list_scene(const Scene& scene, const std::string& kind) {
 std::string list_scene_json(const Scene& scene, const std::string& kind) {
     Json all = Json::object();
     for (const Kind& row : kKinds)
-        if (kind == "all" || kind == row.name) all[std::string(row.name)] = row.rows(scene);
+        if (is_wanted(row.name, kind)) all[std::string(row.name)] = row.rows(scene);
     Json added = Json::array();
     for (const std::string& name : scene.added)
         added.push_back({{"name", name}, {"meaning", meaning_of(name)}});

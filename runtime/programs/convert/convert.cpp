@@ -102,7 +102,7 @@ class Conversion {
             return ends(code) ? code : kExitUnreadable;
         }
         for (const auto& [material, file] : options_.shaders)
-            if (!override_shader(scene_, material, file, options_.include_directories, diag_)) {
+            if (!override_shader(scene_, material, {file, options_.include_directories}, diag_)) {
                 int code = tell(diag_, options_);
                 return ends(code) ? code : kExitShader;
             }

@@ -70,8 +70,9 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
-    text += fmt::format(" imager {} aovs {} light samples {} transparency {}", o.imager,
-                        fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
+    text +=
+        fmt::format(" imager {} atmosphere {} aovs {} light samples {} transparency {}", o.imager,
+                    o.atmosphere, fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
     text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
                         fmt::join(o.only, ","), o.clip);
     for (const auto* changes : {&o.shaders, &o.params})

@@ -102,8 +102,9 @@ int Render::exit_code_of_findings(int otherwise) const {
         if (finding.severity != Severity::Error) continue;
         if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
         for (const FindingInfo* usage :
-             {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::IMAGER_UNKNOWN,
-              &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE, &Code::NODE_UNKNOWN})
+             {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
+              &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE,
+              &Code::NODE_UNKNOWN})
             if (finding.info == usage) return kExitUsage;
     }
     return otherwise;
@@ -177,9 +178,13 @@ int Render::load() {
         return kExitUnreadable;
     }
     for (const auto& [pattern, file] : options_.shaders)
-        override_shader(*description, pattern, file, options_.include_directories, diagnostics_);
+        override_shader(*description, pattern, {file, options_.include_directories}, diagnostics_);
+    if (!options_.atmosphere.empty())
+        override_atmosphere(*description, {options_.atmosphere, options_.include_directories},
+                            diagnostics_);
     if (!options_.imager.empty())
-        override_imager(*description, options_.imager, options_.include_directories, diagnostics_);
+        override_imager(*description, {options_.imager, options_.include_directories},
+                        diagnostics_);
     for (const auto& [target, value] : options_.params)
         override_param(*description, target, value, diagnostics_);
     override_visibility(*description, options_.hide, options_.only, diagnostics_);

@@ -172,7 +172,9 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
     add_choice<ColorEncoding>(app, "--color", o.color,
                               {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
                               "srgb, or legacy: textures and PNG neither decoded nor encoded");
-    app.add_option("--imager", o.imager, "a standard imager's name, FILE.sl or none");
+    app.add_option("--imager", o.imager, "FILE.sl, the name of one of ours, or none");
+    app.add_option("--atmosphere", o.atmosphere,
+                   "a volume: FILE.sl, the name of one of ours, or none");
     add_list(app, "--aov", o.aovs, "output parameters of surfaces: channels of the EXR", ',');
     add_choice<UpAxis>(app, "--up", o.up_axis,
                        {{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}},
@@ -187,7 +189,8 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
 // What is tried on the scene without editing it. MATERIAL and NODE are ids, names or globs.
 void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
     add_list(app, "--shader", given.shaders,
-             "MATERIAL=FILE.sl: try a shader; '*=clay.sl' for all (repeatable, as those below)");
+             "MATERIAL=FILE.sl, LIGHT=FILE.sl: try a shader, or one of ours by name: '*=plastic' "
+             "(repeatable, as those below)");
     add_list(app, "--param", given.params,
              "MATERIAL.NAME=VALUE: a shader parameter, also of lights: 0.5, 1,0,0 or a text");
     add_list(app, "--hide", o.hide, "NODE: without its meshes and lights and those below it");
@@ -238,7 +241,7 @@ void interpret_quality(const Given& given, RenderOptions& o) {
 
 void interpret_changes(const Given& given, RenderOptions& o) {
     for (const std::string& shader : given.shaders)
-        o.shaders.push_back(split_pair(shader, "--shader", "MATERIAL=FILE.sl"));
+        o.shaders.push_back(split_pair(shader, "--shader", "MATERIAL=FILE.sl or MATERIAL=NAME"));
     for (const std::string& text : given.params) {
         o.params.push_back(split_pair(text, "--param", "MATERIAL.NAME=VALUE"));
         const std::string& target = o.params.back().first;

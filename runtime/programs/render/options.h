@@ -40,10 +40,11 @@ struct RenderOptions {
     std::optional<vec3> background;
     raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
     ColorEncoding color = ColorEncoding::Srgb;
-    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
+    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL or LIGHT, SHADER
     std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
     std::vector<std::string> hide, only;                       // nodes
-    std::string imager;             // a standard one's name, a file, "none"; "": the scene's own
+    std::string imager;             // one of ours by name, FILE.sl, "none"; "": the scene's own
+    std::string atmosphere;         // likewise
     uint32_t light_samples = 0;     // of area lights; 0: the file's
     std::vector<std::string> aovs;  // output parameters of surfaces
     std::vector<std::string> include_directories;
