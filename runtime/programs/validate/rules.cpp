@@ -33,7 +33,7 @@ Rows make_rules() {
     for (auto row = collada::all_findings(); *row; ++row) rows.push_back(*row);
     for (const FindingInfo* row : rsl::finding_rows()) rows.push_back(row);
     for (const FindingInfo* row : {
-#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#define FINDING(code, ...) &Code::code,
 #include "runtime/profile_rsl/findings.def"
 #include "runtime/programs/validate/findings.def"
 #undef FINDING
@@ -45,10 +45,10 @@ Rows make_rules() {
 
 Rows make_others() {
     Rows rows = {
-#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#define FINDING(code, ...) &Code::code,
 #include "runtime/description/findings.def"
 #undef FINDING
-#define FINDING(code, severity, text, explanation, fix) &jit::Code::code,
+#define FINDING(code, ...) &jit::Code::code,
 #include "jit/ir/findings.def"
 #undef FINDING
     };
