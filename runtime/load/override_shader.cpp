@@ -15,7 +15,9 @@ namespace {
 
 // A shader that the user gives may read what lies beside it.
 void allow_beside(SceneDescription& description, const std::string& file) {
-    description.readable.add(file.substr(0, file.rfind('/') + 1));
+    std::string folder = file.substr(0, file.rfind('/') + 1);
+    description.readable.add(folder);
+    description.pictures.add(folder);
 }
 
 }  // namespace

@@ -125,6 +125,7 @@ class Conversion {
     bool import() {
         ImportOptions import;
         import.allow_external = options_.allow_external;
+        import.confine = options_.confine;
         import.include_directories = options_.include_directories;
         std::optional<SceneDescription> scene = import_scene(options_.input, import, diag_);
         if (scene) scene_ = std::move(*scene);

@@ -19,6 +19,7 @@ struct ConvertOptions {
     std::optional<double> meter;              // likewise
     double animation_error = 1e-4;            // GltfExportOptions
     std::vector<std::string> allow_external;  // folders outside the scene's that it may read
+    bool confine = false;                     // pictures too
     int threads = 0;                          // 0: all
     bool strict = false;
     bool quiet = false, verbose = false;

@@ -31,6 +31,8 @@ void declare(CLI::App& app, Given& given, ConvertOptions& o) {
                    "how near sampled curves must come (1e-4 of the range they move over)");
     add_list(app, "--allow-external", o.allow_external,
              "DIR: a folder outside the scene's that it may read files of");
+    app.add_flag("--confine", o.confine,
+                 "read pictures too only there; else they may lie anywhere");
     app.add_flag("--strict", o.strict, "exit 1 if the output cannot hold something");
     app.add_option("--threads", given.threads, "N, -N (all but N) or all (all)");
     app.add_option("--stats", given.stats, "[=json]: sizes and times, on stdout")

@@ -166,6 +166,7 @@ int Render::load() {
     Stopwatch watch;
     ImportOptions import;
     import.allow_external = options_.allow_external;
+    import.confine = options_.confine;
     import.up_axis = options_.up_axis;
     import.meter = options_.meter;
     import.transparency = options_.transparency;

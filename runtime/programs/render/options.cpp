@@ -196,6 +196,8 @@ void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
     add_list(app, "--allow-external", o.allow_external,
              "DIR: a folder that the scene may read besides its own")
         ->check(CLI::ExistingDirectory);
+    app.add_flag("--confine", o.confine,
+                 "read pictures too only there; else they may lie anywhere");
 }
 
 // Frames that exist or fail, and what is told.

@@ -51,6 +51,7 @@ struct RenderOptions {
     std::optional<double> meter;
     TransparencyMode transparency = TransparencyMode::Spec;
     std::vector<std::string> allow_external;  // folders
+    bool confine = false;                     // pictures too
     bool skip_existing = false;
     bool keep_going = false;
     bool strict = false;

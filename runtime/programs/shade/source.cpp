@@ -119,6 +119,7 @@ void hold_to_scene(ShadeOptions& options) {
     for (const auto* more : {&options.allow_external, &options.compile.include_directories})
         folders.insert(folders.end(), more->begin(), more->end());
     options.compile.files = AllowedPaths(folders);
+    options.compile.pictures = options.compile.files.anywhere();
 }
 
 std::vector<std::string> shade_sources(const std::string& word) {

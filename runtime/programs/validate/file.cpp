@@ -63,13 +63,19 @@ void finish(FileResult& result, const collada::Document* document,
 }
 
 // What the scene's shaders may read.
-AllowedPaths scene_files(const collada::Document& document, const collada::SceneFile& file,
-                         const ValidateSettings& settings) {
+rsl::CompileOptions shader_options(const collada::Document& document,
+                                   const collada::SceneFile& file,
+                                   const ValidateSettings& settings) {
     std::vector<std::string> folders{file.folder.empty() ? document.directory() : file.folder};
     for (const auto* more :
          {&settings.validate.extract.allow_external, &settings.include_directories})
         folders.insert(folders.end(), more->begin(), more->end());
-    return AllowedPaths(folders);
+    rsl::CompileOptions options;
+    options.include_directories = settings.include_directories;
+    options.files = AllowedPaths(folders);
+    bool confined = settings.validate.extract.confine || !file.folder.empty();
+    options.pictures = confined ? options.files : options.files.anywhere();
+    return options;
 }
 
 void check(FileResult& result, std::optional<collada::Document> document,
@@ -83,8 +89,7 @@ void check(FileResult& result, std::optional<collada::Document> document,
         options.extract.scene_id = file.scene_id;
         auto scene = collada::validate(*document, diagnostics, options);
         if (scene) {
-            check_profile_rsl(*scene, settings.include_directories,
-                              scene_files(*document, file, settings), diagnostics);
+            check_profile_rsl(*scene, shader_options(*document, file, settings), diagnostics);
             if (settings.info || !settings.budgets.empty()) {
                 result.info = scene_info(*document, *scene);
                 check_budgets(*result.info, settings, document->location(document->root()),

@@ -121,6 +121,8 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
         ->check(one_of({"1.4", "1.4.0", "1.4.1", "1.5", "1.5.0"}));
     add_list(app, "--allow-external", s.validate.extract.allow_external,
              "DIR: read files there too, outside the scene's folder");
+    app.add_flag("--confine", s.validate.extract.confine,
+                 "read pictures too only there; else they may lie anywhere");
     add_list(app, "-I", s.include_directories, "DIR: where shaders find #include files");
     app.add_option("--stats", w.stats, "[=json]: what the run took, on stderr")
         ->check(one_of({"text", "json"}));
