@@ -8,6 +8,7 @@
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
+#include "runtime/programs/common/finding_printer.h"
 
 namespace kinora {
 
@@ -21,8 +22,7 @@ struct ConvertOptions {
     std::vector<std::string> allow_external;  // folders outside the scene's that it may read
     bool confine = false;                     // pictures too
     int threads = 0;                          // 0: all
-    bool strict = false;
-    bool quiet = false, verbose = false;
+    FindingOptions findings;
     bool stats = false, stats_json = false;
 };
 

@@ -97,7 +97,7 @@ class FileFix {
         if (shown && !settings_.quiet)
             std::fputs(kTextReport.file(result, settings_).c_str(), stderr);
         ValidateTotals totals;
-        totals.add(result, settings_.fail_on);
+        totals.add(result, settings_);
         return totals.exit_code();
     }
 
