@@ -2,19 +2,20 @@
 #include "rsl/compile.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "rsl/check/check.h"
 #include "rsl/check/usage.h"
 #include "rsl/syntax/parser.h"
 #include "rsl/text/preprocess.h"
 #include "rsl/text/reporter.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::rsl {
 
 namespace {
+
+constexpr uint64_t kMostSourceBytes = 64 << 20;
 
 std::vector<ShaderParameter> shader_parameters(const ShaderDefinition& definition) {
     std::vector<ShaderParameter> parameters;
@@ -99,13 +100,12 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
 std::vector<std::unique_ptr<Shader>> compile_file(const std::string& path,
                                                   const CompileOptions& options,
                                                   Diagnostics& diagnostics) {
-    std::ifstream in(path, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    if (!in) {
+    std::optional<std::string> bytes = read_regular_file(path, kMostSourceBytes);
+    if (!bytes) {
         diagnostics.report(Code::RSL_FILE_NOT_READ, Location{}, path);
         return {};
     }
-    text = utf8_text(std::move(text));
+    std::string text = utf8_text(std::move(*bytes));
     ShaderSource source{text, {}};
     source.map.file = diagnostics.files.add(path, text);
     return compile(source, options, diagnostics);

@@ -13,11 +13,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 
 #include "collada/document/findings.h"
 #include "runtime/base/display_path.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
@@ -83,11 +83,10 @@ bool is_archive_bytes(std::string_view bytes) {
 }
 
 bool is_archive(const std::string& path) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) return false;
     std::array<char, 4> head{};
-    std::ifstream in(path, std::ios::binary);
-    return in.read(head.data(), head.size()) && is_archive_bytes({head.data(), head.size()});
+    OpenFile file = open_regular_file(path);
+    return file && std::fread(head.data(), 1, head.size(), file.get()) == head.size() &&
+           is_archive_bytes({head.data(), head.size()});
 }
 
 namespace {

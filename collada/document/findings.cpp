@@ -4,15 +4,16 @@
 namespace kinora::collada {
 
 namespace Code {
-#define FINDING(code, severity, text, explanation, fix) \
-    const FindingInfo code{#code, Severity::severity, text, explanation, fix};
+using enum Severity;
+
+#define FINDING(code, ...) const FindingInfo code = finding_row(#code, __VA_ARGS__);
 #include "collada/document/findings.def"
 #undef FINDING
 }  // namespace Code
 
 const FindingInfo* const* all_findings() {
     static const FindingInfo* const kAll[] = {
-#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#define FINDING(code, ...) &Code::code,
 #include "collada/document/findings.def"
 #undef FINDING
         nullptr};

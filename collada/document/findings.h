@@ -5,7 +5,7 @@
 
 namespace kinora::collada::Code {
 
-#define FINDING(code, severity, text, explanation, fix) extern const FindingInfo code;
+#define FINDING(code, ...) extern const FindingInfo code;
 #include "collada/document/findings.def"
 #undef FINDING
 

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <span>
 
 #include "collada/document/findings.h"
 #include "collada/text/encoding_p.h"
 #include "collada/text/entities_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
@@ -64,13 +64,9 @@ struct TextSearch {
 
 // "" where there is none; what such a file gets wrong is no finding, it is no COLLADA.
 std::string first_text(const std::string& path, std::string_view name, std::string_view ending) {
-    std::error_code error;
-    uintmax_t size = fs::file_size(path, error);
-    if (error || size > kMaxIndexBytes) return {};
-    std::string bytes(size_t(size), '\0');
-    std::ifstream in(path, std::ios::binary);
-    if (!in.read(bytes.data(), std::streamsize(size))) return {};
-    DecodedText decoded = decode_text(std::move(bytes));
+    std::optional<std::string> bytes = read_regular_file(path, kMaxIndexBytes);
+    if (!bytes) return {};
+    DecodedText decoded = decode_text(std::move(*bytes));
     std::string_view xml = decoded.text;
     if (std::optional<ByteRange> use = find_entity_use(xml)) xml = xml.substr(0, use->begin);
     TextSearch search;

@@ -1,18 +1,15 @@
 // collada/document/read_document.cpp: from a file or memory through its encoding to a document.
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-
 #include "collada/document/document_reader_p.h"
 #include "collada/text/encoding_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
 namespace {
 
-constexpr size_t kMaxBytes = 0x7fffffff;  // byte offsets are 32 bits
+constexpr size_t kMaxBytes = 0x7fffffff;                // byte offsets are 32 bits
+constexpr uint64_t kMostFileBytes = uint64_t(1) << 34;  // in whatever encoding
 
 }  // namespace
 
@@ -44,25 +41,13 @@ std::optional<Document> read_document_text(const std::string& path, std::string 
 }
 
 std::optional<Document> read_document(const std::string& path, Diagnostics& diag) {
-    std::error_code code;
-    bool folder = std::filesystem::is_directory(path, code);
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    std::string bytes;
-    bool read = false;
-    if (in && !folder) {
-        std::streamoff size = in.tellg();
-        if (size >= 0 && size < std::streamoff(1) << 40) {
-            bytes.resize(size_t(size));
-            in.seekg(0);
-            read = bool(in.read(bytes.data(), size)) || size == 0;
-        }
-    }
-    if (!read) {
-        diag.report(Code::XML_OPEN, Location{}, path,
-                    folder ? std::string("it is a folder") : std::string(std::strerror(errno)));
+    std::string error;
+    std::optional<std::string> bytes = read_regular_file(path, kMostFileBytes, &error);
+    if (!bytes) {
+        diag.report(Code::XML_OPEN, Location{}, path, error);
         return std::nullopt;
     }
-    return read_document_text(path, std::move(bytes), diag);
+    return read_document_text(path, std::move(*bytes), diag);
 }
 
 }  // namespace kinora::collada

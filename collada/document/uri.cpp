@@ -6,6 +6,7 @@
 
 #include "collada/text/encoding_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
@@ -69,8 +70,7 @@ std::string path_of_uri(const Document& document, std::string_view uri) {
     if (is_absolute(path)) return normal(path);
     std::string based = normal(base_folder(document) + path);
     std::string beside = normal(document.directory() + path);
-    std::error_code error;
-    bool moved = based != beside && std::filesystem::is_regular_file(based, error);
+    bool moved = based != beside && is_regular_file(based);
     return moved ? based : beside;
 }
 

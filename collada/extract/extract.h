@@ -11,9 +11,11 @@
 namespace kinora::collada {
 
 struct ExtractOptions {
-    // The tree that links and images may name: "" is the folder of the document.
+    // The tree that links may name: "" is the folder of the document. One that is given is that of
+    // an archive: images are confined to it, too.
     std::string folder;
     std::vector<std::string> allow_external;  // further trees, allowed by the user
+    bool confine = false;                     // images too; else they are read wherever they lie
     std::string scene_id;  // of the visual scene instead of <scene>'s; ignored if there is none
     std::optional<double> meter;    // instead of the root document's own
     std::optional<UpAxis> up_axis;  // likewise

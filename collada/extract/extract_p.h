@@ -12,11 +12,11 @@
 
 #include "collada/document/findings.h"
 #include "collada/extract/extract.h"
-#include "collada/extract/image_folders_p.h"
 #include "collada/extract/linked_documents_p.h"
 #include "collada/extract/memory_budget_p.h"
 #include "collada/scene/scene.h"
 #include "collada/schema/links.h"
+#include "runtime/base/picture_search.h"
 
 namespace kinora::collada {
 
@@ -94,7 +94,7 @@ struct Extraction {
     SceneData scene;
     MemoryBudget budget{diag};
     LinkedDocuments documents{diag, options, budget, scene};
-    ImageFolders image_folders;
+    PictureSearch pictures;
 
     // Definitions by element; kNone: tried and not usable (reported).
     std::unordered_map<const Element*, uint32_t> made;

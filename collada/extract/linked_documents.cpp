@@ -2,21 +2,15 @@
 // numbered.
 #include "collada/extract/linked_documents_p.h"
 
-#include <filesystem>
-
 #include "collada/document/findings.h"
 #include "collada/document/uri.h"
 #include "collada/extract/extract_p.h"
 #include "collada/schema/schema.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
 namespace {
-
-bool is_file(const std::string& path) {
-    std::error_code error;
-    return std::filesystem::is_regular_file(path, error);
-}
 
 dmat4 y_up_from(UpAxis axis) {
     switch (axis) {
@@ -50,20 +44,27 @@ const AllowedPaths& LinkedDocuments::allowed_paths() {
     return *allowed_;
 }
 
+const AllowedPaths& LinkedDocuments::allowed_pictures() {
+    bool confined = options_.confine || !options_.folder.empty();
+    if (!pictures_) pictures_ = confined ? allowed_paths() : allowed_paths().anywhere();
+    return *pictures_;
+}
+
 // Each link into a document that cannot be had says so.
 void LinkedDocuments::report_unread(const std::string& path, std::string_view file,
                                     Location where) {
-    diag_.report(is_file(path) ? Code::LINK_EXTERNAL_UNREADABLE : Code::LINK_EXTERNAL_MISSING,
-                 where, file);
+    diag_.report(
+        is_regular_file(path) ? Code::LINK_EXTERNAL_UNREADABLE : Code::LINK_EXTERNAL_MISSING, where,
+        file);
 }
 
 // The file that a link means: where its URI says, else one of that name beside the document.
 std::string LinkedDocuments::path_of_link(uint32_t from, std::string_view file, Location where) {
     const Document& document = *documents_[from];
     std::string path = path_of_uri(document, file);
-    bool found = allowed_paths().contains(path) && is_file(path);
+    bool found = allowed_paths().contains(path) && is_regular_file(path);
     std::string beside = document.directory() + path.substr(path.find_last_of('/') + 1);
-    if (found || beside == path || !allowed_paths().contains(beside) || !is_file(beside))
+    if (found || beside == path || !allowed_paths().contains(beside) || !is_regular_file(beside))
         return path;
     diag_.report(Code::FILE_FALLBACK, where, file, beside);
     return beside;
@@ -94,7 +95,9 @@ uint32_t LinkedDocuments::linked(uint32_t from, std::string_view file, Location 
         return kNone;
     }
     std::optional<Document> document;
-    if (is_file(path)) document = read_document(path, diag_);
+    size_t before = diag_.findings().size();
+    if (is_regular_file(path)) document = read_document(path, diag_);
+    diag_.lower_errors(before);
     if (!document) {
         report_unread(path, file, where);
         by_path_[real] = kNone;

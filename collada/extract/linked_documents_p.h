@@ -38,8 +38,10 @@ class LinkedDocuments {
 
     const Document& operator[](uint32_t doc) const { return *documents_[doc]; }
     uint32_t size() const { return uint32_t(documents_.size()); }
-    // Where documents, shaders and pictures may lie: the folder of the root, and what is allowed.
+    // Where documents and shaders may lie: the folder of the root, and what is allowed.
     const AllowedPaths& allowed_paths();
+    // Pictures may lie anywhere, unless the options confine them; those of an archive are in it.
+    const AllowedPaths& allowed_pictures();
     // Index into SceneData::conversions for things of `to` used in `from`; kNone if the same.
     uint32_t conversion(uint32_t from, uint32_t to);
 
@@ -52,7 +54,7 @@ class LinkedDocuments {
     MemoryBudget& budget_;
     SceneData& scene_;
     std::optional<Version> schema_;
-    std::optional<AllowedPaths> allowed_;
+    std::optional<AllowedPaths> allowed_, pictures_;
     std::vector<const Document*> documents_;
     std::vector<std::unique_ptr<Document>> owned_;
     std::unordered_map<std::string, uint32_t> by_path_;     // kNone: it cannot be read

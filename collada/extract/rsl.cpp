@@ -1,11 +1,8 @@
 // collada/extract/rsl.cpp: profile_RSL: shader source, and which shaders a pass runs with what.
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include "collada/document/uri.h"
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::collada {
@@ -42,7 +39,6 @@ void read_include(Extraction& x, Link link, RslShading& rsl) {
     std::string_view url = link.element->value("url");
     Location where = x.where(link, "url");
     std::string path = path_of_uri(x.document(link.doc), url);
-    std::error_code error;
     if (is_compiled(path, {})) {
         x.diag.report(Code::RSL_INCLUDE_COMPILED, where, url);
         return;
@@ -51,16 +47,12 @@ void read_include(Extraction& x, Link link, RslShading& rsl) {
         x.diag.report(Code::LINK_OUTSIDE, where, url);
         return;
     }
-    bool readable = std::filesystem::is_regular_file(path, error) &&
-                    std::filesystem::file_size(path, error) <= kMaxShaderBytes;
-    std::ifstream in(path, std::ios::binary);
-    if (!readable || !in) {
+    std::optional<std::string> text = read_regular_file(path, kMaxShaderBytes);
+    if (!text) {
         x.diag.report(Code::RSL_INCLUDE_MISSING, where, url);
         return;
     }
-    std::ostringstream text;
-    text << in.rdbuf();
-    RslCode code{utf8_text(text.str()), {}, path};
+    RslCode code{utf8_text(std::move(*text)), {}, path};
     if (is_compiled(path, code.text)) {
         x.diag.report(Code::RSL_INCLUDE_COMPILED, where, url);
         return;

@@ -48,16 +48,21 @@ std::string tidy_uri(std::string_view uri) {
 }
 
 // The file that reading found for this image, relative to the document, as a URI; "" if it found
-// none below the document's folder.
+// none below the document's folder or the one above.
 std::string found_uri(const FixContext& context, std::string_view uri) {
     if (!context.scene) return {};
     namespace fs = std::filesystem;
     for (const Image& image : context.scene->images) {
         if (image.uri != uri || image.path.empty()) continue;
         const std::string& folder = context.document.directory();
-        fs::path relative = fs::path(image.path).lexically_normal();
-        if (!folder.empty()) relative = relative.lexically_relative(folder);
-        if (relative.empty() || relative.is_absolute() || *relative.begin() == "..") return {};
+        auto absolute = [](const std::string& path) {
+            std::error_code error;
+            return fs::absolute(path, error).lexically_normal();
+        };
+        fs::path relative =
+            absolute(image.path).lexically_relative(absolute(folder.empty() ? "." : folder));
+        bool far = relative.generic_string().starts_with("../..");
+        if (relative.empty() || relative.is_absolute() || far) return {};
         return percent_encode(relative.generic_string());
     }
     return {};

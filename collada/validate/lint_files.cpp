@@ -1,10 +1,9 @@
 // collada/validate/lint_files.cpp: files that <include> names; of images the reader speaks, of RSL
 // sources the reader of profile_RSL.
-#include <filesystem>
-
 #include "collada/document/uri.h"
 #include "collada/text/numbers_p.h"
 #include "collada/validate/lint_p.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
@@ -29,11 +28,10 @@ void lint_files(Lint& lint) {
         }
         check_file_uri(lint.x, url, where);
         if (in_profile_rsl(*include)) continue;
-        std::error_code error;
         std::string path = path_of_uri(lint.document, url);
         if (!lint.x.documents.allowed_paths().contains(path))
             lint.diag.report(Code::LINK_OUTSIDE, where, url);
-        else if (!std::filesystem::is_regular_file(path, error))
+        else if (!is_regular_file(path))
             lint.diag.report(Code::FILE_MISSING, where, url);
     }
 }

@@ -1,11 +1,11 @@
 // collada/validate/lint_foreign.cpp: elements of other makers against the schema that the document
 // names for them. The program that validates brings the checker of schemas along.
-#include <filesystem>
 #include <map>
 
 #include "collada/document/uri.h"
 #include "collada/schema/namespaces_p.h"
 #include "collada/validate/lint_p.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora::collada {
 
@@ -54,14 +54,12 @@ class ForeignWalk {
     std::string check(std::string_view name_space, std::string_view file,
                       const Elements& elements) {
         std::string path = path_of_uri(document_, file);
-        std::error_code error;
         if (is_remote(file))
             return fmt::format("their schema '{}' is no local file, and no network is used", file);
         if (!lint_.x.documents.allowed_paths().contains(path))
             return fmt::format(
                 "their schema '{}' lies outside the scene's folder (--allow-external DIR)", file);
-        if (!std::filesystem::is_regular_file(path, error))
-            return fmt::format("there is no file '{}', their schema", file);
+        if (!is_regular_file(path)) return fmt::format("there is no file '{}', their schema", file);
         if (!lint_.options.check_foreign) return fmt::format("their schema '{}' is not read", file);
         return lint_.options.check_foreign(
             {document_, name_space, path, elements, lint_.x.documents.allowed_paths(), lint_.diag});

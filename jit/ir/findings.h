@@ -5,8 +5,9 @@
 
 namespace kinora::jit::Code {
 
-#define FINDING(code, severity, text, explanation, fix) \
-    inline constexpr FindingInfo code = {#code, Severity::severity, text, explanation, fix};
+using enum Severity;
+
+#define FINDING(code, ...) inline constexpr FindingInfo code = finding_row(#code, __VA_ARGS__);
 #include "jit/ir/findings.def"
 #undef FINDING
 

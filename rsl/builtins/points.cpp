@@ -216,7 +216,8 @@ namespace {
 
 namespace lower = lower_points;
 
-constexpr uint32_t kLooksUp = kService | kVaryingResult | kNamesFile;
+constexpr uint32_t kNames = kNamesFile | kNamesPoints;
+constexpr uint32_t kLooksUp = kService | kVaryingResult | kNames;
 
 const Builtin kRows[] = {
     {"texture3d", "f=spn~", lower::texture3d, KINORA_RSL_REF(ref::texture3d),
@@ -225,7 +226,7 @@ const Builtin kRows[] = {
      "file has all channels.",
      kSurface | kLight | kDisplacement | kVolume},
     {"bake3d", "f=spn~ f=sspn~", lower::bake3d, KINORA_RSL_REF(ref::bake3d),
-     kService | kPrints | kWritesChannels | kVaryingResult | kNamesFile, 0,
+     kService | kPrints | kWritesChannels | kVaryingResult | kNames, 0,
      "Puts a point into a point file, written after the frame: bake3d(file, channels, P, N, "
      "\"channel\", value, ...).",
      kSurface | kLight | kDisplacement},

@@ -97,7 +97,8 @@ void CallBinder::end_builtin(CallExpr& e) {
     if (!names_channels) drop_unfit_pairs(ast_, reporter_, e.args, e.pairs, e.name);
     const auto* file = e.args.empty() ? nullptr : as_if<StringExpr>(e.args[0]);
     // A file that the shader will not be let to read.
-    if (file && (builtin.effects & kNamesFile) && options_.files.find(file->value).outside)
+    const AllowedPaths& files = builtin.effects & kNamesPoints ? options_.files : options_.pictures;
+    if (file && (builtin.effects & kNamesFile) && files.find(file->value).outside)
         reporter_.report(Code::RSL_FILE_OUTSIDE, file->span, file->value);
     if (!builtin.lower && options_.require_implemented)
         reporter_.report(Code::RSL_NOT_SUPPORTED, e.span, fmt::format("'{}'", e.name));

@@ -48,6 +48,7 @@ enum Effects : uint32_t {
         1 << 9,  // pairs name channels and the variables they are put in (rsl/model/pairs.h)
     kNamesFile = 1 << 10,       // the first argument, if a string, is a file
     kWritesChannels = 1 << 11,  // pairs name channels and the values they are given
+    kNamesPoints = 1 << 13,     // that file is a point file, else a picture
     kConstantResult = 1 << 12,  // known when the shader is compiled, whatever the arguments
 };
 

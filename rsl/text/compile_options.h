@@ -26,8 +26,9 @@ struct CompileOptions {
     int max_errors = 20;                 // then one "too many errors" and silence
     bool require_implemented = true;     // a built-in whose row has no lowering is an error
     // What the source may read. #include of a file elsewhere is an error, a literal that names a
-    // texture or point file elsewhere a warning (whoever runs the shader must refuse it).
+    // point file elsewhere a warning (whoever runs the shader must refuse it).
     AllowedPaths files;
+    AllowedPaths pictures;  // likewise for literals that name textures and maps
 };
 
 }  // namespace kinora::rsl

@@ -8,8 +8,9 @@
 namespace kinora::rsl {
 
 struct Code {
-#define FINDING(code, severity, text, explanation, fix) \
-    static constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
+    using enum Severity;
+
+#define FINDING(code, ...) static constexpr FindingInfo code = finding_row(#code, __VA_ARGS__);
 #include "rsl/text/findings.def"
 #undef FINDING
 };

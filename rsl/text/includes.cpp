@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "rsl/text/standard_headers.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::rsl {
@@ -33,15 +32,6 @@ std::filesystem::path in_any_case(const std::filesystem::path& path) {
     return best.empty() ? path : best;
 }
 
-bool read_whole_file(const std::filesystem::path& path, std::string& text) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return false;
-    if (std::filesystem::file_size(path, error) > kMostIncludeBytes || error) return false;
-    std::ifstream in(path, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), {});
-    return bool(in) || in.eof();
-}
-
 }  // namespace
 
 void Includes::read_once(const std::string& path) {
@@ -58,13 +48,13 @@ std::optional<SourceText> Includes::find(std::string file, bool quoted, const st
     bool outside = false;
     for (const std::filesystem::path& folder : folders) {
         std::filesystem::path path = in_any_case(folder / file);
-        std::string text;
         if (!options_.files.contains(path.string())) {
             outside = true;
             continue;
         }
-        if (!read_whole_file(path, text)) continue;
-        text = utf8_text(std::move(text));
+        std::optional<std::string> bytes = read_regular_file(path.string(), kMostIncludeBytes);
+        if (!bytes) continue;
+        std::string text = utf8_text(std::move(*bytes));
         std::string key = path.lexically_normal().string();
         if (std::find(once_.begin(), once_.end(), key) != once_.end()) return std::nullopt;
         SourceMap map;

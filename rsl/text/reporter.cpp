@@ -7,7 +7,7 @@ namespace {
 constexpr int kMostNotes = 8;  // of one finding; deeper macro nests are cut
 
 const FindingInfo* const kRows[] = {
-#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#define FINDING(code, ...) &Code::code,
 #include "rsl/text/findings.def"
 #undef FINDING
 };

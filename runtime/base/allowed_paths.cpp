@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "runtime/base/regular_file.h"
+
 namespace kinora {
 
 namespace {
@@ -13,11 +15,6 @@ namespace fs = std::filesystem;
 bool below(const std::string& path, const std::string& folder) {
     if (folder == "/" || path == folder) return true;
     return path.starts_with(folder) && path[folder.size()] == '/';
-}
-
-bool is_file(const std::string& path) {
-    std::error_code error;
-    return fs::is_regular_file(path, error);
 }
 
 // What cannot be a path for the system: it would end at the 0.
@@ -50,30 +47,50 @@ void AllowedPaths::add(const std::string& folder) {
     real_.push_back(real_path(folder));
 }
 
-bool AllowedPaths::contains(const std::string& path) const {
-    if (!limited_) return true;
-    if (!is_path(path)) return false;
+void AllowedPaths::add_file(const std::string& path) {
+    if (limited_ && is_path(path)) real_.push_back(real_path(path));
+}
+
+AllowedPaths AllowedPaths::anywhere() const {
+    AllowedPaths same = *this;
+    same.anywhere_ = true;
+    return same;
+}
+
+bool AllowedPaths::in_a_tree(const std::string& path) const {
     std::string real = real_path(path);
     if (!real.starts_with('/')) return false;  // it could not be found out
-    for (const std::string& folder : real_)
-        if (below(real, folder)) return true;
+    for (const std::string& tree : real_)
+        if (below(real, tree)) return true;
     return false;
+}
+
+std::string AllowedPaths::name_of(const std::string& path) const {
+    if (!limited_ || in_a_tree(path)) return path;
+    std::error_code error;
+    fs::path absolute = fs::absolute(path, error);
+    return error ? path : absolute.lexically_normal().string();
+}
+
+bool AllowedPaths::contains(const std::string& path) const {
+    return !limited_ || (is_path(path) && (anywhere_ || in_a_tree(path)));
 }
 
 AllowedPaths::Found AllowedPaths::find(std::string_view text) const {
     std::string name(text);
     if (!limited_ || name.empty()) return {name};
     if (!is_path(text)) return {name, true};
-    bool inside = contains(name);
-    if (name.starts_with('/') || (inside && is_file(name))) return {name, !inside};
+    if (name.starts_with('/')) return {name, !contains(name)};
+    bool inside = in_a_tree(name);
+    if (inside && is_regular_file(name)) return {name};
     bool outside = folders_.empty();
     for (const std::string& folder : folders_) {
         std::string path = folder + name;
         bool there = contains(path);
-        if (there && is_file(path)) return {path};
+        if (there && is_regular_file(path)) return {path};
         outside = outside || !there;
     }
-    if (outside || inside) return {name, outside && !inside};
+    if (outside || inside || folders_.empty()) return {name, outside && !inside && !anywhere_};
     return {folders_.front() + name};
 }
 

@@ -104,17 +104,24 @@ namespace {
 // Beyond so many, findings are no help, and their memory would grow past that of the input. Errors
 // have some room more, so that none hides behind warnings.
 constexpr size_t kMostFindings = 50'000, kMostErrors = 51'000;
-constexpr FindingInfo kFindingsCut{
+constexpr FindingInfo kFindingsCut = finding_row(
     "FINDINGS_CUT", Severity::Warning, "more than {} findings; further ones are left out",
-    "A file that is wrong in so many places is wrong throughout, or not what it says it is.", ""};
+    "A file that is wrong in so many places is wrong throughout, or not what it says it is.", "");
 
 }  // namespace
 
-Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string message) {
-    std::lock_guard lock(mutex_);
-    Severity severity = info.severity;
+Severity Diagnostics::severity_of(const FindingInfo& info) const {
+    Severity severity = judgement_ == Judgement::Validating ? info.severity : info.rendering;
+    if (judgement_ == Judgement::Strict && info.severity == Severity::Error)
+        severity = Severity::Error;
     for (const auto& [code, forced] : overrides_)
         if (code == info.code) severity = forced;
+    return severity;
+}
+
+Finding& Diagnostics::add(const FindingInfo& info, Location where, std::string message) {
+    std::lock_guard lock(mutex_);
+    Severity severity = severity_of(info);
     if (findings_.size() == kMostFindings)
         findings_.push_back({&kFindingsCut,
                              kFindingsCut.severity,
@@ -166,6 +173,13 @@ void Diagnostics::drop_repeats(size_t first) {
         else
             ++f;
     }
+}
+
+void Diagnostics::lower_errors(size_t first) {
+    std::lock_guard lock(mutex_);
+    if (judgement_ != Judgement::Rendering) return;
+    for (size_t f = first; f < findings_.size(); ++f)
+        findings_[f].severity = std::min(findings_[f].severity, Severity::Warning);
 }
 
 int Diagnostics::count(Severity severity) const {

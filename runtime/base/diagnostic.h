@@ -20,11 +20,27 @@ const char* severity_name(Severity severity);  // "warning", ...
 // One kind of finding. `text` is a fmt format string for the values given to report().
 struct FindingInfo {
     const char* code;         // "ANIM_TARGET_UNRESOLVED": stable, printed in brackets
-    Severity severity;        // the default; Diagnostics may override it per code
+    Severity rendering;       // where the file is used all the same (Judgement)
+    Severity severity;        // where it is validated; Diagnostics may override it per code
     const char* text;         // "channel target '{}' names nothing"
     const char* explanation;  // a paragraph for --explain: why it matters
     const char* fix;          // what to do, printed as a help line; "" if nothing general
 };
+
+// A row of a findings.def: one severity, or that of rendering before that of validating.
+constexpr FindingInfo finding_row(const char* code, Severity both, const char* text,
+                                  const char* explanation, const char* fix) {
+    return {code, both, both, text, explanation, fix};
+}
+constexpr FindingInfo finding_row(const char* code, Severity rendering, Severity validating,
+                                  const char* text, const char* explanation, const char* fix) {
+    return {code, rendering, validating, text, explanation, fix};
+}
+
+// Which severity a finding has. Rendering: a picture is made of what is there, so that what is left
+// out or repaired is a Warning, and an Error means that there is no picture. Strict: what is an
+// Error in a file that is validated is one here too.
+enum class Judgement : uint8_t { Validating, Rendering, Strict };
 
 using FileId = uint32_t;
 inline constexpr FileId kNoFile = ~0u;
@@ -112,6 +128,8 @@ class Diagnostics {
     Finding& add(const FindingInfo& info, Location where, std::string message);
 
     void set_severity(std::string_view code, Severity severity);
+    // Of the findings to come.
+    void judge(Judgement judgement) { judgement_ = judgement; }
     const std::vector<Finding>& findings() const { return findings_; }
     int count(Severity severity) const;
     bool has_errors() const { return count(Severity::Error) > 0; }
@@ -122,11 +140,17 @@ class Diagnostics {
     // Drops findings from the `first` on that say what an earlier one says (code, location,
     // message); never errors.
     void drop_repeats(size_t first);
+    // Findings from the `first` on are of a file that another one names. In Rendering none of them
+    // is more than a Warning: the other file is shown without it.
+    void lower_errors(size_t first);
 
   private:
+    Severity severity_of(const FindingInfo& info) const;
+
     mutable std::mutex mutex_;
     std::vector<Finding> findings_;
     std::vector<std::pair<std::string, Severity>> overrides_;
+    Judgement judgement_ = Judgement::Validating;
 };
 
 // "file:line:col: severity: message [CODE]", then the source line with a caret range, notes and a

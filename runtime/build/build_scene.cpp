@@ -28,10 +28,10 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
                                    const SceneOptions& options,
                                    std::shared_ptr<TextureStore> textures) {
     auto scene = std::make_unique<Scene>();
-    const AllowedPaths& readable = description->readable;
-    if (!textures) textures = std::make_shared<TextureStore>(readable, options.decode_textures);
+    if (!textures)
+        textures = std::make_shared<TextureStore>(description->pictures, options.decode_textures);
     scene->textures = std::move(textures);
-    scene->points = std::make_shared<PointStore>(readable);
+    scene->points = std::make_shared<PointStore>(description->readable);
     scene->description = std::move(description);
     scene->options = options;
     scene->accel = raytrace::Accel(options.accel);

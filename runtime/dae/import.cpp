@@ -22,6 +22,7 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     extract_options.folder = file->folder;
     extract_options.scene_id = file->scene_id;
     extract_options.allow_external = options.allow_external;
+    extract_options.confine = options.confine;
     extract_options.meter = options.meter;
     if (options.up_axis) extract_options.up_axis = collada::UpAxis(*options.up_axis);
     std::optional<collada::SceneData> data =
@@ -36,12 +37,16 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     files->push_back(file->keep);
     description.files = std::move(files);
     limit_files(description, folder, options);
+    // An archive's pictures are in it. It is not written to: its folder is ours and dies with the
+    // scene.
+    if (archive) {
+        description.pictures = description.readable;
+        description.writable = AllowedPaths(options.allow_external);
+    }
     // Images that the document holds were unpacked into folders of ours.
     for (const collada::Image& image : data->images)
-        if (!image.path.empty() && !description.readable.contains(image.path))
-            description.readable.add(image.path.substr(0, image.path.rfind('/') + 1));
-    // An archive is not written to: its folder is ours and dies with the scene.
-    if (archive) description.writable = AllowedPaths(options.allow_external);
+        if (!image.path.empty() && !description.pictures.contains(image.path))
+            description.pictures.add(image.path.substr(0, image.path.rfind('/') + 1));
     ColladaImport(*data, options, diagnostics, description).run();
     return description;
 }

@@ -20,6 +20,7 @@ const EffectShaders& ColladaImport::compiled(const collada::Effect& effect) {
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
     options.files = out_.readable;
+    options.pictures = out_.pictures;
     known->second = compile_effect(effect, options, diagnostics_);
     return known->second;
 }
@@ -79,7 +80,7 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
             source.value = from_param ? param_slot(material, effect_index, bind.param)
                                       : ValueSlot{append(value), uint32_t(value.numbers.size())};
         }
-        check_named_files(value, out_.readable, bind.where, diagnostics_);
+        check_named_files(value, out_.pictures, bind.where, diagnostics_);
         if (!takes(*parameter, value)) {
             diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
                                 rsl::type_name(parameter->type), value_text(value));

@@ -11,6 +11,7 @@ void limit_files(SceneDescription& description, const std::string& folder,
     folders.insert(folders.end(), options.include_directories.begin(),
                    options.include_directories.end());
     description.readable = AllowedPaths(folders);
+    description.pictures = options.confine ? description.readable : description.readable.anywhere();
 }
 
 }  // namespace kinora

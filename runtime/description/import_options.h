@@ -17,6 +17,7 @@ enum class TransparencyMode : uint8_t { Spec, Auto };
 struct ImportOptions {
     TransparencyMode transparency = TransparencyMode::Spec;
     std::vector<std::string> allow_external;       // folders besides the scene's own tree
+    bool confine = false;                          // pictures too: else they may lie anywhere
     std::optional<UpAxis> up_axis;                 // instead of the file's
     std::optional<double> meter;                   // instead of the file's
     std::vector<std::string> include_directories;  // for #include in shaders

@@ -196,9 +196,10 @@ enum class UpAxis : uint8_t { X, Y, Z };
 struct SceneDescription {
     std::string path;
     std::shared_ptr<const void> files;  // what paths name is there as long as this is held
-    // Where shaders may read textures, point files and maps, and write point files. Importers limit
-    // both to the scene's folder and what the user allows.
+    // Where shaders may read point files, and write them. Importers limit both to the scene's
+    // folder and what the user allows.
     AllowedPaths readable, writable;
+    AllowedPaths pictures;  // textures and maps: anywhere, unless they are confined too
     double meter = 1;
     UpAxis up_axis = UpAxis::Y;
     std::vector<double> values;

@@ -23,6 +23,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "runtime/base/regular_file.h"
+
 namespace kinora {
 
 namespace {
@@ -36,10 +38,7 @@ uint8_t quantise(float x) {
     return uint8_t(std::min(x, 1.0f) * 255.0f + 0.5f);
 }
 
-struct FileCloser {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, FileCloser>;
+using File = OpenFile;
 
 // Everything written so far is on the disk, or the error text.
 std::string sync_file(std::FILE* file, int& number) {
@@ -348,7 +347,7 @@ bool png_has_end(std::FILE* file) {
 // Opens a PNG and hands it to `use(png, info)` after png_read.
 template <class Use>
 bool with_png(const std::string& path, Image8* rows, Use use) {
-    File file(std::fopen(path.c_str(), "rb"));
+    OpenFile file = open_regular_file(path);
     if (!file || !png_has_end(file.get())) return false;
     PngError error;
     png_structp png =

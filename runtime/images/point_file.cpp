@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
+#include <filesystem>
+
+#include "runtime/base/regular_file.h"
 
 namespace kinora {
 
@@ -20,10 +22,7 @@ constexpr char kMagic[] = "KNPOINT1";
 constexpr size_t kMagicBytes = 8;
 constexpr uint32_t kMostChannels = 256, kLongestName = 256;
 
-struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
+using File = OpenFile;
 
 template <class T>
 bool get(std::FILE* f, T& value) {
@@ -86,8 +85,9 @@ size_t PointFile::channel(std::string_view name, char type) {
 
 std::string read_point_file(const std::string& path, PointFile& out) {
     out = {};
-    File f(std::fopen(path.c_str(), "rb"));
-    if (!f) return std::strerror(errno);
+    std::string refused;
+    File f = open_regular_file(path, &refused);
+    if (!f) return refused;
     uint64_t count = 0;
     if (std::string error = read_head(f.get(), out, count); !error.empty()) return error;
     long begin = std::ftell(f.get());
@@ -106,10 +106,12 @@ std::string read_point_file(const std::string& path, PointFile& out) {
 
 // A scene must not be able to destroy what is not its own.
 static bool may_replace(const std::string& path) {
-    File f(std::fopen(path.c_str(), "rb"));
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) return true;
+    File f = open_regular_file(path);
     char magic[kMagicBytes];
     size_t got = f ? std::fread(magic, 1, kMagicBytes, f.get()) : 0;
-    return got == 0 || (got == kMagicBytes && std::memcmp(magic, kMagic, kMagicBytes) == 0);
+    return (f && got == 0) || (got == kMagicBytes && std::memcmp(magic, kMagic, kMagicBytes) == 0);
 }
 
 std::string write_point_file(const std::string& path, const PointFile& file) {

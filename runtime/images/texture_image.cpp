@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include <new>
 #include <optional>
 
+#include "runtime/base/regular_file.h"
 #include "runtime/description/memory_file.h"
 #include "runtime/images/image_io.h"
 #include "runtime/images_module/images_module.h"
@@ -71,12 +71,9 @@ bool is_plain_png(const Header& header) {
 
 // The start of the file, zeros beyond its end; or why it cannot be had.
 std::string read_header(const std::string& path, Header& header) {
-    std::error_code code;
-    if (!std::filesystem::exists(path, code)) return "no such file";
-    if (!std::filesystem::is_regular_file(path, code)) return "not a file";
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                         std::fclose);
-    if (!file) return std::strerror(errno);
+    std::string error;
+    OpenFile file = open_regular_file(path, &error);
+    if (!file) return error;
     header.fill(0);
     if (std::fread(header.data(), 1, header.size(), file.get()) == 0) return "the file is empty";
     return "";

@@ -2,13 +2,13 @@
 #include "runtime/images/texture_store.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "collada/document/findings.h"
 #include "rsl/model/renderer_services.h"
 #include "rsl/text/findings.h"
 #include "runtime/base/parallel.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/memory_file.h"
 
@@ -116,10 +116,8 @@ void TextureStore::preload(std::span<const std::string> names) {
         for (auto& [key, image] : images_) image->reported = false;
         for (const std::string& name : names) {
             TextureName parsed = parse_texture_name(name);
-            std::error_code code;
             auto [path, outside] = file_of(parsed.path);
-            bool there =
-                !outside && (std::filesystem::is_regular_file(path, code) || is_memory_file(path));
+            bool there = !outside && (is_regular_file(path) || is_memory_file(path));
             bool data = parsed.data || !decode_;
             if (there && !images_.count({path, data})) wanted.emplace(path, data);
         }

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 
+#include "runtime/base/regular_file.h"
 #include "runtime/dae/import.h"
 #include "runtime/gltf/import/import.h"
 
@@ -25,8 +25,7 @@ bool has_extension(const std::string& path, std::string_view extension) {
 
 bool is_gltf(const std::string& path) {
     if (has_extension(path, ".gltf") || has_extension(path, ".glb")) return true;
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                         std::fclose);
+    OpenFile file = open_regular_file(path);
     char magic[4] = {};
     return file && std::fread(magic, 1, 4, file.get()) == 4 && std::memcmp(magic, "glTF", 4) == 0;
 }

@@ -8,7 +8,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
+#include "runtime/description/texture_name.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 
 namespace kinora {
@@ -37,7 +39,7 @@ class ParamOverride {
         ParamSource source;
         source.name = name_;
         if (parameter->type.base == rsl::BaseType::String)
-            source.strings = {value_};
+            name_text(source);
         else if (!set_numbers(parameter->type, source))
             return;
         std::erase_if(use.params, [&](const ParamSource& s) { return s.name == name_; });
@@ -57,6 +59,13 @@ class ParamOverride {
     }
 
   private:
+    // A picture that the user names is read wherever it lies.
+    void name_text(ParamSource& source) {
+        source.strings = {value_};
+        std::string path = parse_texture_name(value_).path;
+        if (is_regular_file(path)) description_.pictures.add_file(path);
+    }
+
     bool set_numbers(const rsl::Type& type, ParamSource& source) {
         std::optional<std::vector<double>> numbers = parse_numbers(value_);
         size_t wanted = size_t(rsl::component_count(type.base)) *

@@ -36,7 +36,9 @@ SharedShader first_of_file(SceneDescription& description, const ShaderGiven& giv
     options.include_directories = given.include_directories;
     auto shaders = rsl::compile_file(given.shader, options, diagnostics);
     if (shaders.empty()) return nullptr;  // a finding says why
-    description.readable.add(given.shader.substr(0, given.shader.rfind('/') + 1));
+    std::string folder = given.shader.substr(0, given.shader.rfind('/') + 1);
+    description.readable.add(folder);
+    description.pictures.add(folder);
     for (auto& shader : shaders)
         if (std::find(kinds.begin(), kinds.end(), shader->kind) != kinds.end())
             return std::move(shader);

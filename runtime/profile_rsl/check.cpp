@@ -45,11 +45,9 @@ struct CheckedEffect {
 
 class Check {
   public:
-    Check(const collada::SceneData& scene, const std::vector<std::string>& include_directories,
-          const AllowedPaths& files, Diagnostics& diagnostics)
-        : scene_(scene), diagnostics_(diagnostics) {
-        compile_options_.include_directories = include_directories;
-        compile_options_.files = files;
+    Check(const collada::SceneData& scene, const rsl::CompileOptions& options,
+          Diagnostics& diagnostics)
+        : scene_(scene), diagnostics_(diagnostics), compile_options_(options) {
         for (const collada::Node& node : scene.nodes)
             if (!node.id.empty()) spaces_.push_back(node.id);
     }
@@ -115,7 +113,7 @@ class Check {
             if (!takes(*parameter, value))
                 diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
                                     rsl::type_name(parameter->type), value_text(value));
-            check_named_files(value, compile_options_.files, bind.where, diagnostics_);
+            check_named_files(value, compile_options_.pictures, bind.where, diagnostics_);
         }
     }
 
@@ -221,12 +219,11 @@ class Check {
 
 }  // namespace
 
-void check_profile_rsl(const collada::SceneData& scene,
-                       const std::vector<std::string>& include_directories,
-                       const AllowedPaths& files, Diagnostics& diagnostics) {
+void check_profile_rsl(const collada::SceneData& scene, const rsl::CompileOptions& options,
+                       Diagnostics& diagnostics) {
     bool any = std::any_of(scene.effects.begin(), scene.effects.end(),
                            [](const collada::Effect& effect) { return effect.rsl.has_value(); });
-    if (any) Check(scene, include_directories, files, diagnostics).run();
+    if (any) Check(scene, options, diagnostics).run();
 }
 
 }  // namespace kinora

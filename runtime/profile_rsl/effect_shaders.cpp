@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "rsl/text/findings.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/profile_rsl/findings.h"
 #include "runtime/profile_rsl/joined_code.h"
 
@@ -116,9 +116,8 @@ bool takes(const rsl::ShaderParameter& parameter, const collada::ParamValue& val
 void check_named_files(const collada::ParamValue& value, const AllowedPaths& files, Location where,
                        Diagnostics& diagnostics) {
     if (value.image != collada::kNone) return;
-    std::error_code error;
     for (const std::string& text : value.strings)  // many are no names of files at all
-        if (files.find(text).outside && std::filesystem::is_regular_file(text, error))
+        if (files.find(text).outside && is_regular_file(text))
             diagnostics.report(rsl::Code::RSL_FILE_OUTSIDE, where, text);
 }
 

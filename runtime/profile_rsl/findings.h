@@ -5,8 +5,9 @@
 
 namespace kinora::Code {
 
-#define FINDING(code, severity, text, explanation, fix) \
-    inline constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
+using enum Severity;
+
+#define FINDING(code, ...) inline constexpr FindingInfo code = finding_row(#code, __VA_ARGS__);
 #include "runtime/profile_rsl/findings.def"
 #undef FINDING
 

@@ -8,7 +8,8 @@
 namespace kinora {
 namespace {
 
-constexpr FindingInfo kOdd{"TEST_ODD", Severity::Warning, "'{}' is {} times odd", "why", "fix it"};
+constexpr FindingInfo kOdd =
+    finding_row("TEST_ODD", Severity::Warning, "'{}' is {} times odd", "why", "fix it");
 
 TEST(SourceFiles, LinesAndColumnsCountFromOneInBytes) {
     SourceFiles files;

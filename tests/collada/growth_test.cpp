@@ -255,7 +255,8 @@ struct Folder {
 };
 
 TEST(MissingImages, ListTheirFolderOnce) {
-    Folder folder("kinora_growth_images");
+    Folder above("kinora_growth_images");
+    Folder folder("kinora_growth_images/scene");
     for (int i = 0; i < 20; ++i) folder.file("Wood" + std::to_string(i) + ".JPG", "x");
     folder.file("main.dae", with_scene("<library_images>" +
                                            repeat(500,
@@ -273,8 +274,8 @@ TEST(MissingImages, ListTheirFolderOnce) {
     options.everything = true;
     Extraction x(r.diag, options);
     ASSERT_TRUE(extract_into(x, *r.document));
-    EXPECT_EQ(x.image_folders.folder_count(), 1u);
-    EXPECT_EQ(x.image_folders.listed_files(), 21u);
+    EXPECT_EQ(x.pictures.folder_count(), 5u);  // the other four are not there
+    EXPECT_EQ(x.pictures.listed_files(), 21u);
     EXPECT_EQ(r.count("FILE_FALLBACK"), 20u);
     EXPECT_EQ(r.count("FILE_MISSING"), 480u);
     ASSERT_EQ(x.scene.images.size(), 500u);

@@ -1,6 +1,8 @@
-"""tests/programs/confine_test.py: what a scene asks for is read and written in its own folder only."""
+"""tests/programs/confine_test.py: what a scene asks for is read and written in its own folder only; its
+pictures are read wherever they lie, unless --confine keeps them in too. Only regular files are opened."""
 import json
 import os
+import stat
 import sys
 import zipfile
 
@@ -106,30 +108,37 @@ class Includes(ConfineTest):
 class Maps(ConfineTest):
     TEXTURED = 'surface s({}) {{ Oi = 1; Ci = texture({}, 0.3, 0.6); }}'
 
+    CONFINE = "--confine"
+
     def test_literals_are_held_to_the_folder_at_their_place(self):
         self.write_bytes("scene/none/x", b"")
         checks, _ = self.picture(self.scene(self.TEXTURED.format("", '"none.png"')))
-        own, said = self.picture(self.scene(self.TEXTURED.format("", '"map.png"')))
+        own, said = self.picture(self.scene(self.TEXTURED.format("", '"map.png"')), self.CONFINE)
         self.assertNotEqual(own, checks)
         self.assertNotIn("warning", said)
         os.symlink(self.folder / "secret/map.png", self.folder / "scene/link.png")
         for name in ("../secret/map.png", str(self.folder / "secret/map.png"), "link.png",
                      "none/../../secret/map.png"):
             scene = self.scene(self.TEXTURED.format("", f'"{name}"'))
-            refused, said = self.picture(scene)
+            anywhere, said = self.picture(scene)
+            self.assertEqual(anywhere, own, said)
+            self.assertNotIn("OUTSIDE", said)
+            self.assertNotIn("RSL_FILE_OUTSIDE", str(self.codes(scene)))
+            refused, said = self.picture(scene, self.CONFINE)
             self.assertEqual(refused, checks, name)
             self.assertIn("RSL_FILE_OUTSIDE", said)
             self.assertIn("--allow-external", said)
             line = self.line_of(scene, "texture(")
-            self.assertIn(("RSL_FILE_OUTSIDE", line), self.codes(scene))
-            allowed, said = self.picture(scene, "--allow-external", self.folder / "secret")
+            self.assertIn(("RSL_FILE_OUTSIDE", line), self.codes(scene, self.CONFINE))
+            allowed, said = self.picture(scene, self.CONFINE, "--allow-external", self.folder / "secret")
             self.assertEqual(allowed, own, said)
 
     def test_names_that_are_computed_are_too(self):
         name = 'concat("../secr", "et/map.png")'
         scene = self.scene(self.TEXTURED.format("", name))
         checks, _ = self.picture(self.scene(self.TEXTURED.format("", '"none.png"'), "scene/none.dae"))
-        refused, said = self.picture(scene)
+        self.assertNotEqual(self.picture(scene)[0], checks)
+        refused, said = self.picture(scene, self.CONFINE)
         self.assertEqual(refused, checks)
         self.assertIn("lies outside the scene's folder", said)
 
@@ -137,14 +146,25 @@ class Maps(ConfineTest):
         code = self.TEXTURED.format('string map = ""', "map")
         own, _ = self.picture(self.scene(code, binds='<bind symbol="map"><string>map.png</string></bind>'))
         checks, _ = self.picture(self.scene(code, binds='<bind symbol="map"><string>no.png</string></bind>'))
+        self.assertNotEqual(own, checks)
         for name in ("../secret/map.png", str(self.folder / "secret/map.png")):
             scene = self.scene(code, binds=f'\n<bind symbol="map"><string>{name}</string></bind>')
-            refused, said = self.picture(scene)
+            self.assertEqual(self.picture(scene)[0], own)
+            refused, said = self.picture(scene, self.CONFINE)
             self.assertEqual(refused, checks)
             self.assertIn("lies outside the scene's folder", said)
             if name.startswith("/"):
-                self.assertIn(("RSL_FILE_OUTSIDE", self.line_of(scene, "<bind")), self.codes(scene))
+                self.assertIn(("RSL_FILE_OUTSIDE", self.line_of(scene, "<bind")), self.codes(scene, self.CONFINE))
+
+    def test_pictures_that_the_user_names_are_always_read(self):
+        self.write_bytes("mine/other.png", dae.png(dae.picture()))
+        scene = self.scene(self.TEXTURED.format('string map = "map.png"', "map"))
+        own, _ = self.picture(scene)
+        checks, _ = self.picture(scene, "--param", "mat.map=none.png")
         self.assertNotEqual(own, checks)
+        for name in (self.folder / "mine/other.png", "mine/other.png"):
+            named, said = self.picture(scene, self.CONFINE, "--param", f"mat.map={name}", cwd=self.folder)
+            self.assertEqual(named, own, said)
 
     def test_an_image_that_is_refused_is_not_read_by_its_name(self):
         images = '<image id="im"><init_from>{}</init_from></image>'
@@ -155,31 +175,176 @@ class Maps(ConfineTest):
         self.write_bytes("secret/other.png", secret.read_bytes())
         secret = self.folder / "secret/other.png"
         checks, _ = self.picture(self.scene(code, binds='<bind symbol="map"><string>no.png</string></bind>'))
+        own, _ = self.picture(self.scene(code, binds='<bind symbol="map"><string>map.png</string></bind>'))
         for uri in (f"file://{secret}", f"FILE://{secret}", f"File:{secret}", str(secret), "../secret/other.png",
                     "%2e%2e/secret/other.png", "..%2Fsecret%2Fother.png", "..\\secret\\other.png"):
             scene = self.scene(code, params=params, binds=bind, images=images.format(uri))
-            refused, said = self.picture(scene)
+            anywhere, said = self.picture(scene)
+            self.assertEqual(anywhere, own, (uri, said))
+            self.assertNotIn("LINK_OUTSIDE", said, uri)
+            refused, said = self.picture(scene, self.CONFINE)
             self.assertEqual(refused, checks, uri)
             self.assertIn("LINK_OUTSIDE", said, uri)
-            allowed, said = self.picture(scene, "--allow-external", self.folder / "secret")
+            self.assertIn("LINK_OUTSIDE", str(self.codes(scene, self.CONFINE)))
+            allowed, said = self.picture(scene, self.CONFINE, "--allow-external", self.folder / "secret")
             self.assertNotEqual(allowed, checks, (uri, said))
         for uri in ("http://127.0.0.1:9/map.png", "HTTPS://127.0.0.1:9/other.png", "data:image/png;base64,AAAA"):
             scene = self.scene(code, params=params, binds=bind, images=images.format(uri.replace("map", "nomap")))
             self.assertIn("FILE_MISSING", self.picture(scene)[1])
 
-    def test_a_glb_of_it_holds_nothing_from_outside(self):
+    def test_a_glb_of_a_confined_scene_holds_nothing_from_outside(self):
         scene = self.scene(self.TEXTURED.format('string map = ""', "map"),
                            binds=f'<bind symbol="map"><string>{self.folder}/secret/map.png</string></bind>')
         out = self.folder / "out.glb"
-        run("kinora-convert", scene, out)
-        self.assertTrue(out.exists())
-        self.assertNotIn((self.folder / "secret/map.png").read_bytes()[-60:], out.read_bytes())
+        picture = (self.folder / "secret/map.png").read_bytes()[-60:]
+        self.expect(run("kinora-convert", self.CONFINE, scene, out), 0)
+        self.assertNotIn(picture, out.read_bytes())
+        self.expect(run("kinora-convert", scene, out), 0)
+        self.assertIn(picture, out.read_bytes())
 
     def test_relative_names_are_the_scene_s_wherever_one_stands(self):
         scene = self.scene(self.TEXTURED.format("", '"map.png"'))
         here, _ = self.picture(scene)
         there, _ = self.picture(scene, cwd=self.folder / "secret")
         self.assertEqual(here, there)
+
+
+class Pictures(ConfineTest):
+    """Where <image> finds its file: the layouts that exporters and packages have."""
+    URIS = (  # as written; where the file lies, from the folder of all
+        ("map.png", "models/meshes/map.png"),
+        ("../materials/textures/map.png", "models/materials/textures/map.png"),
+        ("map.png", "models/meshes/textures/map.png"),
+        ("map.png", "models/meshes/images/map.png"),
+        ("map.png", "models/textures/map.png"),
+        ("map.png", "models/materials/textures/map.png"),
+        ("file:///C:/Users/me/art/map.png", "models/materials/textures/map.png"),
+        ("C:\\art\\MAP.PNG", "models/meshes/textures/map.png"),
+        ("/nowhere/at/all/map.tga", "models/textures/map.png"),
+        ("../../far/away/map.png", "far/away/map.png"),
+    )
+
+    def with_image(self, name, uri):
+        return self.write(name, dae.textured(path=uri))
+
+    def test_an_image_is_found_where_exporters_leave_it(self):
+        data = dae.png(dae.picture())
+        for number, (uri, file) in enumerate(self.URIS):
+            with self.subTest(uri=uri, file=file):
+                root = f"case{number}"
+                scene = self.with_image(f"{root}/models/meshes/main.dae", uri)
+                missing, said = self.picture(scene)
+                self.assertIn("FILE_MISSING", said)
+                path = self.write_bytes(f"{root}/{file}", data)
+                found, said = self.picture(scene)
+                self.assertNotIn("FILE_MISSING", said)
+                self.assertNotEqual(found, missing)
+                plain = self.with_image(f"{root}/plain/main.dae", f"../{file}")
+                self.assertEqual(found, self.picture(plain)[0])
+                # From another folder, and by a path that is not absolute.
+                there, _ = self.picture(scene.name, cwd=scene.parent)
+                self.assertEqual(there, found)
+                out = self.folder / f"{root}.glb"
+                self.expect(run("kinora-convert", scene, out), 0)
+                self.assertIn(data[-60:], out.read_bytes())
+                if not file.startswith("models/meshes/"):
+                    self.assertEqual(self.picture(scene, "--confine")[0], missing)
+                path.unlink()
+
+    def test_what_lies_nearer_wins_and_a_name_wins_over_a_stem(self):
+        red = dae.png(dae.picture())
+        grey = dae.png([[(128, 128, 128)] * 4] * 4)
+        scene = self.with_image("models/meshes/main.dae", "/art/map.tga")
+        self.write_bytes("models/textures/map.png", red)
+        far, _ = self.picture(scene)
+        self.write_bytes("models/meshes/map.png", grey)
+        near, _ = self.picture(scene)
+        self.assertNotEqual(near, far)
+        os.rename(self.folder / "models/textures/map.png", self.folder / "models/textures/map.tga")
+        self.assertEqual(self.picture(scene)[0], far)  # a PNG, whatever its name
+
+    def test_gltf_finds_them_too(self):
+        out = self.folder / "scene/out.gltf"
+        scene = self.with_image("scene/textured.dae", "map.png")
+        self.expect(run("kinora-convert", scene, out), 0)
+        tree = json.loads(out.read_text())
+        tree["images"] = [{"uri": "textures/Gone.png"}]
+        out.write_text(json.dumps(tree))
+        missing, said = self.picture(out)
+        self.assertIn("IMAGE_UNREADABLE", said)
+        os.makedirs(self.folder / "materials/textures")
+        self.write_bytes("materials/textures/gone.png", dae.png(dae.picture()))
+        found, said = self.picture(out)
+        self.assertNotEqual(found, missing)
+        self.assertNotIn("IMAGE_UNREADABLE", said)
+        tree["images"] = [{"uri": "../secret/map.png"}]
+        out.write_text(json.dumps(tree))
+        self.assertEqual(self.picture(out)[0], found)
+        self.assertIn("GLTF_FILE", self.picture(out, "--confine")[1])
+
+    def test_a_repair_writes_where_the_image_is(self):
+        scene = self.with_image("models/meshes/main.dae", "C:/art/map.png")
+        self.write_bytes("models/materials/textures/map.png", dae.png(dae.picture()))
+        run("kinora-validate", "--fix", "--in-place", scene)
+        self.assertIn(">../materials/textures/map.png<", scene.read_text())
+
+
+class Pipes(ConfineTest):
+    """Everything that is opened is a regular file: a pipe without a writer would wait for ever."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkfifo(self.folder / "scene/pipe.png")
+        for name in ("pipe.h", "pipe.sl", "pipe.dae", "pipe.pts", "pipe.bin", "pipe.glb", "pipe.xsd"):
+            os.mkfifo(self.folder / "scene" / name)
+        self.textured = self.write("scene/textured.dae", dae.textured(path="pipe.png"))
+
+    def test_no_program_waits_for_an_image(self):
+        _, said = self.picture(self.textured)
+        self.assertIn("FILE_MISSING", said)
+        self.expect(run("kinora-convert", self.textured, self.folder / "o.glb"), 0)
+        self.expect(run("kinora-convert", self.textured, self.folder / "o.dae"), 0)
+        self.assertIn("FILE_MISSING", str(self.codes(self.textured, "--info")))
+        os.symlink("pipe.png", self.folder / "scene/link.png")
+        os.symlink("/dev/zero", self.folder / "scene/zero.png")
+        for name in ("pipe.png", "link.png", "zero.png", "/dev/zero", "/dev/tty"):
+            scene = self.scene(Maps.TEXTURED.format("", f'"{name}"'))
+            self.assertIn("IMAGE_UNREADABLE", self.picture(scene)[1])
+            bound = self.scene(Maps.TEXTURED.format('string map = ""', "map"),
+                               binds=f'<bind symbol="map"><string>{name}</string></bind>')
+            self.expect(run("kinora-convert", bound, self.folder / "p.glb"), 0)
+            self.expect(shade("run", f"{bound}#fx", "-o", self.folder / "s.png", "--size", "4x4"), 0)
+
+    def test_none_waits_for_what_shaders_read(self):
+        scene = self.scene('#include "pipe.h"\n' + GREEN.format("1"))
+        self.picture(scene, code=4)
+        self.expect(shade("check", f"{scene}#fx"), 4)
+        self.codes(scene)
+        _, said = self.picture(self.scene(PointFiles.READ.format("pipe.pts")))
+        self.assertIn("POINT_FILE_UNREADABLE", said)
+        _, said = self.picture(self.scene(PointFiles.BAKE.format("pipe.pts")), code=1)
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.folder / "scene/pipe.pts").st_mode))
+        effect = """<effect id="fx"><profile_RSL><technique sid="t"><include sid="i" url="pipe.sl"/>
+<pass><shader stage="SURFACE"/></pass></technique></profile_RSL></effect>"""
+        scene = self.write("scene/main.dae", dae.plain(effects=effect))
+        self.assertIn("RSL_INCLUDE_MISSING", self.picture(scene, code=4)[1])
+        plain = self.scene(GREEN.format("1"))
+        self.picture(plain, "--shader", f"mat={self.folder}/scene/pipe.sl", code=4)
+        self.expect(run("kinora-convert", plain, self.folder / "o.dae", "--shader",
+                        f"mat={self.folder}/scene/pipe.sl"), 4)
+
+    def test_none_waits_for_a_document_or_a_buffer(self):
+        for name in ("pipe.dae", "pipe.glb"):
+            pipe = self.folder / "scene" / name
+            self.picture(pipe, code=3)
+            self.expect(run("kinora-convert", pipe, self.folder / "o.glb"), 3)
+        self.expect(run("kinora-validate", self.folder / "scene/pipe.dae"), 3)
+        self.expect(run("kinora-validate", "--fix", self.folder / "scene/pipe.dae"), 3)
+        linked = self.write("scene/linked.dae", dae.document(dae.node(dae.shown("pipe.dae#house")), geometries=" "))
+        self.assertIn("LINK_EXTERNAL_MISSING", str(self.codes(linked)))
+        gltf = self.write("scene/a.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "pipe.bin"}]}))
+        self.picture(gltf, code=3)
 
 
 class PointFiles(ConfineTest):

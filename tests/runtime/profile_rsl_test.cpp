@@ -47,7 +47,7 @@ void check(Reading& r, const Parts& parts) {
                    "</instance_material></technique_common></bind_material></instance_geometry>"
                    "</node>"));
     ASSERT_TRUE(r.scene);
-    check_profile_rsl(*r.scene, {}, {}, r.diag);
+    check_profile_rsl(*r.scene, {}, r.diag);
 }
 
 void expect(const Parts& parts, const char* code, const std::string& pointed = "") {

@@ -58,7 +58,7 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
     SceneBounds bounds = bounds_of(description, occurrences, axes);
 
     GltfLooks looks(description, diagnostics);
-    TextureWriter textures(description.readable, document, buffer, losses);
+    TextureWriter textures(description.pictures, document, buffer, losses);
     RslWriter rsl(description, textures, losses);
     SurfaceWriter surfaces(description, textures, document, losses);
     MaterialWriter materials(description, looks, surfaces, rsl, document, losses);

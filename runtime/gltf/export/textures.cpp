@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/regular_file.h"
 #include "runtime/description/memory_file.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/images/image_io.h"
@@ -22,9 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr uint64_t kMostBytes = uint64_t(1) << 31;  // of a picture's file
+
 std::string read_bytes(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return read_regular_file(path, kMostBytes).value_or("");
 }
 
 const char* mime_type(const std::string& bytes) {
@@ -78,7 +78,7 @@ uint32_t TextureWriter::write_image(const std::string& path) {
     auto [found, fresh] = images_.try_emplace(path, kNone);
     if (!fresh) return found->second;
     AllowedPaths::Found file =
-        is_memory_file(path) ? AllowedPaths::Found{path} : readable_.find(path);
+        is_memory_file(path) ? AllowedPaths::Found{path} : pictures_.find(path);
     std::string bytes, error, loss;
     if (file.outside) {
         losses_.lost(fmt::format("image '{}'", path), "it lies outside the scene's folder");

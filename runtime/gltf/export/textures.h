@@ -14,9 +14,9 @@ namespace kinora {
 
 class TextureWriter {
   public:
-    TextureWriter(const AllowedPaths& readable, GltfDocument& document, BufferWriter& buffer,
+    TextureWriter(const AllowedPaths& pictures, GltfDocument& document, BufferWriter& buffer,
                   LossReport& losses)
-        : readable_(readable), document_(document), buffer_(buffer), losses_(losses) {}
+        : pictures_(pictures), document_(document), buffer_(buffer), losses_(losses) {}
 
     // The texture of a name (texture_name.h); kNone where its image cannot be read.
     uint32_t write(const std::string& name);
@@ -24,7 +24,7 @@ class TextureWriter {
   private:
     uint32_t write_image(const std::string& path);
 
-    const AllowedPaths& readable_;
+    const AllowedPaths& pictures_;
     GltfDocument& document_;
     BufferWriter& buffer_;
     LossReport& losses_;

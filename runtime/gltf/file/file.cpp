@@ -4,16 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <span>
 
 #include "runtime/base/percent_encoding.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
 #include "runtime/gltf/file/check.h"
 #include "runtime/gltf/file/json_scan.h"
@@ -47,14 +46,11 @@ bool is_shown(const std::string& extension) {
 
 // "" or why not.
 std::string read_bytes(const std::string& path, size_t limit, std::vector<unsigned char>& bytes) {
-    std::error_code code;
-    if (!fs::is_regular_file(path, code)) return "no such file";
-    uintmax_t size = fs::file_size(path, code);
-    if (code) return code.message();
+    uint64_t size = 0;
+    std::string error;
+    OpenFile file = open_regular_file(path, size, &error);
+    if (!file) return error;
     if (size > kMaxGltfBytes) return "it is larger than 2 GB";
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                         std::fclose);
-    if (!file) return std::strerror(errno);
     bytes.resize(std::min(size_t(size), limit));
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
     return "";
@@ -108,8 +104,7 @@ bool may_read(const Guard& guard, const std::string& path) {
 
 bool file_exists(const std::string& path, void* user) {
     const Guard& guard = *static_cast<const Guard*>(user);
-    std::error_code code;
-    if (!fs::is_regular_file(path, code)) return false;
+    if (!is_regular_file(path)) return false;
     if (may_read(guard, path)) return true;
     guard.diagnostics.report(Code::GLTF_FILE, gltf_location(guard.file, "/buffers"), path,
                              "it lies outside the scene's folder");

@@ -32,7 +32,7 @@ void import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
     out.meter = options.meter.value_or(axes.meter);
     out.up_axis = options.up_axis.value_or(axes.up);
 
-    TextureImporter textures(file, options, report, budget, out);
+    TextureImporter textures(file, report, budget, out);
     RslExtras rsl(file, options, textures, report, diagnostics, out);
     MaterialImporter materials(model, textures, rsl, report, diagnostics, out);
     materials.import_materials(ids);

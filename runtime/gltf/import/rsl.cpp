@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
+#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/description/texture_name.h"
@@ -155,6 +155,7 @@ RslExtras::Shaders RslExtras::compile(const tinygltf::Value& layer, const std::s
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
     options.files = out_.readable;
+    options.pictures = out_.pictures;
     Shaders shaders;
     auto take = [&](auto compiled) {
         for (auto& shader : compiled) shaders.push_back(std::move(shader));
@@ -230,12 +231,11 @@ bool RslExtras::read_strings(const tinygltf::Value& value, const std::string& po
     if (value.IsString()) {
         std::string text = value.Get<std::string>();
         std::string path = gltf_path(file_, text);
-        bool is_own = may_read_gltf(file_, options_, path);
-        std::error_code code;
-        bool is_file = !path.empty() && std::filesystem::is_regular_file(path, code);
-        if (is_file && !is_own)
+        bool allowed = out_.pictures.contains(path);
+        bool is_file = is_regular_file(path);
+        if (is_file && !allowed)
             report_.add(Code::GLTF_FILE, pointer, path, "it lies outside the scene's folder");
-        source.strings = {is_file && is_own ? path : text};
+        source.strings = {is_file && allowed ? out_.pictures.name_of(path) : text};
         return true;
     }
     const tinygltf::Value* texture = member(value, "texture");

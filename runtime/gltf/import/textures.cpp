@@ -57,6 +57,28 @@ void apply_sampler(const tinygltf::Sampler& sampler, TextureName& name) {
 
 }  // namespace
 
+// The path of an image's file, there or not; "" where it may not be read.
+std::string TextureImporter::find_picture(const std::string& uri, const std::string& pointer) {
+    constexpr std::string_view kScheme = "file://";
+    std::string path =
+        gltf_path(file_, uri.starts_with(kScheme) ? uri.substr(kScheme.size()) : uri);
+    FoundPicture found = search_.find(path, file_.directory, out_.pictures);
+    switch (found.match) {
+        case PictureMatch::Exact:
+            return found.path;
+        case PictureMatch::Case:
+        case PictureMatch::Elsewhere:
+            report_.add(Code::GLTF_FILE_FALLBACK, pointer, uri, found.path);
+            return found.path;
+        case PictureMatch::Outside:
+            report_.add(Code::GLTF_FILE, pointer, path, "it lies outside the scene's folder");
+            return "";
+        case PictureMatch::Missing:
+            return path;  // the image store says so
+    }
+    return "";
+}
+
 // The file of an image; an image inside the scene's file becomes a MemoryFile.
 std::string TextureImporter::image_path(int image, const std::string& pointer) {
     if (!report_.exists(image, file_.model.images.size(), "image", pointer)) return "";
@@ -64,14 +86,8 @@ std::string TextureImporter::image_path(int image, const std::string& pointer) {
     if (!is_new) return known->second;
     tinygltf::Image& from = file_.model.images[size_t(image)];
     std::string own = fmt::format("/images/{}", image);
-    if (from.bufferView < 0 && from.image.empty()) {
-        std::string path = gltf_path(file_, from.uri);
-        if (!may_read_gltf(file_, options_, path)) {
-            report_.add(Code::GLTF_FILE, own + "/uri", path, "it lies outside the scene's folder");
-            path.clear();
-        }
-        return known->second = path;
-    }
+    if (from.bufferView < 0 && from.image.empty())
+        return known->second = find_picture(from.uri, own + "/uri");
     std::vector<uint8_t> bytes = std::move(from.image);
     if (from.bufferView >= 0) {
         const tinygltf::BufferView& view = file_.model.bufferViews[size_t(from.bufferView)];

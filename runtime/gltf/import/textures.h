@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/picture_search.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/gltf/file/byte_budget.h"
 
@@ -21,9 +22,8 @@ struct GltfTextureInfo {
 class TextureImporter {
   public:
     // Moves images out of file.model.
-    TextureImporter(GltfFile& file, const ImportOptions& options, GltfReport& report,
-                    ByteBudget& budget, SceneDescription& out)
-        : file_(file), options_(options), report_(report), budget_(budget), out_(out) {}
+    TextureImporter(GltfFile& file, GltfReport& report, ByteBudget& budget, SceneDescription& out)
+        : file_(file), report_(report), budget_(budget), out_(out) {}
 
     // The name of a texture (texture_name.h); "" where it cannot be read.
     std::string texture_name(int texture, bool data, const std::string& pointer);
@@ -34,12 +34,13 @@ class TextureImporter {
 
   private:
     std::string image_path(int image, const std::string& pointer);
+    std::string find_picture(const std::string& uri, const std::string& pointer);
 
     GltfFile& file_;
-    const ImportOptions& options_;
     GltfReport& report_;
     ByteBudget& budget_;
     SceneDescription& out_;
+    PictureSearch search_;
     std::map<int, std::string> images_;  // their paths
 };
 

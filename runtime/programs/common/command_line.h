@@ -82,6 +82,13 @@ inline CLI::Validator one_of(std::vector<std::string_view> names) {
             ""};
 }
 
+// --fail-on, of programs that make something of a scene.
+inline void add_fail_on(CLI::App& app, Severity& fail_on) {
+    add_choice<Severity>(app, "--fail-on", fail_on,
+                         {{"warning", Severity::Warning}, {"error", Severity::Error}},
+                         "exit 1 after findings of this severity: warning or error (error)");
+}
+
 // An option that may be repeated. It takes one word a time: what follows may be the scene.
 // `delimiter` parts the word into several.
 inline CLI::Option* add_list(CLI::App& app, const std::string& names, std::vector<std::string>& out,

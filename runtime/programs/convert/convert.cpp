@@ -34,26 +34,6 @@ std::string extension(const std::string& path) {
     return e;
 }
 
-// Prints findings and says which exit code they call for.
-int tell(const Diagnostics& diag, const ConvertOptions& options) {
-    Severity least = options.quiet     ? Severity::Error
-                     : options.verbose ? Severity::Hint
-                                       : Severity::Warning;
-    bool lost = false, shader = false, usage = false;
-    for (const Finding& f : diag.findings()) {
-        lost |= f.info == &Code::CONVERT_LOST || f.info == &Code::CONVERT_EXTERNAL;
-        bool rsl = std::string_view(f.info->code).starts_with("RSL_");
-        shader |= f.severity == Severity::Error && (rsl || f.info == &Code::CONVERT_SHADER);
-        usage |= f.info == &Code::MATERIAL_UNKNOWN;
-        // What the reader makes of the scene matters less here than what becomes of it.
-        bool said = f.severity >= least || (f.info == &Code::CONVERT_EXTRAS && !options.quiet);
-        if (said) std::fputs(format_finding(f, diag.files).c_str(), stderr);
-    }
-    if (shader) return kExitShader;
-    if (usage) return kExitUsage;
-    return lost && options.strict ? kExitSomeFailed : kExitOk;
-}
-
 // To a temporary name beside the output, then renamed: a file that has its name is whole.
 int write_whole(const std::string& path, std::string_view bytes) {
     fs::path target(path);
@@ -85,7 +65,11 @@ int write_whole(const std::string& path, std::string_view bytes) {
 
 class Conversion {
   public:
-    explicit Conversion(const ConvertOptions& options) : options_(options) {}
+    // What the reader makes of the scene matters less here than what becomes of it.
+    explicit Conversion(const ConvertOptions& options)
+        : options_(options), printer_(options.findings, options.input, &Code::CONVERT_EXTRAS) {
+        diag_.judge(options.findings.judgement());
+    }
 
     int run() {
         Stopwatch watch;
@@ -93,18 +77,14 @@ class Conversion {
         bool to_dae = extension(options_.output) == ".dae";
         if (to_dae && !is_gltf(options_.input)) {
             std::optional<std::string> text = convert_document(options_, diag_);
-            int code = tell(diag_, options_);
-            if (!text) return ends(code) ? code : kExitUnreadable;
-            return ends(code) ? code : finish(*text, code, watch);
+            if (int code = tell(text.has_value())) return code;
+            return finish(*text, watch);
         }
-        if (!import()) {
-            int code = tell(diag_, options_);
-            return ends(code) ? code : kExitUnreadable;
-        }
+        if (!import()) return tell(false);
         for (const auto& [material, file] : options_.shaders)
             if (!override_shader(scene_, material, {file, options_.include_directories}, diag_)) {
-                int code = tell(diag_, options_);
-                return ends(code) ? code : kExitShader;
+                int code = tell(true);
+                return code ? code : kExitShader;
             }
         ColladaExport document;
         std::string bytes;
@@ -112,19 +92,33 @@ class Conversion {
             document = export_collada(scene_, options_.output, diag_);
         else
             bytes = export_glb(scene_, gltf_options(), diag_);
-        int code = tell(diag_, options_);
-        if (ends(code)) return code;
-        if (to_dae) return finish_collada(code, watch, std::move(document));
-        if (extension(options_.output) != ".gltf") return finish(bytes, code, watch);
-        return finish_gltf(bytes, code, watch);
+        if (int code = tell(true)) return code;
+        if (to_dae) return finish_collada(watch, std::move(document));
+        if (extension(options_.output) != ".gltf") return finish(bytes, watch);
+        return finish_gltf(bytes, watch);
     }
 
   private:
-    static bool ends(int code) { return code == kExitShader || code == kExitUsage; }
+    // Prints findings. Not 0: nothing is written.
+    int tell(bool readable) {
+        printer_.print(diag_);
+        printer_.summarize();
+        for (const Finding& f : diag_.findings()) {
+            if (f.severity != Severity::Error) continue;
+            bool rsl = std::string_view(f.info->code).starts_with("RSL_");
+            if (rsl || f.info == &Code::CONVERT_SHADER) return kExitShader;
+            if (f.info == &Code::MATERIAL_UNKNOWN) return kExitUsage;
+        }
+        if (readable) return printer_.exit_code_of_errors();
+        if (!diag_.has_errors())
+            fmt::print(stderr, "kinora: error: '{}' cannot be converted\n", options_.input);
+        return kExitUnreadable;
+    }
 
     bool import() {
         ImportOptions import;
         import.allow_external = options_.allow_external;
+        import.confine = options_.confine;
         import.include_directories = options_.include_directories;
         std::optional<SceneDescription> scene = import_scene(options_.input, import, diag_);
         if (scene) scene_ = std::move(*scene);
@@ -137,7 +131,7 @@ class Conversion {
         return o;
     }
 
-    int finish_collada(int code, const Stopwatch& watch, ColladaExport result) {
+    int finish_collada(const Stopwatch& watch, ColladaExport result) {
         if (result.text.empty()) {
             fmt::print(stderr, "kinora: error: cannot write '{}': no reader would take it\n",
                        options_.output);
@@ -150,7 +144,7 @@ class Conversion {
             if (int failed =
                     write_whole((fs::path(options_.output).parent_path() / name).string(), bytes))
                 return failed;
-        return finish(result.text, code, watch);
+        return finish(result.text, watch);
     }
 
     static std::string canonical(const std::string& text) {
@@ -160,7 +154,7 @@ class Conversion {
     }
 
     // .gltf: the JSON with its buffer in a .bin beside it.
-    int finish_gltf(const std::string& glb, int code, const Stopwatch& watch) {
+    int finish_gltf(const std::string& glb, const Stopwatch& watch) {
         GlbParts parts = split_glb(glb);
         nlohmann::ordered_json json = nlohmann::ordered_json::parse(parts.json);
         fs::path bin = fs::path(options_.output).replace_extension(".bin");
@@ -169,7 +163,7 @@ class Conversion {
             parts.buffer.resize(json["buffers"][0]["byteLength"].get<size_t>());
             if (int failed = write_whole(bin.string(), parts.buffer)) return failed;
         }
-        return finish(json.dump(1) + "\n", code, watch);
+        return finish(json.dump(1) + "\n", watch);
     }
 
     static std::string uri_of(const std::string& name) {
@@ -181,11 +175,14 @@ class Conversion {
         return uri;
     }
 
-    int finish(const std::string& bytes, int code, const Stopwatch& watch) {
+    int finish(const std::string& bytes, const Stopwatch& watch) {
+        printer_.print(diag_);  // what other axes cannot keep
+        printer_.summarize();
         if (int failed = write_whole(options_.output, bytes)) return failed;
-        size_t lost = 0, extras = 0;
+        size_t lost = 0, external = 0, extras = 0;
         for (const Finding& f : diag_.findings()) {
             lost += f.info == &Code::CONVERT_LOST;
+            external += f.info == &Code::CONVERT_EXTERNAL;
             extras += f.info == &Code::CONVERT_EXTRAS;
         }
         if (options_.stats_json)
@@ -197,11 +194,13 @@ class Conversion {
         else if (options_.stats)
             fmt::print("{} bytes in {:.1f} ms; {} lost, {} in extras\n", bytes.size(), watch.ms(),
                        lost, extras);
-        return code;
+        bool incomplete = options_.findings.strict && lost + external > 0;
+        return incomplete ? int(kExitSomeFailed) : printer_.exit_code(kExitOk);
     }
 
     const ConvertOptions& options_;
     Diagnostics diag_;
+    FindingPrinter printer_;
     SceneDescription scene_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
+#include "runtime/programs/common/finding_printer.h"
 
 namespace kinora {
 
@@ -19,9 +20,9 @@ struct ConvertOptions {
     std::optional<double> meter;              // likewise
     double animation_error = 1e-4;            // GltfExportOptions
     std::vector<std::string> allow_external;  // folders outside the scene's that it may read
+    bool confine = false;                     // pictures too
     int threads = 0;                          // 0: all
-    bool strict = false;
-    bool quiet = false, verbose = false;
+    FindingOptions findings;
     bool stats = false, stats_json = false;
 };
 

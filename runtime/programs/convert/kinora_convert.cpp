@@ -15,8 +15,10 @@ struct Given {
 
 void declare(CLI::App& app, Given& given, ConvertOptions& o) {
     app.footer(
-        "Exit codes: 0 ok; 1 something was lost, under --strict; 2 usage; 3 scene "
-        "unreadable;\n4 shader error; 6 output cannot be written; 75 retry may help.");
+        "Exit codes: 0 ok; 1 something was lost, under --strict, or findings of --fail-on; 2 "
+        "usage;\n"
+        "3 scene unreadable; 4 shader error; 5 missing asset under --strict; 6 output cannot be\n"
+        "written; 75 retry may help.");
     app.set_version_flag("--version", "kinora-convert " KINORA_VERSION);
     app.add_option("input", o.input, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
     app.add_option("output", o.output, "the file to write: .glb, .gltf or .dae")->required();
@@ -31,12 +33,17 @@ void declare(CLI::App& app, Given& given, ConvertOptions& o) {
                    "how near sampled curves must come (1e-4 of the range they move over)");
     add_list(app, "--allow-external", o.allow_external,
              "DIR: a folder outside the scene's that it may read files of");
-    app.add_flag("--strict", o.strict, "exit 1 if the output cannot hold something");
+    app.add_flag("--confine", o.confine,
+                 "read pictures too only there; else they may lie anywhere");
+    app.add_flag("--strict", o.findings.strict,
+                 "what is missing, refused or left out is an error, and so is what the output "
+                 "cannot hold");
+    add_fail_on(app, o.findings.fail_on);
     app.add_option("--threads", given.threads, "N, -N (all but N) or all (all)");
     app.add_option("--stats", given.stats, "[=json]: sizes and times, on stdout")
         ->check(one_of({"text", "json"}));
-    app.add_flag("-v,--verbose", o.verbose, "say more");
-    app.add_flag("-q,--quiet", o.quiet, "say only errors");
+    app.add_flag("-v,--verbose", o.findings.verbose, "say everything");
+    app.add_flag("-q,--quiet", o.findings.quiet, "say only errors");
 }
 
 void interpret(const Given& given, ConvertOptions& o) {

@@ -99,11 +99,11 @@ class LinkMove {
 
   private:
     // Where a file of the old document is, as seen from the new one.
-    std::string moved(const fs::path& file) {
+    std::string moved(const fs::path& file, bool picture = false) {
         fs::path path = archive_.empty()
                             ? file.lexically_relative(to_)
                             : (unpacked_ / file.lexically_relative(archive_)).lexically_normal();
-        if (path.begin() != path.end() && *path.begin() == "..")
+        if (!picture && path.begin() != path.end() && *path.begin() == "..")
             outside_.insert(path.generic_string());
         return path.generic_string();
     }
@@ -122,7 +122,8 @@ class LinkMove {
         fs::path file = found(collada::path_of_uri(document_, link.substr(0, hash)));
         // A fragment without its '#' is no file.
         if (hash == link.size() && !names_file(*uri.element) && !is_file(file)) return;
-        std::string name = encoded(moved(file)) + std::string(link.substr(hash));
+        bool picture = uri.element->name == "init_from" || uri.element->name == "ref";
+        std::string name = encoded(moved(file, picture)) + std::string(link.substr(hash));
         if (uri.attribute)
             edits_.push_back(
                 collada::set_attribute(text_, *uri.element, uri.attribute->name, name));

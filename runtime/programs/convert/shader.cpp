@@ -3,13 +3,12 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <span>
 
 #include "collada/document/edit.h"
 #include "rsl/compile.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
 #include "runtime/programs/convert/convert.h"
 
@@ -25,8 +24,7 @@ constexpr const char* kStages[] = {"SURFACE", "DISPLACEMENT", "LIGHT",
                                    "VOLUME",  "IMAGER",       "TRANSFORMATION"};  // ShaderKind
 
 std::string code_of(const std::string& file, const ConvertOptions& options, Diagnostics& diag) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    std::string text = read_regular_file(file).value_or("");
     if (text.find("#include") == text.npos) return text;
     // Included files may not be where the document is read: their text comes along.
     rsl::ShaderSource source;

@@ -9,6 +9,7 @@
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/display_path.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/description/texture_name.h"
 
 namespace kinora {
@@ -22,9 +23,10 @@ std::set<std::string> named_files(const SceneDescription& description) {
     for (int32_t id = 1; id < rsl::interned_count(); ++id) {
         std::string name = parse_texture_name(rsl::interned(id)).path;
         if (name.empty() || name.find('\0') != std::string::npos) continue;
-        auto [path, outside] = description.readable.find(name);
-        std::error_code code;
-        if (!outside && std::filesystem::is_regular_file(path, code)) files.insert(path);
+        for (const AllowedPaths* trees : {&description.readable, &description.pictures}) {
+            auto [path, outside] = trees->find(name);
+            if (!outside && is_regular_file(path)) files.insert(path);
+        }
     }
     return files;
 }

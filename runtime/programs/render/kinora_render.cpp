@@ -45,31 +45,43 @@ void on_signal(int number) {
 class Render {
   public:
     explicit Render(const RenderOptions& options)
-        : options_(options), progress_(options.progress, 1) {}
+        : options_(options),
+          printer_(options.findings, options.scene),
+          progress_(options.progress, 1) {
+        diagnostics_.judge(options.findings.judgement());
+    }
 
     int run() {
-        if (int code = load()) return code;
+        int code = load();
+        printer_.summarize();
+        if (code == kExitOk) code = printer_.exit_code(result());
+        printer_.summarize();
+        return code;
+    }
+
+  private:
+    int result() {
         if (!options_.list.empty()) {
             std::fputs((options_.json ? list_scene_json(*scene_, options_.list)
                                       : list_scene(*scene_, options_.list))
                            .c_str(),
                        stdout);
-            return flush_findings();
+            return kExitOk;
         }
         dump();
-        if (options_.output.empty() && options_.contact_sheet.empty()) return flush_findings();
+        if (options_.output.empty() && options_.contact_sheet.empty()) return kExitOk;
         int code = frames();
         if (options_.stats)
             print_stats(options_, {load_ms_, build_ms_, first_ray_ms_, scene_->dice}, records_);
         return code;
     }
 
-  private:
     int load();
     int exit_code_of_findings(int otherwise) const;
-    int flush_findings();
+    void flush_findings();
     void dump() const;
     int frames();
+    int report_unreadable() const;
     int report_unwritable(const std::string& file, const std::string& error, int number);
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
@@ -82,8 +94,7 @@ class Render {
 
     const RenderOptions& options_;
     Diagnostics diagnostics_;
-    size_t shown_ = 0;      // findings printed so far
-    bool missing_ = false;  // assets, under --strict
+    FindingPrinter printer_;
     std::unique_ptr<Scene> scene_;
     std::unique_ptr<Redicer> redicer_;  // null where nothing is diced
     FrameSettings settings_;
@@ -104,33 +115,15 @@ int Render::exit_code_of_findings(int otherwise) const {
         for (const FindingInfo* usage :
              {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
               &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE,
-              &Code::NODE_UNKNOWN})
+              &Code::NODE_UNKNOWN, &Code::AOV_UNKNOWN})
             if (finding.info == usage) return kExitUsage;
     }
     return otherwise;
 }
 
-bool is_missing_asset(std::string_view code) {
-    return code.starts_with("FILE_") || code.starts_with("IMAGE_") ||
-           code.starts_with("LINK_EXTERNAL_") || code == "POINT_FILE_UNREADABLE";
-}
-
-// Prints what is new; returns the exit code that missing assets call for under --strict: what is
-// told once is missing in all frames.
-int Render::flush_findings() {
+void Render::flush_findings() {
     progress_.clear();
-    const auto& findings = diagnostics_.findings();
-    for (; shown_ < findings.size(); ++shown_) {
-        const Finding& finding = findings[shown_];
-        Severity least = options_.quiet     ? Severity::Error
-                         : options_.verbose ? Severity::Hint
-                                            : Severity::Warning;
-        std::string_view id = finding.info->code;
-        if (options_.strict && is_missing_asset(id)) missing_ = true;
-        if (finding.severity >= least)
-            std::fputs(format_finding(finding, diagnostics_.files).c_str(), stderr);
-    }
-    return missing_ ? kExitMissingAsset : kExitOk;
+    printer_.print(diagnostics_);
 }
 
 SceneOptions Render::scene_options() const {
@@ -167,6 +160,7 @@ int Render::load() {
     Stopwatch watch;
     ImportOptions import;
     import.allow_external = options_.allow_external;
+    import.confine = options_.confine;
     import.up_axis = options_.up_axis;
     import.meter = options_.meter;
     import.transparency = options_.transparency;
@@ -175,7 +169,7 @@ int Render::load() {
         import_scene(options_.scene, import, diagnostics_);
     if (!description) {
         flush_findings();
-        return kExitUnreadable;
+        return report_unreadable();
     }
     for (const auto& [pattern, file] : options_.shaders)
         override_shader(*description, pattern, {file, options_.include_directories}, diagnostics_);
@@ -215,10 +209,20 @@ int Render::load() {
     if (!scene_ || !scene_->dice.triangles) redicer_.reset();
     if (redicer_) redicer_->share(*scene_, diagnostics_.files);
     build_ms_ = watch.ms();
-    int strict = flush_findings();
-    int code = exit_code_of_findings(scene_ ? kExitOk : kExitUnreadable);
-    if (code == kExitOk) code = strict;
-    return code;
+    flush_findings();
+    int code = exit_code_of_findings(kExitOk);
+    if (code != kExitOk) return code;
+    if (!scene_) return report_unreadable();
+    // An Error means that there is no picture; what --fail-on names besides comes with one.
+    return printer_.exit_code_of_errors();
+}
+
+// An exit code that is not 0 has an error behind it.
+int Render::report_unreadable() const {
+    if (!diagnostics_.has_errors())
+        std::fprintf(stderr, "kinora-render: error: '%s' cannot be rendered\n",
+                     options_.scene.c_str());
+    return kExitUnreadable;
 }
 
 void Render::dump() const {
@@ -276,8 +280,9 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     bool whole = picture(record, time, progress);
     bool baked = unwritable() == unwritten;  // point files
     if (g_signal) return 128 + g_signal;
-    if (int missing = flush_findings()) return missing;  // textures are read when they are seen
+    flush_findings();
     if (!whole) return kExitSomeFailed;
+    if (int code = printer_.exit_code_of_errors()) return code;  // textures are read when seen
     Stopwatch watch;
     if (wants_file) {
         int number = 0;

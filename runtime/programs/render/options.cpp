@@ -199,6 +199,8 @@ void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
     add_list(app, "--allow-external", o.allow_external,
              "DIR: a folder that the scene may read besides its own")
         ->check(CLI::ExistingDirectory);
+    app.add_flag("--confine", o.confine,
+                 "read pictures too only there; else they may lie anywhere");
 }
 
 // Frames that exist or fail, and what is told.
@@ -207,7 +209,9 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
                               "keep whole files of the same scene and options");
     app.add_flag("--overwrite", given.overwrite, "write every frame (the default)")->excludes(skip);
     app.add_flag("--keep-going", o.keep_going, "go on after a frame that failed");
-    app.add_flag("--strict", o.strict, "missing assets are errors");
+    app.add_flag("--strict", o.findings.strict,
+                 "what is missing, refused or left out is an error, and there is no picture");
+    add_fail_on(app, o.findings.fail_on);
     app.add_option("--stats", given.stats, "[=json]: what each stage took, per frame, on stdout")
         ->check(one_of({"text", "json", "none"}));
     app.add_option("--progress", given.progress, "bar, lines or none (bar on a terminal)")
@@ -217,8 +221,8 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_flag("--json", o.json, "the list as JSON")->needs(list);
     add_list(app, "--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm", ',');
     app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
-    app.add_flag("-v,--verbose", o.verbose, "say more");
-    app.add_flag("-q,--quiet", o.quiet, "say only errors");
+    app.add_flag("-v,--verbose", o.findings.verbose, "say everything");
+    app.add_flag("-q,--quiet", o.findings.quiet, "say only errors");
 }
 
 void interpret_quality(const Given& given, RenderOptions& o) {
@@ -256,12 +260,15 @@ void interpret_output(const Given& given, RenderOptions& o) {
         throw CLI::RequiredError("-o FILE (or --list, --dump)");
     if (!o.output.empty() && !is_image_path(o.output))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
+    bool pictures = !o.output.empty() || !o.contact_sheet.empty();
+    if (!o.aovs.empty() && pictures && !o.output.ends_with(".exr"))
+        throw CLI::ValidationError("--aov", "needs -o FILE.exr: only EXR holds further channels");
     o.stats = !given.stats.empty() && given.stats != "none";
     o.stats_json = given.stats == "json";
     o.progress = isatty(STDERR_FILENO) ? ProgressStyle::Bar : ProgressStyle::Lines;
     if (given.progress == "bar") o.progress = ProgressStyle::Bar;
     if (given.progress == "lines") o.progress = ProgressStyle::Lines;
-    if (given.progress == "none" || o.quiet) o.progress = ProgressStyle::None;
+    if (given.progress == "none" || o.findings.quiet) o.progress = ProgressStyle::None;
 }
 
 void interpret(const Given& given, RenderOptions& o) {

@@ -10,6 +10,7 @@
 #include "runtime/dae/import.h"
 #include "runtime/frame/quality.h"
 #include "runtime/images/image_io.h"
+#include "runtime/programs/common/finding_printer.h"
 #include "runtime/programs/common/frame_list.h"
 #include "runtime/programs/common/progress.h"
 #include "runtime/scene/scene.h"
@@ -52,11 +53,11 @@ struct RenderOptions {
     std::optional<double> meter;
     TransparencyMode transparency = TransparencyMode::Spec;
     std::vector<std::string> allow_external;  // folders
+    bool confine = false;                     // pictures too
     bool skip_existing = false;
     bool keep_going = false;
-    bool strict = false;
+    FindingOptions findings;
     bool stats = false, stats_json = false;
-    bool quiet = false, verbose = false;
     ProgressStyle progress = ProgressStyle::Lines;
     std::string list;               // "cameras", ..., "all"; "" = render
     bool json = false;              // of the list

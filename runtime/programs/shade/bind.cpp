@@ -167,7 +167,7 @@ std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, 
     if (!options.target && jit::best_target().name == std::string_view("interp"))
         source.diagnostics.report(Code::TARGET_INTERPRETED, Location{});
     source.print_findings(options);
-    patch.textures = std::make_shared<TextureStore>(options.compile.files);
+    patch.textures = std::make_shared<TextureStore>(options.compile.pictures);
     if (shader->kind == rsl::ShaderKind::Light) patch.set_light(options.flip);
     if (int code = bind_stack(options, source, *shader, patch, stack)) return code;
     return std::nullopt;

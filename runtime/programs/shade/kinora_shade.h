@@ -21,7 +21,8 @@ struct ShadeOptions {
     rsl::CompileOptions compile;              // a scene's shader is held to the scene's folder
     std::vector<std::string> allow_external;  // and to these
     bool preprocess_only = false;             // -E
-    bool warnings_fail = false;               // -Werror
+    bool warnings_fail = false;               // -Werror, --fail-on warning
+    bool strict = false;                      // what a scene leaves out is an error
     bool json = false;                        // check, info, bench
     bool quiet = false, verbose = false;
     bool silent = false;                                      // findings are told otherwise

@@ -61,6 +61,10 @@ void add_compile(CLI::App& command, ShadeOptions& o, Texts& texts) {
              "DIR: a scene's shader may read files there too, outside its folder");
     command.add_flag("-E", o.preprocess_only, "print the preprocessed text only");
     command.add_flag("--Werror", o.warnings_fail, "warnings fail too (also -Werror)");
+    add_choice<bool>(command, "--fail-on", o.warnings_fail, {{"warning", true}, {"error", false}},
+                     "warning, as --Werror, or error (error)");
+    command.add_flag("--strict", o.strict,
+                     "what a scene's file leaves out is an error; a missing texture is exit 5");
 }
 
 void add_source(CLI::App& command, ShadeOptions& o, Texts& texts) {

@@ -132,12 +132,13 @@ int shade_run(const ShadeOptions& options) {
     if (options.compare == "interp")
         compare_with_interpreter(stack, patch, kernel, source.diagnostics);
     if (options.compare == "reference") compare_with_reference(stack, patch, kernel);
-    if (options.file.empty()) return kExitOk;
+    if (options.file.empty()) return source.exit_code(options, kExitOk);
     if (names.empty()) {
         std::fprintf(stderr, "kinora-shade: the shader never sets %s\n", options.output.c_str());
         return kExitUsage;
     }
-    return write_picture(options, picture(options, outputs, names, patch));
+    return source.exit_code(options,
+                            write_picture(options, picture(options, outputs, names, patch)));
 }
 
 }  // namespace kinora

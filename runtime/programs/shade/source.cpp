@@ -17,6 +17,7 @@
 #include "runtime/base/text_encoding.h"
 #include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/missing_asset.h"
 
 namespace kinora {
 
@@ -112,6 +113,15 @@ bool ShadeSource::failed(const ShadeOptions& options) const {
            (options.warnings_fail && diagnostics.count(Severity::Warning) > 0);
 }
 
+int ShadeSource::exit_code(const ShadeOptions& options, int code) const {
+    if (code != kExitOk) return code;
+    const auto& findings = diagnostics.findings();
+    bool missing = std::any_of(findings.begin(), findings.end(),
+                               [](const Finding& f) { return is_missing_asset(*f.info); });
+    if (options.strict && missing) return kExitMissingAsset;
+    return failed(options) ? kExitSomeFailed : kExitOk;
+}
+
 void hold_to_scene(ShadeOptions& options) {
     std::string scene = scene_of_source(options.source);
     if (scene.empty()) return;
@@ -119,6 +129,7 @@ void hold_to_scene(ShadeOptions& options) {
     for (const auto* more : {&options.allow_external, &options.compile.include_directories})
         folders.insert(folders.end(), more->begin(), more->end());
     options.compile.files = AllowedPaths(folders);
+    options.compile.pictures = options.compile.files.anywhere();
 }
 
 std::vector<std::string> shade_sources(const std::string& word) {
@@ -134,6 +145,7 @@ std::vector<std::string> shade_sources(const std::string& word) {
 }
 
 int read_shade_source(const ShadeOptions& options, ShadeSource& source) {
+    source.diagnostics.judge(options.strict ? Judgement::Strict : Judgement::Rendering);
     std::string scene = scene_of_source(options.source);
     int code =
         scene.empty() ? read_file(options.source, source) : read_effect(scene, options, source);

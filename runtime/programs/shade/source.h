@@ -31,6 +31,8 @@ struct ShadeSource {
     void print_findings(const ShadeOptions& options);
     // An error was found; a warning counts under -Werror.
     bool failed(const ShadeOptions& options) const;
+    // The exit code of a command that otherwise comes to `code`.
+    int exit_code(const ShadeOptions& options, int code) const;
 
   private:
     size_t printed_ = 0;

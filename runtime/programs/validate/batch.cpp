@@ -76,7 +76,7 @@ Piece make_piece(const std::string& file, const ValidateSettings& settings,
                  const std::string& stdin_bytes) try {
     FileResult result = validate_file(file, settings, stdin_bytes);
     Piece piece;
-    piece.totals.add(result, settings.fail_on);
+    piece.totals.add(result, settings);
     piece.text = settings.format->file(result, settings);
     return piece;
 } catch (const std::bad_alloc&) {
@@ -87,6 +87,7 @@ Piece make_piece(const std::string& file, const ValidateSettings& settings,
 void add(ValidateTotals& sum, const ValidateTotals& one) {
     sum.files += one.files;
     sum.failed += one.failed;
+    sum.incomplete += one.incomplete;
     sum.unreadable += one.unreadable;
     sum.bytes += one.bytes;
     for (size_t s = 0; s < sum.counts.size(); ++s) sum.counts[s] += one.counts[s];

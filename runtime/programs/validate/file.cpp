@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 
 #include "collada/document/findings.h"
 #include "collada/document/id_path.h"
@@ -10,6 +11,7 @@
 #include "collada/validate/profile.h"
 #include "runtime/profile_rsl/check.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/missing_asset.h"
 #include "runtime/programs/validate/foreign_schema.h"
 #include "runtime/programs/validate/kinora_validate.h"
 #include "runtime/programs/validate/rules.h"
@@ -42,6 +44,7 @@ void take_findings(FileResult& result, const ValidateSettings& settings) {
         Severity severity = weigh(finding, settings);
         if (severity == Severity::Off || !wanted(finding, settings)) continue;
         ++result.counts[size_t(severity)];
+        result.missing[size_t(severity)] += is_missing_asset(*finding.info);
         if (settings.max_issues && result.findings.size() >= settings.max_issues) {
             ++result.hidden;
             continue;
@@ -63,13 +66,19 @@ void finish(FileResult& result, const collada::Document* document,
 }
 
 // What the scene's shaders may read.
-AllowedPaths scene_files(const collada::Document& document, const collada::SceneFile& file,
-                         const ValidateSettings& settings) {
+rsl::CompileOptions shader_options(const collada::Document& document,
+                                   const collada::SceneFile& file,
+                                   const ValidateSettings& settings) {
     std::vector<std::string> folders{file.folder.empty() ? document.directory() : file.folder};
     for (const auto* more :
          {&settings.validate.extract.allow_external, &settings.include_directories})
         folders.insert(folders.end(), more->begin(), more->end());
-    return AllowedPaths(folders);
+    rsl::CompileOptions options;
+    options.include_directories = settings.include_directories;
+    options.files = AllowedPaths(folders);
+    bool confined = settings.validate.extract.confine || !file.folder.empty();
+    options.pictures = confined ? options.files : options.files.anywhere();
+    return options;
 }
 
 void check(FileResult& result, std::optional<collada::Document> document,
@@ -83,8 +92,7 @@ void check(FileResult& result, std::optional<collada::Document> document,
         options.extract.scene_id = file.scene_id;
         auto scene = collada::validate(*document, diagnostics, options);
         if (scene) {
-            check_profile_rsl(*scene, settings.include_directories,
-                              scene_files(*document, file, settings), diagnostics);
+            check_profile_rsl(*scene, shader_options(*document, file, settings), diagnostics);
             if (settings.info || !settings.budgets.empty()) {
                 result.info = scene_info(*document, *scene);
                 check_budgets(*result.info, settings, document->location(document->root()),
@@ -120,22 +128,36 @@ FileResult refused(const std::string& input, const char* why, const ValidateSett
 
 }  // namespace
 
-size_t FileResult::at_least(Severity severity) const {
-    size_t sum = 0;
-    for (size_t s = size_t(severity); s < counts.size(); ++s) sum += counts[s];
-    return sum;
+namespace {
+
+size_t sum_from(const std::array<size_t, 5>& counts, Severity severity) {
+    return std::accumulate(counts.begin() + ptrdiff_t(severity), counts.end(), size_t(0));
 }
 
-void ValidateTotals::add(const FileResult& result, Severity fail_on) {
+}  // namespace
+
+size_t FileResult::at_least(Severity severity) const {
+    return sum_from(counts, severity);
+}
+
+bool FileResult::only_misses(Severity severity) const {
+    return at_least(severity) == sum_from(missing, severity);
+}
+
+void ValidateTotals::add(const FileResult& result, const ValidateSettings& settings) {
     ++files;
     bytes += result.bytes;
     unreadable += result.unreadable;
-    failed += !result.unreadable && result.at_least(fail_on) > 0;
+    bool fails = !result.unreadable && result.at_least(settings.fail_on) > 0;
+    failed += fails;
+    incomplete += fails && settings.strict && result.only_misses(settings.fail_on);
     for (size_t s = 0; s < counts.size(); ++s) counts[s] += result.counts[s];
 }
 
 int ValidateTotals::exit_code() const {
-    return unreadable ? kExitUnreadable : failed ? kExitSomeFailed : kExitOk;
+    if (unreadable) return kExitUnreadable;
+    if (failed > incomplete) return kExitSomeFailed;
+    return incomplete ? kExitMissingAsset : kExitOk;
 }
 
 FileResult validate_text(const std::string& name, std::string bytes,

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "collada/document/archive.h"
 #include "collada/validate/fix.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/validate/kinora_validate.h"
 #include "runtime/programs/validate/output_file.h"
@@ -31,10 +30,7 @@ bool is_wanted(const FindingInfo& info, const void* context) {
 
 std::optional<std::string> read_bytes(const std::string& file) {
     if (file == "-") return read_stdin();
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream bytes;
-    if (!in || !(bytes << in.rdbuf())) return std::nullopt;
-    return std::move(bytes).str();
+    return read_regular_file(file);
 }
 
 std::string fixes_text(const collada::FixResult& fixed) {
@@ -101,7 +97,7 @@ class FileFix {
         if (shown && !settings_.quiet)
             std::fputs(kTextReport.file(result, settings_).c_str(), stderr);
         ValidateTotals totals;
-        totals.add(result, settings_.fail_on);
+        totals.add(result, settings_);
         return totals.exit_code();
     }
 

@@ -9,13 +9,12 @@
 #include <libxml/xmlschemas.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "collada/document/findings.h"
+#include "runtime/base/regular_file.h"
 
 namespace kinora {
 
@@ -52,15 +51,12 @@ thread_local const AllowedPaths* readable = nullptr;
 thread_local uintmax_t bytes_left = 0;
 
 bool read_file(const std::string& path, std::string& text) {
-    std::error_code error;
     if (!readable || !readable->contains(path)) return false;
-    if (!std::filesystem::is_regular_file(path, error)) return false;
-    uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > bytes_left) return false;
-    bytes_left -= size;
-    std::ifstream in(path, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), {});
-    return bool(in) || in.eof();
+    std::optional<std::string> bytes = read_regular_file(path, bytes_left);
+    if (!bytes) return false;
+    bytes_left -= bytes->size();
+    text = std::move(*bytes);
+    return true;
 }
 
 // Files of the trees only, as they are: no other schemes, no compressed ones.

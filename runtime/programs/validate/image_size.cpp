@@ -2,7 +2,7 @@
 // stand.
 #include "runtime/programs/validate/image_size.h"
 
-#include <fstream>
+#include "runtime/base/regular_file.h"
 
 namespace kinora {
 
@@ -127,10 +127,9 @@ std::optional<ImageSize> image_size_of_bytes(std::string_view head, std::string_
 
 std::optional<ImageSize> image_size(const std::string& path) {
     if (path.empty()) return std::nullopt;
-    std::ifstream in(path, std::ios::binary);
+    OpenFile file = open_regular_file(path);
     std::string head(kHeadBytes, '\0');
-    in.read(head.data(), std::streamsize(head.size()));
-    head.resize(size_t(in.gcount()));
+    head.resize(file ? std::fread(head.data(), 1, head.size(), file.get()) : 0);
     return image_size_of_bytes(head, path);
 }
 

@@ -29,6 +29,7 @@ struct ValidateSettings {
     std::vector<std::string> only;                             // prefixes of codes; none: all
     std::vector<std::pair<std::string, double>> budgets;
     Severity fail_on = Severity::Error;
+    bool strict = false;    // missing files have an exit code of their own
     size_t max_issues = 0;  // shown per file; 0: all
     bool info = false;
     bool fix = false, diff = false, in_place = false;
@@ -44,21 +45,26 @@ struct FileResult {
     std::shared_ptr<const void> keep;          // an unpacked archive, while it is spoken of
     std::vector<Finding> findings;             // to be shown
     std::array<size_t, 5> counts{};            // by severity, of all, shown or not
+    std::array<size_t, 5> missing{};           // of these, files that are not there
     size_t hidden = 0;                         // beyond --max-issues
     size_t bytes = 0;
     std::optional<SceneInfo> info;
 
     size_t count(Severity severity) const { return counts[size_t(severity)]; }
     size_t at_least(Severity severity) const;
+    // Nothing else is wrong than that files are missing.
+    bool only_misses(Severity severity) const;
     const SourceFiles& files() const { return diagnostics->files; }
 };
 
 // What all files together amount to.
 struct ValidateTotals {
     size_t files = 0, failed = 0, unreadable = 0, bytes = 0;
+    size_t incomplete = 0;  // of the failed: only for files that are missing
     std::array<size_t, 5> counts{};
-    void add(const FileResult& result, Severity fail_on);
-    int exit_code() const;  // 0 valid, 1 findings that fail, 3 some file unreadable
+    void add(const FileResult& result, const ValidateSettings& settings);
+    // 0 valid, 1 findings that fail, 3 some file unreadable, 5 files missing under --strict.
+    int exit_code() const;
 };
 
 // Reads the command line. Returns an exit code when there is nothing to validate (help, --explain,

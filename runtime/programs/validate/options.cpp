@@ -15,7 +15,9 @@ namespace {
 const std::vector<std::string_view> kSeverities = {"off", "hint", "info", "warning", "error"};
 constexpr const char* kExitHelp =
     "Exit codes: 0 valid; 1 some file has errors (or what --fail-on names); 2 usage; 3 some file\n"
-    "cannot be read; 6 the report cannot be written; 75 out of memory.\n"
+    "cannot be read; 5 files that a scene names are missing, under --strict; 6 the report cannot "
+    "be\n"
+    "written; 75 out of memory.\n"
     "Groups of codes: XML_ DOC_ SCHEMA_ ID_ SID_ LINK_ FILE_ SRC_ PRIM_ MAT_ TEX_ FX_ SKIN_ "
     "MORPH_\n"
     "ANIM_ CAM_ LIGHT_ RSL_ INFO_ PORT_.";
@@ -106,6 +108,8 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
     add_list(app, "--severity", w.severities, "CODE=off|hint|info|warning|error; CODE or PORT_*",
              ',');
     add_list(app, "--only", w.only, "codes that begin so: XML_,SCHEMA_,ID_", ',');
+    app.add_flag("--strict", s.strict,
+                 "as --profile strict; exit 5 where all that is wrong is a missing file");
     app.add_option("--fail-on", w.fail_on, "least severity that makes exit 1 (error)")
         ->check(one_of({"hint", "info", "warning", "error"}));
     app.add_option("--max-issues", s.max_issues, "shown per file (all)")
@@ -121,6 +125,8 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
         ->check(one_of({"1.4", "1.4.0", "1.4.1", "1.5", "1.5.0"}));
     add_list(app, "--allow-external", s.validate.extract.allow_external,
              "DIR: read files there too, outside the scene's folder");
+    app.add_flag("--confine", s.validate.extract.confine,
+                 "read pictures too only there; else they may lie anywhere");
     add_list(app, "-I", s.include_directories, "DIR: where shaders find #include files");
     app.add_option("--stats", w.stats, "[=json]: what the run took, on stderr")
         ->check(one_of({"text", "json"}));
@@ -132,6 +138,7 @@ void take_words(const Words& w, ValidateSettings& s) {
     s.format = find_report_format(w.format);
     s.threads = parse_threads(w.threads, "-j");
     s.fail_on = *parse_severity(w.fail_on);
+    if (s.strict) s.validate.profile = collada::Profile::Strict;
     for (const std::string& text : w.severities) add_severity(text, s);
     for (const std::string& text : w.only) add_only(text, s);
     for (const std::string& text : w.budgets) add_budget(text, s);

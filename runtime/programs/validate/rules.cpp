@@ -33,7 +33,7 @@ Rows make_rules() {
     for (auto row = collada::all_findings(); *row; ++row) rows.push_back(*row);
     for (const FindingInfo* row : rsl::finding_rows()) rows.push_back(row);
     for (const FindingInfo* row : {
-#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#define FINDING(code, ...) &Code::code,
 #include "runtime/profile_rsl/findings.def"
 #include "runtime/programs/validate/findings.def"
 #undef FINDING
@@ -45,10 +45,10 @@ Rows make_rules() {
 
 Rows make_others() {
     Rows rows = {
-#define FINDING(code, severity, text, explanation, fix) &Code::code,
+#define FINDING(code, ...) &Code::code,
 #include "runtime/description/findings.def"
 #undef FINDING
-#define FINDING(code, severity, text, explanation, fix) &jit::Code::code,
+#define FINDING(code, ...) &jit::Code::code,
 #include "jit/ir/findings.def"
 #undef FINDING
     };
@@ -121,17 +121,21 @@ std::string rules_json() {
     std::string text = "[";
     for (const FindingInfo* row : validate_rules())
         text += fmt::format(
-            "{}\n{{\"code\": {}, \"severity\": {}, \"text\": {}, \"explanation\": {}, "
+            "{}\n{{\"code\": {}, \"severity\": {}, \"rendering\": {}, \"text\": {}, "
+            "\"explanation\": {}, "
             "\"fix\": {}}}",
             row == validate_rules().front() ? "" : ",", json_string(row->code),
-            json_string(severity_name(row->severity)), json_string(rule_text(*row)),
-            json_string(row->explanation), json_string(row->fix));
+            json_string(severity_name(row->severity)), json_string(severity_name(row->rendering)),
+            json_string(rule_text(*row)), json_string(row->explanation), json_string(row->fix));
     return text + "\n]\n";
 }
 
 std::string explain_text(const FindingInfo& info) {
-    std::string text =
-        fmt::format("{} ({})\n    {}\n", info.code, severity_name(info.severity), rule_text(info));
+    std::string rendering = info.rendering == info.severity
+                                ? ""
+                                : fmt::format("; {} when rendering", severity_name(info.rendering));
+    std::string text = fmt::format("{} ({}{})\n    {}\n", info.code, severity_name(info.severity),
+                                   rendering, rule_text(info));
     if (*info.explanation) text += fmt::format("\n{}\n", info.explanation);
     if (*info.fix) text += fmt::format("\nTo fix it: {}.\n", info.fix);
     return text;

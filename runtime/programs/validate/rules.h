@@ -11,8 +11,9 @@
 namespace kinora {
 
 namespace Code {
-#define FINDING(code, severity, text, explanation, fix) \
-    inline constexpr FindingInfo code{#code, Severity::severity, text, explanation, fix};
+using enum Severity;
+
+#define FINDING(code, ...) inline constexpr FindingInfo code = finding_row(#code, __VA_ARGS__);
 #include "runtime/programs/validate/findings.def"
 #undef FINDING
 }  // namespace Code

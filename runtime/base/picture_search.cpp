@@ -1,0 +1,111 @@
+// runtime/base/picture_search.cpp: the places where exporters leave pictures.
+#include "runtime/base/picture_search.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <vector>
+
+#include "runtime/base/regular_file.h"
+
+namespace kinora {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kExtensions[] = {"png",  "jpg", "jpeg", "tga", "dds", "tif",
+                                            "tiff", "bmp", "exr",  "hdr", "gif", "psd"};
+
+// Beside the document; the last two are the layout of Gazebo's and ROS's packages.
+constexpr std::string_view kFolders[] = {"", "textures/", "images/", "../textures/",
+                                         "../materials/textures/"};
+
+constexpr size_t kMostFiles = 10'000, kMostListed = 100'000;  // of a folder, of all folders
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = char(std::tolower(uint8_t(c)));
+    return out;
+}
+
+std::string_view stem(std::string_view name) {
+    size_t dot = name.find_last_of('.');
+    return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
+}
+
+std::vector<std::string> places(std::string_view own, const std::string& folder) {
+    std::vector<std::string> list{std::string(own)};
+    for (std::string_view below : kFolders) {
+        std::string place = fs::path(folder + std::string(below)).lexically_normal().string();
+        if (std::find(list.begin(), list.end(), place) == list.end()) list.push_back(place);
+    }
+    return list;
+}
+
+}  // namespace
+
+void PictureSearch::list(const std::string& folder, Images& images) {
+    std::error_code error;
+    fs::directory_iterator at(folder.empty() ? "." : folder, error), end;
+    for (size_t seen = 0; !error && at != end && seen < kMostFiles; at.increment(error), ++seen) {
+        if (++listed_ > kMostListed) break;
+        std::error_code no_file;
+        if (!at->is_regular_file(no_file)) continue;
+        std::string found = at->path().filename().string();
+        std::string low = lower(found);
+        images.by_name.try_emplace(low, found);
+        std::string name_stem(stem(low));
+        if (low.size() <= name_stem.size()) continue;
+        std::string_view extension = std::string_view(low).substr(name_stem.size() + 1);
+        auto known = std::find(std::begin(kExtensions), std::end(kExtensions), extension);
+        if (known == std::end(kExtensions)) continue;
+        size_t rank = size_t(known - std::begin(kExtensions));
+        auto [best, fresh] = images.by_stem.try_emplace(name_stem, Best{rank, found});
+        if (!fresh && rank < best->second.rank) best->second = {rank, found};
+    }
+}
+
+const PictureSearch::Images* PictureSearch::images_of(const std::string& folder) {
+    auto at = folders_.find(folder);
+    if (at == folders_.end()) {
+        if (listed_ > kMostListed || folders_.size() > kMostFiles) return nullptr;
+        at = folders_.try_emplace(folder).first;
+        list(folder, at->second);
+    }
+    return &at->second;
+}
+
+std::string PictureSearch::find_in(const std::string& folder, const std::string& name,
+                                   bool by_stem) {
+    const Images* images = images_of(folder);
+    if (!images) return {};
+    if (!by_stem) {
+        auto same = images->by_name.find(name);
+        return same == images->by_name.end() ? "" : folder + same->second;
+    }
+    auto like = images->by_stem.find(std::string(stem(name)));
+    return like == images->by_stem.end() ? "" : folder + like->second.name;
+}
+
+FoundPicture PictureSearch::find(const std::string& path, const std::string& folder,
+                                 const AllowedPaths& allowed) {
+    bool inside = allowed.contains(path), there = is_regular_file(path);
+    if (inside && there) return {PictureMatch::Exact, allowed.name_of(path)};
+    std::string_view base = std::string_view(path).substr(path.find_last_of('/') + 1);
+    std::string name = lower(base);
+    // A folder that may not be read is not listed either.
+    std::string own = inside ? path.substr(0, path.size() - base.size()) : folder;
+    for (bool by_stem : {false, true})
+        for (const std::string& place : places(own, folder)) {
+            if (name.empty() || !allowed.contains(place)) continue;
+            std::string found = find_in(place, name, by_stem);
+            if (found.empty() || !allowed.contains(found)) continue;  // a link may lead out
+            bool case_only = lower(found) == lower(path);
+            return {case_only ? PictureMatch::Case : PictureMatch::Elsewhere,
+                    allowed.name_of(found)};
+        }
+    return {there && !inside ? PictureMatch::Outside : PictureMatch::Missing, ""};
+}
+
+}  // namespace kinora

@@ -1,0 +1,57 @@
+// runtime/base/picture_search.h: the file that the name of a picture means, wherever exporters said
+// it was.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "runtime/base/allowed_paths.h"
+
+namespace kinora {
+
+enum class PictureMatch : uint8_t {
+    Exact,
+    Case,       // the name differs in upper and lower case
+    Elsewhere,  // in another folder, or with another extension
+    Outside,    // it is there and may not be read
+    Missing,
+};
+
+struct FoundPicture {
+    PictureMatch match = PictureMatch::Missing;
+    std::string path;  // by which AllowedPaths::find leads to it; "" where there is none
+};
+
+// Each folder is listed once, and only so many files of all.
+class PictureSearch {
+  public:
+    // `path` is the name as a path of the current folder, `folder` the document's ("" or ending in
+    // '/'). Where `path` is nothing, its base name is looked for in its own folder, in `folder`, in
+    // textures/ and images/ there, in ../textures and in ../materials/textures: first the name in
+    // any case, then another image of that stem.
+    FoundPicture find(const std::string& path, const std::string& folder,
+                      const AllowedPaths& allowed);
+
+    size_t folder_count() const { return folders_.size(); }
+    size_t listed_files() const { return listed_; }
+
+  private:
+    struct Best {
+        size_t rank;
+        std::string name;
+    };
+    struct Images {  // by lower-case name and by stem
+        std::unordered_map<std::string, std::string> by_name;
+        std::unordered_map<std::string, Best> by_stem;
+    };
+    void list(const std::string& folder, Images& images);
+    const Images* images_of(const std::string& folder);
+    std::string find_in(const std::string& folder, const std::string& name, bool by_stem);
+
+    std::unordered_map<std::string, Images> folders_;
+    size_t listed_ = 0;  // files of all folders
+};
+
+}  // namespace kinora

@@ -1,0 +1,62 @@
+// runtime/base/regular_file.cpp: opened without waiting, then asked what they are.
+#include "runtime/base/regular_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace kinora {
+
+bool is_regular_file(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+}
+
+OpenFile open_regular_file(const std::string& path, uint64_t& size, std::string* error) {
+    auto fail = [&](const char* why) {
+        if (error) *error = why;
+        return OpenFile();
+    };
+    // O_NONBLOCK: a pipe without a writer opens at once.
+    int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (descriptor < 0) return fail(errno == ENOENT ? "no such file" : std::strerror(errno));
+    struct stat status {};
+    bool known = ::fstat(descriptor, &status) == 0;
+    if (!known || !S_ISREG(status.st_mode)) {
+        ::close(descriptor);
+        return fail(known && S_ISDIR(status.st_mode) ? "it is a folder, not a file"
+                                                     : "it is no regular file");
+    }
+    size = uint64_t(status.st_size);
+    OpenFile file(::fdopen(descriptor, "rb"));
+    if (file) return file;
+    ::close(descriptor);
+    return fail("not enough memory");
+}
+
+OpenFile open_regular_file(const std::string& path, std::string* error) {
+    uint64_t size = 0;
+    return open_regular_file(path, size, error);
+}
+
+std::optional<std::string> read_regular_file(const std::string& path, uint64_t most,
+                                             std::string* error) {
+    auto fail = [&](const char* why) {
+        if (error) *error = why;
+        return std::nullopt;
+    };
+    uint64_t size = 0;
+    OpenFile file = open_regular_file(path, size, error);
+    if (!file) return std::nullopt;
+    if (size > most) return fail("it is too large");
+    std::string bytes(size_t(size), '\0');
+    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
+    if (std::ferror(file.get())) return fail("it cannot be read to its end");
+    return bytes;
+}
+
+}  // namespace kinora

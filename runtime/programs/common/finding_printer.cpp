@@ -1,0 +1,84 @@
+// runtime/programs/common/finding_printer.cpp: which findings are printed, and what is said of the
+// others.
+#include "runtime/programs/common/finding_printer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/missing_asset.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kMostOfACode = 20;
+
+bool is_collada(std::string_view scene) {
+    std::string ending(scene.substr(scene.size() - std::min(scene.size(), size_t(4))));
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return ending == ".dae" || ending == ".zae" || ending == ".kmz";
+}
+
+}  // namespace
+
+bool FindingPrinter::admit(const Finding& finding) {
+    Severity least = options_.quiet     ? Severity::Error
+                     : options_.verbose ? Severity::Hint
+                                        : Severity::Warning;
+    bool asked_for = finding.info == always_ && !options_.quiet;
+    bool first =
+        printed_
+            .emplace(finding.info->code, finding.where.file, finding.where.begin, finding.message)
+            .second;
+    if (!first || finding.severity == Severity::Off) return false;
+    if (finding.severity < least && !asked_for) {
+        for_validator_ += finding.info->severity >= Severity::Warning;
+        return false;
+    }
+    size_t& printed = printed_of_[finding.info->code];
+    if (options_.verbose || printed < kMostOfACode) return ++printed > 0;
+    ++hidden_of_[finding.info->code];
+    return false;
+}
+
+void FindingPrinter::print(const Diagnostics& diagnostics) {
+    const auto& findings = diagnostics.findings();
+    for (; seen_ < findings.size(); ++seen_) {
+        const Finding& finding = findings[seen_];
+        ++counts_[size_t(finding.severity)];
+        missing_ |= is_missing_asset(*finding.info);
+        if (admit(finding)) std::fputs(format_finding(finding, diagnostics.files).c_str(), stderr);
+    }
+}
+
+void FindingPrinter::summarize() {
+    if (!options_.quiet) {
+        for (const auto& [code, count] : hidden_of_)
+            std::fprintf(stderr, "kinora: %zu more of %s; -v shows all\n", count,
+                         std::string(code).c_str());
+        if (for_validator_ > 0 && is_collada(scene_))
+            std::fprintf(stderr, "%zu more: kinora-validate %s\n", for_validator_, scene_.c_str());
+        else if (for_validator_ > 0)
+            std::fprintf(stderr, "%zu more: -v shows them\n", for_validator_);
+    }
+    hidden_of_.clear();
+    for_validator_ = 0;
+}
+
+int FindingPrinter::exit_code_of_errors() const {
+    if (options_.strict && missing_) return kExitMissingAsset;
+    return counts_[size_t(Severity::Error)] > 0 ? kExitSomeFailed : kExitOk;
+}
+
+int FindingPrinter::exit_code(int code) const {
+    if (code == kExitOk) code = exit_code_of_errors();
+    if (code != kExitOk) return code;
+    size_t failing = 0;
+    for (size_t s = size_t(options_.fail_on); s < counts_.size(); ++s) failing += counts_[s];
+    return failing > 0 ? kExitSomeFailed : kExitOk;
+}
+
+}  // namespace kinora

@@ -1,0 +1,61 @@
+// runtime/programs/common/finding_printer.h: what a program that makes something of a scene says of
+// it: all that spoils the result, and of the rest how much there is.
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "runtime/base/diagnostic.h"
+
+namespace kinora {
+
+struct FindingOptions {
+    bool quiet = false;                  // errors only
+    bool verbose = false;                // all, hints too
+    bool strict = false;                 // what is left out or missing is an error
+    Severity fail_on = Severity::Error;  // the least that makes the exit code 1
+
+    Judgement judgement() const { return strict ? Judgement::Strict : Judgement::Rendering; }
+};
+
+class FindingPrinter {
+  public:
+    // `scene` is what kinora-validate would be called with. Findings of `always` are printed
+    // whatever their severity, unless quiet.
+    FindingPrinter(const FindingOptions& options, std::string scene,
+                   const FindingInfo* always = nullptr)
+        : options_(options), scene_(std::move(scene)), always_(always) {}
+
+    // Prints to stderr what is new: each finding once, and 20 of a code.
+    void print(const Diagnostics& diagnostics);
+    // Says how many were not printed since it last did.
+    void summarize();
+
+    // 5 where an asset is missing, under options.strict, and 1 where there was another error.
+    int exit_code_of_errors() const;
+    // The exit code of a program that otherwise comes to `code`: that of errors, and 1 where there
+    // was what options.fail_on names. Never 0 beside "error:".
+    int exit_code(int code) const;
+
+  private:
+    using Key = std::tuple<std::string_view, FileId, uint32_t, std::string>;
+
+    bool admit(const Finding& finding);
+
+    FindingOptions options_;
+    std::string scene_;
+    const FindingInfo* always_;
+    size_t seen_ = 0;  // findings looked at so far
+    std::set<Key> printed_;
+    std::map<std::string_view, size_t> printed_of_, hidden_of_;  // by code
+    size_t for_validator_ = 0;                                   // schema, names, style
+    std::array<size_t, 5> counts_{};                             // by severity
+    bool missing_ = false;
+};
+
+}  // namespace kinora

@@ -1,0 +1,27 @@
+// runtime/programs/common/missing_asset.h: findings that say that something the scene names is not
+// there or may not be read.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "runtime/base/diagnostic.h"
+
+namespace kinora {
+
+inline bool is_missing_asset(const FindingInfo& info) {
+    constexpr std::string_view kCodes[] = {"FILE_MISSING",
+                                           "FILE_EMPTY_URI",
+                                           "IMAGE_EMBEDDED",
+                                           "IMAGE_UNREADABLE",
+                                           "POINT_FILE_UNREADABLE",
+                                           "LINK_EXTERNAL_MISSING",
+                                           "LINK_EXTERNAL_UNREADABLE",
+                                           "LINK_OUTSIDE",
+                                           "RSL_FILE_OUTSIDE",
+                                           "GLTF_FILE"};
+    return std::find(std::begin(kCodes), std::end(kCodes), info.code) != std::end(kCodes);
+}
+
+}  // namespace kinora
