@@ -6,6 +6,19 @@
 
 namespace kinora {
 
+namespace {
+
+constexpr double kLeastSine = 1e-9;  // between a view and its up
+
+// What is right where up lies along the view: x, or -y where that is the view, as COLLADA's up_axis
+// has them.
+dvec3 right_of(dvec3 back) {
+    dvec3 x = std::abs(back.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, -1, 0);
+    return glm::normalize(x - glm::dot(x, back) * back);
+}
+
+}  // namespace
+
 dmat4 translation_matrix(const double* v) {
     dmat4 m(1.0);
     m[3] = dvec4(v[0], v[1], v[2], 1.0);
@@ -52,10 +65,12 @@ dmat4 rows_matrix(const double* v) {
 dmat4 lookat_matrix(const double* v) {
     dvec3 eye(v[0], v[1], v[2]), interest(v[3], v[4], v[5]), up(v[6], v[7], v[8]);
     dvec3 back = eye - interest;
+    double distance = glm::length(back);
+    if (!(distance > 0)) return translation_matrix(v);
+    back /= distance;
     dvec3 right = glm::cross(up, back);
-    if (!(glm::length(right) > 0)) return translation_matrix(v);
-    back = glm::normalize(back);
-    right = glm::normalize(right);
+    double sine = glm::length(right);
+    right = sine > kLeastSine * glm::length(up) ? right / sine : right_of(back);
     return dmat4(dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0), dvec4(eye, 1));
 }
 

@@ -10,7 +10,9 @@ dmat4 translation_matrix(const double* v);  // x y z
 dmat4 rotation_matrix(const double* v);     // axis x y z, angle; a zero axis: the identity
 dmat4 scale_matrix(const double* v);        // x y z
 dmat4 rows_matrix(const double* v);         // 16 numbers row by row; the last row is ignored
-dmat4 lookat_matrix(const double* v);       // eye, interest, up
+// Eye, interest, up. Where up lies along the view a fixed axis is right; an eye at the interest is
+// only moved.
+dmat4 lookat_matrix(const double* v);
 // Angle, rotated axis, translated axis: the rotated axis turns towards the translated one by the
 // angle, as RiSkew has it.
 dmat4 skew_matrix(const double* v);

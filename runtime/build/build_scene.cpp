@@ -1,6 +1,8 @@
 // runtime/build/build_scene.cpp: from a description to a scene ready for frames.
 #include "runtime/build/build_scene.h"
 
+#include <algorithm>
+
 #include "runtime/build/cameras.h"
 #include "runtime/build/displacement/displacement.h"
 #include "runtime/build/instances/instances.h"
@@ -9,6 +11,7 @@
 #include "runtime/build/shapes/bounds.h"
 #include "runtime/build/shapes/node_tree.h"
 #include "runtime/build/shapes/shapes.h"
+#include "runtime/description/findings.h"
 #include "runtime/images/point_store.h"
 #include "runtime/images/texture.h"
 #include "runtime/images/texture_store.h"
@@ -38,6 +41,22 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
     return scene;
 }
 
+bool has_atmosphere(const SceneDescription& description) {
+    return !description.picture.atmosphere.empty() ||
+           std::ranges::any_of(description.cameras, [](const CameraDefinition& camera) {
+               return !camera.picture.atmosphere.empty();
+           });
+}
+
+// False, with an error, for a file that holds nothing to see. What the user hides is no error.
+bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
+    const SceneDescription& description = *scene.description;
+    if (any_triangle(scene) || has_atmosphere(description)) return true;
+    bool hidden = description.only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
+    diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});
+    return hidden;
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description,
@@ -53,7 +72,8 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     SkinBinder skins(scene, tree, node_poses(scene), diagnostics);
     evaluate_anew(scene, options.start_time);
     std::vector<SurfaceUse> uses = add_shapes(scene, skins, diagnostics);
-    set_bounds(scene, diagnostics);
+    if (!something_to_draw(scene, diagnostics)) return nullptr;
+    set_bounds(scene);
 
     add_cameras(scene, tree);
     if (!choose_camera(scene, tree, diagnostics)) return nullptr;

@@ -1,25 +1,22 @@
 // runtime/build/cameras.cpp: the cameras of a scene, and the one it is seen by.
 #include "runtime/build/cameras.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 
-#include "runtime/build/defaults.h"
+#include "runtime/build/added_camera.h"
+#include "runtime/build/coverage.h"
 #include "runtime/build/shapes/bounds.h"
+#include "runtime/build/shapes/pose_at.h"
 #include "runtime/description/findings.h"
+#include "runtime/scene/camera.h"
+#include "runtime/scene/values.h"
 
 namespace kinora {
 
 namespace {
-
-void add_default_camera(Scene& scene, NodeTree& tree) {
-    SceneDescription& description = *scene.description;
-    DefaultCamera added =
-        default_camera(played_bounds(scene), description.up_axis, description.values);
-    description.cameras.push_back(added.camera);
-    uint32_t node = tree.add(std::move(added.node), kNone);
-    scene.cameras.push_back({uint32_t(description.cameras.size() - 1), node, "default camera"});
-    scene.added.push_back("default camera");
-}
 
 // The first at or below the description's camera node; else the first.
 uint32_t first_camera(const Scene& scene, const NodeTree& tree) {
@@ -34,53 +31,120 @@ uint32_t first_camera(const Scene& scene, const NodeTree& tree) {
     return 0;
 }
 
-// "torso/head/eye", by ids.
-std::string path_of(const NodeTree& tree, uint32_t node) {
-    std::string path;
-    for (uint32_t n = node; n != kNone; n = tree.parent(n)) {
-        const NodeDefinition& step = tree.definition(n);
-        path = (step.id.empty() ? step.name : step.id) + (path.empty() ? "" : "/" + path);
-    }
-    return path;
-}
-
 bool node_is(const NodeTree& tree, const CameraSource& camera, const std::string& wanted) {
     uint32_t named = tree.named(camera.node);
     const NodeDefinition& node = tree.definition(named);
     return wanted == path_of(tree, named) || wanted == node.id || wanted == node.name;
 }
 
+// Node path or id first, then camera id. kNone: there is none of that name.
+uint32_t find_camera(const Scene& scene, const NodeTree& tree, const std::string& wanted) {
+    auto camera_is = [&](const CameraSource& source) {
+        const CameraDefinition& camera = scene.description->cameras[source.definition];
+        return wanted == camera.id || wanted == camera.name;
+    };
+    for (bool by_node : {true, false})
+        for (uint32_t c = 0; c < scene.cameras.size(); ++c) {
+            const CameraSource& source = scene.cameras[c];
+            if (by_node ? node_is(tree, source, wanted) : camera_is(source)) return c;
+        }
+    return kNone;
+}
+
+// Another field of view for the scene's camera; its window keeps its shape. False after an error.
+bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
+    SceneDescription& description = *scene.description;
+    CameraDefinition& camera = description.cameras[scene.cameras[scene.camera].definition];
+    if (camera.orthographic) {
+        diagnostics.report(Code::CAMERA_PARALLEL, camera.where, scene.cameras[scene.camera].name);
+        return false;
+    }
+    std::optional<double> aspect = camera_aspect(scene);
+    auto slot = [&](double number) {
+        description.values.push_back(number);
+        return ValueSlot{uint32_t(description.values.size() - 1), 1};
+    };
+    camera.x = {};
+    camera.y = slot(yfov);
+    camera.aspect = aspect ? slot(*aspect) : ValueSlot{};
+    take_added_values(scene);
+    return true;
+}
+
+// What has to be seen at least: of a scene that the user took parts of, anything.
+double little_of(const Scene& scene) {
+    bool parts = scene.description->only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
+    return parts ? 1e-6 : kLittle;
+}
+
+// The largest share of the camera's picture that the scene takes over the range played, as far as
+// `enough`.
+double most_covered(Scene& scene, double enough) {
+    const SceneOptions& options = scene.options;
+    double aspect = camera_aspect(scene).value_or(wanted_aspect(options));
+    int width = std::max(options.width, 1);
+    int height = options.height > 0 ? options.height : std::max(1, int(width / aspect + 0.5));
+    double most = 0;
+    std::vector<double> times = played_times(scene);
+    for (double time : times) {
+        if (time != options.start_time) pose_at(scene, time);
+        if (!raytrace::is_error(set_view(scene, width, height)))
+            most = std::max(most, covered_share(scene, scene.view, enough));
+        if (most >= enough) break;
+    }
+    if (times.size() > 1) pose_at(scene, options.start_time);
+    return most;
+}
+
+// As --camera takes it, whatever views are called.
+std::string word_for(const CameraSource& camera) {
+    return camera.name.empty() || find_view(camera.name) ? "#" + camera.name : camera.name;
+}
+
+// The file's, unless it shows next to nothing.
+bool choose_default(Scene& scene, NodeTree& tree, Diagnostics& diagnostics) {
+    const ViewWord& view = *find_view("auto");
+    if (scene.cameras.empty()) return add_camera(scene, tree, view, diagnostics);
+    scene.camera = first_camera(scene, tree);
+    double yfov = scene.options.view.yfov;
+    if (yfov > 0 && !change_yfov(scene, yfov, diagnostics)) return false;
+    if (!any_triangle(scene)) return true;
+    double enough = little_of(scene), covered = most_covered(scene, enough);
+    if (covered >= enough) return true;
+    CameraSource blind = scene.cameras[scene.camera];
+    Location where = scene.description->cameras[blind.definition].where;
+    diagnostics.report(Code::CAMERA_SEES_LITTLE, where, blind.name, 100 * covered).help =
+        fmt::format("--camera '{}' shows what it sees", word_for(blind));
+    return add_camera(scene, tree, view, diagnostics);
+}
+
 }  // namespace
 
-void add_cameras(Scene& scene, NodeTree& tree) {
+void add_cameras(Scene& scene, const NodeTree& tree) {
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         const std::string& id = tree.definition(tree.named(n)).id;
         for (uint32_t camera : tree.definition(n).cameras)
             scene.cameras.push_back(
                 {camera, n, id.empty() ? scene.description->cameras[camera].id : id});
     }
-    if (scene.cameras.empty()) add_default_camera(scene, tree);
 }
 
-bool choose_camera(Scene& scene, const NodeTree& tree, Diagnostics& diagnostics) {
-    const std::string& wanted = scene.options.camera;
-    if (wanted.empty()) {
-        scene.camera = first_camera(scene, tree);
-        return true;
+bool choose_camera(Scene& scene, NodeTree& tree, Diagnostics& diagnostics) {
+    const SceneOptions& options = scene.options;
+    std::string wanted = options.camera;
+    if (wanted.empty() && options.view.any_place()) wanted = "auto";
+    if (wanted.empty()) return choose_default(scene, tree, diagnostics);
+    if (const ViewWord* view = find_view(wanted))
+        return add_camera(scene, tree, *view, diagnostics);
+    if (wanted.starts_with("#")) wanted.erase(0, 1);
+    uint32_t found = wanted.empty() && !scene.cameras.empty() ? first_camera(scene, tree)
+                                                              : find_camera(scene, tree, wanted);
+    if (found == kNone) {
+        diagnostics.report(Code::CAMERA_UNKNOWN, Location{}, options.camera);
+        return false;
     }
-    auto camera_is = [&](const CameraSource& source) {
-        const CameraDefinition& camera = scene.description->cameras[source.definition];
-        return wanted == camera.id || wanted == camera.name;
-    };
-    for (bool by_node : {true, false})  // node path or id first, then camera id
-        for (uint32_t c = 0; c < scene.cameras.size(); ++c) {
-            const CameraSource& source = scene.cameras[c];
-            if (by_node ? !node_is(tree, source, wanted) : !camera_is(source)) continue;
-            scene.camera = c;
-            return true;
-        }
-    diagnostics.report(Code::CAMERA_UNKNOWN, Location{}, wanted);
-    return false;
+    scene.camera = found;
+    return options.view.yfov == 0 || change_yfov(scene, options.view.yfov, diagnostics);
 }
 
 }  // namespace kinora

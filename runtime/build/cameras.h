@@ -6,12 +6,12 @@
 
 namespace kinora {
 
-// Every occurrence of a camera; where there is none the default one, on a node of its own. Writes
-// Scene::cameras and added. The scene has its bounds.
-void add_cameras(Scene& scene, NodeTree& tree);
+// Every occurrence of a camera. Writes Scene::cameras.
+void add_cameras(Scene& scene, const NodeTree& tree);
 
-// The one that the options name, else the description's, else the first. Writes Scene::camera.
-// False where there is none of that name; it has been reported.
-bool choose_camera(Scene& scene, const NodeTree& tree, Diagnostics& diagnostics);
+// The one that the options name or describe; else the description's, else the first, if it sees
+// something of the scene; else one that is added, and frames all. Writes Scene::camera, and cameras
+// and added with it. The scene has its bounds. False after an error, which is a finding.
+bool choose_camera(Scene& scene, NodeTree& tree, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -394,4 +394,24 @@ std::optional<Image8> read_png(const std::string& path) {
     return image;
 }
 
+std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding) {
+    if (extension(path) != ".exr") return read_png(path);
+    try {
+        Imf::RgbaInputFile file(path.c_str());
+        Imath::Box2i window = file.dataWindow();
+        raytrace::Film film;
+        film.width = window.max.x - window.min.x + 1;
+        film.height = window.max.y - window.min.y + 1;
+        std::vector<Imf::Rgba> row(size_t(film.width));
+        for (int y = window.min.y; y <= window.max.y; ++y) {
+            file.setFrameBuffer(row.data() - window.min.x, 1, 0);
+            file.readPixels(y);
+            for (const Imf::Rgba& p : row) film.rgba.push_back(vec4(p.r, p.g, p.b, p.a));
+        }
+        return to_8_bit(film, encoding);
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace kinora

@@ -48,7 +48,10 @@ bool is_image_path(const std::string& path);
 // A text of a PNG or EXR header; nothing if the file is missing, broken or has no such text.
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key);
 
-// For tests and the contact sheet; nothing if it cannot be read.
+// Nothing if it cannot be read.
 std::optional<Image8> read_png(const std::string& path);
+// A picture that write_image wrote, as to_8_bit gives it of the film (of an .exr: within the
+// rounding of its halves).
+std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding);
 
 }  // namespace kinora

@@ -62,7 +62,8 @@ struct Mesh {
     std::vector<uint32_t> normal_positions;  // position of each normal
     std::vector<MeshGroup> groups;
     bool double_sided = true;
-    dvec3 low{0.0}, high{0.0};    // bounds of the positions as in the document
+    // Bounds of the triangles as in the document; low > high: there are none.
+    dvec3 low{0.0}, high{0.0};
     uint32_t definition = kNone;  // index into SceneDescription::meshes
     // Groups of a diced mesh, which no document holds.
     std::vector<std::unique_ptr<PrimitiveGroup>> own_groups;
@@ -147,9 +148,24 @@ enum class ShadowMode : uint8_t { Auto, Explicit, Off };
 enum class LightSet : uint8_t { Auto, Scene, Default, Both };
 enum class DisplacementMode : uint8_t { True, Bump };
 
+// How a camera is put up that no file brought, and what it is to see.
+struct ViewOptions {
+    bool follow = false;      // it moves with the centre of what it shows
+    double turn_seconds = 0;  // of a full turn about the up axis; 0: none
+    double turn_start = 0;    // seconds
+    double yfov = 0;          // degrees, of any camera; 0: its own
+    std::optional<dvec3> from, at;
+    std::string at_node;  // at the node with this path, id or name
+
+    bool any_place() const { return follow || turn_seconds > 0 || from || at || !at_node.empty(); }
+};
+
 // What a scene is built for; part of what the kernels are.
 struct SceneOptions {
-    std::string camera;  // "": the first instance in document order
+    // A view (runtime/build/views.h), or a node path or id or a camera id, the latter also behind
+    // '#'; "": the first instance in document order, if it sees something of the scene.
+    std::string camera;
+    ViewOptions view;
     jit::math::Tier math = jit::math::Tier::Precise;
     const jit::Target* target = nullptr;  // null: the best of this CPU
     ShadowMode shadows = ShadowMode::Auto;
@@ -161,7 +177,7 @@ struct SceneOptions {
     uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
     double frame_rate = 0;          // frames a second that option("Frame") counts; 0: the file's
-    // Range played, seconds: frames the default camera, and its views tell how fine to dice.
+    // Range played, seconds: what added cameras frame, and its views tell how fine to dice.
     double start_time = 0, end_time = 0;
     DisplacementMode displacement = DisplacementMode::True;  // Bump: only N is bent
     double dice = 2;                // length of a displaced surface's edges, pixels

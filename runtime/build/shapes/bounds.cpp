@@ -7,14 +7,18 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/build/shapes/pose_at.h"
-#include "runtime/description/findings.h"
 #include "runtime/vertices/deform.h"
 
 namespace kinora {
 
 namespace {
 
+bool has_triangles(const Mesh& mesh) {
+    return mesh.low.x <= mesh.high.x;
+}
+
 void add_box(const Mesh& mesh, const dmat4& world_from_mesh, Bounds& bounds) {
+    if (!has_triangles(mesh)) return;
     for (int corner = 0; corner < 8; ++corner) {
         dvec3 p((corner & 1 ? mesh.high : mesh.low).x, (corner & 2 ? mesh.high : mesh.low).y,
                 (corner & 4 ? mesh.high : mesh.low).z);
@@ -52,7 +56,7 @@ void Bounds::add(dvec3 p) {
     high = glm::max(high, p);
 }
 
-void set_bounds(Scene& scene, Diagnostics& diagnostics) {
+void set_bounds(Scene& scene) {
     // A first guess makes the scene's own size the scale of all floats: deformed about the first
     // mesh, then about the centre found so.
     if (!scene.shapes.empty()) scene.origin = first_origin(scene);
@@ -60,7 +64,6 @@ void set_bounds(Scene& scene, Diagnostics& diagnostics) {
     pose_now(scene);
     Bounds bounds = bounds_now(scene);
     if (bounds.empty()) {
-        diagnostics.report(Code::SCENE_EMPTY, Location{});
         bounds.add(dvec3(-1.0));
         bounds.add(dvec3(1.0));
     }
@@ -72,25 +75,19 @@ void set_bounds(Scene& scene, Diagnostics& diagnostics) {
     bake_static(scene);
 }
 
-Bounds played_bounds(Scene& scene) {
-    constexpr int kSamples = 12;
+bool any_triangle(const Scene& scene) {
+    return std::ranges::any_of(
+        scene.shapes, [&](const Shape& shape) { return has_triangles(scene.meshes[shape.mesh]); });
+}
+
+std::vector<double> played_times(const Scene& scene, int most) {
     const SceneOptions& options = scene.options;
-    Bounds bounds = bounds_now(scene);
-    if (bounds.empty()) {  // what set_bounds takes for the scene
-        bounds.add(scene.low);
-        bounds.add(scene.high);
-    }
     double length = options.end_time - options.start_time;
-    if (scene.description->animation.channels.empty() || options.end_time <= options.start_time)
-        return bounds;
-    for (int s = 0; s <= kSamples; ++s) {
-        pose_at(scene, options.start_time + length * s / kSamples);
-        Bounds now = bounds_now(scene);
-        bounds.add(now.low);
-        bounds.add(now.high);
-    }
-    pose_at(scene, options.start_time);
-    return bounds;
+    if (scene.description->animation.channels.empty() || !(length > 0)) return {options.start_time};
+    std::vector<double> times;
+    for (int s = 0; s < most; ++s)
+        times.push_back(options.start_time + length * (double(s) / (most - 1)));
+    return times;
 }
 
 }  // namespace kinora

@@ -1,6 +1,8 @@
 // runtime/build/shapes/bounds.h: how large a scene is and where.
 #pragma once
 
+#include <vector>
+
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -12,10 +14,15 @@ struct Bounds {
 };
 
 // Writes Scene::origin, low, high and size, by the shapes as the nodes stand; poses them and bakes
-// the static ones.
-void set_bounds(Scene& scene, Diagnostics& diagnostics);
+// the static ones. A scene without anything gets a cube.
+void set_bounds(Scene& scene);
 
-// Of all shapes over the range played. After set_bounds; the scene stands at its start time then.
-Bounds played_bounds(Scene& scene);
+// Whether a shape has a triangle of finite vertices, as the document has them.
+bool any_triangle(const Scene& scene);
+
+// Times that stand for the range played (which no choice of frames changes), seconds: so many from
+// its start to its end; one where nothing moves.
+inline constexpr int kPlayedTimes = 13;
+std::vector<double> played_times(const Scene& scene, int most = kPlayedTimes);
 
 }  // namespace kinora

@@ -90,17 +90,26 @@ void add_smooth_normals(const MeshDefinition& definition, const std::vector<size
             mesh.groups[g].normal_corners.push_back(first + position);
 }
 
+// Of the triangles: what none of them has may lie anywhere. Nothing: low > high.
+void set_bounds_of_triangles(const MeshDefinition& definition, Mesh& mesh) {
+    mesh.low = dvec3(1e300);
+    mesh.high = dvec3(-1e300);
+    for (const PrimitiveGroup& group : definition.groups)
+        for (uint32_t i : group.triangles) {
+            const dvec3& p = definition.positions[i];
+            if (!std::isfinite(p.x + p.y + p.z)) continue;
+            mesh.low = glm::min(mesh.low, p);
+            mesh.high = glm::max(mesh.high, p);
+        }
+}
+
 }  // namespace
 
 Mesh build_mesh(const MeshDefinition& definition, bool deforms) {
     Mesh mesh;
     mesh.double_sided = definition.double_sided;
-    if (!definition.positions.empty()) mesh.low = mesh.high = definition.positions[0];
-    for (const dvec3& p : definition.positions) {
-        mesh.low = glm::min(mesh.low, p);
-        mesh.high = glm::max(mesh.high, p);
-    }
-    mesh.anchor = 0.5 * (mesh.low + mesh.high);
+    set_bounds_of_triangles(definition, mesh);
+    if (mesh.low.x <= mesh.high.x) mesh.anchor = 0.5 * (mesh.low + mesh.high);
     mesh.positions.reserve(definition.positions.size());
     for (const dvec3& p : definition.positions)
         mesh.positions.push_back(vec4(vec3(p - mesh.anchor), 0.0f));

@@ -58,7 +58,7 @@ uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& descripti
     return hash;
 }
 
-std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int height,
+std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int height, double rate,
                         double time) {
     std::string text = fmt::format(
         "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} rays {} {} filter {} {} "
@@ -77,6 +77,12 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
                     o.atmosphere, fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
     text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
                         fmt::join(o.only, ","), o.clip);
+    auto point = [](const std::optional<dvec3>& p) {
+        return p ? fmt::format("{:a},{:a},{:a}", p->x, p->y, p->z) : "none";
+    };
+    text += fmt::format(" follow {} turntable {} rate {} fov {:a} from {} at {}", o.follow,
+                        o.turntable.value_or(0), o.turntable || o.follow ? rate : 0.0, o.yfov,
+                        point(o.look_from), o.look_at);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));

@@ -14,8 +14,9 @@ namespace kinora {
 // run.
 uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description);
 
-// Sixteen hexadecimal digits: what was read, the options, the engine, the picture's size, the time.
+// Sixteen hexadecimal digits: what was read, the options, the engine, the picture's size, the
+// frames per second, the time.
 std::string fingerprint(const RenderOptions& options, uint64_t inputs, int width, int height,
-                        double time);
+                        double rate, double time);
 
 }  // namespace kinora

@@ -7,6 +7,15 @@
 
 namespace kinora {
 
+namespace {
+constexpr double kFurthestFrame = 1e12;  // as far as --frames goes
+}  // namespace
+
+int64_t first_frame(FrameRate rate, double start) {
+    double frame = std::round(start * rate.value());
+    return std::abs(frame) < kFurthestFrame ? int64_t(frame) : 0;
+}
+
 std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
     const RenderOptions& options, FrameRate rate, double start, double end) {
     std::vector<std::pair<int64_t, double>> list;
@@ -14,20 +23,22 @@ std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
         list.emplace_back(std::llround(*options.time * rate.value()), *options.time);
     } else if (options.frames) {
         for (int64_t frame : *options.frames) list.emplace_back(frame, rate.time(frame));
+    } else if (options.turntable) {
+        int64_t first = first_frame(rate, start);
+        for (int64_t frame = first; frame < first + *options.turntable; ++frame)
+            list.emplace_back(frame, rate.time(frame));
     } else {
-        double first_frame = std::round(start * rate.value());
-        double last_frame = std::round(end * rate.value());
-        // As far as --frames goes.
-        bool sound = std::abs(first_frame) < 1e12 && std::abs(last_frame) < 1e12;
-        if (!sound || last_frame - first_frame >= kMostFrames) {
+        double first = std::round(start * rate.value());
+        double last = std::round(end * rate.value());
+        bool sound = std::abs(first) < kFurthestFrame && std::abs(last) < kFurthestFrame;
+        if (!sound || last - first >= kMostFrames) {
             std::fprintf(stderr,
                          "kinora-render: the scene plays from %g to %g seconds, more than %lld "
                          "frames; choose with --frames or --time\n",
                          start, end, static_cast<long long>(kMostFrames));
             return std::nullopt;
         }
-        int64_t first = int64_t(first_frame), last = int64_t(last_frame);
-        for (int64_t frame = first; frame <= last; ++frame)
+        for (int64_t frame = int64_t(first); frame <= int64_t(last); ++frame)
             list.emplace_back(frame, rate.time(frame));
     }
     if (list.size() > 1 && !options.output.empty() && !OutputName(options.output).has_token()) {

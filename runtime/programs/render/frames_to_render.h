@@ -11,8 +11,12 @@
 
 namespace kinora {
 
-// Frames and their times, seconds: --time, --frames, or all from `start` to `end` seconds. Nothing,
-// with a message on stderr, where they are too many or -o has one name for several.
+// The frame that a scene which plays from `start` seconds begins with.
+int64_t first_frame(FrameRate rate, double start);
+
+// Frames and their times, seconds: --time, --frames, a turn of the turntable, or all from `start`
+// to `end` seconds. Nothing, with a message on stderr, where they are too many or -o has one name
+// for several.
 std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
     const RenderOptions& options, FrameRate rate, double start, double end);
 

@@ -85,6 +85,7 @@ class Render {
     int report_unwritable(const std::string& file, const std::string& error, int number);
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
+    bool keep_existing(const std::string& file, const std::string& print);
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
     SceneOptions scene_options() const;
@@ -115,7 +116,7 @@ int Render::exit_code_of_findings(int otherwise) const {
         for (const FindingInfo* usage :
              {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
               &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE,
-              &Code::NODE_UNKNOWN, &Code::AOV_UNKNOWN})
+              &Code::NODE_UNKNOWN, &Code::AOV_UNKNOWN, &Code::CAMERA_PARALLEL})
             if (finding.info == usage) return kExitUsage;
     }
     return otherwise;
@@ -129,6 +130,11 @@ void Render::flush_findings() {
 SceneOptions Render::scene_options() const {
     SceneOptions o;
     o.camera = options_.camera;
+    o.view.follow = options_.follow;
+    o.view.yfov = options_.yfov;
+    o.view.from = options_.look_from;
+    o.view.at = parse_point(options_.look_at);
+    if (!o.view.at) o.view.at_node = options_.look_at;
     o.math = options_.quality.math;
     o.target = options_.target;
     o.shadows = options_.shadows;
@@ -168,6 +174,11 @@ int Render::load() {
     std::optional<SceneDescription> description =
         import_scene(options_.scene, import, diagnostics_);
     if (!description) {
+        auto no_scene = [](const Finding& f) {
+            return f.info->code == std::string_view("SCENE_NONE");
+        };
+        if (std::ranges::any_of(diagnostics_.findings(), no_scene))
+            diagnostics_.report(Code::SCENE_EMPTY, Location{});
         flush_findings();
         return report_unreadable();
     }
@@ -201,6 +212,10 @@ int Render::load() {
     scene_options.frame_rate = rate_.value();
     scene_options.start_time = range.start;
     scene_options.end_time = range.end;
+    if (options_.turntable) {
+        scene_options.view.turn_seconds = *options_.turntable / rate_.value();
+        scene_options.view.turn_start = rate_.time(first_frame(rate_, range.start));
+    }
     if (may_dice(*description, scene_options))
         redicer_ = std::make_unique<Redicer>(*description, scene_options);
     if (exit_code_of_findings(0) == 0)
@@ -254,14 +269,23 @@ int Render::refuse_unwritable(const std::string& file) {
     return error.empty() ? int(kExitOk) : report_unwritable(file, error, number);
 }
 
+// Whether the file is that picture already; the contact sheet shows it, too.
+bool Render::keep_existing(const std::string& file, const std::string& print) {
+    if (read_image_text(file, "kinora/fingerprint") != print) return false;
+    if (options_.contact_sheet.empty()) return true;
+    std::optional<Image8> image = read_image(file, options_.color);
+    if (image) sheet_.add(*image);
+    return image.has_value();
+}
+
 int Render::one_frame(int64_t frame, double time, size_t index) {
     FrameRecord& record = records_.emplace_back();
     record.frame = frame;
     if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
-    std::string print = fingerprint(options_, scene_hash_, settings_.width, settings_.height, time);
+    std::string print =
+        fingerprint(options_, scene_hash_, settings_.width, settings_.height, rate_.value(), time);
     bool wants_file = !record.file.empty();
-    if (wants_file && options_.skip_existing &&
-        read_image_text(record.file, "kinora/fingerprint") == print) {
+    if (wants_file && options_.skip_existing && keep_existing(record.file, print)) {
         record.skipped = true;
         progress_.frame_skipped(frame, index, record.file);
         return kExitOk;
@@ -359,13 +383,17 @@ int Render::frames() {
             return code;
         }
         if (!options_.keep_going) return code;
-        result = kExitSomeFailed;
+        // What a retry may help comes before what it cannot.
+        if (result != kExitRetry) result = code == kExitRetry ? code : int(kExitSomeFailed);
     }
     progress_.clear();
     if (!options_.contact_sheet.empty()) {
         int number = 0;
         std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
-        if (!error.empty()) return report_unwritable(options_.contact_sheet, error, number);
+        if (!error.empty()) {
+            int code = report_unwritable(options_.contact_sheet, error, number);
+            return result == kExitRetry ? result : code;
+        }
     }
     return result;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "runtime/build/views.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
 
@@ -68,6 +69,12 @@ double parse_scale(const std::string& text) {
     return scale;
 }
 
+std::vector<std::string_view> words_of_views() {
+    std::vector<std::string_view> words;
+    for (const ViewWord& view : view_words()) words.push_back(view.word);
+    return words;
+}
+
 std::vector<std::string_view> quality_names() {
     std::vector<std::string_view> names;
     for (const Quality& row : qualities()) names.push_back(row.name);
@@ -76,7 +83,7 @@ std::vector<std::string_view> quality_names() {
 
 // As they stand on the command line, where they are not yet what RenderOptions holds.
 struct Given {
-    std::string frames, fps, size, scale, threads = "all", target, background;
+    std::string frames, fps, size, scale, look_from, threads = "all", target, background;
     std::string quality{kDefaultQuality};
     std::optional<int> spp, rays, bounces;
     std::optional<jit::math::Tier> math;
@@ -104,7 +111,16 @@ void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--clip", o.clip, "play this clip: its range, and in glTF its motion alone");
     app.add_option("--size", given.size, "WIDTHxHEIGHT in pixels (640 x 640/aspect)");
     app.add_option("--scale", given.scale, "of the size: 50% or 0.5");
-    app.add_option("--camera", o.camera, "node path or id, else camera id (the first)");
+    app.add_option(
+        "--camera", o.camera,
+        "auto, front, back, left, right, top, iso, or a node path or id, else a camera id "
+        "(the first; auto where that sees next to nothing)");
+    app.add_flag("--camera-follow", o.follow, "the added camera moves with the scene's centre");
+    app.add_option("--turntable", o.turntable, "frames in which an added camera goes round once")
+        ->check(CLI::Range(1, int(kMostFrames)));
+    app.add_option("--fov", o.yfov, "height of the camera's view in degrees (its own, else 37)");
+    app.add_option("--look-from", given.look_from, "X,Y,Z: where an added camera stands");
+    app.add_option("--look-at", o.look_at, "X,Y,Z or NODE: what it looks at (the scene's centre)");
     app.add_option("--threads", given.threads, "N, -N (all but N) or all (all)");
     app.add_option("--target", given.target,
                    "avx512, avx2, neon or interp (the best this CPU has)");
@@ -271,6 +287,24 @@ void interpret_output(const Given& given, RenderOptions& o) {
     if (given.progress == "none" || o.findings.quiet) o.progress = ProgressStyle::None;
 }
 
+// What only cameras that are added obey.
+void interpret_view(const Given& given, RenderOptions& o) {
+    if (o.yfov != 0) check_range("--fov", o.yfov, 0.01, 170, "takes 0.01 to 170 degrees");
+    if (!given.look_from.empty() && !(o.look_from = parse_point(given.look_from)))
+        throw CLI::ValidationError("--look-from", "takes X,Y,Z, not '" + given.look_from + "'");
+    if (o.look_from && o.look_from == parse_point(o.look_at))
+        throw CLI::ValidationError("--look-at", "is where --look-from is");
+    bool added = o.follow || o.turntable || o.look_from || !o.look_at.empty();
+    if (added && !o.camera.empty() && !find_view(o.camera))
+        throw CLI::ValidationError(
+            "--camera", fmt::format("--camera-follow, --turntable, --look-from and --look-at move "
+                                    "cameras that are added, not '{}': leave --camera out, or "
+                                    "take one of {}",
+                                    o.camera, fmt::join(words_of_views(), ", ")));
+    if (o.look_from && !o.camera.empty())
+        throw CLI::ValidationError("--look-from", "says where the camera is; so does --camera");
+}
+
 void interpret(const Given& given, RenderOptions& o) {
     std::string error;
     if (!given.frames.empty()) {
@@ -290,12 +324,21 @@ void interpret(const Given& given, RenderOptions& o) {
     if (o.meter) check_range("--unit", *o.meter, 1e-15, 1e15, "takes metres, more than 0");
     check_stages(o.dump);
     if (!given.target.empty()) choose_target(given.target, o);
+    interpret_view(given, o);
     interpret_quality(given, o);
     interpret_changes(given, o);
     interpret_output(given, o);
 }
 
 }  // namespace
+
+std::optional<dvec3> parse_point(const std::string& text) {
+    dvec3 p;
+    char tail = 0;
+    bool three = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &tail) == 3;
+    if (!three || !std::isfinite(p.x + p.y + p.z)) return std::nullopt;
+    return p;
+}
 
 std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o) {
     CLI::App app("kinora-render: COLLADA scenes with RSL shaders to pictures", "kinora-render");

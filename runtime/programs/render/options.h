@@ -28,7 +28,12 @@ struct RenderOptions {
     int width = 0, height = 0;  // 0: 640 x 640 / aspect
     double scale = 1;           // of width and height
     std::string camera;
-    int threads = 0;  // 0: all
+    bool follow = false;
+    std::optional<int> turntable;  // frames of a full turn
+    double yfov = 0;               // degrees; 0: the camera's own
+    std::optional<dvec3> look_from;
+    std::string look_at;  // X,Y,Z or a node; "": nothing
+    int threads = 0;      // 0: all
     const jit::Target* target = nullptr;
     std::string target_missing;  // asked for, not on this CPU
     Quality quality;             // the row with single options put over it
@@ -63,6 +68,9 @@ struct RenderOptions {
     bool json = false;              // of the list
     std::vector<std::string> dump;  // stages: "ir", "ir:fold", "asm", ...
 };
+
+// "X,Y,Z"; nothing if it is not that.
+std::optional<dvec3> parse_point(const std::string& text);
 
 // Reads the command line. Returns an exit code when there is nothing to render (help, usage error,
 // which is printed), nothing otherwise.
