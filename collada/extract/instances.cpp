@@ -134,8 +134,8 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
             if (child.name == "skeleton")
                 if (Link root = resolve(x, {link.doc, &child}, "", {"node", "visual_scene"})) {
                     // All of a scene: as if there were no <skeleton>.
-                    bool node = root.element->name == "node";
-                    uint32_t index = node ? node_index(x, root) : kNone;
+                    bool below = root.element->name == "node";
+                    uint32_t index = below ? node_index(x, root) : kNone;
                     if (index != kNone) mesh.skeleton_roots.push_back(index);
                 }
         x.pending_skins.push_back({node_number, mesh_number, link});
