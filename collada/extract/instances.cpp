@@ -132,8 +132,10 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     if (mesh.skin != kNone) {
         for (const Element& child : link.element->children())
             if (child.name == "skeleton")
-                if (Link root = resolve(x, {link.doc, &child}, "", {"node"})) {
-                    uint32_t index = node_index(x, root);
+                if (Link root = resolve(x, {link.doc, &child}, "", {"node", "visual_scene"})) {
+                    // All of a scene: as if there were no <skeleton>.
+                    bool below = root.element->name == "node";
+                    uint32_t index = below ? node_index(x, root) : kNone;
                     if (index != kNone) mesh.skeleton_roots.push_back(index);
                 }
         x.pending_skins.push_back({node_number, mesh_number, link});

@@ -7,9 +7,19 @@
 
 namespace kinora::collada {
 
+namespace {
+
+bool holds_names(const Element& source) {
+    bool numbers = source.child("float_array") || source.child("int_array");
+    return !numbers && (source.child("Name_array") || source.child("IDREF_array"));
+}
+
+}  // namespace
+
 uint32_t MeshReader::source_index(Link link) {
     auto [at, fresh] = sources.emplace(link.element, kNone);
     if (!fresh) return at->second;
+    if (holds_names(*link.element)) return kNone;  // an input of somebody's own
     DoubleSource data = read_double_source(x, link);
     if (data.values.empty()) return kNone;
     bool fits =

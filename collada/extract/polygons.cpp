@@ -50,7 +50,13 @@ void read_holed(Extraction& x, Link link, PrimitiveIndices& p, PolygonList& poly
 void check_count(Extraction& x, Link primitive, size_t found) {
     uint64_t count = 0;
     const Attribute* a = primitive.element->attribute("count");
-    if (a && parse_count(a->value, count) && count != found)
+    if (!a)
+        x.diag.report(Code::SRC_ATTRIBUTE, x.where(primitive), "count", primitive.element->name,
+                      "is missing");
+    else if (!parse_count(a->value, count))
+        x.diag.report(Code::SRC_ATTRIBUTE, x.where(primitive, "count"), "count",
+                      primitive.element->name, fmt::format("is '{}'", a->value));
+    else if (count != found)
         x.diag.report(Code::PRIM_COUNT, x.where(primitive, "count"), count, found);
 }
 

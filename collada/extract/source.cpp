@@ -37,17 +37,26 @@ const Element* find_array(Extraction& x, Link source, const std::string_view (&n
     return nullptr;
 }
 
-uint64_t read_count(Extraction& x, Link link, std::string_view attribute, uint64_t missing) {
+// Nothing where the attribute is not there, or is no count, which is reported.
+std::optional<uint64_t> read_count(Extraction& x, Link link, std::string_view attribute) {
     const Attribute* a = link.element->attribute(attribute);
-    if (!a) return missing;
+    if (!a) return std::nullopt;
     uint64_t value = 0;
     if (parse_count(a->value, value)) return value;
-    x.diag.report(Code::SRC_NUMBER, x.where(link, attribute), a->value);
-    return missing;
+    x.diag.report(Code::SRC_ATTRIBUTE, x.where(link, attribute), attribute, link.element->name,
+                  fmt::format("is '{}'", a->value));
+    return std::nullopt;
+}
+
+void report_missing(Extraction& x, Link link, std::string_view attribute) {
+    if (!link.element->attribute(attribute))
+        x.diag.report(Code::SRC_ATTRIBUTE, x.where(link), attribute, link.element->name,
+                      "is missing");
 }
 
 void check_array_count(Extraction& x, Link array, size_t values) {
-    uint64_t count = read_count(x, array, "count", values);
+    report_missing(x, array, "count");
+    uint64_t count = read_count(x, array, "count").value_or(values);
     if (count != values) x.diag.report(Code::SRC_COUNT, x.where(array, "count"), count, values);
 }
 
@@ -101,18 +110,22 @@ bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& 
     Link accessor{source.doc, element};
     view.source = source;
     read_columns(*element, view);
-    uint64_t stride = read_count(x, accessor, "stride", 1);
+    uint64_t stride = read_count(x, accessor, "stride").value_or(1);
     uint64_t needed = view.columns.empty() ? 1 : view.columns.back() + 1;
-    if (stride == 0)
-        x.diag.report(Code::SRC_STRIDE, x.where(accessor, "stride"), stride);
-    else if (stride < needed)
-        x.diag.report(Code::SRC_PARAM, x.where(accessor, "stride"),
-                      fmt::format("stride is {}, the <param>s ask for {}", stride, needed));
-    uint64_t offset = read_count(x, accessor, "offset", 0);
+    uint64_t offset = read_count(x, accessor, "offset").value_or(0);
     uint64_t room = offset < array_length ? array_length - offset : 0;
     // Blender gives the single numbers of a camera's key three <param>s: the array tells.
-    uint64_t said = read_count(x, accessor, "count", 0);
-    bool array_fits = stride > 0 && said > 0 && said == room / stride && room % stride == 0;
+    std::optional<uint64_t> said = read_count(x, accessor, "count");
+    report_missing(x, accessor, "count");
+    bool array_fits =
+        stride > 0 && said && *said > 0 && *said == room / stride && room % stride == 0;
+    if (stride < needed && !element->attribute("stride"))
+        report_missing(x, accessor, "stride");
+    else if (stride < needed && array_fits)
+        x.diag.report(Code::SRC_PARAM, x.where(accessor, "stride"),
+                      fmt::format("stride is {}, the <param>s ask for {}", stride, needed));
+    else if (stride < needed)
+        x.diag.report(Code::SRC_STRIDE, x.where(accessor, "stride"), stride, needed);
     if (element->attribute("stride") && stride < needed && array_fits)
         std::erase_if(view.columns, [&](uint32_t c) { return c >= stride; });
     else
@@ -122,7 +135,7 @@ bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& 
     if (offset > 0 && offset >= array_length)
         x.diag.report(Code::SRC_OFFSET, x.where(accessor, "offset"), offset, array_length);
     uint64_t held = room / stride;
-    uint64_t count = read_count(x, accessor, "count", held);
+    uint64_t count = said.value_or(held);
     uint64_t reach = 0;
     if (__builtin_mul_overflow(count, stride, &reach) ||
         __builtin_add_overflow(reach, offset, &reach)) {
@@ -180,7 +193,7 @@ NameSource read_name_source(Extraction& x, Link source) {
     if (out.array->name == "SIDREF_array") out.kind = JointNames::Sidref;
     if (!x.budget.reserve_parsing(out.array->text.size(), x.where({source.doc, out.array})))
         return out;
-    out.written_count = read_count(x, {source.doc, out.array}, "count", 0);
+    out.written_count = read_count(x, {source.doc, out.array}, "count").value_or(0);
     out.names = split_words(out.array->text);
     return out;
 }

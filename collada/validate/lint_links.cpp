@@ -49,7 +49,7 @@ constexpr LinkRow kLinks[] = {
     LINK_ROW("morph", "source", "geometry", "controller"),
     LINK_ROW("convex_mesh", "convex_hull_of", "geometry"),
     LINK_ROW("render", "camera_node", "node"),
-    LINK_ROW("skeleton", "", "node"),
+    LINK_ROW("skeleton", "", "node", "visual_scene"),
     LINK_ROW("accessor", "source", "float_array", "int_array", "bool_array", "Name_array",
              "IDREF_array", "SIDREF_array", "token_array"),
     LINK_ROW("csymbol", "definitionURL", "formula"),
@@ -89,11 +89,21 @@ void check_row(Lint& lint, const LinkRow& row, ExternalFiles& files) {
     }
 }
 
-// <input source>: of VERTEX the <vertices>, of all others a <source>.
+bool in_brep(const Element& element) {
+    for (const Element* e = element.parent; e; e = e->parent)
+        if (e->name == "brep") return true;
+    return false;
+}
+
+// <input source>: of VERTEX the <vertices>, of all others a <source>; in <brep> also what its
+// elements are made of.
 void check_inputs(Lint& lint) {
     for (const Element* input : lint.named("input")) {
         if (input->value("source").empty()) continue;
-        if (input->value("semantic") == "VERTEX")
+        if (in_brep(*input))
+            resolve(lint.x, {0, input}, "source",
+                    {"source", "vertices", "edges", "wires", "faces", "shells", "pcurves"});
+        else if (input->value("semantic") == "VERTEX")
             resolve(lint.x, {0, input}, "source", {"vertices"});
         else
             resolve(lint.x, {0, input}, "source", {"source"});

@@ -199,7 +199,6 @@ struct SceneDescription {
     // Where shaders may read point files, and write them. Importers limit both to the scene's
     // folder and what the user allows.
     AllowedPaths readable, writable;
-    AllowedPaths pictures;  // textures and maps: anywhere, unless they are confined too
     double meter = 1;
     UpAxis up_axis = UpAxis::Y;
     std::vector<double> values;
@@ -221,6 +220,7 @@ struct SceneDescription {
     std::optional<double> start_time, end_time, frame_rate;
     std::vector<std::string> inputs;  // read besides the texts in Diagnostics, for fingerprints
     std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file
+    AllowedPaths pictures;  // where textures and maps may lie: anywhere, unless they are confined
 };
 
 // Calls f(ShaderUse&) for every shader of the scene with its parameters.

@@ -50,7 +50,7 @@ std::vector<Case> cases() {
         {&Code::SRC_COUNT, replaced(good, "count=\"9\"", "count='8'"), "count='8'", "count='9'"},
         {&Code::SRC_ACCESSOR_COUNT, replaced(good, "count=\"3\"", "count=\"4\""), "count=\"4\"",
          "count=\"3\""},
-        {&Code::SRC_PARAM, replaced(good, "stride=\"3\"", "stride=\"1\""), "stride=\"1\"",
+        {&Code::SRC_STRIDE, replaced(good, "stride=\"3\"", "stride=\"1\""), "stride=\"1\"",
          "stride=\"3\""},
         {&Code::PRIM_COUNT, replaced(good, "<triangles count=\"1\"", "<triangles  count=\"7\""),
          "count=\"7\"", "count=\"1\""},

@@ -51,7 +51,7 @@ class Agreement(ProgramTest):
         self.assertGreater(len(scenes), 8)
         for scene in scenes:
             with self.subTest(scene.name):
-                loaded = render(scene, "-o", self.folder / "a.png", "--size", "8x8", "--spp", "1",
+                loaded = render(scene, "-v", "-o", self.folder / "a.png", "--size", "8x8", "--spp", "1",
                                 "--time", "0")
                 validated = run("kinora-validate", scene)
                 self.assertEqual(set(SKINS.findall(loaded.err)),

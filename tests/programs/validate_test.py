@@ -41,7 +41,7 @@ class Findings(ProgramTest):
     def test_a_finding_has_place_code_path_and_caret(self):
         scene = self.write("s.dae", EMPTY.replace('url="#v"', 'url="#w"'))
         result = validate(scene)
-        self.expect(result, 0, "s.dae:5:36: warning: ", "[LINK_UNRESOLVED]",
+        self.expect(result, 1, "s.dae:5:36: error: ", "[LINK_UNRESOLVED]",
                     "in scene/instance_visual_scene", " ^~\n")
 
     def test_errors_of_embedded_shaders_have_the_document_s_place(self):
@@ -87,17 +87,17 @@ class Findings(ProgramTest):
 class Options(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.scene = self.write("s.dae", EMPTY.replace('url="#v"', 'url="#w"'))
+        self.scene = self.write("s.dae", EMPTY.replace('url="#v"', 'url="v"').replace("Y_UP", "W_UP"))
 
     def test_severities_and_what_fails(self):
         self.assertEqual(validate(self.scene).code, 0)
         self.assertEqual(validate(self.scene, "--fail-on", "warning").code, 1)
-        self.assertEqual(validate(self.scene, "--severity", "LINK_UNRESOLVED=error").code, 1)
+        self.assertEqual(validate(self.scene, "--severity", "LINK_NO_HASH=error").code, 1)
         self.assertEqual(validate(self.scene, "--profile", "strict").code, 1)
         off = validate(self.scene, "--severity", "LINK_*=off")
-        self.assertNotIn("LINK_UNRESOLVED", off.out)
-        self.expect(validate(self.scene, "--severity", "LINK_UNRESOLVD=off"), 2,
-                    "did you mean LINK_UNRESOLVED")
+        self.assertNotIn("LINK_NO_HASH", off.out)
+        self.expect(validate(self.scene, "--severity", "LINK_NO_HAS=off"), 2,
+                    "did you mean LINK_NO_HASH")
 
     def test_profiles_choose_the_version(self):
         for profile, wrong in (("1.4.1", False), ("1.5", True)):
@@ -112,7 +112,7 @@ class Options(ProgramTest):
 
     def test_only_and_max_issues(self):
         self.assertTrue(all(c.startswith("LINK_") for c in codes(self.scene, "--only", "LINK_")))
-        self.assertNotIn("LINK_UNRESOLVED", codes(self.scene, "--only", "XML_,DOC_"))
+        self.assertNotIn("LINK_NO_HASH", codes(self.scene, "--only", "XML_,DOC_"))
         self.assertEqual(len(codes(self.scene, "--max-issues", "1")), 1)
 
     def test_every_code_is_explained(self):
@@ -175,7 +175,7 @@ type="float"/><param name="Z" type="float"/></accessor></technique_common></sour
 
     def test_quiet_and_verbose(self):
         self.assertEqual(validate("-q", self.scene).out, "")
-        self.expect(validate("-v", self.scene), 0, "why: ", "s.dae: 2 warnings")
+        self.expect(validate("-v", self.scene), 0, "why: ", "s.dae: 3 warnings")
 
     def test_a_report_goes_to_a_file_whole_or_not_at_all(self):
         report = self.folder / "report.json"

@@ -14,6 +14,7 @@
 #include "collada/document/document.h"
 #include "collada/extract/extract.h"
 #include "collada/scene/scene.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 #include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/common/exit_codes.h"
@@ -130,6 +131,8 @@ void hold_to_scene(ShadeOptions& options) {
         folders.insert(folders.end(), more->begin(), more->end());
     options.compile.files = AllowedPaths(folders);
     options.compile.pictures = options.compile.files.anywhere();
+    for (const auto& [name, value] : options.params)  // what the user names is read where it is
+        if (is_regular_file(value)) options.compile.pictures.add_file(value);
 }
 
 std::vector<std::string> shade_sources(const std::string& word) {

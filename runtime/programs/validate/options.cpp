@@ -1,5 +1,6 @@
 // runtime/programs/validate/options.cpp: kinora-validate's command line.
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "collada/schema/schema.h"
@@ -104,7 +105,7 @@ void add_options(CLI::App& app, ValidateSettings& s, Words& w) {
                          {"lenient", Profile::Lenient},
                          {"strict", Profile::Strict},
                          {"default", Profile::Default}},
-                        "1.4.1, 1.5, lenient or strict (by the file's version)");
+                        "1.4.1, 1.5, lenient, default (by the file's version) or strict");
     add_list(app, "--severity", w.severities, "CODE=off|hint|info|warning|error; CODE or PORT_*",
              ',');
     add_list(app, "--only", w.only, "codes that begin so: XML_,SCHEMA_,ID_", ',');
@@ -138,6 +139,11 @@ void take_words(const Words& w, ValidateSettings& s) {
     s.format = find_report_format(w.format);
     s.threads = parse_threads(w.threads, "-j");
     s.fail_on = *parse_severity(w.fail_on);
+    // Files below a directory may name all that is below it.
+    std::error_code error;
+    for (const std::string& input : s.inputs)
+        if (s.recurse && std::filesystem::is_directory(input, error))
+            s.validate.extract.allow_external.push_back(input);
     if (s.strict) s.validate.profile = collada::Profile::Strict;
     for (const std::string& text : w.severities) add_severity(text, s);
     for (const std::string& text : w.only) add_only(text, s);
