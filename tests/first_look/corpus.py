@@ -290,7 +290,7 @@ def mirrored_leg(root):
     return d
 
 
-@document("urdf/laser/hokuyo.dae")
+@document("urdf/laser/hokuyo.dae", told="--lights both")
 def hokuyo(root):
     mesh = shapes.block(0, 0, 0.02, 0.05, 0.05, 0.04, "rubber").join(shapes.cylinder((0, 0, 0.04), (0, 0, 0.065), 0.021, 20, "paint")).join(shapes.cylinder((0, 0, 0.065), (0, 0, 0.071), 0.024, 20, "rubber"))
     d = link(mesh, "Google SketchUp 7.1", 0.0254, "inch", looks={"rubber": Look(diffuse=(0.02, 0.02, 0.02), transparent=WHITE, transparency=0), "paint": Look(diffuse=(0.9, 0.75, 0.1), transparent=WHITE, transparency=0)})

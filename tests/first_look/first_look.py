@@ -12,7 +12,7 @@ all parts together are right, 77 where all parts are missing.
 
 Faults: exit (not 0, or not 3 where there is nothing to draw), time (over 60 s), blank (under 0.2 % of the picture is covered), speck
 (under 3 %), white (over 60 % of what is covered is clipped), checks (over 2 % magenta although the named image exists), black (under
-the grey matte over 30 % of what is covered is darker than sRGB 43), silent (the document's own lights spoil it, and the text that
+the grey matte over 30 % of what is covered is darker than sRGB 43, or over 95 % of the picture itself than 8), silent (the document's own lights spoil it, and the text that
 corpus.json expects is not printed).
 """
 import argparse
@@ -27,6 +27,7 @@ import tempfile
 import time
 import zlib
 from pathlib import Path
+from urllib.parse import unquote
 
 HERE = Path(__file__).resolve().parent
 ROOT = Path(os.environ.get("KINORA_SOURCE_DIR", HERE.parent.parent)).resolve()
@@ -35,14 +36,16 @@ sys.path[:0] = [str(HERE), str(ROOT / "scripts")]
 import corpus  # noqa: E402
 from sheet import lettering, png  # noqa: E402
 
-BLANK, SPECK, WHITE, CHECKS, BLACK = 0.002, 0.03, 0.6, 0.02, 0.3
-CLIPPED, DARK = 253, 43  # of 255
+BLANK, SPECK, WHITE, CHECKS, BLACK, ALL_BLACK = 0.002, 0.03, 0.6, 0.02, 0.3, 0.95
+CLIPPED, DARK, NIGHT = 253, 43, 8  # of 255
 SECONDS = 60
 KINDS = ("exit", "time", "blank", "speck", "white", "checks", "black", "silent")
 PAPER, INK, ALARM = (34, 34, 36), (225, 225, 220), (255, 90, 70)
 COLUMNS, STRIP = 8, 14
-# Parts of other documents.
-NOT_SCENES = {"cts15_external_geometry/library_geometries.dae", "odd/external/parts.dae"}
+# Parts of other documents; a reader's test whose triangles have no area.
+NOT_SCENES = {"cts15_external_geometry/library_geometries.dae", "odd/external/parts.dae", "magnum_mesh_all_primitives/mesh-multiple-primitives.dae"}
+# Of ../shared/scenes: only cameras or lights.
+NOTHING = ("assimp_cameras/cameras.dae", "assimp_lights_blender/lights.dae", "magnum_lights/light.dae")
 
 
 def pixels(path):
@@ -68,7 +71,7 @@ def pixels(path):
 def figures(picture):
     """Shares: covered of all pixels; clipped, magenta and dark of what is covered by half and more."""
     width, height, rows = picture
-    covered = solid = clipped = magenta = dark = 0
+    covered = solid = clipped = magenta = dark = night = 0
     for row in rows:
         covered += sum(row[3::4])
         for r, g, b, a in zip(row[::4], row[1::4], row[2::4], row[3::4]):
@@ -77,8 +80,9 @@ def figures(picture):
             solid += 1
             clipped += min(r, g, b) >= CLIPPED
             dark += max(r, g, b) < DARK
-            magenta += min(r, b) > 30 and g * 3 < min(r, b) and abs(r - b) * 5 < max(r, b)
-    shares = {name: round(n / max(solid, 1), 4) for name, n in (("clipped", clipped), ("magenta", magenta), ("dark", dark))}
+            magenta += min(r, b) > 60 and (min(r, b) - g) * 5 > max(r, b) and abs(r - b) * 8 < max(r, b)
+            night += max(r, g, b) < NIGHT
+    shares = {name: round(n / max(solid, 1), 4) for name, n in (("clipped", clipped), ("magenta", magenta), ("dark", dark), ("night", night))}
     return {"covered": round(covered / 255 / (width * height), 4), **shares}
 
 
@@ -97,6 +101,7 @@ def look(job):
     begin = time.monotonic()
     plain, grey = (job["folder"] / f"{job['place']:04}{kind}.png" for kind in ("", "_grey"))
     code, said = render(job, plain)
+    missing = job["expected"].get("missing") or not pictures_of(job["file"])
     found = {"name": job["name"], "group": job["group"], "exit": code, "errors": len(re.findall(r"(?m)(^|: )error: ", said)), "said": said[-4000:]}
     expected, fault = job["expected"], ""
     if code is None:
@@ -110,25 +115,36 @@ def look(job):
     else:
         found.update(figures(pixels(plain)))
         grey_code, _ = render(job, grey, "--shader", f"*={HERE / 'grey.sl'}")
-        under_grey = figures(pixels(grey)) if grey_code == 0 else {"dark": 1}
+        under_grey = figures(pixels(grey)) if grey_code == 0 else {"dark": 1.0}
         found["dark"] = under_grey["dark"]
-        fault = fault_of(found, expected)
+        fault = fault_of(found, missing)
         if expected.get("told") and fault in ("", "black"):
             fault = "" if expected["told"] in said else "silent"
     found.update(fault=fault, seconds=round(time.monotonic() - begin, 2), plain=str(plain) if plain.exists() else None, grey=str(grey) if grey.exists() else None)
     return found
 
 
-def fault_of(found, expected):
+def fault_of(found, missing):
     if found["covered"] < BLANK:
         return "blank"
     if found["covered"] < SPECK:
         return "speck"
     if found["clipped"] > WHITE:
         return "white"
-    if found["magenta"] > CHECKS and not expected.get("missing"):
+    if found["magenta"] > CHECKS and not missing:
         return "checks"
-    return "black" if found["dark"] > BLACK else ""
+    return "black" if found["dark"] > BLACK or found["night"] > ALL_BLACK else ""
+
+
+def pictures_of(file):
+    """Whether a picture that the document names lies somewhere near it, whatever its folder and case."""
+    if file.suffix.lower() != ".dae":
+        return True
+    text = file.read_text(encoding="utf-8", errors="replace")
+    references = re.findall(r"<init_from>\s*(?:<ref>)?([^<]*\.\w+)\s*<", text)
+    wanted = {re.split(r"[/\\\\]", unquote(r).strip())[-1].lower() for r in references}
+    around = [file.parent, file.parent.parent] if file.parent.parent.name not in ("corpus", "scenes", "blind") else [file.parent]
+    return bool(wanted) and any(f.name.lower() in wanted for folder in around for f in folder.rglob("*"))
 
 
 def documents(folder):
@@ -138,7 +154,6 @@ def documents(folder):
 def parts_of(options, scratch):
     """(group, name, file, expectations) of all files."""
     for part in options.parts:
-        expected = {}
         if part == "corpus":
             folder = scratch / "corpus"
             expected = corpus.write(folder)
@@ -148,6 +163,7 @@ def parts_of(options, scratch):
             expected = exporters.write(folder)
         else:
             folder = {"blind": HERE / "blind", "shared": SHARED / "scenes"}.get(part, Path(part))
+            expected = {name: {"nothing": True} for name in NOTHING} if part == "shared" else {}
         if not folder.is_dir():
             print(f"{part}: no folder {folder}, skipped")
             continue
