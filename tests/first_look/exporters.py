@@ -14,13 +14,14 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import corpus  # noqa: E402
 import shapes  # noqa: E402
+from dae import Document, Look  # noqa: E402
 
 MODELS = ("chair", "table", "shelf", "house", "tower", "car", "truck", "plane", "person", "dog", "robot_arm", "rover", "gear", "bolt", "crate", "column_temple")
 SYSTEM = {**os.environ, "PATH": "/usr/bin:/bin", "XDG_RUNTIME_DIR": "/tmp", "PYTHONDONTWRITEBYTECODE": "1"}  # Debian's own python
 
 
 def obj(folder, name, textured):
-    """NAME.obj and NAME.mtl, its largest material with a picture."""
+    """NAME.obj and NAME.mtl, its first material with a picture."""
     mesh = getattr(shapes, name)()
     materials = mesh.materials()
     lines = [f"mtllib {name}.mtl"] + ["v " + " ".join(f"{c:.6f}" for c in (p[0], p[2], -p[1])) for p in mesh.points]
@@ -57,6 +58,20 @@ def ply(folder, name):
             "property uchar blue", f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header"]
     (folder / f"{name}.ply").write_text("\n".join(head + rows + [f"{len(f)} " + " ".join(map(str, f)) for f, _, _ in mesh.faces]) + "\n")
     return folder / f"{name}.ply"
+
+
+def source_dae(folder, sources, name):
+    """A document with a picture, for a program that reads COLLADA and writes it."""
+    mesh = getattr(shapes, name)()
+    document = Document("shapes", 1)
+    for where in (folder, sources):
+        corpus.picture(where, f"{name}.png", "planks")
+    document.image("picture", f"{name}.png")
+    for k, material in enumerate(mesh.materials()):
+        document.look(material, Look(diffuse="picture" if k == 0 else corpus.PAINT[material]))
+    document.show(name, mesh)
+    document.write(sources / f"{name}.dae")
+    return sources / f"{name}.dae"
 
 
 def stl(folder, name):
@@ -105,7 +120,7 @@ def meshlab(folder):
     server = ("xvfb-run", "-a", "meshlabserver") if shutil.which("xvfb-run") else ("meshlabserver",)  # it wants OpenGL
     for k, name in enumerate(MODELS):
         textured = k % 2 == 0
-        source = obj(folder, name, True) if textured else ply(sources, name)
+        source = source_dae(folder, sources, name) if textured else ply(sources, name)  # its reader of .obj aborts on ours
         call("meshlabserver", *server, "-i", source, "-o", folder / f"{name}.dae", "-m", *(("wt", "vn") if textured else ("vc", "vn") if k % 4 == 1 else ("vc",)), seconds=60)
     shutil.rmtree(sources)
 
