@@ -14,7 +14,7 @@ import shapes  # noqa: E402
 # Debian 12's exporter uses a name that its numpy no longer has.
 if not hasattr(numpy, "bool"):
     numpy.bool = bool
-words = sys.argv[sys.argv.index("--") + 1:]
+words = sys.argv[sys.argv.index("--") + 1 :]
 FOLDER, MODELS = Path(words[0]), words[1:]
 
 
@@ -86,7 +86,10 @@ for position, name in enumerate(MODELS):
         bpy.context.view_layer.objects.active = armature
         bpy.ops.object.mode_set(mode="EDIT")
         low, high = shapes.Mesh.bounds(getattr(shapes, name)())
-        for bone, (a, b) in (("lower", (low[2], (low[2] + high[2]) / 2)), ("upper", ((low[2] + high[2]) / 2, high[2]))):
+        for bone, (a, b) in (
+            ("lower", (low[2], (low[2] + high[2]) / 2)),
+            ("upper", ((low[2] + high[2]) / 2, high[2])),
+        ):
             edit = armature.data.edit_bones.new(bone)
             edit.head, edit.tail = (0, 0, a), (0, 0, b)
         bpy.ops.object.mode_set(mode="OBJECT")

@@ -16,8 +16,30 @@ import corpus  # noqa: E402
 import shapes  # noqa: E402
 from dae import Document, Look  # noqa: E402
 
-MODELS = ("chair", "table", "shelf", "house", "tower", "car", "truck", "plane", "person", "dog", "robot_arm", "rover", "gear", "bolt", "crate", "column_temple")
-SYSTEM = {**os.environ, "PATH": "/usr/bin:/bin", "XDG_RUNTIME_DIR": "/tmp", "PYTHONDONTWRITEBYTECODE": "1"}  # Debian's own python
+MODELS = (
+    "chair",
+    "table",
+    "shelf",
+    "house",
+    "tower",
+    "car",
+    "truck",
+    "plane",
+    "person",
+    "dog",
+    "robot_arm",
+    "rover",
+    "gear",
+    "bolt",
+    "crate",
+    "column_temple",
+)
+SYSTEM = {
+    **os.environ,
+    "PATH": "/usr/bin:/bin",
+    "XDG_RUNTIME_DIR": "/tmp",
+    "PYTHONDONTWRITEBYTECODE": "1",
+}  # Debian's own python
 
 
 def obj(folder, name, textured):
@@ -53,10 +75,27 @@ def ply(folder, name):
     for face, m, _ in mesh.faces:
         for k in face:
             colour[k] = corpus.PAINT[m]
-    rows = [" ".join(f"{c:.6f}" for c in p) + " " + " ".join(str(int(255 * c)) for c in colour.get(k, (0.5, 0.5, 0.5))) for k, p in enumerate(mesh.points)]
-    head = ["ply", "format ascii 1.0", f"element vertex {len(rows)}", "property float x", "property float y", "property float z", "property uchar red", "property uchar green",
-            "property uchar blue", f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header"]
-    (folder / f"{name}.ply").write_text("\n".join(head + rows + [f"{len(f)} " + " ".join(map(str, f)) for f, _, _ in mesh.faces]) + "\n")
+    rows = [
+        " ".join(f"{c:.6f}" for c in p) + " " + " ".join(str(int(255 * c)) for c in colour.get(k, (0.5, 0.5, 0.5)))
+        for k, p in enumerate(mesh.points)
+    ]
+    head = [
+        "ply",
+        "format ascii 1.0",
+        f"element vertex {len(rows)}",
+        "property float x",
+        "property float y",
+        "property float z",
+        "property uchar red",
+        "property uchar green",
+        "property uchar blue",
+        f"element face {len(mesh.faces)}",
+        "property list uchar int vertex_indices",
+        "end_header",
+    ]
+    (folder / f"{name}.ply").write_text(
+        "\n".join(head + rows + [f"{len(f)} " + " ".join(map(str, f)) for f, _, _ in mesh.faces]) + "\n"
+    )
     return folder / f"{name}.ply"
 
 
@@ -80,7 +119,10 @@ def stl(folder, name):
     for face, _, _ in mesh.faces:
         n = shapes.unit(mesh.face_normal(face))
         for k in range(1, len(face) - 1):
-            corners = "".join(f" vertex {' '.join(f'{1000 * c:.4f}' for c in mesh.points[i])}\n" for i in (face[0], face[k], face[k + 1]))
+            corners = "".join(
+                f" vertex {' '.join(f'{1000 * c:.4f}' for c in mesh.points[i])}\n"
+                for i in (face[0], face[k], face[k + 1])
+            )
             lines.append(f"facet normal {n[0]:.5f} {n[1]:.5f} {n[2]:.5f}\nouter loop\n{corners}endloop\nendfacet")
     (folder / f"{name}.stl").write_text("\n".join(lines) + "\nendsolid part\n")
     return folder / f"{name}.stl"
@@ -89,7 +131,15 @@ def stl(folder, name):
 def call(name, *words, seconds=300):
     """Runs an exporter; what it said where it failed."""
     try:
-        done = subprocess.run([str(w) for w in words], capture_output=True, text=True, errors="replace", env=SYSTEM, timeout=seconds, stdin=subprocess.DEVNULL)
+        done = subprocess.run(
+            [str(w) for w in words],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            env=SYSTEM,
+            timeout=seconds,
+            stdin=subprocess.DEVNULL,
+        )
     except subprocess.TimeoutExpired:
         print(f"{name}: over {seconds} s")
         return False
@@ -102,13 +152,23 @@ def assimp(folder):
     sources = folder.parent / "assimp_sources"
     sources.mkdir(parents=True, exist_ok=True)
     for k, name in enumerate(MODELS):
-        source = (obj(sources, name, k % 2 == 0), ply(sources, name), stl(sources, name))[0 if k % 4 < 2 else k % 4 - 1]
+        source = (obj(sources, name, k % 2 == 0), ply(sources, name), stl(sources, name))[
+            0 if k % 4 < 2 else k % 4 - 1
+        ]
         call("assimp", "assimp", "export", source, folder / f"{name}.dae")
     if (sources / "textures").exists():
         shutil.copytree(sources / "textures", folder / "textures", dirs_exist_ok=True)
     again = folder.parent / "assimp_corpus"
     corpus.write(again)
-    for path in ("max/rgb_zero_black.dae", "maya/hound.dae", "blender/character.dae", "blender/sun_watts.dae", "sketchup/tower.dae", "urdf/nested/arm.dae", "cad/bracket_mm.dae"):
+    for path in (
+        "max/rgb_zero_black.dae",
+        "maya/hound.dae",
+        "blender/character.dae",
+        "blender/sun_watts.dae",
+        "sketchup/tower.dae",
+        "urdf/nested/arm.dae",
+        "cad/bracket_mm.dae",
+    ):
         call("assimp", "assimp", "export", again / path, folder / ("again_" + Path(path).name))
     shutil.rmtree(again)
     shutil.rmtree(sources)
@@ -117,11 +177,25 @@ def assimp(folder):
 def meshlab(folder):
     sources = folder.parent / "meshlab_sources"
     sources.mkdir(parents=True, exist_ok=True)
-    server = ("xvfb-run", "-a", "meshlabserver") if shutil.which("xvfb-run") else ("meshlabserver",)  # it wants OpenGL
+    server = (
+        ("xvfb-run", "-a", "meshlabserver") if shutil.which("xvfb-run") else ("meshlabserver",)
+    )  # it wants OpenGL
     for k, name in enumerate(MODELS):
         textured = k % 2 == 0
-        source = source_dae(folder, sources, name) if textured else ply(sources, name)  # its reader of .obj aborts on ours
-        call("meshlabserver", *server, "-i", source, "-o", folder / f"{name}.dae", "-m", *(("wt", "vn") if textured else ("vc", "vn") if k % 4 == 1 else ("vc",)), seconds=60)
+        source = (
+            source_dae(folder, sources, name) if textured else ply(sources, name)
+        )  # its reader of .obj aborts on ours
+        call(
+            "meshlabserver",
+            *server,
+            "-i",
+            source,
+            "-o",
+            folder / f"{name}.dae",
+            "-m",
+            *(("wt", "vn") if textured else ("vc", "vn") if k % 4 == 1 else ("vc",)),
+            seconds=60,
+        )
     shutil.rmtree(sources)
 
 
@@ -139,21 +213,31 @@ def freecad(folder):
     for name in MODELS[::2]:
         stl(sources, name)
     script = sources / "export.py"
-    script.write_text("import sys\nsys.dont_write_bytecode = True\nimport FreeCAD, Mesh, importDAE\nfrom pathlib import Path\n"
-                      f"for part in sorted(Path({str(sources)!r}).glob('*.stl')):\n"
-                      "    document = FreeCAD.newDocument(part.stem)\n    Mesh.insert(str(part), part.stem)\n    document.recompute()\n"
-                      f"    importDAE.export(document.Objects, str(Path({str(folder)!r}) / (part.stem + '.dae')))\n"
-                      "import Part\ndocument = FreeCAD.newDocument('solids')\nbody = document.addObject('Part::Feature', 'Flange')\n"
-                      "body.Shape = Part.makeCylinder(40, 12).cut(Part.makeCylinder(15, 12)).fuse(Part.makeBox(120, 30, 8))\ndocument.recompute()\n"
-                      f"importDAE.export([body], str(Path({str(folder)!r}) / 'flange.dae'))\n")
+    script.write_text(
+        "import sys\nsys.dont_write_bytecode = True\nimport FreeCAD, Mesh, importDAE\nfrom pathlib import Path\n"
+        f"for part in sorted(Path({str(sources)!r}).glob('*.stl')):\n"
+        "    document = FreeCAD.newDocument(part.stem)\n    Mesh.insert(str(part), part.stem)\n    document.recompute()\n"
+        f"    importDAE.export(document.Objects, str(Path({str(folder)!r}) / (part.stem + '.dae')))\n"
+        "import Part\ndocument = FreeCAD.newDocument('solids')\nbody = document.addObject('Part::Feature', 'Flange')\n"
+        "body.Shape = Part.makeCylinder(40, 12).cut(Part.makeCylinder(15, 12)).fuse(Part.makeBox(120, 30, 8))\ndocument.recompute()\n"
+        f"importDAE.export([body], str(Path({str(folder)!r}) / 'flange.dae'))\n"
+    )
     program = shutil.which("freecadcmd-python3") or shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
     call("freecad", program, script)
     shutil.rmtree(sources)
 
 
-PROGRAMS = (("pycollada", pycollada, lambda: subprocess.run(["/usr/bin/python3", "-c", "import collada"], capture_output=True).returncode == 0),
-            ("assimp", assimp, lambda: shutil.which("assimp")), ("meshlab", meshlab, lambda: shutil.which("meshlabserver")),
-            ("blender", blender, lambda: shutil.which("blender")), ("freecad", freecad, lambda: any(map(shutil.which, ("freecadcmd-python3", "freecadcmd", "FreeCADCmd")))))
+PROGRAMS = (
+    (
+        "pycollada",
+        pycollada,
+        lambda: subprocess.run(["/usr/bin/python3", "-c", "import collada"], capture_output=True).returncode == 0,
+    ),
+    ("assimp", assimp, lambda: shutil.which("assimp")),
+    ("meshlab", meshlab, lambda: shutil.which("meshlabserver")),
+    ("blender", blender, lambda: shutil.which("blender")),
+    ("freecad", freecad, lambda: any(map(shutil.which, ("freecadcmd-python3", "freecadcmd", "FreeCADCmd")))),
+)
 
 
 def write(root):

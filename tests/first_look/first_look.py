@@ -43,7 +43,11 @@ KINDS = ("exit", "time", "blank", "speck", "white", "checks", "black", "silent")
 PAPER, INK, ALARM = (34, 34, 36), (225, 225, 220), (255, 90, 70)
 COLUMNS, STRIP = 8, 14
 # Parts of other documents; a reader's test whose triangles have no area.
-NOT_SCENES = {"cts15_external_geometry/library_geometries.dae", "odd/external/parts.dae", "magnum_mesh_all_primitives/mesh-multiple-primitives.dae"}
+NOT_SCENES = {
+    "cts15_external_geometry/library_geometries.dae",
+    "odd/external/parts.dae",
+    "magnum_mesh_all_primitives/mesh-multiple-primitives.dae",
+}
 # Of ../shared/scenes: only cameras or lights.
 NOTHING = ("assimp_cameras/cameras.dae", "assimp_lights_blender/lights.dae", "magnum_lights/light.dae")
 
@@ -52,13 +56,13 @@ def pixels(path):
     """(width, height, rows of RGBA bytes) of an 8-bit PNG."""
     data = path.read_bytes()
     parts = list(png.chunks(data))
-    width, height = (int.from_bytes(parts[0][1][i:i + 4], "big") for i in (0, 4))
+    width, height = (int.from_bytes(parts[0][1][i : i + 4], "big") for i in (0, 4))
     step = {2: 3, 6: 4}[parts[0][1][9]]
     raw = zlib.decompress(b"".join(body for kind, body in parts if kind == b"IDAT"))
     rows, above = [], bytes(width * step)
     for y in range(height):
         at = y * (width * step + 1)
-        above = png.unfilter(raw[at], bytearray(raw[at + 1:at + 1 + width * step]), above, step)
+        above = png.unfilter(raw[at], bytearray(raw[at + 1 : at + 1 + width * step]), above, step)
         row = above
         if step == 3:
             row = bytearray(b"\xff" * (4 * width))
@@ -82,15 +86,36 @@ def figures(picture):
             dark += max(r, g, b) < DARK
             magenta += min(r, b) > 60 and (min(r, b) - g) * 5 > max(r, b) and abs(r - b) * 8 < max(r, b)
             night += max(r, g, b) < NIGHT
-    shares = {name: round(n / max(solid, 1), 4) for name, n in (("clipped", clipped), ("magenta", magenta), ("dark", dark), ("night", night))}
+    shares = {
+        name: round(n / max(solid, 1), 4)
+        for name, n in (("clipped", clipped), ("magenta", magenta), ("dark", dark), ("night", night))
+    }
     return {"covered": round(covered / 255 / (width * height), 4), **shares}
 
 
 def render(job, output, *words):
     """(exit code or None for too long, what it said)."""
-    command = [str(job["program"]), str(job["file"]), "-o", str(output), "--time", "0", "--scale", job["scale"], "--spp", str(job["spp"]), "--threads", "1", "--progress", "none", *words]
+    command = [
+        str(job["program"]),
+        str(job["file"]),
+        "-o",
+        str(output),
+        "--time",
+        "0",
+        "--scale",
+        job["scale"],
+        "--spp",
+        str(job["spp"]),
+        "--threads",
+        "1",
+        "--progress",
+        "none",
+        *words,
+    ]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=SECONDS, stdin=subprocess.DEVNULL)
+        done = subprocess.run(
+            command, capture_output=True, text=True, errors="replace", timeout=SECONDS, stdin=subprocess.DEVNULL
+        )
     except subprocess.TimeoutExpired:
         return None, ""
     return done.returncode, done.stderr
@@ -102,7 +127,13 @@ def look(job):
     plain, grey = (job["folder"] / f"{job['place']:04}{kind}.png" for kind in ("", "_grey"))
     code, said = render(job, plain)
     missing = job["expected"].get("missing") or not pictures_of(job["file"])
-    found = {"name": job["name"], "group": job["group"], "exit": code, "errors": len(re.findall(r"(?m)(^|: )error: ", said)), "said": said[-4000:]}
+    found = {
+        "name": job["name"],
+        "group": job["group"],
+        "exit": code,
+        "errors": len(re.findall(r"(?m)(^|: )error: ", said)),
+        "said": said[-4000:],
+    }
     expected, fault = job["expected"], ""
     if code is None:
         fault = "time"
@@ -120,7 +151,12 @@ def look(job):
         fault = fault_of(found, missing)
         if expected.get("told") and fault in ("", "black"):
             fault = "" if expected["told"] in said else "silent"
-    found.update(fault=fault, seconds=round(time.monotonic() - begin, 2), plain=str(plain) if plain.exists() else None, grey=str(grey) if grey.exists() else None)
+    found.update(
+        fault=fault,
+        seconds=round(time.monotonic() - begin, 2),
+        plain=str(plain) if plain.exists() else None,
+        grey=str(grey) if grey.exists() else None,
+    )
     return found
 
 
@@ -143,12 +179,20 @@ def pictures_of(file):
     text = file.read_text(encoding="utf-8", errors="replace")
     references = re.findall(r"<init_from>\s*(?:<ref>)?([^<]*\.\w+)\s*<", text)
     wanted = {re.split(r"[/\\\\]", unquote(r).strip())[-1].lower() for r in references}
-    around = [file.parent, file.parent.parent] if file.parent.parent.name not in ("corpus", "scenes", "blind") else [file.parent]
+    around = (
+        [file.parent, file.parent.parent]
+        if file.parent.parent.name not in ("corpus", "scenes", "blind")
+        else [file.parent]
+    )
     return bool(wanted) and any(f.name.lower() in wanted for folder in around for f in folder.rglob("*"))
 
 
 def documents(folder):
-    return sorted(f for f in folder.rglob("*") if f.suffix.lower() in (".dae", ".zae", ".kmz") and str(f.relative_to(folder)) not in NOT_SCENES)
+    return sorted(
+        f
+        for f in folder.rglob("*")
+        if f.suffix.lower() in (".dae", ".zae", ".kmz") and str(f.relative_to(folder)) not in NOT_SCENES
+    )
 
 
 def parts_of(options, scratch):
@@ -160,6 +204,7 @@ def parts_of(options, scratch):
         elif part == "exporters":
             folder = scratch / "exporters"
             import exporters
+
             expected = exporters.write(folder)
         else:
             folder = {"blind": HERE / "blind", "shared": SHARED / "scenes"}.get(part, Path(part))
@@ -169,9 +214,11 @@ def parts_of(options, scratch):
             continue
         for file in documents(folder):
             name = str(file.relative_to(folder))
-            group = name.split("/")[0] if part in ("corpus", "exporters") else part
+            group = name.split("/")[0] if part in ("corpus", "exporters") else folder.name if os.sep in part else part
             if not options.only or any(fnmatch.fnmatch(f"{part}/{name}", g) for g in options.only):
-                yield group, name if part in ("corpus", "exporters") else f"{part}/{name}", file, expected.get(name, {})
+                yield group, name if part in ("corpus", "exporters") else f"{group}/{name}", file, expected.get(
+                    name, {}
+                )
 
 
 def table(results):
@@ -184,9 +231,11 @@ def table(results):
     print(f"\n{'group':12} files right  " + " ".join(f"{k:>6}" for k in KINDS))
     for name, members in [*groups.items(), ("all", results)]:
         count = [sum(r["fault"] == k for r in members) for k in KINDS]
-        print(f"{name:12} {len(members):5} {len(members) - sum(count):5}  " + " ".join(f"{n or '-':>6}" for n in count))
+        print(
+            f"{name:12} {len(members):5} {len(members) - sum(count):5}  " + " ".join(f"{n or '-':>6}" for n in count)
+        )
     liars = sum(r["exit"] == 0 and r["errors"] > 0 for r in results)
-    print(f"{liars} say \"error:\" and exit 0")
+    print(f'{liars} say "error:" and exit 0')
 
 
 def changes(results, old):
@@ -200,7 +249,7 @@ def sheets(results, folder, cell):
     """Pages of at most 80 files: the picture by default and the one under the grey matte, on a mid grey."""
     pages = []
     for start in range(0, len(results), 80):
-        shown = results[start:start + 80]
+        shown = results[start : start + 80]
         wide, high = 2 * cell + 4, cell * 3 // 4 + STRIP
         lines = -(-len(shown) // COLUMNS)
         rows = [bytearray(bytes(PAPER) * (COLUMNS * wide)) for _ in range(lines * high)]
@@ -210,7 +259,15 @@ def sheets(results, folder, cell):
                 if r[name]:
                     put(rows, pixels(Path(r[name])), x + k * cell, y, cell, cell * 3 // 4)
             text = f"{r['fault']}! {r['name']}" if r["fault"] else r["name"]
-            lettering.draw(rows, text.lower()[-(wide // 6):] if not r["fault"] else text.lower()[:wide // 6], x + 2, y + cell * 3 // 4 + 3, ALARM if r["fault"] else INK, wide - 4, 1)
+            lettering.draw(
+                rows,
+                text.lower()[-(wide // 6) :] if not r["fault"] else text.lower()[: wide // 6],
+                x + 2,
+                y + cell * 3 // 4 + 3,
+                ALARM if r["fault"] else INK,
+                wide - 4,
+                1,
+            )
         pages.append(folder / f"sheet-{len(pages) + 1}.png")
         png.write(pages[-1], COLUMNS * wide, len(rows), rows)
     print("sheets: " + ", ".join(map(str, pages)))
@@ -226,7 +283,7 @@ def put(rows, picture, x, y, wide, high):
         for i in range(w):
             k = 4 * (i * width // w)
             a = line[k + 3]
-            at[3 * (x + i):3 * (x + i) + 3] = bytes((c * a + 90 * (255 - a)) // 255 for c in line[k:k + 3])
+            at[3 * (x + i) : 3 * (x + i) + 3] = bytes((c * a + 90 * (255 - a)) // 255 for c in line[k : k + 3])
 
 
 def main():
@@ -246,8 +303,20 @@ def main():
         scratch = options.out or Path(temporary)
         pictures = scratch / "pictures"
         pictures.mkdir(parents=True, exist_ok=True)
-        jobs = [{"place": k, "group": group, "name": name, "file": file, "expected": expected, "folder": pictures, "program": program, "scale": options.scale, "spp": options.spp}
-                for k, (group, name, file, expected) in enumerate(parts_of(options, scratch))]
+        jobs = [
+            {
+                "place": k,
+                "group": group,
+                "name": name,
+                "file": file,
+                "expected": expected,
+                "folder": pictures,
+                "program": program,
+                "scale": options.scale,
+                "spp": options.spp,
+            }
+            for k, (group, name, file, expected) in enumerate(parts_of(options, scratch))
+        ]
         if not jobs:
             sys.exit(77)
         with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:

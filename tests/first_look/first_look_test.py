@@ -14,23 +14,23 @@ from programs import ProgramTest, main  # noqa: E402
 
 SIZE = 40
 # Writes the picture called plain.png or grey.png beside it, says what said.txt says, ends as code.txt says.
-PRETENDER = """#!{python}
-import shutil, sys
-from pathlib import Path
-here = Path(__file__).parent
-output = sys.argv[sys.argv.index("-o") + 1]
-picture = here / ("grey.png" if "--shader" in sys.argv else "plain.png")
-if picture.exists():
-    shutil.copy(picture, output)
-sys.stderr.write((here / "said.txt").read_text())
-sys.exit(int((here / "code.txt").read_text()))
+PRETENDER = """#!/bin/sh
+here=$(dirname "$0") picture=plain.png
+for word; do
+    [ "$before" = -o ] && output=$word
+    [ "$word" = --shader ] && picture=grey.png
+    before=$word
+done
+[ -e "$here/$picture" ] && cp "$here/$picture" "$output"
+cat "$here/said.txt" >&2
+exit "$(cat "$here/code.txt")"
 """
 
 
 class Faults(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.program = self.write("pretender", PRETENDER.format(python=sys.executable))
+        self.program = self.write("pretender", PRETENDER)
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
         self.scene = self.write("scene.dae", "<COLLADA><init_from>a%20wall.png</init_from></COLLADA>")
         self.write("A Wall.PNG", "")
@@ -44,8 +44,19 @@ class Faults(ProgramTest):
         self.write("code.txt", str(code))
         pictures = self.folder / "pictures"
         pictures.mkdir(exist_ok=True)
-        return first_look.look({"place": 0, "group": "a", "name": "scene.dae", "file": self.scene, "folder": pictures, "program": self.program,
-                                "scale": "1", "spp": 1, "expected": expected})["fault"]
+        return first_look.look(
+            {
+                "place": 0,
+                "group": "a",
+                "name": "scene.dae",
+                "file": self.scene,
+                "folder": pictures,
+                "program": self.program,
+                "scale": "1",
+                "spp": 1,
+                "expected": expected,
+            }
+        )["fault"]
 
     @staticmethod
     def part(share, colour):
@@ -64,7 +75,7 @@ class Faults(ProgramTest):
         self.assertEqual(self.fault(self.covered(500), code=3), "exit")
 
     def test_blank_and_speck(self):
-        self.assertEqual(self.fault(self.covered(3)), "blank")   # 3 of 1600 is under 0.2 %
+        self.assertEqual(self.fault(self.covered(3)), "blank")  # 3 of 1600 is under 0.2 %
         self.assertEqual(self.fault(self.covered(4)), "speck")
         self.assertEqual(self.fault(self.covered(47)), "speck")  # 48 of 1600 is 3 %
         self.assertEqual(self.fault(self.covered(48)), "")
@@ -104,7 +115,17 @@ class Faults(ProgramTest):
 
     def test_a_picture_is_read(self):
         shapes.png(self.folder / "a.png", 3, 2, lambda x, y: (x, y, 7, 100 + x), 4)
-        self.assertEqual(first_look.pixels(self.folder / "a.png"), (3, 2, [bytes((0, 0, 7, 100, 1, 0, 7, 101, 2, 0, 7, 102)), bytes((0, 1, 7, 100, 1, 1, 7, 101, 2, 1, 7, 102))]))
+        self.assertEqual(
+            first_look.pixels(self.folder / "a.png"),
+            (
+                3,
+                2,
+                [
+                    bytes((0, 0, 7, 100, 1, 0, 7, 101, 2, 0, 7, 102)),
+                    bytes((0, 1, 7, 100, 1, 1, 7, 101, 2, 1, 7, 102)),
+                ],
+            ),
+        )
 
 
 class Corpus(ProgramTest):
@@ -113,6 +134,8 @@ class Corpus(ProgramTest):
         self.assertGreaterEqual(len(expected), 80)
         self.assertEqual(len(expected), len(corpus.CORPUS))
         for name, wanted in expected.items():
+            if not name.endswith(".dae"):
+                continue
             text = (self.folder / "corpus" / name).read_text()
             faces = len(re.findall(r"<(?:triangles|polylist|polygons|trifans|instance_geometry url=\"parts)", text))
             with self.subTest(name):
@@ -121,7 +144,9 @@ class Corpus(ProgramTest):
                     self.assertGreater(faces, 0)
                 named = "<init_from>" in text and re.search(r"<init_from>[^<]*\.\w+<", text)
                 if named and not wanted.get("missing"):
-                    self.assertTrue(first_look.pictures_of(self.folder / "corpus" / name), "no picture of it is written")
+                    self.assertTrue(
+                        first_look.pictures_of(self.folder / "corpus" / name), "no picture of it is written"
+                    )
 
     def test_models_are_no_single_triangles(self):
         for name in ("chair", "house", "car", "person", "robot_arm", "dog", "tower", "gear", "tree"):

@@ -15,7 +15,11 @@ def write(folder, name, way):
     scale = (1, 1000, 1 / 0.0254)[way % 3]
     document = collada.Collada()
     document.assetInfo.upaxis = collada.asset.UP_AXIS.Z_UP if way % 2 else collada.asset.UP_AXIS.Y_UP
-    document.assetInfo.unitname, document.assetInfo.unitmeter = (("meter", 1), ("millimeter", 0.001), ("inch", 0.0254))[way % 3]
+    document.assetInfo.unitname, document.assetInfo.unitmeter = (
+        ("meter", 1),
+        ("millimeter", 0.001),
+        ("inch", 0.0254),
+    )[way % 3]
     points = numpy.array([p if way % 2 else (p[0], p[2], -p[1]) for p in mesh.points]) * scale
     arrays = [collada.source.FloatSource("points", points.flatten(), ("X", "Y", "Z"))]
     smooth = way % 4 != 3  # one in four without normals
@@ -37,7 +41,14 @@ def write(folder, name, way):
             params = [surface, sampler]
             colour = collada.material.Map(sampler, "UVSET0")
             document.images.append(image)
-        effect = collada.material.Effect(f"effect{number}", params, ("lambert", "phong", "blinn")[way % 3], diffuse=colour, specular=(0.1, 0.1, 0.1), double_sided=way % 5 == 0)
+        effect = collada.material.Effect(
+            f"effect{number}",
+            params,
+            ("lambert", "phong", "blinn")[way % 3],
+            diffuse=colour,
+            specular=(0.1, 0.1, 0.1),
+            double_sided=way % 5 == 0,
+        )
         entry = collada.material.Material(f"material{number}", material, effect)
         document.effects.append(effect)
         document.materials.append(entry)
@@ -54,9 +65,15 @@ def write(folder, name, way):
                 for i, k in enumerate(face):
                     index += [k, k, at + i] if smooth else [k, at + i]
             at += len(uv)
-        geometry.primitives.append(geometry.createPolylist(numpy.array(index), numpy.array(counts), inputs, f"symbol{number}"))
+        geometry.primitives.append(
+            geometry.createPolylist(numpy.array(index), numpy.array(counts), inputs, f"symbol{number}")
+        )
     document.geometries.append(geometry)
-    node = collada.scene.Node("node0", children=[collada.scene.GeometryNode(geometry, bound)], transforms=[collada.scene.TranslateTransform(3 * scale, 0, 0)] if way % 3 == 1 else [])
+    node = collada.scene.Node(
+        "node0",
+        children=[collada.scene.GeometryNode(geometry, bound)],
+        transforms=[collada.scene.TranslateTransform(3 * scale, 0, 0)] if way % 3 == 1 else [],
+    )
     scene = collada.scene.Scene("scene0", [node])
     document.scenes.append(scene)
     document.scene = scene

@@ -37,7 +37,10 @@ class Mesh:
         """A copy: scaled, turned about z by degrees, moved."""
         c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
         out = Mesh()
-        out.points = [(x + scale * (c * p[0] - s * p[1]), y + scale * (s * p[0] + c * p[1]), z + scale * p[2]) for p in self.points]
+        out.points = [
+            (x + scale * (c * p[0] - s * p[1]), y + scale * (s * p[0] + c * p[1]), z + scale * p[2])
+            for p in self.points
+        ]
         out.faces = list(self.faces)
         return out
 
@@ -45,7 +48,9 @@ class Mesh:
         """A copy with materials renamed by a dictionary (or all to one name)."""
         out = Mesh()
         out.points = list(self.points)
-        out.faces = [(f, materials if isinstance(materials, str) else materials.get(m, m), uv) for f, m, uv in self.faces]
+        out.faces = [
+            (f, materials if isinstance(materials, str) else materials.get(m, m), uv) for f, m, uv in self.faces
+        ]
         return out
 
     def materials(self):
@@ -103,7 +108,11 @@ def inside_out(points, faces):
         a = points[f[0]]
         for i in range(1, len(f) - 1):
             b, c = points[f[i]], points[f[i + 1]]
-            volume += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+            volume += (
+                a[0] * (b[1] * c[2] - b[2] * c[1])
+                - a[1] * (b[0] * c[2] - b[2] * c[0])
+                + a[2] * (b[0] * c[1] - b[1] * c[0])
+            )
     return volume < 0
 
 
@@ -160,7 +169,12 @@ def tube(path, radii, sides, material, caps=True, squash=1.0):
         faces.append(tuple(range(sides - 1, -1, -1)))
         faces.append(tuple(range((rings - 1) * sides, rings * sides)))
         for f in faces[-2:]:
-            uvs.append([(0.5 + 0.5 * math.cos(2 * math.pi * k / sides), 0.5 + 0.5 * math.sin(2 * math.pi * k / sides)) for k in range(len(f))])
+            uvs.append(
+                [
+                    (0.5 + 0.5 * math.cos(2 * math.pi * k / sides), 0.5 + 0.5 * math.sin(2 * math.pi * k / sides))
+                    for k in range(len(f))
+                ]
+            )
     return Mesh().add(points, faces, material, uvs)
 
 
@@ -174,7 +188,9 @@ def ball(cx, cy, cz, rx, ry, rz, sides, rings, material):
         t = math.pi * j / rings
         for k in range(sides):
             a = 2 * math.pi * k / sides
-            points.append((cx + rx * math.sin(t) * math.cos(a), cy + ry * math.sin(t) * math.sin(a), cz - rz * math.cos(t)))
+            points.append(
+                (cx + rx * math.sin(t) * math.cos(a), cy + ry * math.sin(t) * math.sin(a), cz - rz * math.cos(t))
+            )
     points.append((cx, cy, cz + rz))
     top = len(points) - 1
     for k in range(sides):
@@ -194,8 +210,10 @@ def ball(cx, cy, cz, rx, ry, rz, sides, rings, material):
 
 def prism(outline, a, b, axis, material):
     """A closed outline (counter-clockwise seen against the axis) swept from a to b along x, y or z."""
+
     def place(p, h):
         return [(h, p[0], p[1]), (p[1], h, p[0]), (p[0], p[1], h)][axis]
+
     n = len(outline)
     points = [place(p, a) for p in outline] + [place(p, b) for p in outline]
     faces = [tuple(range(n - 1, -1, -1)), tuple(range(n, 2 * n))]
@@ -218,7 +236,9 @@ def land(size, cells, height, material, tiles=1.0):
         for i in range(cells):
             a = j * (cells + 1) + i
             faces.append((a, a + 1, a + cells + 2, a + cells + 1))
-            uvs.append([(tiles * (i + du) / cells, tiles * (j + dv) / cells) for du, dv in ((0, 0), (1, 0), (1, 1), (0, 1))])
+            uvs.append(
+                [(tiles * (i + du) / cells, tiles * (j + dv) / cells) for du, dv in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            )
     return Mesh().add(points, faces, material, uvs)
 
 
@@ -242,7 +262,9 @@ def chair():
 def table(round_top=False):
     if round_top:
         m = cylinder((0, 0, 0.72), (0, 0, 0.76), 0.45, 24, "wood")
-        m.join(cylinder((0, 0, 0.04), (0, 0, 0.72), 0.04, 10, "metal")).join(cylinder((0, 0, 0), (0, 0, 0.04), 0.28, 20, "metal"))
+        m.join(cylinder((0, 0, 0.04), (0, 0, 0.72), 0.04, 10, "metal")).join(
+            cylinder((0, 0, 0), (0, 0, 0.04), 0.28, 20, "metal")
+        )
         return m
     m = block(0, 0, 0.74, 1.6, 0.8, 0.04, "wood")
     for x in (-0.74, 0.74):
@@ -252,7 +274,11 @@ def table(round_top=False):
 
 
 def shelf():
-    m = block(-0.49, 0, 0.9, 0.02, 0.3, 1.8, "wood").join(block(0.49, 0, 0.9, 0.02, 0.3, 1.8, "wood")).join(block(0, 0.14, 0.9, 0.96, 0.02, 1.8, "wood"))
+    m = (
+        block(-0.49, 0, 0.9, 0.02, 0.3, 1.8, "wood")
+        .join(block(0.49, 0, 0.9, 0.02, 0.3, 1.8, "wood"))
+        .join(block(0, 0.14, 0.9, 0.96, 0.02, 1.8, "wood"))
+    )
     rng = random.Random(4)
     for s in range(5):
         z = 0.05 + 0.42 * s
@@ -278,8 +304,12 @@ def sofa():
 
 
 def desk_lamp():
-    m = cylinder((0, 0, 0), (0, 0, 0.03), 0.1, 16, "metal").join(tube([(0, 0, 0.03), (0.06, 0, 0.25), (0.02, 0, 0.45)], [0.012] * 3, 8, "metal"))
-    m.join(tube([(0.02, 0, 0.42), (-0.12, 0, 0.36)], [0.04, 0.09], 16, "red", caps=False)).join(ball(-0.09, 0, 0.37, 0.03, 0.03, 0.03, 8, 6, "glow"))
+    m = cylinder((0, 0, 0), (0, 0, 0.03), 0.1, 16, "metal").join(
+        tube([(0, 0, 0.03), (0.06, 0, 0.25), (0.02, 0, 0.45)], [0.012] * 3, 8, "metal")
+    )
+    m.join(tube([(0.02, 0, 0.42), (-0.12, 0, 0.36)], [0.04, 0.09], 16, "red", caps=False)).join(
+        ball(-0.09, 0, 0.37, 0.03, 0.03, 0.03, 8, 6, "glow")
+    )
     return m
 
 
@@ -301,7 +331,9 @@ def tower(floors=9):
         for x in range(-5, 6, 2):
             for y, d in ((-4.53, 1), (4.53, 1)):
                 m.join(block(x, y, 1.6 + 3 * k, 1.2, 0.06, 1.6, "glass"))
-    m.join(block(0, 0, 3 * floors + 0.4, 12.6, 9.6, 0.8, "metal")).join(block(2, 1, 3 * floors + 2, 3, 3, 2.6, "wall"))
+    m.join(block(0, 0, 3 * floors + 0.4, 12.6, 9.6, 0.8, "metal")).join(
+        block(2, 1, 3 * floors + 2, 3, 3, 2.6, "wall")
+    )
     return m
 
 
@@ -318,21 +350,36 @@ def city(seed=7, n=5):
 
 
 def car():
-    side = [(-2.1, 0.35), (2.1, 0.35), (2.15, 0.75), (1.3, 0.9), (0.7, 1.4), (-1.0, 1.45), (-1.7, 0.95), (-2.15, 0.85)]
+    side = [
+        (-2.1, 0.35),
+        (2.1, 0.35),
+        (2.15, 0.75),
+        (1.3, 0.9),
+        (0.7, 1.4),
+        (-1.0, 1.45),
+        (-1.7, 0.95),
+        (-2.15, 0.85),
+    ]
     m = prism(side, -0.85, 0.85, 0, "paint")
     m.join(prism([(0.75, 1.36), (1.28, 0.93), (1.3, 0.96), (0.77, 1.39)], -0.7, 0.7, 0, "glass"))
     for x in (-0.86, 0.86):
         m.join(block(x, -0.2, 1.15, 0.02, 1.3, 0.35, "glass"))
         for y in (-1.35, 1.35):
             s = 0.12 if x > 0 else -0.12
-            m.join(cylinder((x - s, y, 0.34), (x + s * 0.3, y, 0.34), 0.34, 16, "rubber")).join(cylinder((x, y, 0.34), (x + s * 0.4, y, 0.34), 0.18, 12, "metal"))
+            m.join(cylinder((x - s, y, 0.34), (x + s * 0.3, y, 0.34), 0.34, 16, "rubber")).join(
+                cylinder((x, y, 0.34), (x + s * 0.4, y, 0.34), 0.18, 12, "metal")
+            )
     for x in (-0.6, 0.6):
         m.join(ball(x, 2.13, 0.62, 0.14, 0.06, 0.1, 10, 6, "glow")).join(block(x, -2.15, 0.7, 0.3, 0.05, 0.14, "red"))
     return m
 
 
 def truck():
-    m = block(0, 0.6, 1.9, 2.3, 5.4, 2.4, "cloth").join(block(0, -3.2, 1.6, 2.2, 1.8, 2.0, "paint")).join(block(0, -4.12, 2.0, 1.9, 0.06, 0.8, "glass"))
+    m = (
+        block(0, 0.6, 1.9, 2.3, 5.4, 2.4, "cloth")
+        .join(block(0, -3.2, 1.6, 2.2, 1.8, 2.0, "paint"))
+        .join(block(0, -4.12, 2.0, 1.9, 0.06, 0.8, "glass"))
+    )
     m.join(block(0, -0.4, 0.65, 0.9, 7.2, 0.25, "metal"))
     for y in (-3.2, 1.2, 2.4):
         for x in (-0.95, 0.95):
@@ -341,8 +388,15 @@ def truck():
 
 
 def plane():
-    m = tube([(0, -4, 0), (0, -3.4, 0.05), (0, -1.5, 0.1), (0, 1.5, 0.15), (0, 4, 0.5)], [0.08, 0.5, 0.7, 0.6, 0.12], 12, "paint")
-    m.join(prism([(-5.2, -0.2), (-5.2, 0.5), (0, 1.0), (5.2, 0.5), (5.2, -0.2), (0, -1.2)][::-1], 0.0, 0.12, 2, "paint"))
+    m = tube(
+        [(0, -4, 0), (0, -3.4, 0.05), (0, -1.5, 0.1), (0, 1.5, 0.15), (0, 4, 0.5)],
+        [0.08, 0.5, 0.7, 0.6, 0.12],
+        12,
+        "paint",
+    )
+    m.join(
+        prism([(-5.2, -0.2), (-5.2, 0.5), (0, 1.0), (5.2, 0.5), (5.2, -0.2), (0, -1.2)][::-1], 0.0, 0.12, 2, "paint")
+    )
     m.join(prism([(-1.8, 3.4), (-1.8, 3.9), (1.8, 3.9), (1.8, 3.4), (0, 3.0)][::-1], 0.5, 0.56, 2, "red"))
     m.join(block(0, 3.6, 1.1, 0.08, 0.8, 1.2, "red")).join(ball(0, -1.2, 0.7, 0.4, 0.9, 0.4, 10, 6, "glass"))
     m.join(block(0, -4.1, 0, 2.2, 0.05, 0.16, "wood")).join(ball(0, -4.15, 0, 0.15, 0.2, 0.15, 8, 5, "metal"))
@@ -359,27 +413,46 @@ def ship():
         faces += [(4 * j + k, 4 * j + (k + 1) % 4, 4 * j + 4 + (k + 1) % 4, 4 * j + 4 + k) for k in range(4)]
     faces += [(3, 2, 1, 0), tuple(range(16, 20))]
     m.add(pts, faces, "paint")
-    m.join(block(0, 2, 2.1, 2, 3, 1.4, "wall")).join(block(0, 1.6, 3.2, 1.6, 1.6, 0.9, "wall")).join(cylinder((0, 3, 2.6), (0, 3.3, 4.4), 0.35, 12, "red"))
+    m.join(block(0, 2, 2.1, 2, 3, 1.4, "wall")).join(block(0, 1.6, 3.2, 1.6, 1.6, 0.9, "wall")).join(
+        cylinder((0, 3, 2.6), (0, 3.3, 4.4), 0.35, 12, "red")
+    )
     return m.join(cylinder((0, -3, 1.4), (0, -3, 5), 0.08, 8, "wood"))
 
 
 def person(arms=0.15):
-    m = tube([(0, 0, 0.92), (0, 0, 1.1), (0, 0, 1.32), (0, 0, 1.48)], [0.16, 0.14, 0.2, 0.1], 12, "cloth", squash=0.65)
-    m.join(ball(0, -0.01, 1.66, 0.1, 0.11, 0.14, 12, 8, "skin")).join(cylinder((0, 0, 1.46), (0, 0, 1.56), 0.055, 8, "skin"))
+    m = tube(
+        [(0, 0, 0.92), (0, 0, 1.1), (0, 0, 1.32), (0, 0, 1.48)], [0.16, 0.14, 0.2, 0.1], 12, "cloth", squash=0.65
+    )
+    m.join(ball(0, -0.01, 1.66, 0.1, 0.11, 0.14, 12, 8, "skin")).join(
+        cylinder((0, 0, 1.46), (0, 0, 1.56), 0.055, 8, "skin")
+    )
     m.join(ball(0, 0.02, 1.72, 0.11, 0.115, 0.1, 10, 6, "hair"))
     for s in (-1, 1):
-        m.join(tube([(s * 0.09, 0, 0.95), (s * 0.1, -0.01, 0.5), (s * 0.1, 0, 0.08)], [0.095, 0.07, 0.045], 10, "trousers"))
+        m.join(
+            tube(
+                [(s * 0.09, 0, 0.95), (s * 0.1, -0.01, 0.5), (s * 0.1, 0, 0.08)], [0.095, 0.07, 0.045], 10, "trousers"
+            )
+        )
         m.join(block(s * 0.1, -0.06, 0.04, 0.09, 0.26, 0.08, "shoes"))
         hx = s * (0.22 + 0.6 * math.sin(arms))
         hz = 1.42 - 0.6 * math.cos(arms)
-        m.join(tube([(s * 0.2, 0, 1.42), ((s * 0.2 + hx) / 2, 0.01, (1.42 + hz) / 2), (hx, -0.02, hz)], [0.06, 0.048, 0.035], 8, "cloth"))
+        m.join(
+            tube(
+                [(s * 0.2, 0, 1.42), ((s * 0.2 + hx) / 2, 0.01, (1.42 + hz) / 2), (hx, -0.02, hz)],
+                [0.06, 0.048, 0.035],
+                8,
+                "cloth",
+            )
+        )
         m.join(ball(hx, -0.03, hz - 0.05, 0.04, 0.03, 0.07, 8, 5, "skin"))
     return m
 
 
 def dog():
     m = tube([(0, -0.45, 0.5), (0, -0.2, 0.48), (0, 0.3, 0.46), (0, 0.45, 0.5)], [0.1, 0.17, 0.13, 0.06], 10, "fur")
-    m.join(ball(0, -0.58, 0.66, 0.1, 0.14, 0.11, 10, 7, "fur")).join(ball(0, -0.72, 0.62, 0.05, 0.08, 0.05, 8, 5, "hair"))
+    m.join(ball(0, -0.58, 0.66, 0.1, 0.14, 0.11, 10, 7, "fur")).join(
+        ball(0, -0.72, 0.62, 0.05, 0.08, 0.05, 8, 5, "hair")
+    )
     m.join(tube([(0, 0.44, 0.5), (0, 0.6, 0.68)], [0.04, 0.015], 6, "fur"))
     for x in (-0.09, 0.09):
         m.join(block(x * 0.8, -0.55, 0.78, 0.05, 0.03, 0.09, "hair"))
@@ -389,14 +462,22 @@ def dog():
 
 
 def arm_link(length=0.4, r=0.06):
-    m = cylinder((0, -r * 1.3, 0), (0, r * 1.3, 0), r * 1.25, 16, "metal").join(tube([(0, 0, 0), (0, 0, length * 0.5), (0, 0, length)], [r * 0.9, r * 0.7, r * 0.8], 14, "paint"))
+    m = cylinder((0, -r * 1.3, 0), (0, r * 1.3, 0), r * 1.25, 16, "metal").join(
+        tube([(0, 0, 0), (0, 0, length * 0.5), (0, 0, length)], [r * 0.9, r * 0.7, r * 0.8], 14, "paint")
+    )
     return m.join(cylinder((0, -r, length), (0, r, length), r, 16, "metal"))
 
 
 def robot_arm():
-    m = cylinder((0, 0, 0), (0, 0, 0.12), 0.16, 20, "rubber").join(cylinder((0, 0, 0.12), (0, 0, 0.3), 0.1, 16, "paint"))
-    m.join(tube([(0, 0, 0.35), (0.16, 0, 0.75)], [0.07, 0.055], 14, "paint")).join(cylinder((0.16, -0.09, 0.75), (0.16, 0.09, 0.75), 0.075, 16, "metal"))
-    m.join(tube([(0.16, 0, 0.75), (0.55, 0, 0.85)], [0.055, 0.045], 14, "paint")).join(ball(0, 0, 0.34, 0.11, 0.11, 0.09, 14, 8, "metal"))
+    m = cylinder((0, 0, 0), (0, 0, 0.12), 0.16, 20, "rubber").join(
+        cylinder((0, 0, 0.12), (0, 0, 0.3), 0.1, 16, "paint")
+    )
+    m.join(tube([(0, 0, 0.35), (0.16, 0, 0.75)], [0.07, 0.055], 14, "paint")).join(
+        cylinder((0.16, -0.09, 0.75), (0.16, 0.09, 0.75), 0.075, 16, "metal")
+    )
+    m.join(tube([(0.16, 0, 0.75), (0.55, 0, 0.85)], [0.055, 0.045], 14, "paint")).join(
+        ball(0, 0, 0.34, 0.11, 0.11, 0.09, 14, 8, "metal")
+    )
     m.join(cylinder((0.55, 0, 0.85), (0.66, 0, 0.8), 0.04, 12, "metal"))
     for y in (-0.035, 0.035):
         m.join(block(0.71, y, 0.78, 0.11, 0.015, 0.03, "rubber"))
@@ -404,11 +485,19 @@ def robot_arm():
 
 
 def rover():
-    m = block(0, 0, 0.28, 0.44, 0.66, 0.2, "paint").join(block(0, 0, 0.4, 0.46, 0.5, 0.03, "metal")).join(cylinder((0, -0.18, 0.41), (0, -0.18, 0.52), 0.05, 16, "rubber"))
-    m.join(cylinder((0.15, 0.2, 0.4), (0.15, 0.2, 0.75), 0.01, 6, "metal")).join(block(0, -0.36, 0.27, 0.4, 0.07, 0.08, "rubber"))
+    m = (
+        block(0, 0, 0.28, 0.44, 0.66, 0.2, "paint")
+        .join(block(0, 0, 0.4, 0.46, 0.5, 0.03, "metal"))
+        .join(cylinder((0, -0.18, 0.41), (0, -0.18, 0.52), 0.05, 16, "rubber"))
+    )
+    m.join(cylinder((0.15, 0.2, 0.4), (0.15, 0.2, 0.75), 0.01, 6, "metal")).join(
+        block(0, -0.36, 0.27, 0.4, 0.07, 0.08, "rubber")
+    )
     for x in (-0.27, 0.27):
         for y in (-0.22, 0.22):
-            m.join(cylinder((x - 0.05, y, 0.16), (x + 0.05, y, 0.16), 0.16, 16, "rubber")).join(cylinder((x - 0.055, y, 0.16), (x + 0.055, y, 0.16), 0.08, 10, "metal"))
+            m.join(cylinder((x - 0.05, y, 0.16), (x + 0.05, y, 0.16), 0.16, 16, "rubber")).join(
+                cylinder((x - 0.055, y, 0.16), (x + 0.055, y, 0.16), 0.08, 10, "metal")
+            )
     return m
 
 
@@ -417,9 +506,19 @@ def quadrotor():
     for a in range(4):
         t = math.pi / 4 + a * math.pi / 2
         x, y = 0.3 * math.cos(t), 0.3 * math.sin(t)
-        m.join(cylinder((0, 0, 0), (x, y, 0.01), 0.014, 8, "metal")).join(cylinder((x, y, -0.01), (x, y, 0.05), 0.028, 10, "rubber"))
+        m.join(cylinder((0, 0, 0), (x, y, 0.01), 0.014, 8, "metal")).join(
+            cylinder((x, y, -0.01), (x, y, 0.05), 0.028, 10, "rubber")
+        )
         m.join(block(x, y, 0.055, 0.24, 0.02, 0.004, "red"))
-        m.join(cylinder((0.07 * math.cos(t), 0.07 * math.sin(t), -0.02), (0.13 * math.cos(t), 0.13 * math.sin(t), -0.16), 0.008, 6, "metal"))
+        m.join(
+            cylinder(
+                (0.07 * math.cos(t), 0.07 * math.sin(t), -0.02),
+                (0.13 * math.cos(t), 0.13 * math.sin(t), -0.16),
+                0.008,
+                6,
+                "metal",
+            )
+        )
     return m
 
 
@@ -436,16 +535,43 @@ def bolt():
     hexagon = [(0.9 * math.cos(k * math.pi / 3), 0.9 * math.sin(k * math.pi / 3)) for k in range(6)]
     m = prism(hexagon, 3, 3.7, 2, "metal").join(cylinder((0, 0, 0), (0, 0, 3), 0.48, 16, "metal"))
     for k in range(9):
-        m.join(tube([(0, 0, 0.1 + 0.25 * k), (0, 0, 0.2 + 0.25 * k), (0, 0, 0.3 + 0.25 * k)], [0.48, 0.56, 0.48], 16, "metal", caps=False))
+        m.join(
+            tube(
+                [(0, 0, 0.1 + 0.25 * k), (0, 0, 0.2 + 0.25 * k), (0, 0, 0.3 + 0.25 * k)],
+                [0.48, 0.56, 0.48],
+                16,
+                "metal",
+                caps=False,
+            )
+        )
     return m
 
 
 def barrel():
-    return lathe([(0.28, 0), (0.29, 0.02), (0.29, 0.28), (0.305, 0.3), (0.29, 0.32), (0.29, 0.58), (0.305, 0.6), (0.29, 0.62), (0.29, 0.88), (0.28, 0.9)], 18, "paint")
+    return lathe(
+        [
+            (0.28, 0),
+            (0.29, 0.02),
+            (0.29, 0.28),
+            (0.305, 0.3),
+            (0.29, 0.32),
+            (0.29, 0.58),
+            (0.305, 0.6),
+            (0.29, 0.62),
+            (0.29, 0.88),
+            (0.28, 0.9),
+        ],
+        18,
+        "paint",
+    )
 
 
 def bottle():
-    return lathe([(0.035, 0), (0.038, 0.01), (0.038, 0.16), (0.03, 0.2), (0.013, 0.24), (0.013, 0.3), (0.015, 0.31)], 16, "glass")
+    return lathe(
+        [(0.035, 0), (0.038, 0.01), (0.038, 0.16), (0.03, 0.2), (0.013, 0.24), (0.013, 0.3), (0.015, 0.31)],
+        16,
+        "glass",
+    )
 
 
 def mug():
@@ -467,8 +593,10 @@ def crate():
 
 def cone():
     m = block(0, 0, 0.015, 0.36, 0.36, 0.03, "rubber")
+
     def r(z):
         return 0.13 - 0.155 * z
+
     for z0, z1, mat in ((0.03, 0.3, "red"), (0.3, 0.45, "wall"), (0.45, 0.68, "red")):
         m.join(cylinder((0, 0, z0), (0, 0, z1), r(z0), 16, mat, r(z1)))
     return m
@@ -502,17 +630,32 @@ def warehouse():
     """Walls, floor and roof beams that face inwards and outwards: a room to stand in."""
     m = box(-10, -15, -0.1, 10, 15, 0, "floor")
     for s in (-1, 1):
-        m.join(box(s * 10 - 0.1, -15, 0, s * 10 + 0.1, 15, 6, "wall")).join(box(-10, s * 15 - 0.1, 0, 10, s * 15 + 0.1, 6, "wall"))
+        m.join(box(s * 10 - 0.1, -15, 0, s * 10 + 0.1, 15, 6, "wall")).join(
+            box(-10, s * 15 - 0.1, 0, 10, s * 15 + 0.1, 6, "wall")
+        )
     for k in range(6):
         m.join(block(0, -12.5 + 5 * k, 6, 20, 0.25, 0.4, "metal"))
-        m.join(crate().moved(-7, -12.5 + 5 * k, 0)).join(crate().moved(-7.2, -12.3 + 5 * k, 1)).join(barrel().moved(7, -11 + 4 * k, 0))
+        m.join(crate().moved(-7, -12.5 + 5 * k, 0)).join(crate().moved(-7.2, -12.3 + 5 * k, 1)).join(
+            barrel().moved(7, -11 + 4 * k, 0)
+        )
     return m.join(box(-10.2, -15.2, 6.2, 10.2, 15.2, 6.3, "roof"))
 
 
 def room():
-    m = box(-2.5, -2, -0.1, 2.5, 2, 0, "floor").join(box(-2.6, 2, 0, 2.6, 2.1, 2.6, "wall")).join(box(-2.6, -2, 0, -2.5, 2, 2.6, "wall"))
-    m.join(box(2.5, -2, 0, 2.6, 2, 2.6, "wall")).join(box(-2.6, -2.1, 0, 2.6, -2, 2.6, "wall")).join(box(-2.6, -2.1, 2.6, 2.6, 2.1, 2.7, "wall"))
-    return m.join(sofa().moved(0, 1.4)).join(table().moved(0, 0, 0, 0, 0.7)).join(chair().moved(-1.6, -0.4, 0, 120)).join(shelf().moved(2.3, 0, 0, -90))
+    m = (
+        box(-2.5, -2, -0.1, 2.5, 2, 0, "floor")
+        .join(box(-2.6, 2, 0, 2.6, 2.1, 2.6, "wall"))
+        .join(box(-2.6, -2, 0, -2.5, 2, 2.6, "wall"))
+    )
+    m.join(box(2.5, -2, 0, 2.6, 2, 2.6, "wall")).join(box(-2.6, -2.1, 0, 2.6, -2, 2.6, "wall")).join(
+        box(-2.6, -2.1, 2.6, 2.6, 2.1, 2.7, "wall")
+    )
+    return (
+        m.join(sofa().moved(0, 1.4))
+        .join(table().moved(0, 0, 0, 0, 0.7))
+        .join(chair().moved(-1.6, -0.4, 0, 120))
+        .join(shelf().moved(2.3, 0, 0, -90))
+    )
 
 
 def tree(leaves="leaves"):
@@ -523,7 +666,12 @@ def tree(leaves="leaves"):
         cx, cy, s = r * math.cos(a), r * math.sin(a), rng.uniform(0.45, 0.7)
         t, tilt = rng.uniform(0, math.pi), rng.uniform(-0.5, 0.5)
         ux, uy = math.cos(t) * s, math.sin(t) * s
-        pts = [(cx - ux, cy - uy, h - s), (cx + ux, cy + uy, h - s), (cx + ux + tilt, cy + uy, h + s), (cx - ux + tilt, cy - uy, h + s)]
+        pts = [
+            (cx - ux, cy - uy, h - s),
+            (cx + ux, cy + uy, h - s),
+            (cx + ux + tilt, cy + uy, h + s),
+            (cx - ux + tilt, cy - uy, h + s),
+        ]
         m.add(pts, [(0, 1, 2, 3)], leaves, [[(0, 0), (1, 0), (1, 1), (0, 1)]])
     return m
 
@@ -532,20 +680,37 @@ def fence(n=12):
     m = Mesh()
     for k in range(n):
         m.join(block(0.4 * k, 0, 0.6, 0.09, 0.03, 1.2, "wood"))
-    return m.join(block(0.2 * (n - 1), 0.03, 0.35, 0.4 * n, 0.03, 0.08, "wood")).join(block(0.2 * (n - 1), 0.03, 0.9, 0.4 * n, 0.03, 0.08, "wood"))
+    return m.join(block(0.2 * (n - 1), 0.03, 0.35, 0.4 * n, 0.03, 0.08, "wood")).join(
+        block(0.2 * (n - 1), 0.03, 0.9, 0.4 * n, 0.03, 0.08, "wood")
+    )
 
 
 def sword():
     m = tube([(0, 0, 0.1), (0, 0, 0.8), (0, 0, 0.95)], [0.03, 0.026, 0.001], 4, "metal", squash=0.2)
-    return m.join(block(0, 0, 0.1, 0.2, 0.03, 0.025, "gold")).join(cylinder((0, 0, -0.06), (0, 0, 0.1), 0.014, 8, "wood")).join(ball(0, 0, -0.08, 0.025, 0.025, 0.025, 8, 6, "gold"))
+    return (
+        m.join(block(0, 0, 0.1, 0.2, 0.03, 0.025, "gold"))
+        .join(cylinder((0, 0, -0.06), (0, 0, 0.1), 0.014, 8, "wood"))
+        .join(ball(0, 0, -0.08, 0.025, 0.025, 0.025, 8, 6, "gold"))
+    )
 
 
 def column_temple():
     m = box(-5, -8, 0, 5, 8, 0.4, "wall").join(box(-4.7, -7.7, 0.4, 4.7, 7.7, 0.8, "wall"))
     for k in range(7):
         for x in (-4.2, 4.2):
-            m.join(tube([(x, -7.2 + 2.4 * k, 0.8), (x, -7.2 + 2.4 * k, 3), (x, -7.2 + 2.4 * k, 5)], [0.42, 0.38, 0.34], 12, "wall"))
-    return m.join(box(-4.8, -7.8, 5, 4.8, 7.8, 5.6, "wall")).join(prism([(-8, 5.6), (8, 5.6), (8, 5.7), (-8, 5.7)], -4.9, 4.9, 0, "wall")).join(prism([(5.7, -5), (7.4, 0), (5.7, 5)][::-1], -8, 8, 1, "roof"))
+            m.join(
+                tube(
+                    [(x, -7.2 + 2.4 * k, 0.8), (x, -7.2 + 2.4 * k, 3), (x, -7.2 + 2.4 * k, 5)],
+                    [0.42, 0.38, 0.34],
+                    12,
+                    "wall",
+                )
+            )
+    return (
+        m.join(box(-4.8, -7.8, 5, 4.8, 7.8, 5.6, "wall"))
+        .join(prism([(-8, 5.6), (8, 5.6), (8, 5.7), (-8, 5.7)], -4.9, 4.9, 0, "wall"))
+        .join(prism([(5.7, -5), (7.4, 0), (5.7, 5)][::-1], -8, 8, 1, "roof"))
+    )
 
 
 # pictures -----------------------------------------------------------------------------------------------------------------------------
@@ -558,8 +723,36 @@ def png(path, width, height, pixel, channels=3):
 
     def chunk(tag, data):
         return struct.pack(">I", len(data)) + tag + data + struct.pack(">I", zlib.crc32(tag + data))
+
     with open(path, "wb") as f:
-        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
+        f.write(
+            b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(raw, 9))
+            + chunk(b"IEND", b"")
+        )
+
+
+def tga(path, width, height, pixel):
+    """An uncompressed 24-bit TGA, bottom row first."""
+    rows = b"".join(
+        bytes(c for x in range(width) for c in reversed(pixel(x, y)[:3])) for y in reversed(range(height))
+    )
+    with open(path, "wb") as f:
+        f.write(struct.pack("<BBBHHBHHHHBB", 0, 0, 2, 0, 0, 0, 0, 0, width, height, 24, 0) + rows)
+
+
+def bmp(path, width, height, pixel):
+    """A 24-bit BMP; the width is a multiple of four."""
+    rows = b"".join(
+        bytes(c for x in range(width) for c in reversed(pixel(x, y)[:3])) for y in reversed(range(height))
+    )
+    with open(path, "wb") as f:
+        f.write(
+            struct.pack("<2sIHHI", b"BM", 54 + len(rows), 0, 0, 54)
+            + struct.pack("<IiiHHIIiiII", 40, width, height, 1, 24, 0, len(rows), 2835, 2835, 0, 0)
+            + rows
+        )
 
 
 def noise(x, y, seed=0):
@@ -610,4 +803,6 @@ def leaf(x, y):
 
 
 def paint_of(name):
-    return {"brick": brick, "planks": planks, "grass": grass, "steel": steel, "fabric": fabric, "livery": livery}[name]
+    return {"brick": brick, "planks": planks, "grass": grass, "steel": steel, "fabric": fabric, "livery": livery}[
+        name
+    ]

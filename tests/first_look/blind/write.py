@@ -38,8 +38,10 @@ def y_up(p):
 def floats(ident, rows, params):
     flat = [c for row in rows for c in row]
     accessor = "".join(f'<param name="{p}" type="float"/>' for p in params)
-    return (f'<source id="{ident}">\n<float_array id="{ident}-array" count="{len(flat)}">{nums(flat)}</float_array>\n<technique_common>'
-            f'<accessor source="#{ident}-array" count="{len(rows)}" stride="{len(params)}">{accessor}</accessor></technique_common>\n</source>\n')
+    return (
+        f'<source id="{ident}">\n<float_array id="{ident}-array" count="{len(flat)}">{nums(flat)}</float_array>\n<technique_common>'
+        f'<accessor source="#{ident}-array" count="{len(rows)}" stride="{len(params)}">{accessor}</accessor></technique_common>\n</source>\n'
+    )
 
 
 def triangles_of(mesh):
@@ -104,16 +106,23 @@ def geometry(ident, mesh, place, scale, kind="triangles", normals="flat", uvs=Tr
             prims += f"<polylist {head}>{inputs}<vcount>{' '.join(str(len(p)) for p in polys)}</vcount><p>{' '.join(lists)}</p></polylist>\n"
         else:
             prims += f"<polygons {head}>{inputs}" + "".join(f"<p>{p}</p>" for p in lists) + "</polygons>\n"
-    return (f'<geometry id="{ident}" name="{name or ident}">\n<mesh>\n{sources}<vertices id="{ident}-vertices"><input semantic="POSITION" '
-            f'source="#{ident}-positions"/></vertices>\n{prims}</mesh>\n</geometry>\n')
+    return (
+        f'<geometry id="{ident}" name="{name or ident}">\n<mesh>\n{sources}<vertices id="{ident}-vertices"><input semantic="POSITION" '
+        f'source="#{ident}-positions"/></vertices>\n{prims}</mesh>\n</geometry>\n'
+    )
 
 
 def head(tool, unit_name, meter, up, version="1.4.1", author=""):
-    space = {"1.4.1": "http://www.collada.org/2005/11/COLLADASchema", "1.4.0": "http://www.collada.org/2005/11/COLLADASchema",
-             "1.5.0": "http://www.collada.org/2008/03/COLLADASchema"}[version]
-    return (f'<?xml version="1.0" encoding="utf-8"?>\n<COLLADA xmlns="{space}" version="{version}">\n<asset>\n<contributor>{author}<authoring_tool>{tool}'
-            f'</authoring_tool></contributor>\n<created>2009-03-14T10:12:05Z</created>\n<modified>2009-03-14T10:12:05Z</modified>\n'
-            f'<unit meter="{meter}" name="{unit_name}"/>\n<up_axis>{up}</up_axis>\n</asset>\n')
+    space = {
+        "1.4.1": "http://www.collada.org/2005/11/COLLADASchema",
+        "1.4.0": "http://www.collada.org/2005/11/COLLADASchema",
+        "1.5.0": "http://www.collada.org/2008/03/COLLADASchema",
+    }[version]
+    return (
+        f'<?xml version="1.0" encoding="utf-8"?>\n<COLLADA xmlns="{space}" version="{version}">\n<asset>\n<contributor>{author}<authoring_tool>{tool}'
+        f"</authoring_tool></contributor>\n<created>2009-03-14T10:12:05Z</created>\n<modified>2009-03-14T10:12:05Z</modified>\n"
+        f'<unit meter="{meter}" name="{unit_name}"/>\n<up_axis>{up}</up_axis>\n</asset>\n'
+    )
 
 
 def color(name, rgb, a=1):
@@ -139,16 +148,28 @@ def cafe_table():
         t += f'<newparam sid="{image}-sampler"><sampler2D><source>{image}-surface</source><minfilter>LINEAR_MIPMAP_LINEAR</minfilter><magfilter>LINEAR</magfilter></sampler2D></newparam>\n'
         t += f'<technique sid="blender"><phong>{color("emission", (0, 0, 0))}{color("ambient", (0.5, 0.5, 0.5))}<diffuse><texture texture="{image}-sampler" texcoord="CHANNEL1"/></diffuse>{color("specular", (0.5, 0.5, 0.5))}'
         t += f'<shininess><float>12.5</float></shininess>{color("reflective", (1, 1, 1))}<reflectivity><float>0</float></reflectivity>{color("transparent", (1, 1, 1))}<transparency><float>0</float></transparency></phong>'
-        t += "<extra><technique profile=\"GOOGLEEARTH\"><double_sided>1</double_sided></technique></extra></technique></profile_COMMON></effect>\n"
+        t += '<extra><technique profile="GOOGLEEARTH"><double_sided>1</double_sided></technique></extra></technique></profile_COMMON></effect>\n'
     t += '</library_effects>\n<library_lights>\n<light id="Spot" name="Spot"><technique_common><point><color>1 1 1</color><constant_attenuation>1</constant_attenuation>'
     t += "<linear_attenuation>0</linear_attenuation><quadratic_attenuation>0.000556</quadratic_attenuation></point></technique_common></light>\n</library_lights>\n"
-    t += "<library_geometries>\n" + geometry("Table_001", mesh, lambda p: p, 100, "polygons", "flat", True, lambda m: f"Mat_{m}").replace('name="Table_001"', 'name="Table_001"') + "</library_geometries>\n"
-    binds = "".join(f'<instance_material symbol="Mat_{m}" target="#Mat_{m}"><bind_vertex_input semantic="CHANNEL1" input_semantic="TEXCOORD" input_set="0"/></instance_material>' for m in ("wood", "metal"))
+    t += (
+        "<library_geometries>\n"
+        + geometry("Table_001", mesh, lambda p: p, 100, "polygons", "flat", True, lambda m: f"Mat_{m}").replace(
+            'name="Table_001"', 'name="Table_001"'
+        )
+        + "</library_geometries>\n"
+    )
+    binds = "".join(
+        f'<instance_material symbol="Mat_{m}" target="#Mat_{m}"><bind_vertex_input semantic="CHANNEL1" input_semantic="TEXCOORD" input_set="0"/></instance_material>'
+        for m in ("wood", "metal")
+    )
     t += '<library_visual_scenes><visual_scene id="Scene" name="Scene">\n<node layer="L1" id="Lamp" name="Lamp"><translate sid="translate">40.7 10.0 -590.3</translate><rotate sid="rotateZ">0 0 1 106.9</rotate><scale sid="scale">1 1 1</scale><instance_light url="#Spot"/></node>\n'
     t += f'<node layer="L1" id="Table" name="Table"><translate sid="translate">0 0 0</translate><rotate sid="rotateZ">0 0 1 0</rotate><rotate sid="rotateY">0 1 0 0</rotate><rotate sid="rotateX">1 0 0 0</rotate><scale sid="scale">1 1 1</scale>'
     t += f'<instance_geometry url="#Table_001"><bind_material><technique_common>{binds}</technique_common></bind_material></instance_geometry></node>\n</visual_scene></library_visual_scenes>\n'
     t += '<library_physics_materials><physics_material id="Table-PhysicsMaterial" name="Table-PhysicsMaterial"><technique_common><dynamic_friction>0.5</dynamic_friction><restitution>0</restitution><static_friction>0.5</static_friction></technique_common></physics_material></library_physics_materials>\n'
-    save("gazebo/cafe_table/meshes/cafe_table.dae", t + '<scene><instance_visual_scene url="#Scene"/></scene>\n</COLLADA>\n')
+    save(
+        "gazebo/cafe_table/meshes/cafe_table.dae",
+        t + '<scene><instance_visual_scene url="#Scene"/></scene>\n</COLLADA>\n',
+    )
 
 
 # 2. SketchUp --------------------------------------------------------------------------------------------------------------------------
@@ -182,16 +203,40 @@ def house_sketchup():
                     normals.append(n)
                     uvs.append(w)
                 index.append(table[key])
-        t += f'<geometry id="G{k}">\n<mesh>\n' + floats(f"G{k}P", points, "XYZ") + floats(f"G{k}N", normals, "XYZ") + floats(f"G{k}T", uvs, "ST")
+        t += (
+            f'<geometry id="G{k}">\n<mesh>\n'
+            + floats(f"G{k}P", points, "XYZ")
+            + floats(f"G{k}N", normals, "XYZ")
+            + floats(f"G{k}T", uvs, "ST")
+        )
         t += f'<vertices id="G{k}V"><input semantic="POSITION" source="#G{k}P"/><input semantic="NORMAL" source="#G{k}N"/></vertices>\n'
-        t += f'<triangles count="{len(index) // 3}" material="Material2"><input offset="0" semantic="VERTEX" source="#G{k}V"/><input offset="1" semantic="TEXCOORD" source="#G{k}T"/><p>' + " ".join(f"{i} {i}" for i in index) + "</p></triangles>\n</mesh>\n</geometry>\n"
+        t += (
+            f'<triangles count="{len(index) // 3}" material="Material2"><input offset="0" semantic="VERTEX" source="#G{k}V"/><input offset="1" semantic="TEXCOORD" source="#G{k}T"/><p>'
+            + " ".join(f"{i} {i}" for i in index)
+            + "</p></triangles>\n</mesh>\n</geometry>\n"
+        )
     edges, points = set(), [tuple(x / 0.0254 for x in p) for p in mesh.points]
     for face, _, _ in mesh.faces:
         for a, b in zip(face, face[1:] + face[:1]):
             edges.add((min(a, b), max(a, b)))
-    t += '<geometry id="Edges"><mesh>\n' + floats("EdgesP", points, "XYZ") + '<vertices id="EdgesV"><input semantic="POSITION" source="#EdgesP"/></vertices>\n'
-    t += f'<lines count="{len(edges)}" material="Material2"><input offset="0" semantic="VERTEX" source="#EdgesV"/><p>' + " ".join(f"{a} {b}" for a, b in sorted(edges)) + "</p></lines>\n</mesh></geometry>\n</library_geometries>\n<library_materials>\n"
-    looks = {"wall": "Brick_Antique", "grass": "Vegetation_Grass1", "roof": (0.5451, 0.2706, 0.0745), "wood": (0.6275, 0.3216, 0.1765), "glass": (0.2824, 0.4627, 0.6), "edge": (0, 0, 0)}
+    t += (
+        '<geometry id="Edges"><mesh>\n'
+        + floats("EdgesP", points, "XYZ")
+        + '<vertices id="EdgesV"><input semantic="POSITION" source="#EdgesP"/></vertices>\n'
+    )
+    t += (
+        f'<lines count="{len(edges)}" material="Material2"><input offset="0" semantic="VERTEX" source="#EdgesV"/><p>'
+        + " ".join(f"{a} {b}" for a, b in sorted(edges))
+        + "</p></lines>\n</mesh></geometry>\n</library_geometries>\n<library_materials>\n"
+    )
+    looks = {
+        "wall": "Brick_Antique",
+        "grass": "Vegetation_Grass1",
+        "roof": (0.5451, 0.2706, 0.0745),
+        "wood": (0.6275, 0.3216, 0.1765),
+        "glass": (0.2824, 0.4627, 0.6),
+        "edge": (0, 0, 0),
+    }
     for name in looks:
         t += f'<material id="M_{name}" name="{name}"><instance_effect url="#E_{name}"/></material>\n'
     t += "</library_materials>\n<library_effects>\n"
@@ -218,8 +263,22 @@ def house_sketchup():
 def hatchback_max():
     mesh = shapes.car()
     picture("hatch_body.png", shapes.livery)
-    t = head("OpenCOLLADA for 3ds Max;  Version: 1.3.1;  Revision: 850M;  Platform: Win32;  Configuration: Release Max2010", "inch", "0.0254", "Z_UP", "1.4.1", "<author>artist</author>")
-    looks = {"paint": (0.588, 0.588, 0.588), "glass": (0.1, 0.15, 0.2), "rubber": (0.02, 0.02, 0.02), "metal": (0.7, 0.7, 0.7), "glow": (1, 1, 0.8), "red": (0.8, 0.05, 0.05)}
+    t = head(
+        "OpenCOLLADA for 3ds Max;  Version: 1.3.1;  Revision: 850M;  Platform: Win32;  Configuration: Release Max2010",
+        "inch",
+        "0.0254",
+        "Z_UP",
+        "1.4.1",
+        "<author>artist</author>",
+    )
+    looks = {
+        "paint": (0.588, 0.588, 0.588),
+        "glass": (0.1, 0.15, 0.2),
+        "rubber": (0.02, 0.02, 0.02),
+        "metal": (0.7, 0.7, 0.7),
+        "glow": (1, 1, 0.8),
+        "red": (0.8, 0.05, 0.05),
+    }
     t += "<library_effects>\n"
     for name, rgb in looks.items():
         diffuse = color("diffuse", rgb)
@@ -228,12 +287,25 @@ def hatchback_max():
             params = '<newparam sid="hatch_body_png-surface"><surface type="2D"><init_from>hatch_body_png</init_from></surface></newparam><newparam sid="hatch_body_png-sampler"><sampler2D><source>hatch_body_png-surface</source></sampler2D></newparam>'
             diffuse = '<diffuse><texture texture="hatch_body_png-sampler" texcoord="CHANNEL1"/></diffuse>'
         t += f'<effect id="{name}"><profile_COMMON>{params}<technique sid="common"><blinn>{color("emission", rgb if name == "glow" else (0, 0, 0))}{color("ambient", (0.588, 0.588, 0.588))}{diffuse}{color("specular", (0, 0, 0))}<shininess><float>10</float></shininess>'
-        t += '<reflective><color>0 0 0 1</color></reflective><transparent opaque="A_ONE"><color>1 1 1 1</color></transparent><transparency><float>' + ("0.4" if name == "glass" else "1") + "</float></transparency></blinn></technique></profile_COMMON>"
+        t += (
+            '<reflective><color>0 0 0 1</color></reflective><transparent opaque="A_ONE"><color>1 1 1 1</color></transparent><transparency><float>'
+            + ("0.4" if name == "glass" else "1")
+            + "</float></transparency></blinn></technique></profile_COMMON>"
+        )
         t += '<extra><technique profile="OpenCOLLADA3dsMax"><extended_shader><apply_reflection_dimming>0</apply_reflection_dimming><opacity_type sid="opacity_type">0</opacity_type><reflection_level>3</reflection_level></extended_shader></technique></extra></effect>\n'
-    t += "</library_effects>\n<library_materials>\n" + "".join(f'<material id="{m}-material" name="{m}"><instance_effect url="#{m}"/></material>\n' for m in looks)
-    t += "</library_materials>\n<library_geometries>\n" + geometry("geom-hatchback", mesh, lambda p: p, 1 / 0.0254, "triangles", "smooth", True, str, "hatchback") + "</library_geometries>\n"
+    t += "</library_effects>\n<library_materials>\n" + "".join(
+        f'<material id="{m}-material" name="{m}"><instance_effect url="#{m}"/></material>\n' for m in looks
+    )
+    t += (
+        "</library_materials>\n<library_geometries>\n"
+        + geometry("geom-hatchback", mesh, lambda p: p, 1 / 0.0254, "triangles", "smooth", True, str, "hatchback")
+        + "</library_geometries>\n"
+    )
     t += '<library_images><image id="hatch_body_png"><init_from>file:///C:/Documents%20and%20Settings/artist/My%20Documents/3dsmax/maps/hatch_body.png</init_from></image></library_images>\n'
-    binds = "".join(f'<instance_material symbol="{m}" target="#{m}-material"><bind_vertex_input semantic="CHANNEL1" input_semantic="TEXCOORD" input_set="0"/></instance_material>' for m in looks)
+    binds = "".join(
+        f'<instance_material symbol="{m}" target="#{m}-material"><bind_vertex_input semantic="CHANNEL1" input_semantic="TEXCOORD" input_set="0"/></instance_material>'
+        for m in looks
+    )
     t += '<library_visual_scenes><visual_scene id="MaxScene">\n<node id="node-hatchback" name="hatchback"><matrix>1 0 0 -15.2 0 1 0 3.1 0 0 1 0 0 0 0 1</matrix>\n<node><matrix>1 0 0 0 0 1 0 0 0 0 1 1.25 0 0 0 1</matrix>'
     t += f'<instance_geometry url="#geom-hatchback"><bind_material><technique_common>{binds}</technique_common></bind_material></instance_geometry></node>\n<extra><technique profile="OpenCOLLADA"><cast_shadows sid="cast_shadows">1</cast_shadows></technique></extra></node>\n'
     t += '<extra><technique profile="MAX3D"><frame_rate>30</frame_rate></technique></extra></visual_scene></library_visual_scenes>\n'
@@ -245,17 +317,51 @@ def hatchback_max():
 
 def officer_maya():
     mesh = shapes.person(1.3)
-    looks = {"cloth": (0.1, 0.12, 0.35), "skin": (0.85, 0.62, 0.5), "hair": (0.12, 0.07, 0.03), "trousers": (0.08, 0.08, 0.15), "shoes": (0.05, 0.05, 0.05)}
+    looks = {
+        "cloth": (0.1, 0.12, 0.35),
+        "skin": (0.85, 0.62, 0.5),
+        "hair": (0.12, 0.07, 0.03),
+        "trousers": (0.08, 0.08, 0.15),
+        "shoes": (0.05, 0.05, 0.05),
+    }
     t = head("Maya 2008 | ColladaMaya v3.05B", "centimeter", "0.01", "Y_UP", "1.4.1", "<author>rigger</author>")
-    t += "<library_cameras>\n" + "".join(f'<camera id="{c}Shape" name="{c}Shape"><optics><technique_common>' + (
-        "<perspective><yfov>37.8493</yfov><aspect_ratio>1.5</aspect_ratio><znear>10</znear><zfar>100000</zfar></perspective>" if c == "persp" else
-        "<orthographic><xmag>3000</xmag><ymag>3000</ymag><znear>0.1</znear><zfar>10000</zfar></orthographic>") + "</technique_common></optics></camera>\n" for c in ("persp", "top", "front", "side")) + "</library_cameras>\n<library_materials>\n"
-    t += "".join(f'<material id="{m}SG_material" name="{m}"><instance_effect url="#{m}_fx"/></material>\n' for m in looks) + "</library_materials>\n<library_effects>\n"
+    t += (
+        "<library_cameras>\n"
+        + "".join(
+            f'<camera id="{c}Shape" name="{c}Shape"><optics><technique_common>'
+            + (
+                "<perspective><yfov>37.8493</yfov><aspect_ratio>1.5</aspect_ratio><znear>10</znear><zfar>100000</zfar></perspective>"
+                if c == "persp"
+                else "<orthographic><xmag>3000</xmag><ymag>3000</ymag><znear>0.1</znear><zfar>10000</zfar></orthographic>"
+            )
+            + "</technique_common></optics></camera>\n"
+            for c in ("persp", "top", "front", "side")
+        )
+        + "</library_cameras>\n<library_materials>\n"
+    )
+    t += (
+        "".join(
+            f'<material id="{m}SG_material" name="{m}"><instance_effect url="#{m}_fx"/></material>\n' for m in looks
+        )
+        + "</library_materials>\n<library_effects>\n"
+    )
     for name, rgb in looks.items():
         t += f'<effect id="{name}_fx"><profile_COMMON><technique sid="common"><phong>{color("emission", (0, 0, 0))}{color("ambient", (0, 0, 0))}{color("diffuse", rgb)}{color("specular", (0.2, 0.2, 0.2))}<shininess><float>20</float></shininess>{color("reflective", (0, 0, 0))}<reflectivity><float>0.5</float></reflectivity>'
         t += '<transparent opaque="RGB_ZERO"><color>0 0 0 1</color></transparent><transparency><float>1</float></transparency></phong></technique></profile_COMMON></effect>\n'
-    t += "</library_effects>\n<library_geometries>\n" + geometry("bodyShape", mesh, y_up, 100, "polylist", "smooth", True, lambda m: f"{m}SG") + "</library_geometries>\n"
-    joints = {"hips": (None, (0, 0, 0.95)), "spine": ("hips", (0, 0, 1.2)), "head": ("spine", (0, 0, 1.52)), "armL": ("spine", (-0.2, 0, 1.42)), "armR": ("spine", (0.2, 0, 1.42)), "legL": ("hips", (-0.09, 0, 0.92)), "legR": ("hips", (0.09, 0, 0.92))}
+    t += (
+        "</library_effects>\n<library_geometries>\n"
+        + geometry("bodyShape", mesh, y_up, 100, "polylist", "smooth", True, lambda m: f"{m}SG")
+        + "</library_geometries>\n"
+    )
+    joints = {
+        "hips": (None, (0, 0, 0.95)),
+        "spine": ("hips", (0, 0, 1.2)),
+        "head": ("spine", (0, 0, 1.52)),
+        "armL": ("spine", (-0.2, 0, 1.42)),
+        "armR": ("spine", (0.2, 0, 1.42)),
+        "legL": ("hips", (-0.09, 0, 0.92)),
+        "legR": ("hips", (0.09, 0, 0.92)),
+    }
     names = list(joints)
 
     def joint_of(p):
@@ -280,7 +386,9 @@ def officer_maya():
     t += f'<vertex_weights count="{len(mesh.points)}"><input semantic="JOINT" offset="0" source="#bodyJoints"/><input semantic="WEIGHT" offset="1" source="#bodyWeights"/><vcount>{" ".join("1" for _ in mesh.points)}</vcount><v>{" ".join(f"{names.index(joint_of(p))} 0" for p in mesh.points)}</v></vertex_weights></skin></controller></library_controllers>\n'
     t += '<library_animations><animation id="armR-anim"><animation>'
     times, angles = [0, 0.5, 1.0, 1.5, 2.0], [0, -25, -50, -25, 0]
-    t += floats("armR_rotateZ-in", [(v,) for v in times], ["TIME"]) + floats("armR_rotateZ-out", [(v,) for v in angles], ["ANGLE"])
+    t += floats("armR_rotateZ-in", [(v,) for v in times], ["TIME"]) + floats(
+        "armR_rotateZ-out", [(v,) for v in angles], ["ANGLE"]
+    )
     t += '<source id="armR_rotateZ-int"><Name_array id="armR_rotateZ-int-array" count="5">LINEAR LINEAR LINEAR LINEAR LINEAR</Name_array><technique_common><accessor source="#armR_rotateZ-int-array" count="5"><param name="INTERPOLATION" type="Name"/></accessor></technique_common></source>'
     t += '<sampler id="armR_rotateZ"><input semantic="INPUT" source="#armR_rotateZ-in"/><input semantic="OUTPUT" source="#armR_rotateZ-out"/><input semantic="INTERPOLATION" source="#armR_rotateZ-int"/></sampler><channel source="#armR_rotateZ" target="armR/rotateZ.ANGLE"/></animation></animation></library_animations>\n'
 
@@ -293,12 +401,24 @@ def officer_maya():
 
     binds = "".join(f'<instance_material symbol="{m}SG" target="#{m}SG_material"/>' for m in looks)
     t += '<library_visual_scenes><visual_scene id="VisualSceneNode" name="officer">\n'
-    for c, where in (("persp", "2800 2100 2800"), ("top", "0 10000.1 0"), ("front", "0 0 10000.1"), ("side", "10000.1 0 0")):
+    for c, where in (
+        ("persp", "2800 2100 2800"),
+        ("top", "0 10000.1 0"),
+        ("front", "0 0 10000.1"),
+        ("side", "10000.1 0 0"),
+    ):
         turn = {"persp": "-27.938", "top": "-90"}.get(c, "0")
         yaw = {"persp": "45", "side": "90"}.get(c, "0")
         t += f'<node id="{c}" name="{c}"><translate sid="translate">{where}</translate><rotate sid="rotateY">0 1 0 {yaw}</rotate><rotate sid="rotateX">1 0 0 {turn}</rotate><instance_camera url="#{c}Shape"/><extra><technique profile="MAYA"><dynamic_attributes/></technique><technique profile="FCOLLADA"><visibility>0</visibility></technique></extra></node>\n'
-    t += joint("hips") + f'<node id="body" name="body"><instance_controller url="#bodyController"><skeleton>#hips</skeleton><bind_material><technique_common>{binds}</technique_common></bind_material></instance_controller></node>\n'
-    save("officer_maya.dae", t + '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#VisualSceneNode"/></scene>\n</COLLADA>\n')
+    t += (
+        joint("hips")
+        + f'<node id="body" name="body"><instance_controller url="#bodyController"><skeleton>#hips</skeleton><bind_material><technique_common>{binds}</technique_common></bind_material></instance_controller></node>\n'
+    )
+    save(
+        "officer_maya.dae",
+        t
+        + '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#VisualSceneNode"/></scene>\n</COLLADA>\n',
+    )
 
 
 # 5. a robot's link --------------------------------------------------------------------------------------------------------------------
@@ -310,15 +430,31 @@ def forearm():
     t += "<library_effects>\n"
     for name, rgb in (("metal", (0.64, 0.64, 0.64)), ("paint", (1, 1, 1))):
         t += f'<effect id="m{name}-fx" name="m{name}"><profile_COMMON><technique sid="standard"><phong><emission><color sid="emission">0 0 0 1</color></emission><ambient><color sid="ambient">0 0 0 1</color></ambient><diffuse><color sid="diffuse">{nums(rgb)} 1</color></diffuse><specular><color sid="specular">0.5 0.5 0.5 1</color></specular>'
-        t += '<shininess><float sid="shininess">50</float></shininess></phong></technique></profile_COMMON></effect>\n'
+        t += (
+            '<shininess><float sid="shininess">50</float></shininess></phong></technique></profile_COMMON></effect>\n'
+        )
     t += '</library_effects>\n<library_materials>\n<material id="mmetal" name="metal"><instance_effect url="#mmetal-fx"/></material>\n<material id="mpaint" name="paint"><instance_effect url="#mpaint-fx"/></material>\n</library_materials>\n<library_geometries>\n'
     parts = mesh.split()
     for k, (_, part) in enumerate(parts.items()):
-        t += geometry(f"meshId{k}", part, lambda p: p, 1000, "polylist", "none", False, lambda m: "theresonlyone", f"meshId{k}_name")
+        t += geometry(
+            f"meshId{k}",
+            part,
+            lambda p: p,
+            1000,
+            "polylist",
+            "none",
+            False,
+            lambda m: "theresonlyone",
+            f"meshId{k}_name",
+        )
     t += '</library_geometries>\n<library_visual_scenes><visual_scene id="myScene" name="myScene">\n<node id="forearm_roll" name="forearm_roll"><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>\n'
     for k, name in enumerate(parts):
         t += f'<instance_geometry url="#meshId{k}"><bind_material><technique_common><instance_material symbol="theresonlyone" target="#m{name}"/></technique_common></bind_material></instance_geometry>\n'
-    save("pr2/meshes/forearm.dae", t + '</node>\n</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#myScene"/></scene>\n</COLLADA>\n')
+    save(
+        "pr2/meshes/forearm.dae",
+        t
+        + '</node>\n</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#myScene"/></scene>\n</COLLADA>\n',
+    )
 
 
 # 6. Blender 2.80 ----------------------------------------------------------------------------------------------------------------------
@@ -326,21 +462,64 @@ def forearm():
 
 def lamp_blender280():
     looks = {"metal": (0.25, 0.25, 0.28), "red": (0.8, 0.1, 0.06), "glow": (1, 0.9, 0.7), "wood": (0.3, 0.16, 0.06)}
-    t = head("Blender 2.80.75 commit date:2019-07-29, commit time:14:47, hash:f6cb5f54494e", "meter", "1", "Z_UP", "1.4.1", "<author>Blender User</author>")
+    t = head(
+        "Blender 2.80.75 commit date:2019-07-29, commit time:14:47, hash:f6cb5f54494e",
+        "meter",
+        "1",
+        "Z_UP",
+        "1.4.1",
+        "<author>Blender User</author>",
+    )
     t += '<library_cameras><camera id="Camera-camera" name="Camera"><optics><technique_common><perspective><xfov sid="xfov">39.59775</xfov><aspect_ratio>1.777778</aspect_ratio><znear sid="znear">0.1</znear><zfar sid="zfar">100</zfar></perspective></technique_common></optics><extra><technique profile="blender"><shiftx sid="shiftx" type="float">0</shiftx><shifty sid="shifty" type="float">0</shifty></technique></extra></camera></library_cameras>\n'
     t += '<library_lights>\n<light id="Light-light" name="Light"><technique_common><point><color sid="color">1000 1000 1000</color><constant_attenuation>1</constant_attenuation><linear_attenuation>0</linear_attenuation><quadratic_attenuation>0.00111109</quadratic_attenuation></point></technique_common>'
     t += '<extra><technique profile="blender"><type sid="type" type="int">0</type><flag sid="flag" type="int">0</flag><mode sid="mode" type="int">1</mode><gamma sid="blender_gamma" type="float">1</gamma><red sid="red" type="float">1</red><green sid="green" type="float">1</green><blue sid="blue" type="float">1</blue><energy sid="blender_energy" type="float">1000</energy><dist sid="blender_dist" type="float">29.99998</dist></technique></extra></light>\n</library_lights>\n<library_images/>\n<library_effects>\n'
     for name, rgb in looks.items():
         t += f'<effect id="{name}-effect"><profile_COMMON><technique sid="common"><lambert><emission><color sid="emission">{"1 0.9 0.7 1" if name == "glow" else "0 0 0 1"}</color></emission><diffuse><color sid="diffuse">{nums(rgb)} 1</color></diffuse><index_of_refraction><float sid="ior">1.45</float></index_of_refraction></lambert></technique></profile_COMMON></effect>\n'
-    t += "</library_effects>\n<library_materials>\n" + "".join(f'<material id="{m}-material" name="{m}"><instance_effect url="#{m}-effect"/></material>\n' for m in looks) + "</library_materials>\n<library_geometries>\n"
-    t += geometry("Lamp_body-mesh", shapes.desk_lamp(), lambda p: p, 10, "triangles", "smooth", True, lambda m: f"{m}-material", "Lamp_body")
-    t += geometry("Desk-mesh", shapes.block(0, 0, -0.1, 16, 10, 0.2, "wood"), lambda p: p, 1, "triangles", "flat", True, lambda m: f"{m}-material", "Desk") + "</library_geometries>\n"
+    t += (
+        "</library_effects>\n<library_materials>\n"
+        + "".join(
+            f'<material id="{m}-material" name="{m}"><instance_effect url="#{m}-effect"/></material>\n' for m in looks
+        )
+        + "</library_materials>\n<library_geometries>\n"
+    )
+    t += geometry(
+        "Lamp_body-mesh",
+        shapes.desk_lamp(),
+        lambda p: p,
+        10,
+        "triangles",
+        "smooth",
+        True,
+        lambda m: f"{m}-material",
+        "Lamp_body",
+    )
+    t += (
+        geometry(
+            "Desk-mesh",
+            shapes.block(0, 0, -0.1, 16, 10, 0.2, "wood"),
+            lambda p: p,
+            1,
+            "triangles",
+            "flat",
+            True,
+            lambda m: f"{m}-material",
+            "Desk",
+        )
+        + "</library_geometries>\n"
+    )
     t += '<library_visual_scenes><visual_scene id="Scene" name="Scene">\n<node id="Camera" name="Camera" type="NODE"><matrix sid="transform">0.6859207 -0.3240135 0.6515582 9.358891 0.7276763 0.3054208 -0.6141704 -8.925792 0 0.8953956 0.4452714 8.958309 0 0 0 1</matrix><instance_camera url="#Camera-camera"/></node>\n'
     t += '<node id="Light" name="Light" type="NODE"><matrix sid="transform">-0.2908646 -0.7711008 0.5663932 4.076245 0.9551712 -0.1998834 0.2183912 1.005454 -0.05518906 0.6045247 0.7946723 5.903862 0 0 0 1</matrix><instance_light url="#Light-light"/></node>\n'
     for node, mesh in (("Lamp_body", shapes.desk_lamp()), ("Desk", shapes.block(0, 0, 0, 1, 1, 1, "wood"))):
-        binds = "".join(f'<instance_material symbol="{m}-material" target="#{m}-material"><bind_vertex_input semantic="UVMap" input_semantic="TEXCOORD" input_set="0"/></instance_material>' for m in mesh.materials())
+        binds = "".join(
+            f'<instance_material symbol="{m}-material" target="#{m}-material"><bind_vertex_input semantic="UVMap" input_semantic="TEXCOORD" input_set="0"/></instance_material>'
+            for m in mesh.materials()
+        )
         t += f'<node id="{node}" name="{node}" type="NODE"><matrix sid="transform">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url="#{node}-mesh" name="{node}"><bind_material><technique_common>{binds}</technique_common></bind_material></instance_geometry></node>\n'
-    save("lamp_blender280.dae", t + '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#Scene"/></scene>\n</COLLADA>\n')
+    save(
+        "lamp_blender280.dae",
+        t
+        + '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#Scene"/></scene>\n</COLLADA>\n',
+    )
 
 
 # 7. Torque ----------------------------------------------------------------------------------------------------------------------------
@@ -355,7 +534,15 @@ def barrel_torque():
     t += '<effect id="paint-fx"><profile_COMMON><newparam sid="rust-surface"><surface type="2D"><init_from>rust</init_from></surface></newparam><newparam sid="rust-sampler"><sampler2D><source>rust-surface</source></sampler2D></newparam><technique sid="common"><lambert><diffuse><texture texture="rust-sampler" texcoord="UVMap"/></diffuse></lambert></technique></profile_COMMON></effect>\n'
     t += f'<effect id="lid-fx"><profile_COMMON><technique sid="common"><lambert>{color("diffuse", (0.4, 0.42, 0.45))}</lambert></technique></profile_COMMON></effect>\n</library_effects>\n'
     t += '<library_materials><material id="paint" name="paint"><instance_effect url="#paint-fx"/></material><material id="lid" name="lid"><instance_effect url="#lid-fx"/></material></library_materials>\n<library_geometries>\n'
-    t += geometry("barrel2-mesh", both, lambda p: p, 1, "triangles", "smooth", True) + geometry("Col-1-mesh", shapes.cylinder((0, 0, 0.05), (0, 0, 0.85), 0.2, 6, "none"), lambda p: p, 1, "triangles", "flat", False)
+    t += geometry("barrel2-mesh", both, lambda p: p, 1, "triangles", "smooth", True) + geometry(
+        "Col-1-mesh",
+        shapes.cylinder((0, 0, 0.05), (0, 0, 0.85), 0.2, 6, "none"),
+        lambda p: p,
+        1,
+        "triangles",
+        "flat",
+        False,
+    )
     t += "</library_geometries>\n"
     n = len(both.points)
     t += '<library_controllers><controller id="barrel-skin"><skin source="#barrel2-mesh"><bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>\n'
@@ -382,8 +569,24 @@ def quarter_utm():
     t += "<library_effects>\n"
     for name, rgb in looks.items():
         t += f'<effect id="{name}-fx"><profile_COMMON><technique sid="c"><lambert>{color("emission", (0, 0, 0))}{color("ambient", rgb)}{color("diffuse", rgb)}</lambert></technique></profile_COMMON></effect>\n'
-    t += "</library_effects>\n<library_materials>\n" + "".join(f'<material id="{m}-mat"><instance_effect url="#{m}-fx"/></material>\n' for m in looks) + "</library_materials>\n<library_geometries>\n"
-    t += geometry("quarter", mesh, lambda p: (p[0] + 691234.5, p[1] + 5335987.25, p[2] + 519.3), 1, "triangles", "none", False, lambda m: f"{m}-mat") + "</library_geometries>\n"
+    t += (
+        "</library_effects>\n<library_materials>\n"
+        + "".join(f'<material id="{m}-mat"><instance_effect url="#{m}-fx"/></material>\n' for m in looks)
+        + "</library_materials>\n<library_geometries>\n"
+    )
+    t += (
+        geometry(
+            "quarter",
+            mesh,
+            lambda p: (p[0] + 691234.5, p[1] + 5335987.25, p[2] + 519.3),
+            1,
+            "triangles",
+            "none",
+            False,
+            lambda m: f"{m}-mat",
+        )
+        + "</library_geometries>\n"
+    )
     binds = "".join(f'<instance_material symbol="{m}-mat" target="#{m}-mat"/>' for m in looks)
     t += f'<library_visual_scenes><visual_scene id="vs"><node id="n"><instance_geometry url="#quarter"><bind_material><technique_common>{binds}</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>\n'
     save("quarter_utm.dae", t + '<scene><instance_visual_scene url="#vs"/></scene>\n</COLLADA>\n')
@@ -399,11 +602,18 @@ def tree_warehouse():
     t = head("Trimble SketchUp 13.0.4812", "meter", "1", "Y_UP", "1.5.0")
     t += '<library_images><image id="leaf"><init_from><ref>textures/leaf.png</ref></init_from></image><image id="bark"><init_from><ref>textures/bark.png</ref></init_from></image></library_images>\n<library_effects>\n'
     for name, image in (("leaves", "leaf"), ("bark", "bark")):
-        clear = '<transparent opaque="A_ONE"><texture texture="sampler" texcoord="UV"/></transparent><transparency><float>1</float></transparency>' if name == "leaves" else ""
+        clear = (
+            '<transparent opaque="A_ONE"><texture texture="sampler" texcoord="UV"/></transparent><transparency><float>1</float></transparency>'
+            if name == "leaves"
+            else ""
+        )
         t += f'<effect id="{name}-fx"><profile_COMMON><newparam sid="sampler"><sampler2D><instance_image url="#{image}"/></sampler2D></newparam><technique sid="common"><lambert><diffuse><texture texture="sampler" texcoord="UV"/></diffuse>{clear}</lambert><extra><technique profile="GOOGLEEARTH"><double_sided>1</double_sided></technique></extra></technique></profile_COMMON></effect>\n'
     t += '</library_effects>\n<library_materials><material id="leaves"><instance_effect url="#leaves-fx"/></material><material id="bark"><instance_effect url="#bark-fx"/></material></library_materials>\n<library_geometries>\n'
     t += geometry("tree", mesh, y_up, 1, "triangles", "flat", True) + "</library_geometries>\n"
-    binds = "".join(f'<instance_material symbol="{m}" target="#{m}"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="0"/></instance_material>' for m in ("leaves", "bark"))
+    binds = "".join(
+        f'<instance_material symbol="{m}" target="#{m}"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" input_set="0"/></instance_material>'
+        for m in ("leaves", "bark")
+    )
     t += f'<library_visual_scenes><visual_scene id="vs"><node id="tree-node"><instance_geometry url="#tree"><bind_material><technique_common>{binds}</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>\n'
     save("tree_warehouse.dae", t + '<scene><instance_visual_scene url="#vs"/></scene>\n</COLLADA>\n')
 
@@ -414,22 +624,54 @@ def tree_warehouse():
 def aeroplane_fbx():
     mesh = shapes.plane()
     picture("Skin_Blue.png", shapes.fabric)
-    looks = {"paint": (1, 1, 1), "red": (0.8, 0.1, 0.1), "glass": (0.3, 0.4, 0.5), "wood": (0.5, 0.3, 0.1), "metal": (0.5, 0.5, 0.5)}
+    looks = {
+        "paint": (1, 1, 1),
+        "red": (0.8, 0.1, 0.1),
+        "glass": (0.3, 0.4, 0.5),
+        "wood": (0.5, 0.3, 0.1),
+        "metal": (0.5, 0.5, 0.5),
+    }
     t = head("FBX COLLADA exporter", "centimeter", "0.010000", "Y_UP", "1.4.1", "<author></author>")
     t += '<library_images>\n<image id="file1-image" name="file1"><init_from>C:\\Users\\artist\\Desktop\\plane\\skin_blue.PNG</init_from></image>\n</library_images>\n'
     t += '<library_lights><light id="directionalLight1-lib" name="directionalLight1"><technique_common><directional><color>1.000000 1.000000 1.000000</color></directional></technique_common></light></library_lights>\n<library_materials>\n'
-    t += "".join(f'<material id="{m}" name="{m}"><instance_effect url="#{m}-fx"/></material>\n' for m in looks) + "</library_materials>\n<library_effects>\n"
+    t += (
+        "".join(f'<material id="{m}" name="{m}"><instance_effect url="#{m}-fx"/></material>\n' for m in looks)
+        + "</library_materials>\n<library_effects>\n"
+    )
     for name, rgb in looks.items():
-        diffuse = '<texture texture="file1-image" texcoord="CHANNEL0"><extra><technique profile="MAYA"><wrapU sid="wrapU0">TRUE</wrapU><wrapV sid="wrapV0">TRUE</wrapV><blend_mode>ADD</blend_mode></technique></extra></texture>' if name == "paint" else f'<color sid="diffuse">{nums(rgb)} 1</color>'
+        diffuse = (
+            '<texture texture="file1-image" texcoord="CHANNEL0"><extra><technique profile="MAYA"><wrapU sid="wrapU0">TRUE</wrapU><wrapV sid="wrapV0">TRUE</wrapV><blend_mode>ADD</blend_mode></technique></extra></texture>'
+            if name == "paint"
+            else f'<color sid="diffuse">{nums(rgb)} 1</color>'
+        )
         t += f'<effect id="{name}-fx" name="{name}"><profile_COMMON><technique sid="standard"><phong><emission><color sid="emission">0.000000 0.000000 0.000000 1.000000</color></emission><ambient><color sid="ambient">0.000000 0.000000 0.000000 1.000000</color></ambient><diffuse>{diffuse}</diffuse><specular><color sid="specular">0.500000 0.500000 0.500000 1.000000</color></specular><shininess><float sid="shininess">20.000000</float></shininess>'
         t += '<reflective><color sid="reflective">0.000000 0.000000 0.000000 1.000000</color></reflective><reflectivity><float sid="reflectivity">0.500000</float></reflectivity><transparent opaque="RGB_ZERO"><color sid="transparent">1.000000 1.000000 1.000000 1.000000</color></transparent><transparency><float sid="transparency">1.000000</float></transparency></phong></technique></profile_COMMON></effect>\n'
-    t += "</library_effects>\n<library_geometries>\n" + geometry("plane-lib", mesh, y_up, 100, "polygons", "smooth", True, str, "planeMesh") + "</library_geometries>\n"
+    t += (
+        "</library_effects>\n<library_geometries>\n"
+        + geometry("plane-lib", mesh, y_up, 100, "polygons", "smooth", True, str, "planeMesh")
+        + "</library_geometries>\n"
+    )
     binds = "".join(f'<instance_material symbol="{m}" target="#{m}"/>' for m in looks)
     t += '<library_visual_scenes><visual_scene id="RootNode" name="RootNode">\n'
     t += '<node id="directionalLight1" name="directionalLight1"><translate sid="translate">0 500 0</translate><rotate sid="rotateX">1 0 0 90</rotate><instance_light url="#directionalLight1-lib"/></node>\n'
     t += f'<node id="plane" name="plane"><rotate sid="rotateZ">0 0 1 0</rotate><rotate sid="rotateY">0 1 0 30</rotate><rotate sid="rotateX">1 0 0 0</rotate><instance_geometry url="#plane-lib"><bind_material><technique_common>{binds}</technique_common></bind_material></instance_geometry></node>\n'
-    save("aeroplane_fbx.dae", t + '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#RootNode"/></scene>\n</COLLADA>\n')
+    save(
+        "aeroplane_fbx.dae",
+        t
+        + '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#RootNode"/></scene>\n</COLLADA>\n',
+    )
 
 
-for document in (cafe_table, house_sketchup, hatchback_max, officer_maya, forearm, lamp_blender280, barrel_torque, quarter_utm, tree_warehouse, aeroplane_fbx):
+for document in (
+    cafe_table,
+    house_sketchup,
+    hatchback_max,
+    officer_maya,
+    forearm,
+    lamp_blender280,
+    barrel_torque,
+    quarter_utm,
+    tree_warehouse,
+    aeroplane_fbx,
+):
     document()
