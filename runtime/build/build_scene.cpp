@@ -51,7 +51,7 @@ bool has_atmosphere(const SceneDescription& description) {
 // False, with an error, for a file that holds nothing to see. What the user hides is no error.
 bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
     const SceneDescription& description = *scene.description;
-    if (any_triangle(scene) || has_atmosphere(description)) return true;
+    if (anything_to_draw(scene) || has_atmosphere(description)) return true;
     bool hidden = description.only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
     diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});
     return hidden;

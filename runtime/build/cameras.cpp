@@ -108,7 +108,7 @@ bool choose_default(Scene& scene, NodeTree& tree, Diagnostics& diagnostics) {
     scene.camera = first_camera(scene, tree);
     double yfov = scene.options.view.yfov;
     if (yfov > 0 && !change_yfov(scene, yfov, diagnostics)) return false;
-    if (!any_triangle(scene)) return true;
+    if (!anything_to_draw(scene)) return true;
     double enough = little_of(scene), covered = most_covered(scene, enough);
     if (covered >= enough) return true;
     CameraSource blind = scene.cameras[scene.camera];

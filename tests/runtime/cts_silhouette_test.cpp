@@ -69,6 +69,7 @@ std::unique_ptr<Scene> load(const fs::path& path, Diagnostics& diagnostics) {
     if (!description) return nullptr;
     SceneOptions options;
     options.shadows = ShadowMode::Off;
+    options.camera = "#";  // the file's, however little it sees
     PlayRange range = play_range(*description);
     options.start_time = range.start;
     options.end_time = range.end;

@@ -1,4 +1,5 @@
-// tests/runtime/defaults_test.cpp: the camera and lights of scenes that bring none.
+// tests/runtime/defaults_test.cpp: the lights of scenes that bring none (cameras:
+// cameras_test.cpp).
 #include "runtime/build/defaults.h"
 
 #include <gtest/gtest.h>
@@ -25,61 +26,6 @@ SceneText bare_scene(const char* up, const std::string& transforms = "") {
 bool added(const Rendering& r, const char* what) {
     const auto& list = r.scene->added;
     return std::find(list.begin(), list.end(), what) != list.end();
-}
-
-TEST(DefaultCamera, LooksAlongTheDiagonalOfTheUpAxisFrameAtTheBounds) {
-    struct {
-        const char* up;
-        dvec3 direction;  // right + 0.6 up + towards the viewer, of COLLADA's up_axis table
-    } rows[] = {{"X_UP", {0.6, -1, 1}}, {"Y_UP", {1, 0.6, 1}}, {"Z_UP", {1, -1, 0.6}}};
-    for (const auto& row : rows) {
-        Rendering r(bare_scene(row.up, "<translate>5 6 7</translate>").text());
-        ASSERT_TRUE(r.scene) << r.findings();
-        EXPECT_TRUE(added(r, "default camera"));
-        r.frame();
-        dvec3 from_centre = glm::normalize(r.scene->view.eye + r.scene->origin - dvec3(5, 6, 7));
-        dvec3 want = glm::normalize(row.direction);
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(from_centre[k], want[k], 1e-9) << row.up;
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(r.scene->view.forward[k], -want[k], 1e-9);
-        EXPECT_NEAR(r.scene->view.half_height, std::tan(radians(18.5)), 1e-12);
-    }
-}
-
-TEST(DefaultCamera, HasTheWholeObjectInThePicture) {
-    for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
-        Rendering r(bare_scene(up, "<scale>100 300 200</scale>").text());
-        r.frame(64, 64);
-        int inside = 0, border = 0;
-        for (int y = 0; y < 64; ++y)
-            for (int x = 0; x < 64; ++x) {
-                bool covered = r.film.at(x, y).w > 0;
-                inside += covered;
-                border += covered && (x == 0 || y == 0 || x == 63 || y == 63);
-            }
-        EXPECT_EQ(border, 0) << up;
-        EXPECT_GT(inside, 300) << up;
-    }
-}
-
-TEST(DefaultCamera, FramesTheWholeRangePlayed) {
-    SceneText scene = bare_scene("Y_UP", "<translate sid=\"t\">0 0 0</translate>");
-    scene.nodes.replace(scene.nodes.find("<node>"), 6, "<node id=\"ball-node\">");
-    scene.animate("ball-node/t.X", {0, 1}, {0, 20});
-    SceneOptions options;
-    options.end_time = 1;
-    Rendering r(scene.text(), options);
-    for (double time : {0.0, 0.5, 1.0}) {
-        r.frame(48, 48, time);
-        int inside = 0, border = 0;
-        for (int y = 0; y < 48; ++y)
-            for (int x = 0; x < 48; ++x) {
-                bool covered = r.film.at(x, y).w > 0;
-                inside += covered;
-                border += covered && (x == 0 || y == 0 || x == 47 || y == 47);
-            }
-        EXPECT_GT(inside, 0) << time;
-        EXPECT_EQ(border, 0) << time;
-    }
 }
 
 TEST(DefaultLights, ComeWhereThereIsNoneOrAmbientAlone) {

@@ -254,21 +254,5 @@ TEST(Extremes, ALightAtTheShadedPointIsFinite) {
     EXPECT_TRUE(std::isfinite(r.color(0, 0).x));
 }
 
-TEST(Extremes, ASceneWithoutSurfacesIsAnEmptyPictureAndAFinding) {
-    Rendering r(SceneText().text());
-    r.frame();
-    EXPECT_EQ(r.count("SCENE_EMPTY"), 1) << r.findings();
-    EXPECT_EQ(r.film.at(8, 8), vec4(0.0f));
-}
-
-TEST(Extremes, ASceneWithNothingAtAllIsAnEmptyPicture) {
-    SceneText nothing;
-    nothing.cameras = nothing.camera_node = "";
-    Rendering r(nothing.text());
-    r.frame();
-    EXPECT_EQ(r.film.at(8, 8), vec4(0.0f));
-    EXPECT_EQ(r.count("CAMERA_OPTICS"), 0) << r.findings();
-}
-
 }  // namespace
 }  // namespace kinora

@@ -184,7 +184,9 @@ TEST(Frame, ACameraWithoutAPictureIsAnError) {
     scene.cameras =
         "<camera id=\"eye\"><optics><technique_common><perspective><yfov>180</yfov><znear>1</znear>"
         "<zfar>10</zfar></perspective></technique_common></optics></camera>";
-    Rendering r(scene.text());
+    SceneOptions options;
+    options.camera = "eye-node";  // unnamed it would give way
+    Rendering r(scene.text(), options);
     ASSERT_TRUE(r.scene);
     EXPECT_FALSE(render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics));
     ASSERT_EQ(r.count("CAMERA_OPTICS"), 1) << r.findings();

@@ -106,8 +106,8 @@ TEST(Framing, OfATurntableHoldsAtEveryAngle) {
                 double c = std::cos(step * kPi / 360), s = std::sin(step * kPi / 360);
                 for (dvec3 q : cloud.points) {
                     dvec3 p = q - cloud.points[0];
-                    seen.add({c * p.x + s * p.z, p.y, c * p.z - s * p.x},
-                             framing.perspective_eye(), axes);
+                    seen.add({c * p.x + s * p.z, p.y, c * p.z - s * p.x}, framing.perspective_eye(),
+                             axes);
                 }
             }
             for (int k = 0; k < 2; ++k) {
@@ -169,11 +169,11 @@ TEST(Coverage, IsWhatRaysMeet) {
     scene.look("l", "surface s() { Ci = 1; Oi = 1; }").cube("cube", 0.7).octahedron("ball");
     scene.place("cube", "l", "<translate>0.3 -2 1</translate><rotate>1 2 3 40</rotate>")
         .place("ball", "l", "<translate>-1 0.5 0</translate><scale>0.5 -1 2</scale>");
-    const char* ways[] = {
-        "<lookat>0 0 10 0 0 0 0 1 0</lookat>",     "<lookat>1 1 2 0 0 0 0 1 0</lookat>",
-        "<lookat>0.3 -2 1 1 5 2 0 1 0</lookat>",   // inside the cube
-        "<lookat>-0.9 0.6 0 5 3 1 0 1 0</lookat>", // inside the ball
-        "<lookat>0.3 -1.2 1 0 -3 0.2 1 0 0</lookat>"};
+    const char* ways[] = {"<lookat>0 0 10 0 0 0 0 1 0</lookat>",
+                          "<lookat>1 1 2 0 0 0 0 1 0</lookat>",
+                          "<lookat>0.3 -2 1 1 5 2 0 1 0</lookat>",    // inside the cube
+                          "<lookat>-0.9 0.6 0 5 3 1 0 1 0</lookat>",  // inside the ball
+                          "<lookat>0.3 -1.2 1 0 -3 0.2 1 0 0</lookat>"};
     const char* optics[] = {
         "<perspective><yfov>70</yfov><znear>1.5</znear><zfar>9.7</zfar></perspective>",
         "<perspective><xfov>20</xfov><aspect_ratio>2</aspect_ratio><znear>0.01</znear>"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "scene_text.h"
@@ -73,10 +74,25 @@ TEST(Transforms, LookatPlacesTheEyeAndLooksDownMinusZ) {
     expect_near(apply(m, {1, 0, 0}), {0, -1, 0});
 }
 
-TEST(Transforms, ALookatWhoseUpLiesAlongItsViewOnlyMoves) {
-    dmat4 m = operation(TransformKind::Lookat, {1, 2, 3, 1, 5, 3, 0, 1, 0});
-    EXPECT_TRUE(is_finite(m));
-    expect_near(apply(m, {0, 0, 0}), {1, 2, 3});
+TEST(Transforms, ALookatWhoseUpLiesAlongItsViewHasAFixedAxis) {
+    // Right is x, so that up in a view from above is away from the viewer; -y where x is the view.
+    struct {
+        dvec3 view, right;
+    } rows[] = {{{0, 1, 0}, {1, 0, 0}},  {{0, -1, 0}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 0}},
+                {{0, 0, -1}, {1, 0, 0}}, {{1, 0, 0}, {0, -1, 0}}, {{-1, 0, 0}, {0, -1, 0}}};
+    for (const auto& row : rows)
+        for (double noise : {0.0, 1e-14, -1e-14}) {
+            dvec3 to = dvec3(1, 2, 3) + 5.0 * row.view;
+            dmat4 m = operation(TransformKind::Lookat, {1 + noise, 2 - noise, 3 + noise, to.x, to.y,
+                                                        to.z, row.view.x, row.view.y, row.view.z});
+            dvec3 up = glm::cross(row.right, row.view);
+            expect_near(apply(m, {0, 0, 0}), {1, 2, 3});
+            expect_near(apply(m, {1, 0, 0}), dvec3(1, 2, 3) + row.right);
+            expect_near(apply(m, {0, 1, 0}), dvec3(1, 2, 3) + up);
+            expect_near(apply(m, {0, 0, -5}), to);
+        }
+    dmat4 still = operation(TransformKind::Lookat, {1, 2, 3, 1, 2, 3, 0, 1, 0});
+    expect_near(apply(still, {1, 0, -1}), {2, 2, 2});
 }
 
 TEST(Transforms, SkewTurnsTheFirstAxisTowardsTheSecondByTheAngle) {

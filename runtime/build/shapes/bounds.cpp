@@ -17,6 +17,17 @@ bool has_triangles(const Mesh& mesh) {
     return mesh.low.x <= mesh.high.x;
 }
 
+// One triangle with an area is enough.
+bool has_area(const Mesh& mesh) {
+    for (const MeshGroup& group : mesh.groups)
+        for (size_t c = 0; c + 2 < group.triangles.size(); c += 3) {
+            auto at = [&](size_t k) { return dvec3(mesh.positions[group.triangles[c + k]]); };
+            dvec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
+            if (n.x != 0 || n.y != 0 || n.z != 0) return true;  // NaN is told elsewhere
+        }
+    return false;
+}
+
 void add_box(const Mesh& mesh, const dmat4& world_from_mesh, Bounds& bounds) {
     if (!has_triangles(mesh)) return;
     for (int corner = 0; corner < 8; ++corner) {
@@ -75,9 +86,13 @@ void set_bounds(Scene& scene) {
     bake_static(scene);
 }
 
-bool any_triangle(const Scene& scene) {
-    return std::ranges::any_of(
-        scene.shapes, [&](const Shape& shape) { return has_triangles(scene.meshes[shape.mesh]); });
+bool anything_to_draw(const Scene& scene) {
+    return std::ranges::any_of(scene.shapes, [&](const Shape& shape) {
+        const Mesh& mesh = scene.meshes[shape.mesh];
+        if (!has_triangles(mesh)) return false;
+        if (shape.kind == raytrace::GeometryKind::Deforming) return true;
+        return has_area(mesh) && (scene.nodes[shape.node].can_move || !is_singular(shape));
+    });
 }
 
 std::vector<double> played_times(const Scene& scene, int most) {

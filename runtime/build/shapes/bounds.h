@@ -17,8 +17,9 @@ struct Bounds {
 // the static ones. A scene without anything gets a cube.
 void set_bounds(Scene& scene);
 
-// Whether a shape has a triangle of finite vertices, as the document has them.
-bool any_triangle(const Scene& scene);
+// Whether a shape has a triangle with an area, as the document has it, on a node that leaves it
+// one.
+bool anything_to_draw(const Scene& scene);
 
 // Times that stand for the range played (which no choice of frames changes), seconds: so many from
 // its start to its end; one where nothing moves.

@@ -242,7 +242,8 @@ struct Added {
 };
 constexpr Added kAdded[] = {
     {"default camera",
-     "yfov 37, from (1, 0.6, 1) as the up axis has right, up and back; frames all over the range"},
+     "frames all over the range played; yfov 37 from (1, 0.6, 1) as the up axis has right, up and "
+     "back, if --camera and --look-from do not say otherwise"},
     {"default light", "white, distant, from over the camera's left shoulder; --lights scene: none"},
     {"default ambient light", "0.15"},
 };
