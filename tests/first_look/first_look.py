@@ -5,10 +5,10 @@
                                    [--build FOLDER] [--only GLOB ...] [--least 95]
 
 Parts: corpus (written by corpus.py), blind (ten documents written without knowledge of the sources), shared (../shared/scenes),
-exporters (written by exporters.py with the packages that are installed), or a folder of documents of your own. Without a part: corpus,
-blind and shared. One line a file: its fault and figures; then totals a group. --out keeps pictures, first_look.json and sheets: the
-picture by default, and beside it a 50 % grey matte on everything. The exit code is 1 where fewer than --least per cent of the files of
-all parts together are right, 77 where all parts are missing.
+exporters (written by exporters.py with the packages that are installed), or a folder of documents of your own (a corpus.json in
+it says what is expected). Without a part: corpus, blind and shared. One line a file: its fault and figures; then totals a group.
+--out keeps pictures, first_look.json and sheets: the picture by default, and beside it a 50 % grey matte on everything. The exit
+code is 1 where fewer than --least per cent of the files of all parts together are right, 77 where all parts are missing.
 
 Faults: exit (not 0, or not 3 where there is nothing to draw), time (over 60 s), blank (under 0.2 % of the picture is covered), speck
 (under 3 %), holes (less is covered than corpus.json says), white (over 60 % of what is covered is clipped), checks (over 2 % magenta
@@ -222,7 +222,8 @@ def parts_of(options, scratch):
             expected = exporters.write(folder)
         else:
             folder = {"blind": HERE / "blind", "shared": SHARED / "scenes"}.get(part, Path(part))
-            expected = SHARED_EXPECTED if part == "shared" else {}
+            said = folder / "corpus.json"
+            expected = SHARED_EXPECTED if part == "shared" else json.loads(said.read_text()) if said.exists() else {}
         if not folder.is_dir():
             print(f"{part}: no folder {folder}, skipped")
             continue
