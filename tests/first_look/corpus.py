@@ -3,7 +3,8 @@
 
 Each document is a plausible model with something that exporters are known to do. corpus.json says what is expected of each: "nothing":
 it holds nothing to draw (exit 3); "told": its own lights or cameras spoil the picture and rendering must print this text; "missing":
-its image exists nowhere; "least": the share of the picture it covers where no face is missing. Everything else must give a right picture (first_look.py).
+its image exists nowhere; "least": the share of the picture it covers where no face is missing; "warmth": its red over its
+blue where its material is used. Everything else must give a right picture (first_look.py).
 """
 import json
 import math
@@ -397,7 +398,7 @@ def unbound(root):
     return d
 
 
-@document("urdf/one_material/gripper.dae")
+@document("urdf/one_material/gripper.dae", warmth=1.4)
 def one_material(root):
     mesh = shapes.robot_arm().named("paint")
     d = Document("pycollada", 1)
@@ -1080,12 +1081,12 @@ def maya_chrome(root):
     )
 
 
-@document("maya/initial_shading_group.dae")
+@document("maya/initial_shading_group.dae", warmth=1.4)
 def maya_initial(root):
     # Symbols that nothing binds: initialShadingGroup.
     mesh = shapes.gear()
     d = Document(MAYA, 0.01, "centimeter", "Y_UP")
-    d.look("lambert1", Look(diffuse=(0.5, 0.5, 0.5), ambient=BLACK))
+    d.look("lambert1", Look(diffuse=(0.9, 0.5, 0.1), ambient=BLACK))
     d.mesh("gear", mesh, symbol=lambda m: "initialShadingGroup")
     d.add(
         d.node(

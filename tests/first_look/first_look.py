@@ -5,15 +5,16 @@
                                    [--build FOLDER] [--only GLOB ...] [--least 95]
 
 Parts: corpus (written by corpus.py), blind (ten documents written without knowledge of the sources), shared (../shared/scenes),
-exporters (written by exporters.py with the packages that are installed), or a folder of documents of your own. Without a part: corpus,
-blind and shared. One line a file: its fault and figures; then totals a group. --out keeps pictures, first_look.json and sheets: the
-picture by default, and beside it a 50 % grey matte on everything. The exit code is 1 where fewer than --least per cent of the files of
-all parts together are right, 77 where all parts are missing.
+exporters (written by exporters.py with the packages that are installed), or a folder of documents of your own (a corpus.json in
+it says what is expected). Without a part: corpus, blind and shared. One line a file: its fault and figures; then totals a group.
+--out keeps pictures, first_look.json and sheets: the picture by default, and beside it a 50 % grey matte on everything. The exit
+code is 1 where fewer than --least per cent of the files of all parts together are right, 77 where all parts are missing.
 
 Faults: exit (not 0, or not 3 where there is nothing to draw), time (over 60 s), blank (under 0.2 % of the picture is covered), speck
 (under 3 %), holes (less is covered than corpus.json says), white (over 60 % of what is covered is clipped), checks (over 2 % magenta
 although the named image exists), black (under the grey matte over 30 % of what is covered is darker than sRGB 43, or over 95 % of the
-picture itself than 8), silent (the document's own lights spoil it, and the text that corpus.json expects is not printed).
+picture itself than 8), colour (its red over its blue is less than corpus.json says: the wrong
+material), silent (the document's own lights spoil it, and the text that corpus.json expects is not printed).
 """
 import argparse
 import concurrent.futures
@@ -39,7 +40,7 @@ from sheet import lettering, png  # noqa: E402
 BLANK, SPECK, WHITE, CHECKS, BLACK, ALL_BLACK = 0.002, 0.03, 0.6, 0.02, 0.3, 0.95
 CLIPPED, DARK, NIGHT = 253, 43, 8  # of 255
 SECONDS = 60
-KINDS = ("exit", "time", "blank", "speck", "holes", "white", "checks", "black", "silent")
+KINDS = ("exit", "time", "blank", "speck", "holes", "white", "checks", "black", "colour", "silent")
 PAPER, INK, ALARM = (34, 34, 36), (225, 225, 220), (255, 90, 70)
 COLUMNS, STRIP = 8, 14
 # Parts of other documents; a reader's test whose triangles have no area.
@@ -82,13 +83,15 @@ def pixels(path):
 def figures(picture):
     """Shares: covered of all pixels; clipped, magenta and dark of what is covered by half and more."""
     width, height, rows = picture
-    covered = solid = clipped = magenta = dark = night = 0
+    covered = solid = clipped = magenta = dark = night = red = blue = 0
     for row in rows:
         covered += sum(row[3::4])
         for r, g, b, a in zip(row[::4], row[1::4], row[2::4], row[3::4]):
             if a < 128:
                 continue
             solid += 1
+            red += r
+            blue += b
             clipped += min(r, g, b) >= CLIPPED
             dark += max(r, g, b) < DARK
             magenta += min(r, b) > 60 and (min(r, b) - g) * 5 > max(r, b) and abs(r - b) * 8 < max(r, b)
@@ -97,7 +100,7 @@ def figures(picture):
         name: round(n / max(solid, 1), 4)
         for name, n in (("clipped", clipped), ("magenta", magenta), ("dark", dark), ("night", night))
     }
-    return {"covered": round(covered / 255 / (width * height), 4), **shares}
+    return {"covered": round(covered / 255 / (width * height), 4), "warmth": round(red / max(blue, 1), 2), **shares}
 
 
 def render(job, output, *words):
@@ -158,6 +161,8 @@ def look(job):
         fault = fault_of(found, missing, expected.get("small"))
         if not fault and found["covered"] < expected.get("least", 0):
             fault = "holes"
+        if not fault and found["warmth"] < expected.get("warmth", 0):
+            fault = "colour"
         if expected.get("told") and fault in ("", "black"):
             fault = "" if expected["told"] in said else "silent"
     found.update(
@@ -217,7 +222,8 @@ def parts_of(options, scratch):
             expected = exporters.write(folder)
         else:
             folder = {"blind": HERE / "blind", "shared": SHARED / "scenes"}.get(part, Path(part))
-            expected = SHARED_EXPECTED if part == "shared" else {}
+            said = folder / "corpus.json"
+            expected = SHARED_EXPECTED if part == "shared" else json.loads(said.read_text()) if said.exists() else {}
         if not folder.is_dir():
             print(f"{part}: no folder {folder}, skipped")
             continue

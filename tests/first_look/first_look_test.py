@@ -84,6 +84,10 @@ class Faults(ProgramTest):
         self.assertEqual(self.fault(self.covered(400), least=0.25), "")
         self.assertEqual(self.fault(self.covered(399), least=0.25), "holes")
 
+    def test_colour(self):
+        self.assertEqual(self.fault(self.part(1, (140, 90, 100)), warmth=1.4), "")
+        self.assertEqual(self.fault(self.part(1, (138, 90, 100)), warmth=1.4), "colour")
+
     def test_white(self):
         self.assertEqual(self.fault(self.part(0.6, (255, 255, 255))), "")
         self.assertEqual(self.fault(self.part(0.65, (255, 255, 255))), "white")
@@ -143,7 +147,7 @@ class Corpus(ProgramTest):
             text = (self.folder / "corpus" / name).read_text()
             faces = len(re.findall(r"<(?:triangles|polylist|polygons|trifans|instance_geometry url=\"parts)", text))
             with self.subTest(name):
-                self.assertLessEqual(set(wanted), {"nothing", "told", "missing", "least"})
+                self.assertLessEqual(set(wanted), {"nothing", "told", "missing", "least", "warmth"})
                 if not wanted.get("nothing"):
                     self.assertGreater(faces, 0)
                 named = "<init_from>" in text and re.search(r"<init_from>[^<]*\.\w+<", text)
