@@ -34,6 +34,37 @@ std::string_view stem(std::string_view name) {
     return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
 }
 
+// The folder's only entry of that name but for its case; "" if there is none or more than one.
+std::string entry_of(const fs::path& folder, const std::string& name) {
+    std::error_code error;
+    std::string match;
+    fs::directory_iterator at(folder.empty() ? "." : folder, error), end;
+    for (size_t seen = 0; !error && at != end && seen < kMostFiles; at.increment(error), ++seen) {
+        std::string found = at->path().filename().string();
+        if (lower(found) != lower(name)) continue;
+        if (!match.empty()) return {};
+        match = found;
+    }
+    return match;
+}
+
+// The path of a folder as it is written on disk, where only the case of its names differs.
+std::string written_folder(const std::string& folder) {
+    std::error_code error;
+    if (folder.empty() || fs::is_directory(folder, error)) return folder;
+    fs::path written;
+    for (const fs::path& name : fs::path(folder)) {
+        if (name.empty() || fs::exists(written / name, error)) {
+            written /= name;
+            continue;
+        }
+        std::string entry = entry_of(written, name.string());
+        if (entry.empty()) return folder;
+        written /= entry;
+    }
+    return written.string();
+}
+
 std::vector<std::string> places(std::string_view own, const std::string& folder) {
     std::vector<std::string> list{std::string(own)};
     for (std::string_view below : kFolders) {
@@ -95,7 +126,7 @@ FoundPicture PictureSearch::find(const std::string& path, const std::string& fol
     std::string_view base = std::string_view(path).substr(path.find_last_of('/') + 1);
     std::string name = lower(base);
     // A folder that may not be read is not listed either.
-    std::string own = inside ? path.substr(0, path.size() - base.size()) : folder;
+    std::string own = inside ? written_folder(path.substr(0, path.size() - base.size())) : folder;
     for (bool by_stem : {false, true})
         for (const std::string& place : places(own, folder)) {
             if (name.empty() || !allowed.contains(place)) continue;

@@ -222,6 +222,8 @@ class Pictures(ConfineTest):
         ("C:\\art\\MAP.PNG", "models/meshes/textures/map.png"),
         ("/nowhere/at/all/map.tga", "models/textures/map.png"),
         ("../../far/away/map.png", "far/away/map.png"),
+        ("skins/map.png", "models/meshes/Skins/Map.png"),
+        ("../art/stone/map.png", "models/Art/Stone/map.png"),
     )
 
     def with_image(self, name, uri):
