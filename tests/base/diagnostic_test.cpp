@@ -144,5 +144,48 @@ TEST(NearestName, FindsWhatWasMeantOrNothing) {
     EXPECT_EQ(nearest_name("x", {}), "");
 }
 
+constexpr FindingInfo kLeftOut =
+    finding_row("TEST_LEFT_OUT", Severity::Warning, Severity::Error, "'{}' is left out", "", "");
+constexpr FindingInfo kStyle =
+    finding_row("TEST_STYLE", Severity::Info, Severity::Warning, "'{}' is odd", "", "");
+constexpr FindingInfo kFatal = finding_row("TEST_FATAL", Severity::Error, "no '{}'", "", "");
+
+TEST(Diagnostics, JudgesByWhatTheFileIsFor) {
+    struct {
+        Judgement judgement;
+        Severity left_out, style, fatal;
+    } rows[] = {
+        {Judgement::Validating, Severity::Error, Severity::Warning, Severity::Error},
+        {Judgement::Rendering, Severity::Warning, Severity::Info, Severity::Error},
+        {Judgement::Strict, Severity::Error, Severity::Info, Severity::Error},
+    };
+    for (const auto& row : rows) {
+        Diagnostics diag;
+        diag.judge(row.judgement);
+        EXPECT_EQ(diag.report(kLeftOut, {}, "a").severity, row.left_out);
+        EXPECT_EQ(diag.report(kStyle, {}, "a").severity, row.style);
+        EXPECT_EQ(diag.report(kFatal, {}, "a").severity, row.fatal);
+        diag.set_severity("TEST_STYLE", Severity::Hint);
+        EXPECT_EQ(diag.report(kStyle, {}, "b").severity, Severity::Hint);
+    }
+    EXPECT_EQ(Diagnostics().report(kLeftOut, {}, "a").severity, Severity::Error);
+}
+
+TEST(Diagnostics, ErrorsOfAFileThatAnotherNamesAreWarningsWhenRendering) {
+    for (Judgement judgement : {Judgement::Validating, Judgement::Rendering, Judgement::Strict}) {
+        Diagnostics diag;
+        diag.judge(judgement);
+        diag.report(kFatal, {}, "own");
+        diag.report(kFatal, {}, "other");
+        diag.report(kStyle, {}, "other");
+        Severity style = diag.findings()[2].severity;
+        diag.lower_errors(1);
+        bool rendering = judgement == Judgement::Rendering;
+        EXPECT_EQ(diag.findings()[0].severity, Severity::Error);
+        EXPECT_EQ(diag.findings()[1].severity, rendering ? Severity::Warning : Severity::Error);
+        EXPECT_EQ(diag.findings()[2].severity, style);
+    }
+}
+
 }  // namespace
 }  // namespace kinora

@@ -17,9 +17,10 @@ class Words(ProgramTest):
     def test_repeatable_options_take_one_word_and_leave_the_scene(self):
         out, dae = self.folder / "a.exr", self.folder / "a.dae"
         plastic = SHADERS / "plastic.sl"
+        outputs = self.write("ab.sl", "surface ab(output float a = 0; output float b = 0;) { a = b; Ci = 1; }")
         rows = [
             (render, ("-I", self.folder, MATTE, "-o", out, *SMALL)),
-            (render, ("--aov", "a,b", MATTE, "-o", out, *SMALL)),
+            (render, ("--shader", f"*={outputs}", "--aov", "a,b", MATTE, "-o", out, *SMALL)),
             (render, ("--shader", f"dim={plastic}", MATTE, "-o", out, *SMALL)),
             (render, ("--param", "dim.Ka=0.5", MATTE, "-o", out, *SMALL)),
             (render, ("--hide", "left", MATTE, "-o", out, *SMALL)),

@@ -176,8 +176,8 @@ class Options(ProgramTest):
         for name in (b"glow.R\0", b"glow.G\0", b"glow.B\0", b"dirt\0", b"A\0", b"R\0"):
             self.assertIn(name, header)
         result = render(*words, "--aov", "nothing", "-o", picture)
-        self.expect(result, 0, "AOV_UNKNOWN")
-        self.assertNotIn(b"dirt\0", picture.read_bytes()[:4096])
+        self.expect(result, 2, "AOV_UNKNOWN")
+        self.assertIn(b"dirt\0", picture.read_bytes()[:4096])  # nothing was written
 
     def test_imagers_are_chosen_by_name_by_file_and_not_at_all(self):
         def picture(imager):
