@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -124,6 +125,40 @@ std::string shader_line(const Json& row) {
     return lines;
 }
 
+// What --param takes: NAME.PARAMETER of the materials, lights and imagers of the file. Lights that
+// are added come after it.
+Json params(const Scene& scene) {
+    const SceneDescription& description = *scene.description;
+    Json list = Json::array();
+    std::set<std::string> seen;
+    auto add = [&](const std::string& of, const ShaderUse& use) {
+        for (const rsl::ShaderParameter& p : use.shader->parameters) {
+            std::string name = fmt::format("{}.{}", of, p.name);
+            if (!seen.insert(name).second) continue;
+            list.push_back(
+                {{"name", name}, {"type", rsl::type_name(p.type)}, {"shader", use.shader->name}});
+        }
+    };
+    for (const MaterialDefinition& m : description.materials)
+        for (const auto* layers : {&m.transformations, &m.displacements, &m.surfaces, &m.interior,
+                                   &m.exterior, &m.lights})
+            for (const ShaderUse& use : *layers) add(shown(m.id, m.name), use);
+    for (const LightDefinition& light : description.lights)
+        if (std::ranges::find(scene.added, light.name) == scene.added.end())
+            add(shown(light.id, light.name), light.shader);
+    auto imagers = [&](const PictureShaders& picture) {
+        for (const ShaderUse& use : picture.imagers) add(std::string(use.shader->name), use);
+    };
+    imagers(description.picture);
+    for (const CameraDefinition& camera : description.cameras) imagers(camera.picture);
+    return list;
+}
+
+std::string param_line(const Json& row) {
+    return fmt::format("param {} ({}, of {})\n", row["name"].get<std::string>(),
+                       row["type"].get<std::string>(), row["shader"].get<std::string>());
+}
+
 // What --aov takes: output parameters of surfaces.
 Json aovs(const Scene& scene) {
     Json list = Json::array();
@@ -210,13 +245,10 @@ struct Kind {
     std::string (*line)(const Json& row);
 };
 constexpr Kind kKinds[] = {
-    {"cameras", cameras, camera_line},
-    {"clips", clips, clip_line},
-    {"materials", materials, material_line},
-    {"shaders", shaders, shader_line},
-    {"aovs", aovs, aov_line},
-    {"lights", lights, light_line},
-    {"nodes", nodes, node_line},
+    {"cameras", cameras, camera_line},       {"clips", clips, clip_line},
+    {"materials", materials, material_line}, {"shaders", shaders, shader_line},
+    {"params", params, param_line},          {"aovs", aovs, aov_line},
+    {"lights", lights, light_line},          {"nodes", nodes, node_line},
 };
 
 // docs/format.md#cameras; runtime/build/defaults.cpp.
