@@ -289,9 +289,13 @@ NodeDefinition AddedCamera::node(const Stand& stand) {
             {turn + 3, {start, start + options_.turn_seconds}, {0, 360}, anim::Behaviour::Linear});
     }
     dvec3 to = stand.eye - stand.axes.back * std::max(glm::length(stand.eye), scene_.size);
-    if (options_.from) to = dvec3(0.0);
-    uint32_t look = append({stand.eye.x, stand.eye.y, stand.eye.z, to.x, to.y, to.z,
-                            stand.axes.up.x, stand.axes.up.y, stand.axes.up.z});
+    dvec3 up = stand.axes.up;
+    if (options_.from) {  // what is looked at may move
+        to = dvec3(0.0);
+        up = frame_.up;
+    }
+    uint32_t look =
+        append({stand.eye.x, stand.eye.y, stand.eye.z, to.x, to.y, to.z, up.x, up.y, up.z});
     node.transforms.push_back({TransformKind::Lookat, look});
     if (moves && options_.from && at_node_ != kNone && !options_.follow && !turns())
         motions_.push_back({look + 3, times_, numbers(path_, -base_)});

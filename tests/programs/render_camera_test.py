@@ -128,7 +128,7 @@ class Sheets(ProgramTest):
         disk.mkdir()
         if not shutil.which("unshare"):
             raise unittest.SkipTest("no unshare")
-        mount = f"mount -t tmpfs -o size=16k none '{disk}' && "
+        mount = f"mount -t tmpfs -o size=16k none '{disk}' && head -c 12288 /dev/zero > '{disk}/filled' && "
         probe = subprocess.run(["unshare", "-rm", "sh", "-c", mount + "true"], capture_output=True)
         if probe.returncode:
             raise unittest.SkipTest("no file system can be mounted")

@@ -200,7 +200,7 @@ class Shaders(Changes):
 
 class Lists(Changes):
     def test_every_kind_is_there_as_text_and_as_json(self):
-        kinds = ("cameras", "clips", "materials", "shaders", "aovs", "lights", "nodes")
+        kinds = ("cameras", "clips", "materials", "shaders", "params", "aovs", "lights", "nodes")
         every = json.loads(self.expect(render(self.scene, "--list", "--json"), 0).out)
         self.assertEqual(sorted(every), sorted((*kinds, "added")))
         text = self.expect(render(self.scene, "--list"), 0).out
@@ -214,6 +214,18 @@ class Lists(Changes):
         self.assertEqual(every["aovs"], [{"name": "glow", "type": "color", "shader": "flat"}])
         self.assertEqual([n["path"] for n in every["nodes"]],
                          ["eye", "sun", "left-id", "group/right"])
+
+    def test_params_are_what_the_option_takes(self):
+        names = [p["name"] for p in json.loads(render(self.scene, "--list", "params", "--json").out)["params"]]
+        self.assertEqual(sorted(n for n in names if n.startswith("grey")),
+                         ["grey.1.Kd", "grey.1.glow", "grey.1.mode", "grey.1.tint"])
+        self.assertTrue(any(n.startswith("lamp.") for n in names), names)
+        for name in names:
+            with self.subTest(name=name):
+                kind = next(p["type"] for p in json.loads(
+                    render(self.scene, "--list", "params", "--json").out)["params"] if p["name"] == name)
+                value = "x" if "string" in kind else "1" if "matrix" not in kind else "1 " * 16
+                self.picture("--param", f"{name}={value}")
 
     def test_what_was_added_is_described(self):
         added = self.expect(render(MATTE, "--list", "cameras"), 0, "yfov 37", "left shoulder", "0.15").out

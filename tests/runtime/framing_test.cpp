@@ -178,7 +178,7 @@ TEST(Coverage, IsWhatRaysMeet) {
         "<perspective><yfov>70</yfov><znear>1.5</znear><zfar>9.7</zfar></perspective>",
         "<perspective><xfov>20</xfov><aspect_ratio>2</aspect_ratio><znear>0.01</znear>"
         "<zfar>100</zfar></perspective>",
-        "<orthographic><xmag>2</xmag><znear>0.01</znear><zfar>100</zfar></orthographic>"};
+        "<orthographic><xmag>2.0371</xmag><znear>0.01</znear><zfar>100</zfar></orthographic>"};
     int seen = 0;
     for (const char* way : ways)
         for (const char* optic : optics) {

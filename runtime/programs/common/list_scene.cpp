@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -140,6 +141,41 @@ std::string our_line(const Json& row) {
                        row["name"].get<std::string>());
 }
 
+// What --param takes: NAME.PARAMETER of the materials, lights, atmospheres and imagers of the file.
+// Lights that are added come after it.
+Json params(const Scene& scene) {
+    const SceneDescription& description = *scene.description;
+    Json list = Json::array();
+    std::set<std::string> seen;
+    auto add = [&](const std::string& of, const ShaderUse& use) {
+        for (const rsl::ShaderParameter& p : use.shader->parameters) {
+            std::string name = fmt::format("{}.{}", of, p.name);
+            if (!seen.insert(name).second) continue;
+            list.push_back(
+                {{"name", name}, {"type", rsl::type_name(p.type)}, {"shader", use.shader->name}});
+        }
+    };
+    for (const MaterialDefinition& m : description.materials)
+        for (const auto* layers : {&m.transformations, &m.displacements, &m.surfaces, &m.interior,
+                                   &m.exterior, &m.lights})
+            for (const ShaderUse& use : *layers) add(shown(m.id, m.name), use);
+    for (const LightDefinition& light : description.lights)
+        if (std::ranges::find(scene.added, light.name) == scene.added.end())
+            add(shown(light.id, light.name), light.shader);
+    auto of_picture = [&](const PictureShaders& picture) {
+        for (const auto* stack : {&picture.atmosphere, &picture.imagers})
+            for (const ShaderUse& use : *stack) add(std::string(use.shader->name), use);
+    };
+    of_picture(description.picture);
+    for (const CameraDefinition& camera : description.cameras) of_picture(camera.picture);
+    return list;
+}
+
+std::string param_line(const Json& row) {
+    return fmt::format("param {} ({}, of {})\n", row["name"].get<std::string>(),
+                       row["type"].get<std::string>(), row["shader"].get<std::string>());
+}
+
 // What --aov takes: output parameters of surfaces.
 Json aovs(const Scene& scene) {
     Json list = Json::array();
@@ -231,6 +267,7 @@ constexpr Kind kKinds[] = {
     {"materials", materials, material_line},
     {"shaders", shaders, shader_line},
     {"ours", ours, our_line},
+    {"params", params, param_line},
     {"aovs", aovs, aov_line},
     {"lights", lights, light_line},
     {"nodes", nodes, node_line},
