@@ -151,7 +151,12 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
                        in_cone(vec(L), stmt.axis ? &axis : nullptr, angle);
         if (!reached) continue;
         Item saved[4];
-        for (size_t i = 0; i < 4; ++i) saved[i] = global(kSet[i]);
+        bool was_set[4];  // Ps is P where nothing set it
+        for (size_t i = 0; i < 4; ++i) {
+            was_set[i] = globals_.contains(kSet[i]);
+            saved[i] = global(kSet[i]);
+            globals_.try_emplace(kSet[i]);
+        }
         global(Global::L) = L;
         global(Global::Cl) = triple(BaseType::Color, l.Cl);
         global(Global::Ol) = triple(BaseType::Color, l.Ol);
@@ -167,7 +172,12 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
         }
         flow = statement(*stmt.body);
         light = outer;
-        for (size_t i = 0; i < 4; ++i) global(kSet[i]) = saved[i];
+        for (size_t i = 0; i < 4; ++i) {
+            if (was_set[i] || kSet[i] != Global::Ps)
+                global(kSet[i]) = saved[i];
+            else
+                globals_.erase(kSet[i]);
+        }
         ends_loop(flow, stmt, leave);
     }
     loop_counters.pop_back();

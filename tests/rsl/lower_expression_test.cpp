@@ -53,6 +53,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"xcomp(normalize(vector(zero + 1e-30, 0, 0)))", 1},
                     Case{"xcomp(normalize(vector(zero + 1e30, 0, 0)))", 1},
                     Case{"length(vector(zero + 1e20, 1e20, 1e20))", 1.7320508e20f},
+                    // The point comes last.
+                    Case{"ptlined(point (0, 0, 0), point (9, 0, 0), point (zero + 5, 7, 0))", 7},
+                    Case{"ptlined(point (0, 0, 0), point (2, 0, 0), point (zero + 5, 4, 0))", 5},
                     Case{"spline(zero - 1, 0, 1, 2, 3)", 1},
                     Case{"spline(zero + 2, 0, 1, 2, 3)", 2},
                     Case{"spline(zero + 0.5, 0, 1, 2, 3)", 1.5f},

@@ -27,5 +27,5 @@ surface asphalt(float Ka = 1; float Kd = 0.8; float Ks = 0.35; float scale = 45;
     float kr = pool * (0.03 + 0.97 * pow(1 - clamp(-(Nf . In), 0, 1), 5));
     Oi = Os;
     Ci = Os * (Ct * (1 - 0.5 * wet) * (Ka * ambient() + Kd * diffuse(Nf)) +
-               kr * trace(P, reflect(In, Nf)) + Ks * (0.25 + wet) * specular(Nf, -In, mix(0.2, 0.04, pool)));
+               kr * trace(P, reflect(In, Nf)) + Ks * (0.25 + wet) * specular(Nf, -In, 8 * mix(0.2, 0.04, pool)));
 }

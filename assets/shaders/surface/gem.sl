@@ -34,5 +34,5 @@ surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 1
     color body = mix(gemcolor, color(1, 1, 1), 0.06) * fire * (ambient() * 1.5 + 0.6 * diffuse(Nf) + 0.25);
     Oi = Os;
     Ci = Os * ((1 - kr) * (body + 0.12 * gemcolor) + Kr * kr * mirrored +
-               Ks * specular(Nf, -In, roughness));
+               Ks * specular(Nf, -In, 8 * roughness));
 }

@@ -34,7 +34,7 @@ surface wetstone(float Ka = 1; float Kd = 0.7; float Ks = 0.8; float roughness =
     float kr = film * (0.03 + 0.97 * pow(1 - clamp(-(Nwater . In), 0, 1), 5));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + kr * trace(P, reflect(In, Nwater)) +
-               film * Ks * specular(Nwater, -In, roughness));
+               film * Ks * specular(Nwater, -In, 8 * roughness));
     if (airy == 1 && fogdistance > 0)
         Ci *= 1 - 0.2 * exp(-fogdistance);
 }
