@@ -193,7 +193,9 @@ RefFlow Reference<Real>::gather(const GatherStmt& stmt) {
         Item x = expr(e);
         for (size_t k = 0; k < x.size(); ++k) args.push_back(double(x.c[k].x));
     };
-    bool shoots = expr(*stmt.category).text() != "samplepattern";
+    std::string category = expr(*stmt.category).text();
+    bool of_map = category.starts_with("environment:");
+    bool shoots = category != "samplepattern" && !of_map;
     add(*stmt.position), add(*stmt.direction), add(*stmt.angle), add(*stmt.samples);
     std::vector<double> rays = service(Service::gather, args);
     size_t next = 0;
@@ -205,14 +207,15 @@ RefFlow Reference<Real>::gather(const GatherStmt& stmt) {
     for (int k = 0; k < count && !leave; ++k) {
         loop_counters.back() = k;
         int state = int(number());
-        bool body = state == kGatherHit || (!shoots && !stmt.missed);
+        bool body = state == kGatherHit || of_map || (!shoots && !stmt.missed);
         for (size_t p = 1; p < stmt.pairs.size(); p += 2) {
             std::string_view name = pair_name(stmt.pairs, p);
             if (!is_gather_output(name)) continue;
             Item value(stmt.pairs[p]->type.base);
             for (size_t c = 0; c < value.size(); ++c) value.c[c] = Number(Real(number()));
             bool branch = body || stmt.missed;
-            if (state != kGatherNone && branch && (body || name.starts_with("ray:")))
+            if (state != kGatherNone && branch &&
+                (body || name.starts_with("ray:") || name.starts_with("environment:")))
                 store(*stmt.pairs[p], value);
         }
         const Stmt* branch = body ? stmt.body : stmt.missed;

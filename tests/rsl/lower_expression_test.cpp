@@ -115,6 +115,17 @@ TEST(LowerExpression, ReportsWhatItCannotCompile) {
         << large.findings();
 }
 
+TEST(LowerExpression, FunctionsAreChosenByTheirResult) {
+    RunShader shader(
+        "float f(float x) { return 10 * x; } color f(float x) { return color(x, 0, 1); }"
+        "surface t() { color c = f(2); float g = f(3); Ci = c + g + 100 * color f(5); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 2 + 30 + 500);
+    EXPECT_EQ(out["Ci.g"][0], 30);
+    EXPECT_EQ(out["Ci.b"][0], 1 + 30 + 100);
+}
+
 // `count` arrays of 1000 KiB at 16 points, each read and written at varying indices.
 std::string many_arrays(int count) {
     std::string body;
