@@ -83,7 +83,7 @@ surface collada_blinn(
     normal Nf = faceforward(bumped(bump_map, bump_kind, bump_s, bump_t, bump_amount), I);
     vector In = normalize(I);
     color C = COLOR_OF(emission) + COLOR_OF(ambient_color) * ambient() + COLOR_OF(diffuse) * diffuse(Nf) +
-              COLOR_OF(specular) * specular(Nf, -In, 1 / max(shininess, 1e-6));
+              COLOR_OF(specular) * specular(Nf, -In, 8 / max(shininess, 1e-6));
     C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);

@@ -30,5 +30,5 @@ surface marble(float Ka = 1; float Kd = 0.8; float Ks = 0.4; float roughness = 0
 
     Oi = Os;
     Ci = Os * (Cs * Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               specularcolor * Ks * specular(Nf, V, roughness));
+               specularcolor * Ks * specular(Nf, V, 8 * roughness));
 }

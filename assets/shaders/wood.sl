@@ -34,5 +34,5 @@ surface wood(float Ka = 1; float Kd = 0.85; float Ks = 0.25; float roughness = 0
 
     Oi = Os;
     Ci = Os * (Cs * Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               specularcolor * Ks * (1 - 0.6 * late) * specular(Nf, V, roughness));
+               specularcolor * Ks * (1 - 0.6 * late) * specular(Nf, V, 8 * roughness));
 }

@@ -1,7 +1,12 @@
 // rsl/builtins/environment.cpp: environment maps and shadow maps.
+#include <algorithm>
+#include <cmath>
+
 #include "rsl/builtins/maps_p.h"
+#include "rsl/builtins/source_p.h"
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
+#include "rsl/model/pairs.h"
 #include "rsl/reference/reference_p.h"
 
 namespace kinora::rsl {
@@ -79,6 +84,11 @@ bool light_position(LowerCall& c, const V3& P, V3& position) {
     return true;
 }
 
+// Of coloured shadows as one number, as occlusion() has it.
+Value mean(LowerCall& c, const V3& x) {
+    return c.b.mul(c.b.add(x[0], c.b.add(x[1], x[2])), c.e.f(1.0f / 3));
+}
+
 void trace_shadow(LowerCall& c) {
     auto& e = c.e;
     V3 P = footprint(c).at, to;
@@ -89,9 +99,37 @@ void trace_shadow(LowerCall& c) {
                         std::array{seed[0], seed[1], P[0], P[1], P[2], to[0], to[1], to[2],
                                    c.pair("samples", 1), c.pair("blur", 0), c.pair("bias", -1)});
     for (Value& x : through) x = c.b.sub(e.f(1), x);
-    if (c.result_type() == BaseType::Float)  // of coloured shadows the mean, as of occlusion()
-        through[0] = c.b.mul(c.b.add(through[0], c.b.add(through[1], through[2])), e.f(1.0f / 3));
+    if (c.result_type() == BaseType::Float)
+        through[0] = mean(c, {through[0], through[1], through[2]});
     set_texels(c, through);
+}
+
+// A few rays for each sample that the shader wants, in a square.
+int side_of_samples(LowerCall& c) {
+    constexpr float kMost = 8;
+    float samples;
+    if (!c.b.constant_f(c.pair("samples", 16), &samples)) return 4;
+    return int(std::clamp(std::ceil(std::sqrt(samples)), 1.0f, kMost));
+}
+
+// "source", p1, p2, p3, p4: the share of that quadrilateral that is hidden, by rays whatever the
+// map, as of areashadow(). The corners come in rows, or around: whichever is less crooked.
+void source_shadow(LowerCall& c, std::span<Expr* const> corners) {
+    auto& e = c.e;
+    V3 p[4];
+    for (size_t k = 0; k < 4; ++k) p[k] = c.tree.expr(*corners[k]).v3();
+    auto twist_of = [&](const V3& opposite, const V3& beside) {
+        return e.sub(e.add(p[0], opposite), e.add(p[1], beside));
+    };
+    V3 in_rows = twist_of(p[3], p[2]), around = twist_of(p[2], p[3]);
+    Value rows = c.b.le(e.dot(in_rows, in_rows), e.dot(around, around));
+    V3 twist = e.select(rows, in_rows, around), up = e.sub(e.select(rows, p[2], p[3]), p[0]);
+    V3 hidden = lower_source::hidden_share(
+        c, footprint(c).at, {p[0], e.sub(p[1], p[0]), up, &twist}, side_of_samples(c));
+    if (c.result_type() == BaseType::Float)
+        c.set(mean(c, hidden));
+    else
+        c.set(hidden);
 }
 
 // 0 lit, 1 in shadow.
@@ -99,6 +137,8 @@ void shadow(LowerCall& c) {
     c.report_unknown_pairs();
     auto& e = c.e;
     if (!c.context.options.want_Ci && c.context.kind() != ShaderKind::Light) return;
+    if (std::span<Expr* const> corners = source_corners(c.call); !corners.empty())
+        return source_shadow(c, corners);
     if (is_scene(c)) return trace_shadow(c);
     Footprint f = footprint(c);
     V3 P = f.at;
@@ -183,8 +223,26 @@ void trace_shadow(RefCall<Real>& c) {
     set_from(c, through);
 }
 
+// By the middle of the source alone: what lies between is the renderer's random choice.
+template <class Real>
+void source_shadow(RefCall<Real>& c, std::span<Expr* const> corners) {
+    Vec<Real> sum{};
+    for (const Expr* corner : corners) sum = sum + vec(c.eval.expr(*corner));
+    std::vector<double> args = {0, 0};
+    add_triple(args, middle(c));
+    add_triple(args, Dual<Real>(Real(0.25)) * sum);
+    for (double x : {1.0, 0.0, double(c.pair("bias", -1).x)}) args.push_back(x);
+    std::vector<double> through = c.eval.service(Service::transmission, args);
+    through.resize(3, 1);
+    for (double& x : through) x = 1 - x;
+    if (c.result.type == BaseType::Float) through[0] = (through[0] + through[1] + through[2]) / 3;
+    set_from(c, through);
+}
+
 template <class Real>
 void shadow(RefCall<Real>& c) {
+    if (std::span<Expr* const> corners = source_corners(c.call); !corners.empty())
+        return source_shadow(c, corners);
     if (is_scene(c)) return trace_shadow(c);
     Vec<Real> p = middle(c);
     set_from(c, c.eval.service(Service::shadow,
@@ -206,7 +264,8 @@ const Builtin kRows[] = {
     {"shadow", "f=sp~ c=sp~ f=spppp~ c=spppp~", lower::shadow, KINORA_RSL_REF(ref::shadow),
      kService | kNamesFile | kShadows | kVaryingResult, 0,
      "Share of shadow at a point, by a depth map, or by rays to the light where the map is "
-     "\"raytrace\"; \"bias\" \"blur\" \"samples\" \"width\".",
+     "\"raytrace\". \"source\", p1, p2, p3, p4 are the corners of a light that rays sample, "
+     "whatever the map; \"bias\" \"blur\" \"samples\" \"width\".",
      kSurface | kLight},
 };
 

@@ -29,10 +29,11 @@ void distance(LowerCall& c) {
     c.set(c.e.length(c.e.sub(c.v3(0), c.v3(1))));
 }
 
-// ptlined(q, p0, p1): to the nearest point of the segment.
+// ptlined(p0, p1, q): to the nearest point of the segment. RI 3.2 writes q first; other renderers
+// and all public shaders have it last.
 void ptlined(LowerCall& c) {
     auto& e = c.e;
-    V3 along = e.sub(c.v3(2), c.v3(1)), to_q = e.sub(c.v3(0), c.v3(1));
+    V3 along = e.sub(c.v3(1), c.v3(0)), to_q = e.sub(c.v3(2), c.v3(0));
     Value t = e.clamp(e.div(e.dot(to_q, along), e.dot(along, along)), e.f(0), e.f(1));
     c.set(e.length(e.sub(to_q, e.scale(along, t))));
 }
@@ -124,7 +125,7 @@ void distance(RefCall<Real>& c) {
 template <class Real>
 void ptlined(RefCall<Real>& c) {
     using Number = Dual<Real>;
-    Vec<Real> aq = c.v(0) - c.v(1), ab = c.v(2) - c.v(1);
+    Vec<Real> aq = c.v(2) - c.v(0), ab = c.v(1) - c.v(0);
     Number t = c.eval.rounded(dot(aq, ab) / dot(ab, ab));
     t = rsl::clamp(t, Number(0), Number(1));
     c.set(rsl::length(aq - t * ab));  // 0 at both ends
@@ -176,7 +177,7 @@ const Builtin kRows[] = {
     {"distance", "f=pp", lower::distance, KINORA_RSL_REF(ref::distance), kPure, 2,
      "Distance of two points."},
     {"ptlined", "f=ppp", lower::ptlined, KINORA_RSL_REF(ref::ptlined), kPure, 4,
-     "Distance of a point from a line segment: ptlined(q, p0, p1)."},
+     "Distance of a point from a line segment: ptlined(p0, p1, q)."},
     {"rotate", "p=pfpp m=mfv", lower::rotate, KINORA_RSL_REF(ref::rotate), kPure, 8,
      "Rotates a point around the line p0 p1, or a matrix around an axis, by an angle in radians."},
     {"area", "f=p f=ps", lower::area, KINORA_RSL_REF(ref::area), kDerivative, 8,

@@ -61,12 +61,13 @@ void diffuse(LowerCall& c) {
     }));
 }
 
-// RI 3.2's 1/roughness; what is not rough at all shines in one direction only, though 1/0 is 0.
+// 8/roughness, as PRMan, BMRT and Aqsis have it: RI 3.2 calls its 1/roughness an example. What is
+// not rough at all shines in one direction only, though 8/0 is 0.
 Value exponent_of(LowerCall& c, Value roughness) {
-    return c.e.div(c.e.f(1), c.b.max(roughness, c.e.f(kLeastRoughness)));
+    return c.e.div(c.e.f(8), c.b.max(roughness, c.e.f(kLeastRoughness)));
 }
 
-// RI 3.2: pow(max(0, N . H), 1/roughness), H half-way between L and V.
+// pow(max(0, N . H), 8/roughness), H half-way between L and V.
 Value specular_term(Emitter& e, const V3& L, const V3& N, const V3& V, Value exponent) {
     V3 H = e.normalize(e.add(L, V));
     return e.pow_positive(e.b.max(e.dot(N, H), e.f(0)), exponent);
@@ -142,7 +143,7 @@ Dual<Real> highlight(const Vec<Real>& L, const Vec<Real>& N, const Vec<Real>& V,
                      const Dual<Real>& roughness) {
     using Number = Dual<Real>;
     Vec<Real> H = rsl::normalize(L + V);
-    Number exponent = Number(1) / rsl::max(roughness, Number(Real(kLeastRoughness)));
+    Number exponent = Number(8) / rsl::max(roughness, Number(Real(kLeastRoughness)));
     return rsl::pow(rsl::max(Number(0), dot(N, H)), exponent);
 }
 
@@ -198,11 +199,14 @@ const Builtin kRows[] = {
     {"diffuse", "c=n c=pnf", lower::diffuse, KINORA_RSL_REF(ref::diffuse), kLights | kVaryingResult,
      8, "Lambert reflection of all lights: sum of Cl * max(0, L . N).", kSurface, "P"},
     {"specular", "c=nvf", lower::specular, KINORA_RSL_REF(ref::specular), kLights | kVaryingResult,
-     16, "Specular reflection of all lights: specular(N, V, roughness).", kSurface, "P"},
+     16,
+     "Specular reflection of all lights: specular(N, V, roughness), with exponent 8 / roughness.",
+     kSurface, "P"},
     {"phong", "c=nvf", lower::phong, KINORA_RSL_REF(ref::phong), kLights | kVaryingResult, 16,
      "Phong reflection of all lights: phong(N, V, size).", kSurface, "P"},
     {"specularbrdf", "c=vnvf", lower::specularbrdf, KINORA_RSL_REF(ref::specularbrdf), kPure, 16,
-     "The term of specular() for one light: specularbrdf(L, N, V, roughness)."},
+     "The term of specular() for one light: specularbrdf(L, N, V, roughness), with exponent "
+     "8 / roughness."},
 };
 
 }  // namespace

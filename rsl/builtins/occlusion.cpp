@@ -1,4 +1,5 @@
 // rsl/builtins/occlusion.cpp: light and shadow from all around a point, by rays.
+#include "rsl/builtins/source_p.h"
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
@@ -43,21 +44,25 @@ void occlusion(LowerCall& c) {
     set_pair(c, "environmentcolor", &answer[4]);
 }
 
-// indirectdiffuse(P, N, samples), or (map, N, samples): the map's light alone, at P.
+// indirectdiffuse(P, N, samples), or (map, N) with or without samples: the map's light alone, at P.
+constexpr float kMapSamples = 64;  // which cost no ray
 void indirectdiffuse(LowerCall& c) {
     c.report_unknown_pairs();
     if (!traces(c)) return;
     bool of_map = c.args[0].type == BaseType::String;
     V3 P = of_map ? c.globals.read(Global::P).v3() : c.v3(0), N = c.v3(1);
     auto seed = c.seeds.sample(c.call.site);
+    Value samples = c.args.size() > 2 ? c.f(2) : c.b.f(kMapSamples);
     // Nothing is as near as 0: every ray then asks the map.
     Value far = of_map ? c.b.f(0) : c.pair("maxdist", kFar);
     Value map = of_map ? c.args[0].c[0] : c.text_pair("environmentmap");
     std::vector<Value> light = c.services.call(
         Service::indirectdiffuse, std::array{seed[0], seed[1], P[0], P[1], P[2], N[0], N[1], N[2],
-                                             c.f(2), cone(c), far, c.pair("bias", -1), map});
+                                             samples, cone(c), far, c.pair("bias", -1), map});
     c.set(V3{light[0], light[1], light[2]});
     set_pair(c, "environmentcolor", &light[3]);
+    if (LValue* blocked = c.output_pair("occlusion"))
+        c.variables.store(*blocked, lowered(BaseType::Float, light[6]));
 }
 
 // areashadow(map, P, three corners of the light): the share that the source's parallelogram is
@@ -66,24 +71,10 @@ void areashadow(LowerCall& c) {
     c.report_unknown_pairs();
     if (!traces(c)) return;
     auto& e = c.e;
-    V3 P = c.v3(1), corner = c.v3(2);
-    V3 across = e.sub(c.v3(3), corner), up = e.sub(c.v3(4), corner);
-    constexpr int kSide = 4;  // jittered cells of the source
-    Value sum[3] = {e.f(0), e.f(0), e.f(0)};
-    for (int k = 0; k < kSide * kSide; ++k) {
-        auto offset = [&](int cell, int component) {
-            Value jitter = c.seeds.random01(c.call, 2 * k + component);
-            return e.mul(c.b.add(e.f(float(cell)), jitter), e.f(1.0f / kSide));
-        };
-        V3 Q = e.fma(across, offset(k % kSide, 0), e.fma(up, offset(k / kSide, 1), corner));
-        auto seed = c.seeds.sample(c.call.site + uint32_t(k) * 7919u);
-        std::vector<Value> through = c.services.call(
-            Service::transmission, std::array{seed[0], seed[1], P[0], P[1], P[2], Q[0], Q[1], Q[2],
-                                              e.f(1), e.f(0), c.pair("bias", -1)});
-        for (size_t i = 0; i < 3; ++i) sum[i] = c.b.add(sum[i], through[i]);
-    }
-    V3 hidden;
-    for (size_t i = 0; i < 3; ++i) hidden[i] = e.fma(sum[i], e.f(-1.0f / (kSide * kSide)), e.f(1));
+    V3 corner = c.v3(2);
+    lower_source::Source source{corner, e.sub(c.v3(3), corner), e.sub(c.v3(4), corner)};
+    constexpr int kSide = 4;
+    V3 hidden = lower_source::hidden_share(c, c.v3(1), source, kSide);
     if (c.result_type() == BaseType::Float)
         c.set(hidden[0]);
     else
@@ -116,7 +107,7 @@ void indirectdiffuse(RefCall<Real>& c) {
     std::vector<double> args = {0, 0};
     add(args, of_map ? c.eval.global(Global::P) : c.args[0]);
     add(args, c.args[1]);
-    add(args, c.args[2]);
+    args.push_back(c.args.size() > 2 ? double(c.f(2).x) : 64);
     for (double x :
          {pair(c, "coneangle", 1.5707963268), of_map ? 0 : pair(c, "maxdist", 1e30),
           pair(c, "bias", -1), of_map ? double(c.args[0].c[0].x) : pair(c, "environmentmap", 0)})
@@ -124,8 +115,11 @@ void indirectdiffuse(RefCall<Real>& c) {
     std::vector<double> answer = c.eval.service(Service::indirectdiffuse, args);
     set_from(c, answer);
     for (auto& [name, value] : c.pairs)
-        for (size_t k = 0; k < 3 && name == "environmentcolor"; ++k)
-            value.c[k] = Dual<Real>(Real(at(answer, 3 + k)));
+        if (name == "occlusion")
+            value.c[0] = Dual<Real>(Real(at(answer, 6)));
+        else
+            for (size_t k = 0; k < 3 && name == "environmentcolor"; ++k)
+                value.c[k] = Dual<Real>(Real(at(answer, 3 + k)));
 }
 
 // By the middle of the light alone: what lies between is the renderer's random choice.
@@ -157,11 +151,12 @@ const Builtin kRows[] = {
     {"indirectdiffuse", "c=pnf~", lower::indirectdiffuse, KINORA_RSL_REF(ref::indirectdiffuse),
      kRays, 0,
      "Mean light from other surfaces over the hemisphere of N, by cosine; \"maxdist\", "
-     "\"coneangle\", \"bias\", \"environmentmap\".",
+     "\"coneangle\", \"bias\", \"environmentmap\", \"occlusion\".",
      kSurface | kLight},
-    {"indirectdiffuse", "c=snf~", lower::indirectdiffuse, KINORA_RSL_REF(ref::indirectdiffuse),
-     kRays, 0, "Mean light of an environment map over the hemisphere of N, by cosine.",
-     kSurface | kLight, "P"},
+    {"indirectdiffuse", "c=snf~ c=sn~", lower::indirectdiffuse,
+     KINORA_RSL_REF(ref::indirectdiffuse), kRays, 0,
+     "Mean light of an environment map over the hemisphere of N, by cosine.", kSurface | kLight,
+     "P"},
     {"areashadow", "f=spppp~ c=spppp~", lower::areashadow, KINORA_RSL_REF(ref::areashadow),
      kRays | kShadows, 0,
      "Share of a parallelogram of light (a corner and its two neighbours) hidden from P, by rays.",

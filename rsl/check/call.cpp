@@ -28,6 +28,26 @@ bool CallBinder::take_channel(CallExpr& e) {
     return true;
 }
 
+void CallBinder::group_source(CallExpr& e) {
+    constexpr size_t kCorners = 4;
+    if (e.name != "shadow" && e.name != "areashadow") return;
+    auto is_text = [&](size_t i) { return e.args[i]->kind == ExprKind::String; };
+    for (size_t k = 2; k + kCorners < e.args.size(); ++k) {
+        const auto* name = as_if<StringExpr>(e.args[k]);
+        if (!name || name->value != "source") continue;
+        for (size_t i = k + 1; i <= k + kCorners; ++i)
+            if (is_text(i)) return;
+        auto* corners = ast_.make<ArrayLiteralExpr>(e.args[k + 1]->span);
+        corners->type = {BaseType::Point, int(kCorners)};
+        corners->items = e.args.subspan(k + 1, kCorners);
+        std::vector<Expr*> args(e.args.begin(), e.args.begin() + long(k) + 1);
+        args.push_back(corners);
+        for (size_t i = k + 1 + kCorners; i < e.args.size(); ++i) args.push_back(e.args[i]);
+        e.args = ast_.arena.copy(args);
+        return;
+    }
+}
+
 void CallBinder::begin(CallExpr& e, Callee callee) {
     e.function = callee.function;
     e.pairs = uint32_t(e.args.size());

@@ -36,6 +36,10 @@ class CallBinder {
     // it to e.channel, unchecked, and returns true.
     bool take_channel(CallExpr& e);
 
+    // "source", p1, p2, p3, p4 among the arguments of shadow(): the points become one array, so
+    // that pairs are pairs.
+    void group_source(CallExpr& e);
+
     void begin(CallExpr& e, Callee callee);
     Parameter parameter(const CallExpr& e, size_t index) const;
     // Brings a checked argument to the parameter's type.

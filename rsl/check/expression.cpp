@@ -210,8 +210,14 @@ void ExpressionChecker::check(Expr*&, CallExpr& e, BaseType wanted) {
     std::vector<Function*> functions = scopes_.find_functions(e.name);
     bool builtin = functions.empty() && !find_builtin(e.name).empty();
     if (builtin && calls_.take_channel(e)) check_number(e.channel, "a channel");
-    for (Expr*& argument : e.args)
-        if (!types_.is_flexible(*argument)) expression(argument, BaseType::Invalid);
+    if (builtin) calls_.group_source(e);
+    for (Expr*& argument : e.args) {
+        if (auto* corners = as_if<ArrayLiteralExpr>(argument); corners && corners->type.is_array())
+            for (Expr*& corner : corners->items)
+                convert_to(corner, corners->type.element(), "a corner of \"source\"");
+        else if (!types_.is_flexible(*argument))
+            expression(argument, BaseType::Invalid);
+    }
     if (functions.empty() && !builtin) return unknown_.function(e);
     Callee callee = overloads_.choose(e, functions, wanted);
     if (!callee) return no_form(e, functions);

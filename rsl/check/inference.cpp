@@ -25,6 +25,18 @@ bool chosen_by_context(std::span<const Overload> overloads) {
     return false;
 }
 
+// The same of the source's functions.
+bool chosen_by_context(std::span<Function* const> functions) {
+    auto same_type = [](const Symbol* a, const Symbol* b) { return a->type == b->type; };
+    for (const Function* f : functions)
+        for (const Function* other : functions)
+            if (f->result != other->result &&
+                std::equal(f->parameters.begin(), f->parameters.end(), other->parameters.begin(),
+                           other->parameters.end(), same_type))
+                return true;
+    return false;
+}
+
 bool is_result(std::span<const Overload> overloads, BaseType type) {
     return std::any_of(overloads.begin(), overloads.end(),
                        [&](const Overload& o) { return o.signature.result.base == type; });
@@ -56,7 +68,8 @@ bool TypeInference::is_flexible(const Expr& expr) const {
 }
 
 bool TypeInference::is_flexible_call(const CallExpr& e) const {
-    if (!scopes_.find_functions(e.name).empty()) return false;
+    if (std::vector<Function*> functions = scopes_.find_functions(e.name); !functions.empty())
+        return chosen_by_context(functions);
     std::span<const Overload> overloads = find_builtin(e.name);
     bool several = std::any_of(overloads.begin(), overloads.end(), [&](const Overload& o) {
         return o.signature.result != overloads[0].signature.result;
@@ -170,6 +183,12 @@ TypeSet TypeInference::possible_types(const Expr& part) const {
 
 // Results of the overloads that the arguments may fit: max(noise(P), Cs) is no float.
 TypeSet TypeInference::possible_results(const CallExpr& e) const {
+    if (std::vector<Function*> functions = scopes_.find_functions(e.name); !functions.empty()) {
+        TypeSet results = 0;
+        for (const Function* f : functions)
+            if (f->parameters.size() == e.args.size()) results |= one(f->result.base);
+        return results;
+    }
     std::span<const Overload> overloads = find_builtin(e.name);
     bool by_context = chosen_by_context(overloads);
     std::vector<TypeSet> arguments;

@@ -36,6 +36,15 @@ constexpr Flow kConstant{true, false, false};
 constexpr Flow kUniform{false, false, false};
 constexpr Flow kVaryingFlow{false, true, true};
 
+// Whether some points that could be here are not: `any` of them, or of those that the function
+// being walked was called for (`own`). What is the function's own lasts as long as the call, so
+// that the caller's control does not make it vary.
+struct Control {
+    bool any = false;
+    bool own = false;
+    Control under(bool varying) const { return {any || varying, own || varying}; }
+};
+
 // What a function's body does for one pattern of argument rates.
 struct CallSummary {
     Flow result;
@@ -110,7 +119,8 @@ class RateWalk {
         Flow& flow = flows_[s.id];
         Flow after = join(flow, value);
         after.constant = false;
-        after.varying |= selector.varying || control_;
+        bool own = walking_ && s.function == walking_;
+        after.varying |= selector.varying || (own ? control_.own : control_.any);
         if (declared_uniform(s))
             after.illegal = false;
         else
@@ -173,7 +183,7 @@ class RateWalk {
     Flow at(UnaryExpr& e) { return flow(e.operand); }
     // A side that some points skip may assign.
     Flow flow_under(Expr* side, bool varying) {
-        bool before = std::exchange(control_, control_ || varying);
+        Control before = std::exchange(control_, control_.under(varying));
         Flow f = flow(side);
         control_ = before;
         return f;
@@ -259,7 +269,7 @@ class RateWalk {
             if (active.function == &f) return call_again(active, arguments);
         // What a recursive function gives rests on the callers being walked: it is not kept.
         if (f.recursive) return walk_function(f, arguments);
-        std::string key = std::to_string(f.id) + (control_ ? '!' : ':');
+        std::string key = std::to_string(f.id) + (control_.any ? '!' : ':');
         for (Flow a : arguments) key += letter(a);
         auto found = calls_.find(key);
         if (found != calls_.end()) return found->second;
@@ -283,7 +293,7 @@ class RateWalk {
             p.varying = p.varying || joined.varying;
             note_change(&f);
         }
-        if (control_ && !std::exchange(active.control, true)) note_change(&f);
+        if (control_.any && !std::exchange(active.control, true)) note_change(&f);
         CallSummary summary{active.result, {}};
         for (const Symbol* p : f.parameters) summary.outputs.push_back(flows_[p->id]);
         return summary;
@@ -311,11 +321,11 @@ class RateWalk {
         auto loops_before = std::exchange(loops_, {});
         const Function* caller = std::exchange(walking_, &f);
         size_t level = active_.size();
-        active_.push_back({&f, kConstant, control_});
-        bool control_before = control_;
+        active_.push_back({&f, kConstant, control_.any});
+        Control control_before = control_;
         do {
             changed_ = false;
-            control_ = active_[level].control;
+            control_ = {active_[level].control, false};
             walk(*f.body);
             if (f.recursive && !same(active_[level].result, result_)) changed_ = true;
             active_[level].result = result_;
@@ -336,30 +346,28 @@ class RateWalk {
 
     void walk(Stmt& s) {
         if (++steps_ > kMostSteps) return;
-        bool control = control_;
-        control_ = control_ || varying_return_;
+        Control before = std::exchange(control_, control_.under(varying_return_));
         visit_stmt(s, [&](auto& node) { at(node); });
-        control_ = control;
+        control_ = before;
     }
     void walk_under(Stmt& s, bool varying) {
-        bool before = control_;
-        control_ = control_ || varying;
+        Control before = std::exchange(control_, control_.under(varying));
         walk(s);
         control_ = before;
     }
     // Points that have left a loop do not take part in what is assigned in it.
     void loop(Stmt& s, Stmt& body, Expr* condition, std::span<Expr*> step, bool varying) {
         // The condition reads what the body stores: the next round of the fixed point sees to it.
-        bool before = control_;
+        Control before = control_;
         loops_.push_back(&s);
-        control_ = control_ || varying || flow(condition).varying || exits_.contains(&s);
+        control_ = control_.under(varying || flow(condition).varying || exits_.contains(&s));
         walk(body);
         flow_all(step);
         loops_.pop_back();
         control_ = before;
     }
     void leave(const Stmt* target) {
-        if (!control_) return;
+        if (!control_.own) return;
         for (size_t i = loops_.size(); i-- > 0;) {
             if (exits_.insert(loops_[i]).second) changed_ = true;
             if (loops_[i] == target) break;
@@ -395,7 +403,7 @@ class RateWalk {
     void at(ReturnStmt& s) {
         Flow value = s.value ? flow(s.value) : kConstant;
         result_ = join(result_, value);
-        if (!control_) return;
+        if (!control_.own) return;
         result_ = join(result_, kVaryingFlow);
         varying_return_ = true;
         leave(nullptr);
@@ -442,7 +450,7 @@ class RateWalk {
     std::vector<Stmt*> loops_;
     Flow result_ = kConstant;
     bool varying_return_ = false;
-    bool control_ = false;
+    Control control_;
     bool changed_ = false;
 };
 

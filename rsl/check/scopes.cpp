@@ -18,7 +18,7 @@ const Function* Scopes::declare(Function& f) {
     std::vector<Function*>& functions = scopes_.back().functions;
     auto same_types = [](const Symbol* a, const Symbol* b) { return a->type == b->type; };
     for (Function*& other : functions) {
-        bool same = other->name == f.name &&
+        bool same = other->name == f.name && other->result == f.result &&
                     std::equal(other->parameters.begin(), other->parameters.end(),
                                f.parameters.begin(), f.parameters.end(), same_types);
         if (same) return std::exchange(other, &f);

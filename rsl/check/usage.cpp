@@ -71,7 +71,7 @@ class UsageWalk {
         if (recovery_.touches(e.span.token)) return;  // where illuminance ends may be unknown
         bool of_light = id == Global::L || id == Global::Cl || id == Global::Ol;
         bool surface = shader_.kind == ShaderKind::Surface;
-        if (surface && (of_light || id == Global::Ps) && inside_ == Inside::Nothing)
+        if (surface && of_light && inside_ == Inside::Nothing)
             report(Code::RSL_ONLY_IN_ILLUMINANCE, &e, e.span, e.name);
         if (shader_.kind == ShaderKind::Light && id == Global::L && inside_ == Inside::Nothing)
             report(Code::RSL_ONLY_IN_ILLUMINATE, &e, e.span, e.name);

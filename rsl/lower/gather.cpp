@@ -30,13 +30,23 @@ struct Known {
     BaseType type;
 };
 constexpr Known kKnown[] = {
-    {"surface:Ci", BaseType::Color},   {"surface:Oi", BaseType::Color},
-    {"surface:P", BaseType::Point},    {"surface:N", BaseType::Normal},
-    {"ray:origin", BaseType::Point},   {"ray:direction", BaseType::Vector},
-    {"ray:length", BaseType::Float},   {"primitive:P", BaseType::Point},
-    {"primitive:N", BaseType::Normal}, {"primitive:Ng", BaseType::Normal},
-    {"primitive:u", BaseType::Float},  {"primitive:v", BaseType::Float},
-    {"primitive:s", BaseType::Float},  {"primitive:t", BaseType::Float},
+    {"surface:Ci", BaseType::Color},
+    {"surface:Oi", BaseType::Color},
+    {"surface:P", BaseType::Point},
+    {"surface:N", BaseType::Normal},
+    {"ray:origin", BaseType::Point},
+    {"ray:direction", BaseType::Vector},
+    {"ray:length", BaseType::Float},
+    {"primitive:P", BaseType::Point},
+    {"primitive:N", BaseType::Normal},
+    {"primitive:Ng", BaseType::Normal},
+    {"primitive:u", BaseType::Float},
+    {"primitive:v", BaseType::Float},
+    {"primitive:s", BaseType::Float},
+    {"primitive:t", BaseType::Float},
+    {"environment:color", BaseType::Color},
+    {"environment:direction", BaseType::Vector},
+    {"environment:solidangle", BaseType::Float},
 };
 const Known* find_known(std::string_view name) {
     for (const Known& row : kKnown)
@@ -77,7 +87,11 @@ void Gather::lower(const GatherStmt& stmt) {
     V3 P = tree_.expr(*stmt.position).v3(), D = tree_.expr(*stmt.direction).v3();
     Value angle = tree_.value(*stmt.angle), samples = tree_.value(*stmt.samples);
     const std::string* category = e_.constant_text(tree_.value(*stmt.category));
-    bool shoots = !category || *category != "samplepattern";
+    // "environment:sky.exr" goes through directions, with what the map shows there.
+    constexpr std::string_view kOfMap = "environment:";
+    bool of_map = category && category->starts_with(kOfMap);
+    bool shoots = !of_map && (!category || *category != "samplepattern");
+    Value map = b_.i(of_map ? intern(category->substr(kOfMap.size())) : 0);
     Value maxdist = b_.f(1e30f), bias = b_.f(-1), label = b_.i(0);
     int flags = shoots ? 0 : kGatherNoRays;
     Results results;
@@ -98,7 +112,8 @@ void Gather::lower(const GatherStmt& stmt) {
             }
             int32_t variable = name.starts_with("surface:") ? name_id(name.substr(8)) : 0;
             wanted.push_back({name, given.type.base, variable});
-            results.items.push_back({name, &given, column, name.starts_with("ray:")});
+            results.items.push_back(
+                {name, &given, column, name.starts_with("ray:") || name.starts_with(kOfMap)});
             column += component_count(given.type.base);
         } else if (name == "maxdist") {
             maxdist = tree_.value(given);
@@ -117,26 +132,28 @@ void Gather::lower(const GatherStmt& stmt) {
     Value set = services_.call(Service::gather,
                                std::array{seed[0], seed[1], b_.i(int(context_.out.gathers.size())),
                                           b_.i(depth_), P[0], P[1], P[2], D[0], D[1], D[2], angle,
-                                          samples, maxdist, bias, label, b_.i(flags)})[0];
+                                          samples, maxdist, bias, label, b_.i(flags), map})[0];
     context_.out.gathers.push_back(std::move(wanted));
 
     ++depth_;
-    loops_.replay(stmt, set, [&](Value record) { turn(stmt, set, record, results, shoots); });
+    loops_.replay(stmt, set, [&](Value record) {
+        turn(stmt, set, record, results, of_map || (!shoots && !stmt.missed));
+    });
     --depth_;
 }
 
 // Lanes whose ray hit something run the body, those whose ray met nothing the other branch.
-void Gather::turn(const GatherStmt& stmt, Value set, Value record, Results& results, bool shoots) {
+void Gather::turn(const GatherStmt& stmt, Value set, Value record, Results& results,
+                  bool only_body) {
     Value state = record_field(b_, set, record, kGatherState, jit::Type::I);
     Value entered = e_.running;
     auto lanes_in = [&](GatherState s) {
         return b_.logical_and(entered, b_.op(jit::Op::IEq, state, b_.i(s)));
     };
     // Without rays nothing is hit: the branch for misses runs, or the only one there is.
-    bool only_body = !shoots && !stmt.missed;
     regions_.guarded(lanes_in(only_body ? kGatherMiss : kGatherHit),
                      [&] { branch(stmt, set, record, results, true); });
-    if (!stmt.missed) return;
+    if (!stmt.missed || only_body) return;
     Value after_hits = e_.running;
     e_.running = entered;
     regions_.guarded(lanes_in(kGatherMiss), [&] { branch(stmt, set, record, results, false); });

@@ -28,7 +28,7 @@ class Gather {
 
   private:
     struct Results;
-    void turn(const GatherStmt& stmt, Value set, Value record, Results& results, bool shoots);
+    void turn(const GatherStmt& stmt, Value set, Value record, Results& results, bool only_body);
     void branch(const GatherStmt& stmt, Value set, Value record, Results& results, bool hit);
 
     Emitter& e_;

@@ -66,7 +66,10 @@ const GlobalConstant kConstants[] = {
 }  // namespace
 
 Lowered Globals::read(Global id) {
-    return slots_.live(int(id)) ? slots_.read(int(id)) : input(id);
+    if (slots_.live(int(id))) return slots_.read(int(id));
+    // Outside of illuminance the point that is lit is the one that is shaded, where it now is.
+    bool shaded = context_.kind() == ShaderKind::Surface || context_.kind() == ShaderKind::Volume;
+    return id == Global::Ps && shaded ? lowered(BaseType::Point, read(Global::P).v3()) : input(id);
 }
 
 // For displacements that only bend normals: P whose slopes lie in the plane that N is normal to,

@@ -32,6 +32,7 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"environmentdir", kAny, "trace transmission visibility indirectdiffuse areashadow", true,
      kHint},
     {"environmentmap", kText, "occlusion indirectdiffuse"},
+    {"occlusion", kNumber, "indirectdiffuse", true},
     {"distribution", kText, "gather"},
     {"distribution", kText, "occlusion indirectdiffuse", false, "cosine"},
     {"subset", kAny, RAYS " gather", false, ""},
@@ -47,7 +48,8 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"gapbias", kNumber, "shadow", false, ""},
     {"volume", kAny, "gather", false, kHint},
     {"lightcache", kAny, "gather", false, kHint},
-    {"source", kNumber, "areashadow", false, kHint},
+    {"source", kAny, "shadow"},  // four points
+    {"source", kAny, "areashadow", false, kHint},
     {"gapbias", kNumber, "areashadow", false, ""},
     // Hints.
     {"samplebase", kNumber, RAYS " gather", false, kHint},
@@ -179,9 +181,16 @@ bool is_output_pair(const CallExpr& call, size_t value) {
     return option && option->result;
 }
 
+std::span<Expr* const> source_corners(const CallExpr& call) {
+    for (size_t k = call.pairs + 1; k < call.args.size(); k += 2)
+        if (auto* corners = as_if<ArrayLiteralExpr>(call.args[k]))
+            if (pair_name(call.args, k) == "source") return corners->items;
+    return {};
+}
+
 bool is_gather_output(std::string_view name) {
     return name.starts_with("surface:") || name.starts_with("ray:") ||
-           name.starts_with("primitive:");
+           name.starts_with("primitive:") || name.starts_with("environment:");
 }
 
 bool is_light_output(std::string_view name) {

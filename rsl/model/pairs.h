@@ -32,6 +32,9 @@ bool is_taker(const OptionalParameter& option, std::string_view callee);
 // Is args[value] of the call the variable of an output pair: texture3d(..., "channel", x)?
 bool is_output_pair(const CallExpr& call, size_t value);
 
+// The points of "source", p1, p2, p3, p4, which the checker has put into one array; none without.
+std::span<Expr* const> source_corners(const CallExpr& call);
+
 // gather(..., "surface:Ci", x, "ray:length", y): names with one of these prefixes are results.
 bool is_gather_output(std::string_view name);
 

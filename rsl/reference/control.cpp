@@ -151,7 +151,12 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
                        in_cone(vec(L), stmt.axis ? &axis : nullptr, angle);
         if (!reached) continue;
         Item saved[4];
-        for (size_t i = 0; i < 4; ++i) saved[i] = global(kSet[i]);
+        bool was_set[4];  // Ps is P where nothing set it
+        for (size_t i = 0; i < 4; ++i) {
+            was_set[i] = globals_.contains(kSet[i]);
+            saved[i] = global(kSet[i]);
+            globals_.try_emplace(kSet[i]);
+        }
         global(Global::L) = L;
         global(Global::Cl) = triple(BaseType::Color, l.Cl);
         global(Global::Ol) = triple(BaseType::Color, l.Ol);
@@ -167,7 +172,12 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
         }
         flow = statement(*stmt.body);
         light = outer;
-        for (size_t i = 0; i < 4; ++i) global(kSet[i]) = saved[i];
+        for (size_t i = 0; i < 4; ++i) {
+            if (was_set[i] || kSet[i] != Global::Ps)
+                global(kSet[i]) = saved[i];
+            else
+                globals_.erase(kSet[i]);
+        }
         ends_loop(flow, stmt, leave);
     }
     loop_counters.pop_back();
@@ -183,7 +193,9 @@ RefFlow Reference<Real>::gather(const GatherStmt& stmt) {
         Item x = expr(e);
         for (size_t k = 0; k < x.size(); ++k) args.push_back(double(x.c[k].x));
     };
-    bool shoots = expr(*stmt.category).text() != "samplepattern";
+    std::string category = expr(*stmt.category).text();
+    bool of_map = category.starts_with("environment:");
+    bool shoots = category != "samplepattern" && !of_map;
     add(*stmt.position), add(*stmt.direction), add(*stmt.angle), add(*stmt.samples);
     std::vector<double> rays = service(Service::gather, args);
     size_t next = 0;
@@ -195,14 +207,15 @@ RefFlow Reference<Real>::gather(const GatherStmt& stmt) {
     for (int k = 0; k < count && !leave; ++k) {
         loop_counters.back() = k;
         int state = int(number());
-        bool body = state == kGatherHit || (!shoots && !stmt.missed);
+        bool body = state == kGatherHit || of_map || (!shoots && !stmt.missed);
         for (size_t p = 1; p < stmt.pairs.size(); p += 2) {
             std::string_view name = pair_name(stmt.pairs, p);
             if (!is_gather_output(name)) continue;
             Item value(stmt.pairs[p]->type.base);
             for (size_t c = 0; c < value.size(); ++c) value.c[c] = Number(Real(number()));
             bool branch = body || stmt.missed;
-            if (state != kGatherNone && branch && (body || name.starts_with("ray:")))
+            if (state != kGatherNone && branch &&
+                (body || name.starts_with("ray:") || name.starts_with("environment:")))
                 store(*stmt.pairs[p], value);
         }
         const Stmt* branch = body ? stmt.body : stmt.missed;

@@ -15,7 +15,11 @@ namespace kinora::rsl {
 template <class Real>
 auto Reference<Real>::global(Global id) -> Item& {
     auto found = globals_.find(id);
-    if (found == globals_.end()) found = globals_.emplace(id, first_value(id)).first;
+    if (found != globals_.end()) return found->second;
+    auto is = [&](ShaderKind kind) { return layer->shader->kind == kind; };
+    if (id == Global::Ps && (is(ShaderKind::Surface) || is(ShaderKind::Volume)))
+        return global(Global::P);
+    found = globals_.emplace(id, first_value(id)).first;
     return found->second;
 }
 

@@ -55,7 +55,10 @@ struct ExprPrinter {
     }
     std::string list(std::span<Expr* const> items) const {
         std::string text;
-        for (const Expr* item : items) text += (text.empty() ? "" : ", ") + at(item, kLowest);
+        for (const Expr* item : items) {
+            const auto* points = as_if<ArrayLiteralExpr>(item);  // of "source", written without { }
+            text += (text.empty() ? "" : ", ") + (points ? list(points->items) : at(item, kLowest));
+        }
         return text;
     }
 

@@ -39,7 +39,16 @@ const PrimitiveRow* find_primitive(std::string_view name) {
 }
 
 // Results that are known before the ray is shot.
-enum class RayFact : uint8_t { Origin, Direction, Length };
+enum class RayFact : uint8_t { Origin, Direction, Length, MapColor, SolidAngle };
+struct RayFactRow {
+    std::string_view name;
+    RayFact fact;
+};
+constexpr RayFactRow kRayFacts[] = {
+    {"ray:origin", RayFact::Origin},          {"ray:direction", RayFact::Direction},
+    {"ray:length", RayFact::Length},          {"environment:direction", RayFact::Direction},
+    {"environment:color", RayFact::MapColor}, {"environment:solidangle", RayFact::SolidAngle},
+};
 struct RayColumn {
     RayFact fact;
     int column;
@@ -49,9 +58,8 @@ std::span<const RayColumn> ray_columns(std::span<const GatherResult> results, Ar
     size_t count = 0;
     int column = rsl::kGatherResults;
     for (const GatherResult& result : results) {
-        if (result.name == "ray:origin") found[count++] = {RayFact::Origin, column};
-        if (result.name == "ray:direction") found[count++] = {RayFact::Direction, column};
-        if (result.name == "ray:length") found[count++] = {RayFact::Length, column};
+        for (const RayFactRow& row : kRayFacts)
+            if (row.name == result.name) found[count++] = {row.fact, column};
         column += rsl::component_count(result.type);
     }
     return found.first(count);
@@ -92,7 +100,7 @@ class Records {
 
 // Rows of the service's arguments (rsl/model/services.def).
 struct Row {
-    enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags };
+    enum { Request = 2, Level, P, D = 7, Angle = 10, Samples, Maxdist, Bias, Label, Flags, Map };
 };
 
 // The rays of one call at each lane: how many, and the share of the eye's ray that each has.
@@ -121,17 +129,40 @@ int record_width(std::span<const GatherResult> results) {
     return width;
 }
 
-// A ray as its record shows it, in current space; `length` until it is known to end earlier.
+// A ray as its record shows it, in current space.
+struct RayFacts {
+    vec3 origin, direction;
+    float length;  // until it is known to end earlier
+    vec3 map_color{0.0f};
+    float solid_angle = 0;  // that it stands for
+};
 void record_ray(Records& records, std::span<const RayColumn> columns, uint32_t record, int lane,
-                vec3 origin, vec3 direction, float length) {
-    for (const RayColumn& c : columns) {
-        if (c.fact == RayFact::Origin)
-            records.set(record, c.column, lane, origin);
-        else if (c.fact == RayFact::Direction)
-            records.set(record, c.column, lane, direction);
-        else
-            records.at(record, c.column, lane) = length;
-    }
+                const RayFacts& facts) {
+    for (const RayColumn& c : columns) switch (c.fact) {
+            case RayFact::Origin:
+                records.set(record, c.column, lane, facts.origin);
+                break;
+            case RayFact::Direction:
+                records.set(record, c.column, lane, facts.direction);
+                break;
+            case RayFact::Length:
+                records.at(record, c.column, lane) = facts.length;
+                break;
+            case RayFact::MapColor:
+                records.set(record, c.column, lane, facts.map_color);
+                break;
+            case RayFact::SolidAngle:
+                records.at(record, c.column, lane) = facts.solid_angle;
+                break;
+        }
+}
+
+// The solid angle that each of n directions of the cone stands for: 1 / (n density).
+float solid_angle(const Cone& cone, vec3 direction, int n) {
+    float c = cone.cosine;
+    if (!cone.by_cosine) return 2 * float(kPi) * (1 - c) / float(n);
+    float up = std::max(glm::dot(direction, cone.z), 1e-6f);
+    return float(kPi) * (1 - c * c) / (up * float(n));
 }
 
 void copy_colors(std::span<const GatherResult> results, std::span<float* const> columns,
@@ -254,7 +285,13 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
             for (uint32_t k = 0; k < uint32_t(n); ++k) {
                 // A cone without width is its axis.
                 vec3 dir = angle > 0 ? cone.direction(k, seed) : cone.z;
-                record_ray(records, of_ray, k, lane, P, frame_.camera_from_accel * dir, reach);
+                RayFacts facts{P, frame_.camera_from_accel * dir, reach};
+                if (int32_t map = lanes.integer(Row::Map, lane)) {
+                    facts.solid_angle = solid_angle(cone, dir, n);
+                    light_of_map(*frame_.scene.textures, map, {&dir, 1},
+                                 std::sqrt(facts.solid_angle), &facts.map_color);
+                }
+                record_ray(records, of_ray, k, lane, facts);
                 if (counts.share[lane] == 0) continue;
                 lane_of[rays.count] = uint8_t(lane);
                 sample_of[rays.count] = k;

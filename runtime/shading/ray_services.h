@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/shading/grid.h"
@@ -10,8 +11,13 @@
 namespace kinora {
 
 class HitShader;
+class TextureStore;
 class NestedRays;
 class Transmission;
+
+// Light of an environment map along directions in world space, filtered over `width` radians.
+void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
+                  vec3* light);
 
 class RayServices {
   public:

@@ -50,31 +50,6 @@ bool has_direction(vec3 d) {
     return length > 0 && length < kMiss;
 }
 
-// Light of a map along directions in world space, filtered over `width` radians.
-void look_up(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
-             vec3* light) {
-    alignas(64) float args[13 * kLanes] = {}, results[4 * kLanes];
-    for (size_t begin = 0; begin < directions.size(); begin += kLanes) {
-        size_t count = std::min(directions.size() - begin, size_t(kLanes));
-        for (size_t i = 0; i < count; ++i) {
-            vec3 d = directions[begin + i];
-            // Any two directions across d span the footprint.
-            vec3 side = std::abs(d.x) > 0.5f ? vec3(-d.y, d.x, 0) : vec3(0, -d.z, d.y);
-            side *= width / glm::length(side);
-            vec3 up = glm::cross(d, side);
-            args[i] = jit::float_of(map);
-            for (int k = 0; k < 3; ++k) {
-                args[(2 + k) * kLanes + int(i)] = d[k];
-                args[(5 + k) * kLanes + int(i)] = side[k];
-                args[(8 + k) * kLanes + int(i)] = up[k];
-            }
-        }
-        lookup_environment({nullptr, args, results, (1u << count) - 1, 0, kLanes}, store);
-        for (size_t i = 0; i < count; ++i)
-            for (int k = 0; k < 3; ++k) light[begin + i][k] = results[k * kLanes + int(i)];
-    }
-}
-
 // Each sample stands for its share of the hemisphere.
 float sample_width(int samples) {
     return std::sqrt(2 * float(kPi) / float(samples));
@@ -132,6 +107,30 @@ void find_distances(const raytrace::Accel& accel, const raytrace::RayBatch& rays
 }
 
 }  // namespace
+
+void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
+                  vec3* light) {
+    alignas(64) float args[13 * kLanes] = {}, results[4 * kLanes];
+    for (size_t begin = 0; begin < directions.size(); begin += kLanes) {
+        size_t count = std::min(directions.size() - begin, size_t(kLanes));
+        for (size_t i = 0; i < count; ++i) {
+            vec3 d = directions[begin + i];
+            // Any two directions across d span the footprint.
+            vec3 side = std::abs(d.x) > 0.5f ? vec3(-d.y, d.x, 0) : vec3(0, -d.z, d.y);
+            side *= width / glm::length(side);
+            vec3 up = glm::cross(d, side);
+            args[i] = jit::float_of(map);
+            for (int k = 0; k < 3; ++k) {
+                args[(2 + k) * kLanes + int(i)] = d[k];
+                args[(5 + k) * kLanes + int(i)] = side[k];
+                args[(8 + k) * kLanes + int(i)] = up[k];
+            }
+        }
+        lookup_environment({nullptr, args, results, (1u << count) - 1, 0, kLanes}, store);
+        for (size_t i = 0; i < count; ++i)
+            for (int k = 0; k < 3; ++k) light[begin + i][k] = results[k * kLanes + int(i)];
+    }
+}
 
 void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
     enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label };
@@ -277,8 +276,8 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
                     through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * fade;
             }
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
-                look_up(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
-                        sample_width(cone.count(lane_of[begin])), light.data());
+                light_of_map(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
+                             sample_width(cone.count(lane_of[begin])), light.data());
                 for (size_t i = begin; i < end; ++i)
                     sky[lane_of[i]] += through[i] * light[i - begin];
             });
@@ -299,6 +298,7 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
     ThreadMemory& memory = grid.memory;
     vec3 sum[kLanes] = {}, sky[kLanes] = {};
+    float blocked[kLanes] = {};
     // What lies beyond the last bounce is black; a map alone costs no ray.
     bool bounces = grid.depth < frame_.ray_depth && grid.ray.diffuse < frame_.diffuse_depth &&
                    !frame_.stopped();
@@ -332,18 +332,23 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
             nested_.see(nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), memory,
                         seen);
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
-                look_up(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
-                        sample_width(samples[lane_of[begin]]), light.data());
+                light_of_map(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
+                             sample_width(samples[lane_of[begin]]), light.data());
                 for (size_t i = begin; i < end; ++i)
                     sky[lane_of[i]] += seen[i].open * light[i - begin];
             });
-            for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += seen[i].color;
+            for (size_t i = 0; i < lane_of.size(); ++i) {
+                vec3 open = seen[i].open;
+                sum[lane_of[i]] += seen[i].color;
+                blocked[lane_of[i]] += 1 - (open.x + open.y + open.z) / 3;
+            }
         });
     memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
         int n = lanes.asks(lane) ? count(lane) : 0;
         lanes.set(0, lane, n ? (sum[lane] + sky[lane]) / float(n) : vec3(0.0f));
         lanes.set(3, lane, n ? sky[lane] / float(n) : vec3(0.0f));
+        lanes.set(6, lane, n ? blocked[lane] / float(n) : 0.0f);
     }
 }
 

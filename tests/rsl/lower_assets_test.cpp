@@ -116,6 +116,29 @@ TEST(Assets, ColladaOpacityFollowsItsModes) {
     EXPECT_FLOAT_EQ(opacity("NONE"), 1);
 }
 
+// COLLADA 1.4.1, <blinn>: max(N . H, 0) ^ shininess.
+TEST(Assets, ColladaBlinnIsToThePowerShininess) {
+    using Kind = ParamBinding::Kind;
+    for (float shininess : {1.0f, 20.0f, 128.0f}) {
+        RunShader shader(asset("collada_blinn"), {},
+                         {{"specular", Kind::Constant, {1, 0.5f, 0}, {}},
+                          {"shininess", Kind::Constant, {shininess}, {}}});
+        ASSERT_TRUE(shader.ok()) << shader.findings();
+        set_up(shader);
+        shader.set3("I", 0, 0, -2);
+        TestLight light;
+        light.L[0] = 3;
+        light.L[2] = 4;
+        shader.lights = {light};
+        double want = std::pow(1.8 / std::sqrt(0.6 * 0.6 + 1.8 * 1.8), double(shininess));
+        auto out = shader.run();
+        double tolerance = (1e-6 + 2e-7 * double(shininess)) * want;  // N . H is a float
+        EXPECT_NEAR(out["Ci.r"][0], want, tolerance) << shininess;
+        EXPECT_NEAR(out["Ci.g"][0], want / 2, tolerance) << shininess;
+        EXPECT_EQ(out["Ci.b"][0], 0);
+    }
+}
+
 TEST(Assets, ColladaTexturesReplaceColors) {
     using Kind = ParamBinding::Kind;
     RunShader shader(asset("collada_constant"), {},
@@ -137,7 +160,7 @@ TEST(Assets, ColladaSpotFallsOff) {
     // On the axis, 20 degrees off, 40 degrees off.
     float tan20 = std::tan(20 * 3.14159265f / 180);
     light.set("Ps.x", {0, 2 * tan20, 2});
-    light.set("Ps.z", -2);
+    light.set("Ps.z", 2);  // a light looks along z
     auto Cl = light.run(3)["light:0:Cl.r"];
     EXPECT_FLOAT_EQ(Cl[0], 0.25f);
     float cos20 = std::cos(20 * 3.14159265f / 180);

@@ -44,6 +44,48 @@ TEST(LowerLights, NondiffuseAndNonspecularLightsAreLeftOut) {
     EXPECT_FLOAT_EQ(out["Ci.b"][0], 0.75f);
 }
 
+// The light stands to the side: N . H is that of H half-way between (0.6, 0, 0.8) and N.
+TEST(LowerLights, SpecularIsToThePowerEightOverRoughness) {
+    RunShader shader(
+        "surface m(float roughness = 0.1;) { vector V = normalize(-I);"
+        " Ci = color(comp(specular(N, V, s), 0),"
+        " comp(specularbrdf(normalize(vector (1.2, 0, 1.6)), N, V, s), 0), 0); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    shader.set3("N", 0, 0, 1);
+    shader.set3("I", 0, 0, -2);
+    TestLight light;
+    light.L[0] = 1.2f;
+    light.L[2] = 1.6f;
+    shader.lights = {light};
+    std::vector<float> roughness = {0.02f, 0.1f, 0.5f, 1, 8};
+    shader.set("s", roughness);
+    auto out = shader.run(int(roughness.size()));
+    double N_H = 1.8 / std::sqrt(0.6 * 0.6 + 1.8 * 1.8);
+    for (size_t k = 0; k < roughness.size(); ++k) {
+        double exponent = 8 / double(roughness[k]), want = std::pow(N_H, exponent);
+        double tolerance = (1e-6 + 2e-7 * exponent) * want;  // N . H is a float
+        EXPECT_NEAR(out["Ci.r"][k], want, tolerance) << roughness[k];
+        EXPECT_NEAR(out["Ci.g"][k], want, tolerance) << roughness[k];
+    }
+}
+
+// Ps is P: outside of illuminance where P now is, inside the position that is lit.
+TEST(LowerLights, PsOfASurfaceIsP) {
+    RunShader shader(
+        "surface m() { float before = xcomp(Ps); P += 1; float moved = xcomp(Ps);"
+        " point Q = P + 4; float lit = 0; illuminance(Q) lit += xcomp(Ps);"
+        " Ci = color(before, moved, lit + 100 * xcomp(Ps)); }");
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    EXPECT_EQ(shader.findings(), "");
+    shader.set3("P", 2, 0, 0);
+    shader.lights.resize(1);
+    shader.services[Service::lights] = answer_zeros<Service::lights>;
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 2);
+    EXPECT_EQ(out["Ci.g"][0], 3);
+    EXPECT_EQ(out["Ci.b"][0], 7 + 300);
+}
+
 TEST(LowerLights, WhatIsNotRoughShinesInOneDirection) {
     RunShader shader(
         "surface m() { Ci = color(comp(specular(N, normalize(-I), 0), 0),"

@@ -93,7 +93,6 @@ std::string ShaderWriter::leaf(BaseType type) {
     for (const GlobalInfo& g : globals()) {
         bool of_light = g.name == "L" || g.name == "Cl" || g.name == "Ol";
         bool here = !of_light || in_illuminance_ || in_illuminate_;
-        if (g.name == "Ps" && kind_ != ShaderKind::Light && !in_illuminance_) here = false;
         bool rate = !uniform_ || g.rate != Rate::Varying;
         if (global_base(g) == type && (g.readers & in_kind(kind_)) && here && rate)
             fits.push_back(g.name);

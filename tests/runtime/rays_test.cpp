@@ -96,6 +96,73 @@ TEST(IndirectDiffuse, TellsWhatTheEnvironmentMapGives) {
         EXPECT_NEAR(r.color(x, 8).z, 4 * r.color(x, 8).x, 1e-4) << r.findings();
 }
 
+// Its map alone is the sky's light; "occlusion" is what the wall hides (a form factor).
+TEST(IndirectDiffuse, TakesAMapAloneAndTellsTheOcclusion) {
+    RedSky sky;
+    SceneText scene = floor_and_wall(
+        floor_code("float hidden = 0; color c = indirectdiffuse(P, n, 256, \"occlusion\", hidden);"
+                   " Ci = color(comp(indirectdiffuse(\"" +
+                   sky.name + "\", n), 0), hidden, xcomp(transform(\"world\", P)));"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    for (int x = 0; x < 16; ++x) {
+        vec3 got = r.color(x, 8);
+        EXPECT_NEAR(got.x, 1, 1e-5);
+        EXPECT_NEAR(got.y, wall_share(got.z, 0.8), 0.02) << x;
+    }
+}
+
+// The wall at 1.25, 0.8 high, hides the lower part of a source at 2.25, 2 high: by similar
+// triangles 0.8 (2.25 - x) / (1.25 - x) of its height.
+TEST(Shadow, SamplesTheQuadrilateralOfItsSource) {
+    SceneText scene = floor_and_wall(
+        floor_code(
+            "point a = point \"world\" (2.25, -1, 0), b = point \"world\" (2.25, 1, 0),"
+            " c = point \"world\" (2.25, -1, 2), d = point \"world\" (2.25, 1, 2);"
+            " float rows = shadow(\"raytrace\", P, \"source\", a, b, c, d, \"samples\", 64);"
+            " float around = shadow(\"none.tex\", P, \"samples\", 64, \"source\", a, b, d, c);"
+            " Ci = color(rows, around, xcomp(transform(\"world\", P)));"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    for (int x = 0; x < 16; ++x) {
+        double rows = 0, around = 0, at = 0;
+        for (int y = 0; y < 16; ++y) {
+            rows += r.color(x, y).x / 16;
+            around += r.color(x, y).y / 16;
+            at += r.color(x, y).z / 16;
+        }
+        if (at > 1.2) continue;
+        double want = std::min(1.0, 0.4 * (2.25 - at) / (1.25 - at));
+        EXPECT_NEAR(rows, want, 0.02) << at;
+        EXPECT_NEAR(around, want, 0.02) << at;
+    }
+}
+
+// What gather hands out of a map is its light by solid angle: of a sky of 1, the irradiance is pi.
+TEST(Gather, GoesThroughAnEnvironmentMap) {
+    RedSky sky;
+    std::string loop =
+        " gather(\"environment:" + sky.name +
+        "\", P, n, PI/2, 256, \"environment:color\", c, \"environment:solidangle\", angle,"
+        " \"environment:direction\", way";
+    SceneText scene = floor_and_wall(
+        floor_code("color c = 0, even = 0, by_cosine = 0; float angle = 0; vector way = 0;" + loop +
+                   ") even += c * angle * (normalize(way) . n) / PI;" + loop +
+                   ", \"distribution\", \"cosine\") by_cosine += c * angle * (normalize(way) . n);"
+                   " Ci = color(comp(even, 0), comp(by_cosine, 0) / PI, comp(even, 1));"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame(4, 4);
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    EXPECT_NEAR(r.color(2, 2).x, 1, 0.01) << r.findings();
+    EXPECT_NEAR(r.color(2, 2).y, 1, 1e-4);
+    EXPECT_EQ(r.color(2, 2).z, 0.0f);
+}
+
 TEST(Occlusion, CountsTransparentSurfacesByTheirOpacity) {
     auto share = [](const char* wall) {
         SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 64);"), wall, 0.8);

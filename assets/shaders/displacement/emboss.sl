@@ -15,8 +15,8 @@ displacement emboss(float depth = 0.04; string stamp = ""; float srepeat = 10; f
         /* Fold the angle into one ray of the star, then it is a straight edge. */
         uniform float wedge = PI / points;
         float a = abs(mod(atan(x, y) + wedge, 2 * wedge) - wedge);
-        float edge = ptlined(point(r * cos(a), r * sin(a), 0), point(0.72, 0, 0),
-                             point(0.30 * cos(wedge), 0.30 * sin(wedge), 0));
+        float edge = ptlined(point(0.72, 0, 0), point(0.30 * cos(wedge), 0.30 * sin(wedge), 0),
+                             point(r * cos(a), r * sin(a), 0));
         vector side = point(0.30 * cos(wedge), 0.30 * sin(wedge), 0) - point(0.72, 0, 0);
         vector from = point(r * cos(a), r * sin(a), 0) - point(0.72, 0, 0);
         float inside = sign(xcomp(side) * ycomp(from) - ycomp(side) * xcomp(from));

@@ -15,5 +15,5 @@ surface gloss(float Ka = 1; float Kd = 0.75; float Ks = 0.6; float roughness = 0
     float above = smoothstep(-0.0015, 0.0015, zcomp(transform("object", Pref)) - sole_height);
     color Ct = mix(sole_color, surface_color, above);
     Oi = Os;
-    Ci = Os * (Cs * Ct * (Ka * sky + Kd * diffuse(Nf)) + Ks * specular(Nf, V, roughness) + coat);
+    Ci = Os * (Cs * Ct * (Ka * sky + Kd * diffuse(Nf)) + Ks * specular(Nf, V, 8 * roughness) + coat);
 }

@@ -38,5 +38,5 @@ surface planks(float Ka = 1; float Kd = 0.9; float Ks = 0.25; float roughness = 
         mirrored = Kr * mix(0.35, 1, grazing) * color trace(P, reflect(In, Nf));
     Oi = Os;
     Ci = Os * (Cs * Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               joint * (Ks * (1 - 0.5 * late) * specular(Nf, -In, roughness) + mirrored));
+               joint * (Ks * (1 - 0.5 * late) * specular(Nf, -In, 8 * roughness) + mirrored));
 }

@@ -7,5 +7,5 @@ surface porcelain(float Ka = 1; float Kd = 0.72; float Ks = 0.3; float roughness
     float rim = pow(1 - clamp(Nf . V, 0, 1), 4);
     Oi = Os;
     Ci = Os * (surface_color * (Ka * ambient() + Kd * diffuse(Nf)) + sheen * rim * ambient() +
-               Ks * specular(Nf, V, roughness));
+               Ks * specular(Nf, V, 8 * roughness));
 }

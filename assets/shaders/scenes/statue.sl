@@ -37,6 +37,6 @@ surface statue(float Ka = 1; float Kd = 0.85; float Ks = 0.3; float roughness = 
     float grazing = pow(1 - clamp(Nf . V, 0, 1), 5);
     Oi = Os;
     Ci = Os * (Cs * Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               (Ks + 0.5 * grazing) * specular(Nf, V, roughness) +
+               (Ks + 0.5 * grazing) * specular(Nf, V, 8 * roughness) +
                0.35 * grazing * sheencolor * ambient());
 }

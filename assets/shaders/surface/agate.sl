@@ -24,5 +24,5 @@ surface agate(float Ka = 1; float Kd = 0.8; float Ks = 0.6; float roughness = 0.
                                                                     vector(0.5, 0.5, 0.5))), I);
     vector V = -normalize(I);
     Oi = Os;
-    Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + Ks * specular(Nf, V, roughness));
+    Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + Ks * specular(Nf, V, 8 * roughness));
 }

@@ -19,5 +19,5 @@ surface bumpmapped(float Ka = 1; float Kd = 0.75; float Ks = 0.45; float roughne
     normal Nf = faceforward(normalize(Nn), I);
     vector V = -normalize(I);
     Oi = Os;
-    Ci = Os * (surface_color * (Ka * ambient() + Kd * diffuse(Nf)) + Ks * specular(Nf, V, roughness));
+    Ci = Os * (surface_color * (Ka * ambient() + Kd * diffuse(Nf)) + Ks * specular(Nf, V, 8 * roughness));
 }

@@ -17,13 +17,13 @@ surface carpaint(float Ka = 1; float Kd = 0.6; float Ks = 0.5; float roughness =
     float seen = 1 - smoothstep(0.5, 2, width);
     vector lean = vector cellnoise(Q) - vector(0.5, 0.5, 0.5);
     normal Nflake = normalize(Nf + 0.55 * lean);
-    color glint = specular(Nflake, V, 0.035) * seen + 0.25 * specular(Nf, V, 0.3) * (1 - seen);
+    color glint = specular(Nflake, V, 0.28) * seen + 0.25 * specular(Nf, V, 2.4) * (1 - seen);
 
     color ground = mix(edgecolor, facecolor, pow(facing, 1.4));
     float kr = 0.04 + 0.96 * pow(1 - facing, 5);
     color coat = Kr * kr * trace(P, reflect(In, Nf));
     Oi = Os;
     Ci = Os * (ground * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * ground * specular(Nf, V, 2 * roughness) + sparkle * flakecolor * glint +
-               coat + 0.6 * specular(Nf, V, 0.012));
+               Ks * ground * specular(Nf, V, 16 * roughness) + sparkle * flakecolor * glint +
+               coat + 0.6 * specular(Nf, V, 0.096));
 }

@@ -50,5 +50,5 @@ surface ceramic(float Ka = 1; float Kd = 0.8; float Ks = 0.7; float roughness = 
     float kr = Kr * (0.05 + 0.95 * pow(1 - facing, 5));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + kr * trace(P, reflect(In, Nf)) +
-               Ks * specular(Nf, -In, roughness));
+               Ks * specular(Nf, -In, 8 * roughness));
 }

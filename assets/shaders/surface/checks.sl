@@ -20,5 +20,5 @@ surface checks(float Ka = 1; float Kd = 0.85; float Ks = 0.25; float roughness =
     normal Nf = faceforward(normalize(N), I);
     Oi = Os;
     Ci = Os * (mix(darkcolor, lightcolor, check) * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * specular(Nf, -normalize(I), roughness));
+               Ks * specular(Nf, -normalize(I), 8 * roughness));
 }

@@ -46,6 +46,6 @@ surface decal(float Ka = 1; float Kd = 0.75; float Ks = 0.6; float roughness = 0
     vector In = normalize(I);
     float kr = 0.03 + 0.6 * pow(1 - clamp(-(Nf . In), 0, 1), 5);
     Oi = Os;
-    Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + Ks * specular(Nf, -In, roughness) +
+    Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + Ks * specular(Nf, -In, 8 * roughness) +
                kr * trace(P, reflect(In, Nf)));
 }

@@ -43,5 +43,5 @@ surface feather(float Ka = 1; float Kd = 0.85; float Ks = 0.3; float roughness =
     color sheen = ctransform("hsv", "rgb", color(mod(0.38 + 0.3 * (1 - facing), 1), 0.8, 1));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) * 1.4 +
-               Ks * sheen * (0.4 + 0.6 * comb) * specular(Nf, V, roughness));
+               Ks * sheen * (0.4 + 0.6 * comb) * specular(Nf, V, 8 * roughness));
 }

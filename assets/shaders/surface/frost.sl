@@ -25,5 +25,5 @@ surface frost(float Ka = 0.6; float Kd = 0.25; float Ks = 0.4; float Kr = 0.8; f
     float facing = clamp(-(Nf . In), 0, 1);
     Oi = Os;
     Ci = Os * tint * (Ka * ambient() + Kd * diffuse(Nf) + Kr * (0.55 + 0.45 * (1 - facing)) * sum +
-                      Ks * specular(Nf, -In, roughness));
+                      Ks * specular(Nf, -In, 8 * roughness));
 }

@@ -4,7 +4,6 @@
 surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 18; float ior = 1.9;
             float dispersion = 0.06; color gemcolor = color(0.75, 0.05, 0.16);) {
     vector In = normalize(I);
-    point Q = transform("object", P);
     /* A facet's normal: that of the middle of its cell in s, t, shifted row by row. */
     float row = floor(facets * t);
     float column = floor(facets * s + 0.5 * mod(row, 2));
@@ -34,5 +33,5 @@ surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 1
     color body = mix(gemcolor, color(1, 1, 1), 0.06) * fire * (ambient() * 1.5 + 0.6 * diffuse(Nf) + 0.25);
     Oi = Os;
     Ci = Os * ((1 - kr) * (body + 0.12 * gemcolor) + Kr * kr * mirrored +
-               Ks * specular(Nf, -In, roughness));
+               Ks * specular(Nf, -In, 8 * roughness));
 }

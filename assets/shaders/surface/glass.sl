@@ -36,5 +36,5 @@ surface glass(float Ks = 0.8; float roughness = 0.02; float ior = 1.5; float Kr 
     string kind = "camera";
     rayinfo("type", kind);
     Oi = kind == "transmission" ? 1 - kt * tint : color(1);
-    Ci = through * (mirrored + bent) + (1 - inside) * Ks * specular(Nf, -In, roughness);
+    Ci = through * (mirrored + bent) + (1 - inside) * Ks * specular(Nf, -In, 8 * roughness);
 }

@@ -15,5 +15,5 @@ surface gold(float Ka = 0.5; float Kr = 0.9; float Ks = 0.9; float roughness = 0
     float up = zcomp(vtransform("world", R));
     room += 0.16 * smoothstep(-0.4, 0.9, up);
     Oi = Os;
-    Ci = Os * tint * (Ka * ambient() + Kr * room + Ks * specular(Nf, -In, roughness));
+    Ci = Os * tint * (Ka * ambient() + Kr * room + Ks * specular(Nf, -In, 8 * roughness));
 }

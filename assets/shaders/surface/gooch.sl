@@ -24,7 +24,7 @@ surface gooch(color objectcolor = color(0.75, 0.28, 0.16); color coolcolor = col
     float facing = Nf . V;
     float w = abs(Du(facing) * du) + abs(Dv(facing) * dv);
     float ink = 1 - smoothstep(outline - 2 * w, outline, facing);
-    color shine = specular(Nf, V, roughness);
+    color shine = specular(Nf, V, 8 * roughness);
     Oi = Os;
     Ci = Os * mix(total + Ks * shine, color(0.02, 0.02, 0.05), ink);
 }

@@ -50,5 +50,5 @@ surface granite(float Ka = 1; float Kd = 0.8; float Ks = 0.45; float roughness =
     float glint = mix(1, 0.35, step(1 - mica, grain));
     Oi = Os;
     Ci = Os * (Cs * Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * glint * specular(Nf, V, roughness));
+               Ks * glint * specular(Nf, V, 8 * roughness));
 }

@@ -31,8 +31,8 @@ surface harlequin(float Ka = 1, Kd = 0.8, Ks = 0.25, roughness = 0.2, freq = 14,
     Ct = mix(Ct, Ct * 1.25, worn);
 
     normal Nf = shadingnormal(N);
-    color cloth = MaterialPlastic(Nf, Ct, Ka, Kd, 0.3 * Ks, roughness);
-    color metal = MaterialRoughMetal(Nf, goldthread, Ka, 0.5 * Kd, 4 * Ks, roughness);
+    color cloth = MaterialPlastic(Nf, Ct, Ka, Kd, 0.3 * Ks, 8 * roughness);
+    color metal = MaterialRoughMetal(Nf, goldthread, Ka, 0.5 * Kd, 4 * Ks, 8 * roughness);
     Oi = Os;
     Ci = Os * mix(cloth, metal, clamp(gold, 0, 1));
 }

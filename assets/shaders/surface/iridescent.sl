@@ -18,6 +18,6 @@ surface iridescent(float Ka = 0.8; float Kd = 0.55; float Ks = 0.7; float roughn
     float kr = Kr * (0.12 + 0.88 * pow(1 - facing, 4));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * Csheen * specular(Nf, -In, roughness) + Ct * kr * trace(P, reflect(In, Nf)) +
-               0.5 * specular(Nf, -In, 0.02));
+               Ks * Csheen * specular(Nf, -In, 8 * roughness) + Ct * kr * trace(P, reflect(In, Nf)) +
+               0.5 * specular(Nf, -In, 0.16));
 }

@@ -23,5 +23,5 @@ surface jade(float Ka = 1; float Kd = 0.55; float Ks = 0.6; float roughness = 0.
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() * 1.3 + Kd * diffuse(Nf) +
                      translucence * inside * mix(color(1, 1, 1), color(0.7, 1, 0.6), 0.5)) +
-               kr * trace(P, reflect(In, Nf)) + Ks * specular(Nf, -In, roughness));
+               kr * trace(P, reflect(In, Nf)) + Ks * specular(Nf, -In, 8 * roughness));
 }

@@ -34,6 +34,6 @@ surface lacquer(float Ka = 1, Kd = 0.7, Ks = 0.5, roughness = 0.04, Kr = 0.9, et
     Ct = blend(Ct, flakecolor, gold);
     normal Nf = shadingnormal(N);
     Oi = Os;
-    Ci = Os * (MaterialShinyPlastic(Nf, Ct, Ka, Kd, Ks, roughness, Kr, 0, eta, 1, ENVPARAMS) +
-               gold * shine * flakecolor * specular(Nf, -normalize(I), 0.2));
+    Ci = Os * (MaterialShinyPlastic(Nf, Ct, Ka, Kd, Ks, 8 * roughness, Kr, 0, eta, 1, ENVPARAMS) +
+               gold * shine * flakecolor * specular(Nf, -normalize(I), 1.6));
 }

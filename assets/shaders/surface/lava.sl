@@ -27,5 +27,5 @@ surface lava(float Ka = 1; float Kd = 0.7; float scale = 2.4; float heat = 1.5;
                               color(1.9, 1.3, 0.5), color(2, 1.8, 1.1));
     Oi = Os;
     Ci = Os * (crustcolor * (0.5 + 0.7 * rough) * (Ka * ambient() + Kd * diffuse(Nf)) + glow +
-               0.05 * specular(Nf, -normalize(I), 0.2) * (1 - crack));
+               0.05 * specular(Nf, -normalize(I), 1.6) * (1 - crack));
 }

@@ -37,5 +37,5 @@ surface leather(float Ka = 1; float Kd = 0.8; float Ks = 0.35; float roughness =
     Ct *= 0.85 + 0.5 * worn;
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * mix(0.25, 1, pad) * (0.6 + 0.7 * worn) * specular(Nf, V, roughness));
+               Ks * mix(0.25, 1, pad) * (0.6 + 0.7 * worn) * specular(Nf, V, 8 * roughness));
 }

@@ -21,5 +21,5 @@ surface opal(float Ka = 1; float Kd = 0.55; float Ks = 0.5; float roughness = 0.
     color light = Ka * ambient() + Kd * diffuse(Nf);
     Oi = Os;
     Ci = Os * (milk * light + fire * flash * (0.25 + facing) * (0.5 * light + 0.12) +
-               Ks * specular(Nf, V, roughness));
+               Ks * specular(Nf, V, 8 * roughness));
 }

@@ -41,5 +41,5 @@ surface origami(float Ka = 1; float Kd = 0.85; float Ks = 0.5; float waves = 16;
     Ct = mix(Ct, papercolor * 1.08, 0.25 * fibre * (1 - ink));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf) + translucence * back) +
-               Ks * gold * goldcolor * specular(Nf, -normalize(I), 0.15));
+               Ks * gold * goldcolor * specular(Nf, -normalize(I), 1.2));
 }

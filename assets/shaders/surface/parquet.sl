@@ -55,5 +55,5 @@ surface parquet(float Ka = 1; float Kd = 0.85; float Ks = 0.25; float roughness 
     float kr = Kr * (0.04 + 0.96 * pow(1 - clamp(-(Nf . In), 0, 1), 5));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + joint * kr * trace(P, reflect(In, Nf)) +
-               joint * Ks * specular(Nf, -In, roughness));
+               joint * Ks * specular(Nf, -In, 8 * roughness));
 }

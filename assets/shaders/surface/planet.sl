@@ -49,6 +49,6 @@ surface planet(float Ka = 0.6; float Kd = 1.1; float Ks = 0.5; float roughness =
     float rim = pow(1 - clamp(Nf . V, 0, 1), 3);
     Oi = Os;
     Ci = Os * (mix(Ct, color(0.92, 0.93, 0.95), cover) * lit +
-               Ks * (1 - coast) * (1 - cover) * (1 - frozen) * specular(Nf, V, roughness) +
+               Ks * (1 - coast) * (1 - cover) * (1 - frozen) * specular(Nf, V, 8 * roughness) +
                air * rim * aircolor * lit);
 }

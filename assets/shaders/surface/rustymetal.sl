@@ -42,5 +42,5 @@ surface rustymetal(float Ka = 1; float Kd = 0.8; float Ks = 0.5; float rust = 0.
     float gloss = mix(mix(0.6, 1, bare), 0.05, deep);
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * gloss * specular(Nf, V, mix(roughness, 0.25, deep)));
+               Ks * gloss * specular(Nf, V, 8 * mix(roughness, 0.25, deep)));
 }

@@ -29,6 +29,6 @@ surface screen(float Ka = 1; float Kd = 0.6; float Ks = 0.5; float roughness = 0
                                                  : sign(mod(y, 1) - 0.5) * normalize(dPdv)));
         Oi = Os * covered;
         Ci = Oi * (wirecolor * (Ka * ambient() + Kd * diffuse(Nf)) +
-                   Ks * specular(Nf, -normalize(I), roughness));
+                   Ks * specular(Nf, -normalize(I), 8 * roughness));
     }
 }

@@ -27,7 +27,7 @@ surface skin(float Ka = 1; float Kd = 0.95; float oil = 0.22; float roughness = 
         /* Red reaches further than green and blue. */
         float edge = smoothstep(-wrap, 0.15, facing) * (1 - smoothstep(0.1, 0.6, facing));
         glow += Cl * (lit * color(1, 1, 1) + 0.28 * edge * bloodcolor);
-        shine += Cl * max(0, sign(facing)) * specularbrdf(Ln, Nf, V, roughness);
+        shine += Cl * max(0, sign(facing)) * specularbrdf(Ln, Nf, V, 8 * roughness);
     }
     float blush = smoothstep(0.35, 0.75, float noise(1.7 * Q));
     color Ct = mix(skincolor, mix(skincolor, bloodcolor, 0.3), blush);

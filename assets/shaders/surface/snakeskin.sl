@@ -50,5 +50,5 @@ surface snakeskin(float Ka = 1; float Kd = 0.8; float Ks = 0.5; float roughness 
     Ct *= mix(smoothstep(0, 0.25, edge) * 0.7 + 0.3, 0.85, smoothstep(0.4, 1, w));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * smoothstep(0, 0.4, edge) * specular(Nf, V, roughness));
+               Ks * smoothstep(0, 0.4, edge) * specular(Nf, V, 8 * roughness));
 }

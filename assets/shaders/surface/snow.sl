@@ -20,7 +20,7 @@ surface snow(float Ka = 1.1; float Kd = 0.75; float sparkle = 0.9; float crystal
     float seen = 1 - smoothstep(0.5, 1.5, crystals * sqrt(area(P)));
     normal Nc = normalize(Nf + 1.6 * (vector cellnoise(cell) - vector(0.5, 0.5, 0.5)));
     color glint = sparkle * seen * step(0.8, float cellnoise(cell + vector(5, 5, 5))) *
-                  specular(Nc, V, 0.02);
+                  specular(Nc, V, 0.16);
     Oi = Os;
     Ci = Os * (snowcolor * mix(shadecolor, color(1, 1, 1), smoothstep(0, 0.8, level)) *
                (Ka * ambient() + lit) + glint);

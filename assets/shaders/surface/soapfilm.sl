@@ -34,5 +34,5 @@ surface soapfilm(float Kr = 1; float Ks = 1; float roughness = 0.015; float ior 
     color film = Kr * (0.25 + 2.2 * rim) * band;
     Oi = clamp(0.35 * film + 0.12 * rim, 0, 1);
     Ci = film * (0.45 * mirrored + 0.25 * (ambient() + 0.25 * diffuse(Nf))) +
-         Ks * specular(Nf, V, roughness);
+         Ks * specular(Nf, V, 8 * roughness);
 }

@@ -40,5 +40,5 @@ surface stainedglass(float Ka = 1; float Kd = 0.5; float Ks = 0.6; float roughne
     Oi = mix(color(1, 1, 1), color(1, 1, 1) - 0.82 * hue, glass);
     color dull = mix(leadcolor * (Ka * ambient() + Kd * diffuse(Nf)) * (0.6 + round),
                      0.25 * hue * (Ka * ambient() + Kd * diffuse(Nf)), glass);
-    Ci = dull + Ks * mix(0.35, 1, glass) * specular(Nf, V, mix(0.15, roughness, glass));
+    Ci = dull + Ks * mix(0.35, 1, glass) * specular(Nf, V, 8 * mix(0.15, roughness, glass));
 }

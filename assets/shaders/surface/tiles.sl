@@ -52,5 +52,5 @@ surface tiles(float Ka = 1; float Kd = 0.85; float Ks = 0.5; float roughness = 0
     float kr = Kr * (0.04 + 0.96 * pow(1 - clamp(-(Nf . In), 0, 1), 5));
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               glazed * (kr * trace(P, reflect(In, Nf)) + Ks * specular(Nf, -In, roughness)));
+               glazed * (kr * trace(P, reflect(In, Nf)) + Ks * specular(Nf, -In, 8 * roughness)));
 }

@@ -43,5 +43,5 @@ surface wallpaper(float Ka = 1; float Kd = 0.9; float Ks = 0.35; float repeats =
     normal Nf = faceforward(normalize(N), I);
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * gold * goldcolor * 2 * specular(Nf, -normalize(I), 0.1));
+               Ks * gold * goldcolor * 2 * specular(Nf, -normalize(I), 0.8));
 }

@@ -32,5 +32,5 @@ surface water(float Ks = 1; float roughness = 0.015; float ripple = 0.035; float
     float down = clamp(-(In . Nf), 0, 1);
     color body = mix(shallowcolor, deepcolor, down) * (ambient() + 0.6 * diffuse(Nf) + 0.15);
     Oi = Os;
-    Ci = Os * (kr * sky + (1 - kr) * body + Ks * specular(Nf, -In, roughness));
+    Ci = Os * (kr * sky + (1 - kr) * body + Ks * specular(Nf, -In, 8 * roughness));
 }

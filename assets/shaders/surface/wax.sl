@@ -15,5 +15,5 @@ surface wax(float Kd = 0.7; color tint = color(1, 0.87, 0.62); string scatter = 
     if (caustics != "")
         light += caustic(caustics, P, Nf);
     Oi = Os;
-    Ci = Oi * (Cs * tint * Kd * light + 0.15 * specular(Nf, -normalize(I), 0.2));
+    Ci = Oi * (Cs * tint * Kd * light + 0.15 * specular(Nf, -normalize(I), 1.6));
 }

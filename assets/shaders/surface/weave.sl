@@ -43,5 +43,5 @@ surface weave(float Ka = 1; float Kd = 0.85; float Ks = 0.25; float roughness = 
     float solid = 1 - open * (1 - top) * (1 - below);
     Oi = Os * solid;
     Ci = Oi * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
-               Ks * top * shade * specular(Nf, V, roughness));
+               Ks * top * shade * specular(Nf, V, 8 * roughness));
 }

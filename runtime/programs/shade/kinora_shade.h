@@ -29,15 +29,16 @@ struct ShadeOptions {
     std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE
     int width = 256, height = 256;                            // of the grid of points
     bool sphere = false;
-    bool flip = false;  // a light shines along +z of its space
+    bool flip = false;  // a light shines along -z of its space
     std::string output = "Ci";
     const jit::Target* target = nullptr;  // null: run: the best; bench: all this CPU supports
     jit::math::Tier math = jit::math::Tier::Precise;
-    int iterations = 0;               // 0: the command's own
-    std::string compare;              // "", "interp", "reference"
-    std::string file;                 // -o
-    std::vector<std::string> stages;  // dump
-    std::string markdown;             // manual: a name of manual_pages.h; "": for the terminal
+    int iterations = 0;                 // 0: the command's own
+    std::string compare;                // "", "interp", "reference"
+    std::string file;                   // -o
+    std::vector<std::string> stages;    // dump
+    std::string markdown;               // manual: a name of manual_pages.h; "": for the terminal
+    std::vector<std::string> unwarned;  // -Wno-NAME: codes of findings that are left out
 };
 
 // Reads the command line. Returns an exit code when there is nothing to do (help, usage error,

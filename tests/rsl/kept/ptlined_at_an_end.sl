@@ -8,7 +8,7 @@ surface fuzz( frame_12 = 1;  frame_13 = -0.2469;  own_14 = 1e-3; vary_15 = 1.676
   x22 *= x22;
  }
  float i24 = 0;
- while (float i24 != ptlined(x22, 1, x22) && i24 < 4) {
+ while (float i24 != ptlined(1, x22, x22) && i24 < 4) {
   i24 += 1;
  }
  float i38 = 0;
