@@ -130,9 +130,9 @@ def cameras_by_lookat():
 
 
 def skews():
-    """Turning the y axis towards x by 30 degrees shears x by y tan 30."""
+    """p + tan(30) (p . x) y: y grows by x tan 30, as the suite's pictures have it."""
     t = math.tan(math.radians(30))
-    matrix = (1, t, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    matrix = (1, 0, 0, 0, t, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
     return {"skew": document(node(transforms="<skew>30 0 1 0 1 0 0</skew>")),
             "matrix": document(node(transforms=f"<matrix>{numbers(matrix)}</matrix>"))}
 
