@@ -16,7 +16,7 @@
 
 namespace kinora::collada {
 
-// Numbers documents in the order of SceneData::documents; fills that list and `conversions`.
+// Numbers documents in the order of SceneData::documents; fills that list.
 class LinkedDocuments {
   public:
     LinkedDocuments(Diagnostics& diag, const ExtractOptions& options, MemoryBudget& budget,
@@ -40,8 +40,6 @@ class LinkedDocuments {
     uint32_t size() const { return uint32_t(documents_.size()); }
     // Where documents, shaders and pictures may lie: the folder of the root, and what is allowed.
     const AllowedPaths& allowed_paths();
-    // Index into SceneData::conversions for things of `to` used in `from`; kNone if the same.
-    uint32_t conversion(uint32_t from, uint32_t to);
 
   private:
     std::string path_of_link(uint32_t from, std::string_view file, Location where);
@@ -55,9 +53,8 @@ class LinkedDocuments {
     std::optional<AllowedPaths> allowed_;
     std::vector<const Document*> documents_;
     std::vector<std::unique_ptr<Document>> owned_;
-    std::unordered_map<std::string, uint32_t> by_path_;     // kNone: it cannot be read
-    std::unordered_map<std::string, uint32_t> by_link_;     // by the path as linked
-    std::unordered_map<uint64_t, uint32_t> conversion_of_;  // pair -> index, kNone: identity
+    std::unordered_map<std::string, uint32_t> by_path_;  // kNone: it cannot be read
+    std::unordered_map<std::string, uint32_t> by_link_;  // by the path as linked
 };
 
 }  // namespace kinora::collada

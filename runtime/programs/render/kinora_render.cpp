@@ -16,6 +16,7 @@
 #include "runtime/load/import_scene.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/load/override_shader.h"
+#include "runtime/load/smooth_normals.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
@@ -183,6 +184,7 @@ int Render::load() {
     for (const auto& [target, value] : options_.params)
         override_param(*description, target, value, diagnostics_);
     override_visibility(*description, options_.hide, options_.only, diagnostics_);
+    if (options_.smooth) smooth_normals(*description, *options_.smooth);
     load_ms_ = watch.restart();
     SceneOptions scene_options = this->scene_options();
     PlayRange range = play_range(*description);
