@@ -1,4 +1,5 @@
-// collada/extract/asset.cpp: units, axes and the played range.
+// collada/extract/asset.cpp: units and axes, of documents and of elements with an <asset>; the
+// played range.
 #include <cmath>
 
 #include "collada/extract/extract_p.h"
@@ -31,15 +32,11 @@ void read_unit(const Document& document, const Element& unit, Asset& asset, Diag
             diag.report(Code::UNIT_CONFLICT, document.location(unit), row.name, asset.meter);
 }
 
-}  // namespace
-
-Asset read_asset(const Document& document, Diagnostics& diag) {
+// Of an <asset>: what it leaves out has the format's default.
+Asset read_values(const Document& document, const Element& element, Diagnostics& diag) {
     Asset asset;
-    asset.version = document.version();
-    const Element* element = document.root().child("asset");
-    if (!element) return asset;
-    if (const Element* unit = element->child("unit")) read_unit(document, *unit, asset, diag);
-    if (const Element* up = element->child("up_axis")) {
+    if (const Element* unit = element.child("unit")) read_unit(document, *unit, asset, diag);
+    if (const Element* up = element.child("up_axis")) {
         std::string_view axis = trim(up->text);
         if (axis == "X_UP")
             asset.up_axis = UpAxis::X;
@@ -49,6 +46,99 @@ Asset read_asset(const Document& document, Diagnostics& diag) {
             diag.report(Code::UPAXIS_VALUE, document.text_location(*up), axis);
     }
     return asset;
+}
+
+}  // namespace
+
+Asset read_asset(const Document& document, Diagnostics& diag) {
+    const Element* element = document.root().child("asset");
+    Asset asset = element ? read_values(document, *element, diag) : Asset();
+    asset.version = document.version();
+    return asset;
+}
+
+namespace {
+
+dmat4 y_up_from(UpAxis axis) {
+    switch (axis) {
+        case UpAxis::X:  // right -y, up x, towards us z
+            return dmat4({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
+        case UpAxis::Y:
+            return dmat4(1.0);
+        case UpAxis::Z:  // right x, up z, towards us -y
+            return dmat4({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
+    }
+    return dmat4(1.0);
+}
+
+dmat4 transposed(const dmat4& m) {
+    dmat4 t;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) t[c][r] = m[r][c];
+    return t;
+}
+
+}  // namespace
+
+const AssetFrames::OwnFrames& AssetFrames::own_frames(uint32_t doc) {
+    auto [at, fresh] = own_.try_emplace(doc);
+    if (!fresh) return at->second;
+    const Document& document = documents_[doc];
+    const Element* root = &document.root();
+    for (const Element* e = root; e;) {  // document order
+        if (e->name == "asset" && e->parent && e->parent != root &&
+            (e->child("unit") || e->child("up_axis"))) {
+            Asset values = read_values(document, *e, diag_);
+            Own own;
+            if (e->child("unit")) own.meter = values.meter;
+            if (e->child("up_axis")) own.up_axis = values.up_axis;
+            at->second.try_emplace(e->parent, own);
+        }
+        if (e->first_child) {
+            e = e->first_child;
+            continue;
+        }
+        while (e && !e->next) e = e->parent;
+        if (e) e = e->next;
+    }
+    return at->second;
+}
+
+uint32_t AssetFrames::number(double meter, UpAxis up_axis) {
+    auto [at, fresh] = number_of_.try_emplace({meter, up_axis}, uint32_t(frames_.size()));
+    if (fresh) frames_.emplace_back(meter, up_axis);
+    return at->second;
+}
+
+uint32_t AssetFrames::of_world() {
+    return number(scene_.documents[0].asset.meter, scene_.documents[0].asset.up_axis);
+}
+
+uint32_t AssetFrames::of(Link link) {
+    const Asset& whole = scene_.documents[link.doc].asset;
+    const OwnFrames& own = own_frames(link.doc);
+    if (own.empty()) return number(whole.meter, whole.up_axis);
+    Own inner;
+    for (const Element* e = link.element; e; e = e->parent) {
+        auto found = own.find(e);
+        if (found == own.end()) continue;
+        if (!inner.meter) inner.meter = found->second.meter;
+        if (!inner.up_axis) inner.up_axis = found->second.up_axis;
+    }
+    return number(inner.meter.value_or(whole.meter), inner.up_axis.value_or(whole.up_axis));
+}
+
+uint32_t AssetFrames::conversion(uint32_t from, uint32_t to) {
+    if (from == to) return kNone;
+    auto [at, fresh] = conversion_of_.emplace(std::pair(from, to), kNone);
+    if (!fresh) return at->second;
+    auto [user_meter, user_up] = frames_[from];
+    auto [used_meter, used_up] = frames_[to];
+    dmat4 m = transposed(y_up_from(user_up)) * y_up_from(used_up);
+    double scale = used_meter / user_meter;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) m[c][r] *= scale;
+    return at->second = append(scene_.conversions, m);
 }
 
 namespace {

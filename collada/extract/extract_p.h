@@ -72,6 +72,36 @@ class NodeQueue {
     std::vector<bool> filled_;
 };
 
+// Units and axes: a document's own, and those of elements with an <asset> of their own.
+class AssetFrames {
+  public:
+    AssetFrames(const LinkedDocuments& documents, Diagnostics& diag, SceneData& scene)
+        : documents_(documents), diag_(diag), scene_(scene) {}
+
+    // A number for the unit and up axis that hold inside an element; equal ones are one.
+    uint32_t of(Link element);
+    uint32_t of_world();  // the root document's
+    // Index into SceneData::conversions for things of frame `to` used in `from`; kNone if the same.
+    uint32_t conversion(uint32_t from, uint32_t to);
+
+  private:
+    struct Own {
+        std::optional<double> meter;
+        std::optional<UpAxis> up_axis;
+    };
+    using OwnFrames = std::unordered_map<const Element*, Own>;  // by the element around <asset>
+    const OwnFrames& own_frames(uint32_t doc);
+    uint32_t number(double meter, UpAxis up_axis);
+
+    const LinkedDocuments& documents_;
+    Diagnostics& diag_;
+    SceneData& scene_;
+    std::unordered_map<uint32_t, OwnFrames> own_;  // by document
+    std::vector<std::pair<double, UpAxis>> frames_;
+    std::map<std::pair<double, UpAxis>, uint32_t> number_of_;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> conversion_of_;
+};
+
 // The parts of instances that can only be resolved when all nodes are known.
 struct PendingBinding {
     uint32_t node, mesh, material;  // scene.nodes[node].meshes[mesh].materials[material]
@@ -95,6 +125,8 @@ struct Extraction {
     MemoryBudget budget{diag};
     LinkedDocuments documents{diag, options, budget, scene};
     PictureSearch pictures;
+    AssetFrames frames{documents, diag, scene};
+    std::vector<uint32_t> geometry_frames, skin_frames;  // of SceneData's lists
 
     // Definitions by element; kNone: tried and not usable (reported).
     std::unordered_map<const Element*, uint32_t> made;
@@ -109,6 +141,7 @@ struct Extraction {
     uint32_t reached_nodes = kNone;  // those behind are read by read_everything
     std::vector<PendingBinding> pending_bindings;
     std::vector<PendingSkin> pending_skins;
+    int controller_depth = 0;  // of <controller>s whose sources are being read
     // Where targets of a morph were left out: weight as written -> weight kept, or kNone.
     std::unordered_map<uint32_t, std::vector<uint32_t>> morph_remap;
     std::unordered_set<const Element*> read_arrays;  // whose numbers were parsed and checked
@@ -118,6 +151,10 @@ struct Extraction {
     Location where(Link link) const { return documents[link.doc].location(*link.element); }
     Location where(Link link, std::string_view attribute) const {
         return documents[link.doc].location(*link.element, attribute);
+    }
+    // For `used`, an element that `user` refers to: see AssetFrames.
+    uint32_t conversion(Link user, Link used) {
+        return frames.conversion(frames.of(user), frames.of(used));
     }
     Location text_where(Link link) const {
         return documents[link.doc].text_location(*link.element);
@@ -223,6 +260,18 @@ struct NameSource {
 NameSource read_name_source(Extraction& x, Link source);
 // The first child <input semantic="...">, or null.
 const Element* find_input(const Element& parent, std::string_view semantic);
+
+// Counts while one is read: controllers that change each other's results are read in each other.
+class ControllerDepth {
+  public:
+    explicit ControllerDepth(Extraction& x) : x_(x) { ++x_.controller_depth; }
+    ~ControllerDepth() { --x_.controller_depth; }
+    ControllerDepth(const ControllerDepth&) = delete;
+    bool fits(Link controller) const;  // reports it where there are too many
+
+  private:
+    Extraction& x_;
+};
 
 // skin.cpp, morph.cpp
 uint32_t skin_index(Extraction& x, Link controller);   // of a <controller> with <skin>

@@ -49,8 +49,8 @@ void read_bind_material(Extraction& x, Link instance, MeshInstance& mesh, uint32
             read_material_instance(x, {instance.doc, &child}, mesh, node_number, mesh_number);
 }
 
-// Sets the skin, morph and geometry of a <controller>; false if it shows nothing. A morph of
-// another controller is left out (MORPH_SOURCE): that one is shown, at most `depth` below.
+// Sets the skin, morph and geometry of a <controller>; false if it shows nothing. A morph that is
+// left out (reported) gives way to the controller it is written on, at most `depth` below.
 bool read_controller(Extraction& x, Link controller, MeshInstance& mesh, int depth = 4) {
     if (controller.element->child("skin")) {
         mesh.skin = skin_index(x, controller);
@@ -70,12 +70,69 @@ bool read_controller(Extraction& x, Link controller, MeshInstance& mesh, int dep
             const Element* base = find_kind(document, source.substr(1), {"controller"});
             return base && read_controller(x, {controller.doc, base}, mesh, depth - 1);
         }
-        mesh.geometry = x.scene.morphs[mesh.morph].geometry;
+        const Morph& read = x.scene.morphs[mesh.morph];
+        mesh.geometry = read.geometry;
+        if (read.skin != kNone && !x.scene.skins[read.skin].joints.empty()) mesh.skin = read.skin;
         return true;
     }
     x.diag.report(Code::SCHEMA_MISSING_ELEMENT, x.where(controller), "controller",
                   "skin> or <morph");
     return false;
+}
+
+// A binding like the one at `from`, for another symbol.
+void bind_alike(Extraction& x, Link instance, size_t from, const std::string& symbol,
+                MeshInstance& mesh, uint32_t node_number, uint32_t mesh_number) {
+    const MaterialBinding& model = mesh.materials[from];
+    size_t inputs = model.vertex_inputs.size() + 1;
+    if (!x.budget.reserve(sizeof(MaterialBinding) + inputs * 128, x.where(instance))) return;
+    MaterialBinding binding = model;
+    binding.symbol = symbol;
+    uint32_t number = uint32_t(mesh.materials.size());
+    mesh.materials.push_back(std::move(binding));
+    // Its <bind>s were the last to be put off.
+    size_t pending = x.pending_bindings.size();
+    for (size_t p = pending; p-- > 0;) {
+        const PendingBinding& bind = x.pending_bindings[p];
+        if (bind.node != node_number || bind.mesh != mesh_number) break;
+        if (bind.material == from &&
+            x.budget.reserve(sizeof(PendingBinding) + 128, bind.binding.where))
+            x.pending_bindings.push_back(
+                {node_number, mesh_number, number, bind.binding, bind.doc});
+    }
+}
+
+// Primitives without a material take the only one that is bound. So do those with a symbol that
+// nothing binds, where nothing has the symbol that is bound.
+void bind_only_material(Extraction& x, Link instance, MeshInstance& mesh, uint32_t node_number,
+                        uint32_t mesh_number) {
+    size_t only = mesh.materials.size();
+    std::unordered_set<uint32_t> materials;
+    std::unordered_set<std::string> bound;
+    for (size_t m = mesh.materials.size(); m-- > 0;) {
+        bound.insert(mesh.materials[m].symbol);
+        if (mesh.materials[m].material == kNone) continue;
+        materials.insert(mesh.materials[m].material);
+        only = m;
+    }
+    if (materials.empty()) return;
+    const GeometrySymbols& symbols = symbols_of(x, mesh.geometry);
+    bool used = false;
+    for (const std::string& symbol : bound)
+        used = used || (!symbol.empty() && symbols.first_group.count(symbol));
+    const std::vector<PrimitiveGroup>& groups = x.scene.geometries[mesh.geometry].groups;
+    for (uint32_t first : symbols.groups) {
+        const PrimitiveGroup& group = groups[first];
+        if (bound.count(group.material) || (!group.material.empty() && used)) continue;
+        if (materials.size() == 1) {
+            bind_alike(x, instance, only, group.material, mesh, node_number, mesh_number);
+            if (!group.material.empty())
+                x.diag.report(Code::MAT_ONLY_BOUND, x.where(instance), group.material,
+                              x.scene.materials[*materials.begin()].id);
+        } else if (group.material.empty()) {
+            x.diag.report(Code::MAT_AMBIGUOUS, group.where, materials.size());
+        }
+    }
 }
 
 void report_unbound(Extraction& x, Link instance, const MeshInstance& mesh) {
@@ -118,15 +175,18 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     if (!target) return;
     MeshInstance mesh;
     mesh.where = x.where(link, "url");
-    mesh.conversion = x.documents.conversion(link.doc, target.doc);
     if (controlled) {
         if (!read_controller(x, target, mesh)) return;
     } else {
         mesh.geometry = geometry_index(x, target);
     }
     if (mesh.geometry == kNone) return;
+    // A skin's numbers are its controller's; all else moves the mesh as it is.
+    uint32_t own = mesh.skin == kNone ? x.geometry_frames[mesh.geometry] : x.skin_frames[mesh.skin];
+    mesh.conversion = x.frames.conversion(x.frames.of(link), own);
     uint32_t mesh_number = uint32_t(node.meshes.size());
     read_bind_material(x, link, mesh, node_number, mesh_number);
+    bind_only_material(x, link, mesh, node_number, mesh_number);
     report_unbound(x, link, mesh);
     for (MaterialBinding& binding : mesh.materials) bind_texcoords(x, mesh.geometry, binding);
     if (mesh.skin != kNone) {
@@ -153,8 +213,7 @@ void read_instance(Extraction& x, Link link, std::string_view name,
     if (!target) return;
     uint32_t index = index_of(x, target);
     if (index == kNone) return;
-    instances.push_back(
-        {index, x.documents.conversion(link.doc, target.doc), x.where(link, "url")});
+    instances.push_back({index, x.conversion(link, target), x.where(link, "url")});
 }
 
 }  // namespace

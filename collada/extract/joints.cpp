@@ -1,5 +1,5 @@
 // collada/extract/joints.cpp: joint names lead to nodes: by sid, then id, then name; below the
-// skeleton roots, then in the whole scene.
+// skeleton roots, then in the whole scene. Skeletons outside of it are posed with it.
 #include <algorithm>
 #include <map>
 
@@ -141,10 +141,67 @@ void JointResolver::resolve_instance(const PendingSkin& pending) {
 
 }  // namespace
 
+namespace {
+
+// Nodes below the roots.
+std::vector<bool> reached_nodes(const SceneData& scene) {
+    std::vector<bool> reached(scene.nodes.size());
+    std::vector<uint32_t> todo = scene.roots;
+    while (!todo.empty()) {
+        uint32_t at = todo.back();
+        todo.pop_back();
+        if (reached[at]) continue;
+        reached[at] = true;
+        for (uint32_t child : scene.nodes[at].children) todo.push_back(child);
+        for (const NodeInstance& instance : scene.nodes[at].instances)
+            todo.push_back(instance.node);
+    }
+    return reached;
+}
+
+// Joints that stand in no part of the shown scene pose skins there as roots that show nothing.
+void place_skeletons(Extraction& x) {
+    SceneData& scene = x.scene;
+    std::vector<bool> reached = reached_nodes(scene);
+    size_t shown = scene.roots.size();
+    for (const PendingSkin& pending : x.pending_skins) {
+        const MeshInstance& mesh = scene.nodes[pending.node].meshes[pending.mesh];
+        if (mesh.skin == kNone || !reached[pending.node]) continue;
+        for (uint32_t joint : mesh.joint_nodes) {
+            if (joint == kNone || reached[joint]) continue;
+            uint32_t top = joint;
+            while (scene.nodes[top].parent != kNone) top = scene.nodes[top].parent;
+            if (std::find(scene.roots.begin() + ptrdiff_t(shown), scene.roots.end(), top) !=
+                scene.roots.end())
+                continue;
+            const Node& root = scene.nodes[top];
+            x.diag.report(Code::SKIN_UNPLACED_SKELETON, x.where(pending.instance),
+                          root.id.empty() ? root.name : root.id);
+            scene.roots.push_back(top);
+        }
+    }
+    if (scene.roots.size() == shown) return;
+    std::vector<bool> posing = reached_nodes(scene);
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
+        if (!posing[n] || reached[n]) continue;
+        Node& node = scene.nodes[n];
+        node.meshes.clear();
+        node.lights.clear();
+        node.cameras.clear();
+        std::erase_if(node.instances, [&](const NodeInstance& i) { return reached[i.node]; });
+    }
+    check_node_graph(x);
+}
+
+}  // namespace
+
 void resolve_joints(Extraction& x) {
     if (x.pending_skins.empty()) return;
-    JointResolver resolver(x);
-    for (const PendingSkin& pending : x.pending_skins) resolver.resolve_instance(pending);
+    {
+        JointResolver resolver(x);
+        for (const PendingSkin& pending : x.pending_skins) resolver.resolve_instance(pending);
+    }
+    place_skeletons(x);
 }
 
 }  // namespace kinora::collada

@@ -10,29 +10,6 @@
 
 namespace kinora::collada {
 
-namespace {
-
-dmat4 y_up_from(UpAxis axis) {
-    switch (axis) {
-        case UpAxis::X:  // right -y, up x, towards us z
-            return dmat4({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
-        case UpAxis::Y:
-            return dmat4(1.0);
-        case UpAxis::Z:  // right x, up z, towards us -y
-            return dmat4({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
-    }
-    return dmat4(1.0);
-}
-
-dmat4 transposed(const dmat4& m) {
-    dmat4 t;
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r) t[c][r] = m[r][c];
-    return t;
-}
-
-}  // namespace
-
 const AllowedPaths& LinkedDocuments::allowed_paths() {
     if (!allowed_) {
         const std::string& own = options_.folder;
@@ -125,20 +102,6 @@ uint32_t LinkedDocuments::add(const Document& document, const std::string& real_
     check_elements(document, diag_, schema_.value_or(document.version()));
     scene_.documents.push_back({document.path(), read_asset(document, diag_), document.file()});
     return index;
-}
-
-uint32_t LinkedDocuments::conversion(uint32_t from, uint32_t to) {
-    if (from == to) return kNone;
-    auto [at, fresh] = conversion_of_.emplace(uint64_t(from) << 32 | to, kNone);
-    if (!fresh) return at->second;
-    const Asset& user = scene_.documents[from].asset;
-    const Asset& used = scene_.documents[to].asset;
-    if (user.meter == used.meter && user.up_axis == used.up_axis) return kNone;
-    dmat4 m = transposed(y_up_from(user.up_axis)) * y_up_from(used.up_axis);
-    double scale = used.meter / user.meter;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) m[c][r] *= scale;
-    return at->second = append(scene_.conversions, m);
 }
 
 }  // namespace kinora::collada

@@ -16,7 +16,7 @@
 
 namespace kinora::collada {
 
-// Numbers documents in the order of SceneData::documents; fills that list and `conversions`.
+// Numbers documents in the order of SceneData::documents; fills that list.
 class LinkedDocuments {
   public:
     LinkedDocuments(Diagnostics& diag, const ExtractOptions& options, MemoryBudget& budget,
@@ -42,8 +42,6 @@ class LinkedDocuments {
     const AllowedPaths& allowed_paths();
     // Pictures may lie anywhere, unless the options confine them; those of an archive are in it.
     const AllowedPaths& allowed_pictures();
-    // Index into SceneData::conversions for things of `to` used in `from`; kNone if the same.
-    uint32_t conversion(uint32_t from, uint32_t to);
 
   private:
     std::string path_of_link(uint32_t from, std::string_view file, Location where);
@@ -57,9 +55,8 @@ class LinkedDocuments {
     std::optional<AllowedPaths> allowed_, pictures_;
     std::vector<const Document*> documents_;
     std::vector<std::unique_ptr<Document>> owned_;
-    std::unordered_map<std::string, uint32_t> by_path_;     // kNone: it cannot be read
-    std::unordered_map<std::string, uint32_t> by_link_;     // by the path as linked
-    std::unordered_map<uint64_t, uint32_t> conversion_of_;  // pair -> index, kNone: identity
+    std::unordered_map<std::string, uint32_t> by_path_;  // kNone: it cannot be read
+    std::unordered_map<std::string, uint32_t> by_link_;  // by the path as linked
 };
 
 }  // namespace kinora::collada

@@ -30,7 +30,16 @@ uint32_t MeshReader::source_index(Link link) {
     // Beyond a float's range counts as not finite, too.
     std::transform(data.values.begin(), data.values.end(), source.values.begin(),
                    [](double v) { return std::abs(v) <= 3.4028234e38 ? float(v) : 0.0f; });
+    entries.push_back(uint32_t(source.values.size() / source.stride));
+    missing.push_back(kNone);
     return at->second = append(geometry.sources, std::move(source));
+}
+
+uint32_t MeshReader::missing_entry(uint32_t source, std::string_view semantic) {
+    if (missing[source] != kNone) return missing[source];
+    FloatSource& values = geometry.sources[source];
+    values.values.insert(values.values.end(), values.stride, semantic == "COLOR" ? 1.0f : 0.0f);
+    return missing[source] = entries[source];
 }
 
 namespace {
@@ -122,11 +131,12 @@ uint32_t geometry_index(Extraction& x, Link link) {
         return result;
     }
     if (!x.budget.reserve(sizeof(Geometry), geometry.where)) return result;
-    MeshReader mesh{x, geometry, {}, {}, {}, nullptr};
+    MeshReader mesh{x, geometry, {}, {}, {}, nullptr, {}, {}};
     if (!read_vertices(mesh, {link.doc, vertices})) return result;
     for (const Element& child : mesh_element->children())
         if (is_triangulated(child.name) || child.name == "lines" || child.name == "linestrips")
             read_primitive(mesh, {link.doc, &child});
+    x.geometry_frames.push_back(x.frames.of(link));
     return result = append(x.scene.geometries, std::move(geometry));
 }
 

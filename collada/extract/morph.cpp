@@ -72,12 +72,40 @@ void read_weights(Extraction& x, Link link, Morph& morph, uint32_t number,
         x.target_of.emplace(array, ref);
 }
 
+// What the morph changes: a mesh, another morph's result, or the mesh of a skin. A skin's joints
+// move what all its morphs make of its mesh: targets are shapes in the pose of the bind, and
+// weights mean nothing between that and another pose.
+void read_base(Extraction& x, Link base, Morph& morph) {
+    if (base.element->name == "geometry") {
+        morph.geometry = geometry_index(x, base);
+    } else if (base.element->child("skin")) {
+        morph.skin = skin_index(x, base);
+        if (morph.skin == kNone) return;
+        morph.geometry = x.scene.skins[morph.skin].geometry;
+        morph.base = x.scene.skins[morph.skin].morph;
+    } else if (base.element->child("morph")) {
+        morph.base = morph_index(x, base);
+        if (morph.base == kNone) return;
+        morph.geometry = x.scene.morphs[morph.base].geometry;
+        morph.skin = x.scene.morphs[morph.base].skin;
+    }
+}
+
 }  // namespace
+
+bool ControllerDepth::fits(Link controller) const {
+    constexpr int kMost = 16;
+    if (x_.controller_depth <= kMost) return true;
+    x_.diag.report(Code::MORPH_DEPTH, x_.where(controller), controller.element->value("id"), kMost);
+    return false;
+}
 
 uint32_t morph_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     uint32_t& result = at->second;
+    ControllerDepth depth(x);
+    if (!depth.fits(link)) return result;
     Link element{link.doc, link.element->child("morph")};
     Morph morph;
     morph.id = link.element->value("id");
@@ -85,7 +113,7 @@ uint32_t morph_index(Extraction& x, Link link) {
     morph.method = read_method(x, element);
     Link base = resolve(x, element, "source", {"geometry", "controller"});
     if (!base || !x.budget.reserve(sizeof(Morph), morph.where)) return result;
-    if (base.element->name == "geometry") morph.geometry = geometry_index(x, base);
+    read_base(x, base, morph);
     if (morph.geometry == kNone) {
         x.diag.report(Code::MORPH_SOURCE, x.where(element, "source"), morph.id);
         return result;

@@ -27,6 +27,9 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
     node.parent = parent;
     node.document = link.doc;
     node.where = x.where(link);
+    bool inner = e.parent && e.parent->name == "node";
+    node.conversion = x.frames.conversion(
+        inner ? x.frames.of({link.doc, e.parent}) : x.frames.of_world(), x.frames.of(link));
     if (const Element* technique = extra_technique(e, "RSL"))
         for (const Element& item : technique->children())
             if (item.name == "attribute")

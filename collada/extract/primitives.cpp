@@ -10,33 +10,18 @@ namespace {
 
 constexpr uint32_t kMaxOffset = 1 << 16;
 
-// What the numbers at one offset of <p> point into.
-struct OffsetUse {
-    uint32_t offset;
-    uint32_t limit;        // entries of the shortest source at this offset
-    std::string semantic;  // of that source, for findings
-};
-
 struct Inputs {
     bool has_vertex = false;
     uint32_t stride = 1;
-    std::vector<OffsetUse> offsets;  // [0] is VERTEX's
-    std::vector<VertexInput> inputs;
+    std::vector<uint32_t> offsets;    // each once; [0] is VERTEX's
+    std::vector<VertexInput> inputs;  // a list is first the number of an offset
 };
 
-uint32_t entry_count(const FloatSource& source) {
-    return uint32_t(source.values.size() / source.stride);
-}
-
 // The list of an offset; several inputs share one.
-uint32_t use_offset(Inputs& inputs, uint32_t offset, uint32_t limit, std::string_view semantic) {
-    for (uint32_t i = 0; i < inputs.offsets.size(); ++i) {
-        OffsetUse& use = inputs.offsets[i];
-        if (use.offset != offset) continue;
-        if (limit < use.limit) use.limit = limit, use.semantic = semantic;
-        return i;
-    }
-    return append(inputs.offsets, OffsetUse{offset, limit, std::string(semantic)});
+uint32_t use_offset(Inputs& inputs, uint32_t offset) {
+    for (uint32_t i = 0; i < inputs.offsets.size(); ++i)
+        if (inputs.offsets[i] == offset) return i;
+    return append(inputs.offsets, offset);
 }
 
 uint32_t input_offset(Extraction& x, Link input) {
@@ -51,7 +36,7 @@ uint32_t input_offset(Extraction& x, Link input) {
 
 void add_vertices_inputs(MeshReader& mesh, Inputs& inputs) {
     for (const VertexInput& input : mesh.vertices_inputs) {
-        uint32_t entries = entry_count(mesh.geometry.sources[input.source]);
+        uint32_t entries = mesh.entries[input.source];
         if (entries < mesh.geometry.positions.size()) {
             mesh.x.diag.report(Code::PRIM_INPUT, mesh.geometry.where, input.semantic,
                                fmt::format("it has {} entries for {} positions", entries,
@@ -73,8 +58,8 @@ void add_input(MeshReader& mesh, Link link, uint32_t offset, Inputs& inputs) {
     }
     uint64_t set = 0;
     if (!parse_count(link.element->value("set"), set) || set >= kNone) set = 0;
-    uint32_t list = use_offset(inputs, offset, entry_count(mesh.geometry.sources[index]), semantic);
-    inputs.inputs.push_back({std::string(semantic), uint32_t(set), index, list});
+    inputs.inputs.push_back(
+        {std::string(semantic), uint32_t(set), index, use_offset(inputs, offset)});
 }
 
 Inputs read_inputs(MeshReader& mesh, Link primitive) {
@@ -90,8 +75,7 @@ Inputs read_inputs(MeshReader& mesh, Link primitive) {
             others.push_back({link, offset});
         } else if (!inputs.has_vertex) {
             inputs.has_vertex = true;
-            inputs.offsets.insert(inputs.offsets.begin(),
-                                  {offset, uint32_t(mesh.geometry.positions.size()), "VERTEX"});
+            inputs.offsets.insert(inputs.offsets.begin(), offset);
         }
     }
     if (!inputs.has_vertex) return inputs;
@@ -113,40 +97,67 @@ Location number_location(Extraction& x, Link primitive, const PrimitiveIndices& 
     return x.document(primitive.doc).text_location(*part.element, begin, begin + word.size());
 }
 
-// The first vertex from `v` on whose number at the offset is beyond what it points into.
-uint32_t next_beyond(const PrimitiveIndices& p, const OffsetUse& use, uint32_t v, uint32_t count) {
-    const int32_t* numbers = p.numbers.data() + use.offset;
-    while (v < count && uint32_t(numbers[size_t(v) * p.stride]) < use.limit) ++v;
+// The first vertex from `v` on whose number at the offset is `limit` or beyond.
+uint32_t next_beyond(const PrimitiveIndices& p, uint32_t offset, uint32_t limit, uint32_t v = 0) {
+    const int32_t* numbers = p.numbers.data() + offset;
+    while (v < p.vertex_count() && uint32_t(numbers[size_t(v) * p.stride]) < limit) ++v;
     return v;
 }
 
-// Which vertices name only what exists; empty when all do. Reports the first bad one.
+void report_index(MeshReader& mesh, Link primitive, const PrimitiveIndices& p, size_t number,
+                  std::string_view semantic, uint32_t limit) {
+    Location where = number_location(mesh.x, primitive, p, number);
+    int32_t index = p.numbers[number];
+    if (index < 0)
+        mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);
+    else
+        mesh.x.diag.report(Code::PRIM_INDEX_RANGE, where, index, semantic, limit);
+}
+
+// Which vertices have a position; empty when all do. Reports the first that names none.
 std::vector<bool> usable_vertices(MeshReader& mesh, Link primitive, const PrimitiveIndices& p,
-                                  const Inputs& inputs) {
+                                  uint32_t offset) {
     std::vector<bool> usable;
     const uint32_t count = p.vertex_count();
     auto reject = [&](uint32_t vertex) {
         if (usable.empty()) usable.assign(count, true);
         usable[vertex] = false;
     };
-    for (const OffsetUse& use : inputs.offsets) {
-        uint32_t v = next_beyond(p, use, 0, count);
-        if (v == count) continue;
-        size_t number = size_t(v) * p.stride + use.offset;
-        Location where = number_location(mesh.x, primitive, p, number);
-        int32_t index = p.numbers[number];
-        if (index < 0)
-            mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);
-        else
-            mesh.x.diag.report(Code::PRIM_INDEX_RANGE, where, index, use.semantic, use.limit);
-        for (; v < count; v = next_beyond(p, use, v + 1, count)) reject(v);
-    }
+    uint32_t limit = uint32_t(mesh.geometry.positions.size());
+    uint32_t bad = next_beyond(p, offset, limit);
+    if (bad < count)
+        report_index(mesh, primitive, p, size_t(bad) * p.stride + offset, "VERTEX", limit);
+    for (; bad < count; bad = next_beyond(p, offset, limit, bad + 1)) reject(bad);
     if (mesh.bad_position.empty()) return usable;
     for (uint32_t v = 0; v < count; ++v) {
-        uint32_t position = uint32_t(p.numbers[size_t(v) * p.stride + inputs.offsets[0].offset]);
+        uint32_t position = uint32_t(p.numbers[size_t(v) * p.stride + offset]);
         if (position < mesh.bad_position.size() && mesh.bad_position[position]) reject(v);
     }
     return usable;
+}
+
+// Inputs with an index beyond their source get a list of their own, in which it names a stand-in.
+void mend_values(MeshReader& mesh, Link primitive, const PrimitiveIndices& p,
+                 const std::vector<uint32_t>& offsets, PrimitiveGroup& group) {
+    std::vector<VertexInput> kept;
+    for (VertexInput& input : group.inputs) {
+        uint32_t limit = mesh.entries[input.source];
+        const std::vector<uint32_t>& list = group.indices[input.list];
+        bool sound = std::all_of(list.begin(), list.end(), [&](uint32_t i) { return i < limit; });
+        if (!sound) {
+            uint32_t offset = offsets[input.list], v = next_beyond(p, offset, limit);
+            report_index(mesh, primitive, p, size_t(v) * p.stride + offset, input.semantic, limit);
+            uint64_t bytes = list.size() * sizeof(uint32_t);
+            if (!mesh.x.budget.reserve(bytes, group.where)) continue;  // without the input, then
+            uint32_t stand_in = mesh.missing_entry(input.source, input.semantic);
+            std::vector<uint32_t> mended = list;
+            for (uint32_t& i : mended)
+                if (i >= limit) i = stand_in;
+            input.list = append(group.indices, std::move(mended));
+        }
+        kept.push_back(std::move(input));
+    }
+    group.inputs = std::move(kept);
 }
 
 }  // namespace
@@ -164,13 +175,13 @@ void read_primitive(MeshReader& mesh, Link primitive) {
         mesh.x.diag.report(Code::PRIM_EMPTY, mesh.x.where(primitive), e.name);
         return;
     }
-    std::vector<bool> usable = usable_vertices(mesh, primitive, p, inputs);
+    std::vector<bool> usable = usable_vertices(mesh, primitive, p, inputs.offsets[0]);
     if (!is_triangulated(e.name)) {
         mesh.geometry.line_count += count_lines(mesh.x, primitive, p, polygons);
         return;
     }
     std::vector<uint32_t> triangles =
-        triangles_of(mesh, primitive, p, polygons, usable, inputs.offsets[0].offset);
+        triangles_of(mesh, primitive, p, polygons, usable, inputs.offsets[0]);
     if (triangles.empty()) {
         mesh.x.diag.report(Code::PRIM_EMPTY, mesh.x.where(primitive), e.name);
         return;
@@ -179,12 +190,13 @@ void read_primitive(MeshReader& mesh, Link primitive) {
     group.material = e.value("material");
     group.inputs = std::move(inputs.inputs);
     group.where = mesh.x.where(primitive);
-    for (const OffsetUse& use : inputs.offsets) {
+    for (uint32_t offset : inputs.offsets) {
         std::vector<uint32_t>& list = group.indices.emplace_back(triangles.size());
-        const int32_t* numbers = p.numbers.data() + use.offset;
+        const int32_t* numbers = p.numbers.data() + offset;
         for (size_t i = 0; i < list.size(); ++i)
             list[i] = uint32_t(numbers[size_t(triangles[i]) * p.stride]);
     }
+    mend_values(mesh, primitive, p, inputs.offsets, group);
     mesh.geometry.groups.push_back(std::move(group));
 }
 

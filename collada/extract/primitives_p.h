@@ -38,7 +38,13 @@ struct MeshReader {
     std::vector<VertexInput> vertices_inputs;              // of <vertices>, without POSITION
     const Element* vertices = nullptr;
 
+    std::vector<uint32_t> entries,
+        missing;  // of each source: the file's, and the stand-in's number
+
     uint32_t source_index(Link source);
+    // An entry behind the file's own for corners that name none: white for colours, else 0 (a
+    // normal that vanishes gives way to the face's).
+    uint32_t missing_entry(uint32_t source, std::string_view semantic);
 };
 
 // Adds the triangles of one element to the geometry.

@@ -102,7 +102,11 @@ bool SkinReader::read_base(const Element& element) {
         skin.geometry = geometry_index(x, base);
     } else if (base.element->child("morph")) {
         skin.morph = morph_index(x, base);
-        if (skin.morph != kNone) skin.geometry = x.scene.morphs[skin.morph].geometry;
+        if (skin.morph != kNone && x.scene.morphs[skin.morph].skin == kNone)
+            skin.geometry = x.scene.morphs[skin.morph].geometry;
+        else if (skin.morph != kNone)
+            x.diag.report(Code::SKIN_UNUSABLE, x.where({doc, &element}, "source"), skin.id,
+                          std::string("its source is a morph of another skin"));
     } else {
         x.diag.report(Code::SKIN_UNUSABLE, x.where({doc, &element}, "source"), skin.id,
                       std::string("its source is another skin"));
@@ -269,6 +273,8 @@ uint32_t skin_index(Extraction& x, Link link) {
     auto [at, fresh] = x.made.emplace(link.element, kNone);
     if (!fresh) return at->second;
     uint32_t& result = at->second;
+    ControllerDepth depth(x);
+    if (!depth.fits(link)) return result;
     const Element& element = *link.element->child("skin");
     Skin skin;
     skin.id = link.element->value("id");
@@ -279,6 +285,11 @@ uint32_t skin_index(Extraction& x, Link link) {
     if (!x.budget.reserve(sizeof(Skin) + positions * sizeof(uint32_t), skin.where)) return result;
     skin.offsets.assign(positions + 1, 0);
     reader.read_bind_shape(element);
+    x.skin_frames.push_back(x.frames.of(link));
+    uint32_t conversion =
+        x.frames.conversion(x.skin_frames.back(), x.geometry_frames[skin.geometry]);
+    if (conversion != kNone)
+        skin.bind_shape_matrix = skin.bind_shape_matrix * x.scene.conversions[conversion];
     if (reader.read_joints(element)) reader.read_weights(element);
     return result = append(x.scene.skins, std::move(skin));
 }

@@ -41,6 +41,8 @@ const char* fault(TransformKind kind, const std::array<double, 16>& v) {
     if (kind == TransformKind::Rotate && length(&v[0]) == 0 && v[3] != 0) return "has a zero axis";
     if (kind == TransformKind::Skew && (length(&v[1]) == 0 || length(&v[4]) == 0))
         return "has a zero axis";
+    if (kind == TransformKind::Skew && std::abs(std::cos(radians(v[0]))) < 1e-9)
+        return "skews by a right angle";
     if (kind == TransformKind::Lookat) {
         dvec3 ahead(v[3] - v[0], v[4] - v[1], v[5] - v[2]);
         dvec3 up(v[6], v[7], v[8]);

@@ -72,6 +72,8 @@ enum class MorphMethod : uint8_t { Normalized, Relative };
 struct Morph {
     std::string id;
     uint32_t geometry = kNone;  // the base mesh
+    uint32_t base = kNone;      // the morph whose result it changes: index into morphs, smaller
+    uint32_t skin = kNone;      // it is written on this skin: the skin moves its result
     MorphMethod method = MorphMethod::Normalized;
     std::vector<uint32_t> targets;  // geometries
     std::vector<double> weights;    // one per target: base values that channels write

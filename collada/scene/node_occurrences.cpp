@@ -46,24 +46,29 @@ void NodeOccurrences::start(const Channel& channel) {
 
 // Without recursion, since instances may be chained as long as the file.
 void NodeOccurrences::walk(uint32_t root) {
-    std::vector<std::pair<uint32_t, uint32_t>> todo{{root, kNone}};
+    struct Step {
+        uint32_t node, parent, conversion;
+    };
+    std::vector<Step> todo{{root, kNone, nodes_[root].conversion}};
     while (!todo.empty()) {
-        auto [at, parent] = todo.back();
+        auto [at, parent, conversion] = todo.back();
         todo.pop_back();
         if (occurrence_of_[at] != kNone) continue;
         uint32_t occurrence = occurrence_of_[at] = uint32_t(all_.size());
         const Node& node = nodes_[at];
-        dmat4 local = matrix_of(node.transforms), first = local;
+        dmat4 change = conversion == kNone ? dmat4(1.0) : scene_.conversions[conversion];
+        dmat4 local = change * matrix_of(node.transforms), first = local;
         if (auto moved = started_.find(at); moved != started_.end())
-            first = matrix_of(moved->second);
+            first = change * matrix_of(moved->second);
         if (parent == kNone)
             all_.push_back({at, parent, local, local, first});
         else
             all_.push_back(
                 {at, parent, local, all_[parent].world * local, all_[parent].start * first});
-        for (uint32_t child : node.children) todo.emplace_back(child, occurrence);
+        for (uint32_t child : node.children)
+            todo.push_back({child, occurrence, nodes_[child].conversion});
         for (const NodeInstance& instance : node.instances)
-            todo.emplace_back(instance.node, occurrence);
+            todo.push_back({instance.node, occurrence, instance.conversion});
     }
 }
 

@@ -106,7 +106,10 @@ struct Node {
     std::vector<NodeInstance> instances;
     std::vector<uint32_t> children;
     uint32_t parent = kNone;  // the node it is written in
-    uint32_t document = 0;    // index into SceneData::documents
+    // Index into SceneData::conversions: of its own <asset>, into that of the node it is written in
+    // (else the root document's). An instance has its own instead.
+    uint32_t conversion = kNone;
+    uint32_t document = 0;  // index into SceneData::documents
     Location where;
     // <extra><technique profile="RSL"><attribute name="user:x">text</attribute>: what shaders ask
     // the geometry for.
@@ -212,7 +215,7 @@ struct SceneData {
     std::vector<Sampler> samplers;
     std::vector<Channel> channels;
     std::vector<Clip> clips;
-    std::vector<dmat4> conversions;  // from an external document's units and axes into the root's
+    std::vector<dmat4> conversions;  // from the units and axes of a definition into its user's
 
     // From MAYA/MAX3D/FCOLLADA/Blender extras of scene and document, seconds.
     std::optional<double> start_time, end_time, frame_rate;

@@ -74,22 +74,19 @@ dmat4 lookat_matrix(const double* v) {
     return dmat4(dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0), dvec4(eye, 1));
 }
 
-// d1 = sin(phi) o + cos(phi) d2 with o perpendicular to d2; p + k (p . o) d2 turns d1 towards d2 by
-// the angle when k = cot(phi - angle) - cot(phi).
+// COLLADA 1.4.1, chapter 5, names the axes and no formula. This one fits the conformance suite's
+// pictures (transform_stack: 0.81 of the silhouette, plain skews 0.995); RiSkew's does not (0.59).
 dmat4 skew_matrix(const double* v) {
     dvec3 d1(v[1], v[2], v[3]), d2(v[4], v[5], v[6]);
-    if (!(glm::length(d1) > 0) || !(glm::length(d2) > 0)) return dmat4(1.0);
+    double angle = radians(std::remainder(v[0], 360.0)), cosine = std::cos(angle);
+    if (!(glm::length(d1) > 0) || !(glm::length(d2) > 0) || !(std::abs(cosine) > 1e-9))
+        return dmat4(1.0);
     d1 = glm::normalize(d1);
     d2 = glm::normalize(d2);
-    dvec3 o = d1 - glm::dot(d1, d2) * d2;
-    double sine = glm::length(o);
-    if (!(sine > 1e-12)) return dmat4(1.0);
-    o /= sine;
-    double phi = std::atan2(sine, glm::dot(d1, d2));
-    double k = 1.0 / std::tan(phi - radians(v[0])) - 1.0 / std::tan(phi);
+    double tangent = std::sin(angle) / cosine;
     dmat4 m(1.0);
     for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row) m[column][row] += k * o[column] * d2[row];
+        for (int row = 0; row < 3; ++row) m[column][row] += tangent * d2[column] * d1[row];
     return m;
 }
 

@@ -13,8 +13,8 @@ dmat4 rows_matrix(const double* v);         // 16 numbers row by row; the last r
 // Eye, interest, up. Where up lies along the view a fixed axis is right; an eye at the interest is
 // only moved.
 dmat4 lookat_matrix(const double* v);
-// Angle, rotated axis, translated axis: the rotated axis turns towards the translated one by the
-// angle, as RiSkew has it.
+// Angle, rotated axis d1, translated axis d2, made unit: p + tan(angle) (p . d2) d1. A zero axis or
+// an angle without a tangent: the identity.
 dmat4 skew_matrix(const double* v);
 // x y z w of any length (glTF 2.0, 3.5.3); zero or not finite: the identity.
 dmat4 quaternion_matrix(const double* v);

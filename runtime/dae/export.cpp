@@ -126,7 +126,7 @@ void ColladaExporter::name_all() {
     uses_.assign(count, 0);
     parents_.assign(count, kNone);
     joint_.assign(count, false);
-    for (uint32_t root : description_.roots) ++uses_[root];
+    for (const ChildUse& root : description_.roots) ++uses_[root.node];
     for (uint32_t n = 0; n < count; ++n) {
         for (const ChildUse& c : description_.nodes[n].children) {
             ++uses_[c.node];
@@ -268,7 +268,7 @@ ColladaExport ColladaExporter::run() {
     std::string shared, tops, geometries, lights, cameras, scene_extra;
     for (uint32_t n = 0; n < description_.nodes.size(); ++n)
         if (uses_[n] > 1) shared += node(n);
-    for (uint32_t root : description_.roots) tops += child({root, dmat4(1.0)});
+    for (const ChildUse& root : description_.roots) tops += child(root);
     tops += skinned_;
     for (uint32_t m = 0; m < description_.meshes.size(); ++m) geometries += geometry(m);
     for (uint32_t m = 0; m < description_.materials.size(); ++m) {

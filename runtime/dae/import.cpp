@@ -212,7 +212,8 @@ void ColladaImport::import_nodes() {
         for (size_t t = 0; t < from.transforms.size(); ++t)
             to.transforms.push_back(
                 {TransformKind(from.transforms[t].kind), transform_values_[n][t]});
-        for (uint32_t child : from.children) to.children.push_back({child, dmat4(1.0)});
+        for (uint32_t child : from.children)
+            to.children.push_back({child, conversion(data_.nodes[child].conversion)});
         for (const collada::NodeInstance& instance : from.instances)
             to.children.push_back({instance.node, conversion(instance.conversion)});
         for (const collada::MeshInstance& mesh : from.meshes) to.meshes.push_back(mesh_use(mesh));
@@ -229,7 +230,8 @@ void ColladaImport::import_nodes() {
             if (camera.conversion != collada::kNone)
                 add_reference(n, camera.conversion).cameras.push_back(camera.camera);
     }
-    out_.roots = data_.roots;
+    for (uint32_t root : data_.roots)
+        out_.roots.push_back({root, conversion(data_.nodes[root].conversion)});
 }
 
 // A node below the n-th for a light or camera in other units or axes: theirs is the matrix.

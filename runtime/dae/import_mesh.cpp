@@ -59,7 +59,8 @@ void ColladaImport::import_morphs() {
                                from.method == collada::MorphMethod::Relative,
                                from.targets,
                                {morph_values_[m], uint32_t(from.weights.size())},
-                               from.where});
+                               from.where,
+                               from.base});
     }
 }
 

@@ -131,6 +131,7 @@ struct MorphDefinition {
     std::vector<uint32_t> targets;  // meshes
     ValueSlot weights;
     Location where;
+    uint32_t base = kNone;  // the morph whose result it changes, of the same mesh
 };
 
 // What a shader parameter is given: numbers from a slot (animated or not), strings, or nothing
@@ -203,7 +204,7 @@ struct SceneDescription {
     UpAxis up_axis = UpAxis::Y;
     std::vector<double> values;
     std::vector<NodeDefinition> nodes;
-    std::vector<uint32_t> roots;
+    std::vector<ChildUse> roots;
     bool only_chosen = false;      // --only: other meshes are not there
     uint32_t camera_node = kNone;  // the first camera at or below it is the default one
     std::vector<MeshDefinition> meshes;

@@ -52,8 +52,10 @@ struct Node {
 struct MeshGroup {
     std::string symbol;
     std::vector<uint32_t> triangles;
-    std::vector<uint32_t> normal_corners;        // entry of Mesh::normals for each corner
+    std::vector<uint32_t> normal_corners;  // entry of Mesh::normals for each corner; empty: flat
     const PrimitiveGroup* definition = nullptr;  // texture coordinates, colours
+    // The file gives no normals: N is Ng at each hit.
+    bool flat() const { return normal_corners.empty(); }
 };
 struct Mesh {
     dvec3 anchor{0.0};
@@ -81,7 +83,7 @@ struct Shape {
     uint32_t node = kNone;
     uint32_t skin = kNone;        // index into SceneDescription::skins
     uint32_t morph = kNone;       // index into SceneDescription::morphs
-    uint32_t morph_data = kNone;  // index into Scene::morphs
+    uint32_t morph_data = kNone;  // index into Scene::morphs: of it and those it changes
     dmat4 conversion{1.0};
     bool in_world = false;  // a skin's result is in world space; its node's matrix does not apply
     uint32_t applies_below = kNone;     // if it does: below this node, which moves the joints, too
@@ -99,6 +101,7 @@ struct Shape {
     std::vector<dmat4> joint_world;  // world_from_joint, in joint order
     std::vector<skin::JointMatrix> palette;
     std::vector<vec4> morphed_positions, morphed_normals;
+    std::vector<double> morph_weights;  // of morph_data's targets
 
     // Displacement and transformation that run at frames; null where none does. Without a skin they
     // move the (morphed) mesh and the node's matrix comes after; with one they move what it gives.

@@ -11,8 +11,7 @@ struct Scene;
 
 // The matrix of one operation; `v` starts at its values. Angles in degrees. COLLADA 1.4.1 chapter
 // 5: rotate about an axis (zero axis: identity), lookat (eye, interest, up), skew (angle, rotated
-// axis, translated axis: the rotated axis turns towards the translated one by the angle, as
-// RiSkew has it); quaternion (glTF 2.0, 3.5.3).
+// axis, translated axis: runtime/base/transform_matrix.h); quaternion (glTF 2.0, 3.5.3).
 dmat4 transform_matrix(TransformKind kind, const double* v);
 
 // The product of a node's operations in order.

@@ -272,6 +272,11 @@ class HitSource : public PointSource {
     }
     vec3 current_normal(const vec4& entry) const { return current_normal(vec3(entry)); }
     void normals(size_t begin, size_t end) const {
+        if (mesh_->groups[surface_->group].flat()) {
+            for (size_t i = begin; i < end; ++i)
+                N_.set(i, rotation_ * triple(hits_.Ng, grid_.points[i]));
+            return;
+        }
         const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
         const vec4* entries = shape_->rest_normals.data();
         for (size_t i = begin; i < end; ++i) {
@@ -320,8 +325,13 @@ class HitSource : public PointSource {
         put(kColDv, std::max(std::abs(along_x.y), std::abs(along_y.y)));
     }
 
-    // Of the unit normal n = m / |m|: n_u = (m_u - n (n . m_u)) / |m|.
+    // Of the unit normal n = m / |m|: n_u = (m_u - n (n . m_u)) / |m|. On flat faces it is 0.
     void normal_partials(size_t i, const Corner& c, const AffineMap& map) const {
+        if (c.group.flat()) {
+            if (dNdu_) dNdu_.set(i, vec3(0));
+            if (dNdv_) dNdv_.set(i, vec3(0));
+            return;
+        }
         vec3 n0 = current_normal(c.normal(0)), n1 = current_normal(c.normal(1)),
              n2 = current_normal(c.normal(2));
         vec3 m = (1 - c.u - c.v) * n0 + c.u * n1 + c.v * n2;

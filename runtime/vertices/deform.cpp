@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "runtime/base/stats.h"
+#include "runtime/description/morph_weights.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/vertices/vertex_work.h"
@@ -26,8 +27,10 @@ bool joints_moved(const Scene& scene, const Shape& shape) {
 }
 
 bool morph_changed(const Scene& scene, const Shape& shape) {
-    return shape.morph != kNone &&
-           changed_bit(scene, uint32_t(scene.description->nodes.size()) + shape.morph);
+    const SceneDescription& description = *scene.description;
+    for (uint32_t m = shape.morph; m != kNone; m = description.morphs[m].base)
+        if (changed_bit(scene, uint32_t(description.nodes.size()) + m)) return true;
+    return false;
 }
 
 void update_world(Scene& scene, Shape& shape) {
@@ -45,10 +48,8 @@ bool most_mirror(std::span<const skin::JointMatrix> joints) {
 }
 
 void morph(Scene& scene, Shape& shape) {
-    const MorphDefinition& definition = scene.description->morphs[shape.morph];
-    std::span<const double> weights(scene.values.data() + definition.weights.offset,
-                                    definition.weights.count);
-    skin::deform(scene.morphs[shape.morph_data], weights, shape.morphed_positions,
+    morph_weights(*scene.description, scene.values, shape.morph, shape.morph_weights);
+    skin::deform(scene.morphs[shape.morph_data], shape.morph_weights, shape.morphed_positions,
                  shape.morphed_normals);
 }
 

@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "runtime/description/morph_weights.h"
+
 namespace kinora {
 
 namespace {
@@ -107,12 +109,11 @@ double longest_rigid(const Scene& scene, const WatchedEdges& watched, const Shap
     return most;
 }
 
-double longest_posed(const Scene& scene, WatchedEdges& watched, const Shape& shape) {
+double longest_posed(const Scene& scene, WatchedEdges& watched, Shape& shape) {
     std::span<const vec4> rest = watched.rest;
     if (shape.morph != kNone) {
-        const ValueSlot& weights = scene.description->morphs[shape.morph].weights;
-        skin::deform(watched.morph, {scene.values.data() + weights.offset, weights.count},
-                     watched.morphed, {});
+        morph_weights(*scene.description, scene.values, shape.morph, shape.morph_weights);
+        skin::deform(watched.morph, shape.morph_weights, watched.morphed, {});
         rest = watched.morphed;
     }
     skin::deform(watched.skin, shape.palette, rest, {}, watched.posed, {});
@@ -150,7 +151,7 @@ double dice_error(Scene& scene) {
     double most = 0;
     for (const auto& watched : scene.watched)
         for (uint32_t h : watched->shapes) {
-            const Shape& shape = scene.shapes[h];
+            Shape& shape = scene.shapes[h];
             if (!watched->ends.empty() && watched->posed.empty()) continue;  // no scene yet
             most = std::max(most, watched->posed.empty() ? longest_rigid(scene, *watched, shape)
                                                          : longest_posed(scene, *watched, shape));

@@ -44,7 +44,8 @@ std::vector<vec4> between(std::span<const Stencil> stencils, std::span<const vec
     result.reserve(stencils.size());
     for (const Stencil& s : stencils) {
         dvec3 sum(0.0);
-        for (int k = 0; k < 3; ++k) sum += double(s.weight[k]) * dvec3(entries[s.entry[k]]);
+        for (int k = 0; k < 3; ++k)
+            if (s.weight[k] != 0) sum += double(s.weight[k]) * dvec3(entries[s.entry[k]]);
         result.push_back(vec4(vec3(sum), 0.0f));
     }
     return result;

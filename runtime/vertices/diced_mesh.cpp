@@ -57,7 +57,7 @@ dvec3 combine(const Stencil& s, std::span<const vec4> entries) {
 
 // A wedge of the base mesh for each corner: equal where all that is known of the corners is equal.
 std::vector<uint32_t> number_wedges(const MeshGroup& group) {
-    std::vector<uint32_t> wedges = group.normal_corners;
+    std::vector<uint32_t> wedges = group.flat() ? group.triangles : group.normal_corners;
     for (const VertexAttribute& attribute : group.definition->attributes) {
         if (attribute.semantic == "NORMAL") continue;
         PairNumbers numbers(wedges.size() / 2);
@@ -88,16 +88,24 @@ VertexAttribute barycentric_texcoord(size_t corners) {
 // One group of the base mesh to its diced one.
 class GroupDicer {
   public:
-    GroupDicer(const Mesh& base, const MeshGroup& from, EdgePoints& edge_positions, DicedMesh& out)
-        : base_(base), from_(from), edge_positions_(edge_positions), out_(out) {
+    GroupDicer(const Mesh& base, const MeshGroup& from, bool moved, EdgePoints& edge_positions,
+               DicedMesh& out)
+        : base_(base),
+          from_(from),
+          of_faces_(moved && from.flat()),
+          edge_positions_(edge_positions),
+          out_(out) {
+        group_.flat = from.flat();
         to_ = std::make_unique<PrimitiveGroup>();
         to_->symbol = from.symbol;
         for (const VertexAttribute& a : from.definition->attributes)
             if (a.semantic != "NORMAL") sources_.push_back(&a);
-        if (!has_texcoord(*from.definition)) {
+        bool barycentric = !has_texcoord(*from.definition);
+        if (barycentric) {
             barycentrics_ = barycentric_texcoord(from.triangles.size());
             sources_.push_back(&barycentrics_);
-            // Every triangle has wedges of its own then.
+        }
+        if (barycentric || of_faces_) {  // every triangle has wedges of its own
             for (uint32_t c = 0; c < from.triangles.size(); ++c) base_wedges_.push_back(c);
         } else {
             base_wedges_ = number_wedges(from);
@@ -118,9 +126,10 @@ class GroupDicer {
         for (size_t k = 0; k < 3; ++k) {
             corner_[k] = 3 * t + k;
             positions_[k] = from_.triangles[corner_[k]];
-            normals_[k] = from_.normal_corners[corner_[k]];
+            if (!from_.flat()) normals_[k] = from_.normal_corners[corner_[k]];
             wedges_[k] = base_wedges_[corner_[k]];
         }
+        if (of_faces_) face_ = face_normal();
         numbers_.clear();
         for (DicePoint p : d.points) numbers_.push_back(wedge(p));
         for (uint32_t p : d.triangles) group_.corners.push_back(numbers_[p]);
@@ -134,7 +143,7 @@ class GroupDicer {
         made.normal_corners.reserve(group_.corners.size());
         for (uint32_t w : group_.corners) {
             made.triangles.push_back(group_.position[w]);
-            made.normal_corners.push_back(group_.normal[w]);
+            if (!group_.normal.empty()) made.normal_corners.push_back(group_.normal[w]);
         }
         for (VertexAttribute& a : to_->attributes) a.corners = group_.corners;
         out_.mesh.own_groups.push_back(std::move(to_));
@@ -155,7 +164,7 @@ class GroupDicer {
         }
         uint32_t at = position(p, zeros);
         group_.position.push_back(at);
-        group_.normal.push_back(normal(p, zeros, at));
+        if (of_faces_ || !from_.flat()) group_.normal.push_back(normal(p, zeros, at));
         for (size_t a = 0; a < sources_.size(); ++a) {
             const VertexAttribute& from = *sources_[a];
             for (uint32_t c = 0; c < from.stride; ++c) {
@@ -180,7 +189,23 @@ class GroupDicer {
         return next;
     }
 
+    vec4 face_normal() const {
+        dvec3 a(base_.positions[positions_[0]]);
+        dvec3 n = glm::cross(dvec3(base_.positions[positions_[1]]) - a,
+                             dvec3(base_.positions[positions_[2]]) - a);
+        double length = glm::length(n);
+        return vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f);
+    }
+
+    uint32_t add_normal(const Stencil& from, vec4 value, uint32_t at) {
+        out_.normal_stencils.push_back(from);
+        out_.mesh.normal_positions.push_back(at);
+        out_.mesh.normals.push_back(value);
+        return uint32_t(out_.mesh.normals.size() - 1);
+    }
+
     uint32_t normal(DicePoint p, int zeros, uint32_t at) {
+        if (of_faces_) return add_normal({{0, 0, 0}, {0, 0, 0}}, face_, at);
         uint32_t next = uint32_t(out_.normal_stencils.size());
         if (zeros == 2) {
             uint32_t& known = normal_of_[normals_[size_t(corner_of(p))]];
@@ -190,13 +215,15 @@ class GroupDicer {
             uint32_t known = edge_normals_.number(normals_, p, next);
             if (known != next) return known;
         }
-        out_.normal_stencils.push_back(stencil(normals_, p));
-        out_.mesh.normal_positions.push_back(at);
-        return next;
+        Stencil s = stencil(normals_, p);
+        dvec3 n = combine(s, base_.normals);
+        double length = glm::length(n);
+        return add_normal(s, vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f), at);
     }
 
     const Mesh& base_;
     const MeshGroup& from_;
+    bool of_faces_;  // its normals are those of its triangles
     EdgePoints& edge_positions_;
     DicedMesh& out_;
     std::unique_ptr<PrimitiveGroup> to_;
@@ -208,6 +235,7 @@ class GroupDicer {
     EdgePoints edge_normals_, edge_wedges_;
     std::array<size_t, 3> corner_{};  // the triangle under work
     Corners positions_{}, normals_{}, wedges_{};
+    vec4 face_{0.0f};
     std::vector<uint32_t> numbers_;
 };
 
@@ -275,7 +303,8 @@ std::vector<uint32_t> weld(std::span<const vec4> positions) {
 }
 
 std::optional<DicedMesh> dice_mesh(const Mesh& base, std::span<const uint8_t> diced,
-                                   DiceTest too_long, size_t limit) {
+                                   std::span<const uint8_t> moved, DiceTest too_long,
+                                   size_t limit) {
     MarkedEdges marked(base, diced);
     std::atomic<size_t> total{0};
     std::vector<std::vector<DicedTriangle>> pieces(base.groups.size());
@@ -309,18 +338,13 @@ std::optional<DicedMesh> dice_mesh(const Mesh& base, std::span<const uint8_t> di
         out.position_stencils.push_back({{p, p, p}, {1, 0, 0}});
     EdgePoints edge_positions;
     for (size_t g = 0; g < base.groups.size(); ++g) {
-        GroupDicer dicer(base, base.groups[g], edge_positions, out);
+        GroupDicer dicer(base, base.groups[g], moved[g], edge_positions, out);
         for (size_t t = 0; t < pieces[g].size(); ++t) dicer.triangle(t, pieces[g][t]);
         pieces[g] = {};
         dicer.finish();
     }
     for (const Stencil& s : out.position_stencils)
         out.mesh.positions.push_back(vec4(vec3(combine(s, base.positions)), 0.0f));
-    for (const Stencil& s : out.normal_stencils) {
-        dvec3 n = combine(s, base.normals);
-        double length = glm::length(n);
-        out.mesh.normals.push_back(vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f));
-    }
     return result;
 }
 

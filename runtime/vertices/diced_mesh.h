@@ -22,13 +22,16 @@ struct Stencil {
 struct DicedGroup {
     std::vector<uint32_t> corners;           // wedge of each triangle corner
     std::vector<uint32_t> position, normal;  // of each wedge: entries of the mesh
+    // The file gives no normals: the entries, if there are any, are those of the old triangles,
+    // none of which shares a wedge with another.
+    bool flat = false;
 };
 
 struct DicedMesh {
     Mesh mesh;  // undisplaced; every normal entry belongs to one group and one position
     std::vector<DicedGroup> groups;
     std::vector<Stencil> position_stencils;  // positions of the base mesh
-    std::vector<Stencil> normal_stencils;    // normals of the base mesh
+    std::vector<Stencil> normal_stencils;    // normals of the base mesh; no weight in flat groups
     size_t triangles() const;
 };
 
@@ -37,12 +40,13 @@ struct DicedMesh {
 using DiceTest = FunctionRef<bool(const uint32_t corners[3], DicePoint a, DicePoint b)>;
 
 // Splits the triangles of the groups that are marked in `diced`, and those of the others along the
-// edges they share with them. `base` comes from build_mesh(definition, true). Attributes other than
-// normals are interpolated linearly; a group without texture coordinates gets the barycentrics of
-// its old triangles as TEXCOORD, so that s and t stay what they were. Nothing when there would be
-// more than `limit` triangles.
+// edges they share with them. Flat groups that are marked in `moved` get normals, for kernels to
+// bend. `base` comes from build_mesh(definition, true). Attributes other than normals are
+// interpolated linearly; a group without texture coordinates gets the barycentrics of its old
+// triangles as TEXCOORD, so that s and t stay what they were. Nothing when there would be more than
+// `limit` triangles.
 std::optional<DicedMesh> dice_mesh(const Mesh& base, std::span<const uint8_t> diced,
-                                   DiceTest too_long, size_t limit);
+                                   std::span<const uint8_t> moved, DiceTest too_long, size_t limit);
 
 // The lowest index of the entries at the same position, for each.
 std::vector<uint32_t> weld(std::span<const vec4> positions);

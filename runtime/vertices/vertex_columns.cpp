@@ -109,6 +109,7 @@ class Wedges : public PointSource {
         return vec3(space_.object * dvec4(p.x, p.y, p.z, 1.0));
     }
     vec3 normal(size_t w) const {
+        if (source_.group.normal.empty()) return geometric_normal(w, vec3(0));
         vec3 n = space_.normals * vec3(source_.normals[source_.group.normal[w]]);
         float square = glm::dot(n, n);
         return square > 0 ? n / std::sqrt(square) : geometric_normal(w, vec3(0));

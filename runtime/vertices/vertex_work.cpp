@@ -121,7 +121,7 @@ VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::ve
     moved_.resize(wedge_count_);
     bent_.resize(wedge_count_);
     faces_.resize(triangles);
-    before_.resize(same_normal_.first.size() - 1);
+    before_.resize(mesh.normals.size());
     size_t parts = 0;
     for (const Group& group : groups_)
         parts = std::max(parts, group.made.position.size() / kPart + 1);
@@ -147,11 +147,19 @@ void VertexWork::weld_normals(const Mesh& mesh) {
         return group.made.normal[wedge - group.first_wedge];
     };
     auto looks_of = [&](uint32_t wedge) { return groups_[group_of_wedge_[wedge]].use.looks; };
+    // The triangles of a flat face are one where dicing makes it smooth; else each has its own.
+    auto may_join = [&](uint32_t wedge) {
+        const Group& group = groups_[group_of_wedge_[wedge]];
+        if (group.made.normal.empty()) return false;
+        return !group.made.flat || group.use.looks[kStages - 1] != nullptr;
+    };
     for (size_t weld = 0; weld + 1 < welds_.first.size(); ++weld) {
         std::span<const uint32_t> wedges = welds_.of(weld);
         for (size_t i = 1; i < wedges.size(); ++i) {
+            if (!may_join(wedges[i])) continue;
             uint32_t n = normal_of(wedges[i]);
             for (size_t k = 0; k < i && key_of_normal_[n] == n; ++k) {
+                if (!may_join(wedges[k])) continue;
                 uint32_t other = normal_of(wedges[k]);
                 vec3 difference = vec3(mesh.normals[n]) - vec3(mesh.normals[other]);
                 if (glm::dot(difference, difference) < 1e-8f &&
@@ -160,10 +168,12 @@ void VertexWork::weld_normals(const Mesh& mesh) {
             }
         }
     }
-    std::vector<uint32_t> key_of_wedge;
+    const uint32_t none = uint32_t(mesh.normals.size());
+    std::vector<uint32_t> key_of_wedge(wedge_count_, none);
     for (const Group& group : groups_)
-        for (uint32_t n : group.made.normal) key_of_wedge.push_back(key_of_normal_[n]);
-    same_normal_ = make_lists(key_of_wedge, mesh.normals.size());
+        for (size_t w = 0; w < group.made.normal.size(); ++w)
+            key_of_wedge[group.first_wedge + w] = key_of_normal_[group.made.normal[w]];
+    same_normal_ = make_lists(key_of_wedge, mesh.normals.size() + 1);
 }
 
 void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor,
@@ -171,6 +181,10 @@ void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from
     while (arenas_.size() < size_t(thread_count())) arenas_.emplace_back();
     Pass pass{scene,     node,    VertexSpace(scene, node, object_from_mesh, anchor),
               positions, normals, mirrored ? -1.0f : 1.0f};
+    // Where the file gives none, normals are those of the triangles as they stand now.
+    for (const Group& group : groups_)
+        for (size_t w = 0; group.made.flat && w < group.made.normal.size(); ++w)
+            normals[group.made.normal[w]] = vec4(0.0f);
     for (pass.stage = 0; pass.stage < kStages; ++pass.stage)
         if (std::any_of(groups_.begin(), groups_.end(),
                         [&](const Group& group) { return group.use.looks[pass.stage]; }))
@@ -308,7 +322,8 @@ void VertexWork::turn_normals(const Pass& pass) {
             std::span<const uint32_t> wedges = same_normal_.of(key);
             if (wedges.empty()) continue;
             vec3 normal(pass.normals[n]);
-            const ShaderInstance* look = groups_[group_of_wedge_[wedges[0]]].use.looks[pass.stage];
+            const Group& group = groups_[group_of_wedge_[wedges[0]]];
+            const ShaderInstance* look = group.use.looks[pass.stage];
             if (look && look->lowered.bends_N) {
                 vec3 sum(0.0f);
                 for (uint32_t w : wedges) sum += vec3(bent_[w]);
@@ -316,7 +331,8 @@ void VertexWork::turn_normals(const Pass& pass) {
             } else {
                 vec3 after = face_sum(wedges);
                 bool displaced = pass.stage == kStages - 1 && after != before_[key];
-                normal = unit_or(displaced ? after : turned(normal, before_[key], after), normal);
+                bool anew = displaced || (look && group.made.flat);
+                normal = unit_or(anew ? after : turned(normal, before_[key], after), normal);
             }
             pass.normals[n] = vec4(normal, 0.0f);
         }

@@ -6,6 +6,8 @@
 // where it gives one (the mean over wedges that shared a normal). Else a displacement's normals are
 // those of the displaced triangles, smooth where the file's were; a transformation's are the
 // file's, turned as the triangles around them turn. Either leaves them alone where nothing moves.
+// Where the file has none, N is the triangle's; what displacement makes of a flat face is smooth
+// within it, and has a crease where faces of different directions meet.
 #pragma once
 
 #include <array>
@@ -85,10 +87,10 @@ class VertexWork {
     std::vector<uint32_t> weld_of_position_;  // key of welds_
     Lists welds_;                             // wedges at one position
     std::vector<uint32_t> key_of_normal_;     // key of same_normal_
-    Lists same_normal_;                       // wedges that share a position and a normal
+    Lists same_normal_;                       // wedges that share a position and a normal; none
     std::vector<vec4> moved_, bent_;          // by wedge, in mesh space
     std::vector<vec4> faces_;                 // by triangle: normal times twice the area
-    std::vector<vec3> before_;                // by key of same_normal_: sum of faces
+    std::vector<vec3> before_;                // by normal that is a key: sum of faces
     std::vector<Arena> arenas_;               // by thread
     std::vector<std::string> prints_;         // by part
     std::vector<uint32_t> not_finite_;        // by part

@@ -39,7 +39,7 @@ TEST(Morph, LeavesOutMissingTargetsAndKeepsWeightsAligned) {
     EXPECT_EQ(r.count("MORPH_TARGET_MISSING"), 1u);
 }
 
-TEST(Morph, OfAnotherControllerIsLeftOutAndThatOneShown) {
+TEST(Morph, OfAnotherMorphChangesItsResultAndOneOfItselfIsLeftOut) {
     std::string mesh =
         "<library_geometries><geometry id=\"g\"><mesh>" +
         float_source("pos", "0 0 0 1 0 0 0 1 0", 3, "XYZ") +
@@ -70,8 +70,18 @@ TEST(Morph, OfAnotherControllerIsLeftOutAndThatOneShown) {
     };
     Reading of_morph, of_itself;
     ASSERT_EQ(shown(of_morph, "inner"), 1u) << of_morph.all();
-    EXPECT_EQ(of_morph.scene->morphs.at(of_morph.node("n").meshes[0].morph).id, "inner");
-    EXPECT_EQ(of_morph.count("MORPH_SOURCE"), 1u);
+    const Morph& outer = of_morph.scene->morphs.at(of_morph.node("n").meshes[0].morph);
+    EXPECT_EQ(outer.id, "outer");
+    EXPECT_EQ(of_morph.scene->morphs.at(outer.base).id, "inner");
+    EXPECT_EQ(of_morph.count("MORPH_SOURCE"), 0u) << of_morph.all();
+    Reading chain;  // of 40: too long a one is told once and shows what it is written on
+    std::string controllers = morph("c0", "g");
+    for (int k = 1; k < 40; ++k)
+        controllers += morph("c" + std::to_string(k), "c" + std::to_string(k - 1));
+    read_text(chain,
+              with_scene(mesh + "<library_controllers>" + controllers + "</library_controllers>",
+                         "<node id=\"n\"><instance_controller url=\"#c39\"/></node>"));
+    EXPECT_EQ(chain.count("MORPH_DEPTH"), 1u) << chain.all();
     EXPECT_EQ(shown(of_itself, "outer"), 0u);
 }
 

@@ -153,9 +153,15 @@ const std::vector<Deviation> kDeviations = {
          EXPECT_EQ(inputs[0].input_set, 7u);  // the number in its name
      }},
     {"16_materials",
-     {"MAT_UNBOUND_SYMBOL", "MAT_NO_BIND"},
+     {"MAT_ONLY_BOUND", "MAT_NO_BIND"},
      {},
-     [](const Reading& r) { EXPECT_TRUE(mesh(r, "n2").materials.empty()); }},
+     [](const Reading& r) {
+         const auto& materials = mesh(r).materials;  // the only one, under the mesh's own symbol
+         ASSERT_EQ(materials.size(), 2u);
+         EXPECT_EQ(materials[1].material, materials[0].material);
+         EXPECT_EQ(materials[1].symbol, r.scene->geometries[mesh(r).geometry].groups[0].material);
+         EXPECT_TRUE(mesh(r, "n2").materials.empty());
+     }},
     {"17_image_paths",
      {"FILE_FALLBACK", "FILE_MISSING", "FILE_ABSOLUTE", "FILE_BACKSLASH", "FILE_HOST"},
      {},

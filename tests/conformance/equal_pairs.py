@@ -130,9 +130,9 @@ def cameras_by_lookat():
 
 
 def skews():
-    """Turning the y axis towards x by 30 degrees shears x by y tan 30."""
+    """p + tan(30) (p . x) y: y grows by x tan 30, as the suite's pictures have it."""
     t = math.tan(math.radians(30))
-    matrix = (1, t, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    matrix = (1, 0, 0, 0, t, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
     return {"skew": document(node(transforms="<skew>30 0 1 0 1 0 0</skew>")),
             "matrix": document(node(transforms=f"<matrix>{numbers(matrix)}</matrix>"))}
 
@@ -236,6 +236,43 @@ def units():
     """World space is the file's own: without other documents its tags move nothing."""
     return {"metre": plain(), "inch": plain(unit='name="inch" meter="0.0254"'), "z_up": plain(up="Z_UP"),
             "x_up": plain(up="X_UP")}
+
+
+def assets():
+    """An <asset> inside: at a geometry, its library, a node; in inches, and with z up."""
+    def asset(inside):
+        return ("<asset><created>2026-11-21T00:00:00Z</created><modified>2026-11-21T00:00:00Z</modified>"
+                f"{inside}</asset>")
+    inch, z_up = asset('<unit name="inch" meter="0.0254"/>'), asset("<up_axis>Z_UP</up_axis>")
+    far = geometry(points=[tuple(v / .0254 for v in p) for p in POINTS])
+    own = source("house-n", NORMALS, "XYZ")
+    turned = source("house-n", [(x, -z, y) for x, y, z in NORMALS], "XYZ")
+    up = geometry(points=[(x, -z, y) for x, y, z in POINTS]).replace(own, turned)
+    moved = f'<node id="n"><translate>.254 0 0</translate>{shown()}</node>'
+    still = f'<node id="n"><translate>.254 0 0</translate><node id="m">{inch}{shown()}</node></node>'
+    return {"none": document(moved),
+            "geometry": document(moved, geometries=far.replace("<mesh>", inch + "<mesh>")),
+            "library": document(moved, geometries=inch + far),
+            "geometry_z_up": document(moved, geometries=up.replace("<mesh>", z_up + "<mesh>")),
+            "node": document(f'<node id="n">{inch}<translate>10 0 0</translate>{shown()}</node>'),
+            "inner_node": document(still),
+            "library_node": document('<node id="n"><instance_node url="#whole"/></node>', library_nodes=inch
+                                     + f'<node id="whole"><translate>10 0 0</translate>{shown()}</node>'),
+            "visual_scene": document(f'<node id="n"><translate>.254 0 0</translate>{shown()}</node>').replace(
+                '<visual_scene id="scene">', f'<visual_scene id="scene">{asset("<up_axis>Y_UP</up_axis>")}')}
+
+
+def normals():
+    """Every face of the house is flat: without normals it looks the same."""
+    without = triangles().replace(
+        '<input semantic="NORMAL" source="#house-n" offset="1"/>', "")
+    return {"given": plain(), "none": plain(geometries=geometry(without))}
+
+
+def only_materials():
+    """Primitives without a symbol, or with one that is bound nowhere, and one material."""
+    return {"named": plain(), "without": plain(geometries=geometry(triangles().replace(' material="m"', ""))),
+            "misspelt": document(node(shown(inside=bind(symbol="M"))))}
 
 
 def archives():
@@ -518,7 +555,7 @@ def kept():
 
 FAMILIES = {f.__name__: f for f in (
     primitives, inputs, solids, polygons_with_holes, transforms, cameras_by_lookat, skews, references, bases, absolute_references,
-    samplers, versions, units,
+    samplers, versions, units, assets, normals, only_materials,
     archives, fields_of_view, magnifications, instances, skins, skin_spaces, armatures, mirrors, morphs, targets, curves, colours, opacities, masks, legacy_colours,
     image_files, texture_coordinates, kept)}
 OPTIONS = {"skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"],

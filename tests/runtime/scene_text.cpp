@@ -136,8 +136,10 @@ SceneText& SceneText::square(const std::string& id, double s) {
 }
 
 SceneText& SceneText::octahedron(const std::string& id) {
-    return mesh(id, {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                {0, 2, 4, 4, 2, 1, 1, 2, 5, 5, 2, 0, 4, 3, 0, 1, 3, 4, 5, 3, 1, 0, 3, 5});
+    const std::vector<dvec3> points{{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                    {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    return mesh(id, points,
+                {0, 2, 4, 4, 2, 1, 1, 2, 5, 5, 2, 0, 4, 3, 0, 1, 3, 4, 5, 3, 1, 0, 3, 5}, points);
 }
 
 SceneText& SceneText::place(const std::string& mesh, const std::string& look,

@@ -39,7 +39,7 @@ struct SceneText {
     // [-size, size] squared in the plane z = 0, normals +z, uv from 0 to 1.
     SceneText& square(const std::string& id, double size = 1);
     SceneText& octahedron(const std::string& id);  // unit, smooth normals
-    // [-size, size] cubed, closed, one normal a vertex (of no use for shading).
+    // [-size, size] cubed, closed, without normals: flat faces.
     SceneText& cube(const std::string& id, double size = 1);
     // A node with the mesh in that look; `inside` goes into instance_material.
     SceneText& place(const std::string& mesh, const std::string& look,

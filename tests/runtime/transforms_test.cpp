@@ -95,20 +95,25 @@ TEST(Transforms, ALookatWhoseUpLiesAlongItsViewHasAFixedAxis) {
     expect_near(apply(still, {1, 0, -1}), {2, 2, 2});
 }
 
-TEST(Transforms, SkewTurnsTheFirstAxisTowardsTheSecondByTheAngle) {
-    // Perpendicular axes: y leans towards x by 30 degrees; points shift along x only.
-    dmat4 m = operation(TransformKind::Skew, {30, 0, 1, 0, 1, 0, 0});
-    expect_near(apply(m, {0, 1, 0}), {std::tan(radians(30.0)), 1, 0});
-    expect_near(apply(m, {5, 0, 7}), {5, 0, 7});
-    // Any axes: the angle between the image of the first and the second shrinks by it.
-    std::vector<double> v{20, 1, 2, 0.5, 3, -0.2, 1};
-    dvec3 d1 = glm::normalize(dvec3(1, 2, 0.5)), d2 = glm::normalize(dvec3(3, -0.2, 1));
-    m = operation(TransformKind::Skew, v);
-    dvec3 image = apply(m, d1);
-    double before = std::acos(glm::dot(d1, d2));
-    double after = std::acos(glm::dot(glm::normalize(image), d2));
-    EXPECT_NEAR(before - after, radians(20.0), 1e-12);
-    EXPECT_NEAR(glm::length(glm::cross(image - d1, d2)), 0, 1e-12);
+TEST(Transforms, SkewMovesAlongTheFirstAxisByTheTangentOfTheAngle) {
+    // y grows by x tan 30.
+    dmat4 m = operation(TransformKind::Skew, {30, 0, 5, 0, 2, 0, 0});
+    expect_near(apply(m, {1, 0, 0}), {1, std::tan(radians(30.0)), 0});
+    expect_near(apply(m, {0, 5, 7}), {0, 5, 7});
+    // Any axes, by hand: d1 = (0.6, 0.8, 0), d2 = (0, 0.6, 0.8), tan 45 = 1, p . d2 = 1.8 + 4.
+    m = operation(TransformKind::Skew, {45, 3, 4, 0, 0, 3, 4});
+    expect_near(apply(m, {1, 3, 5}), {1 + 5.8 * 0.6, 3 + 5.8 * 0.8, 5});
+    m = operation(TransformKind::Skew, {45, 3, 4, 0, 3, 4, 0});  // one axis: it is stretched
+    expect_near(apply(m, {0.6, 0.8, 1}), {1.2, 1.6, 1});
+}
+
+TEST(Transforms, ASkewWithoutATangentOrAnAxisIsTheIdentity) {
+    const std::vector<std::vector<double>> cases{{90, 1, 0, 0, 0, 1, 0},
+                                                 {-270, 1, 0, 0, 0, 1, 0},
+                                                 {30, 0, 0, 0, 0, 1, 0},
+                                                 {30, 1, 0, 0, 0, 0, 0}};
+    for (const std::vector<double>& v : cases)
+        EXPECT_EQ(operation(TransformKind::Skew, v), dmat4(1.0));
 }
 
 TEST(Transforms, OperationsApplyLastFirst) {

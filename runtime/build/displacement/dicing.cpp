@@ -82,7 +82,7 @@ bool Dicing::dice_one(size_t mesh, double pixels, size_t limit) {
         });
     };
     made_[mesh].reset();
-    made_[mesh] = dice_mesh(base, meshes_[mesh].diced, too_long, limit);
+    made_[mesh] = dice_mesh(base, meshes_[mesh].diced, meshes_[mesh].moved, too_long, limit);
     return made_[mesh].has_value();
 }
 

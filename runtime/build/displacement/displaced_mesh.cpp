@@ -28,6 +28,8 @@ Found examine(const Scene& scene, uint32_t index, std::span<const uint32_t> surf
     for (uint32_t s : surfaces) {
         const Surface& surface = scene.surfaces[s];
         found.mesh.diced.push_back(surface.displacement.instance != kNone);
+        found.mesh.moved.push_back(surface.displacement.instance != kNone ||
+                                   surface.transformation.instance != kNone);
         found.key.push_back(uintptr_t(surface.st));
         for (const VertexUse* use : {&surface.transformation, &surface.displacement}) {
             found.key.push_back(use->instance);

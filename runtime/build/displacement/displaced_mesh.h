@@ -11,7 +11,7 @@ namespace kinora {
 struct DisplacedMesh {
     std::vector<uint32_t> shapes;
     std::vector<std::vector<uint32_t>> surfaces;  // by shape, by group
-    std::vector<uint8_t> diced;                   // by group
+    std::vector<uint8_t> diced, moved;            // by group: displaced, or also transformed
     bool deforms = false;                         // a skin or morph
     bool each_frame = false;                      // the shaders' results change with time
     Mesh base;

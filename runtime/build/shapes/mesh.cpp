@@ -1,8 +1,8 @@
 // runtime/build/shapes/mesh.cpp: anchors, and normals with a position of their own.
 #include "runtime/build/shapes/mesh.h"
 
-#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "runtime/description/pair_numbers.h"
@@ -55,41 +55,6 @@ void add_given_normals(const PrimitiveGroup& group, const VertexAttribute& norma
     }
 }
 
-double corner_angle(dvec3 at, dvec3 b, dvec3 c) {
-    dvec3 x = b - at, y = c - at;
-    double length = glm::length(x) * glm::length(y);
-    return length > 0 ? std::acos(std::clamp(glm::dot(x, y) / length, -1.0, 1.0)) : 0.0;
-}
-
-void add_smooth_normals(const MeshDefinition& definition, const std::vector<size_t>& groups,
-                        Mesh& mesh) {
-    std::vector<dvec3> sums(definition.positions.size(), dvec3(0.0));
-    for (size_t g : groups) {
-        const std::vector<uint32_t>& t = definition.groups[g].triangles;
-        for (size_t c = 0; c + 2 < t.size(); c += 3) {
-            dvec3 p[3] = {definition.positions[t[c]], definition.positions[t[c + 1]],
-                          definition.positions[t[c + 2]]};
-            dvec3 face = glm::cross(p[1] - p[0], p[2] - p[0]);
-            double length = glm::length(face);
-            if (!(length > 0)) continue;
-            for (size_t k = 0; k < 3; ++k)
-                sums[t[c + k]] +=
-                    face / length * corner_angle(p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
-        }
-    }
-    uint32_t first = uint32_t(mesh.normals.size());
-    mesh.normals.reserve(first + sums.size());
-    mesh.normal_positions.reserve(first + sums.size());
-    for (size_t i = 0; i < sums.size(); ++i) {
-        double length = glm::length(sums[i]);
-        mesh.normals.push_back(vec4(length > 0 ? vec3(sums[i] / length) : vec3(0.0f), 0.0f));
-        mesh.normal_positions.push_back(uint32_t(i));
-    }
-    for (size_t g : groups)
-        for (uint32_t position : definition.groups[g].triangles)
-            mesh.groups[g].normal_corners.push_back(first + position);
-}
-
 // Of the triangles: what none of them has may lie anywhere. Nothing: low > high.
 void set_bounds_of_triangles(const MeshDefinition& definition, Mesh& mesh) {
     mesh.low = dvec3(1e300);
@@ -113,20 +78,14 @@ Mesh build_mesh(const MeshDefinition& definition, bool deforms) {
     mesh.positions.reserve(definition.positions.size());
     for (const dvec3& p : definition.positions)
         mesh.positions.push_back(vec4(vec3(p - mesh.anchor), 0.0f));
-    std::vector<size_t> without;
-    for (size_t g = 0; g < definition.groups.size(); ++g) {
-        const PrimitiveGroup& group = definition.groups[g];
+    for (const PrimitiveGroup& group : definition.groups) {
         MeshGroup& out = mesh.groups.emplace_back();
         out.symbol = group.symbol;
         out.triangles = group.triangles;
         out.definition = &group;
         const VertexAttribute* normals = find_attribute(group, "NORMAL");
-        if (normals && normals->stride >= 3)
-            add_given_normals(group, *normals, deforms, mesh, out);
-        else
-            without.push_back(g);
+        if (normals && normals->stride >= 3) add_given_normals(group, *normals, deforms, mesh, out);
     }
-    if (!without.empty()) add_smooth_normals(definition, without, mesh);
     return mesh;
 }
 

@@ -6,8 +6,8 @@
 namespace kinora {
 
 // Positions become floats relative to the centre of their bounds; normals become entries that name
-// their position, smooth and angle-weighted where the file gives none. With `deforms` a normal that
-// several positions share is split, so that each can follow its own position.
+// their position. Groups without normals are flat. With `deforms` a normal that several positions
+// share is split, so that each can follow its own position.
 Mesh build_mesh(const MeshDefinition& definition, bool deforms);
 
 }  // namespace kinora

@@ -1,8 +1,10 @@
 // runtime/build/shapes/morphs.cpp: morph targets of a shape.
 #include "runtime/build/shapes/morphs.h"
 
-#include "runtime/build/shapes/mesh.h"
+#include <algorithm>
+
 #include "runtime/description/findings.h"
+#include "runtime/description/morph_weights.h"
 
 namespace kinora {
 
@@ -15,32 +17,15 @@ const VertexAttribute* normals_of(const PrimitiveGroup& group) {
     return found;
 }
 
-// Smooth ones, of a base without any and a target of as many positions.
-std::vector<vec3> smooth_normals(const MeshDefinition& target, const Mesh& base,
-                                 const MeshDefinition& base_definition, bool relative) {
-    std::vector<vec3> result(base.normals.size(), vec3(0.0f));
-    MeshDefinition moved = base_definition;
-    for (size_t i = 0; i < moved.positions.size(); ++i)
-        moved.positions[i] = target.positions[i] + (relative ? moved.positions[i] : dvec3(0.0));
-    Mesh mesh = build_mesh(moved, true);
-    for (size_t i = 0; i < result.size(); ++i)
-        result[i] = vec3(mesh.normals[i]) - (relative ? vec3(base.normals[i]) : vec3(0.0f));
-    return result;
-}
-
 // A target's normals in the order of the base's entries: the file's, where target and base have the
-// same corners; smooth ones where neither has any; else none (the base's stay).
-std::vector<vec3> target_normals(const MeshDefinition& target, const Mesh& base,
-                                 const MeshDefinition& base_definition, bool relative) {
-    bool smooth = true;
-    for (const PrimitiveGroup& group : base_definition.groups) smooth &= !normals_of(group);
-    if (smooth && target.positions.size() == base_definition.positions.size())
-        return smooth_normals(target, base, base_definition, relative);
-    if (target.groups.size() != base_definition.groups.size()) return {};
+// same corners; else none (the base's stay).
+std::vector<vec3> target_normals(const MeshDefinition& target, const Mesh& base) {
+    if (target.groups.size() != base.groups.size()) return {};
     std::vector<vec3> result(base.normals.size(), vec3(0.0f));
     for (size_t g = 0; g < target.groups.size(); ++g) {
-        const VertexAttribute* normals = normals_of(target.groups[g]);
         const std::vector<uint32_t>& entries = base.groups[g].normal_corners;
+        if (base.groups[g].flat()) continue;
+        const VertexAttribute* normals = normals_of(target.groups[g]);
         if (!normals || normals->corners.size() != entries.size()) return {};
         for (size_t c = 0; c < entries.size(); ++c) {
             const float* v = &normals->values[size_t(normals->corners[c]) * normals->stride];
@@ -50,24 +35,36 @@ std::vector<vec3> target_normals(const MeshDefinition& target, const Mesh& base,
     return result;
 }
 
-skin::Morph build_morph(const SceneDescription& description, const MorphDefinition& definition,
-                        const Mesh& mesh, uint32_t* mismatched) {
-    const MeshDefinition& base_definition = description.meshes[mesh.definition];
+// One target of a NORMALIZED morph among others: what it differs from the base by.
+void subtract_base(const MeshDefinition& base, const Mesh& mesh, const MeshDefinition& target,
+                   std::vector<vec3>& positions, std::vector<vec3>& normals) {
+    for (size_t i = 0; i < std::min(positions.size(), base.positions.size()); ++i)
+        positions[i] = vec3(target.positions[i] - base.positions[i]);
+    for (size_t i = 0; i < normals.size(); ++i) normals[i] -= vec3(mesh.normals[i]);
+}
+
+// The targets of a morph behind those of the morphs whose results it changes.
+skin::Morph build_morph(const SceneDescription& description, uint32_t morph, const Mesh& mesh,
+                        uint32_t* mismatched) {
     std::vector<vec3> base(mesh.positions.begin(), mesh.positions.end());
     std::vector<vec3> base_normals(mesh.normals.begin(), mesh.normals.end());
     std::vector<std::vector<vec3>> positions, normals;
-    for (uint32_t t : definition.targets) {
-        const MeshDefinition& target = description.meshes[t];
-        auto& p = positions.emplace_back();
-        for (const dvec3& x : target.positions)
-            p.push_back(vec3(x - (definition.relative ? dvec3(0.0) : mesh.anchor)));
-        normals.push_back(target_normals(target, mesh, base_definition, definition.relative));
-    }
+    std::vector<uint32_t> chain = morph_chain(description, morph);
+    bool relative = chain.size() > 1 || description.morphs[morph].relative;
+    for (uint32_t m : chain)
+        for (uint32_t t : description.morphs[m].targets) {
+            const MeshDefinition& target = description.meshes[t];
+            auto& p = positions.emplace_back();
+            for (const dvec3& x : target.positions)
+                p.push_back(vec3(x - (relative ? dvec3(0.0) : mesh.anchor)));
+            normals.push_back(target_normals(target, mesh));
+            if (relative && !description.morphs[m].relative)
+                subtract_base(description.meshes[mesh.definition], mesh, target, p, normals.back());
+        }
     std::vector<skin::MorphTargetSource> sources;
     for (size_t t = 0; t < positions.size(); ++t) sources.push_back({positions[t], normals[t]});
-    return skin::build_morph(
-        definition.relative ? skin::MorphMethod::Relative : skin::MorphMethod::Normalized, base,
-        base_normals, sources, mismatched);
+    return skin::build_morph(relative ? skin::MorphMethod::Relative : skin::MorphMethod::Normalized,
+                             base, base_normals, sources, mismatched);
 }
 
 }  // namespace
@@ -79,10 +76,11 @@ void add_morph(Scene& scene, uint32_t morph, Shape& shape, Diagnostics& diagnost
     shape.morph_data = morph;
     shape.morphed_positions.resize(mesh.positions.size());
     shape.morphed_normals.resize(mesh.normals.size());
+    shape.morph_weights.resize(chain_targets(description, morph));
     if (!scene.morphs[morph].base_positions.empty()) return;
     const MorphDefinition& definition = description.morphs[morph];
     uint32_t mismatched = 0;
-    scene.morphs[morph] = build_morph(description, definition, mesh, &mismatched);
+    scene.morphs[morph] = build_morph(description, morph, mesh, &mismatched);
     if (mismatched)
         diagnostics.report(Code::MORPH_VERTEX_COUNT, definition.where, definition.id, mismatched);
 }

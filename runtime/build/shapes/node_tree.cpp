@@ -25,7 +25,7 @@ std::vector<bool> find_moving(const SceneDescription& description) {
 
 NodeTree::NodeTree(Scene& scene)
     : scene_(scene), definition_moves_(find_moving(*scene.description)) {
-    for (uint32_t root : scene.description->roots) unroll(root, kNone, dmat4(1.0));
+    for (const ChildUse& root : scene.description->roots) unroll(root.node, kNone, root.conversion);
 }
 
 const NodeDefinition& NodeTree::definition(uint32_t node) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/description/morph_weights.h"
 #include "runtime/gltf/curves/trs.h"
 
 namespace kinora {
@@ -110,21 +111,28 @@ void NodeMotion::move_node(uint32_t take, uint32_t node, std::span<const Transfo
     values_.to_rest(channels);
 }
 
-void NodeMotion::move_weights(uint32_t node, const MorphDefinition& morph) {
-    const ValueSlot& weights = morph.weights;
+// Of all morphs of a chain together, as glTF's targets are.
+void NodeMotion::move_weights(uint32_t node, uint32_t morph) {
+    const ValueSlot& weights = description_.morphs[morph].weights;
+    const std::vector<uint32_t> chain = morph_chain(description_, morph);
     for (uint32_t take = 0; take < takes_.size(); ++take) {
         NodeCurve curve;
         curve.name = "weights";
-        curve.width = weights.count;
-        curve.channels = channels_of(*takes_[take].animation, weights.offset, weights.count);
+        curve.width = uint32_t(chain_targets(description_, morph));
+        for (uint32_t m : chain) {
+            const ValueSlot& own = description_.morphs[m].weights;
+            for (MovingChannel& c : channels_of(*takes_[take].animation, own.offset, own.count))
+                curve.channels.push_back(std::move(c));
+        }
         if (curve.channels.empty()) continue;
         curve.times = key_times({}, curve.channels, description_);
         std::vector<MovingChannel> channels = curve.channels;
         curve.at = [&](double time, double* out) {
             values_.evaluate(channels, time);
-            std::copy_n(&values_.values()[weights.offset], weights.count, out);
+            morph_weights(description_, values_.values(), morph, {out, curve.width});
         };
-        if (!curves_.add_spline(take, node, curve, weights.offset)) curves_.add(take, node, curve);
+        if (chain.size() > 1 || !curves_.add_spline(take, node, curve, weights.offset))
+            curves_.add(take, node, curve);
         values_.to_rest(channels);
     }
 }

@@ -23,7 +23,7 @@ class NodeMotion {
 
     // Every take's curves of a node whose matrix is before * stack.
     void move_node(uint32_t node, std::span<const Transform> stack, const dmat4& before);
-    void move_weights(uint32_t node, const MorphDefinition& morph);
+    void move_weights(uint32_t node, uint32_t morph);
 
   private:
     void move_node(uint32_t take, uint32_t node, std::span<const Transform> stack,

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/description/morph_weights.h"
 #include "runtime/gltf/curves/trs.h"
 
 namespace kinora {
@@ -29,10 +30,10 @@ void ContentWriter::write_mesh(const MeshUse& use, uint32_t occurrence) {
         document_.node(node)["skin"] = skin;
     }
     if (use.morph != kNone) {
-        const MorphDefinition& morph = description_.morphs[use.morph];
-        std::span<const double> weights = slot_values(description_, morph.weights);
-        document_.node(node)["weights"] = std::vector<double>(weights.begin(), weights.end());
-        motion_.move_weights(node, morph);
+        std::vector<double> weights(chain_targets(description_, use.morph));
+        morph_weights(description_, description_.values, use.morph, weights);
+        document_.node(node)["weights"] = weights;
+        motion_.move_weights(node, use.morph);
     }
 }
 

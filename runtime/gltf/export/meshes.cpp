@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "runtime/description/morph_weights.h"
 #include "runtime/description/pair_numbers.h"
 #include "runtime/gltf/export/influences.h"
 
@@ -25,9 +26,18 @@ const VertexAttribute* normals_of(const PrimitiveGroup& group) {
     return nullptr;
 }
 
-vec3 unit_normal(vec3 n) {
+vec3 unit_normal(vec3 n, vec3 otherwise = vec3(0, 0, 1)) {
     float length = glm::length(n);
-    return length > 0 && std::isfinite(length) ? n / length : vec3(0, 0, 1);
+    return length > 0 && std::isfinite(length) ? n / length : otherwise;
+}
+
+// Of the triangle that has this corner: what a normal that vanishes gives way to.
+vec3 face_normal(const MeshDefinition& mesh, const PrimitiveGroup& group, size_t corner) {
+    const uint32_t* t = &group.triangles[corner - corner % 3];
+    dvec3 a = mesh.positions[t[0]];
+    dvec3 n = glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+    double length = glm::length(n);
+    return length > 0 ? vec3(n / length) : vec3(0, 0, 1);
 }
 
 void push(std::vector<float>& numbers, vec3 v) {
@@ -74,7 +84,8 @@ Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const Mesh&
     const PrimitiveGroup& group = definition.groups[group_index];
     std::vector<GltfAttribute> others = attributes_of(looks_.look_of(use, group), group, losses_);
     // A normal's number names its position too (build_mesh); each further attribute splits on.
-    std::vector<uint32_t> vertex = built.groups[group_index].normal_corners;
+    const MeshGroup& rest = built.groups[group_index];
+    std::vector<uint32_t> vertex = rest.flat() ? group.triangles : rest.normal_corners;
     auto renumber = [&](const std::vector<uint32_t>& entries) {
         PairNumbers pairs(vertex.size());
         uint32_t next = 0;
@@ -94,11 +105,13 @@ Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const Mesh&
     for (uint32_t c : corners) {
         position_index.push_back(group.triangles[c]);
         push(positions, vec3(definition.positions[group.triangles[c]]));
-        push(normals,
-             unit_normal(vec3(built.normals[built.groups[group_index].normal_corners[c]])));
+        if (!rest.flat())
+            push(normals, unit_normal(vec3(built.normals[rest.normal_corners[c]]),
+                                      face_normal(definition, group, c)));
     }
-    Json attributes = {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)},
-                       {"NORMAL", buffer_.accessor(normals, 3, kVertexTarget, false)}};
+    Json attributes = {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)}};
+    // Without them faces are flat in glTF, too (glTF 2.0, 3.7.2.1).
+    if (!rest.flat()) attributes["NORMAL"] = buffer_.accessor(normals, 3, kVertexTarget, false);
     for (const GltfAttribute& a : others) {
         std::vector<float> numbers;
         for (uint32_t c : corners) push(numbers, a, c);
@@ -138,45 +151,43 @@ void MeshWriter::add_influences(const MeshUse& use, const std::vector<uint32_t>&
 }
 
 // Differences from the base, whatever the method: (1 - sum of w) base + sum of w target is base +
-// sum of w (target - base). Normals of a target: the file's where its corners are the base's,
-// smooth ones where the base has none either, else they stay.
+// sum of w (target - base). Normals of a target: the file's where its corners are the base's, else
+// they stay.
 void MeshWriter::add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
                              const std::vector<uint32_t>& corners, Json& primitive) {
-    const MorphDefinition& morph = description_.morphs[use.morph];
     const MeshDefinition& base = description_.meshes[use.mesh];
     const PrimitiveGroup& group = base.groups[group_index];
-    const std::vector<uint32_t>& normal_corners = built.groups[group_index].normal_corners;
-    for (uint32_t t : morph.targets) {
+    const MeshGroup& rest = built.groups[group_index];
+    std::vector<std::pair<uint32_t, bool>> targets;  // of all morphs, and whether RELATIVE
+    for (uint32_t m : morph_chain(description_, use.morph))
+        for (uint32_t t : description_.morphs[m].targets)
+            targets.emplace_back(t, description_.morphs[m].relative);
+    for (auto [t, relative] : targets) {
         const MeshDefinition& target = description_.meshes[t];
-        auto moved = [&](uint32_t p) {
+        auto moved = [&, relative = relative](uint32_t p) {
             if (p >= target.positions.size()) return base.positions[p];
-            return morph.relative ? base.positions[p] + target.positions[p] : target.positions[p];
+            return relative ? base.positions[p] + target.positions[p] : target.positions[p];
         };
         std::vector<float> positions, normals;
         for (uint32_t c : corners)
             push(positions, vec3(moved(group.triangles[c]) - base.positions[group.triangles[c]]));
         const VertexAttribute* given =
             group_index < target.groups.size() ? normals_of(target.groups[group_index]) : nullptr;
-        Mesh smooth;
-        if (!normals_of(group)) {
-            MeshDefinition shape = base;
-            for (uint32_t p = 0; p < shape.positions.size(); ++p) shape.positions[p] = moved(p);
-            smooth = build_mesh(shape, true);
-            given = nullptr;
-        }
         bool fits = given && given->corners.size() == group.triangles.size();
         for (uint32_t c : corners) {
-            vec3 from = unit_normal(vec3(built.normals[normal_corners[c]])), to = from;
-            if (!smooth.normals.empty()) to = unit_normal(vec3(smooth.normals[normal_corners[c]]));
+            if (rest.flat()) break;
+            vec3 from = unit_normal(vec3(built.normals[rest.normal_corners[c]]),
+                                    face_normal(base, group, c));
+            vec3 to = from;
             if (fits) {
                 const float* v = &given->values[size_t(given->corners[c]) * given->stride];
-                to = vec3(v[0], v[1], v[2]) + (morph.relative ? from : vec3(0));
+                to = vec3(v[0], v[1], v[2]) + (relative ? from : vec3(0));
             }
             push(normals, to - from);
         }
-        primitive["targets"].push_back(
-            {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)},
-             {"NORMAL", buffer_.accessor(normals, 3, kVertexTarget, false)}});
+        Json written = {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)}};
+        if (!rest.flat()) written["NORMAL"] = buffer_.accessor(normals, 3, kVertexTarget, false);
+        primitive["targets"].push_back(std::move(written));
     }
 }
 

@@ -39,7 +39,7 @@ Occurrences::Occurrences(const SceneDescription& description, uint32_t root, Nod
       nodes_(nodes),
       document_(document),
       start_values_(values_at_start(description)) {
-    for (uint32_t top : description.roots) unroll(top, kNone, dmat4(1.0));
+    for (const ChildUse& top : description.roots) unroll(top.node, kNone, top.conversion);
 }
 
 void Occurrences::unroll(uint32_t index, uint32_t parent, const dmat4& conversion) {

@@ -2,6 +2,7 @@
 #include "runtime/gltf/export/skins.h"
 
 #include <algorithm>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 namespace kinora {
@@ -33,6 +34,23 @@ std::vector<uint32_t> SkinWriter::joints_of(const MeshUse& use, uint32_t occurre
     return joints;
 }
 
+// The product of the changes of units and axes on the way to an occurrence.
+dmat4 SkinWriter::path_conversion(uint32_t occurrence) const {
+    dmat4 m(1.0);
+    for (uint32_t o = occurrence; o != kNone; o = occurrences_[o].parent)
+        m = occurrences_[o].conversion * m;
+    return m;
+}
+
+// Of joint `j`, brought from the skin's units and axes (as `from_skin` takes them to the scene's)
+// into those of the joint.
+dmat4 SkinWriter::inverse_bind(const SkinDefinition& skin, size_t j, uint32_t joint,
+                               const dmat4& from_skin) const {
+    dmat4 from_joint = path_conversion(joint);
+    if (from_joint == from_skin) return skin.inverse_bind[j];
+    return glm::inverse(from_joint) * from_skin * skin.inverse_bind[j];
+}
+
 // `bound`: the joints that have inverse bind matrices; `shared`: their and the node's ancestor.
 SkinPlacement SkinWriter::space_of(const MeshUse& use, uint32_t occurrence,
                                    std::span<const uint32_t> bound, uint32_t shared) const {
@@ -41,10 +59,12 @@ SkinPlacement SkinWriter::space_of(const MeshUse& use, uint32_t occurrence,
     SkinPose rest, start;
     rest.node = occurrences_[occurrence].world * use.conversion;
     start.node = occurrences_[occurrence].start * use.conversion;
+    dmat4 from_skin = path_conversion(occurrence) * use.conversion;
     for (size_t j = 0; j < bound.size(); ++j) {
         if (bound[j] == kNone) continue;
-        rest.joints.push_back({occurrences_[bound[j]].world, definition.inverse_bind[j]});
-        start.joints.push_back({occurrences_[bound[j]].start, definition.inverse_bind[j]});
+        dmat4 own = inverse_bind(definition, j, bound[j], from_skin);
+        rest.joints.push_back({occurrences_[bound[j]].world, own});
+        start.joints.push_back({occurrences_[bound[j]].start, own});
     }
     if (shared != kNone) rest.shared = occurrences_[shared].world;
     if (shared != kNone) start.shared = occurrences_[shared].start;
@@ -76,10 +96,13 @@ uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
     dmat4 bind_shape = binds_node ? space.bind : definition.bind_shape;
     uint32_t above = root_;
     Copies copies;
+    dmat4 from_skin = path_conversion(occurrence) * use.conversion;
+    dmat4 still_shape = from_skin * bind_shape;  // of what follows no joint
     if (space.space == SkinSpace::Node || space.space == SkinSpace::NodeBelow) {
         // The joints stand below the node.
         uint32_t top = space.space == SkinSpace::Node ? kNone : shared;
         above = nodes_.write_still(use.conversion, occurrences_[occurrence].node);
+        still_shape = bind_shape;
         document_.node(above)["name"] = definition.id + " space";
         for (uint32_t joint : joints)
             if (joint != kNone) copy(joint, above, top, copies);
@@ -90,7 +113,7 @@ uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
         if (still == kNone)
             still =
                 document_.add_node(Json::object({{"name", definition.id + " bind shape"}}), above);
-        list.add(still, bind_shape);
+        list.add(still, still_shape);
     };
     for (size_t j = 0; j < definition.inverse_bind.size(); ++j) {
         uint32_t joint = j < joints.size() ? joints[j] : kNone;
@@ -98,7 +121,7 @@ uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
             add_still();
         else
             list.add(copies.empty() ? occurrences_[joint].node : copies.at(joint),
-                     definition.inverse_bind[j] * bind_shape);
+                     inverse_bind(definition, j, joint, from_skin) * bind_shape);
     }
     bool follows_none = std::any_of(definition.joints.begin(), definition.joints.end(),
                                     [](int32_t j) { return j < 0; });

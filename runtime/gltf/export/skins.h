@@ -32,6 +32,9 @@ class SkinWriter {
     std::vector<uint32_t> joints_of(const MeshUse& use, uint32_t occurrence) const;
     SkinPlacement space_of(const MeshUse& use, uint32_t occurrence, std::span<const uint32_t> bound,
                            uint32_t shared) const;
+    dmat4 path_conversion(uint32_t occurrence) const;
+    dmat4 inverse_bind(const SkinDefinition& skin, size_t j, uint32_t joint,
+                       const dmat4& from_skin) const;
     uint32_t copy(uint32_t occurrence, uint32_t above, uint32_t top, Copies& copies);
 
     const SceneDescription& description_;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "runtime/description/findings.h"
 #include "runtime/gltf/import/attribute_name.h"
@@ -29,23 +28,6 @@ std::array<size_t, 3> corners_of(int mode, size_t triangle) {
         return {triangle, triangle + 1 + triangle % 2, triangle + 2 - triangle % 2};
     if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {triangle + 1, triangle + 2, 0};
     return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2};
-}
-
-// One entry a triangle (glTF 2.0, 3.7.2.1: flat where none are given).
-VertexAttribute flat_normals(const std::vector<dvec3>& positions,
-                             const std::vector<uint32_t>& triangles) {
-    VertexAttribute normals{"NORMAL", 0, 3, {}, {}};
-    for (size_t c = 0; c + 2 < triangles.size(); c += 3) {
-        dvec3 a = positions[triangles[c]];
-        dvec3 n = glm::cross(positions[triangles[c + 1]] - a, positions[triangles[c + 2]] - a);
-        double length = glm::length(n);
-        if (length > 0) n /= length;
-        for (int k = 0; k < 3; ++k) {
-            normals.values.push_back(float(n[k]));
-            normals.corners.push_back(uint32_t(c / 3));
-        }
-    }
-    return normals;
 }
 
 }  // namespace
@@ -190,7 +172,10 @@ std::vector<float> MeshImporter::add_attributes(const tinygltf::Primitive& primi
             int m = primitive.material;
             bool bent = m >= 0 && size_t(m) < model_.materials.size() &&
                         model_.materials[size_t(m)].normalTexture.index >= 0;
-            if (!bent || !read(kTangent)) continue;
+            // Without normals they are ignored (glTF 2.0, 3.7.2.1). NORMAL was read before.
+            bool smooth = std::any_of(group.attributes.begin(), group.attributes.end(),
+                                      [](const auto& a) { return a.semantic == "NORMAL"; });
+            if (!bent || !smooth || !read(kTangent)) continue;
             tangents = numbers.values;
             add("TANGENT", 0, 4, std::move(numbers.values));
         } else if (of_set.name == "TEXCOORD") {
@@ -266,10 +251,6 @@ void MeshImporter::import_primitive(uint32_t mesh, uint32_t index) {
     vertices.usable = true;
     if (group.triangles.empty()) return;
     std::vector<float> tangents = add_attributes(from, vertices, pointer, group);
-    bool has_normals = std::any_of(group.attributes.begin(), group.attributes.end(),
-                                   [](const VertexAttribute& a) { return a.semantic == "NORMAL"; });
-    if (!has_normals && budget_.charge(group.triangles.size() * 8, pointer))
-        group.attributes.push_back(flat_normals(definition.positions, group.triangles));
     if (!tangents.empty() && budget_.charge(group.triangles.size() * 24, pointer))
         add_tangents(definition.positions, vertices.first, tangents, group);
     int material = from.material;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "runtime/description/findings.h"
 #include "runtime/gltf/import/values.h"
@@ -20,24 +19,6 @@ const VertexAttribute* normals_of(const PrimitiveGroup& group) {
     for (const VertexAttribute& a : group.attributes)
         if (a.semantic == "NORMAL") return &a;
     return nullptr;
-}
-
-// Flat normals of the moved triangles less those of the base.
-VertexAttribute flat_differences(const std::vector<dvec3>& base, const std::vector<dvec3>& deltas,
-                                 const PrimitiveGroup& group) {
-    const VertexAttribute& rest = *normals_of(group);
-    VertexAttribute out{"NORMAL", 0, 3, {}, rest.corners};
-    for (size_t c = 0; c + 2 < group.triangles.size(); c += 3) {
-        dvec3 p[3];
-        for (size_t k = 0; k < 3; ++k)
-            p[k] = base[group.triangles[c + k]] + deltas[group.triangles[c + k]];
-        dvec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
-        double length = glm::length(n);
-        for (int k = 0; k < 3; ++k)
-            out.values.push_back(length > 0 ? float(n[k] / length) - rest.values[c + size_t(k)]
-                                            : 0.0f);
-    }
-    return out;
 }
 
 }  // namespace
@@ -95,10 +76,7 @@ void MorphImporter::add_normals(const Target& target, MeshDefinition& to) {
             !budget_.charge(rest->corners.size() * 4 + rest->values.size() * 4, target.pointer))
             continue;
         PrimitiveGroup& group = to.groups[primitives[p].group];
-        bool flat = !model_.meshes[target.mesh].primitives[p].attributes.contains("NORMAL");
-        if (flat)
-            group.attributes.push_back(flat_differences(mesh.positions, to.positions, base));
-        else if (read_differences(target, p, "NORMAL", numbers))
+        if (read_differences(target, p, "NORMAL", numbers))
             group.attributes.push_back({"NORMAL", 0, 3, numbers.values, rest->corners});
         else
             group.attributes.push_back(

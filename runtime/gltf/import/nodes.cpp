@@ -98,7 +98,7 @@ void NodeImporter::import_nodes(UniqueIds& ids) {
         import_content(n);
     }
     for (int root : tree_.roots)
-        if (root >= 0) out_.roots.push_back(uint32_t(root));
+        if (root >= 0) out_.roots.push_back({uint32_t(root), dmat4(1.0)});
 }
 
 // Its camera, light and mesh.

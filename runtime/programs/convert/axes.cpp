@@ -49,7 +49,8 @@ class AxisChange {
         write_asset(new_up, new_meter);
         scale_ = old_meter_ / new_meter;
         matrix_ = glm::transpose(y_up_from(new_up)) * y_up_from(old_up_);
-        if (new_up == old_up_ && scale_ == 1) return collada::apply_edits(text_, edits_);
+        turns_ = new_up != old_up_;
+        if (!turns_ && scale_ == 1) return collada::apply_edits(text_, edits_);
         for (int c = 0; c < 3; ++c) matrix_[c] = matrix_[c] * scale_;
         for_each_element(document_.root(), [this](const Element& e) { visit(e); });
         for (Edit& edit : change_skins(document_, matrix_, own_, diag_))
@@ -115,7 +116,8 @@ class AxisChange {
     }
 
     void visit(const Element& e) {
-        if (e.name == "visual_scene") return wrap_nodes(e);
+        if (e.name == "visual_scene") wrap_nodes(e);
+        if (e.name == "asset" && &e != asset_ && e.parent) change_inner_asset(e);
         has_rsl_ |= e.name == "profile_RSL";
         // An included file may say anything; code in the document says it here.
         knows_world_ |= (e.name == "code" && e.text.find("\"world\"") != e.text.npos) ||
@@ -137,6 +139,22 @@ class AxisChange {
                 e, collada::shortest_number(value * std::pow(scale_, row.power)), text_));
             if (!e.value("sid").empty()) length_sids_.insert(std::string(e.value("sid")));
         }
+    }
+
+    // An <asset> inside: its unit keeps its ratio to the document's. No axes do so for all turns.
+    void change_inner_asset(const Element& asset) {
+        const Element* unit = asset.child("unit");
+        double meter = unit ? std::strtod(std::string(unit->value("meter")).c_str(), nullptr) : 0.0;
+        if (scale_ != 1 && unit && unit->attribute("meter") && meter > 0 && std::isfinite(meter)) {
+            double changed = meter / scale_;
+            edits_.push_back(
+                {unit->bytes,
+                 with_prefix(fmt::format("<unit meter=\"{}\"{}/>",
+                                         collada::shortest_number(changed), unit_name(changed)))});
+        }
+        if (asset.child("up_axis") && turns_)
+            diag_.report(Code::CONVERT_LOST, Location{}, fmt::format("<{}>", asset.parent->name),
+                         "the <up_axis> of its own <asset>");
     }
 
     void wrap_nodes(const Element& scene) {
@@ -180,7 +198,7 @@ class AxisChange {
     double old_meter_ = 1;
     double scale_ = 1;  // old units in new ones
     dmat4 matrix_{1.0};
-    bool has_rsl_ = false, knows_world_ = false;
+    bool has_rsl_ = false, knows_world_ = false, turns_ = false;
     std::set<std::string> length_sids_, made_ids_;
     std::vector<Edit> edits_;
 };

@@ -16,6 +16,7 @@
 #include "runtime/load/import_scene.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/load/override_shader.h"
+#include "runtime/load/smooth_normals.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
@@ -158,7 +159,7 @@ SceneOptions Render::scene_options() const {
 
 int Render::load() {
     set_thread_count(options_.threads);
-    if (options_.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
+    if (options_.findings.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
     if (!options_.target_missing.empty())
         diagnostics_.report(Code::TARGET_UNAVAILABLE, Location{}, options_.target_missing,
                             jit::best_target().name);
@@ -194,6 +195,7 @@ int Render::load() {
     for (const auto& [target, value] : options_.params)
         override_param(*description, target, value, diagnostics_);
     override_visibility(*description, options_.hide, options_.only, diagnostics_);
+    if (options_.smooth) smooth_normals(*description, *options_.smooth);
     load_ms_ = watch.restart();
     SceneOptions scene_options = this->scene_options();
     PlayRange range = play_range(*description);

@@ -211,6 +211,10 @@ void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
              "MATERIAL.NAME=VALUE: a shader parameter, also of lights: 0.5, 1,0,0 or a text");
     add_list(app, "--hide", o.hide, "NODE: without its meshes and lights and those below it");
     add_list(app, "--only", o.only, "NODE: without the meshes that are not below it");
+    app.add_option(
+           "--smooth", o.smooth,
+           "DEGREES: smooth normals for meshes without any, creases where faces turn by more")
+        ->check(CLI::Range(0.0, 180.0));
     add_list(app, "-I", o.include_directories, "DIR: where shaders find #include files");
     add_list(app, "--allow-external", o.allow_external,
              "DIR: a folder that the scene may read besides its own")

@@ -56,6 +56,7 @@ struct RenderOptions {
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;
+    std::optional<double> smooth;  // degrees: normals for meshes without any
     TransparencyMode transparency = TransparencyMode::Spec;
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too

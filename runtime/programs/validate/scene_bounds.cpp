@@ -30,7 +30,7 @@ class RestBounds {
   private:
     void add(const collada::MeshInstance& mesh, const dmat4& node_world) {
         if (mesh.geometry == kNone) return;
-        std::vector<dvec3> positions = morphed(mesh);
+        std::vector<dvec3> positions = morphed(mesh.geometry, mesh.morph);
         dmat4 change = mesh.conversion == kNone ? dmat4(1.0) : scene_.conversions[mesh.conversion];
         bool skinned = mesh.skin != kNone && skin(scene_.skins[mesh.skin], mesh, positions);
         dmat4 m = skinned ? dmat4(1.0) : node_world * change;
@@ -40,10 +40,10 @@ class RestBounds {
     }
 
     // COLLADA 1.4.1, morph: NORMALIZED: (1 - sum w) base + sum w target; RELATIVE: base + sum.
-    std::vector<dvec3> morphed(const collada::MeshInstance& mesh) const {
-        std::vector<dvec3> positions = scene_.geometries[mesh.geometry].positions;
-        if (mesh.morph == kNone) return positions;
-        const collada::Morph& morph = scene_.morphs[mesh.morph];
+    std::vector<dvec3> morphed(uint32_t geometry, uint32_t number) const {
+        if (number == kNone) return scene_.geometries[geometry].positions;
+        const collada::Morph& morph = scene_.morphs[number];
+        std::vector<dvec3> positions = morphed(geometry, morph.base);
         double sum = 0;
         for (double weight : morph.weights) sum += weight;
         if (morph.method == collada::MorphMethod::Normalized)

@@ -37,23 +37,21 @@ std::vector<PlacedNode> placed_nodes(const collada::SceneData& scene) {
         dmat4 above;
     };
     std::vector<Step> open;
+    auto change = [&](uint32_t conversion) {
+        return conversion == collada::kNone ? dmat4(1.0) : scene.conversions[conversion];
+    };
     for (auto root = scene.roots.rbegin(); root != scene.roots.rend(); ++root)
-        if (*root != collada::kNone) open.push_back({*root, dmat4(1.0)});
+        if (*root != collada::kNone) open.push_back({*root, change(scene.nodes[*root].conversion)});
     while (!open.empty()) {
         Step step = open.back();
         open.pop_back();
         const collada::Node& node = scene.nodes[step.node];
         dmat4 world = step.above * rest_matrix(node);
         placed.push_back({step.node, world});
-        for (auto instance = node.instances.rbegin(); instance != node.instances.rend();
-             ++instance) {
-            dmat4 change = instance->conversion == collada::kNone
-                               ? dmat4(1.0)
-                               : scene.conversions[instance->conversion];
-            open.push_back({instance->node, world * change});
-        }
+        for (auto instance = node.instances.rbegin(); instance != node.instances.rend(); ++instance)
+            open.push_back({instance->node, world * change(instance->conversion)});
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            open.push_back({*child, world});
+            open.push_back({*child, world * change(scene.nodes[*child].conversion)});
     }
     return placed;
 }

@@ -1,0 +1,191 @@
+// runtime/load/smooth_normals.cpp: --smooth DEGREES: normals for meshes that have none.
+#include "runtime/load/smooth_normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "runtime/description/morph_weights.h"
+
+namespace kinora {
+
+namespace {
+
+bool has_normals(const PrimitiveGroup& group) {
+    return std::any_of(group.attributes.begin(), group.attributes.end(),
+                       [](const auto& a) { return a.semantic == "NORMAL" && a.stride >= 3; });
+}
+
+dvec3 unit_or_zero(dvec3 v) {
+    double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? v / length : dvec3(0.0);
+}
+
+double corner_angle(dvec3 at, dvec3 b, dvec3 c) {
+    return std::acos(std::clamp(glm::dot(unit_or_zero(b - at), unit_or_zero(c - at)), -1.0, 1.0));
+}
+
+// The lowest index of the positions that are equal, for each.
+std::vector<uint32_t> welded(const std::vector<dvec3>& positions) {
+    std::vector<uint32_t> order(positions.size()), result(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    auto key = [&](uint32_t p) {
+        return std::tuple(positions[p].x, positions[p].y, positions[p].z, p);
+    };
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+    for (size_t i = 0; i < order.size(); ++i) {
+        bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
+        result[order[i]] = same ? result[order[i - 1]] : order[i];
+    }
+    return result;
+}
+
+// The corners of the groups without normals, one behind the other, and the fans they form: those
+// at one position that no crease parts.
+class Fans {
+  public:
+    Fans(const MeshDefinition& mesh, double degrees) {
+        for (size_t g = 0; g < mesh.groups.size(); ++g) {
+            if (has_normals(mesh.groups[g])) continue;
+            groups_.push_back(g);
+            const std::vector<uint32_t>& t = mesh.groups[g].triangles;
+            corners_.insert(corners_.end(), t.begin(), t.end());
+        }
+        parent_.resize(corners_.size());
+        std::iota(parent_.begin(), parent_.end(), 0u);
+        join(mesh.positions, std::cos(radians(degrees)));
+    }
+
+    bool empty() const { return corners_.empty(); }
+    const std::vector<size_t>& groups() const { return groups_; }
+
+    // The normal of each group's fans when the positions are these, and the fan of each corner.
+    std::vector<VertexAttribute> normals(const MeshDefinition& mesh,
+                                         const std::vector<dvec3>& positions) {
+        std::vector<dvec3> sums(corners_.size(), dvec3(0.0));
+        for (uint32_t c = 0; c < corners_.size(); ++c) {
+            uint32_t first = c - c % 3;
+            dvec3 p = positions[corners_[c]];
+            sums[fan(c)] +=
+                face(positions, first) * corner_angle(p, positions[corners_[first + (c + 1) % 3]],
+                                                      positions[corners_[first + (c + 2) % 3]]);
+        }
+        std::vector<VertexAttribute> result;
+        std::vector<uint32_t> number(corners_.size(), kNone);
+        uint32_t first = 0;
+        for (size_t g : groups_) {
+            VertexAttribute& normals = result.emplace_back();
+            normals.semantic = "NORMAL";
+            normals.stride = 3;
+            uint32_t count = uint32_t(mesh.groups[g].triangles.size());
+            for (uint32_t c = first; c < first + count; ++c) {
+                uint32_t at = fan(c);
+                uint32_t& known = number[at];
+                if (known == kNone) {
+                    known = uint32_t(normals.values.size() / 3);
+                    dvec3 n = unit_or_zero(sums[at]);
+                    for (int k = 0; k < 3; ++k) normals.values.push_back(float(n[k]));
+                }
+                normals.corners.push_back(known);
+            }
+            for (uint32_t c = first; c < first + count; ++c) number[fan(c)] = kNone;
+            first += count;
+        }
+        return result;
+    }
+
+  private:
+    struct Edge {
+        uint32_t low, high;  // welded positions
+        uint32_t corner;     // where it starts, in the triangle's direction
+    };
+
+    uint32_t fan(uint32_t c) {
+        while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+        return c;
+    }
+    dvec3 face(const std::vector<dvec3>& positions, uint32_t first) const {
+        dvec3 a = positions[corners_[first]];
+        return unit_or_zero(
+            glm::cross(positions[corners_[first + 1]] - a, positions[corners_[first + 2]] - a));
+    }
+    static uint32_t next(uint32_t c) { return c - c % 3 + (c + 1) % 3; }
+
+    void join(const std::vector<dvec3>& positions, double least_cosine) {
+        std::vector<uint32_t> weld = welded(positions);
+        std::vector<Edge> edges;
+        for (uint32_t c = 0; c < corners_.size(); ++c) {
+            auto [low, high] = std::minmax({weld[corners_[c]], weld[corners_[next(c)]]});
+            if (low != high) edges.push_back({low, high, c});
+        }
+        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+            return std::tuple(a.low, a.high, a.corner) < std::tuple(b.low, b.high, b.corner);
+        });
+        for (size_t i = 0, end; i < edges.size(); i = end) {
+            for (end = i + 1; end < edges.size() && edges[end].low == edges[i].low &&
+                              edges[end].high == edges[i].high;)
+                ++end;
+            if (end - i != 2) continue;
+            uint32_t a = edges[i].corner, b = edges[i + 1].corner;
+            dvec3 m = face(positions, a - a % 3), n = face(positions, b - b % 3);
+            bool no_area = m == dvec3(0.0) || n == dvec3(0.0);
+            if (!no_area && glm::dot(m, n) < least_cosine - 1e-9) continue;
+            bool alike = weld[corners_[a]] == weld[corners_[b]];
+            parent_[fan(a)] = fan(alike ? b : next(b));
+            parent_[fan(next(a))] = fan(alike ? next(b) : b);
+        }
+    }
+
+    std::vector<size_t> groups_;
+    std::vector<uint32_t> corners_;  // positions
+    std::vector<uint32_t> parent_;   // of a corner, in its fan
+};
+
+// The targets of a morph with normals for the groups of the base that now have some: copies, since
+// other meshes may share what they are.
+void smooth_targets(SceneDescription& description, const MeshDefinition& base, uint32_t morph,
+                    Fans& fans, const std::vector<VertexAttribute>& rest) {
+    bool relative = description.morphs[morph].relative;
+    for (uint32_t& target : description.morphs[morph].targets) {
+        MeshDefinition copy = description.meshes[target];
+        copy.groups.resize(base.groups.size());
+        std::vector<dvec3> moved = base.positions;
+        for (size_t i = 0; i < std::min(moved.size(), copy.positions.size()); ++i)
+            moved[i] = relative ? moved[i] + copy.positions[i] : copy.positions[i];
+        std::vector<VertexAttribute> normals = fans.normals(base, moved);
+        for (size_t k = 0; k < normals.size(); ++k) {
+            for (size_t v = 0; relative && v < normals[k].values.size(); ++v)
+                normals[k].values[v] -= rest[k].values[v];
+            auto& attributes = copy.groups[fans.groups()[k]].attributes;
+            std::erase_if(attributes, [](const auto& a) { return a.semantic == "NORMAL"; });
+            attributes.push_back(std::move(normals[k]));
+        }
+        target = uint32_t(description.meshes.size());
+        description.meshes.push_back(std::move(copy));
+    }
+}
+
+}  // namespace
+
+void smooth_normals(SceneDescription& description, double degrees) {
+    std::vector<std::set<uint32_t>> morphs(description.meshes.size());
+    for (const NodeDefinition& node : description.nodes)
+        for (const MeshUse& use : node.meshes)
+            for (uint32_t m : morph_chain(description, use.morph)) morphs[use.mesh].insert(m);
+    for (size_t m = 0; m < morphs.size(); ++m) {
+        Fans fans(description.meshes[m], degrees);
+        if (fans.empty()) continue;
+        std::vector<VertexAttribute> normals =
+            fans.normals(description.meshes[m], description.meshes[m].positions);
+        const MeshDefinition base = morphs[m].empty() ? MeshDefinition() : description.meshes[m];
+        for (uint32_t morph : morphs[m]) smooth_targets(description, base, morph, fans, normals);
+        for (size_t k = 0; k < normals.size(); ++k)
+            description.meshes[m].groups[fans.groups()[k]].attributes.push_back(
+                std::move(normals[k]));
+    }
+}
+
+}  // namespace kinora
