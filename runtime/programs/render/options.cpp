@@ -169,9 +169,9 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
                                      {"magenta", raytrace::NanPolicy::Magenta},
                                      {"keep", raytrace::NanPolicy::Keep}},
                                     "non-finite results become zero, magenta or keep");
-    add_choice<ColorEncoding>(app, "--color", o.color,
-                              {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
-                              "srgb, or legacy: textures and PNG neither decoded nor encoded");
+    add_choice<ColorEncoding>(
+        app, "--color", o.color, {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
+        "srgb, or legacy: colours, textures and PNG neither decoded nor encoded");
     app.add_option("--imager", o.imager, "a standard imager's name, FILE.sl or none");
     add_list(app, "--aov", o.aovs, "output parameters of surfaces: channels of the EXR", ',');
     add_choice<UpAxis>(app, "--up", o.up_axis,
@@ -180,8 +180,8 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--unit", o.meter, "metres per unit instead of the file's");
     add_choice<TransparencyMode>(
         app, "--transparency", o.transparency,
-        {{"spec", TransparencyMode::Spec}, {"auto", TransparencyMode::Auto}},
-        "spec, or auto: what the formula makes invisible everywhere is shown opaque");
+        {{"auto", TransparencyMode::Auto}, {"spec", TransparencyMode::Spec}},
+        "auto: what the formula makes invisible everywhere is opaque; or spec");
 }
 
 // What is tried on the scene without editing it. MATERIAL and NODE are ids, names or globs.

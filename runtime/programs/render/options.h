@@ -49,7 +49,7 @@ struct RenderOptions {
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;
-    TransparencyMode transparency = TransparencyMode::Spec;
+    TransparencyMode transparency = TransparencyMode::Auto;
     std::vector<std::string> allow_external;  // folders
     bool skip_existing = false;
     bool keep_going = false;
