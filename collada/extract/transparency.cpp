@@ -8,6 +8,9 @@ namespace kinora::collada {
 
 namespace {
 
+// Less than half a step of 8 bits is not seen.
+constexpr double kLeastOpacity = 0.5 / 255;
+
 constexpr const char* kOpaque[] = {"A_ONE", "RGB_ZERO", "A_ZERO", "RGB_ONE"};  // by Opaque
 
 // The numbers of a slot for one material; nothing when a texture gives them.
@@ -43,40 +46,61 @@ bool invisible(const SceneData& scene, const Material& material) {
     if (!transparent) return !zero_hides && scale == 0;  // whatever the texture holds
     for (size_t k = by_alpha ? 3 : 0; k < (by_alpha ? 4u : 3u); ++k) {
         double amount = scale * (*transparent)[k];
-        if ((zero_hides ? 1 - amount : amount) > 1e-6) return false;
+        if ((zero_hides ? 1 - amount : amount) > kLeastOpacity) return false;
     }
     return true;
 }
 
 bool is_animated(const SceneData& scene, uint32_t material_number) {
     const Material& material = scene.materials[material_number];
+    const CommonShading& common = *scene.effects[material.effect].common;
+    auto of_slots = [&](auto&& says) {
+        return says(CommonSlot::Transparent) || says(CommonSlot::Transparency);
+    };
+    auto reads_param = [&](uint32_t param) {
+        return of_slots([&](CommonSlot slot) {
+            return common[slot].source == SlotSource::Param && common[slot].param == param;
+        });
+    };
     return std::any_of(scene.channels.begin(), scene.channels.end(), [&](const Channel& channel) {
         const TargetRef& ref = channel.ref;
-        if (ref.kind == Owner::MaterialParam) return ref.owner == material_number;
-        if (ref.kind == Owner::EffectParam) return ref.owner == material.effect;
-        return ref.kind == Owner::EffectCommon && ref.owner == material.effect &&
-               (ref.slot == uint32_t(CommonSlot::Transparent) ||
-                ref.slot == uint32_t(CommonSlot::Transparency));
+        if (ref.kind == Owner::MaterialParam)
+            return ref.owner == material_number && reads_param(material.setparams[ref.slot].param);
+        if (ref.owner != material.effect) return false;
+        if (ref.kind == Owner::EffectParam) return reads_param(ref.slot);
+        return ref.kind == Owner::EffectCommon &&
+               of_slots([&](CommonSlot slot) { return ref.slot == uint32_t(slot); });
     });
+}
+
+// Materials to whose transparency some <bind> gives another number.
+std::vector<bool> bound_transparencies(const SceneData& scene) {
+    std::vector<bool> bound(scene.materials.size(), false);
+    for (const Node& node : scene.nodes)
+        for (const MeshInstance& mesh : node.meshes)
+            for (const MaterialBinding& binding : mesh.materials)
+                for (const ParamBinding& param : binding.params)
+                    if (binding.material != kNone && param.semantic.starts_with("transparen"))
+                        bound[binding.material] = true;
+    return bound;
 }
 
 }  // namespace
 
 void check_transparency(Extraction& x) {
-    std::vector<bool> said(x.scene.effects.size(), false);
+    std::vector<bool> bound = bound_transparencies(x.scene);
     for (uint32_t m = 0; m < x.scene.materials.size(); ++m) {
         Material& material = x.scene.materials[m];
         if (material.effect == kNone || !x.scene.effects[material.effect].common) continue;
         const Effect& effect = x.scene.effects[material.effect];
-        if (effect.rsl || !invisible(x.scene, material) || is_animated(x.scene, m)) continue;
+        if (effect.rsl || bound[m] || !invisible(x.scene, material)) continue;
+        if (is_animated(x.scene, m)) continue;
         material.invisible = true;
         const CommonValue& transparent = (*effect.common)[CommonSlot::Transparent];
         bool written = transparent.source != SlotSource::Absent;
-        if (!said[material.effect])
-            x.diag.report(Code::FX_TRANSPARENT_ALL,
-                          written ? transparent.where : effect.common->where, effect.id,
-                          kOpaque[size_t(effect.common->opaque)]);
-        said[material.effect] = true;
+        x.diag.report(Code::FX_TRANSPARENT_ALL, written ? transparent.where : effect.common->where,
+                      material.id.empty() ? material.name : material.id,
+                      kOpaque[size_t(effect.common->opaque)]);
     }
 }
 

@@ -109,6 +109,8 @@ const std::string& ColladaExporter::told(const std::string& text, const std::str
 
 std::span<const double> ColladaExporter::values(ValueSlot slot) const {
     if (!slot.present()) return {};
+    size_t own = description_.values.size();
+    if (slot.offset >= own) return std::span(more_values_).subspan(slot.offset - own, slot.count);
     return std::span(description_.values).subspan(slot.offset, slot.count);
 }
 
@@ -132,9 +134,13 @@ void ColladaExporter::name_all() {
             ++uses_[c.node];
             parents_[c.node] = n;
         }
-        for (const MeshUse& use : description_.nodes[n].meshes)
+        for (const MeshUse& use : description_.nodes[n].meshes) {
             for (uint32_t joint : use.joint_nodes)
                 if (joint != kNone) joint_[joint] = true;
+            for (const MaterialUse& m : use.materials)
+                if (m.material != kNone && is_rsl(description_.materials[m.material]))
+                    rsl_groups_.emplace(use.mesh, m.symbol);
+        }
     }
 }
 

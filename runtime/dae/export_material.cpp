@@ -9,7 +9,9 @@
 #include <iterator>
 
 #include "collada/document/edit.h"
+#include "runtime/dae/common_of_gltf.h"
 #include "runtime/dae/export_p.h"
+#include "runtime/description/display_color.h"
 #include "runtime/description/shader_library.h"
 
 namespace kinora {
@@ -37,20 +39,21 @@ const rsl::ShaderParameter* parameter_of(const ShaderUse& use, std::string_view 
 }
 
 // profile_COMMON's slots in the order of the schema, and what collada_*.sl calls them.
+enum class SlotKind : uint8_t { Number, Light, Measure };  // Light: a display colour
 struct SlotRow {
     const char *element, *param;
-    bool is_color;
+    SlotKind kind;
 };
-constexpr SlotRow kSlots[] = {{"emission", "emission", true},
-                              {"ambient", "ambient_color", true},
-                              {"diffuse", "diffuse", true},
-                              {"specular", "specular", true},
-                              {"shininess", "shininess", false},
-                              {"reflective", "reflective", true},
-                              {"reflectivity", "reflectivity", false},
-                              {"transparent", "transparent", true},
-                              {"transparency", "transparency", false},
-                              {"index_of_refraction", "index_of_refraction", false}};
+constexpr SlotRow kSlots[] = {{"emission", "emission", SlotKind::Light},
+                              {"ambient", "ambient_color", SlotKind::Light},
+                              {"diffuse", "diffuse", SlotKind::Light},
+                              {"specular", "specular", SlotKind::Light},
+                              {"shininess", "shininess", SlotKind::Number},
+                              {"reflective", "reflective", SlotKind::Light},
+                              {"reflectivity", "reflectivity", SlotKind::Number},
+                              {"transparent", "transparent", SlotKind::Measure},
+                              {"transparency", "transparency", SlotKind::Number},
+                              {"index_of_refraction", "index_of_refraction", SlotKind::Number}};
 struct ModelRow {
     const char *shader, *element;
     const char* slots;  // those it has, by number
@@ -102,10 +105,116 @@ std::string ColladaExporter::image(const std::string& texture_name) {
     return own;
 }
 
+// The numbers that channels write, where they are decoded after.
+ValueSlot ColladaExporter::written(ValueSlot color) const {
+    for (const MovingColor& moving : description_.moving_colors)
+        if (moving.linear == color.offset) return {moving.display, color.count};
+    return color;
+}
+
+// `factor` times the colour, white where there is none, as COLLADA's <color> says it.
+std::vector<double> ColladaExporter::display_color(ValueSlot color, double factor) const {
+    std::span<const double> v = values(color);
+    bool grey = v.size() < 3;
+    dvec3 linear = v.empty() ? dvec3(1.0) : dvec3(v[0], v[grey ? 0 : 1], v[grey ? 0 : 2]);
+    dvec3 display = display_of_linear(factor * linear);
+    return {display.x, display.y, display.z};
+}
+
 std::string ColladaExporter::inner_file(const std::string& name) const {
     for (const auto& file : description_.memory_files)
         if (file->name() == name) return {file->bytes().begin(), file->bytes().end()};
     return {};
+}
+
+// <texture>, and in `params` its sampler. `extra` goes into its extra.
+std::string ColladaExporter::texture(const ParamSource& map, const std::string& sid,
+                                     const std::string& extra, std::string& params) {
+    TextureName look = parse_texture_name(map.strings[0]);
+    params += fmt::format(
+        "<newparam sid=\"{0}-surface\"><surface type=\"2D\"><init_from>{1}</init_from>"
+        "</surface></newparam><newparam sid=\"{0}-sampler\"><sampler2D><source>{0}-surface"
+        "</source><wrap_s>{2}</wrap_s><wrap_t>{3}</wrap_t><minfilter>{4}</minfilter>"
+        "<magfilter>{4}</magfilter></sampler2D></newparam>",
+        sid, image(map.strings[0]), kWraps[size_t(look.wrap_s)], kWraps[size_t(look.wrap_t)],
+        look.nearest ? "NEAREST" : "LINEAR");
+    std::string placed = extra;
+    if (look.uv != TextureName().uv)
+        placed += fmt::format(
+            "<technique profile=\"MAYA\"><repeatU>{}</repeatU><repeatV>{}</repeatV><offsetU>{}"
+            "</offsetU><offsetV>{}</offsetV></technique>",
+            look.uv[0], look.uv[1], look.uv[2], look.uv[3]);
+    if (look.turn != TextureName().turn) lost(fmt::format("texture '{}'", sid), "how it is turned");
+    std::string name = map.texcoord.empty() ? "TEXCOORD0" : map.texcoord;
+    return xml("texture", attribute("texture", sid + "-sampler") + attribute("texcoord", name),
+               placed.empty() ? "" : xml("extra", "", placed));
+}
+
+// The map of normals or heights of a COLLADA model, as the extra that exporters write.
+std::string ColladaExporter::bump(const ShaderUse& use, const std::string& effect,
+                                  std::string& params) {
+    const ParamSource* map = source_of(use, "bump_map");
+    if (!map || map->strings.empty() || map->strings[0].empty()) return "";
+    const ParamSource* kind = source_of(use, "bump_kind");
+    const ParamSource* amount = source_of(use, "bump_amount");
+    bool normals = kind && !kind->strings.empty() && kind->strings[0] == "NORMALMAP";
+    std::string extra;
+    if (amount && amount->value.present())
+        extra = xml("technique", attribute("profile", "MAX3D"),
+                    xml("amount", "", number_text(values(amount->value))));
+    return xml("extra", "",
+               xml("technique", attribute("profile", "FCOLLADA"),
+                   xml("bump", attribute("bumptype", normals ? "NORMALMAP" : "HEIGHTFIELD"),
+                       texture(*map, effect + "-bump", extra, params))));
+}
+
+// The same surface by the two modes of <transparent> that COLLADA 1.4.1 has: A_ONE and RGB_ZERO.
+ShaderUse ColladaExporter::in_modes_of_1_4(ShaderUse use, const std::string& effect) {
+    const ParamSource* mode = source_of(use, "opaque");
+    std::string opaque = mode && !mode->strings.empty() ? mode->strings[0] : "NONE";
+    if (opaque == "A_ONE" || opaque == "RGB_ZERO") return use;
+    auto number = [&](const char* name) {
+        const ParamSource* p = source_of(use, name);
+        return p && p->value.present() ? values(p->value) : std::span<const double>();
+    };
+    std::span<const double> color = number("transparent"), alpha = number("transparent_alpha");
+    double scale = number("transparency").empty() ? 1 : number("transparency")[0];
+    dvec4 seen(1.0);
+    for (size_t k = 0; k < 3 && !color.empty(); ++k)
+        seen[int(k)] = color[std::min(k, color.size() - 1)];
+    if (!alpha.empty()) seen.w = alpha[0];
+    bool plain = !source_of(use, "transparent_map");
+    for (const ParamSource& p : use.params)
+        for (uint32_t k = 0; p.name.starts_with("transparen") && k < p.value.count; ++k)
+            plain &= !description_.animated[p.value.offset + k];
+    if (!plain && opaque != "NONE") {
+        lost(fmt::format("effect '{}'", effect),
+             fmt::format("opaque=\"{}\" of a texture or of what moves (1.4.1)", opaque));
+        opaque = "NONE";
+    }
+    std::erase_if(use.params, [](const ParamSource& p) {
+        return p.name.starts_with("transparen") || p.name == "opaque";
+    });
+    if (opaque == "NONE") return use;
+    seen = dvec4(1.0) - scale * seen;
+    bool by_alpha = opaque == "A_ZERO";
+    auto add = [&](const char* name, std::initializer_list<double> numbers) {
+        ParamSource& p = use.params.emplace_back();
+        p.name = name;
+        p.value = {uint32_t(description_.values.size() + more_values_.size()),
+                   uint32_t(numbers.size())};
+        more_values_.insert(more_values_.end(), numbers);
+    };
+    if (by_alpha)
+        add("transparent", {1, 1, 1});
+    else
+        add("transparent", {seen.x, seen.y, seen.z});
+    add("transparent_alpha", {by_alpha ? seen.w : 1});
+    add("transparency", {1});
+    ParamSource& p = use.params.emplace_back();
+    p.name = "opaque";
+    p.strings = {by_alpha ? "A_ONE" : "RGB_ZERO"};
+    return use;
 }
 
 // profile_COMMON: COLLADA's own model as it is; of others the colors that any viewer understands.
@@ -118,30 +227,21 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
     auto value = [&](const SlotRow& row, const char* param) -> std::string {
         const ParamSource* p = use ? source_of(*use, param) : nullptr;
         const ParamSource* map = use ? source_of(*use, std::string(param) + "_map") : nullptr;
-        if (map && !map->strings.empty() && !map->strings[0].empty() && row.is_color) {
-            TextureName look = parse_texture_name(map->strings[0]);
-            std::string sid = fmt::format("{}-{}", effect, row.element);
-            params += fmt::format(
-                "<newparam sid=\"{0}-surface\"><surface type=\"2D\"><init_from>{1}</init_from>"
-                "</surface></newparam><newparam sid=\"{0}-sampler\"><sampler2D><source>{0}-surface"
-                "</source><wrap_s>{2}</wrap_s><wrap_t>{3}</wrap_t><minfilter>{4}</minfilter>"
-                "<magfilter>{4}</magfilter></sampler2D></newparam>",
-                sid, image(map->strings[0]), kWraps[size_t(look.wrap_s)],
-                kWraps[size_t(look.wrap_t)], look.nearest ? "NEAREST" : "LINEAR");
-            std::string name = map->texcoord.empty() ? "TEXCOORD0" : map->texcoord;
-            return fmt::format("<texture texture=\"{}-sampler\" texcoord=\"{}\"/>", sid, name);
-        }
+        bool is_color = row.kind != SlotKind::Number;
+        if (map && !map->strings.empty() && !map->strings[0].empty() && is_color)
+            return texture(*map, fmt::format("{}-{}", effect, row.element), "", params);
         if (!p || !p->value.present()) return "";
         std::vector<double> v(values(p->value).begin(), values(p->value).end());
-        if (row.is_color) {
+        if (row.kind == SlotKind::Light) v = display_color(p->value, 1);
+        if (is_color) {
             v.resize(3, v.empty() ? 0.0 : v[0]);
             const ParamSource* alpha = source_of(*use, "transparent_alpha");
             bool with_alpha = alpha && std::string_view(row.element) == "transparent";
             v.push_back(with_alpha ? values(alpha->value)[0] : 1.0);
         }
         std::string sid = row.element;
-        if (model) address({p->value.offset, p->value.count}, effect + "/common/" + sid, nullptr);
-        return xml(row.is_color ? "color" : "float", attribute("sid", sid), number_text(v));
+        if (model) address(written(p->value), effect + "/common/" + sid, nullptr);
+        return xml(is_color ? "color" : "float", attribute("sid", sid), number_text(v));
     };
     auto add = [&](const SlotRow& row, const char* param) {
         std::string content = value(row, param);
@@ -159,9 +259,9 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
         add(kSlots[2], use && source_of(*use, "base_color") ? "base_color" : "surfacecolor");
     }
     std::string shading = xml(model ? model->element : "lambert", "", slots);
-    std::string extra;
+    std::string extra = model ? bump(*use, effect, params) : "";
     if (definition.hide_backfaces)
-        extra =
+        extra +=
             "<extra><technique profile=\"GOOGLEEARTH\"><double_sided>0</double_sided>"
             "</technique></extra>";
     return xml("profile_COMMON", "",
@@ -215,6 +315,30 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
         params + xml("technique", attribute("sid", "rsl"), codes + xml("pass", "", shaders)));
 }
 
+// Whether it is more than one of COLLADA's or glTF's own surfaces: only RSL says the others.
+bool ColladaExporter::is_rsl(const MaterialDefinition& m) const {
+    size_t others = m.transformations.size() + m.displacements.size() + m.interior.size() +
+                    m.exterior.size() + m.lights.size();
+    if (others + m.surfaces.size() != 1 || m.surfaces.empty())
+        return others + m.surfaces.size() > 0;
+    if (is_gltf_surface(m.surfaces[0])) return false;
+    return std::none_of(std::begin(kModels), std::end(kModels),
+                        [&](const ModelRow& row) { return is_library(m.surfaces[0], row.shader); });
+}
+
+// Whether something that wears the material has vertex colours.
+bool ColladaExporter::has_vertex_colors(uint32_t material) const {
+    for (const NodeDefinition& node : description_.nodes)
+        for (const MeshUse& use : node.meshes)
+            for (const MaterialUse& worn : use.materials) {
+                if (worn.material != material) continue;
+                for (const PrimitiveGroup& group : description_.meshes[use.mesh].groups)
+                    for (const VertexAttribute& a : group.attributes)
+                        if (group.symbol == worn.symbol && a.semantic == "COLOR") return true;
+            }
+    return false;
+}
+
 std::string ColladaExporter::effect(uint32_t index) {
     const MaterialDefinition& m = description_.materials[index];
     std::string own = id(material_ids_[index] + "-effect", "effect");
@@ -223,13 +347,18 @@ std::string ColladaExporter::effect(uint32_t index) {
          {&m.transformations, &m.displacements, &m.surfaces, &m.interior, &m.exterior, &m.lights})
         for (const ShaderUse& use : *list) uses.push_back(&use);
     const ShaderUse* top = m.surfaces.empty() ? nullptr : &m.surfaces.back();
-    bool common_only = uses.size() == 1 && top;
-    if (common_only)
-        common_only = std::any_of(std::begin(kModels), std::end(kModels), [&](const ModelRow& row) {
-            return is_library(*top, row.shader);
-        });
-    std::string profiles = common(m, top, own);
-    if (!uses.empty() && !common_only) profiles += rsl(uses, own);
+    ShaderUse seen = top ? *top : ShaderUse{};
+    if (top && is_gltf_surface(*top)) {
+        CommonSurface nearest = common_of_gltf(*top, description_, more_values_);
+        for (const std::string& what : nearest.lost)
+            if (!is_rsl(m)) lost(fmt::format("material '{}'", m.id), what);
+        if (!is_rsl(m) && has_vertex_colors(index))
+            lost(fmt::format("material '{}'", m.id), "vertex colours that tint it");
+        seen = std::move(nearest.use);
+    }
+    seen = in_modes_of_1_4(std::move(seen), own);
+    std::string profiles = common(m, top ? &seen : nullptr, own);
+    if (is_rsl(m)) profiles += rsl(uses, own);
     effects_ += xml("effect", attribute("id", own), profiles);
     return own;
 }
@@ -248,6 +377,17 @@ std::string ColladaExporter::rsl_extra(const std::vector<ShaderUse>& uses,
                ? ""
                : xml("extra", "", xml("technique", attribute("profile", "RSL"), instances));
 }
+
+namespace {
+
+// Of the cosine to that power which is 1/2 where the edge of glTF's cone is
+// (KHR_lights_punctual: the square of a ramp over the cosine).
+double falloff_exponent(double inner, double outer) {
+    double cosine = std::cos(outer) + std::sqrt(0.5) * (std::cos(inner) - std::cos(outer));
+    return cosine < 1 && cosine > 0 ? std::log(0.5) / std::log(cosine) : 0;
+}
+
+}  // namespace
 
 std::string ColladaExporter::light(uint32_t index) {
     struct Row {
@@ -273,14 +413,11 @@ std::string ColladaExporter::light(uint32_t index) {
     };
     // gltf_*.sl: Cl = color * intensity / PI, point and spot lights over d^2.
     double factor = theirs ? number("intensity", 1) / kPi : 1.0;
-    std::vector<double> color{1, 1, 1};
-    if (const ParamSource* p = source_of(l.shader, "lightcolor")) {
-        color.assign(values(p->value).begin(), values(p->value).end());
-        color.resize(3, color.empty() ? 1.0 : color[0]);
-        if (!theirs) address(p->value, own + "/color", nullptr);
-    }
-    for (double& c : color) c *= factor;
-    std::string content = xml("color", attribute("sid", "color"), number_text(color));
+    const ParamSource* tint = source_of(l.shader, "lightcolor");
+    ValueSlot color = tint ? tint->value : ValueSlot{};
+    if (!theirs) address(written(color), own + "/color", nullptr);
+    std::string content =
+        xml("color", attribute("sid", "color"), number_text(display_color(color, factor)));
     auto add = [&](const char* name, double value) {
         const ParamSource* p = source_of(l.shader, name);
         if (p && p->value.present() && !theirs) address(p->value, own + "/" + name, nullptr);
@@ -292,14 +429,17 @@ std::string ColladaExporter::light(uint32_t index) {
         add("linear_attenuation", theirs ? 0 : number("linear_attenuation", 0));
         add("quadratic_attenuation", theirs ? 1 : number("quadratic_attenuation", 0));
     }
+    std::string name = fmt::format("light '{}'", own);
     if (row && row->cone) {
-        add("falloff_angle",
-            theirs ? number("outer_angle", kPi / 4) * 360 / kPi : number("falloff_angle", 180));
-        add("falloff_exponent", theirs ? 0 : number("falloff_exponent", 0));
+        double outer = number("outer_angle", kPi / 4), inner = number("inner_angle", 0);
+        bool soft = theirs && inner < 0.99 * outer;
+        add("falloff_angle", theirs ? outer * 360 / kPi : number("falloff_angle", 180));
+        add("falloff_exponent",
+            theirs ? (soft ? falloff_exponent(inner, outer) : 0) : number("falloff_exponent", 0));
+        if (soft) lost(name, "the edge of its cone (a power of the cosine comes near)");
     }
-    // What COLLADA's light does not do just so is written as RSL, which wins.
-    bool exact = row && (!theirs || (!row->cone && !(number("range", 0) > 0)));
-    std::string extra = exact ? "" : rsl_extra({l.shader}, own);
+    if (theirs && row->falls_off && number("range", 0) > 0) lost(name, "where its range ends");
+    std::string extra = row ? "" : rsl_extra({l.shader}, own);
     return xml("light",
                attribute("id", own) + (l.name.empty() ? "" : attribute("name", xml_name(l.name))),
                xml("technique_common", "", xml(row ? row->element : "point", "", content)) + extra);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/dae/export_p.h"
+#include "runtime/description/display_color.h"
 
 namespace kinora {
 
@@ -62,6 +63,19 @@ const MeshDefinition& ColladaExporter::with_triangles(uint32_t mesh) const {
     return description_.meshes[mesh];
 }
 
+// The numbers of an attribute. What RSL reads stands as it is; other vertex colours are display
+// colours, as those of profile_COMMON.
+std::vector<float> ColladaExporter::numbers_of(const VertexAttribute& values, bool by_rsl) const {
+    std::vector<float> numbers = values.values;
+    if (by_rsl || values.semantic != "COLOR" || values.stride < 3) return numbers;
+    for (size_t i = 0; i + values.stride <= numbers.size(); i += values.stride) {
+        float* v = &numbers[i];
+        dvec3 display = display_of_linear({v[0], v[1], v[2]});
+        for (int k = 0; k < 3; ++k) v[k] = float(display[k]);
+    }
+    return numbers;
+}
+
 std::string ColladaExporter::geometry(uint32_t index) {
     const MeshDefinition& mesh = description_.meshes[index];
     const MeshDefinition& shape = with_triangles(index);
@@ -81,9 +95,11 @@ std::string ColladaExporter::geometry(uint32_t index) {
         for (size_t a = 0; a < group.attributes.size(); ++a) {
             const VertexAttribute& values = group.attributes[a];
             // glTF's TANGENT is there as the numbers that shaders read (import_gltf_tangent).
-            if (values.stride == 0 || is_gltf_tangent(values)) continue;
+            if (values.stride == 0 || is_gltf_tangent(values) || values.semantic == kLinearColor)
+                continue;
             std::string source = fmt::format("{}-{}-{}{}", own, g, values.semantic, a);
-            sources += float_source(source, number_text(values.values),
+            bool by_rsl = rsl_groups_.contains({index, group.symbol});
+            sources += float_source(source, number_text(numbers_of(values, by_rsl)),
                                     values.values.size() / values.stride,
                                     param_names(values.semantic, values.stride));
             auto same = std::find_if(lists.begin(), lists.end(),

@@ -37,14 +37,23 @@ class ColladaExporter {
     // export_mesh.cpp: geometries and controllers
     const MeshDefinition& with_triangles(uint32_t mesh) const;
     std::string geometry(uint32_t index);
+    std::vector<float> numbers_of(const VertexAttribute& values, bool by_rsl) const;
     std::string skin(const MeshUse& use, const std::string& controller);
     std::string morph(uint32_t index, uint32_t mesh);
     std::string controller(const MeshUse& use);
 
     // export_material.cpp: images, effects, lights, cameras
     std::string image(const std::string& texture_name);
+    ValueSlot written(ValueSlot color) const;
+    std::string texture(const ParamSource& map, const std::string& sid, const std::string& extra,
+                        std::string& params);
+    std::string bump(const ShaderUse& use, const std::string& effect, std::string& params);
+    ShaderUse in_modes_of_1_4(ShaderUse use, const std::string& effect);
+    std::vector<double> display_color(ValueSlot color, double factor) const;
     std::string inner_file(const std::string& name) const;
     std::string effect(uint32_t material);
+    bool is_rsl(const MaterialDefinition& definition) const;
+    bool has_vertex_colors(uint32_t material) const;
     std::string common(const MaterialDefinition& definition, const ShaderUse* use,
                        const std::string& effect);
     std::string rsl(const std::vector<const ShaderUse*>& uses, const std::string& effect);
@@ -64,6 +73,7 @@ class ColladaExporter {
     std::vector<std::string> node_ids_, mesh_ids_, material_ids_, light_ids_, camera_ids_;
     std::vector<uint32_t> uses_, parents_;  // of node definitions
     std::vector<bool> joint_;
+    std::set<std::pair<uint32_t, std::string>> rsl_groups_;  // mesh and symbol: RSL is worn there
     std::string images_, effects_, materials_, controllers_;
     std::map<std::string, std::string> image_ids_, controller_ids_;
     std::map<uint32_t, std::string> morph_ids_;
@@ -73,6 +83,7 @@ class ColladaExporter {
         int quaternion = -1;  // component of one that stands as a matrix
     };
     std::map<uint32_t, Target> targets_;  // by offset in values
+    std::vector<double> more_values_;     // behind the description's
     std::string skinned_;                 // nodes of skinned meshes, at the top
 };
 

@@ -8,6 +8,7 @@
 #include "collada/document/open_scene.h"
 #include "collada/extract/extract.h"
 #include "runtime/dae/import_p.h"
+#include "runtime/description/display_color.h"
 
 namespace kinora {
 
@@ -67,7 +68,9 @@ void ColladaImport::run() {
     import_cameras();
     out_.picture = picture_shaders(data_.rsl_materials);
     import_nodes();
+    add_linear_vertex_colors();
     import_animation();
+    settle_colors();
     import_clips();
 }
 
@@ -85,6 +88,30 @@ uint32_t ColladaImport::append(const collada::ParamValue& value) {
         for (size_t r = 0; r < 4; ++r)
             for (size_t c = 0; c < 4; ++c) numbers[m + c * 4 + r] = value.numbers[m + r * 4 + c];
     return append(numbers.data(), numbers.size());
+}
+
+// Where a display colour stands in linear light. Another count is no colour and stays as it is.
+ValueSlot ColladaImport::linear(ValueSlot display) {
+    if (!options_.decode_colors || display.count != 3) return display;
+    auto [known, is_new] = linear_colors_.try_emplace(display.offset, 0);
+    if (is_new) {
+        const double* v = &out_.values[display.offset];
+        dvec3 color = linear_of_display({v[0], v[1], v[2]});
+        known->second = append(&color.x, 3);
+    }
+    return {known->second, 3};
+}
+
+// Colours that nothing moves are decoded for good; the others in every frame.
+void ColladaImport::settle_colors() {
+    for (const auto& [display, linear] : linear_colors_) {
+        auto moves = out_.animated.begin() + display;
+        if (std::find(moves, moves + 3, true) == moves + 3) continue;
+        std::fill_n(out_.animated.begin() + linear, 3, true);
+        out_.moving_colors.push_back({display, linear});
+    }
+    std::sort(out_.moving_colors.begin(), out_.moving_colors.end(),
+              [](const MovingColor& a, const MovingColor& b) { return a.display < b.display; });
 }
 
 void ColladaImport::allocate_values() {
@@ -167,7 +194,7 @@ dmat4 ColladaImport::conversion(uint32_t index) const {
     return index == collada::kNone ? dmat4(1.0) : data_.conversions[index];
 }
 
-MeshUse ColladaImport::mesh_use(const collada::MeshInstance& instance) const {
+MeshUse ColladaImport::mesh_use(const collada::MeshInstance& instance) {
     MeshUse use;
     use.mesh = instance.geometry;
     use.morph = instance.morph;
@@ -182,7 +209,7 @@ MeshUse ColladaImport::mesh_use(const collada::MeshInstance& instance) const {
             material.vertex_bindings.push_back(
                 {input.semantic, input.input_semantic, input.input_set});
         for (const collada::ParamBinding& param : binding.params)
-            material.params.emplace_back(param.semantic, slot(param.ref));
+            material.params.emplace_back(param.semantic, bound_slot(binding.material, param));
     }
     return use;
 }

@@ -173,18 +173,19 @@ struct SlotRow {
     CommonSlot slot;
     const char* name;
     uint32_t count;
+    bool display;  // a colour of light, encoded as a display's; <transparent> is a measure
 };
 constexpr SlotRow kSlots[] = {
-    {CommonSlot::Emission, "emission", 3},
-    {CommonSlot::Ambient, "ambient_color", 3},
-    {CommonSlot::Diffuse, "diffuse", 3},
-    {CommonSlot::Specular, "specular", 3},
-    {CommonSlot::Shininess, "shininess", 1},
-    {CommonSlot::Reflective, "reflective", 3},
-    {CommonSlot::Reflectivity, "reflectivity", 1},
-    {CommonSlot::Transparent, "transparent", 3},
-    {CommonSlot::Transparency, "transparency", 1},
-    {CommonSlot::IndexOfRefraction, "index_of_refraction", 1},
+    {CommonSlot::Emission, "emission", 3, true},
+    {CommonSlot::Ambient, "ambient_color", 3, true},
+    {CommonSlot::Diffuse, "diffuse", 3, true},
+    {CommonSlot::Specular, "specular", 3, true},
+    {CommonSlot::Shininess, "shininess", 1, false},
+    {CommonSlot::Reflective, "reflective", 3, true},
+    {CommonSlot::Reflectivity, "reflectivity", 1, false},
+    {CommonSlot::Transparent, "transparent", 3, false},
+    {CommonSlot::Transparency, "transparency", 1, false},
+    {CommonSlot::IndexOfRefraction, "index_of_refraction", 1, false},
 };
 constexpr const char* kModels[] = {"collada_constant", "collada_lambert", "collada_phong",
                                    "collada_blinn"};                           // CommonModel
@@ -223,31 +224,50 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
     uint32_t effect_index = uint32_t(&effect - data_.effects.data());
     ShaderUse use;
     use.shader = library_shader(kModels[size_t(common.model)], diagnostics_);
+    use.linear_inputs = true;
+    // What hides all is left out: the shader's own values are opaque, but for A_ZERO and RGB_ZERO
+    // a transparency of 0 is. The mask of a texture stays.
+    bool hides_all =
+        data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto;
     for (const SlotRow& row : kSlots) {
         const collada::CommonValue& value = common[row.slot];
         bool mask = row.slot == CommonSlot::Transparent;
-        if (value.source == collada::SlotSource::Value) {
-            uint32_t offset = common_values_[effect_index][size_t(row.slot)];
-            add_value(use, row.name, {offset, row.count});
-            if (mask && value.slot.count == 4) add_value(use, "transparent_alpha", {offset + 3, 1});
-        } else if (value.source == collada::SlotSource::Param) {
-            ValueSlot slot = param_slot(index, effect_index, value.param);
-            if (slot.count >= row.count) add_value(use, row.name, {slot.offset, row.count});
-            if (mask && slot.count >= 4) add_value(use, "transparent_alpha", {slot.offset + 3, 1});
-        } else if (value.source == collada::SlotSource::Texture && has_map(use, row.name)) {
+        ValueSlot slot;
+        if (value.source == collada::SlotSource::Value)
+            slot = {common_values_[effect_index][size_t(row.slot)], value.slot.count};
+        else if (value.source == collada::SlotSource::Param)
+            slot = param_slot(index, effect_index, value.param);
+        else if (value.source == collada::SlotSource::Texture && has_map(use, row.name))
             set_texture(index, value, row.name, mask, use);
-        }
+        bool left_out = hides_all && (mask || row.slot == CommonSlot::Transparency);
+        if ((slot.count < row.count && slot.count != 1) || left_out) continue;
+        ValueSlot whole{slot.offset, std::min(slot.count, row.count)};  // one number: a grey
+        add_value(use, row.name, row.display ? linear(whole) : whole);
+        if (mask && slot.count >= 4) add_value(use, "transparent_alpha", {slot.offset + 3, 1});
     }
-    bool hides_all =
-        data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto;
-    add_text(use, "opaque",
-             transparent(common) && !hides_all ? kOpaque[size_t(common.opaque)] : "NONE");
+    bool zero_hides =
+        common.opaque == collada::Opaque::AZero || common.opaque == collada::Opaque::RgbZero;
+    if (hides_all && zero_hides) {
+        double opaque = 0;
+        add_value(use, "transparency", {append(&opaque, 1), 1});
+    }
+    add_text(use, "opaque", transparent(common) ? kOpaque[size_t(common.opaque)] : "NONE");
     if (common[CommonSlot::Bump].source == collada::SlotSource::Texture && has_map(use, "bump")) {
         set_texture(index, common[CommonSlot::Bump], "bump", true, use);
         add_text(use, "bump_kind", common.bump_is_normals ? "NORMALMAP" : "HEIGHTFIELD");
         add_value(use, "bump_amount", {append(&common.bump_amount, 1), 1});
     }
     result.surfaces.push_back(std::move(use));
+}
+
+// What <bind semantic target> gives a parameter; the colours of profile_COMMON as its own are.
+ValueSlot ColladaImport::bound_slot(uint32_t material, const collada::ParamBinding& param) {
+    ValueSlot value = slot(param.ref);
+    uint32_t effect = material == kNone ? kNone : data_.materials[material].effect;
+    if (effect == kNone || data_.effects[effect].rsl || value.count < 3) return value;
+    for (const SlotRow& row : kSlots)
+        if (row.display && param.semantic == row.name) return linear({value.offset, 3});
+    return value;
 }
 
 MaterialDefinition ColladaImport::material(uint32_t index) {
@@ -330,7 +350,8 @@ void ColladaImport::import_lights() {
             if (!find_parameter(*to.shader.shader, kSlotNames[s])) continue;
             ParamSource source;
             source.name = kSlotNames[s];
-            source.value = {light_values_[l][s], s == size_t(LightSlot::Color) ? 3u : 1u};
+            source.value = {light_values_[l][s], 1};
+            if (s == size_t(LightSlot::Color)) source.value = linear({light_values_[l][s], 3});
             to.shader.params.push_back(std::move(source));
         }
     }

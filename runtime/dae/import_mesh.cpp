@@ -1,5 +1,8 @@
 // runtime/dae/import_mesh.cpp: COLLADA's geometries and controllers as a SceneDescription.
+#include <algorithm>
+
 #include "runtime/dae/import_p.h"
+#include "runtime/description/display_color.h"
 
 namespace kinora {
 
@@ -19,6 +22,18 @@ PrimitiveGroup primitive_group(const collada::Geometry& geometry, collada::Primi
     return group;
 }
 
+// Alpha and what is no colour stay.
+VertexAttribute in_linear_light(VertexAttribute color) {
+    color.semantic = kLinearColor;
+    for (size_t i = 0; color.stride >= 3 && i + color.stride <= color.values.size();
+         i += color.stride) {
+        float* v = &color.values[i];
+        dvec3 linear = linear_of_display({v[0], v[1], v[2]});
+        for (int k = 0; k < 3; ++k) v[k] = float(linear[k]);
+    }
+    return color;
+}
+
 }  // namespace
 
 void ColladaImport::import_meshes() {
@@ -35,6 +50,38 @@ void ColladaImport::import_meshes() {
             to.groups.push_back(primitive_group(from, group));
         from = {};
     }
+}
+
+// Where profile_COMMON or the default surface reads vertex colours. What RSL reads is as written.
+void ColladaImport::add_linear_vertex_colors() {
+    if (!options_.decode_colors) return;
+    auto reads_linear = [&](const MeshUse& use, const PrimitiveGroup& group) {
+        for (const MaterialUse& material : use.materials) {
+            if (material.symbol != group.symbol || material.material == kNone) continue;
+            const auto& surfaces = out_.materials[material.material].surfaces;
+            if (surfaces.empty()) return true;
+            return surfaces.back().linear_inputs &&
+                   std::any_of(material.vertex_bindings.begin(), material.vertex_bindings.end(),
+                               [](const VertexBinding& b) { return b.semantic == "COLOR"; });
+        }
+        return true;
+    };
+    auto has = [](const PrimitiveGroup& group, const char* semantic) {
+        return std::any_of(group.attributes.begin(), group.attributes.end(),
+                           [&](const VertexAttribute& a) { return a.semantic == semantic; });
+    };
+    for (const NodeDefinition& node : out_.nodes)
+        for (const MeshUse& use : node.meshes) {
+            if (use.mesh == kNone) continue;
+            for (PrimitiveGroup& group : out_.meshes[use.mesh].groups) {
+                bool wanted = has(group, "COLOR") && !has(group, kLinearColor);
+                if (!wanted || !reads_linear(use, group)) continue;
+                std::vector<VertexAttribute> colors;
+                for (const VertexAttribute& a : group.attributes)
+                    if (a.semantic == "COLOR") colors.push_back(in_linear_light(a));
+                group.attributes.insert(group.attributes.end(), colors.begin(), colors.end());
+            }
+        }
 }
 
 void ColladaImport::import_skins() {

@@ -27,17 +27,20 @@ class ColladaImport {
     void allocate_values();
     uint32_t append(const double* numbers, size_t count);
     uint32_t append(const collada::ParamValue& value);
+    ValueSlot linear(ValueSlot display);
+    void settle_colors();
     ValueSlot slot(const collada::TargetRef& ref) const;
     uint32_t owner_bit(const collada::TargetRef& ref) const;
     void import_nodes();
     void import_cameras();
     void import_clips();
     NodeDefinition& add_reference(size_t n, uint32_t conversion_index);
-    MeshUse mesh_use(const collada::MeshInstance& instance) const;
+    MeshUse mesh_use(const collada::MeshInstance& instance);
     dmat4 conversion(uint32_t index) const;
 
     // import_mesh.cpp
     void import_meshes();
+    void add_linear_vertex_colors();
     void import_skins();
     void import_morphs();
 
@@ -52,6 +55,7 @@ class ColladaImport {
     std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
                                         const collada::RslShader& shader);
     const EffectShaders& compiled(const collada::Effect& effect);
+    ValueSlot bound_slot(uint32_t material, const collada::ParamBinding& param);
     ValueSlot param_slot(uint32_t material, uint32_t effect, uint32_t param) const;
     const collada::ParamValue& param_value(uint32_t material, uint32_t effect,
                                            uint32_t param) const;
@@ -76,7 +80,8 @@ class ColladaImport {
     std::vector<std::vector<uint32_t>> transform_values_, light_values_, camera_values_,
         param_values_, common_values_, setparam_values_;
     std::vector<uint32_t> morph_values_;
-    std::vector<bool> sampler_told_;  // what was repaired in it
+    std::unordered_map<uint32_t, uint32_t> linear_colors_;  // by the display colour's offset
+    std::vector<bool> sampler_told_;                        // what was repaired in it
     std::map<const collada::Effect*, EffectShaders> compiled_;
 };
 

@@ -11,11 +11,13 @@
 namespace kinora {
 
 // Spec: opacity by the specification's formula. Auto: a material that the formula makes invisible
-// everywhere is shown opaque (FX_TRANSPARENT_ALL is reported either way).
+// everywhere is shown opaque, or by the mask of its texture (FX_TRANSPARENT_ALL is reported either
+// way).
 enum class TransparencyMode : uint8_t { Spec, Auto };
 
 struct ImportOptions {
-    TransparencyMode transparency = TransparencyMode::Spec;
+    TransparencyMode transparency = TransparencyMode::Auto;
+    bool decode_colors = true;                     // COLLADA's display colours to linear light
     std::vector<std::string> allow_external;       // folders besides the scene's own tree
     bool confine = false;                          // pictures too: else they may lie anywhere
     std::optional<UpAxis> up_axis;                 // instead of the file's

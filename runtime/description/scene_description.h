@@ -98,6 +98,9 @@ struct VertexAttribute {
     std::vector<uint32_t> corners;  // entry of each corner, 3 a triangle
 };
 
+// Vertex colours in linear light, beside COLOR of the same set as the file holds them.
+inline constexpr const char* kLinearColor = "COLOR:linear";
+
 // Triangles that wear one material.
 struct PrimitiveGroup {
     std::string symbol;
@@ -148,6 +151,7 @@ struct ParamSource {
 struct ShaderUse {
     std::shared_ptr<const rsl::Shader> shader;
     std::vector<ParamSource> params;
+    bool linear_inputs = false;  // reads kLinearColor in place of COLOR where there is one
 };
 
 struct MaterialDefinition {
@@ -174,6 +178,12 @@ struct LightDefinition {
 // What a visual scene or a camera runs on rays and on the picture; the camera's wins.
 struct PictureShaders {
     std::vector<ShaderUse> atmosphere, imagers;  // each on what the one before it left
+};
+
+// A display colour that moves: the channels write it as the file has it, and what they wrote is
+// decoded after. Offsets of three values each.
+struct MovingColor {
+    uint32_t display, linear;
 };
 
 struct CameraDefinition {
@@ -217,7 +227,8 @@ struct SceneDescription {
     std::vector<ClipDefinition> clips;
     std::shared_ptr<const rsl::Shader> default_surface;  // of surfaces without material; null: ours
     anim::Animation animation;
-    std::vector<bool> animated;  // per value: some channel writes it
+    std::vector<bool> animated;  // per value: some channel writes it, or it is decoded from such
+    std::vector<MovingColor> moving_colors;
     std::optional<double> start_time, end_time, frame_rate;
     std::vector<std::string> inputs;  // read besides the texts in Diagnostics, for fingerprints
     std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file

@@ -7,6 +7,7 @@
 #include "runtime/frame/report_p.h"
 #include "runtime/scene/camera.h"
 #include "runtime/scene/transforms.h"
+#include "runtime/scene/values.h"
 #include "runtime/vertices/deform.h"
 #include "runtime/vertices/dice_error.h"
 #include "runtime/vertices/vertex_work.h"
@@ -34,8 +35,7 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
                 Diagnostics& diagnostics) {
     {
         StageTimer timer(stats.animate);
-        anim::evaluate(scene.description->animation, time, scene.values, scene.changed);
-        scene.time = time;
+        evaluate(scene, time);
         scene.shutter = settings.shutter;
         update_transforms(scene);
     }

@@ -484,8 +484,8 @@ def masks():
             "grey.png": grey}
 
 
-def legacy_colours():
-    """--color legacy: the numbers of files are those of the picture."""
+def display_colours():
+    """A texture and a colour of the same numbers are the same light."""
     grey = png([[(64, 128, 200)] * 2] * 2)
 
     def seen(inside):
@@ -493,6 +493,11 @@ def legacy_colours():
             "diffuse>", "emission>")
     return {"texture": seen('<texture texture="map-sampler" texcoord="UV"/>'),
             "color": seen(f"<color>{numbers((64 / 255, 128 / 255, 200 / 255))} 1</color>"), "grey.png": grey}
+
+
+def legacy_colours():
+    """--color legacy: the numbers of files are those of the picture."""
+    return display_colours()
 
 
 def colours():
@@ -556,7 +561,7 @@ def kept():
 FAMILIES = {f.__name__: f for f in (
     primitives, inputs, solids, polygons_with_holes, transforms, cameras_by_lookat, skews, references, bases, absolute_references,
     samplers, versions, units, assets, normals, only_materials,
-    archives, fields_of_view, magnifications, instances, skins, skin_spaces, armatures, mirrors, morphs, targets, curves, colours, opacities, masks, legacy_colours,
+    archives, fields_of_view, magnifications, instances, skins, skin_spaces, armatures, mirrors, morphs, targets, curves, colours, opacities, masks, display_colours, legacy_colours,
     image_files, texture_coordinates, kept)}
 OPTIONS = {"skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"],
            "legacy_colours": ["--color", "legacy", "--time", "0"]}

@@ -45,8 +45,9 @@ class Overrides(ColladaTest):
         opaque = self.write("opaque.dae", dae.plain(effects=dae.effect(
             "<phong><diffuse><color>.8 .5 .2 1</color></diffuse></phong>")))
         nothing, _ = self.picture(opaque, "--hide", "*")
-        spec, said = self.picture(scene)
-        auto, said_too = self.picture(scene, "--transparency", "auto")
+        spec, said = self.picture(scene, "--transparency", "spec")
+        auto, said_too = self.picture(scene)
+        self.assertEqual(auto, self.picture(scene, "--transparency", "auto")[0])
         whole, _ = self.picture(opaque)
         self.assertEqual(spec, nothing)
         self.assertEqual(auto, whole)
@@ -55,7 +56,22 @@ class Overrides(ColladaTest):
 
     def test_auto_leaves_what_is_seen_as_it_is(self):
         scene = TEST_DATA / "conformance/equal/opacities/rgb_zero.dae"
-        self.assertEqual(self.picture(scene)[0], self.picture(scene, "--transparency", "auto")[0])
+        self.assertEqual(self.picture(scene)[0], self.picture(scene, "--transparency", "spec")[0])
+
+    def test_auto_keeps_the_mask_of_a_texture(self):
+        """A leaf: alpha 0 and 255. A transparency of 0 hides all of it by the formula."""
+        mask = dae.png([[(255, 255, 255, 0), (255, 255, 255, 255)]], 4)
+        self.write_bytes("leaf.png", mask)
+        leaf = dae.textured(path="leaf.png").replace(
+            "</diffuse>", '</diffuse><transparent opaque="A_ONE"><texture texture="map-sampler" texcoord="UV"/>'
+            "</transparent><transparency><float>{}</float></transparency>")
+        right = self.write("right.dae", leaf.format(1))
+        hidden = self.write("hidden.dae", leaf.format(0))
+        whole = self.write("whole.dae", dae.textured(path="leaf.png"))
+        self.assertEqual(self.picture(hidden)[0], self.picture(right)[0])
+        self.assertIn("FX_TRANSPARENT_ALL", self.picture(hidden)[1])
+        self.assertNotIn("FX_TRANSPARENT_ALL", self.picture(right)[1])
+        self.assertNotEqual(self.picture(right)[0], self.picture(whole)[0])
 
     def test_up_stands_for_the_files_tag(self):
         scene = {up: self.write(f"{up}.dae", dae.plain(cameras="", eye="", up=f"{up}_UP")) for up in "XYZ"}

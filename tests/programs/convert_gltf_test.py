@@ -3,10 +3,15 @@ kinora-convert: attributes, materials, clips, skins, texts; pictures before and 
 import base64
 import copy
 import json
+import os
+import re
+import shutil
 import struct
+import subprocess
 import unittest
 
 import programs
+import schema_agreement_test
 import written_scenes as scenes
 from convert_test import PICTURE, SAME, Convert, convert, glb_json, mesh_scene, png, validated
 from programs import render
@@ -245,6 +250,108 @@ class Materials(GltfConvert):
         scene = self.save("bright", Gltf(extras={"kinora_rsl": {"surface": code}}))
         _, out = self.stays(scene)
         self.assertIn("extras", glb_json(out)["materials"][0])
+
+
+class Collada(GltfConvert):
+    """From glTF to COLLADA: the nearest profile_COMMON, in display colours."""
+
+    def color(self, text, slot):
+        found = re.search(f"<{slot}>\\s*<color[^>]*>([^<]*)</color>", text)
+        self.assertTrue(found, f"{slot}: {text}")
+        return [float(x) for x in found[1].split()]
+
+    def light(self, **light):
+        g = Gltf(pbrMetallicRoughness={"metallicFactor": 0})
+        g.tree["extensionsUsed"] = ["KHR_lights_punctual"]
+        g.tree["extensions"] = {"KHR_lights_punctual": {"lights": [light]}}
+        g.tree["nodes"].append({"translation": [0, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}})
+        g.tree["scenes"][0]["nodes"].append(2)
+        return g
+
+    def test_a_light_of_intensity_1000_survives(self):
+        cone = {"innerConeAngle": 0.4, "outerConeAngle": 0.4}
+        for kind, more in (("point", {}), ("directional", {}), ("spot", {"spot": cone})):
+            with self.subTest(kind):
+                g = self.light(type=kind, intensity=1000, color=[1, 0.5, 0.25], **more)
+                first = self.converted(self.save(kind, g), f"{kind}.glb")
+                dae = self.converted(first, f"{kind}.dae")
+                text = dae.read_text()
+                self.assertNotIn("profile_RSL", text)
+                # 1000 / pi times (1, 0.7353569831, 0.5370987): 1.055 c ^ (1 / 2.4) - 0.055.
+                for got, want in zip(self.color(text, kind + r"[^>]*"), (318.309886, 234.071397, 170.963824)):
+                    self.assertAlmostEqual(got, want, 3)
+                light = glb_json(self.converted(dae, f"{kind}2.glb"))["extensions"]["KHR_lights_punctual"]["lights"][0]
+                self.assertEqual(light["type"], kind)
+                self.assertAlmostEqual(light["intensity"], 1000, 6)
+                for got, want in zip(light["color"], (1, 0.5, 0.25)):
+                    self.assertAlmostEqual(got, want, 9)
+                if kind == "spot":
+                    self.assertAlmostEqual(light["spot"]["outerConeAngle"], 0.4, 9)
+
+    def test_colors_of_materials_are_encoded_there_and_decoded_back(self):
+        factor = {"metallicFactor": 0, "baseColorFactor": [0.5, 0.25, 1, 1]}
+        g = Gltf(pbrMetallicRoughness=factor, emissiveFactor=[0.2, 0, 0])
+        dae = self.converted(self.save("m", g), "m.dae")
+        diffuse = self.color(dae.read_text(), "diffuse")
+        for got, want in zip(diffuse, (0.7353569831, 0.5370987, 1)):
+            self.assertAlmostEqual(got, want, 6)
+        back = glb_json(self.converted(dae, "m.glb"))["materials"][0]
+        for got, want in zip(back["pbrMetallicRoughness"]["baseColorFactor"], (0.5, 0.25, 1, 1)):
+            self.assertAlmostEqual(got, want, 9)
+        self.assertAlmostEqual(back["emissiveFactor"][0], 0.2, 9)
+
+    def test_unlit_colors_look_the_same(self):
+        g = Gltf(pbrMetallicRoughness={"baseColorFactor": [0.5, 0.25, 0.02, 1]}, extensions=UNLIT)
+        scene = self.save("unlit", g)
+        dae = self.converted(scene, "unlit.dae")
+        self.assertNotIn("profile_RSL", dae.read_text())
+        self.assertLess(self.difference(self.picture(scene), self.picture(dae)), SAME)
+
+    def test_vertex_colors_without_a_material_stay(self):
+        text = re.sub(r"<bind_material>.*?</bind_material>", "", mesh_scene(), flags=re.S).replace(
+            "<vertices", '<source id="c"><float_array id="ca" count="9">0.5 0.2 0.1 0.2 0.5 0.1 0.1 0.2 0.5'
+            '</float_array><technique_common><accessor source="#ca" count="3" stride="3"><param name="R" type="float"/>'
+            '<param name="G" type="float"/><param name="B" type="float"/></accessor></technique_common></source><vertices'
+        ).replace("<p>", '<input semantic="COLOR" source="#c" offset="0"/><p>')
+        scene = self.write("colors.dae", text)
+        glb = self.converted(scene, "colors.glb")
+        self.assertLess(self.difference(self.picture(scene), self.picture(glb)), SAME)
+        self.assertGreater(self.difference(self.picture(scene), self.picture(self.write("bare.dae", re.sub(
+            '<input semantic="COLOR"[^>]*>', "", text)))), 1)
+
+    def test_only_materials_in_rsl_have_profile_rsl_and_the_rest_passes_the_official_schema(self):
+        code = "surface s() { Ci = 1; Oi = 1; }"
+        plain = {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}}
+        dae = self.converted(self.save("plain", Gltf(**plain)), "plain.dae")
+        rsl = self.converted(self.save("rsl", Gltf(extras={"kinora_rsl": {"surface": {"code": code}}})), "rsl.dae")
+        self.assertNotIn("profile_RSL", dae.read_text())
+        self.assertIn("profile_RSL", rsl.read_text())
+        official(self, dae, self.converted(self.save("spot", self.light(
+            type="spot", intensity=5, range=3, spot={"innerConeAngle": 0.1, "outerConeAngle": 0.5})), "spot.dae"))
+
+    def test_modes_of_transparency_are_those_of_1_4_1(self):
+        for mode, color in (("A_ZERO", "1 1 1 0.4"), ("RGB_ONE", "0.3 0.6 0.9 1")):
+            with self.subTest(mode):
+                scene = self.write(f"{mode}.dae", mesh_scene().replace(
+                    "</diffuse>", f'</diffuse><transparent opaque="{mode}"><color>{color}</color></transparent>'
+                    "<transparency><float>0.5</float></transparency>"))
+                dae = self.converted(self.converted(scene, f"{mode}.glb"), f"{mode}-2.dae")
+                self.assertNotIn(mode, dae.read_text())
+                self.assertLess(self.difference(self.picture(scene), self.picture(dae)), SAME)
+                official(self, dae)
+
+
+def official(test, *documents):
+    """They pass the official schema of 1.4.1."""
+    schema = schema_agreement_test.OFFICIAL["V14"]
+    if not shutil.which("xmllint") or not schema.exists():
+        test.skipTest("no xmllint, or no official schema")
+    for name, text in (("xml.xsd", schema_agreement_test.XML_XSD), ("math.xsd", schema_agreement_test.MATH_XSD),
+                       ("catalog.xml", schema_agreement_test.CATALOG)):
+        (test.folder / name).write_text(text)
+    done = subprocess.run(["xmllint", "--nonet", "--noout", "--schema", schema, *documents], capture_output=True,
+                          text=True, env={**os.environ, "XML_CATALOG_FILES": str(test.folder / "catalog.xml")})
+    test.assertEqual(done.returncode, 0, done.stderr[-2000:])
 
 
 class Motion(GltfConvert):

@@ -55,9 +55,9 @@ class Changes(ProgramTest):
             text = text.replace(f"GEOMETRY {name}", INSTANCE.format(name))
         self.scene = self.write("squares.dae", text)
 
-    def picture(self, *words, scene=None):
+    def picture(self, *words, scene=None, color="legacy"):
         out = self.folder / "a.png"
-        self.expect(render(scene or self.scene, "-o", out, "--size", "32x16", "--color", "legacy",
+        self.expect(render(scene or self.scene, "-o", out, "--size", "32x16", "--color", color,
                            *SMALL, *words), 0)
         return png.read(out)
 
@@ -81,6 +81,14 @@ class Changes(ProgramTest):
         self.assertEqual(self.sides("--param", "grey.1.mode=dark")[1], (0, 0, 0))
         self.assertEqual(self.sides("--param", "The red.emission=0,1,0")[0], (0, 255, 0))
         self.assertEqual(self.sides("--param", "*.Kd=0.2")[1], (51, 51, 51))
+
+    def test_a_color_of_the_file_is_a_display_value_and_a_param_is_light(self):
+        scene = self.write("half.dae", self.scene.read_text().replace("1 0 0 1", "0.5 0.5 0.5 1"))
+        # 255 * 0.5, and 255 * (1.055 * 0.5 ^ (1 / 2.4) - 0.055).
+        self.assertEqual(self.sides(scene=scene, color="srgb"), ((128, 128, 128), (188, 188, 188)))
+        self.assertEqual(self.sides("--param", "red.emission=0.5", scene=scene, color="srgb")[0],
+                         (188, 188, 188))
+        self.assertEqual(self.sides(scene=scene)[0], (128, 128, 128))
 
     def test_params_go_with_shaders_that_are_tried(self):
         words = ("--shader", f"red={self.write('f.sl', 'surface f(float k = 1;) { Ci = k; Oi = 1; }')}")

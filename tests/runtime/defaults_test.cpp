@@ -61,8 +61,8 @@ TEST(DefaultLights, AreLeftOutWhereEverySurfaceIsConstant) {
     ASSERT_TRUE(r.scene) << r.findings();
     EXPECT_TRUE(r.scene->lights.empty());
     vec3 c = r.frame(15, 15).color(7, 7);
-    EXPECT_FLOAT_EQ(c.x, 0.5f);
-    EXPECT_FLOAT_EQ(c.y, 0.25f);
+    EXPECT_FLOAT_EQ(c.x, 0.2140411405f);  // ((0.5 + 0.055) / 1.055) ^ 2.4
+    EXPECT_FLOAT_EQ(c.y, 0.0508760882f);
 }
 
 TEST(DefaultLights, ShineFromOverTheCamerasLeftShoulder) {

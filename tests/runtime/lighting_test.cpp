@@ -29,7 +29,10 @@ TEST(Lights, ColoursOfSeveralLightsAddUp) {
     SceneText scene = floor_scene(kMatte);
     scene.light("a", "<directional><color>0.5 0.25 2</color></directional>")
         .light("b", "<directional><color>0.1 1 0</color></directional>", turned("0 1 0", 60));
-    expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(0.55, 0.75, 2); });
+    expect_colors(Rendering(scene.text()).frame(), [](dvec2) {
+        // Decoded from sRGB: 2 (1/4, 1/8, 1) and half of (0.1, 1, 0).
+        return dvec3(2 * 0.0508760882 + 0.0100228256 / 2, 2 * 0.0143498747 + 0.5, 2);
+    });
 }
 
 TEST(Lights, PointLightsFallOffByTheirThreeAttenuations) {
@@ -70,7 +73,9 @@ TEST(Lights, ASpotLightsUpTheInsideOfItsConeOnly) {
 TEST(Lights, AmbientLightReachesEveryPointEvenly) {
     SceneText scene = floor_scene("surface s() { Oi = 1; Ci = ambient(); }");
     scene.light("sky", "<ambient><color>0.1 0.2 0.3</color></ambient>").light("sun", kSun);
-    expect_colors(Rendering(scene.text()).frame(), [](dvec2) { return dvec3(0.1, 0.2, 0.3); });
+    expect_colors(Rendering(scene.text()).frame(), [](dvec2) {
+        return dvec3(0.0100228256, 0.0331047666, 0.0732389559);  // decoded from sRGB
+    });
 }
 
 TEST(Lights, IlluminanceTakesTheLightsInsideItsConeOnly) {

@@ -48,6 +48,7 @@ const MaterialDefinition& SurfaceInstances::default_material() {
     default_material_.name = "default";
     ShaderUse use;
     use.shader = own ? own : library_shader("default_surface", diagnostics_);
+    use.linear_inputs = !own;
     default_material_.surfaces.push_back(std::move(use));
     return default_material_;
 }

@@ -33,8 +33,8 @@ class InputFinder {
         layer_ = index;
         for (const ParamSource& source : layer.params) add_texture(source);
         for (const rsl::GlobalInfo* global : layer.shader->globals_read)
-            if (std::string_view(global->name) == "Cs") add_color();
-        for (const rsl::ShaderParameter& p : layer.shader->parameters) add_parameter(p);
+            if (std::string_view(global->name) == "Cs") add_color(layer);
+        for (const rsl::ShaderParameter& p : layer.shader->parameters) add_parameter(layer, p);
     }
 
     VertexInputs take() { return std::move(inputs_); }
@@ -51,6 +51,13 @@ class InputFinder {
         varying.component = component;
         inputs_.varying.push_back(std::move(varying));
         inputs_.attributes.push_back(attribute);
+    }
+
+    // A vertex input as the layer reads it.
+    const VertexAttribute* read_by(const ShaderUse& layer, const VertexAttribute* a) const {
+        if (!a || !layer.linear_inputs || a->semantic != "COLOR") return a;
+        const VertexAttribute* linear = find_attribute(group_, kLinearColor, a->set);
+        return linear ? linear : a;
     }
 
     const VertexAttribute* st_of(const std::string& texcoord) const {
@@ -74,18 +81,19 @@ class InputFinder {
         }
     }
 
-    void add_color() {
-        const VertexAttribute* color = find_attribute(group_, "COLOR", kNone);
+    void add_color(const ShaderUse& layer) {
+        const VertexAttribute* color = read_by(layer, find_attribute(group_, "COLOR", kNone));
         if (color && color->stride >= 3) add("Cs", "COLOR", color, 0, 3);
     }
 
-    void add_parameter(const rsl::ShaderParameter& p) {
+    void add_parameter(const ShaderUse& layer, const rsl::ShaderParameter& p) {
         if (p.type.is_array() || p.type.base == rsl::BaseType::String) return;
         uint32_t components = uint32_t(rsl::component_count(p.type.base));
         const VertexBinding* binding = find_binding(use_, p.name);
         const VertexAttribute* attribute =
             binding ? find_attribute(group_, binding->semantic, binding->set)
                     : find_attribute(group_, p.name, kNone);
+        attribute = read_by(layer, attribute);
         if (attribute)
             add(std::string(p.name), attribute->semantic, attribute, 0, components);
         else if (p.name == "Pref" && components == 3)

@@ -56,10 +56,14 @@ PunctualLight punctual_light(const UsedParams& p, double meters, double meter) {
         light = punctual("directional", kPi * most, color, most);
         light.more = false;
     } else if (is("collada_point") || spot) {
-        double a = attenuation(p, meters, meter);
-        light = punctual(spot ? "spot" : "point", a > 0 ? kPi * most * meters * meters / a : 0.0,
-                         color, most);
+        double a = attenuation(p, meters, meter), square = p.number("quadratic_attenuation", 0);
+        // Over d^2 alone it is glTF's light at all distances.
+        bool exact = square > 0 && p.number("constant_attenuation", 1) == 0 &&
+                     p.number("linear_attenuation", 0) == 0;
+        double intensity = exact ? meter * meter / square : a > 0 ? meters * meters / a : 0.0;
+        light = punctual(spot ? "spot" : "point", kPi * most * intensity, color, most);
         if (spot) light.json["spot"] = collada_cone(p);
+        light.more = spot || !exact;
         light.beyond = "its attenuation (1 / d^2 comes near it)";
     } else if (is("gltf_directional")) {
         light = punctual("directional", p.number("intensity", 1) * most, color, most);
@@ -97,7 +101,7 @@ uint32_t LightWriter::write_new(const LightDefinition& l, const dmat4& world) {
     PunctualLight light = punctual_light({use, description_.values}, meters, description_.meter);
     Json& result = light.json;
     if (!l.id.empty()) result["name"] = l.id;
-    if (light.more && use.shader) {
+    if ((light.more || l.shadows) && use.shader) {
         Json extras = rsl_.shader(use);  // in the file's own unit: kinora_axes tells it
         result["extras"]["kinora_rsl"]["light"] = extras;
         if (l.ambient) result["extras"]["kinora_rsl"]["ambient"] = true;

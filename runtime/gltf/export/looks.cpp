@@ -20,6 +20,17 @@ bool is_derived(const std::string& semantic) {
     return std::find(std::begin(kDerived), std::end(kDerived), semantic) != std::end(kDerived);
 }
 
+// ShaderUse::linear_inputs of what is seen.
+const VertexAttribute* read_by(const GltfLook& look, const PrimitiveGroup& group,
+                               const VertexAttribute& a) {
+    const std::vector<ShaderUse>& surfaces = look.definition.surfaces;
+    bool linear = surfaces.empty() || surfaces.back().linear_inputs;
+    for (const VertexAttribute& other : group.attributes)
+        if (linear && a.semantic == "COLOR" && other.semantic == kLinearColor && other.set == a.set)
+            return &other;
+    return &a;
+}
+
 bool reads(const std::vector<ShaderUse>& layers, const std::string& semantic) {
     for (const ShaderUse& layer : layers)
         for (const rsl::ShaderParameter& p : layer.shader->parameters)
@@ -44,10 +55,12 @@ GltfLook GltfLooks::look_of(const MeshUse& use, const PrimitiveGroup& group) {
     for (const MaterialUse& m : use.materials)
         if (m.symbol == group.symbol) bound = &m;
     // What has no material wears default_surface, which glTF's own default (a metal) is far from.
-    if (plain_.surfaces.empty())
-        plain_.surfaces.emplace_back().shader =
-            description_.default_surface ? description_.default_surface
-                                         : library_shader("default_surface", diagnostics_);
+    if (plain_.surfaces.empty()) {
+        const auto& own = description_.default_surface;
+        ShaderUse& surface = plain_.surfaces.emplace_back();
+        surface.shader = own ? own : library_shader("default_surface", diagnostics_);
+        surface.linear_inputs = !own;
+    }
     bool is_plain = !bound || bound->material == kNone;
     GltfLook look{is_plain ? plain_ : description_.materials[bound->material],
                   bound ? *bound : unbound_, is_plain, false};
@@ -84,7 +97,7 @@ std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGr
         std::string name = a->semantic;
         if (!own || index > 0) name += fmt::format("_{}", index);
         if (!texcoord && !tangent && !(color && look.is_gltf)) name = "_" + name;
-        result.push_back({std::move(name), a, texcoord ? 2 : a->stride});
+        result.push_back({std::move(name), a, texcoord ? 2 : a->stride, read_by(look, group, *a)});
     }
     return result;
 }

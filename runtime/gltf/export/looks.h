@@ -21,7 +21,8 @@ struct GltfLook {
 struct GltfAttribute {
     std::string name;  // "TEXCOORD_0", "_HEAT"
     const VertexAttribute* attribute;
-    uint32_t width;  // numbers an element
+    uint32_t width;                 // numbers an element
+    const VertexAttribute* values;  // of the same corners: kLinearColor where the look reads that
 };
 
 class GltfLooks {

@@ -47,8 +47,7 @@ void push(std::vector<float>& numbers, vec3 v) {
 // The numbers as glTF has them: t grows upwards, v downwards; tangents have length 1, their last
 // number is a sign.
 void push(std::vector<float>& numbers, const GltfAttribute& a, uint32_t corner) {
-    const float* v =
-        &a.attribute->values[size_t(a.attribute->corners[corner]) * a.attribute->stride];
+    const float* v = &a.values->values[size_t(a.values->corners[corner]) * a.values->stride];
     if (a.name == "TANGENT") {
         push(numbers, unit_normal(vec3(v[0], v[1], v[2])));
         numbers.push_back(v[3] < 0 ? -1.0f : 1.0f);

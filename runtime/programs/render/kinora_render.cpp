@@ -172,6 +172,7 @@ int Render::load() {
     import.up_axis = options_.up_axis;
     import.meter = options_.meter;
     import.transparency = options_.transparency;
+    import.decode_colors = options_.color == ColorEncoding::Srgb;
     import.include_directories = options_.include_directories;
     std::optional<SceneDescription> description =
         import_scene(options_.scene, import, diagnostics_);

@@ -185,9 +185,9 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
                                      {"magenta", raytrace::NanPolicy::Magenta},
                                      {"keep", raytrace::NanPolicy::Keep}},
                                     "non-finite results become zero, magenta or keep");
-    add_choice<ColorEncoding>(app, "--color", o.color,
-                              {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
-                              "srgb, or legacy: textures and PNG neither decoded nor encoded");
+    add_choice<ColorEncoding>(
+        app, "--color", o.color, {{"srgb", ColorEncoding::Srgb}, {"legacy", ColorEncoding::Linear}},
+        "srgb, or legacy: colours, textures and PNG neither decoded nor encoded");
     app.add_option("--imager", o.imager, "FILE.sl, the name of one of ours, or none");
     app.add_option("--atmosphere", o.atmosphere,
                    "a volume: FILE.sl, the name of one of ours, or none");
@@ -198,8 +198,8 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--unit", o.meter, "metres per unit instead of the file's");
     add_choice<TransparencyMode>(
         app, "--transparency", o.transparency,
-        {{"spec", TransparencyMode::Spec}, {"auto", TransparencyMode::Auto}},
-        "spec, or auto: what the formula makes invisible everywhere is shown opaque");
+        {{"auto", TransparencyMode::Auto}, {"spec", TransparencyMode::Spec}},
+        "auto: what the formula makes invisible everywhere is opaque; or spec");
 }
 
 // What is tried on the scene without editing it. MATERIAL and NODE are ids, names or globs.

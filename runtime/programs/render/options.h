@@ -57,7 +57,7 @@ struct RenderOptions {
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;
     std::optional<double> smooth;  // degrees: normals for meshes without any
-    TransparencyMode transparency = TransparencyMode::Spec;
+    TransparencyMode transparency = TransparencyMode::Auto;
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too
     bool skip_existing = false;
