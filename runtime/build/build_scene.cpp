@@ -41,17 +41,20 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
     return scene;
 }
 
-bool has_atmosphere(const SceneDescription& description) {
-    return !description.picture.atmosphere.empty() ||
-           std::ranges::any_of(description.cameras, [](const CameraDefinition& camera) {
-               return !camera.picture.atmosphere.empty();
-           });
+// What fills a picture without surfaces.
+bool has_picture_shaders(const SceneDescription& description) {
+    auto any = [](const PictureShaders& picture) {
+        return !picture.atmosphere.empty() || !picture.imagers.empty();
+    };
+    return any(description.picture) ||
+           std::ranges::any_of(description.cameras,
+                               [&](const CameraDefinition& camera) { return any(camera.picture); });
 }
 
 // False, with an error, for a file that holds nothing to see. What the user hides is no error.
 bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
     const SceneDescription& description = *scene.description;
-    if (anything_to_draw(scene) || has_atmosphere(description)) return true;
+    if (anything_to_draw(scene) || has_picture_shaders(description)) return true;
     bool hidden = description.only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
     diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});
     return hidden;

@@ -101,15 +101,15 @@ std::string word_for(const CameraSource& camera) {
     return camera.name.empty() || find_view(camera.name) ? "#" + camera.name : camera.name;
 }
 
-// The file's, unless it shows next to nothing.
-bool choose_default(Scene& scene, NodeTree& tree, Diagnostics& diagnostics) {
+// The file's, unless it shows less than `enough` of its picture.
+bool choose_default(Scene& scene, NodeTree& tree, double enough, Diagnostics& diagnostics) {
     const ViewWord& view = *find_view("auto");
     if (scene.cameras.empty()) return add_camera(scene, tree, view, diagnostics);
     scene.camera = first_camera(scene, tree);
     double yfov = scene.options.view.yfov;
     if (yfov > 0 && !change_yfov(scene, yfov, diagnostics)) return false;
-    if (!anything_to_draw(scene)) return true;
-    double enough = little_of(scene), covered = most_covered(scene, enough);
+    if (!anything_to_draw(scene) || enough == 0) return true;
+    double covered = most_covered(scene, enough);
     if (covered >= enough) return true;
     CameraSource blind = scene.cameras[scene.camera];
     Location where = scene.description->cameras[blind.definition].where;
@@ -133,12 +133,12 @@ bool choose_camera(Scene& scene, NodeTree& tree, Diagnostics& diagnostics) {
     const SceneOptions& options = scene.options;
     std::string wanted = options.camera;
     if (wanted.empty() && options.view.any_place()) wanted = "auto";
-    if (wanted.empty()) return choose_default(scene, tree, diagnostics);
+    if (wanted.empty()) return choose_default(scene, tree, little_of(scene), diagnostics);
     if (const ViewWord* view = find_view(wanted))
         return add_camera(scene, tree, *view, diagnostics);
+    if (wanted == "#") return choose_default(scene, tree, 0, diagnostics);
     if (wanted.starts_with("#")) wanted.erase(0, 1);
-    uint32_t found = wanted.empty() && !scene.cameras.empty() ? first_camera(scene, tree)
-                                                              : find_camera(scene, tree, wanted);
+    uint32_t found = find_camera(scene, tree, wanted);
     if (found == kNone) {
         diagnostics.report(Code::CAMERA_UNKNOWN, Location{}, options.camera);
         return false;

@@ -26,7 +26,7 @@ SHARED_SCENES = SHARED / "scenes" if (SHARED / "scenes").is_dir() else None
 # Of a picture: the mean difference of its bytes (0..255).
 SAME = 0.02     # the same scene by other numbers: last bits of positions
 LIKE = 1.0      # other arithmetic: floats for doubles, keys for curves
-PICTURE = ("--size", "128x96", "--spp", "4", "--quality", "preview", "--threads", "2", "--progress", "none")
+PICTURE = ("--size", "128x96", "--quality", "preview", "--threads", "2", "--progress", "none")
 
 
 def convert(*words, **options):
@@ -125,9 +125,9 @@ def validated(files):
 
 
 class Convert(ProgramTest):
-    def picture(self, scene, *words):
+    def picture(self, scene, *words, spp=4):
         out = self.folder / f"{Path(scene).stem}-{len(list(self.folder.iterdir()))}.png"
-        self.expect(render(scene, "-o", out, *PICTURE, *words), 0)
+        self.expect(render(scene, "-o", out, *PICTURE, "--spp", spp, *words), 0)
         return png.read(out)
 
     def difference(self, a, b):
@@ -154,7 +154,6 @@ class ToDae(Convert):
         scenes = [(SCENES / "matte.dae", "Z", "0.01", "0")]
         if SHARED_SCENES:
             scenes += [(SHARED_SCENES / name, up, unit, time) for name, up, unit, time in (
-                ("magnum_lights/light.dae", "X", "0.3", "0"),
                 ("thinmatrix_cowboy/model.dae", "Y", "0.01", "0.4"),
                 ("gltf_rigged_figure/RiggedFigure.dae", "X", "2", "0.6"),
                 ("cts_skin_2_influence/skin_2_influence.dae", "Z", "5", "0.5"))]
@@ -494,8 +493,9 @@ class ToGlb(Convert):
                 glb = self.converted(scene, f"{scene.stem}.glb")
                 out = self.converted(glb, f"{scene.stem}.dae")
                 self.assertEqual(out.read_bytes(), self.converted(out, "again.dae").read_bytes())
-                self.assertLess(self.difference(self.picture(scene, "--time", time),
-                                                self.picture(out, "--time", time)), LIKE)
+                # The range of keys that move nothing is lost, and an added camera frames the range.
+                self.assertLess(self.difference(self.picture(scene, "--time", time, spp=16),
+                                                self.picture(out, "--time", time, spp=16)), LIKE)
         self.whole_if(SHARED_SCENES)
 
     def test_maps_of_normals_and_morph_normals_survive_in_collada(self):
