@@ -136,7 +136,7 @@ class Folders(ColladaTest):
         self.assertEqual(two, allowed)
         self.picture(self.scene, "--allow-external", self.folder / "nowhere", code=2)
 
-    def test_links_of_the_file_system_do_not_lead_out(self):
+    def test_links_of_the_file_system_lead_to_pictures_alone(self):
         os.symlink(self.folder / "parts", self.folder / "scene/parts")
         scene = self.write("scene/linked.dae", self.scene.read_text().replace("../parts", "parts"))
         _, said = self.picture(scene, code=3)
@@ -144,10 +144,15 @@ class Folders(ColladaTest):
         self.write_bytes("secret/map.png", dae.png(dae.picture()))
         os.symlink(self.folder / "secret/map.png", self.folder / "scene/Map.PNG")
         scene = self.write("scene/textured.dae", dae.textured())
-        plain, said = self.picture(scene)
+        followed, said = self.picture(scene)
         self.assertNotIn("error", said)
+        confined, _ = self.picture(scene, "--confine")
         os.unlink(self.folder / "scene/Map.PNG")
-        self.assertEqual(self.picture(scene)[0], plain)
+        missing, _ = self.picture(scene)
+        self.assertEqual(confined, missing)
+        self.write_bytes("scene/map.png", dae.png(dae.picture()))
+        self.assertEqual(self.picture(scene)[0], followed)
+        self.assertNotEqual(followed, missing)
 
     def test_a_missing_part_is_a_finding_and_the_rest_renders(self):
         both = self.write("scene/both.dae", dae.document(

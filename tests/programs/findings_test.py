@@ -24,6 +24,12 @@ def unbound(count):
     return dae.document(dae.node(), geometries=dae.geometry(dae.triangles() + more))
 
 
+def dangling(count):
+    """As many instances of geometries that are not there, behind one that is."""
+    return dae.document(dae.node() + "".join(
+        f'<node><instance_geometry url="#gone{i}"/></node>' for i in range(count)))
+
+
 class FindingsTest(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -154,21 +160,21 @@ class Words(FindingsTest):
         return sum(c == code for _, c in said(result))
 
     def test_at_most_20_of_a_code_then_how_many(self):
-        scene = self.write("a.dae", unbound(57))
-        result = self.expect(self.render(scene), 0, "37 more of MAT_UNBOUND_SYMBOL; -v shows all")
-        self.assertEqual(self.lines(result, "MAT_UNBOUND_SYMBOL"), 20)
+        scene = self.write("a.dae", dangling(57))
+        result = self.expect(self.render(scene), 0, "37 more of LINK_UNRESOLVED; -v shows all")
+        self.assertEqual(self.lines(result, "LINK_UNRESOLVED"), 20)
         result = self.expect(self.render(scene, "-v"), 0)
-        self.assertEqual(self.lines(result, "MAT_UNBOUND_SYMBOL"), 57)
+        self.assertEqual(self.lines(result, "LINK_UNRESOLVED"), 57)
         self.assertNotIn("more", result.err)
         result = self.expect(self.render(scene, "-q"), 0)
         self.assertEqual(result.err, "")
-        few = self.write("b.dae", unbound(20))
+        few = self.write("b.dae", dangling(20))
         result = self.expect(self.render(few), 0)
-        self.assertEqual(self.lines(result, "MAT_UNBOUND_SYMBOL"), 20)
+        self.assertEqual(self.lines(result, "LINK_UNRESOLVED"), 20)
         self.assertNotIn("more of", result.err)
         result = self.expect(run("kinora-convert", scene, self.folder / "o.glb"), 0,
-                             "37 more of MAT_UNBOUND_SYMBOL")
-        self.assertEqual(self.lines(result, "MAT_UNBOUND_SYMBOL"), 20)
+                             "37 more of LINK_UNRESOLVED")
+        self.assertEqual(self.lines(result, "LINK_UNRESOLVED"), 20)
 
     def test_schema_names_and_style_are_one_line(self):
         text = dae.plain()

@@ -69,7 +69,7 @@ void FindingPrinter::summarize() {
 }
 
 int FindingPrinter::exit_code_of_errors() const {
-    if (options_.strict && missing_) return kExitMissingAsset;
+    if (lacks_assets()) return kExitMissingAsset;
     return counts_[size_t(Severity::Error)] > 0 ? kExitSomeFailed : kExitOk;
 }
 

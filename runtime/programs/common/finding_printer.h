@@ -36,7 +36,9 @@ class FindingPrinter {
     // Says how many were not printed since it last did.
     void summarize();
 
-    // 5 where an asset is missing, under options.strict, and 1 where there was another error.
+    // Under options.strict: a file that the scene names is missing or refused.
+    bool lacks_assets() const { return options_.strict && missing_; }
+    // 5 where it lacks assets, and 1 where there was another error.
     int exit_code_of_errors() const;
     // The exit code of a program that otherwise comes to `code`: that of errors, and 1 where there
     // was what options.fail_on names. Never 0 beside "error:".

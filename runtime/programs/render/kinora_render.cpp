@@ -310,7 +310,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (g_signal) return 128 + g_signal;
     flush_findings();
     if (!whole) return kExitSomeFailed;
-    if (int code = printer_.exit_code_of_errors()) return code;  // textures are read when seen
+    if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
     Stopwatch watch;
     if (wants_file) {
         int number = 0;
