@@ -345,6 +345,9 @@ void BoundKernel::update(const FrameContext& context, const ShaderInstance& look
                     .host = static_cast<KernelHost*>(&host)}
         .run();
     arena.release(mark);
+    host.printed().show();
+    prints_asked = host.printed().asked();
+    prints_shown = host.printed().shown();
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out[i][0];
 }
 

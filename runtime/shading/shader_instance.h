@@ -65,7 +65,8 @@ class BoundKernel {
     std::vector<jit::ServiceFn> services, frame_services;  // of both kernels, by slot
     std::vector<float> frame;                              // the frame block
     std::vector<uint8_t> frame_faults;
-    Arena arena;  // rows of 16 floats for the frame kernel
+    uint64_t prints_asked = 0, prints_shown = 0;  // lines of the frame kernel, the last time
+    Arena arena;                                  // rows of 16 floats for the frame kernel
     std::vector<const float*> in;
     std::vector<float*> out;
 };

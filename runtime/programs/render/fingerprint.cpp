@@ -74,6 +74,7 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
                         fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
     text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
                         fmt::join(o.only, ","), o.clip);
+    text += fmt::format(" split {} ray limit {}", o.quality.split, o.ray_limit);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
