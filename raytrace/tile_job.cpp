@@ -1,6 +1,7 @@
 // raytrace/tile_job.cpp: a tile's samples, traced, shaded and laid one behind the other.
 #include "raytrace/tile_job_p.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "raytrace/sampling.h"
@@ -17,6 +18,7 @@ void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t
         for (auto& v : color) v.resize(chunk);
         for (auto& v : through) v.resize(chunk);
         for (auto& v : shaded) v.resize(chunk + kPacket);
+        passages.resize(chunk);
     }
     for (auto& v : sum) v.resize(std::max(v.size(), tile_pixels));
     if (shaded_aov.size() != aovs) {
@@ -92,7 +94,8 @@ void TileJob::add_ray(uint32_t x, uint32_t y, uint32_t sample) {
     r.sample[k] = sample;
     r.layer[k] = 0;
     r.medium[k] = 0;
-    r.share[k] = 1;
+    r.share[k] = r.weight[k] = 1;
+    r.turns[k] = r.spent[k] = 0;
     r.slot[k] = uint32_t(k);
     m_.slot_pixel[k] = uint32_t(tile_.pixel(x, y));
 }
@@ -133,7 +136,9 @@ void TileJob::shade(const HitBatch& hits, Ends ends) {
     for (auto& v : m_.shaded_aov) std::fill_n(v.begin(), padded, 0.0f);
     ShadeResult result{{m_.shaded[0].data(), m_.shaded[1].data(), m_.shaded[2].data()},
                        {m_.shaded[3].data(), m_.shaded[4].data(), m_.shaded[5].data()},
-                       m_.aov_pointers};
+                       m_.aov_pointers,
+                       m_.passages.data()};
+    std::fill_n(m_.passages.begin(), hits.count, Passage{});
     if (ends == Ends::Surfaces)
         shading_.shade(hits, thread_, result);
     else
@@ -197,10 +202,11 @@ void TileJob::keep_aovs(const HitBatch& hits) {
 
 void TileJob::lay_behind(const HitBatch& hits, size_t k) {
     const size_t slot = m_.rays.slot[hits.ray[k]];
+    const float onward = m_.passages[k].onward;
     for (int c = 0; c < 3; ++c) {
         float& through = m_.through[c][slot];
         m_.color[c][slot] += through * m_.shaded[c][k];
-        through *= 1.0f - std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f);
+        through *= (1.0f - std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f)) * onward;
     }
 }
 
@@ -212,16 +218,21 @@ void TileJob::composite(const HitBatch& hits) {
         if (!passes(m_.rays.slot[hits.ray[k]])) continue;
         const uint32_t medium = shading_.medium_behind(hits, k);
         pass_through(accel_, m_.rays, going_on, hits, k);
+        m_.rays.turns[going_on] = m_.passages[k].turns;
+        m_.rays.spent[going_on] = m_.passages[k].spent;
+        m_.rays.weight[going_on] = largest_through(m_.rays.slot[going_on]);
         m_.rays.medium[going_on++] = medium;
     }
     m_.rays.count = going_on;
     m_.rays.passing = true;
 }
 
+float TileJob::largest_through(size_t slot) const {
+    return std::max({m_.through[0][slot], m_.through[1][slot], m_.through[2][slot]});
+}
+
 bool TileJob::passes(size_t slot) const {
-    const float least = 1.0f - settings_.opaque_above;
-    return m_.through[0][slot] > least || m_.through[1][slot] > least ||
-           m_.through[2][slot] > least;
+    return largest_through(slot) > 1.0f - settings_.opaque_above;
 }
 
 void TileJob::finish_samples(size_t slots) {

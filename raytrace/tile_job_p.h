@@ -26,6 +26,7 @@ struct IntegratorScratch::Thread {
     IntegratorCounters counters;
     std::vector<float> color[3], through[3];  // by slot (sample of the chunk)
     std::vector<float> shaded[6];             // Ci, Oi by hit
+    std::vector<Passage> passages;            // by hit
     std::vector<std::vector<float>> shaded_aov;
     std::vector<float*> aov_pointers;
     std::vector<uint32_t> slot_pixel;
@@ -65,6 +66,7 @@ class TileJob {
     void keep_aovs(const HitBatch& hits);
     void composite(const HitBatch& hits);
     void lay_behind(const HitBatch& hits, size_t k);
+    float largest_through(size_t slot) const;
     bool passes(size_t slot) const;
     void finish_samples(size_t slots);
     void write_tile() const;

@@ -56,7 +56,7 @@ void carve(RayBatch& b, Carver& carver) {
     carver(b.window), carver(b.passed_first), carver(b.passed_last);
     carver(b.t_passed), carver(b.first_org);
     carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.medium);
-    carver(b.share);
+    carver(b.share), carver(b.weight), carver(b.turns), carver(b.spent);
     carver(b.slot);
 }
 
@@ -285,6 +285,7 @@ void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hi
     move(r.tnear), move(r.tfar), move(r.time), move(r.t_passed), move(r.window);
     move(r.passed_first), move(r.passed_last);
     move(r.pixel_x), move(r.pixel_y), move(r.sample), move(r.share), move(r.medium), move(r.slot);
+    move(r.weight), move(r.turns), move(r.spent);
     r.layer[to] = hits.layer[k] + 1;
     const uint32_t body = accel.body(hits.instance[k]);
     if (hits.beside[k]) {  // one more at the same point
@@ -308,11 +309,11 @@ void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hi
     r.passed_last[to] = kNone;
 }
 
-void occluded_by_opaque(const Accel& accel, const RayBatch& rays, uint8_t* blocked,
-                        TraceCounters& counters) {
+void occluded(const Accel& accel, const RayBatch& rays, uint32_t mask, uint8_t* blocked,
+              TraceCounters& counters) {
     RayPacket16 packet;
     for (size_t first = 0; first < rays.count; first += kPacket) {
-        load_packet(rays, first, kMaskOpaque, packet);
+        load_packet(rays, first, mask, packet);
         const uint32_t lanes = accel.occluded16(packet, counters);
         const size_t end = std::min(rays.count - first, size_t(kPacket));
         for (size_t i = 0; i < end; ++i) blocked[first + i] = lanes >> i & 1;

@@ -45,12 +45,20 @@ struct HitBatch {
     const RayBatch* rays = nullptr;  // that batch; rays->medium[ray[k]] is what hit k came through
 };
 
+// How a ray goes on behind a hit.
+struct Passage {
+    float onward = 1;    // what it sees there counts so many times
+    uint32_t turns = 0;  // RayBatch::turns and spent from there on
+    uint32_t spent = 0;
+};
+
 // To be filled for all hits of the batch; the arrays have room for `count` rounded up to 16.
 // Ci is what the surface sends to the eye, associated with (not multiplied again by) Oi.
 struct ShadeResult {
     float* Ci[3];
     float* Oi[3];
     std::span<float* const> aov;  // one array for each Film::aovs plane, preset to 0
+    Passage* passages = nullptr;  // one a hit; null: the rays end here
 };
 
 // Rays to be traced, structure of arrays with room for `capacity`.
@@ -82,6 +90,9 @@ struct RayBatch {
     uint32_t* sample = nullptr;
     uint32_t* layer = nullptr;
     float* share = nullptr;      // of a camera ray's work that this one may make; 1 at the eye
+    float* weight = nullptr;     // what the ray sees counts so much in the picture; 1 at the eye
+    uint32_t* turns = nullptr;   // hits on its way that reflected some of it
+    uint32_t* spent = nullptr;   // rays that the points it has passed have shot
     uint32_t* medium = nullptr;  // what the ray runs through; the shading's to define, 0 at the eye
     uint32_t* slot = nullptr;    // the caller's index (the integrator's sample)
 
@@ -126,10 +137,10 @@ const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distanc
 // and all rays of the batch be such.
 void pass_through(const Accel& accel, RayBatch& rays, size_t to, const HitBatch& hits, size_t k);
 
-// For each ray: blocked[i] = 1 if opaque geometry lies in (tnear, tfar], else 0. The first step of
-// transmission; the caller goes on with trace(kMaskNotOpaque) for the rest. Uses org, dir, tnear,
-// tfar, time of the batch only.
-void occluded_by_opaque(const Accel& accel, const RayBatch& rays, uint8_t* blocked,
-                        TraceCounters& counters);
+// For each ray: blocked[i] = 1 if geometry of the mask lies in (tnear, tfar], else 0. With
+// kMaskOpaque the first step of transmission; the caller goes on with trace(kMaskNotOpaque) for the
+// rest. Uses org, dir, tnear, tfar, time of the batch only.
+void occluded(const Accel& accel, const RayBatch& rays, uint32_t mask, uint8_t* blocked,
+              TraceCounters& counters);
 
 }  // namespace kinora::raytrace

@@ -34,10 +34,13 @@ color slot_opacity(color plain; string map; float ss, tt; float alpha, transpare
     return clamp(Ot, color(0), color(1));
 }
 
-color mirrored(color reflective; float reflectivity; normal Nf; vector In;) {
+/* Where rays are deep, either what is reflected or what lies behind the surface is followed. */
+color mirrored(color reflective; float reflectivity; normal Nf; vector In; color opacity;) {
     color c = 0;
-    if (reflectivity > 0)
-        c = reflectivity * reflective * color trace(P, reflect(In, Nf));
+    if (reflectivity > 0) {
+        c = reflectivity * reflective;
+        c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
+    }
     return c;
 }
 
@@ -84,8 +87,8 @@ surface collada_blinn(
     vector In = normalize(I);
     color C = COLOR_OF(emission) + COLOR_OF(ambient_color) * ambient() + COLOR_OF(diffuse) * diffuse(Nf) +
               COLOR_OF(specular) * specular(Nf, -In, 8 / max(shininess, 1e-6));
-    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
+    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi);
     Ci = Oi * C;
 }

@@ -34,10 +34,13 @@ color slot_opacity(color plain; string map; float ss, tt; float alpha, transpare
     return clamp(Ot, color(0), color(1));
 }
 
-color mirrored(color reflective; float reflectivity; normal Nf; vector In;) {
+/* Where rays are deep, either what is reflected or what lies behind the surface is followed. */
+color mirrored(color reflective; float reflectivity; normal Nf; vector In; color opacity;) {
     color c = 0;
-    if (reflectivity > 0)
-        c = reflectivity * reflective * color trace(P, reflect(In, Nf));
+    if (reflectivity > 0) {
+        c = reflectivity * reflective;
+        c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
+    }
     return c;
 }
 
@@ -57,8 +60,8 @@ surface collada_constant(
     normal Nf = faceforward(normalize(N), I);
     vector In = normalize(I);
     color C = COLOR_OF(emission);
-    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
+    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi);
     Ci = Oi * C;
 }

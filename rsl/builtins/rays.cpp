@@ -20,15 +20,28 @@ Value samples(LowerCall& c, float otherwise) {
     return c.pair("samples", otherwise);
 }
 
+// What passes the surface, -1 where "opacity" does not tell.
+Value through(LowerCall& c) {
+    if (!c.has_pair("opacity")) return c.b.f(-1);
+    Value least = c.b.f(0);
+    for (auto& [key, value] : c.pairs) {
+        if (key != "opacity" || value.type == BaseType::String) continue;
+        least = value.c[0];
+        for (size_t k = 1; k < size_t(value.size()); ++k) least = c.b.min(least, value.c[k]);
+    }
+    return c.b.max(c.b.f(0), c.b.sub(c.b.f(1), least));
+}
+
 void trace(LowerCall& c) {
     c.report_unknown_pairs();
     if (!traces(c)) return;
     V3 P = c.v3(0), R = c.v3(1);
     auto seed = c.seeds.sample(c.call.site);
     std::vector<Value> hit = c.services.call(
-        Service::trace, std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
-                                   c.pair("maxdist", kFar), c.pair("bias", -1), samples(c, 1),
-                                   c.pair("samplecone", 0), c.text_pair("label")});
+        Service::trace,
+        std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2], c.pair("maxdist", kFar),
+                   c.pair("bias", -1), samples(c, 1), c.pair("samplecone", 0), c.text_pair("label"),
+                   c.largest_pair("weight", -1), through(c)});
     if (c.result_type() == BaseType::Float)
         c.set(hit[3]);
     else
@@ -71,7 +84,7 @@ template <class Real>
 void trace(RefCall<Real>& c) {
     std::vector<double> args = seeded(c, 0, 2);
     for (double x : {pair(c, "maxdist", 1e30), pair(c, "bias", -1), pair(c, "samples", 1),
-                     pair(c, "samplecone", 0), pair(c, "label", 0)})
+                     pair(c, "samplecone", 0), pair(c, "label", 0), -1.0, -1.0})
         args.push_back(x);
     set_from(c, c.eval.service(Service::trace, args), c.result.type == BaseType::Float ? 3 : 0);
 }
@@ -100,7 +113,9 @@ constexpr uint32_t kRays = kService | kTraces | kVaryingResult;
 const Builtin kRows[] = {
     {"trace", "c=pv~ f=pv~", lower::trace, KINORA_RSL_REF(ref::trace), kRays, 0,
      "Color seen from a point in a direction, or the distance of what is hit; \"samples\", "
-     "\"samplecone\", \"maxdist\", \"bias\", \"label\".",
+     "\"samplecone\", \"maxdist\", \"bias\", \"label\". \"weight\": what the result is multiplied "
+     "by, "
+     "and \"opacity\", the surface's own, let deep reflections follow one way of two.",
      kSurface | kVolume},
     {"transmission", "c=pp~", lower::transmission, KINORA_RSL_REF(ref::transmission),
      kRays | kShadows, 0,

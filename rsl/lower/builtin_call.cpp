@@ -73,6 +73,16 @@ Value LowerCall::pair(std::string_view name, float otherwise) const {
     return b.f(otherwise);
 }
 
+Value LowerCall::largest_pair(std::string_view name, float otherwise) const {
+    CHECK(takes_option(call.name, name));
+    for (auto& [key, value] : pairs) {
+        if (key != name || value.type == BaseType::String) continue;
+        if (!is_triple(value.type)) return value.c[0];
+        return b.max(b.max(value.c[0], value.c[1]), value.c[2]);
+    }
+    return b.f(otherwise);
+}
+
 Value LowerCall::text_pair(std::string_view name) const {
     CHECK(takes_option(call.name, name));
     for (auto& [key, value] : pairs)

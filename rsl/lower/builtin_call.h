@@ -59,6 +59,8 @@ struct LowerCall : BuiltinTools {
     bool has_pair(std::string_view name) const;
     // The value of a pair that the callee's row of optional parameters has (rsl/model/pairs.h).
     Value pair(std::string_view name, float otherwise) const;
+    // The largest component of a pair that is a float or a color.
+    Value largest_pair(std::string_view name, float otherwise) const;
     Value text_pair(std::string_view name) const;  // its string id, that of "" if absent
     // Reports pairs that the callee does not know (rsl/model/pairs.h): they have no effect.
     void report_unknown_pairs() const;

@@ -2,8 +2,10 @@
 #include "rsl/lower/loops.h"
 
 #include <algorithm>
+#include <array>
 
 #include "rsl/lower/values.h"
+#include "rsl/model/builtin.h"
 
 namespace kinora::rsl {
 
@@ -105,6 +107,14 @@ Value Loops::after_loop(const Changes& changes, Value entered) {
     return entered;
 }
 
+// Lanes whose points may shoot no more rays: a loop that does not end would turn a million times.
+Value Loops::out_of_rays() {
+    if (!context_.options.want_Ci) return b_.m(false);
+    context_.out.uses_rng = true;
+    Value ended = kernel_service(e_, Service::raylimit, std::array{rng_input(b_)})[0];
+    return b_.op(jit::Op::ILt, b_.i(0), ended);
+}
+
 int Loops::loop_site(const Stmt& stmt) {
     return b_.fault_site(stmt.span.where, "loop stopped: too many iterations");
 }
@@ -147,6 +157,7 @@ void Loops::run(const Stmt& stmt, const Changes& changes, const std::function<Va
         slots_.kill(slot);
         again = slots_.read(slot).c[0];
     }
+    if (changes.effects & kTraces) again = b_.and_not(again, out_of_rays());
     std::vector<Value> next;
     if (changes.random) next.push_back(b_.iadd(seeds_.counter(), b_.i(1)));
     close_carried(carried, next);

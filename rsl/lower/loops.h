@@ -83,6 +83,7 @@ class Loops {
     // `entered` without the lanes that went further out than the loop just closed.
     Value after_loop(const Changes& changes, Value entered);
     int loop_site(const Stmt& stmt);
+    Value out_of_rays();
 
     Emitter& e_;
     jit::Builder& b_;

@@ -26,6 +26,8 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"maxdist", kNumber, "trace occlusion indirectdiffuse gather environment"},
     {"maxdist", kNumber, PHOTONS, false, kHint},
     {"coneangle", kNumber, "occlusion indirectdiffuse"},
+    {"weight", kAny, "trace"},
+    {"opacity", kAny, "trace"},
     {"falloff", kNumber, "occlusion"},
     {"falloffmode", kNumber, "occlusion"},
     {"environmentdir", kAny, "occlusion", true},

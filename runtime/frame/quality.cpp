@@ -6,11 +6,11 @@ namespace kinora {
 namespace {
 using jit::math::Tier;
 constexpr Quality kQualities[] = {
-    // name       spp   math            robust  displacement   dice  rebuild  rays  bounces
-    {"draft", 1, Tier::Fast, false, DisplacementMode::Bump, 8, false, 4, 1},
-    {"preview", 4, Tier::Fast, true, DisplacementMode::True, 4, false, 8, 1},
-    {"final", 64, Tier::Precise, true, DisplacementMode::True, 2, false, 16, 1},
-    {"reference", 1024, Tier::Precise, true, DisplacementMode::True, 1, true, 16, 2},
+    // name       spp   math            robust  displacement   dice  rebuild  rays  bounces  split
+    {"draft", 1, Tier::Fast, false, DisplacementMode::Bump, 8, false, 4, 1, 1},
+    {"preview", 4, Tier::Fast, true, DisplacementMode::True, 4, false, 8, 1, 1},
+    {"final", 64, Tier::Precise, true, DisplacementMode::True, 2, false, 16, 1, 1},
+    {"reference", 1024, Tier::Precise, true, DisplacementMode::True, 1, true, 16, 2, 2},
 };
 }  // namespace
 

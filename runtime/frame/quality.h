@@ -18,8 +18,9 @@ struct Quality {
     DisplacementMode displacement;  // move vertices, or only bend N
     double dice;                    // edges of displaced surfaces, pixels
     bool always_rebuild;            // a fresh BVH each frame instead of a refitted one
-    int ray_depth;                  // SceneOptions::ray_depth, diffuse_depth
+    int ray_depth;                  // SceneOptions::ray_depth, diffuse_depth, split
     int diffuse_depth;
+    int split;
 };
 
 std::span<const Quality> qualities();

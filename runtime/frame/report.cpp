@@ -123,6 +123,9 @@ void report_shading(const Scene& scene, const ShadingCounters& shading,
     if (uint64_t lost = shading.too_deep + counters.too_deep)
         diagnostics.report(Code::LAYER_LIMIT, Location{}, lost, settings.max_layers);
     if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightQuestions);
+    if (shading.out_of_rays)
+        diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
+                           scene.options.ray_limit);
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();

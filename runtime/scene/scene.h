@@ -175,6 +175,8 @@ struct SceneOptions {
     LightSet lights = LightSet::Auto;
     int ray_depth = 16;  // rays that trace, gather and indirectdiffuse may hang behind each other
     int diffuse_depth = 1;  // of those, bounces of indirectdiffuse
+    int split = 1;  // hits of a path where both what is reflected and what passes is followed
+    int ray_limit = 1000;  // rays that a camera ray's points may shoot (docs/rays.md#budgets)
     raytrace::AccelPolicy accel;
     bool decode_textures = true;    // 8-bit colours from sRGB; false: --color legacy
     uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16

@@ -26,6 +26,16 @@ void want_triple(Grid& grid, uint16_t first) {
     want_columns(grid, wanted);
 }
 
+mat3 normal_matrix(const dmat4& m, bool mirrored) {
+    dmat3 l(m);
+    dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
+    double largest = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(cofactor[c][r]));
+    if (largest > 0 && std::isfinite(largest)) cofactor /= largest;
+    return mat3(mirrored ? -cofactor : cofactor);
+}
+
 namespace {
 
 // A hit's triangle with everything interpolation needs.
@@ -125,18 +135,6 @@ vec3 unit_or_zero(vec3 v) {
     float square = glm::dot(v, v);
     return square > 0 && square < std::numeric_limits<float>::infinity() ? v / std::sqrt(square)
                                                                          : vec3(0);
-}
-
-// Cofactor of the linear part: takes normals along (docs/numerics.md#geometry), the mirror's sign
-// taken out; its largest entry 1, since squares of lengths are floats.
-mat3 normal_matrix(const dmat4& m, bool mirrored) {
-    dmat3 l(m);
-    dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
-    double largest = 0;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(cofactor[c][r]));
-    if (largest > 0 && std::isfinite(largest)) cofactor /= largest;
-    return mat3(mirrored ? -cofactor : cofactor);
 }
 
 // Rows of one triple; a triple that is wanted in part has all three rows.

@@ -28,6 +28,15 @@ struct RayTag {
     uint32_t specular = 0, diffuse = 0;  // rays of each kind on the way from the eye
 };
 
+// The rays that a point has shot, and how the ray that sees it goes on.
+struct PointRays {
+    uint32_t shot = 0;     // those of points that the ray has passed included
+    uint32_t refused = 0;  // asked for, and too deep or of too small a share
+    bool ended = false;    // its budget is spent: the loops that shoot rays end
+    bool reflects = false;
+    float onward = 1;  // raytrace::Passage::onward
+};
+
 // Columns are rows of padded(count) floats in an arena; null where nobody asked. "current" space.
 // Lives on the stack of whatever shades it; services see it through GridHost.
 struct Grid {
@@ -52,6 +61,8 @@ struct Grid {
     const LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
     RayTag ray;
     std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet
+    std::span<PointRays> rays;  // of each point; a light's are those of the points it lights
+    bool goes_on = false;       // the rays that see the points may go on behind them
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null
     // in lights and volumes: each point's own surface.
     const ShaderInstance* surface = nullptr;
@@ -67,6 +78,10 @@ void want_triple(Grid& grid, uint16_t first);
 
 // Fills every non-null column from the hits.
 void gather(Grid& grid);
+
+// Cofactor of the linear part: takes normals along (docs/numerics.md#geometry), the mirror's sign
+// taken out; its largest entry 1, since squares of lengths are floats.
+mat3 normal_matrix(const dmat4& m, bool mirrored);
 
 // Number `component` of ShaderInstance::varying[which] of the look that a hit's surface wears: the
 // bits that its column would have.

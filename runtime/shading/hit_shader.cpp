@@ -77,6 +77,7 @@ void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint3
     Grid grid(frame_, memory, hits, points, &look);
     kernels_.prepare(grid, ray);
     grid.shadows = &shadows_;
+    grid.goes_on = result.passages;
     want_columns(grid, look.full.columns);
     if (look.lowered.uses_lights) lights_.want_columns(grid);
     gather(grid);
@@ -92,6 +93,11 @@ void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint3
             result.Ci[k][points[i]] = Ci[k] ? Ci[k][i] : 0.0f;
             result.Oi[k][points[i]] = Oi[k] ? Oi[k][i] : 1.0f;
         }
+    for (size_t i = 0; result.passages && i < points.size(); ++i) {
+        const PointRays& rays = grid.rays[i];
+        uint32_t turns = hits.rays->turns[hits.ray[points[i]]];
+        result.passages[points[i]] = {rays.onward, turns + rays.reflects, rays.shot};
+    }
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];

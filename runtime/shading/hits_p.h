@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "raytrace/sampling.h"
 #include "raytrace/wavefront.h"
@@ -35,6 +36,14 @@ inline vec3 segment(const raytrace::HitBatch& hits, size_t h) {
     float passed = hits.rays ? hits.rays->t_passed[hits.ray[h]] : 0.0f;
     if (passed == 0) return triple(hits.P, h) - triple(hits.org, h);
     return triple(hits.dir, h) * (hits.t[h] - passed);
+}
+
+// How far a ray from P may miss its end: origin, direction and the distance of a hit all round, 16
+// steps of the largest.
+inline float end_error(vec3 P, vec3 end) {
+    float largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(P[k]), std::abs(end[k])});
+    return largest * 16 * 0x1p-24f;
 }
 
 // Sets one ray of a packet or batch; both have the same columns.

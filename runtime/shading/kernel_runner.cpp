@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/scene_host.h"
 
@@ -37,6 +38,10 @@ void KernelRunner::begin_frame(size_t threads) {
 }
 
 void KernelRunner::report_faults(Diagnostics& diagnostics) const {
+    for (const auto& look : scene_.looks)
+        if (const SceneKernel& full = look->full; full.prints_asked > full.prints_shown)
+            diagnostics.report(Code::PRINT_LIMIT, Location{}, look->shader().name,
+                               full.prints_asked, full.prints_shown);
     for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
         auto faulted = [&](size_t site) {
             return std::any_of(faults_.begin(), faults_.end(),
@@ -54,6 +59,12 @@ void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
     grid.calls = arena.allocate_span<uint16_t>(padded(grid.count()));
     std::fill(grid.calls.begin(), grid.calls.end(), uint16_t(0));
+    grid.rays = arena.allocate_span<PointRays>(grid.count());
+    for (size_t i = 0; i < grid.count(); ++i) {
+        grid.rays[i] = {};
+        if (const raytrace::RayBatch* rays = grid.hits.rays)
+            grid.rays[i].shot = rays->spent[grid.hits.ray[grid.points[i]]];
+    }
     grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
 }

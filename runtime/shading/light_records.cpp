@@ -121,6 +121,7 @@ jit::Record* LightRecords::plain_records(Grid& grid, const LightPoints& at, size
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     lit.lit = &grid;
     lit.lit_first = at.first;
+    lit.rays = grid.rays.subspan(at.first, at.count);
     lit.record_sets = grid.record_sets;
     if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
         lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
@@ -145,6 +146,7 @@ jit::Record* LightRecords::area_records(Grid& grid, const LightPoints& at, size_
     LightSamples samples(grid, at.first, at.count, light.surface);
     Grid lit(frame_, grid.memory, samples.hits, points, &look);
     kernels_.prepare(lit, grid.ray);
+    lit.rays = grid.rays.subspan(at.first, at.count);
     lit.shadows = grid.shadows;
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     if (lit.surface) {

@@ -147,6 +147,118 @@ float fit_samples(Grid& grid, size_t point, int& samples) {
     return std::max(1e-6f, left / std::sqrt(float(samples)));
 }
 
+// ---- budgets ------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr float kLeastRays = 16;  // that any point may shoot
+
+float ray_budget(const Grid& grid, size_t point) {
+    const Grid& seen = grid.lit ? *grid.lit : grid;  // a light spends what the lit points have
+    const raytrace::HitBatch& hits = seen.hits;
+    uint32_t hit = seen.points[point + (grid.lit ? grid.lit_first : 0)];
+    float limit = float(grid.frame.ray_limit);
+    if (grid.depth == 0 || !hits.rays) return limit;
+    return std::max(kLeastRays, limit * hits.rays->share[hits.ray[hit]]);
+}
+
+// The account of a point, null where nothing counts.
+PointRays* account(Grid& grid, size_t point) {
+    return point < grid.rays.size() ? &grid.rays[point] : nullptr;
+}
+
+void end_account(Grid& grid, PointRays& rays) {
+    grid.memory.counters.out_of_rays += !rays.ended;
+    rays.ended = true;
+}
+
+}  // namespace
+
+bool spend_rays(Grid& grid, size_t point, int n) {
+    PointRays* rays = account(grid, point);
+    if (!rays) return true;
+    if (float(rays->shot) >= ray_budget(grid, point)) {
+        end_account(grid, *rays);
+        return false;
+    }
+    rays->shot += uint32_t(n);
+    return true;
+}
+
+int spend_samples(Grid& grid, size_t point, int n) {
+    PointRays* rays = account(grid, point);
+    if (rays && grid.depth > 0) {
+        float left = ray_budget(grid, point) - float(rays->shot);
+        n = std::min(n, std::max(1, int(left)));
+    }
+    return spend_rays(grid, point, n) ? n : 0;
+}
+
+bool refuse_rays(Grid& grid, size_t point, int n) {
+    PointRays* rays = account(grid, point);
+    if (!rays) return true;
+    bool before = rays->refused < grid.frame.ray_limit;
+    rays->refused += before ? uint32_t(n) : 0u;
+    return before;
+}
+
+void end_loops(Grid& grid, const jit::ServiceCall& call) {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
+        bool asks = call.mask >> lane & 1;
+        PointRays* rays = asks ? account(grid, size_t(call.first + lane)) : nullptr;
+        if (rays && rays->refused >= grid.frame.ray_limit) end_account(grid, *rays);
+        call.results[lane] = jit::float_of(int32_t(rays && rays->ended));
+    }
+}
+
+// ---- one way of two -----------------------------------------------------------------------------
+
+namespace {
+
+constexpr float kLeastWeight = 1.0f / 256;  // of rays that are followed in any case
+constexpr uint32_t kWaySalt = 0x3c6ef372u;
+
+// A number in [0, 1) for the choice at a hit: stratified over the samples of a pixel where these
+// are known.
+float number_of_choice(const raytrace::HitBatch& hits, uint32_t hit, uint32_t frame_seed) {
+    if (hits.depth > 0)
+        return float(raytrace::unit_interval(
+            raytrace::hash(random_of(hits, hit), frame_seed, kWaySalt) & ~0xffu));
+    uint32_t pixel = raytrace::hash(hits.pixel_x[hit], hits.pixel_y[hit], hits.layer[hit]);
+    uint32_t seed = raytrace::hash(pixel, frame_seed, kWaySalt);
+    return std::min(float(raytrace::stratified_sample(hits.sample[hit], seed).x), 0x1.fffffep-1f);
+}
+
+}  // namespace
+
+TracedRay choose_way(Grid& grid, size_t point, float weight, float through) {
+    uint32_t hit = grid.points[std::min(point, grid.count() - 1)];
+    const raytrace::RayBatch* rays = grid.hits.rays;
+    uint32_t ray = grid.hits.ray[hit];
+    float before = rays ? rays->weight[ray] : 1.0f;
+    PointRays* own = account(grid, point);
+    if (!(weight >= 0) || !own || !rays) return {1, before};
+    float reflected = before * weight;
+    if (!(reflected > 0)) return {0, 0};
+    // A second call of the point has its ray alone to choose.
+    bool passes = grid.goes_on && !own->reflects && through >= 0;
+    own->reflects = true;
+    float passing = passes ? before * through : 0.0f;
+    float all = reflected + passing;
+    bool first = std::max(rays->turns[ray], grid.depth) < grid.frame.split;
+    if (first || !std::isfinite(all)) return {1, reflected};
+    // Rays that count for little end at random, those that are left count for more.
+    float kept = std::min(1.0f, all / kLeastWeight);
+    float reflects = kept * (reflected / all), goes_on = kept * (passing / all);
+    float number = number_of_choice(grid.hits, hit, grid.frame.seed);
+    if (number < reflects) {
+        if (passes) own->onward = 0;
+        return {1 / reflects, reflected / reflects};
+    }
+    if (passes) own->onward = number < reflects + goes_on ? 1 / goes_on : 0.0f;
+    return {0, 0};
+}
+
 uint32_t Lanes::seed(int lane) const {
     return raytrace::hash(uint32_t(integer(0, lane)), uint32_t(integer(1, lane)));
 }
@@ -197,13 +309,16 @@ void NestedRays::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag
         }
         Arena::Mark layer_mark = memory.arena.mark();
         raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
+        result.passages = memory.arena.allocate_span<raytrace::Passage>(hits.count).data();
         hits_.shade(hits, tag, memory, result);
         size_t kept = 0;
         for (size_t h = 0; h < hits.count; ++h) {
             uint32_t r = hits.ray[h], slot = rays.slot[r];
             SeenByRay& at = seen[slot];
             at.color += at.open * triple(result.Ci, h);
-            at.open *= vec3(1.0f) - stopped_by(triple(result.Oi, h));
+            vec3 passing = vec3(1.0f) - stopped_by(triple(result.Oi, h));
+            const raytrace::Passage& passage = result.passages[h];
+            at.open *= passing * passage.onward;
             at.distance = std::min(at.distance, hits.t[h]);
             if (std::max(at.open.x, std::max(at.open.y, at.open.z)) < kLeastLight) {
                 at.open = vec3(0.0f);
@@ -211,6 +326,9 @@ void NestedRays::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag
             }
             uint32_t medium = medium_behind(frame_.scene, hits, h);
             raytrace::pass_through(accel, rays, kept, hits, h);
+            rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
+            rays.turns[kept] = passage.turns;
+            rays.spent[kept] = passage.spent;
             rays.medium[kept++] = medium;
         }
         rays.passing = true;

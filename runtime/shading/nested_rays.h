@@ -44,6 +44,53 @@ float ray_share(Grid& grid, size_t point, int samples);
 // one, which leaves the mean what it is. Never 0.
 float fit_samples(Grid& grid, size_t point, int& samples);
 
+// Budgets (docs/rays.md#budgets). Whether a point may shoot the n rays of its next call: it may
+// until its budget is spent, so the last call is answered whole.
+bool spend_rays(Grid& grid, size_t point, int n);
+// The same for samples of what may take fewer: at hits of nested rays no more than the budget has
+// left. 0: none.
+int spend_samples(Grid& grid, size_t point, int n);
+// A call of n rays that depth or share forbid. False once there were too many of them.
+bool refuse_rays(Grid& grid, size_t point, int n);
+// The service raylimit.
+void end_loops(Grid& grid, const jit::ServiceCall& call);
+
+// How a ray goes on at a point that reflects `weight` of what a traced ray sees and lets `through`
+// pass: both ways at its first hits, at later ones either, at random by its share. What the traced
+// ray sees counts `factor` times (0: it is not shot). Below 0: not known; the way is followed.
+struct TracedRay {
+    float factor = 1;
+    float weight = 1;  // RayBatch::weight
+};
+TracedRay choose_way(Grid& grid, size_t point, float weight, float through);
+
+// The smooth surface that the normals of triangles describe, for rays to lights: a facet that looks
+// away from a light which that surface sees would shade itself, in black blocks (J. Hanika, Hacking
+// the Shadow Terminator, Ray Tracing Gems II, 2021).
+class SmoothSurface {
+  public:
+    explicit SmoothSurface(const Scene& scene) : scene_(scene) {}
+    // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
+    // both accounts, where it is flat, and where the surface is hollow.
+    vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
+
+  private:
+    void enter(uint32_t row);
+
+    const Scene& scene_;
+    uint32_t row_ = kNone;
+    mat3 linear_{1.0f}, normals_{1.0f};  // of that row
+};
+
+// Whether a grid's points are hits of its surface: lights read those of the points they light.
+inline bool on_surface(const Grid& grid) {
+    return (grid.lit ? *grid.lit : grid).look->kind == ShaderInstanceKind::Surface;
+}
+
+// Whether nothing stands on that way from a facet to its smooth surface.
+bool is_way_free(const raytrace::Accel& accel, vec3 P, vec3 error, vec3 Ng, vec3 way,
+                 raytrace::TraceCounters& counters);
+
 // The axes of a cone and the direction of sample k of n stratified ones in it.
 struct Cone {
     vec3 x, y, z;  // orthonormal, z the axis

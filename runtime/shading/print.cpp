@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <tuple>
 
 #include "rsl/model/renderer_services.h"
 #include "rsl/model/string_functions.h"
+#include "runtime/description/findings.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -17,31 +20,106 @@ std::string print_text(const jit::ServiceCall& call, int lane) {
     return rsl::format_text(rsl::interned(jit::bits_of(call.args[lane])), values);
 }
 
+// ---- in an order that is known ------------------------------------------------------------------
+
+void PrintedLines::add(std::string text) {
+    ++asked_;
+    if (full()) return;
+    left_out_ = bytes_ + text.size() > kMostPrintBytes;
+    if (left_out_) return;
+    bytes_ += text.size();
+    lines_.push_back(std::move(text));
+}
+
+void PrintedLines::add(const jit::ServiceCall& call, int lane) {
+    if (full())
+        ++asked_;
+    else
+        add(print_text(call, lane));
+}
+
+void PrintedLines::add(PrintedLines&& others) {
+    uint64_t beyond = others.asked_ - others.lines_.size();
+    for (std::string& line : others.lines_) add(std::move(line));
+    asked_ += beyond;
+    left_out_ = left_out_ || beyond > 0;
+}
+
+void PrintedLines::show() const {
+    for (const std::string& line : lines_) std::fputs(line.c_str(), stdout);
+}
+
+void PrintedLines::report(const std::string& shader, Diagnostics& diagnostics) const {
+    if (asked_ > lines_.size())
+        diagnostics.report(Code::PRINT_LIMIT, Location{}, shader, asked_, lines_.size());
+}
+
+// ---- at the points of pictures ------------------------------------------------------------------
+
+bool Prints::Print::operator<(const Print& o) const {
+    return std::tie(pixel_y, pixel_x, sample, order) <
+           std::tie(o.pixel_y, o.pixel_x, o.sample, o.order);
+}
+
 void Prints::begin_frame(size_t threads) {
-    prints_.resize(std::max(prints_.size(), threads));
+    threads_.resize(std::max(threads_.size(), threads));
+}
+
+// Which lines are the first of the picture is known at its end, so each thread keeps its own first:
+// what goes here could not come back.
+void Prints::trim(OfLook& of) {
+    std::sort(of.prints.begin(), of.prints.end());
+    size_t kept = 0, bytes = 0;
+    while (kept < of.prints.size() && kept < kMostPrints &&
+           bytes + of.prints[kept].text.size() <= kMostPrintBytes)
+        bytes += of.prints[kept++].text.size();
+    if (kept < of.prints.size()) {
+        const Print& lost = of.prints[kept];
+        of.end = {lost.pixel_y, lost.pixel_x, lost.sample};
+    }
+    of.prints.erase(of.prints.begin() + std::ptrdiff_t(kept), of.prints.end());
+    of.bytes = bytes;
 }
 
 void Prints::add(const Grid& grid, const jit::ServiceCall& call) {
-    std::vector<Print>& prints = prints_[grid.memory.number];
+    OfThread& own = threads_[grid.memory.number];
+    uint32_t look = grid.look->index;
+    if (own.looks.size() <= look) own.looks.resize(look + 1);
+    OfLook& of = own.looks[look];
     for (int lane = 0; lane < call.lanes; ++lane) {
         if (!(call.mask >> lane & 1)) continue;
+        ++of.asked;
         uint32_t hit = grid.points[size_t(call.first + lane)];
-        prints.push_back({grid.hits.pixel_y[hit], grid.hits.pixel_x[hit], grid.hits.sample[hit],
-                          uint32_t(prints.size()), print_text(call, lane)});
+        uint32_t y = grid.hits.pixel_y[hit], x = grid.hits.pixel_x[hit];
+        uint32_t sample = grid.hits.sample[hit];
+        if (std::tie(y, x, sample) > of.end) continue;
+        of.prints.push_back({y, x, sample, own.calls++, look, print_text(call, lane)});
+        of.bytes += of.prints.back().text.size();
+        if (of.prints.size() >= 2 * kMostPrints || of.bytes >= 2 * kMostPrintBytes) trim(of);
     }
 }
 
-void Prints::flush() {
+void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
     std::vector<Print> all;
-    for (auto& prints : prints_) {
-        std::move(prints.begin(), prints.end(), std::back_inserter(all));
-        prints.clear();
+    for (uint32_t look = 0; look < scene.looks.size(); ++look) {
+        OfLook sum;
+        for (OfThread& thread : threads_) {
+            if (thread.looks.size() <= look) continue;
+            OfLook& of = thread.looks[look];
+            std::move(of.prints.begin(), of.prints.end(), std::back_inserter(sum.prints));
+            sum.asked += of.asked;
+            of = {};
+        }
+        if (sum.asked == 0) continue;
+        trim(sum);
+        if (sum.asked > sum.prints.size())
+            diagnostics.report(Code::PRINT_LIMIT, Location{}, scene.looks[look]->shader().name,
+                               sum.asked, sum.prints.size());
+        std::move(sum.prints.begin(), sum.prints.end(), std::back_inserter(all));
     }
-    std::sort(all.begin(), all.end(), [](const Print& a, const Print& b) {
-        return std::tie(a.pixel_y, a.pixel_x, a.sample, a.order) <
-               std::tie(b.pixel_y, b.pixel_x, b.sample, b.order);
-    });
+    std::sort(all.begin(), all.end());
     for (const Print& print : all) std::fputs(print.text.c_str(), stdout);
+    for (OfThread& thread : threads_) thread.calls = 0;
 }
 
 }  // namespace kinora

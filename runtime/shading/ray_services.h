@@ -30,6 +30,8 @@ class RayServices {
     void indirect_diffuse(Grid& grid, const jit::ServiceCall& call);
 
   private:
+    class Passing;
+
     const ShadingFrame& frame_;
     NestedRays& nested_;
     Transmission& transmission_;

@@ -2,9 +2,8 @@
 // grid and at vertices.
 #pragma once
 
-#include <string>
-
 #include "runtime/shading/kernels/kernel_host.h"
+#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -21,21 +20,27 @@ class SceneHost : public KernelHost {
     TextureStore& textures() const override;
     dmat4 current_from_space(std::string_view name, size_t point) const override;
     dmat4 world_from_current() const override;
-    // At once: once per instance and frame.
+    // Once per instance and frame; the caller shows it.
     void print(const jit::ServiceCall& call) override;
     void query(const jit::ServiceCall& call) override;
     void texture3d(const jit::ServiceCall& call) override;
     void photons(const jit::ServiceCall& call) override;
 
+    const PrintedLines& printed() const { return printed_; }
+
   protected:
     const Scene& scene_;
     const ShaderInstance& look_;
+
+  private:
+    PrintedLines printed_;
 };
 
 // A kernel that moves vertices: "current" is the space of `object`, a scene node.
 class VertexHost : public SceneHost {
   public:
-    VertexHost(const Scene& scene, const ShaderInstance& look, uint32_t object, std::string& prints)
+    VertexHost(const Scene& scene, const ShaderInstance& look, uint32_t object,
+               PrintedLines& prints)
         : SceneHost(scene, look), object_(object), prints_(prints) {}
 
     dmat4 current_from_space(std::string_view name, size_t point) const override;
@@ -43,7 +48,7 @@ class VertexHost : public SceneHost {
 
   private:
     uint32_t object_;
-    std::string& prints_;  // of this part of the vertices
+    PrintedLines& prints_;  // of this part of the vertices
 };
 
 // A kernel over the points of a grid.
@@ -59,6 +64,7 @@ class GridHost : public SceneHost {
     void occlusion(const jit::ServiceCall& call) override;
     void indirect_diffuse(const jit::ServiceCall& call) override;
     void gather(const jit::ServiceCall& call) override;
+    void ray_limit(const jit::ServiceCall& call) override;
     void query(const jit::ServiceCall& call) override;
     void bake3d(const jit::ServiceCall& call) override;
 

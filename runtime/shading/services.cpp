@@ -2,13 +2,13 @@
 #include "runtime/shading/services.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <glm/matrix.hpp>
 
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/shading/bake.h"
 #include "runtime/shading/light_records.h"
+#include "runtime/shading/nested_rays.h"
 #include "runtime/shading/print.h"
 #include "runtime/shading/queries.h"
 #include "runtime/shading/ray_services.h"
@@ -35,7 +35,7 @@ dmat4 SceneHost::world_from_current() const {
     return glm::inverse(kinora::current_from_space(scene_, "world", kNone));
 }
 void SceneHost::print(const jit::ServiceCall& call) {
-    std::fputs(print_text(call, 0).c_str(), stdout);
+    printed_.add(call, 0);
 }
 void SceneHost::query(const jit::ServiceCall& call) {
     answer_query(scene_, look_, nullptr, call);
@@ -52,7 +52,7 @@ dmat4 VertexHost::current_from_space(std::string_view name, size_t) const {
 }
 void VertexHost::print(const jit::ServiceCall& call) {
     for (int lane = 0; lane < call.lanes; ++lane)
-        if (call.mask >> lane & 1) prints_ += print_text(call, lane);
+        if (call.mask >> lane & 1) prints_.add(call, lane);
 }
 
 GridHost::GridHost(Grid& grid, const GridServices& services)
@@ -87,6 +87,9 @@ void GridHost::indirect_diffuse(const jit::ServiceCall& call) {
 }
 void GridHost::gather(const jit::ServiceCall& call) {
     answer_handle(call, services_.gathers.gather(grid_, call));
+}
+void GridHost::ray_limit(const jit::ServiceCall& call) {
+    end_loops(grid_, call);
 }
 void GridHost::query(const jit::ServiceCall& call) {
     answer_query(scene_, look_, &grid_, call);

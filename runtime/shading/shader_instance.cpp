@@ -332,6 +332,9 @@ float SceneNumbers::number(size_t index) const {
 void SceneKernel::update(const FrameContext& context, const ShaderInstance& look) {
     SceneHost host(context.scene, look);
     run_frame(SceneNumbers(context, look, inputs), host);
+    host.printed().show();
+    prints_asked = host.printed().asked();
+    prints_shown = host.printed().shown();
 }
 
 }  // namespace kinora

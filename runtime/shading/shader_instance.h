@@ -57,7 +57,8 @@ class SceneKernel : public BoundKernel {
     // Runs the frame kernel and fills the frame block. No allocation.
     void update(const FrameContext& context, const ShaderInstance& look);
 
-    std::vector<FrameInput> inputs;  // of the frame kernel
+    std::vector<FrameInput> inputs;               // of the frame kernel
+    uint64_t prints_asked = 0, prints_shown = 0;  // its lines, the last time
 };
 
 enum class ShaderInstanceKind : uint8_t {

@@ -26,6 +26,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     opacity_points += o.opacity_points;
     too_deep += o.too_deep;
     unlit += o.unlit;
+    out_of_rays += o.out_of_rays;
 }
 
 // Each object is made of those before it. Kernels alone lead back up: they call services.
@@ -96,6 +97,8 @@ void Shading::begin_frame(uint32_t seed, int max_layers) {
     frame.max_layers = max_layers;
     frame.ray_depth = uint32_t(frame.scene.options.ray_depth);
     frame.diffuse_depth = uint32_t(frame.scene.options.diffuse_depth);
+    frame.ray_limit = uint32_t(frame.scene.options.ray_limit);
+    frame.split = uint32_t(frame.scene.options.split);
     while (threads.size() < size_t(thread_count()))
         threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
     for (auto& thread : threads) thread->counters = {};
@@ -119,7 +122,7 @@ bool Shading::stopped() const {
 ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     ShadingCounters total;
     for (const auto& thread : objects_->threads) total += thread->counters;
-    objects_->prints.flush();
+    objects_->prints.flush(objects_->frame.scene, diagnostics);
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
     if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);

@@ -23,6 +23,7 @@ struct ShadingCounters {
     uint64_t opacity_points = 0;    // opacity kernels
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
     uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
+    uint64_t out_of_rays = 0;       // points that asked for more rays than they may shoot
     void operator+=(const ShadingCounters& o);
 };
 
@@ -35,6 +36,8 @@ struct ShadingFrame {
     int max_layers = 256;        // surfaces that a ray sees through
     uint32_t ray_depth = 0;      // of the deepest ray that is shot
     uint32_t diffuse_depth = 0;  // bounces of indirectdiffuse
+    uint32_t ray_limit = 0;      // SceneOptions::ray_limit, split
+    uint32_t split = 0;
     bool any_transparent = false;
     // Where rays that meet nothing end: the camera's far clip where its file has one, else the far
     // side of the scene: the eye's distance from the centre plus the diagonal.

@@ -133,12 +133,33 @@ void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> direct
 }
 
 void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
-    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label };
+    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label, Weight, Through };
     Lanes lanes(call);
     vec3 color[kLanes] = {};
     float distance[kLanes], share[kLanes] = {};
+    TracedRay way[kLanes];
     std::fill_n(distance, kLanes, kMiss);
-    if (grid.shadows && grid.depth < frame_.ray_depth && !frame_.stopped()) {
+    auto count = [&](int lane) {
+        return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
+    };
+    // How many of them are shot.
+    auto shoot = [&](int lane) {
+        if (!has_direction(lanes.triple(R, lane))) return 0;
+        size_t point = lanes.point(lane);
+        int n = count(lane);
+        share[lane] = ray_share(grid, point, n);
+        if (share[lane] == 0) {
+            refuse_rays(grid, point, n);
+            return 0;
+        }
+        way[lane] =
+            choose_way(grid, point, lanes.number(Weight, lane), lanes.number(Through, lane));
+        return way[lane].factor > 0 && spend_rays(grid, point, n) ? n : 0;
+    };
+    bool deep = grid.depth >= frame_.ray_depth;
+    for (int lane = 0; deep && lane < kLanes; ++lane)
+        if (lanes.asks(lane)) refuse_rays(grid, lanes.point(lane), count(lane));
+    if (grid.shadows && !deep && !frame_.stopped()) {
         ThreadMemory& memory = grid.memory;
         Arena::Mark mark = memory.arena.mark();
         std::span<SeenByRay> seen = memory.arena.allocate_span<SeenByRay>(kGridPoints);
@@ -146,13 +167,7 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
         NestedWavefront nested(memory);
         lanes.for_each_text(Label, [&](const Lanes& alike) {
             in_batches(
-                alike, nested->rays,
-                [&](int lane) {
-                    if (!has_direction(lanes.triple(R, lane))) return 0;
-                    int n = lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
-                    share[lane] = ray_share(grid, lanes.point(lane), n);
-                    return share[lane] > 0 ? n : 0;
-                },
+                alike, nested->rays, shoot,
                 [&](int lane, uint32_t k, uint32_t slot) {
                     uint32_t seed = lanes.seed(lane);
                     vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
@@ -161,6 +176,7 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
                     RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
                     add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
                             lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
+                    nested->rays.weight[slot] = way[lane].weight;
                     spread_ray(nested->rays, grid.hits, start.hit);
                 },
                 [&](std::span<const uint8_t> lane_of) {
@@ -175,61 +191,157 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
         memory.arena.release(mark);
     }
     for (int lane = 0; lane < kLanes; ++lane) {
-        bool many = lanes.asks(lane) && lanes.number(Spread, lane) > 0;
-        lanes.set(0, lane, many ? color[lane] / float(lanes.samples(Samples, lane)) : color[lane]);
+        int n = lanes.asks(lane) ? count(lane) : 1;
+        if (n > 1) color[lane] /= float(n);
+        lanes.set(0, lane, way[lane].factor == 1 ? color[lane] : color[lane] * way[lane].factor);
         lanes.set(3, lane, distance[lane]);
     }
 }
 
+// The samples of one call of transmission. Where an end is a hit of a smooth surface, rays leave
+// from that surface, unless something stands between it and the facet.
+class RayServices::Passing {
+  public:
+    Passing(const ShadingFrame& frame, Grid& grid, const Lanes& lanes, Transmission& transmission)
+        : frame_(frame),
+          grid_(grid),
+          lanes_(lanes),
+          transmission_(transmission),
+          smooth_(frame.scene),
+          ways_(grid.memory.arena.allocate_span<Way>(kGridPoints)),
+          through_(grid.memory.arena.allocate_span<vec3>(kGridPoints)) {}
+
+    void add(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot) {
+        Way& way = ways_[slot];
+        way = {ray_start(grid_, lanes_.point(lane), lanes_.triple(kFrom, lane)),
+               ray_start(grid_, lanes_.point(lane), lanes_.triple(kTo, lane)), lane, k};
+        vec3 straight = way.to.P - way.from.P;
+        way.up_from = way_up(way.from, straight);
+        way.up_to = way_up(way.to, -straight);
+        add_ray_of(rays, way, slot);
+    }
+    // What passes each of the rays added; consumes them.
+    std::span<const vec3> pass(raytrace::RayBatch& rays) {
+        std::span<vec3> through = through_.first(rays.count);
+        transmission_.pass(rays, grid_.ray, grid_.memory, through);
+        NestedWavefront nested(grid_.memory);
+        raytrace::RayBatch& again = nested->rays;
+        again.reserve(kGridPoints);
+        again.count = 0;
+        uint32_t slots[kGridPoints];
+        for (uint32_t slot = 0; slot < through.size(); ++slot) {
+            Way& way = ways_[slot];
+            bool lifted = way.up_from != vec3(0.0f) || way.up_to != vec3(0.0f);
+            if (!lifted || through[slot] == vec3(0.0f)) continue;
+            if (is_free(way.from, way.up_from) && is_free(way.to, way.up_to)) continue;
+            way.up_from = way.up_to = vec3(0.0f);
+            slots[again.count] = slot;
+            add_ray_of(again, way, uint32_t(again.count));
+        }
+        if (again.count > 0) {
+            std::span<vec3> found = grid_.memory.arena.allocate_span<vec3>(again.count);
+            transmission_.pass(again, grid_.ray, grid_.memory, found);
+            for (size_t i = 0; i < found.size(); ++i) through[slots[i]] = found[i];
+        }
+        return through;
+    }
+
+  private:
+    struct Way {
+        RayStart from, to;
+        int lane;
+        uint32_t sample;
+        vec3 up_from{0.0f}, up_to{0.0f};  // from the facets of the ends
+    };
+
+    vec3 way_up(const RayStart& end, vec3 dir) {
+        bool hit = end.Ng != vec3(0.0f) && on_surface(grid_) &&
+                   (!grid_.lit || &grid_.lit->hits == &grid_.hits);
+        if (!hit) return vec3(0.0f);
+        return smooth_.way_from(grid_.hits, end.hit, dir);
+    }
+    bool is_free(const RayStart& end, vec3 up) const {
+        return up == vec3(0.0f) || is_way_free(frame_.scene.accel, end.P, end.error, end.Ng, up,
+                                               grid_.memory.counters.trace);
+    }
+    void add_ray_of(raytrace::RayBatch& rays, const Way& w, uint32_t slot) {
+        int lane = w.lane;
+        const RayStart& start = w.from;
+        // The end keeps clear of the surface it may lie on, as the beginning does.
+        vec3 way = (w.to.P + w.up_to) - (start.P + w.up_from);
+        if (float spread = lanes_.number(kSpread, lane); spread > 0)
+            way =
+                Cone(way, spread, false).direction(w.sample, lanes_.seed(lane)) * glm::length(way);
+        vec3 target = start.P + w.up_from + way;
+        if (w.to.Ng != vec3(0.0f)) {
+            vec3 off = w.up_to == vec3(0.0f) ? -way : w.up_to;
+            vec3 error = w.to.error + vec3(end_error(start.P, w.to.P));
+            target = raytrace::offset_ray_origin(target, error, w.to.Ng, off);
+        } else {
+            float clear = 2 * std::max(w.to.error.x, std::max(w.to.error.y, w.to.error.z));
+            target -= way * (clear / glm::length(way));
+        }
+        vec3 org = start.P + w.up_from;
+        vec3 off = w.up_from == vec3(0.0f) ? way : w.up_from;
+        if (start.Ng != vec3(0.0f)) {
+            org = raytrace::offset_ray_origin(org, start.error, start.Ng, off);
+        } else {
+            float clear = 2 * std::max(start.error.x, std::max(start.error.y, start.error.z));
+            org += way * (clear / glm::length(way));
+        }
+        vec3 dir = target - org;
+        if (!has_direction(dir) || glm::dot(dir, way) <= 0) dir = way * 1e-6f;
+        add_ray(rays, grid_, start, dir, 1.0f, lanes_.number(kBias, lane) / glm::length(dir),
+                raytrace::hash(lanes_.seed(lane), w.sample), slot);
+        // It leaves from there, on the side where the surface is.
+        size_t i = rays.count - 1;
+        set_triple(rays.org, i, org);
+        set_triple(rays.first_org, i, org);
+        if (!frame_.scene.volumes.empty())
+            rays.medium[i] = nested_medium(frame_.scene, grid_.hits, start.hit, off);
+    }
+
+    const ShadingFrame& frame_;
+    Grid& grid_;
+    const Lanes& lanes_;
+    Transmission& transmission_;
+    SmoothSurface smooth_;
+    std::span<Way> ways_;
+    std::span<vec3> through_;
+
+  public:
+    enum { kFrom = 2, kTo = 5, kSamples = 8, kSpread, kBias };
+};
+
 void RayServices::transmission(Grid& grid, const jit::ServiceCall& call) {
-    enum { From = 2, To = 5, Samples = 8, Spread, Bias };
     Lanes lanes(call);
     vec3 sum[kLanes];
-    auto count = [&](int lane) {
-        return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
-    };
-    for (int lane = 0; lane < kLanes; ++lane) sum[lane] = vec3(0.0f);
+    int count[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        sum[lane] = vec3(0.0f);
+        // Nothing can lie between two points that are the same.
+        bool open =
+            !lanes.asks(lane) || !grid.shadows || frame_.stopped() ||
+            !has_direction(lanes.triple(Passing::kTo, lane) - lanes.triple(Passing::kFrom, lane));
+        if (open) continue;
+        int n =
+            lanes.number(Passing::kSpread, lane) > 0 ? lanes.samples(Passing::kSamples, lane) : 1;
+        count[lane] = spend_samples(grid, lanes.point(lane), n);
+    }
     ThreadMemory& memory = grid.memory;
     Arena::Mark mark = memory.arena.mark();
-    std::span<vec3> through = memory.arena.allocate_span<vec3>(kGridPoints);
+    Passing passing(frame_, grid, lanes, transmission_);
     NestedWavefront nested(memory);
-    auto open = [&](int lane) {  // nothing can lie between two points that are the same
-        return !grid.shadows || frame_.stopped() ||
-               !has_direction(lanes.triple(To, lane) - lanes.triple(From, lane));
-    };
     in_batches(
-        lanes, nested->rays, [&](int lane) { return open(lane) ? 0 : count(lane); },
-        [&](int lane, uint32_t k, uint32_t slot) {
-            // The end keeps clear of the surface it may lie on, as the beginning does.
-            RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(From, lane));
-            RayStart end = ray_start(grid, lanes.point(lane), lanes.triple(To, lane));
-            vec3 way = end.P - start.P;
-            if (float spread = lanes.number(Spread, lane); spread > 0)
-                way = Cone(way, spread, false).direction(k, lanes.seed(lane)) * glm::length(way);
-            vec3 target = start.P + way;
-            if (end.Ng != vec3(0.0f)) {
-                target = raytrace::offset_ray_origin(target, end.error, end.Ng, -way);
-            } else {
-                float clear = 2 * std::max(end.error.x, std::max(end.error.y, end.error.z));
-                target -= way * (clear / glm::length(way));
-            }
-            vec3 org = start.P;
-            if (start.Ng != vec3(0.0f))
-                org = raytrace::offset_ray_origin(org, start.error, start.Ng, way);
-            vec3 dir = target - org;
-            if (!has_direction(dir) || glm::dot(dir, way) <= 0) dir = way * 1e-6f;
-            add_ray(nested->rays, grid, start, dir, 1.0f,
-                    lanes.number(Bias, lane) / glm::length(dir),
-                    raytrace::hash(lanes.seed(lane), k), slot);
-        },
+        lanes, nested->rays, [&](int lane) { return count[lane]; },
+        [&](int lane, uint32_t k, uint32_t slot) { passing.add(nested->rays, lane, k, slot); },
         [&](std::span<const uint8_t> lane_of) {
-            transmission_.pass(nested->rays, grid.ray, memory, through.first(lane_of.size()));
+            std::span<const vec3> through = passing.pass(nested->rays);
             for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += through[i];
         });
     memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane)
-        lanes.set(0, lane,
-                  !lanes.asks(lane) || open(lane) ? vec3(1.0f) : sum[lane] / float(count(lane)));
+        lanes.set(0, lane, count[lane] ? sum[lane] / float(count[lane]) : vec3(1.0f));
 }
 
 void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
@@ -244,8 +356,13 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
     NestedWavefront nested(memory);
     ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
+    int count[kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        int wanted = lanes.asks(lane) && !frame_.stopped() ? cone.count(lane) : 0;
+        if (wanted > 0) count[lane] = spend_samples(grid, lanes.point(lane), wanted);
+    }
     in_batches(
-        lanes, nested->rays, [&](int lane) { return frame_.stopped() ? 0 : cone.count(lane); },
+        lanes, nested->rays, [&](int lane) { return count[lane]; },
         [&](int lane, uint32_t k, uint32_t slot) {
             dirs[slot] = cone.direction(lane, k);
             cone.add(nested->rays, lane, k, slot, dirs[slot]);
@@ -277,14 +394,14 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
             }
             for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
                 light_of_map(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
-                             sample_width(cone.count(lane_of[begin])), light.data());
+                             sample_width(count[lane_of[begin]]), light.data());
                 for (size_t i = begin; i < end; ++i)
                     sky[lane_of[i]] += through[i] * light[i - begin];
             });
         });
     memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? cone.count(lane) : 0;
+        int n = count[lane];
         lanes.set(0, lane, n ? blocked[lane] / float(n) : 0.0f);
         float length = glm::length(open[lane]);
         vec3 mean = length > 0 ? frame_.camera_from_accel * open[lane] / length : vec3(0.0f);
@@ -302,20 +419,25 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     // What lies beyond the last bounce is black; a map alone costs no ray.
     bool bounces = grid.depth < frame_.ray_depth && grid.ray.diffuse < frame_.diffuse_depth &&
                    !frame_.stopped();
+    ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
     // The bounces are counted: all are followed, the later ones with fewer rays.
     float share[kLanes] = {};
     int samples[kLanes] = {};
     for (int lane = 0; lane < kLanes; ++lane) {
         if (!lanes.asks(lane)) continue;
         samples[lane] = lanes.samples(kSamples, lane);
-        if (bounces) share[lane] = fit_samples(grid, lanes.point(lane), samples[lane]);
+        size_t point = lanes.point(lane);
+        bool shoots = lanes.number(kMaxdist, lane) > 0 && cone.count(lane) > 0;
+        if (!bounces && shoots) refuse_rays(grid, point, samples[lane]);
+        if (!bounces) continue;
+        share[lane] = fit_samples(grid, point, samples[lane]);
+        if (shoots && !spend_rays(grid, point, samples[lane])) samples[lane] = 0;
     }
     Arena::Mark mark = memory.arena.mark();
     std::span<SeenByRay> seen = memory.arena.allocate_span<SeenByRay>(kGridPoints);
     std::span<vec3> dirs = memory.arena.allocate_span<vec3>(kGridPoints);
     std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
     NestedWavefront nested(memory);
-    ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
     auto count = [&](int lane) {
         bool shoots = bounces || lanes.integer(Map, lane) != 0;
         return shoots && cone.count(lane) > 0 ? samples[lane] : 0;

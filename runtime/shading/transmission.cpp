@@ -2,8 +2,8 @@
 #include "runtime/shading/transmission.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -11,6 +11,7 @@
 #include "raytrace/sampling.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/hits_p.h"
+#include "runtime/shading/nested_rays.h"
 
 namespace kinora {
 
@@ -30,6 +31,8 @@ void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, floa
     rays.layer[i] = 0;
     rays.share[i] = from.rays ? from.rays->share[from.ray[hit]] : 1.0f;
     rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
+    rays.weight[i] = from.rays ? from.rays->weight[from.ray[hit]] : 1.0f;
+    rays.turns[i] = rays.spent[i] = 0;
 }
 
 // A ray that goes on ends where it was to end, as exactly as it did: the surface that the light
@@ -112,7 +115,8 @@ void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemo
                         std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
     std::fill(through.begin(), through.end(), vec3(1.0f));
-    raytrace::occluded_by_opaque(frame_.scene.accel, rays, blocked, memory.counters.trace);
+    raytrace::occluded(frame_.scene.accel, rays, raytrace::kMaskOpaque, blocked,
+                       memory.counters.trace);
     size_t count = rays.count;
     if (frame_.any_transparent) pass_transparent(rays, from, memory, through.data());
     for (size_t r = 0; r < count; ++r)
@@ -173,10 +177,7 @@ namespace {
 // How far a light's sample stands off the surface that shines, where the ray to it ends.
 vec3 before_sample(const raytrace::HitBatch& samples, size_t i, vec3 P, vec3 to_light) {
     vec3 end = triple(samples.P, i);
-    // Origin, direction and the distance of a hit all round: 16 steps of the largest.
-    vec3 size = glm::max(glm::abs(end), glm::abs(P));
-    vec3 error = vec3(std::max(size.x, std::max(size.y, size.z)) * 16 * 0x1p-24f) +
-                 triple(samples.P_error, i);
+    vec3 error = vec3(end_error(P, end)) + triple(samples.P_error, i);
     return raytrace::offset_ray_origin(end, error, triple(samples.Ng, i), -to_light) - end;
 }
 
@@ -184,20 +185,22 @@ vec3 before_sample(const raytrace::HitBatch& samples, size_t i, vec3 P, vec3 to_
 struct ShadowPacket {
     raytrace::RayPacket16 rays;
     uint32_t points[raytrace::kPacket];
+    vec3 up[raytrace::kPacket];
+    uint32_t lifted = 0;  // bit j: ray j leaves a smooth surface, not its facet
     int filled = 0;
 
-    void add(uint32_t point, vec3 org, vec3 dir, float tfar) {
-        rays.org_x[filled] = org.x;
-        rays.org_y[filled] = org.y;
-        rays.org_z[filled] = org.z;
-        rays.dir_x[filled] = dir.x;
-        rays.dir_y[filled] = dir.y;
-        rays.dir_z[filled] = dir.z;
-        rays.tnear[filled] = 0;
-        rays.tfar[filled] = tfar;
-        rays.mask[filled] = raytrace::kMaskOpaque;
-        rays.time[filled] = 0;
-        points[filled++] = point;
+    void set(int j, uint32_t point, vec3 org, vec3 dir, float tfar) {
+        rays.org_x[j] = org.x;
+        rays.org_y[j] = org.y;
+        rays.org_z[j] = org.z;
+        rays.dir_x[j] = dir.x;
+        rays.dir_y[j] = dir.y;
+        rays.dir_z[j] = dir.z;
+        rays.tnear[j] = 0;
+        rays.tfar[j] = tfar;
+        rays.mask[j] = raytrace::kMaskOpaque;
+        rays.time[j] = 0;
+        points[j] = point;
     }
     vec3 org(int j) const { return {rays.org_x[j], rays.org_y[j], rays.org_z[j]}; }
     vec3 dir(int j) const { return {rays.dir_x[j], rays.dir_y[j], rays.dir_z[j]}; }
@@ -213,10 +216,44 @@ void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& 
     raytrace::RayBatch& rest = nested->rays;
     if (frame_.any_transparent) rest.reserve(kGridPoints);
     rest.count = 0;
+    SmoothSurface smooth(frame_.scene);
+    const bool of_surface = grid.look->kind == ShaderInstanceKind::Surface;
+    // The ray of a point, from `up` above its facet.
+    auto aim = [&](int j, uint32_t i, vec3 up) {
+        vec3 to_light = accel_from_camera * triple(light.L, i);
+        vec3 P = triple(at.accel, i);
+        vec3 Ng = triple(at.Ng, i);
+        // A point that is on no known surface leaves its error box along the ray itself.
+        if (Ng == vec3(0)) Ng = glm::normalize(to_light);
+        vec3 org = up == vec3(0.0f)
+                       ? raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light)
+                       : raytrace::offset_ray_origin(P + up, triple(at.error, i), Ng, up);
+        vec3 dir = light.solar ? to_light : P + to_light - org;
+        if (light.samples && !light.solar)
+            dir += before_sample(light.samples->hits, i, P, to_light);
+        packet.set(j, i, org, dir, light.solar ? std::numeric_limits<float>::infinity() : 1.0f);
+    };
+    // From the facets after all, where something stands on the way to their smooth surface.
+    auto lower = [&](uint32_t unblocked) {
+        uint32_t lowered = 0;
+        for (uint32_t left = packet.lifted & unblocked; left; left &= left - 1) {
+            int j = std::countr_zero(left);
+            uint32_t i = packet.points[j];
+            if (is_way_free(frame_.scene.accel, triple(at.accel, i), triple(at.error, i),
+                            triple(at.Ng, i), packet.up[j], memory.counters.trace))
+                continue;
+            aim(j, i, vec3(0.0f));
+            lowered |= 1u << j;
+        }
+        if (lowered == 0) return 0u;
+        packet.rays.active = lowered;
+        return frame_.scene.accel.occluded16(packet.rays, memory.counters.trace);
+    };
     auto flush = [&] {
         if (packet.filled == 0) return;
         packet.rays.active = (1u << packet.filled) - 1;
         uint32_t blocked = frame_.scene.accel.occluded16(packet.rays, memory.counters.trace);
+        blocked |= lower(~blocked);
         for (int j = 0; j < packet.filled; ++j) {
             uint32_t i = packet.points[j];
             if (blocked >> j & 1) {
@@ -228,20 +265,19 @@ void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& 
             }
         }
         packet.filled = 0;
+        packet.lifted = 0;
     };
     for (uint32_t i = 0; i < at.count; ++i) {
         if (light.lit && jit::bits_of(light.lit[i]) == 0) continue;
         if (light.Cl[0][i] == 0 && light.Cl[1][i] == 0 && light.Cl[2][i] == 0) continue;
-        vec3 to_light = accel_from_camera * triple(light.L, i);
-        vec3 P = triple(at.accel, i);
-        vec3 Ng = triple(at.Ng, i);
-        // A point that is on no known surface leaves its error box along the ray itself.
-        if (Ng == vec3(0)) Ng = glm::normalize(to_light);
-        vec3 org = raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light);
-        vec3 dir = light.solar ? to_light : P + to_light - org;
-        if (light.samples && !light.solar)
-            dir += before_sample(light.samples->hits, i, P, to_light);
-        packet.add(i, org, dir, light.solar ? std::numeric_limits<float>::infinity() : 1.0f);
+        vec3 up(0.0f);
+        if (of_surface && triple(at.Ng, i) != vec3(0.0f))
+            up = smooth.way_from(grid.hits, grid.points[at.first + i],
+                                 accel_from_camera * triple(light.L, i));
+        int j = packet.filled++;
+        packet.up[j] = up;
+        packet.lifted |= uint32_t(up != vec3(0.0f)) << j;
+        aim(j, i, up);
         if (packet.filled == raytrace::kPacket) flush();
     }
     flush();

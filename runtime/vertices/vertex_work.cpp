@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
@@ -254,16 +253,18 @@ void VertexWork::run_group(Pass& pass, Group& group) {
             arena.release(mark);
         }
     });
-    for (std::string& prints : prints_) {
-        if (prints.empty()) continue;
-        std::fputs(prints.c_str(), stdout);
+    PrintedLines& printed = group.printed[pass.stage];
+    printed.clear();
+    for (PrintedLines& prints : prints_) {
+        if (prints.asked() > 0) printed.add(std::move(prints));
         prints.clear();
     }
+    printed.show();
     for (uint32_t& n : not_finite_) not_finite_total_ += std::exchange(n, 0);
 }
 
 void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
-                            std::span<uint8_t> faults, std::string& prints) {
+                            std::span<uint8_t> faults, PrintedLines& prints) {
     const ShaderInstance& look = *group.use.looks[pass.stage];
     const jit::Kernel& kernel = look.full.kernel();
     Arena& arena = arenas_[size_t(thread_index())];
@@ -343,6 +344,8 @@ void VertexWork::report(std::string_view name, Diagnostics& diagnostics) {
     for (Group& group : groups_)
         for (size_t s = 0; s < kStages; ++s) {
             if (!group.use.looks[s]) continue;
+            group.printed[s].report(group.use.looks[s]->shader().name, diagnostics);
+            group.printed[s].clear();
             auto faulted = [&](size_t site) {
                 return std::exchange(group.faults[s][site], uint8_t(0)) != 0;
             };

@@ -17,6 +17,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/shading/print.h"
 #include "runtime/shading/shader_instance.h"
 #include "runtime/vertices/diced_mesh.h"
 
@@ -67,6 +68,7 @@ class VertexWork {
         Lists corners;  // of each wedge
         size_t first_triangle = 0;
         std::array<std::vector<uint8_t>, kStages> faults;  // one byte a site
+        std::array<PrintedLines, kStages> printed;         // in the last frame
     };
     struct Pass;
 
@@ -75,7 +77,7 @@ class VertexWork {
     void run_stage(Pass& pass);
     void run_group(Pass& pass, Group& group);
     void run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
-                    std::span<uint8_t> faults, std::string& prints);
+                    std::span<uint8_t> faults, PrintedLines& prints);
     void find_faces(const Pass& pass);
     vec3 face_sum(std::span<const uint32_t> wedges) const;
     void move_positions(const Pass& pass);
@@ -92,7 +94,7 @@ class VertexWork {
     std::vector<vec4> faces_;                 // by triangle: normal times twice the area
     std::vector<vec3> before_;                // by normal that is a key: sum of faces
     std::vector<Arena> arenas_;               // by thread
-    std::vector<std::string> prints_;         // by part
+    std::vector<PrintedLines> prints_;        // by part
     std::vector<uint32_t> not_finite_;        // by part
     uint32_t not_finite_total_ = 0;
 };

@@ -140,7 +140,7 @@ TEST_F(RayFilter, OccludedByOpaqueLooksAtOpaqueGeometryOnly) {
     }
     std::vector<uint8_t> blocked(20);
     TraceCounters counters;
-    occluded_by_opaque(accel, rays, blocked.data(), counters);
+    occluded(accel, rays, kMaskOpaque, blocked.data(), counters);
     for (size_t k = 0; k < 20; ++k) EXPECT_EQ(blocked[k], k < 10 && k % 2 == 0) << k;
 }
 

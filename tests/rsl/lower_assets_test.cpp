@@ -38,6 +38,7 @@ constexpr ServiceTable kServiceTable = {
     .occlusion = answer_zeros<Service::occlusion>,
     .indirectdiffuse = answer_zeros<Service::indirectdiffuse>,
     .gather = answer_zeros<Service::gather>,
+    .raylimit = answer_zeros<Service::raylimit>,
     .query = answer_zeros<Service::query>,
     .bake3d = answer_zeros<Service::bake3d>,
     .texture3d = answer_zeros<Service::texture3d>,

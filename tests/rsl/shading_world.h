@@ -75,6 +75,7 @@ inline constexpr ServiceTable kSmoothWorld = {
     .occlusion = answer_zeros<Service::occlusion>,
     .indirectdiffuse = answer_zeros<Service::indirectdiffuse>,
     .gather = gather_nothing,
+    .raylimit = answer_zeros<Service::raylimit>,
     .query = answer_zeros<Service::query>,
     .bake3d = answer_zeros<Service::bake3d>,
     .texture3d = answer_zeros<Service::texture3d>,

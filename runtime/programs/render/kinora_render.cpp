@@ -142,6 +142,8 @@ SceneOptions Render::scene_options() const {
     o.lights = options_.lights;
     o.ray_depth = options_.quality.ray_depth;
     o.diffuse_depth = options_.quality.diffuse_depth;
+    o.split = options_.quality.split;
+    o.ray_limit = options_.ray_limit;
     o.accel.robust = options_.quality.robust;
     o.accel.always_rebuild = options_.quality.always_rebuild;
     o.accel.background = false;  // a frame depends on its time alone

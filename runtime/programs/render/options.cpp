@@ -85,7 +85,7 @@ std::vector<std::string_view> quality_names() {
 struct Given {
     std::string frames, fps, size, scale, look_from, threads = "all", target, background;
     std::string quality{kDefaultQuality};
-    std::optional<int> spp, rays, bounces;
+    std::optional<int> spp, rays, bounces, split;
     std::optional<jit::math::Tier> math;
     std::optional<bool> robust, rebuild;
     std::optional<DisplacementMode> displacement;
@@ -163,6 +163,12 @@ void declare_quality(CLI::App& app, Given& given, RenderOptions& o) {
         ->check(CLI::Range(0, 64));
     app.add_option("--bounces", given.bounces, "of these, of indirect diffuse light (1)")
         ->check(CLI::Range(0, 64));
+    app.add_option("--split", given.split,
+                   "hits of a path where both what is reflected and what passes is followed (1)")
+        ->check(CLI::Range(0, 64));
+    app.add_option("--ray-limit", o.ray_limit, "rays that shaders may send for one of the camera")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 30));
 }
 
 // What the picture shows of the scene, and how.
@@ -255,6 +261,7 @@ void interpret_quality(const Given& given, RenderOptions& o) {
     if (given.rebuild) o.quality.always_rebuild = *given.rebuild;
     if (given.rays) o.quality.ray_depth = *given.rays;
     if (given.bounces) o.quality.diffuse_depth = *given.bounces;
+    if (given.split) o.quality.split = *given.split;
     if (given.displacement) o.quality.displacement = *given.displacement;
     if (given.dice) {
         check_range("--dice", *given.dice, 0.01, 1e6, "takes 0.01 to 1e6 pixels");

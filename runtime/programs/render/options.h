@@ -37,6 +37,7 @@ struct RenderOptions {
     const jit::Target* target = nullptr;
     std::string target_missing;  // asked for, not on this CPU
     Quality quality;             // the row with single options put over it
+    int ray_limit = 1000;        // SceneOptions::ray_limit
     size_t dice_limit = 0;       // 0: the scene's own
     std::string filter = "gaussian";
     double filter_width = 0;

@@ -30,6 +30,9 @@ void KernelHost::indirect_diffuse(const jit::ServiceCall& call) {
 void KernelHost::gather(const jit::ServiceCall& call) {
     rsl::answer_zeros<Service::gather>(call);
 }
+void KernelHost::ray_limit(const jit::ServiceCall& call) {
+    rsl::answer_zeros<Service::raylimit>(call);
+}
 void KernelHost::query(const jit::ServiceCall& call) {
     rsl::answer_zeros<Service::query>(call);
 }
@@ -96,6 +99,7 @@ constexpr rsl::ServiceTable kServices = {
     .occlusion = ask_host<&KernelHost::occlusion>,
     .indirectdiffuse = ask_host<&KernelHost::indirect_diffuse>,
     .gather = ask_host<&KernelHost::gather>,
+    .raylimit = ask_host<&KernelHost::ray_limit>,
     .query = ask_host<&KernelHost::query>,
     .bake3d = ask_host<&KernelHost::bake3d>,
     .texture3d = ask_host<&KernelHost::texture3d>,

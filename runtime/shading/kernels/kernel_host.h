@@ -29,6 +29,7 @@ class KernelHost {
     virtual void occlusion(const jit::ServiceCall& call);
     virtual void indirect_diffuse(const jit::ServiceCall& call);
     virtual void gather(const jit::ServiceCall& call);
+    virtual void ray_limit(const jit::ServiceCall& call);
     virtual void query(const jit::ServiceCall& call);
     virtual void bake3d(const jit::ServiceCall& call);
     virtual void texture3d(const jit::ServiceCall& call);
