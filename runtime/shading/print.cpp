@@ -31,6 +31,10 @@ void Prints::add(const Grid& grid, const jit::ServiceCall& call) {
     }
 }
 
+void Prints::drop() {
+    for (auto& prints : prints_) prints.clear();
+}
+
 void Prints::flush() {
     std::vector<Print> all;
     for (auto& prints : prints_) {

@@ -20,6 +20,8 @@ class Prints {
     void add(const Grid& grid, const jit::ServiceCall& call);
     // Shows and forgets all.
     void flush();
+    // Forgets all.
+    void drop();
 
   private:
     struct Print {

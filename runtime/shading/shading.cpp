@@ -25,6 +25,8 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     opacity_points += o.opacity_points;
     too_deep += o.too_deep;
     unlit += o.unlit;
+    seen += o.seen;
+    dark += o.dark;
 }
 
 // Each object is made of those before it. Kernels alone lead back up: they call services.
@@ -121,6 +123,11 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
     return total;
+}
+
+void Shading::drop_frame(Diagnostics& diagnostics) {
+    objects_->prints.drop();
+    objects_->bakes.flush(false, diagnostics);
 }
 
 void Shading::shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) {
