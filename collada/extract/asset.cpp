@@ -51,6 +51,13 @@ Asset read_asset(const Document& document, Diagnostics& diag) {
     return asset;
 }
 
+std::string_view authoring_tool(const Document& document) {
+    const Element* e = &document.root();
+    for (const char* name : {"asset", "contributor", "authoring_tool"})
+        if (e) e = e->child(name);
+    return e ? trim(e->text) : std::string_view{};
+}
+
 namespace {
 
 // The first of these child names with a number, anywhere in the extras of `owner`.

@@ -116,13 +116,17 @@ void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostic
     if (bad) report_non_finite(bad, imager->shader().name, imager, diagnostics);
 }
 
-void report_shading(const Scene& scene, const ShadingCounters& shading,
+void report_shading(Scene& scene, const ShadingCounters& shading,
                     const raytrace::IntegratorCounters& counters,
                     const raytrace::IntegratorSettings& settings, FrameStats& stats,
                     Diagnostics& diagnostics) {
     if (uint64_t lost = shading.too_deep + counters.too_deep)
         diagnostics.report(Code::LAYER_LIMIT, Location{}, lost, settings.max_layers);
     if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightQuestions);
+    if (shading.dark > shading.seen / 2) {
+        scene.watch_dark = false;
+        diagnostics.report(Code::LIGHTS_DARK, Location{});
+    }
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();
