@@ -16,6 +16,17 @@ color slot_color(color plain; string map; float ss, tt;) {
     return c;
 }
 
+/* A plain ambient color beside a diffuse texture: exporters lock the two and write the texture once. */
+#define AMBIENT_COLOR                                                                              \
+    (COLOR_OF(ambient_color) * locked_texture(ambient_color_map, diffuse_map, diffuse_s, diffuse_t))
+
+color locked_texture(string own, map; float ss, tt;) {
+    color c = 1;
+    if (own == "" && map != "")
+        c = color texture(map, ss, tt);
+    return c;
+}
+
 /* How much of what lies behind is hidden (COLLADA 1.4.1, <transparent opaque>): A_ONE by alpha,
    RGB_ONE by color; A_ZERO and RGB_ZERO the other way round; NONE hides all. */
 color slot_opacity(color plain; string map; float ss, tt; float alpha, transparency;
@@ -39,7 +50,8 @@ color mirrored(color reflective; float reflectivity; normal Nf; vector In; color
     color c = 0;
     if (reflectivity > 0) {
         c = reflectivity * reflective;
-        c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
+        if (c != color(0))
+            c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
     }
     return c;
 }
@@ -85,8 +97,10 @@ surface collada_blinn(
     float bump_amount = 1;) {
     normal Nf = faceforward(bumped(bump_map, bump_kind, bump_s, bump_t, bump_amount), I);
     vector In = normalize(I);
-    color C = COLOR_OF(emission) + COLOR_OF(ambient_color) * ambient() + COLOR_OF(diffuse) * diffuse(Nf) +
-              COLOR_OF(specular) * specular(Nf, -In, 8 / max(shininess, 1e-6));
+    color C = COLOR_OF(emission) + AMBIENT_COLOR * ambient() + COLOR_OF(diffuse) * diffuse(Nf);
+    /* Exporters that write 0 mean no highlight; the power 0 would be white all over. */
+    if (shininess > 0)
+        C += COLOR_OF(specular) * specular(Nf, -In, 8 / max(shininess, 1e-6));
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
     C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi);

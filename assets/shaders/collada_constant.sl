@@ -39,7 +39,8 @@ color mirrored(color reflective; float reflectivity; normal Nf; vector In; color
     color c = 0;
     if (reflectivity > 0) {
         c = reflectivity * reflective;
-        c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
+        if (c != color(0))
+            c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
     }
     return c;
 }

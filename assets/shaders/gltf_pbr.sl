@@ -128,7 +128,13 @@ surface gltf_pbr(
             /* Smith's shadowing of both ways over 4 NL NV (Heitz 2014). */
             float G = 0.5 / (NL * sqrt(NV * NV * (1 - alpha2) + alpha2) +
                              NV * sqrt(NL * NL * (1 - alpha2) + alpha2));
-            light += Cl * NL * ((1 - F) * under + F * D * G);
+            /* A light without highlights is a broad one, which the layer mirrors as a glow. */
+            float broad = 0;
+            lightsource("__nonspecular", broad);
+            color layer = F * D * G;
+            if (broad > 0)
+                layer = mix(layer, reflected_everywhere(F0, F90, rough, NV), broad);
+            light += Cl * NL * ((1 - F) * under + layer);
         }
     }
     color around = ambient();

@@ -141,6 +141,13 @@ uint32_t AssetFrames::conversion(uint32_t from, uint32_t to) {
     return at->second = append(scene_.conversions, m);
 }
 
+std::string_view authoring_tool(const Document& document) {
+    const Element* e = &document.root();
+    for (const char* name : {"asset", "contributor", "authoring_tool"})
+        if (e) e = e->child(name);
+    return e ? trim(e->text) : std::string_view{};
+}
+
 namespace {
 
 // The first of these child names with a number, anywhere in the extras of `owner`.

@@ -180,6 +180,8 @@ inline constexpr size_t kMostSameId = 256;
 const Element* find_kind(const Document& document, std::string_view id, Kinds kinds);
 // asset.cpp
 Asset read_asset(const Document& document, Diagnostics& diag);
+// What wrote the document, as it says itself: "Blender 2.93.0 commit date:...".
+std::string_view authoring_tool(const Document& document);
 void read_time_range(Extraction& x, Link visual_scene);
 
 // images.cpp -------------------------------------------------------------------------------

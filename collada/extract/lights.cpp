@@ -1,6 +1,7 @@
 // collada/extract/lights.cpp: the four kinds of light, and the RSL shader an <extra> may give one.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
@@ -57,6 +58,19 @@ void check_light(Extraction& x, Light& light) {
     constant.values[0] = 1;
 }
 
+// Blender's lights are in watts since 2.80; before they were about 1. Where the version is lost, in
+// what another program made of its file, hundreds tell.
+bool in_watts(const Extraction& x, Link link, const Light& light) {
+    std::string tool(authoring_tool(x.document(link.doc)));
+    int major = 0, minor = 0;
+    bool known = std::sscanf(tool.c_str(), "Blender %d.%d", &major, &minor) == 2;
+    if (!known && !extra_technique(*link.element, "blender")) return false;
+    if (known && (major > 2 || (major == 2 && minor >= 80))) return true;
+    constexpr double kHundreds = 100;
+    const auto& color = light[LightSlot::Color].values;
+    return std::max({color[0], color[1], color[2]}) >= kHundreds;
+}
+
 }  // namespace
 
 std::optional<bool> read_shadows(const Element& owner) {
@@ -101,6 +115,7 @@ uint32_t light_index(Extraction& x, Link link) {
     }
     check_light(x, light);
     light.shadows = read_shadows(e);
+    light.blender_watts = in_watts(x, link, light);
     x.scene.lights.push_back(std::move(light));
     std::vector<uint32_t> materials = rsl_extra_materials(x, link);
     if (!materials.empty()) x.scene.lights[number].rsl_material = materials[0];

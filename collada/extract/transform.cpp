@@ -99,13 +99,6 @@ namespace {
 constexpr std::string_view kBlenderOrder[] = {"scale", "rotationZ", "rotationY", "rotationX",
                                               "location"};
 
-bool made_by_blender(const Document& document) {
-    const Element* e = &document.root();
-    for (const char* name : {"asset", "contributor", "authoring_tool"})
-        if (e) e = e->child(name);
-    return e && trim(e->text).starts_with("Blender");
-}
-
 }  // namespace
 
 void mend_order(Extraction& x, Link node, std::vector<Transform>& transforms) {
@@ -114,7 +107,7 @@ void mend_order(Extraction& x, Link node, std::vector<Transform>& transforms) {
         if (transforms[i].slot.sid != kBlenderOrder[i]) return;
     if (transforms.front().kind != TransformKind::Scale ||
         transforms.back().kind != TransformKind::Translate ||
-        !made_by_blender(x.document(node.doc)))
+        !authoring_tool(x.document(node.doc)).starts_with("Blender"))
         return;
     const Element *first = nullptr, *last = nullptr;
     for (const Element& child : node.element->children()) {

@@ -5,10 +5,10 @@
 
 namespace kinora {
 
-// A distant light from over the camera's left shoulder: a node below the camera's, and what hangs
-// there; an ambient light of 0.15.
+// Three lights on a node below the camera's: a key light from over its left shoulder that casts
+// shadows; a fill light that reaches all the camera sees, and a rim light from behind, both without
+// shadows and highlights.
 NodeDefinition default_light_node(std::vector<double>& values);
-LightDefinition default_distant_light(Diagnostics& diagnostics);
-LightDefinition default_ambient_light(std::vector<double>& values, Diagnostics& diagnostics);
+std::vector<LightDefinition> default_lights(std::vector<double>& values, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -5,25 +5,23 @@
 
 #include "runtime/build/area_lights.h"
 #include "runtime/build/defaults.h"
+#include "runtime/build/light_watts.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
 
 namespace {
 
-struct Lit {
-    bool lit = false, ambient = false;  // by lights that shine from somewhere; by others
-};
-
-Lit add_lights_of_nodes(Scene& scene, const NodeTree& tree) {
-    Lit result;
+// Whether one of them shines from somewhere: ambient light alone shows no form.
+bool add_lights_of_nodes(Scene& scene, const NodeTree& tree) {
+    bool lit = false;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (uint32_t light : tree.definition(n).lights) {
             if (scene.nodes[n].hidden) continue;
             scene.lights.push_back({light, n, kNone, kNone});
-            (scene.description->lights[light].ambient ? result.ambient : result.lit) = true;
+            lit |= !scene.description->lights[light].ambient;
         }
-    return result;
+    return lit;
 }
 
 // Its shader gives one colour whatever the light.
@@ -63,20 +61,20 @@ void add_default_light(Scene& scene, LightDefinition definition, uint32_t node) 
 void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
                 Diagnostics& diagnostics) {
     LightSet wanted = scene.options.lights;
-    Lit own;
+    bool lit = false;
     if (wanted != LightSet::Default) {
         bool by_area = add_area_lights(scene, uses);
-        own = add_lights_of_nodes(scene, tree);
-        own.lit |= by_area;
+        lit = add_lights_of_nodes(scene, tree) || by_area;
+        scale_watts(scene, diagnostics);
     }
     if (wanted == LightSet::Scene) return;
-    if (wanted == LightSet::Auto && (own.lit || needs_no_light(scene, uses))) return;
+    scene.watch_dark = wanted == LightSet::Auto && lit;
+    if (wanted == LightSet::Auto && (lit || needs_no_light(scene, uses))) return;
     std::vector<double>& values = scene.description->values;
     // Before NodeTree::add, which takes the description's values over into the scene.
-    LightDefinition ambient = default_ambient_light(values, diagnostics);
+    std::vector<LightDefinition> lights = default_lights(values, diagnostics);
     uint32_t node = tree.add(default_light_node(values), scene.cameras[scene.camera].node);
-    add_default_light(scene, default_distant_light(diagnostics), node);
-    if (!own.ambient) add_default_light(scene, std::move(ambient), node);
+    for (LightDefinition& light : lights) add_default_light(scene, std::move(light), node);
 }
 
 }  // namespace kinora

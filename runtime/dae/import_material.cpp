@@ -345,6 +345,7 @@ void ColladaImport::import_lights() {
         }
         if (to.shader.shader) continue;
         to.ambient = from.kind == collada::LightKind::Ambient;
+        to.blender_watts = from.blender_watts;
         to.shader.shader = library_shader(kKinds[size_t(from.kind)], diagnostics_);
         for (size_t s = 0; s < size_t(LightSlot::Count); ++s) {
             if (!find_parameter(*to.shader.shader, kSlotNames[s])) continue;

@@ -171,7 +171,8 @@ struct LightDefinition {
     ShaderUse shader;
     std::optional<bool> shadows;  // profile RSL's <shadows>; nothing: automatic
     bool ambient = false;
-    uint32_t samples = 0;  // of a light on geometry; 0: not said
+    bool blender_watts = false;  // one of COLLADA's that Blender wrote in watts
+    uint32_t samples = 0;        // of a light on geometry; 0: not said
     Location where;
 };
 

@@ -29,6 +29,22 @@ void prepare_planes(const Scene& scene, raytrace::Film& film) {
     }
 }
 
+// The picture without the imager.
+bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& film,
+                 raytrace::IntegratorCounters& counters, const raytrace::Progress* progress) {
+    prepare_planes(scene, film);
+    scene.shading->stop_by(settings.stop);
+    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
+    raytrace::IntegratorSettings integrator = settings.integrator;
+    float gain = float(settings.gain);
+    if (integrator.background) *integrator.background /= gain;  // it is no part of the scene
+    bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film, integrator,
+                                     scene.scratch, counters, progress);
+    if (gain != 1)
+        for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);
+    return whole;
+}
+
 }  // namespace
 
 bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameStats& stats,
@@ -71,12 +87,8 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     stats = {};
     StageTimer total(stats.total);
     if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
-    prepare_planes(scene, film);
-    scene.shading->stop_by(settings.stop);
-    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
     raytrace::IntegratorCounters counters;
-    bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film,
-                                     settings.integrator, scene.scratch, counters, progress);
+    bool whole = trace_frame(scene, settings, film, counters, progress);
     if (whole && scene.imager != kNone) {
         size_t bad = scene.shading->run_imager(film, settings.integrator.nan);
         film.non_finite += bad;
@@ -84,6 +96,16 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     }
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     report_shading(scene, shading, counters, settings.integrator, stats, diagnostics);
+    return whole;
+}
+
+bool render_trial(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
+                  Diagnostics& diagnostics) {
+    FrameStats stats;
+    if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
+    raytrace::IntegratorCounters counters;
+    bool whole = trace_frame(scene, settings, film, counters, nullptr);
+    scene.shading->drop_frame(diagnostics);
     return whole;
 }
 

@@ -30,6 +30,7 @@ struct FrameSettings {
     int width = 640, height = 360;
     double shutter = 0;                      // seconds
     double most_dice_error = 0;              // 0: any
+    double gain = 1;                         // of the picture's colours: 2 ^ exposure
     const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
     raytrace::IntegratorSettings integrator;
 };
@@ -41,6 +42,11 @@ struct FrameSettings {
 bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
                   FrameStats& stats, Diagnostics& diagnostics,
                   const raytrace::Progress* progress = nullptr);
+
+// The same picture for its brightness alone, before any of the scene's imager: what shaders print
+// and bake is dropped, and so is what they do wrong, which the frames tell.
+bool render_trial(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
+                  Diagnostics& diagnostics);
 
 // What render_frame does before the first ray: brings all that moves to the time. False when the
 // camera makes no picture or displaced meshes are too coarse for it.

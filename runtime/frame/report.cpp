@@ -116,7 +116,7 @@ void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostic
     if (bad) report_non_finite(bad, imager->shader().name, imager, diagnostics);
 }
 
-void report_shading(const Scene& scene, const ShadingCounters& shading,
+void report_shading(Scene& scene, const ShadingCounters& shading,
                     const raytrace::IntegratorCounters& counters,
                     const raytrace::IntegratorSettings& settings, FrameStats& stats,
                     Diagnostics& diagnostics) {
@@ -126,6 +126,10 @@ void report_shading(const Scene& scene, const ShadingCounters& shading,
     if (shading.out_of_rays)
         diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
                            scene.options.ray_limit);
+    if (shading.dark > shading.seen / 2) {
+        scene.watch_dark = false;
+        diagnostics.report(Code::LIGHTS_DARK, Location{});
+    }
     scene.textures->report(diagnostics);
     stats.trace = counters.trace_ms / thread_count();
     stats.shade = counters.shade_ms / thread_count();

@@ -22,7 +22,7 @@ const std::string& mesh_id(const Scene& scene, const Shape& shape);
 void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostics& diagnostics);
 
 // After all tiles: fills `stats` from the counters and reports limits that were met.
-void report_shading(const Scene& scene, const ShadingCounters& shading,
+void report_shading(Scene& scene, const ShadingCounters& shading,
                     const raytrace::IntegratorCounters& counters,
                     const raytrace::IntegratorSettings& settings, FrameStats& stats,
                     Diagnostics& diagnostics);

@@ -235,7 +235,8 @@ struct Scene {
     std::vector<OutputPlane> outputs;
     // Interiors and exteriors, into looks: ShaderInstance::volume is k + 1.
     std::vector<uint32_t> volumes;
-    std::vector<std::string> added;  // "default camera", "default light": what --list shows
+    std::vector<std::string> added;  // "default camera", "default key light": what --list shows
+    bool watch_dark = false;         // only its own lights shine; LIGHTS_DARK is not told yet
 
     double time = 0, shutter = 0;  // of the last evaluate, seconds
 

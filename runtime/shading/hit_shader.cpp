@@ -2,9 +2,12 @@
 #include "runtime/shading/hit_shader.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <optional>
 
+#include "rsl/model/renderer_services.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 
@@ -70,6 +73,44 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
     memory.arena.release(mark);
 }
 
+namespace {
+
+constexpr float kBlack = 1.5e-4f;  // 0 in an 8-bit picture
+
+float largest(const float* const rows[3], size_t i) {
+    return std::max({rows[0][i], rows[1][i], rows[2][i]});
+}
+
+// Whether light from somewhere arrives at the side of the grid's point i that the ray sees.
+bool is_lit(const Grid& grid, size_t i) {
+    vec3 N = triple(grid.columns.data() + kColN, i);
+    vec3 seen_along = grid.frame.camera_from_accel * triple(grid.hits.dir, grid.points[i]);
+    if (glm::dot(N, seen_along) > 0) N = -N;
+    const jit::RecordSet& set = grid.record_sets[0];
+    for (int32_t r = 0; r < set.count; ++r) {
+        const jit::Record& record = set.records[r];
+        if (jit::bits_of(record.uniforms[rsl::kLightKind]) == rsl::kLightAmbient) continue;
+        if (jit::bits_of(record.columns[rsl::kLightLit][i]) == 0) continue;
+        float facing = glm::dot(N, triple(record.columns + rsl::kLightL, i));
+        if (facing > 0 && largest(record.columns + rsl::kLightCl, i) > kBlack) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+// For LIGHTS_DARK: black points of surfaces that ask for light and get none.
+void HitShader::count_dark(const Grid& grid, const raytrace::ShadeResult& result) const {
+    ShadingCounters& counters = grid.memory.counters;
+    for (size_t i = 0; i < grid.count(); ++i) {
+        uint32_t hit = grid.points[i];
+        if (!(largest(result.Oi, hit) > 0)) continue;
+        counters.seen += 1;
+        bool black = largest(result.Ci, hit) < kBlack;
+        counters.dark += black && grid.look->lowered.uses_lights && !is_lit(grid, i);
+    }
+}
+
 void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
                            const ShaderInstance& look, const RayTag& ray, ThreadMemory& memory,
                            raytrace::ShadeResult& result, const HitOutputs* outputs) {
@@ -98,6 +139,7 @@ void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint3
         uint32_t turns = hits.rays->turns[hits.ray[points[i]]];
         result.passages[points[i]] = {rays.onward, turns + rays.reflects, rays.shot};
     }
+    if (frame_.scene.watch_dark && grid.depth == 0) count_dark(grid, result);
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];

@@ -33,6 +33,7 @@ class HitShader {
     void shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
                     const ShaderInstance& look, const RayTag& ray, ThreadMemory& memory,
                     raytrace::ShadeResult& result, const HitOutputs* outputs);
+    void count_dark(const Grid& grid, const raytrace::ShadeResult& result) const;
 
     const ShadingFrame& frame_;
     KernelRunner& kernels_;

@@ -99,6 +99,10 @@ void Prints::add(const Grid& grid, const jit::ServiceCall& call) {
     }
 }
 
+void Prints::drop() {
+    for (OfThread& thread : threads_) thread = {};
+}
+
 void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
     std::vector<Print> all;
     for (uint32_t look = 0; look < scene.looks.size(); ++look) {

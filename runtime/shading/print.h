@@ -50,6 +50,8 @@ class Prints {
     void add(const Grid& grid, const jit::ServiceCall& call);
     // Shows and forgets all; of each look the first in the order of the picture.
     void flush(const Scene& scene, Diagnostics& diagnostics);
+    // Forgets all.
+    void drop();
 
   private:
     struct Print {

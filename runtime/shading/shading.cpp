@@ -27,6 +27,8 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     too_deep += o.too_deep;
     unlit += o.unlit;
     out_of_rays += o.out_of_rays;
+    seen += o.seen;
+    dark += o.dark;
 }
 
 // Each object is made of those before it. Kernels alone lead back up: they call services.
@@ -127,6 +129,11 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     objects_->kernels.report_faults(diagnostics);
     if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
     return total;
+}
+
+void Shading::drop_frame(Diagnostics& diagnostics) {
+    objects_->prints.drop();
+    objects_->bakes.flush(false, diagnostics);
 }
 
 void Shading::shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) {

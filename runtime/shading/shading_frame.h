@@ -24,6 +24,7 @@ struct ShadingCounters {
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
     uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
     uint64_t out_of_rays = 0;       // points that asked for more rays than they may shoot
+    uint64_t seen = 0, dark = 0;    // hits of the camera that show anything; of those, unlit ones
     void operator+=(const ShadingCounters& o);
 };
 

@@ -103,8 +103,8 @@ class Overrides(ColladaTest):
 
     def test_list_shows_what_was_added_to_a_bare_scene(self):
         bare = self.write("bare.dae", dae.plain(cameras="", eye="", lights="", light_nodes=""))
-        self.expect(render(bare, "--list"), 0, "added: default camera", "added: default light",
-                    "added: default ambient light")
+        self.expect(render(bare, "--list"), 0, "added: default camera", "added: default key light",
+                    "added: default fill light", "added: default rim light")
         result = self.expect(render(self.write("full.dae", dae.plain()), "--list"), 0, "camera eye-node")
         self.assertNotIn("added", result.out)
 

@@ -3,6 +3,7 @@ kinora-convert: attributes, materials, clips, skins, texts; pictures before and 
 import base64
 import copy
 import json
+import math
 import os
 import re
 import shutil
@@ -104,6 +105,27 @@ class GltfConvert(Convert):
         part(less)
         a, b = self.picture(self.save(name, gltf)), self.picture(self.save(name + "-less", less))
         self.assertGreater(self.difference(a, b), 1)
+
+
+class Lights(GltfConvert):
+    def test_blenders_watts_become_candela_and_lux(self):
+        rows = [("<point><color>1000 500 0</color><quadratic_attenuation>0.0016</quadratic_attenuation></point>",
+                 "point", 1000 / (4 * math.pi) * 0.5 ** 2), ("<directional><color>2 1 0</color></directional>",
+                                                          "directional", 2)]
+        for kind, type_, intensity in rows:
+            lights = (f"<library_lights><light id='l'><technique_common>{kind}</technique_common></light></library_lights>"
+                      "<library_nodes><node id='lamp'><translate>1 2 3</translate><instance_light url='#l'/></node>"
+                      "</library_nodes>")
+            asset = ("<asset><contributor><authoring_tool>Blender 3.4.1 commit date:2022-12-19</authoring_tool>"
+                     '</contributor><unit meter="0.5"/></asset>')
+            text = mesh_scene(lights, asset=asset).replace(
+                '<visual_scene id="vs">', '<visual_scene id="vs"><node><instance_node url="#lamp"/></node>')
+            scene = self.write(f"{type_}.dae", text)
+            self.assertIn("LIGHT_WATTS", render(scene, "-o", self.folder / "a.png", *PICTURE).err)
+            _, out = self.stays(scene)
+            light = glb_json(out)["extensions"]["KHR_lights_punctual"]["lights"][0]
+            self.assertEqual(light["type"], type_)
+            self.assertAlmostEqual(light["intensity"], intensity, 4)
 
 
 class Attributes(GltfConvert):

@@ -130,13 +130,25 @@ class Changes(ProgramTest):
         return [row["name"] for row in json.loads(self.expect(listed, 0).out)["lights"]]
 
     def test_lights_are_the_scenes_the_default_ones_or_both(self):
-        default = ["default light", "default ambient light"]
+        default = ["default key light", "default fill light", "default rim light"]
         self.assertEqual(self.lights(), ["lamp"])
         self.assertEqual(self.lights("--lights", "scene"), ["lamp"])
         self.assertEqual(self.lights("--lights", "default"), default)
         self.assertEqual(self.lights("--lights", "both"), ["lamp", *default])
         self.assertEqual(self.lights("--hide", "sun"), default)
         self.assertEqual(self.lights("--hide", "sun", "--lights", "scene"), [])
+
+    def test_exposure_makes_brighter_and_darker_what_is_there(self):
+        dim = ("--param", "grey.1.Kd=0.2", "--param", "The red.emission=0.2,0,0")
+        for words, level in (((), 51), (("--exposure", "1"), 102), (("--exposure", "-1"), 26),
+                             (("--exposure=+0.5",), 72), (("--exposure", "auto"), 155)):
+            with self.subTest(words=words):  # auto: 0.2 becomes 0.6, to a tenth of a stop
+                self.assertEqual(self.sides(*dim, *words), ((level, 0, 0), (level,) * 3))
+        self.assertEqual(self.sides("--exposure", "3", "--hide", "left")[0], None)  # the background
+        out = ("-o", self.folder / "b.png", *SMALL)
+        self.expect(render(self.scene, *out, "--exposure", "auto", "-v"), 0, "EXPOSURE_AUTO")
+        for wrong in ("bright", "1,2", "nan", "1e9"):
+            self.expect(render(self.scene, *out, f"--exposure={wrong}"), 2, "--exposure")
 
     def test_the_size_is_scaled(self):
         for words, size in ((("--scale", "50%"), (16, 8)), (("--scale=0.25",), (8, 4)),
@@ -153,7 +165,7 @@ class Changes(ProgramTest):
         def skipped(*more):
             stats = json.loads(self.expect(render(self.scene, *words, *more), 0).out)
             return stats["frames"][0].get("skipped", False)
-        for more in ((), ("--param", "grey.1.Kd=1"), ("--hide", "left"), ("--only", "left"),
+        for more in ((), ("--exposure", "1"), ("--exposure", "auto"), ("--param", "grey.1.Kd=1"), ("--hide", "left"), ("--only", "left"),
                      ("--lights", "both")):
             self.assertFalse(skipped(*more))
             self.assertTrue(skipped(*more))
@@ -236,7 +248,7 @@ class Lists(Changes):
                 self.picture("--param", f"{name}={value}")
 
     def test_what_was_added_is_described(self):
-        added = self.expect(render(MATTE, "--list", "cameras"), 0, "yfov 37", "left shoulder", "0.15").out
+        added = self.expect(render(MATTE, "--list", "cameras"), 0, "yfov 37", "left shoulder", "no highlights").out
         self.assertIn("default camera", added)
         self.assertEqual(json.loads(render(self.scene, "--list", "--json").out)["added"], [])
 

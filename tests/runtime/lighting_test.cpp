@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
 
 #include "expect_colors.h"
+#include "runtime/images/image_io.h"
 
 namespace kinora {
 namespace {
@@ -276,6 +280,66 @@ TEST(Shadows, OfASurfaceDoNotFallOnItself) {
     scene.light("sun", kSun, turned("1 0 0", 89.5));
     double want = std::cos(radians(89.5));
     expect_colors(Rendering(scene.text()).frame(64, 64), [&](dvec2) { return dvec3(want); });
+}
+
+// ---- ambient light on textures
+
+// An image beside the scenes of tests, 51 102 204 everywhere; removed with the object.
+struct BlueImage {
+    std::string name = "kinora_lighting_test_" + std::to_string(getpid()) + ".png";
+    std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+    BlueImage() {
+        Image8 image{4, 4, {}};
+        for (int k = 0; k < 16; ++k) image.rgba.insert(image.rgba.end(), {51, 102, 204, 255});
+        EXPECT_EQ(write_png(path.string(), image, {}), "");
+    }
+    ~BlueImage() { std::filesystem::remove(path); }
+};
+
+// A square in a fixed-function material under ambient light of 1, in the numbers of the file.
+vec3 under_ambient_light(const char* model, const std::string& slots) {
+    BlueImage image;
+    SceneText scene;
+    scene.images = "<image id=\"blue\"><init_from>" + image.name + "</init_from></image>";
+    scene.effects = fmt::format(
+        "<effect id=\"l-fx\"><profile_COMMON>"
+        "<newparam sid=\"blue-surface\"><surface type=\"2D\"><init_from>blue</init_from></surface>"
+        "</newparam><newparam sid=\"blue-sampler\"><sampler2D><source>blue-surface</source>"
+        "</sampler2D></newparam><technique sid=\"t\"><{0}>{1}</{0}></technique></profile_COMMON>"
+        "</effect>",
+        model, slots);
+    scene.materials = "<material id=\"l\"><instance_effect url=\"#l-fx\"/></material>";
+    scene.square("wall", 2)
+        .place("wall", "l")
+        .light("sky", "<ambient><color>1 1 1</color></ambient>")
+        .light("away", kSun, turned("1 0 0", 180));
+    SceneOptions legacy;
+    legacy.decode_textures = false;
+    Rendering r(scene.text(), legacy);
+    vec3 seen = r.frame().color(8, 8);
+    EXPECT_EQ(r.count("IMAGE_UNREADABLE"), 0) << r.findings();
+    return seen;
+}
+
+TEST(AmbientLight, IsColouredByTheTextureOfDiffuse) {
+    const std::string texture = "<texture texture=\"blue-sampler\" texcoord=\"UV\"/>";
+    const std::string half = "<color>0.5 0.5 1 1</color>";
+    auto slots = [](const std::string& ambient, const std::string& diffuse) {
+        return "<ambient>" + ambient + "</ambient><diffuse>" + diffuse + "</diffuse>";
+    };
+    struct {
+        std::string ambient, diffuse;
+        dvec3 want;
+    } rows[] = {{half, texture, {0.1, 0.2, 0.8}},     // locked: the texture's color
+                {texture, texture, {0.2, 0.4, 0.8}},  // its own texture is not applied twice
+                {texture, half, {0.2, 0.4, 0.8}},
+                {half, half, {0.5, 0.5, 1}}};  // colors are two things
+    for (const char* model : {"lambert", "phong", "blinn"})
+        for (const auto& row : rows) {
+            vec3 seen = under_ambient_light(model, slots(row.ambient, row.diffuse));
+            for (int k = 0; k < 3; ++k)
+                EXPECT_NEAR(seen[k], row.want[k], 1e-3) << model << row.ambient << row.diffuse;
+        }
 }
 
 // ---- transparency

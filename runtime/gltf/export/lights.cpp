@@ -45,6 +45,22 @@ Json collada_cone(const UsedParams& p) {
     return {{"innerConeAngle", hard ? half * (1 - 1e-6) : 0.0}, {"outerConeAngle", half}};
 }
 
+// A light that is shown as Blender does (runtime/build/light_watts.h), which glTF's can say: P
+// watts are P / (4 pi) candela of 1 / d^2, and a sun's number is lux.
+PunctualLight blender_light(const UsedParams& p, double meter) {
+    dvec3 color = p.color("lightcolor", 1);
+    double most = std::max({color.x, color.y, color.z, 0.0});
+    bool spot = is_library_shader(p.use, "collada_spot");
+    bool sun = is_library_shader(p.use, "collada_directional");
+    PunctualLight light = punctual(sun    ? "directional"
+                                   : spot ? "spot"
+                                          : "point",
+                                   sun ? most : most / (4 * kPi) * meter * meter, color, most);
+    if (spot) light.json["spot"] = collada_cone(p);
+    light.more = false;
+    return light;
+}
+
 // A light of this shader that stands `meters` from where it is to be right.
 PunctualLight punctual_light(const UsedParams& p, double meters, double meter) {
     auto is = [&](const char* shader) { return is_library_shader(p.use, shader); };
@@ -98,7 +114,10 @@ uint32_t LightWriter::write_new(const LightDefinition& l, const dmat4& world) {
     const ShaderUse& use = l.shader;
     std::string name = fmt::format("light '{}'", l.id);
     double meters = glm::length(dvec3((axes_ * world)[3]) - bounds_.center);
-    PunctualLight light = punctual_light({use, description_.values}, meters, description_.meter);
+    UsedParams params{use, description_.values};
+    bool blender = l.blender_watts && !is_library_shader(use, "collada_ambient");
+    PunctualLight light = blender ? blender_light(params, description_.meter)
+                                  : punctual_light(params, meters, description_.meter);
     Json& result = light.json;
     if (!l.id.empty()) result["name"] = l.id;
     if ((light.more || l.shadows) && use.shader) {

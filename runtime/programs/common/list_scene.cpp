@@ -281,8 +281,9 @@ constexpr Added kAdded[] = {
     {"default camera",
      "frames all over the range played; yfov 37 from (1, 0.6, 1) as the up axis has right, up and "
      "back, if --camera and --look-from do not say otherwise"},
-    {"default light", "white, distant, from over the camera's left shoulder; --lights scene: none"},
-    {"default ambient light", "0.15"},
+    {"default key light", "0.85, from over the camera's left shoulder; --lights scene: none"},
+    {"default fill light", "0.22, wide, from the camera's right; no shadows, no highlights"},
+    {"default rim light", "0.35, from behind, above; no shadows, no highlights"},
 };
 
 std::string_view meaning_of(std::string_view added) {

@@ -69,6 +69,7 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
         o.quality.diffuse_depth, o.filter, o.filter_width, o.seed, int(o.shadows), int(o.nan),
         int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0),
         int(o.quality.displacement), o.quality.dice, o.dice_limit, time);
+    text += fmt::format(" exposure {} {}", o.auto_exposure, o.exposure);
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);

@@ -11,6 +11,7 @@
 #include "runtime/build/build_scene.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/play_range.h"
+#include "runtime/frame/exposure.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/redice.h"
 #include "runtime/load/import_scene.h"
@@ -89,6 +90,7 @@ class Render {
     bool keep_existing(const std::string& file, const std::string& print);
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
+    void expose();
     SceneOptions scene_options() const;
     int scaled(double pixels) const {
         return int(std::clamp(std::round(pixels * options_.scale), 1.0, 65536.0));
@@ -298,7 +300,6 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     }
     if (wants_file)
         if (int code = refuse_unwritable(record.file)) return code;
-    settings_.stop = &g_signal;
     settings_.integrator.seed = options_.seed * 0x9e3779b9u + uint32_t(frame);
     auto on_tile = [&](int done, int total) {
         progress_.tile(frame, index, done, total);
@@ -352,6 +353,16 @@ bool Render::picture(FrameRecord& record, double time, const raytrace::Progress&
     return closer && !record.stats.too_coarse ? whole : render(*scene_, 0);
 }
 
+void Render::expose() {
+    double stops = options_.exposure;
+    settings_.stop = &g_signal;
+    if (options_.auto_exposure) {
+        stops = auto_exposure(*scene_, settings_, diagnostics_);
+        diagnostics_.report(Code::EXPOSURE_AUTO, Location{}, stops);
+    }
+    settings_.gain = std::exp2(stops);
+}
+
 // From here on a signal lets go of the frame under way; before, it just ends the process.
 void catch_signals() {
     struct sigaction action {};
@@ -379,6 +390,7 @@ int Render::frames() {
         if (int code = refuse_unwritable(options_.contact_sheet)) return code;
     if (!options_.output.empty()) remove_stale_images(options_.output);
     scene_hash_ = hash_inputs(diagnostics_.files, *scene_->description);
+    expose();
     progress_ = ProgressReport(options_.progress, list->size());
     int result = kExitOk;
     for (size_t i = 0; i < list->size(); ++i) {

@@ -75,6 +75,19 @@ std::vector<std::string_view> words_of_views() {
     return words;
 }
 
+// "-1.5" or "auto".
+void parse_exposure(const std::string& text, RenderOptions& o) {
+    constexpr double kMostStops = 60;
+    o.auto_exposure = text == "auto";
+    if (o.auto_exposure) return;
+    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* last = text.data() + text.size();
+    auto [end, error] = std::from_chars(first, last, o.exposure);
+    if (error != std::errc() || end != last || !(std::abs(o.exposure) <= kMostStops))
+        throw CLI::ValidationError("--exposure",
+                                   "takes stops (1.5, -2) or auto, not '" + text + "'");
+}
+
 std::vector<std::string_view> quality_names() {
     std::vector<std::string_view> names;
     for (const Quality& row : qualities()) names.push_back(row.name);
@@ -83,7 +96,7 @@ std::vector<std::string_view> quality_names() {
 
 // As they stand on the command line, where they are not yet what RenderOptions holds.
 struct Given {
-    std::string frames, fps, size, scale, look_from, threads = "all", target, background;
+    std::string frames, fps, size, scale, look_from, threads = "all", target, background, exposure;
     std::string quality{kDefaultQuality};
     std::optional<int> spp, rays, bounces, split;
     std::optional<jit::math::Tier> math;
@@ -185,6 +198,8 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
                          "scene, default, both or auto (the scene's; default where it has none)");
     app.add_option("--light-samples", o.light_samples, "of each area light (the file's, else 16)")
         ->check(CLI::Range(1, 4096));
+    app.add_option("--exposure", given.exposure,
+                   "stops brighter (1 doubles) or darker, or auto: by the scene's whole range (0)");
     app.add_option("--background", given.background, "R,G,B instead of transparent");
     add_choice<raytrace::NanPolicy>(app, "--nan", o.nan,
                                     {{"zero", raytrace::NanPolicy::Zero},
@@ -326,6 +341,7 @@ void interpret(const Given& given, RenderOptions& o) {
         throw CLI::ValidationError("--fps", "takes a positive number or a fraction");
     if (!given.size.empty()) parse_size(given.size, o);
     if (!given.scale.empty()) o.scale = parse_scale(given.scale);
+    if (!given.exposure.empty()) parse_exposure(given.exposure, o);
     if (!given.background.empty()) o.background = parse_color(given.background);
     o.threads = parse_threads(given.threads);
     if (o.time)

@@ -44,6 +44,8 @@ struct RenderOptions {
     uint32_t seed = 0;
     ShadowMode shadows = ShadowMode::Auto;
     LightSet lights = LightSet::Auto;
+    double exposure = 0;  // stops
+    bool auto_exposure = false;
     std::optional<vec3> background;
     raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
     ColorEncoding color = ColorEncoding::Srgb;
