@@ -170,8 +170,8 @@ bool Parser::name_is_macro() {
         name.kind == TokenKind::Identifier)
         return false;
     std::string_view macro = ast_.tokens.macros[name.macro].name;
-    Finding* finding = errors_.error(Code::RSL_SYNTAX, name, "a function name",
-                                     fmt::format("'{}'", name.text));
+    Finding* finding =
+        errors_.error(Code::RSL_SYNTAX, name, "a function name", fmt::format("'{}'", name.text));
     if (finding)
         finding->help = fmt::format(
             "the function's name is a macro: '#undef {}' before it, or another name", macro);

@@ -11,7 +11,8 @@ namespace kinora {
 struct Scene;
 
 // Whose "object" and "shader" space is meant: a scene node's (kNone: the world's). That of a light
-// on it is RenderMan's: x right, y up, z where the light looks, which is the node's with z mirrored.
+// on it is RenderMan's: x right, y up, z where the light looks, which is the node's with z
+// mirrored.
 struct SpaceOwner {
     uint32_t node;
     bool light = false;

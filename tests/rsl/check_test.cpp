@@ -41,8 +41,8 @@ void expect_findings(const TestSource& source, const std::vector<Expected>& expe
     EXPECT_EQ(findings.size(), expected.size()) << source.messages();
     if (findings.size() != expected.size()) return;
     for (size_t i = 0; i < findings.size(); ++i) {
-        LineColumn at = source.diagnostics.files.line_column(findings[i].where.file,
-                                                             findings[i].where.begin);
+        LineColumn at =
+            source.diagnostics.files.line_column(findings[i].where.file, findings[i].where.begin);
         EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].position);
         EXPECT_EQ(severity_name(findings[i].severity), expected[i].severity);
         EXPECT_EQ(findings[i].info->code, expected[i].code);

@@ -151,8 +151,7 @@ TEST(LowerExpression, HintsAtCoordinateSystemsThatLookMisspelt) {
     auto help = [](const std::string& name) {
         RunShader shader("surface t() { Ci = color(xcomp(transform(\"" + name + "\", P))); }");
         EXPECT_TRUE(shader.ok());
-        return shader.diagnostics.findings().empty() ? ""
-                                                     : shader.diagnostics.findings()[0].help;
+        return shader.diagnostics.findings().empty() ? "" : shader.diagnostics.findings()[0].help;
     };
     EXPECT_EQ(help("shadr"), "did you mean 'shader'?");
     EXPECT_EQ(help("wrold"), "did you mean 'world'?");
