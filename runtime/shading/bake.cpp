@@ -7,11 +7,11 @@
 #include <glm/matrix.hpp>
 #include <tuple>
 
+#include "raytrace/hits.h"
 #include "rsl/model/renderer_services.h"
 #include "runtime/description/findings.h"
 #include "runtime/images/point_store.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "raytrace/hits.h"
 #include "runtime/description/affine_map.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
-#include "runtime/shading/hits_p.h"
 #include "runtime/shading/kernels/point_source.h"
 
 namespace kinora {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "raytrace/hits.h"
 #include "rsl/model/renderer_services.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 

@@ -6,8 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
+#include "raytrace/hits.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 

@@ -7,11 +7,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "raytrace/hits.h"
 #include "raytrace/sampling.h"
 #include "rsl/model/renderer_services.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/hit_shader.h"
-#include "runtime/shading/hits_p.h"
 #include "runtime/shading/transmission.h"
 
 namespace kinora {

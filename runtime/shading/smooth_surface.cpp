@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "raytrace/hits.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/hits_p.h"
 #include "runtime/shading/nested_rays.h"
 
 namespace kinora {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "raytrace/hits.h"
 #include "raytrace/sampling.h"
 #include "runtime/images/texture.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/hits_p.h"
 #include "runtime/shading/nested_rays.h"
 #include "runtime/shading/ray_services.h"
 #include "runtime/shading/transmission.h"

@@ -14,9 +14,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "raytrace/hits.h"
 #include "runtime/scene/medium.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/hits_p.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/shading/hits_p.h: reading hits and writing rays; for the files of this room.
+// raytrace/hits.h: reading hits and writing rays, one at a time.
 #pragma once
 
 #include <algorithm>
