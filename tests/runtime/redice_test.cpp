@@ -52,6 +52,7 @@ SceneOptions options_of(double dice = 2) {
     options.start_time = 0;
     options.end_time = 1;
     options.accel.background = false;
+    options.camera = "#";  // the file's, although loading sees little of a strip by it
     return options;
 }
 
