@@ -22,7 +22,7 @@ struct ColladaExport {
 //
 // Nodes keep their stacks; a quaternion becomes a <matrix>, whose LINEAR keys turn as glTF's do.
 // Curves become LINEAR, STEP or BEZIER with the same values at all times. COLLADA's own shading
-// models and lights are written as such. glTF's become the nearest of them (common_of_gltf.h). RSL
+// models and lights are written as such. glTF's become the nearest of them (nearest_common.h). RSL
 // is written as profile_RSL with its code, beside a profile_COMMON that comes near. Colours of
 // light are encoded as display colours. What cannot be said gives CONVERT_LOST.
 ColladaExport export_collada(const SceneDescription& description, const std::string& path,

@@ -9,8 +9,8 @@
 #include <iterator>
 
 #include "collada/document/edit.h"
-#include "runtime/dae/common_of_gltf.h"
 #include "runtime/dae/export_p.h"
+#include "runtime/dae/nearest_common.h"
 #include "runtime/description/display_color.h"
 #include "runtime/description/shader_library.h"
 
@@ -315,13 +315,13 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
         params + xml("technique", attribute("sid", "rsl"), codes + xml("pass", "", shaders)));
 }
 
-// Whether it is more than one of COLLADA's or glTF's own surfaces: only RSL says the others.
+// Whether it is more than one of COLLADA's or glTF's own surfaces: only RSL says that.
 bool ColladaExporter::is_rsl(const MaterialDefinition& m) const {
     size_t others = m.transformations.size() + m.displacements.size() + m.interior.size() +
                     m.exterior.size() + m.lights.size();
     if (others + m.surfaces.size() != 1 || m.surfaces.empty())
         return others + m.surfaces.size() > 0;
-    if (is_gltf_surface(m.surfaces[0])) return false;
+    if (has_nearest_common(m.surfaces[0])) return false;
     return std::none_of(std::begin(kModels), std::end(kModels),
                         [&](const ModelRow& row) { return is_library(m.surfaces[0], row.shader); });
 }
@@ -348,8 +348,8 @@ std::string ColladaExporter::effect(uint32_t index) {
         for (const ShaderUse& use : *list) uses.push_back(&use);
     const ShaderUse* top = m.surfaces.empty() ? nullptr : &m.surfaces.back();
     ShaderUse seen = top ? *top : ShaderUse{};
-    if (top && is_gltf_surface(*top)) {
-        CommonSurface nearest = common_of_gltf(*top, description_, more_values_);
+    if (top && has_nearest_common(*top)) {
+        CommonSurface nearest = nearest_common(*top, description_, more_values_);
         for (const std::string& what : nearest.lost)
             if (!is_rsl(m)) lost(fmt::format("material '{}'", m.id), what);
         if (!is_rsl(m) && has_vertex_colors(index))

@@ -532,7 +532,8 @@ class ToGlb(Convert):
         scene = self.folder / "wall.gltf"
         scene.write_text(json.dumps(tree))
         plain = self.picture(scene)
-        self.assertLess(self.difference(plain, self.picture(self.converted(scene, "wall.dae"))), LIKE)
+        # <blinn> comes near glTF's material: its diffuse light is not less by what is reflected (4 %).
+        self.assertLess(self.difference(plain, self.picture(self.converted(scene, "wall.dae"))), 1.5 * LIKE)
         for part in ("normalTexture", "targets"):  # they are seen in the picture
             owner = tree["materials"][0] if part == "normalTexture" else tree["meshes"][0]["primitives"][0]
             kept = owner.pop(part)
@@ -540,7 +541,8 @@ class ToGlb(Convert):
             self.assertGreater(self.difference(plain, self.picture(self.folder / "without.gltf")), 3 * LIKE)
             owner[part] = kept
         text = (self.folder / "wall.dae").read_text()
-        self.assertIn("?data", text)
+        self.assertIn('bumptype="NORMALMAP"', text)
+        self.assertNotIn("profile_RSL", text)
         self.assertNotIn('triangles count="0"', text)
 
     def test_an_archive_brings_its_files(self):

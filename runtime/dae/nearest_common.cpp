@@ -1,5 +1,5 @@
-// runtime/dae/common_of_gltf.cpp: base colour, metal and roughness as diffuse, specular, shininess.
-#include "runtime/dae/common_of_gltf.h"
+// runtime/dae/nearest_common.cpp: base colour, metal and roughness as diffuse, specular, shininess.
+#include "runtime/dae/nearest_common.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +23,18 @@ class GltfToCommon {
 
     CommonSurface run() {
         bool unlit = from_.shader->name == "gltf_unlit";
+        bool none = from_.shader->name == "default_surface";
         Diagnostics quiet;
-        to_.use.shader = library_shader(unlit ? "collada_constant" : "collada_blinn", quiet);
+        to_.use.shader = library_shader(unlit  ? "collada_constant"
+                                        : none ? "collada_lambert"
+                                               : "collada_blinn",
+                                        quiet);
         to_.use.linear_inputs = true;
         if (unlit)
             light("emission", "base_color", color("base_color", 1));
+        else if (none)
+            for (const char* slot : {"ambient_color", "diffuse"})
+                set(slot, color("diffuse_color", 0.8));
         else
             shade();
         opacity();
@@ -151,17 +158,17 @@ class GltfToCommon {
 
 }  // namespace
 
-bool is_gltf_surface(const ShaderUse& surface) {
+bool has_nearest_common(const ShaderUse& surface) {
     if (!surface.shader) return false;
     Diagnostics quiet;
-    for (const char* name : {"gltf_pbr", "gltf_unlit"})
+    for (const char* name : {"gltf_pbr", "gltf_unlit", "default_surface"})
         if (surface.shader->name == name &&
             library_shader(name, quiet).get() == surface.shader.get())
             return true;
     return false;
 }
 
-CommonSurface common_of_gltf(const ShaderUse& surface, const SceneDescription& description,
+CommonSurface nearest_common(const ShaderUse& surface, const SceneDescription& description,
                              std::vector<double>& numbers) {
     return GltfToCommon(surface, description, numbers).run();
 }
