@@ -190,6 +190,9 @@ void place_skeletons(Extraction& x) {
         node.cameras.clear();
         std::erase_if(node.instances, [&](const NodeInstance& i) { return reached[i.node]; });
     }
+    std::erase_if(x.pending_bindings, [&](const PendingBinding& bind) {
+        return posing[bind.node] && !reached[bind.node];
+    });
     check_node_graph(x);
 }
 

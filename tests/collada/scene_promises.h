@@ -55,6 +55,9 @@ inline std::string broken_promise(const SceneData& s) {
         if (!(broken = broken_geometry(g)).empty()) return broken;
     for (const Morph& m : s.morphs) {
         PROMISE(m.weights.size() == m.targets.size());
+        PROMISE(m.base == kNone || &s.morphs[m.base] < &m);
+        PROMISE(m.base == kNone || s.morphs[m.base].geometry == m.geometry);
+        PROMISE(is_index(m.skin, s.skins.size()));
         for (uint32_t t : m.targets)
             PROMISE(t < s.geometries.size() &&
                     s.geometries[t].positions.size() == s.geometries[m.geometry].positions.size());
