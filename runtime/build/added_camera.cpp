@@ -245,17 +245,20 @@ double AddedCamera::covered(const Stand& stand) {
 Stand AddedCamera::frame(Diagnostics& diagnostics) {
     dvec3 sideways = view_.right * frame_.right,
           rest = view_.up * frame_.up + view_.back * frame_.back;
-    Stand first = frame(sideways + rest, false);
-    bool free = view_.word == "auto" && at_node_ == kNone && !options_.at;
-    if (!free || covered(first) >= kLittle) return first;
-    for (bool core_only : {false, true})
-        for (double side : {1.0, -1.0}) {
-            Stand other = frame(side * sideways + rest, core_only);
-            if (covered(other) < kLittle) continue;
-            if (core_only) diagnostics.report(Code::SCENE_STRAY, Location{});
-            return other;
-        }
-    return first;
+    Stand best = frame(sideways + rest, false);
+    if (view_.word != "auto" || at_node_ != kNone || options_.at) return best;
+    double most = covered(best);
+    for (auto [side, core_only] : {std::pair(-1, false), {1, true}, {-1, true}}) {
+        if (most >= kLittle) break;
+        Stand other = frame(double(side) * sideways + rest, core_only);
+        double share = covered(other);
+        // Nothing is left out for less than a picture.
+        if (share <= most || (core_only && share < kLittle)) continue;
+        if (core_only) diagnostics.report(Code::SCENE_STRAY, Location{});
+        best = other;
+        most = share;
+    }
+    return best;
 }
 
 uint32_t AddedCamera::append(std::initializer_list<double> numbers) {

@@ -362,6 +362,17 @@ TEST(Cameras, AutoLooksAgainWhereAllIsSeenEdgeOn) {
     EXPECT_GT(Box(Rendering(scene.text()).frame(64, 36).film).pixels, 300);
 }
 
+TEST(Cameras, AutoShowsALongThinThingFromItsSide) {
+    // Along (1, 0.6, 1); from (-1, 0.6, 1) it is a line, which is under 3 %, too.
+    SceneText scene = bare_scene();
+    scene.nodes.clear();
+    scene.cube("box").place("box", "l",
+                            "<rotate>0 1 0 45</rotate><rotate>1 0 0 -23</rotate>"
+                            "<scale>1 1 200</scale>");
+    Box box(Rendering(scene.text()).frame(160, 90).film);
+    EXPECT_GT(std::max(box.right - box.left, box.top - box.bottom), 1.5);
+}
+
 TEST(Cameras, AutoLeavesStrayVerticesOut) {
     std::vector<dvec3> points;
     std::vector<int> triangles;
