@@ -35,7 +35,7 @@ struct LightNumbers {
 };
 
 // The light at a point: the direction it comes from and how bright it makes what faces it, by its
-// largest component, which is the same before and after the decoding of colors.
+// largest component, which is linear above 1 whether colors are decoded or not.
 struct Arriving {
     dvec3 from{0.0};
     double strength = 0;
