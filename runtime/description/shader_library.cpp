@@ -41,6 +41,12 @@ std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnos
     return nullptr;
 }
 
+std::string_view library_shader_text(std::string_view name) {
+    for (size_t i = 0; i < kEmbeddedShadersCount; ++i)
+        if (name == kEmbeddedShaders[i].name) return kEmbeddedShaders[i].text;
+    return {};
+}
+
 const std::vector<std::string_view>& library_shader_names() {
     static const std::vector<std::string_view> names = [] {
         std::vector<std::string_view> all;

@@ -15,6 +15,9 @@ namespace kinora {
 // in the library gives null; an error in a library shader is a bug (CHECK).
 std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics& diagnostics);
 
+// Its text as in assets/shaders; "" for a name that is not in the library.
+std::string_view library_shader_text(std::string_view name);
+
 // All names, sorted.
 const std::vector<std::string_view>& library_shader_names();
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "runtime/description/findings.h"
-#include "runtime/description/shader_library.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/profile_rsl/effect_shaders.h"
 
@@ -17,10 +16,6 @@ namespace {
 using rsl::ShaderKind;
 using Kinds = std::initializer_list<ShaderKind>;
 using SharedShader = std::shared_ptr<const rsl::Shader>;
-
-bool is_file(const std::string& shader) {
-    return shader.find_first_of("./") != std::string::npos;
-}
 
 std::string names_of(Kinds kinds) {
     std::string names;
@@ -47,15 +42,8 @@ SharedShader first_of_file(SceneDescription& description, const ShaderGiven& giv
 }
 
 SharedShader ours(const ShaderGiven& given, Kinds kinds, Diagnostics& diagnostics) {
-    SharedShader shader = library_shader(given.shader, diagnostics);
-    if (!shader) {
-        std::string_view near = nearest_name(given.shader, library_shader_names());
-        diagnostics.report(Code::SHADER_UNKNOWN, Location{}, given.shader).help =
-            near.empty() ? "kinora-render SCENE --list shaders shows the names of ours; a file's "
-                           "name ends in .sl"
-                         : fmt::format("did you mean '{}'?", near);
-        return nullptr;
-    }
+    SharedShader shader = named_shader(given.shader, diagnostics);
+    if (!shader) return nullptr;
     if (std::find(kinds.begin(), kinds.end(), shader->kind) != kinds.end()) return shader;
     diagnostics.report(Code::SHADER_OF_OTHER_KIND, Location{}, given.shader, names_of(kinds));
     return nullptr;
@@ -63,8 +51,8 @@ SharedShader ours(const ShaderGiven& given, Kinds kinds, Diagnostics& diagnostic
 
 SharedShader find_given(SceneDescription& description, const ShaderGiven& given, Kinds kinds,
                         Diagnostics& diagnostics) {
-    return is_file(given.shader) ? first_of_file(description, given, kinds, diagnostics)
-                                 : ours(given, kinds, diagnostics);
+    return names_shader_file(given.shader) ? first_of_file(description, given, kinds, diagnostics)
+                                           : ours(given, kinds, diagnostics);
 }
 
 // The shader with what `old` has for parameters of the same name.
@@ -132,6 +120,21 @@ bool override_picture(SceneDescription& description, const ShaderGiven& given, S
 }
 
 }  // namespace
+
+bool names_shader_file(std::string_view shader) {
+    return shader.find_first_of("./") != shader.npos;
+}
+
+std::shared_ptr<const rsl::Shader> named_shader(const std::string& name, Diagnostics& diagnostics) {
+    SharedShader shader = library_shader(name, diagnostics);
+    if (shader) return shader;
+    std::string_view near = nearest_name(name, library_shader_names());
+    diagnostics.report(Code::SHADER_UNKNOWN, Location{}, name).help =
+        near.empty() ? "kinora-render SCENE --list shaders shows the names of ours; a file's "
+                       "name ends in .sl"
+                     : fmt::format("did you mean '{}'?", near);
+    return nullptr;
+}
 
 bool override_shader(SceneDescription& description, const std::string& pattern,
                      const ShaderGiven& given, Diagnostics& diagnostics) {

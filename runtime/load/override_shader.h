@@ -3,13 +3,22 @@
 // (library_shader_names()).
 #pragma once
 
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
+#include "runtime/description/shader_library.h"
 
 namespace kinora {
+
+// A shader given as FILE.sl, not as the name of one of ours.
+bool names_shader_file(std::string_view shader);
+
+// The shader of ours with that name; null after SHADER_UNKNOWN.
+std::shared_ptr<const rsl::Shader> named_shader(const std::string& name, Diagnostics& diagnostics);
 
 // What all of these take besides the scene.
 struct ShaderGiven {

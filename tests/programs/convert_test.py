@@ -246,6 +246,85 @@ class ToDae(Convert):
         self.assertLess(self.difference(self.picture(out),
                                         self.picture(scene, "--shader", f"bright={shader}")), SAME)
 
+    def test_shaders_of_one_material_add_stages(self):
+        surface = self.write("a.sl", "#define TINT color(0, 0.8, 0.1)\nsurface red_rock() { Ci = TINT; Oi = 1; }\n")
+        bumps = self.write("b.sl", "#define TINT 0.3\ndisplacement bulge(float depth = TINT;) "
+                                   "{ P += depth * normalize(N); N = calculatenormal(P); }\n")
+        scene = SCENES / "matte.dae"
+        both = ("--shader", f"bright={surface}", "--shader", f"bright={bumps}")
+        shown = self.picture(scene, *both)
+        self.assertGreater(self.difference(shown, self.picture(scene, *both[:2])), 1)
+        for words in (both, both[2:] + both[:2]):
+            out = self.converted(scene, "both.dae", *words)
+            text = out.read_text()
+            for stage in ("SURFACE", "DISPLACEMENT"):
+                self.assertEqual(len(re.findall(f'stage="{stage}"', re.search(
+                    r"(?s)<effect[^>]*-rsl\".*?</effect>", text).group())), 1)
+            self.assertEqual(self.picture(out), shown)
+        self.assertLess(self.difference(self.picture(self.converted(scene, "both.glb", *both)), shown), LIKE)
+        # One at a time: what a document has stays as well.
+        one = self.converted(scene, "one.dae", *both[:2])
+        self.assertEqual(self.picture(self.converted(one, "two.dae", *both[2:])), shown)
+
+    def test_a_stage_given_twice_is_replaced_with_a_finding(self):
+        first = self.write("a.sl", "surface rock() { Ci = color(1, 0, 0); Oi = 1; }")
+        bumps = self.write("d.sl", "displacement bulge() { P += 0.3 * normalize(N); N = calculatenormal(P); }")
+        second = self.write("b.sl", "surface rock() { Ci = color(0, 1, 0); Oi = 1; }")  # of the same name
+        scene = self.write("scene.dae", mesh_scene())
+        words = [word for name in (first, bumps, second) for word in ("--shader", f"red={name}")]
+        shown = self.picture(scene, *words[2:])
+        for name in ("out.dae", "out.glb"):
+            result = convert(scene, self.folder / name, *words)
+            self.expect(result, 0, "CONVERT_STAGE_TWICE", "'red'", "surface", "a.sl", "b.sl")
+            self.assertEqual(result.err.count("CONVERT_STAGE_TWICE"), 1)
+            self.assertLess(self.difference(self.picture(self.folder / name), shown), SAME)
+        self.assertNotIn("color(1, 0, 0)", (self.folder / "out.dae").read_text())
+        self.assertNotIn("CONVERT_STAGE_TWICE", str(convert(scene, self.folder / "c.dae", *words[2:])))
+
+    def test_codes_that_contradict_each_other_are_told(self):
+        first = self.write("a.sl", "float f() { return 1; }\nsurface s() { Ci = f(); Oi = 1; }")
+        second = self.write("b.sl", "float f() { return 2; }\ndisplacement d() { P += f() * N; }")
+        scene = self.write("scene.dae", mesh_scene())
+        self.expect(convert(scene, self.folder / "o.dae", "--shader", f"red={first}", "--shader", f"red={second}"),
+                    4, "CONVERT_SHADER", "b.sl", "different names")
+        self.write("b.sl", "float f() { return\n1; }\ndisplacement d() { P += f() * N; }")  # the same function
+        self.converted(scene, "o.dae", "--shader", f"red={first}", "--shader", f"red={second}")
+
+    def test_a_light_gets_its_shader(self):
+        body = """<library_lights><light id="lamp"><technique_common><point><color>0.2 0.9 0.3</color></point>
+</technique_common></light><light id="sun"><technique_common><directional><color>0.1 0.1 0.1</color></directional>
+</technique_common></light></library_lights>"""
+        text = mesh_scene(body).replace("</visual_scene>", '<node><translate>0 1 3</translate><instance_light '
+                                        'url="#lamp"/><instance_light url="#sun"/></node></visual_scene>')
+        scene = self.write("scene.dae", text)
+        self.expect(render("--list", "lights", scene), 0, "lamp", "sun")
+        glow = self.write("glow.sl", "light glow(float intensity = 3; color lightcolor = 1;) {\n"
+                          '    illuminate(point "shader" (0, 0, 0)) Cl = intensity * lightcolor / (L . L);\n}')
+        words = ("--shader", f"lamp={glow}")
+        shown = self.picture(scene, *words)
+        self.assertGreater(self.difference(shown, self.picture(scene)), 1)
+        out = self.converted(scene, "out.dae", *words)
+        self.assertEqual(self.picture(out), shown)
+        self.assertEqual(out.read_text().count('<technique profile="RSL">'), 1)
+        self.expect(run("kinora-validate", "--only", "SCHEMA_,LINK_,RSL_", out), 0)
+        self.assertLess(self.difference(self.picture(self.converted(scene, "out.glb", *words)), shown), LIKE)
+        # Again: the light's effect gets the other shader, and keeps what it gave.
+        dim = self.write("dim.sl", glow.read_text().replace("intensity = 3", "intensity = 1").replace("glow", "dim"))
+        again = self.converted(out, "again.dae", "--shader", f"lamp={dim}")
+        self.assertEqual(self.picture(again), self.picture(scene, "--shader", f"lamp={dim}"))
+        self.assertEqual(again.read_text().count("<effect "), 2)
+        # On a material it shines from the geometry, beside the surface.
+        on_mesh = self.converted(scene, "mesh.dae", "--shader", f"Red={glow}", "--shader", "Red=plastic")
+        self.assertIn('<shader stage="LIGHT">', on_mesh.read_text())
+
+    def test_our_shaders_go_by_name(self):
+        scene = SCENES / "matte.dae"
+        for name in ("out.dae", "out.glb"):
+            out = self.converted(scene, name, "--shader", "bright=plastic")
+            self.assertLess(self.difference(self.picture(out), self.picture(scene, "--shader", "bright=plastic")), LIKE)
+            self.expect(convert(scene, self.folder / name, "--shader", "bright=plastik"), 2, "SHADER_UNKNOWN", "plastic")
+            self.expect(convert(scene, self.folder / name, "--shader", "bright=tonemap"), 2, "SHADER_OF_OTHER_KIND")
+
     def test_a_shader_with_the_end_of_cdata_in_it_survives(self):
         code = 'surface odd(float a[2] = {0, 1};) {\n    float b[2] = {0, 0};\n    if (a[b[0]]>0 && 1 < 2)\n' \
                '        Ci = 1;\n    Ci = color(0, 1, 0);\n    Oi = 1;\n}\n'

@@ -19,8 +19,8 @@
 #include "runtime/gltf/document/glb.h"
 #include "runtime/gltf/export/export.h"
 #include "runtime/load/import_scene.h"
-#include "runtime/load/override_shader.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/convert/worn_shaders_p.h"
 
 namespace kinora {
 
@@ -81,8 +81,9 @@ class Conversion {
             return finish(*text, watch);
         }
         if (!import()) return tell(false);
-        for (const auto& [material, file] : options_.shaders)
-            if (!override_shader(scene_, material, {file, options_.include_directories}, diag_)) {
+        WornShaders worn;
+        for (const auto& [pattern, shader] : options_.shaders)
+            if (!put_shader(scene_, pattern, {shader, options_.include_directories}, worn, diag_)) {
                 int code = tell(true);
                 return code ? code : kExitShader;
             }
@@ -107,7 +108,9 @@ class Conversion {
             if (f.severity != Severity::Error) continue;
             bool rsl = std::string_view(f.info->code).starts_with("RSL_");
             if (rsl || f.info == &Code::CONVERT_SHADER) return kExitShader;
-            if (f.info == &Code::MATERIAL_UNKNOWN) return kExitUsage;
+            for (const FindingInfo* usage :
+                 {&Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN, &Code::SHADER_OF_OTHER_KIND})
+                if (f.info == usage) return kExitUsage;
         }
         if (readable) return printer_.exit_code_of_errors();
         if (!diag_.has_errors())

@@ -14,7 +14,8 @@ namespace kinora {
 
 struct ConvertOptions {
     std::string input, output;
-    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl
+    std::vector<std::pair<std::string, std::string>>
+        shaders;  // MATERIAL or LIGHT, FILE.sl or a name
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;            // of the output; the picture stays
     std::optional<double> meter;              // likewise
@@ -38,11 +39,11 @@ std::optional<std::string> convert_document(const ConvertOptions& options, Diagn
 
 // --- the steps of convert_document, each on the document's text ----------------------------------
 
-// The text with `code` as profile_RSL of the material's effect (its own copy of it where other
-// materials share it); stages and names from the shaders in the code.
-std::optional<std::string> embed_shader(const std::string& path, const std::string& text,
-                                        const std::string& material, const std::string& file,
-                                        const ConvertOptions& options, Diagnostics& diag);
+// The text with the shaders of the options, one after another, in profile_RSL of the effects of the
+// materials and lights that they match. An effect that others share is copied. Stages that a shader
+// does not give stay. CONVERT_STAGE_TWICE where one takes the place of an earlier one.
+std::optional<std::string> embed_shaders(const std::string& path, std::string text,
+                                         const ConvertOptions& options, Diagnostics& diag);
 
 // The text of a document whose axes and unit are others and whose picture is the same: one node
 // with the change of axes around those of each visual scene; lengths of cameras and lights anew.

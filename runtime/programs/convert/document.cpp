@@ -18,11 +18,9 @@ std::optional<std::string> convert_document(const ConvertOptions& options, Diagn
     // The text is UTF-8 by now, whatever the file was.
     std::string text = move_links(path, collada::declared_utf8(diag.files.text(document->file())),
                                   options.output, file->folder, diag);
-    for (const auto& [material, shader] : options.shaders) {
-        std::optional<std::string> next = embed_shader(path, text, material, shader, options, diag);
-        if (!next) return std::nullopt;
-        text = std::move(*next);
-    }
+    std::optional<std::string> shaded = embed_shaders(path, std::move(text), options, diag);
+    if (!shaded) return std::nullopt;
+    text = std::move(*shaded);
     if (options.up_axis || options.meter)
         text = change_axes(path, text, options.up_axis, options.meter, diag);
     Diagnostics again;

@@ -23,7 +23,8 @@ void declare(CLI::App& app, Given& given, ConvertOptions& o) {
     app.add_option("input", o.input, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
     app.add_option("output", o.output, "the file to write: .glb, .gltf or .dae")->required();
     add_list(app, "--shader", given.shaders,
-             "MATERIAL=FILE.sl: put RSL on a material; MATERIAL is an id, a name or a glob");
+             "NAME=SHADER: put RSL on a material or light; NAME is an id, a name or a glob, SHADER "
+             "FILE.sl or one of ours; again for further stages");
     add_list(app, "-I", o.include_directories, "DIR: where shaders find #include files");
     add_choice<UpAxis>(app, "--up", o.up_axis,
                        {{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}},

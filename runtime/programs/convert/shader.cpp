@@ -1,16 +1,17 @@
-// runtime/programs/convert/shader.cpp: --shader: RSL into the effect of a material.
+// runtime/programs/convert/shader.cpp: --shader: RSL into the effects of materials and lights.
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <set>
-#include <span>
 
 #include "collada/document/edit.h"
-#include "rsl/compile.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
+#include "runtime/description/shader_library.h"
+#include "runtime/load/override_scene.h"
 #include "runtime/programs/convert/convert.h"
+#include "runtime/programs/convert/rsl_profile_p.h"
+#include "runtime/programs/convert/worn_shaders_p.h"
 
 namespace kinora {
 
@@ -20,181 +21,281 @@ using collada::Element;
 
 namespace {
 
-constexpr const char* kStages[] = {"SURFACE", "DISPLACEMENT", "LIGHT",
-                                   "VOLUME",  "IMAGER",       "TRANSFORMATION"};  // ShaderKind
+using Stages = std::vector<const rsl::Shader*>;
 
-std::string code_of(const std::string& file, const ConvertOptions& options, Diagnostics& diag) {
-    std::string text = read_regular_file(file).value_or("");
-    if (text.find("#include") == text.npos) return text;
-    // Included files may not be where the document is read: their text comes along.
-    rsl::ShaderSource source;
-    source.text = text;
-    source.map.file = diag.files.add(file, text);
+std::optional<GivenShaders> read_given(const std::string& name, const rsl::CompileOptions& compile,
+                                       Diagnostics& diag) {
+    GivenShaders given;
+    if (names_shader_file(name)) {
+        for (auto& shader : rsl::compile_file(name, compile, diag))
+            given.shaders.push_back(std::move(shader));
+        if (given.shaders.empty() && !diag.has_errors())
+            diag.report(Code::CONVERT_SHADER, Location{}, fmt::format("'{}' has no shader", name));
+        given.code = read_regular_file(name).value_or("");
+    } else if (std::shared_ptr<const rsl::Shader> ours = named_shader(name, diag)) {
+        given.shaders.push_back(std::move(ours));
+        given.code = library_shader_text(name);
+    }
+    if (given.shaders.empty()) return std::nullopt;
+    given.bare_code = given.code;
+    if (given.code.find('#') == given.code.npos) return given;
+    std::string text = given.code;
+    rsl::ShaderSource source{text, {}};
+    source.map.file = diag.files.add(name, text);
     source.map.segments = {{0, 0}};
-    rsl::CompileOptions compile;
-    compile.include_directories = options.include_directories;
-    return rsl::print_preprocessed(rsl::preprocess(source, compile, diag));
+    given.bare_code = rsl::print_preprocessed(rsl::preprocess(source, compile, diag));
+    if (text.find("#include") != text.npos) given.code = given.bare_code;
+    return given;
 }
 
-// profile_RSL with a <shader> for the first shader of each kind that a material can wear.
-std::string profile(const std::vector<std::unique_ptr<rsl::Shader>>& shaders,
-                    const std::string& code, std::string_view text, const Element& effect,
-                    std::string_view old_params) {
-    std::string passes;
+// The first shader of each kind that a material can wear, LIGHT among them where it shall shine.
+Stages for_materials(const GivenShaders& given, bool lights) {
+    Stages stages;
     bool seen[6] = {};
-    for (const auto& shader : shaders) {
-        size_t kind = size_t(shader->kind);
-        bool worn =
-            shader->kind != rsl::ShaderKind::Light && shader->kind != rsl::ShaderKind::Imager;
-        if (!worn || seen[kind]) continue;
-        seen[kind] = true;
-        passes += fmt::format("<shader stage=\"{}\"><name>{}</name>", kStages[kind], shader->name);
-        // Old binds of parameters that the new shader has too stay, then parameters named alike.
-        const Element* old = effect.child("profile_RSL");
-        std::set<std::string> bound;
-        auto has = [&](std::string_view name) {
-            for (const rsl::ShaderParameter& parameter : shader->parameters)
-                if (parameter.name == name) return bound.insert(std::string(name)).second;
+    for (const auto& shader : given.shaders) {
+        bool worn = shader->kind != rsl::ShaderKind::Imager &&
+                    (lights || shader->kind != rsl::ShaderKind::Light);
+        if (worn && !std::exchange(seen[size_t(shader->kind)], true))
+            stages.push_back(shader.get());
+    }
+    return stages;
+}
+
+Stages for_lights(const GivenShaders& given) {
+    for (const auto& shader : given.shaders)
+        if (shader->kind == rsl::ShaderKind::Light) return {shader.get()};
+    return {};
+}
+
+const Element* rsl_technique(const Element& owner) {
+    for (const Element& extra : owner.children()) {
+        if (extra.name != "extra") continue;
+        for (const Element& technique : extra.children())
+            if (technique.name == "technique" && technique.value("profile") == "RSL")
+                return &technique;
+    }
+    return nullptr;
+}
+
+// What COLLADA's light gives to the light shader that takes its place, as parameters that the
+// light shaders of COLLADA have (collada_*.sl).
+OldParams values_of_light(const Element& light) {
+    struct Row {
+        const char *element, *param, *type, *initial;
+        int kinds;  // 1: every light, 2: point and spot, 3: spot
+    };
+    // COLLADA 1.4.1, chapter 5, light: the defaults
+    static constexpr Row kRows[] = {
+        {"color", "lightcolor", "color", "1 1 1", 1},
+        {"constant_attenuation", "constant_attenuation", "float", "1", 2},
+        {"linear_attenuation", "linear_attenuation", "float", "0", 2},
+        {"quadratic_attenuation", "quadratic_attenuation", "float", "0", 2},
+        {"falloff_angle", "falloff_angle", "float", "180", 3},
+        {"falloff_exponent", "falloff_exponent", "float", "0", 3}};
+    OldParams old;
+    const Element* common = light.child("technique_common");
+    const Element* kind = common ? common->first_child : nullptr;
+    if (!kind) return old;
+    int number = kind->name == "spot" ? 3 : kind->name == "point" ? 2 : 1;
+    for (const Row& row : kRows) {
+        if (row.kinds > number) continue;
+        const Element* value = kind->child(row.element);
+        old.binds.emplace_back(
+            row.param,
+            fmt::format("<bind symbol=\"{0}\"><{1}>{2}</{1}></bind>", row.param, row.type,
+                        value ? collada::escape_text(value->text) : row.initial));
+    }
+    return old;
+}
+
+// One --shader on a document.
+class ShaderEmbedding {
+  public:
+    ShaderEmbedding(const Document& document, std::string_view text, const std::string& output,
+                    const std::string& name, const GivenShaders& given,
+                    const rsl::CompileOptions& compile, WornShaders& worn, Diagnostics& diag)
+        : document_(document),
+          text_(text),
+          output_(output),
+          name_(name),
+          given_(given),
+          compile_(compile),
+          worn_(worn),
+          diag_(diag) {
+        prefix_ = collada::prefix_of(text, document.root());
+        look(document.root());
+    }
+
+    // False after an error, which is a finding.
+    bool run(const std::string& pattern) {
+        auto fits = [&](const Element* e) {
+            return glob_matches(pattern, std::string(e->value("id")),
+                                std::string(e->value("name")));
+        };
+        std::vector<Wearer> lights, materials;
+        Stages light_stages = for_lights(given_);
+        for (const Element* light : lights_)
+            if (!light_stages.empty() && fits(light))
+                lights.push_back({light, rsl_instance(*light)});
+        Stages stages = for_materials(given_, lights.empty());
+        for (const Element* material : materials_)
+            if (!stages.empty() && fits(material))
+                materials.push_back({material, material->child("instance_effect")});
+        if (stages.empty() && light_stages.empty()) {
+            diag_.report(Code::SHADER_OF_OTHER_KIND, Location{}, name_,
+                         "surface, displacement, transformation, volume, light");
             return false;
-        };
-        if (const Element* technique = old ? old->child("technique") : nullptr)
-            for (const Element& pass : technique->children())
-                for (const Element& shading : pass.children())
-                    for (const Element& bind : shading.children())
-                        if (bind.name == "bind" && has(bind.value("symbol")))
-                            passes +=
-                                text.substr(bind.bytes.begin, bind.bytes.end - bind.bytes.begin);
-        auto bind_alike = [&](const Element& scope) {
-            for (const Element& p : scope.children())
-                if (p.name == "newparam" && has(p.value("sid")))
-                    passes += fmt::format("<bind symbol=\"{0}\"><param ref=\"{0}\"/></bind>",
-                                          p.value("sid"));
-        };
-        bind_alike(effect);
-        if (old) bind_alike(*old);
-        passes += "</shader>";
+        }
+        if (lights.empty() && materials.empty()) {
+            diag_.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
+            return false;
+        }
+        return put_on(materials, stages) && put_on(lights, light_stages) && add_effects();
     }
-    return "<profile_RSL>" + std::string(old_params) + "<technique sid=\"rsl\"><code>" +
-           collada::cdata(code) + "</code><pass>" + passes + "</pass></technique></profile_RSL>";
-}
 
-// The effect's bytes with the profile in place of its old profile_RSL, or before its extras.
-std::string with_profile(std::string_view text, const Element& effect, const std::string& markup) {
-    std::vector<Edit> edits;
-    if (const Element* old = effect.child("profile_RSL")) {
-        edits.push_back({old->bytes, markup});
-    } else if (const Element* extra = effect.child("extra")) {
-        edits.push_back({{extra->bytes.begin, extra->bytes.begin}, markup});
-    } else {
-        edits.push_back(collada::append_child(text, effect, markup));
+    std::string text() { return collada::apply_edits(text_, std::move(edits_)); }
+
+  private:
+    struct Wearer {
+        const Element* owner;     // <material> or <light>
+        const Element* instance;  // <instance_effect>, or null
+    };
+
+    void look(const Element& e) {
+        if (e.name == "instance_effect") instances_.push_back(&e);
+        bool in_library =
+            e.parent && e.parent->name == std::string("library_") + std::string(e.name) + "s";
+        if (in_library && e.name == "light") lights_.push_back(&e);
+        if (in_library && e.name == "material" && e.child("instance_effect"))
+            materials_.push_back(&e);
+        for (const Element& child : e.children()) look(child);
     }
-    for (Edit& e : edits) {
-        e.bytes.begin -= effect.bytes.begin;
-        e.bytes.end -= effect.bytes.begin;
+
+    static const Element* rsl_instance(const Element& light) {
+        const Element* technique = rsl_technique(light);
+        return technique ? technique->child("instance_effect") : nullptr;
     }
-    return collada::apply_edits(
-        text.substr(effect.bytes.begin, effect.bytes.end - effect.bytes.begin), edits);
-}
 
-bool matches(const std::string& pattern, std::string_view name) {
-    return fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
-}
+    std::string fresh_id(std::string id) {
+        while (document_.find(id) || taken_.contains(id)) id += "_";
+        taken_.insert(id);
+        return id;
+    }
 
-std::vector<const Element*> materials_with_effects(const Document& document) {
-    std::vector<const Element*> found;
-    for (const Element& library : document.root().children())
-        if (library.name == "library_materials")
-            for (const Element& m : library.children())
-                if (m.name == "material" && m.child("instance_effect")) found.push_back(&m);
-    return found;
-}
+    bool put_on(const std::vector<Wearer>& wearers, const Stages& stages) {
+        std::set<const Element*> chosen, done;
+        for (const Wearer& w : wearers) chosen.insert(w.instance);
+        for (const Wearer& w : wearers) {
+            for (const rsl::Shader* shader : stages)
+                worn_.put(w.owner->name, w.owner->value("id"), shader->kind, name_, diag_);
+            if (!w.instance) {
+                give_effect(*w.owner, stages);
+                continue;
+            }
+            std::string_view url = w.instance->value("url");
+            const Element* effect = url.starts_with('#') ? document_.find(url.substr(1)) : nullptr;
+            if (!effect || effect->name != "effect") {
+                diag_.report(Code::CONVERT_SHADER, Location{},
+                             fmt::format("the effect '{}' of {} '{}' is not in this file", url,
+                                         w.owner->name, w.owner->value("id")));
+                return false;
+            }
+            if (done.insert(effect).second && !change_effect(*effect, url, stages, chosen))
+                return false;
+        }
+        return true;
+    }
 
-std::string_view effect_url(const Element& material) {
-    return material.child("instance_effect")->value("url");
-}
+    // The effect's copy where others, which are not chosen, wear it too.
+    bool change_effect(const Element& effect, std::string_view url, const Stages& stages,
+                       const std::set<const Element*>& chosen) {
+        std::optional<std::string> markup =
+            with_shaders(text_, prefix_, effect, given_, stages, output_, compile_);
+        if (!markup) {
+            diag_.report(Code::CONVERT_SHADER, Location{},
+                         fmt::format("the code of '{}' contradicts that of the other shaders of "
+                                     "effect '{}': give their functions different names",
+                                     name_, effect.value("id")));
+            return false;
+        }
+        bool shared = std::any_of(instances_.begin(), instances_.end(), [&](const Element* e) {
+            return e->value("url") == url && !chosen.contains(e);
+        });
+        if (!shared) {
+            edits_.push_back({effect.bytes, *markup});
+            return true;
+        }
+        std::string id = fresh_id(std::string(effect.value("id")) + "-rsl");
+        collada::ByteRange at = effect.attribute("id")->value_bytes;
+        markup->replace(at.begin - effect.bytes.begin, at.end - at.begin,
+                        collada::escape_attribute(id));
+        edits_.push_back({{effect.bytes.end, effect.bytes.end}, std::move(*markup)});
+        for (const Element* instance : chosen)
+            if (instance && instance->value("url") == url)
+                edits_.push_back(collada::set_attribute(text_, *instance, "url", "#" + id));
+        return true;
+    }
 
-// The effect's parameters of RSL, as they stand in the text.
-std::string rsl_params(std::string_view text, const Element& effect) {
-    std::string params;
-    if (const Element* old = effect.child("profile_RSL"))
-        for (const Element& p : old->children())
-            if (p.name == "newparam")
-                params += text.substr(p.bytes.begin, p.bytes.end - p.bytes.begin);
-    return params;
-}
+    // A light of COLLADA's own: an effect with the light's values, and the extra that names it.
+    void give_effect(const Element& light, const Stages& stages) {
+        std::string id = fresh_id(std::string(light.value("id")) + "-rsl");
+        new_effects_ += "<effect " + collada::attribute_text("id", id) + ">" +
+                        rsl_profile(stages, given_.code, values_of_light(light)) + "</effect>";
+        std::string instance =
+            "<instance_effect " + collada::attribute_text("url", "#" + id) + "/>";
+        const Element* technique = rsl_technique(light);
+        if (!technique)
+            instance = "<extra><technique profile=\"RSL\">" + instance + "</technique></extra>";
+        edits_.push_back(collada::append_child(text_, technique ? *technique : light,
+                                               collada::prefixed(instance, prefix_)));
+    }
 
-// A copy of the effect behind it, with `markup` in place of its bytes and an id of its own, and
-// those of the materials that wore the effect wear the copy.
-void add_copy(const Document& document, std::string_view text, const Element& effect,
-              std::string markup, std::span<const Element* const> materials, std::string_view url,
-              std::vector<Edit>& edits) {
-    std::string id = std::string(effect.value("id")) + "-rsl";
-    while (document.find(id)) id += "_";
-    collada::ByteRange at = effect.attribute("id")->value_bytes;
-    uint32_t begin = at.begin - effect.bytes.begin, length = at.end - at.begin;
-    markup.replace(begin, length, collada::escape_attribute(id));
-    edits.push_back({{effect.bytes.end, effect.bytes.end}, std::move(markup)});
-    for (const Element* material : materials)
-        if (effect_url(*material) == url)
-            edits.push_back(
-                collada::set_attribute(text, *material->child("instance_effect"), "url", "#" + id));
-}
+    bool add_effects() {
+        if (new_effects_.empty()) return true;
+        if (const Element* library = document_.root().child("library_effects")) {
+            edits_.push_back(
+                collada::append_child(text_, *library, collada::prefixed(new_effects_, prefix_)));
+            return true;
+        }
+        uint32_t at = document_.root().child("library_lights")->bytes.begin;
+        edits_.push_back({{at, at},
+                          collada::prefixed(
+                              "<library_effects>" + new_effects_ + "</library_effects>", prefix_)});
+        return true;
+    }
+
+    const Document& document_;
+    std::string_view text_;
+    const std::string &output_, &name_;
+    const GivenShaders& given_;
+    const rsl::CompileOptions& compile_;
+    WornShaders& worn_;
+    Diagnostics& diag_;
+    std::string prefix_, new_effects_;
+    std::set<std::string> taken_;
+    std::vector<const Element*> instances_, materials_, lights_;
+    std::vector<Edit> edits_;
+};
 
 }  // namespace
 
-std::optional<std::string> embed_shader(const std::string& path, const std::string& text,
-                                        const std::string& pattern, const std::string& file,
-                                        const ConvertOptions& options, Diagnostics& diag) {
+std::optional<std::string> embed_shaders(const std::string& path, std::string text,
+                                         const ConvertOptions& options, Diagnostics& diag) {
+    WornShaders worn;
     rsl::CompileOptions compile;
     compile.include_directories = options.include_directories;
-    auto shaders = rsl::compile_file(file, compile, diag);
-    if (shaders.empty()) {
-        if (!diag.has_errors())
-            diag.report(Code::CONVERT_SHADER, Location{}, fmt::format("'{}' has no shader", file));
-        return std::nullopt;
+    for (const auto& [pattern, name] : options.shaders) {
+        std::optional<GivenShaders> given = read_given(name, compile, diag);
+        if (!given) return std::nullopt;
+        Diagnostics quiet;
+        std::optional<Document> document = collada::read_document_text(path, text, quiet);
+        if (!document || !document->whole()) return text;
+        ShaderEmbedding embedding(*document, quiet.files.text(document->file()), options.output,
+                                  name, *given, compile, worn, diag);
+        if (!embedding.run(pattern)) return std::nullopt;
+        text = embedding.text();
     }
-    std::string code = code_of(file, options, diag);
-    Diagnostics quiet;
-    std::optional<Document> document = collada::read_document_text(path, text, quiet);
-    if (!document || !document->whole()) return text;
-    std::string_view own = quiet.files.text(document->file());
-
-    std::vector<const Element*> all = materials_with_effects(*document), materials;
-    for (const Element* m : all)
-        if (matches(pattern, m->value("id")) || matches(pattern, m->value("name")))
-            materials.push_back(m);
-    if (materials.empty()) {
-        diag.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
-        return std::nullopt;
-    }
-    auto chosen = [&](const Element* m) {
-        return std::find(materials.begin(), materials.end(), m) != materials.end();
-    };
-    std::vector<Edit> edits;
-    std::set<const Element*> done;
-    for (const Element* m : materials) {
-        std::string_view url = effect_url(*m);
-        const Element* effect = url.starts_with('#') ? document->find(url.substr(1)) : nullptr;
-        if (!effect || effect->name != "effect") {
-            diag.report(Code::CONVERT_SHADER, Location{},
-                        fmt::format("the effect '{}' of material '{}' is not in this file", url,
-                                    m->value("id")));
-            return std::nullopt;
-        }
-        if (!done.insert(effect).second) continue;
-        std::string markup = with_profile(
-            own, *effect,
-            collada::prefixed(profile(shaders, code, own, *effect, rsl_params(own, *effect)),
-                              collada::prefix_of(own, document->root())));
-        bool keeps_its_look = std::any_of(all.begin(), all.end(), [&](const Element* other) {
-            return effect_url(*other) == url && !chosen(other);
-        });
-        if (keeps_its_look)
-            add_copy(*document, own, *effect, std::move(markup), materials, url, edits);
-        else
-            edits.push_back({effect->bytes, markup});
-    }
-    return collada::apply_edits(own, std::move(edits));
+    return text;
 }
 
 }  // namespace kinora
