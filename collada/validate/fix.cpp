@@ -23,6 +23,7 @@ const std::vector<Fixer>& fixers() {
         {&Code::SRC_COMMA_DECIMAL, fix_comma_decimals},
         {&Code::SRC_COUNT, fix_array_count},
         {&Code::SRC_STRIDE, fix_accessor_stride},
+        {&Code::SRC_ATTRIBUTE, fix_accessor_stride},
         {&Code::SRC_ACCESSOR_COUNT, fix_accessor_count},
         {&Code::PRIM_COUNT, fix_primitive_count},
         {&Code::LINK_NO_HASH, fix_missing_hash},

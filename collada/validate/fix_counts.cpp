@@ -85,6 +85,7 @@ void fix_array_count(FixContext& context) {
 void fix_accessor_stride(FixContext& context) {
     for (const Finding* finding : context.findings) {
         const Element& accessor = context.elements.at(finding->where.begin);
+        if (accessor.name != "accessor") continue;
         AccessorView view = view_of(context.document, accessor);
         uint64_t width = accessor_width(accessor), count = 0;
         parse_count(accessor.value("count"), count);
