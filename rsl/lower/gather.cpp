@@ -94,6 +94,7 @@ void Gather::lower(const GatherStmt& stmt) {
     Value map = b_.i(of_map ? intern(category->substr(kOfMap.size())) : 0);
     Value maxdist = b_.f(1e30f), bias = b_.f(-1), label = b_.i(0);
     int flags = shoots ? 0 : kGatherNoRays;
+    if (shoots && !stmt.missed) flags |= kGatherHitsOnly;
     Results results;
     std::vector<LoweredShader::GatherResult> wanted;
     int column = kGatherResults;

@@ -32,7 +32,7 @@ enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };
 // A ray of a gather: columns of its record, then the wanted results in their order.
 enum GatherColumn { kGatherState = 0, kGatherResults = 1 };
 enum GatherState { kGatherMiss = 0, kGatherHit = 1, kGatherNone = 2 };  // None: no such sample here
-enum GatherFlag { kGatherCosine = 1, kGatherNoRays = 2 };
+enum GatherFlag { kGatherCosine = 1, kGatherNoRays = 2, kGatherHitsOnly = 4 };  // HitsOnly: no else
 inline constexpr int kGatherLevels = 8;  // gathers inside one another
 // Numbers of one point of a point file.
 inline constexpr int kPointFloats = service_argument(Service::bake3d, "values").count;

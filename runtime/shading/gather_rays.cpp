@@ -110,9 +110,11 @@ struct RayCounts {
     int most = 0;              // of any lane
 };
 
-// Rays that cannot be shot meet nothing; where the budget is spent there are none.
-RayCounts count_rays(Grid& grid, const Lanes& lanes, bool wants_rays, bool shoots) {
+// Rays that cannot be shot meet nothing, and are left out where the statement has no use for that;
+// where the budget is spent there are none.
+RayCounts count_rays(Grid& grid, const Lanes& lanes, int flags, bool shoots) {
     RayCounts counts;
+    bool wants_rays = !(flags & rsl::kGatherNoRays), hits_only = flags & rsl::kGatherHitsOnly;
     for (int lane = 0; lane < kLanes; ++lane) {
         if (!lanes.asks(lane)) continue;
         float length = glm::length(lanes.triple(Row::D, lane));
@@ -121,7 +123,7 @@ RayCounts count_rays(Grid& grid, const Lanes& lanes, bool wants_rays, bool shoot
         size_t point = lanes.point(lane);
         if (shoots) counts.share[lane] = ray_share(grid, point, n);
         if (counts.share[lane] > 0 ? !spend_rays(grid, point, n)
-                                   : wants_rays && !refuse_rays(grid, point, n))
+                                   : wants_rays && (!refuse_rays(grid, point, n) || hits_only))
             n = counts.samples[lane] = 0;
         counts.most = std::max(counts.most, n);
     }
@@ -250,9 +252,9 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     int any = std::countr_zero(call.mask);
     const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Row::Request, any))];
     int level = lanes.integer(Row::Level, any), flags = lanes.integer(Row::Flags, any);
-    bool wants_rays = !(flags & rsl::kGatherNoRays);
-    bool shoots = wants_rays && grid.shadows && grid.depth < frame_.ray_depth && !frame_.stopped();
-    RayCounts counts = count_rays(grid, lanes, wants_rays, shoots);
+    bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < frame_.ray_depth &&
+                  !frame_.stopped();
+    RayCounts counts = count_rays(grid, lanes, flags, shoots);
 
     ThreadMemory& own = grid.memory;
     GatherMemory& memory = records_of(grid, level);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <map>
+#include <string_view>
 #include <tuple>
 
 #include "rsl/model/renderer_services.h"
@@ -104,26 +106,27 @@ void Prints::drop() {
 }
 
 void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
-    std::vector<Print> all;
-    for (uint32_t look = 0; look < scene.looks.size(); ++look) {
-        OfLook sum;
-        for (OfThread& thread : threads_) {
-            if (thread.looks.size() <= look) continue;
+    std::map<std::string_view, OfLook> shaders;  // one may be that of many looks
+    for (OfThread& thread : threads_) {
+        for (size_t look = 0; look < thread.looks.size(); ++look) {
             OfLook& of = thread.looks[look];
+            if (of.asked == 0) continue;
+            OfLook& sum = shaders[scene.looks[look]->shader().name];
             std::move(of.prints.begin(), of.prints.end(), std::back_inserter(sum.prints));
             sum.asked += of.asked;
             of = {};
         }
-        if (sum.asked == 0) continue;
+        thread.calls = 0;
+    }
+    std::vector<Print> all;
+    for (auto& [name, sum] : shaders) {
         trim(sum);
         if (sum.asked > sum.prints.size())
-            diagnostics.report(Code::PRINT_LIMIT, Location{}, scene.looks[look]->shader().name,
-                               sum.asked, sum.prints.size());
+            diagnostics.report(Code::PRINT_LIMIT, Location{}, name, sum.asked, sum.prints.size());
         std::move(sum.prints.begin(), sum.prints.end(), std::back_inserter(all));
     }
     std::sort(all.begin(), all.end());
     for (const Print& print : all) std::fputs(print.text.c_str(), stdout);
-    for (OfThread& thread : threads_) thread.calls = 0;
 }
 
 }  // namespace kinora

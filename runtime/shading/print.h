@@ -48,7 +48,7 @@ class Prints {
     void begin_frame(size_t threads);
     // A call at a grid's points: kept with their pixels.
     void add(const Grid& grid, const jit::ServiceCall& call);
-    // Shows and forgets all; of each look the first in the order of the picture.
+    // Shows and forgets all; of each shader the first in the order of the picture.
     void flush(const Scene& scene, Diagnostics& diagnostics);
     // Forgets all.
     void drop();

@@ -350,6 +350,13 @@ TEST(PrintLimit, IsOfEachShaderAtEachRate) {
     EXPECT_EQ(std::count(text.begin(), text.end(), 'a'), 10000);
     EXPECT_GT(std::count(text.begin(), text.end(), 'b'), 3000);
 
+    // One shader on two materials has its lines once.
+    SceneText twice = floor_scene("surface p() { Oi = 1; Ci = 1; printf(\"a\\n\", s); }");
+    twice.look("other", "surface p() { Oi = 1; Ci = 1; printf(\"a\\n\", s); }");
+    twice.place("floor", "other", "<translate>1 0 1</translate>");
+    text = printed_by(twice, 180, 2, 1);
+    EXPECT_EQ(std::count(text.begin(), text.end(), 'a'), 10000);
+
     SceneText frame = floor_scene(
         "surface p(float n = 20000;) { uniform float i; Oi = 1; Ci = 1;"
         " for (i = 0; i < n; i += 1) printf(\"u\\n\", i); }");
