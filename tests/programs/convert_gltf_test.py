@@ -110,14 +110,14 @@ class GltfConvert(Convert):
 class Lights(GltfConvert):
     def test_blenders_watts_become_candela_and_lux(self):
         rows = [("<point><color>1000 500 0</color><quadratic_attenuation>0.0016</quadratic_attenuation></point>",
-                 "point", 1000 / (4 * math.pi) * 0.5 ** 2), ("<directional><color>2 1 0</color></directional>",
+                 "point", 1000 / (4 * math.pi)), ("<directional><color>2 1 0</color></directional>",
                                                           "directional", 2)]
         for kind, type_, intensity in rows:
             lights = (f"<library_lights><light id='l'><technique_common>{kind}</technique_common></light></library_lights>"
                       "<library_nodes><node id='lamp'><translate>1 2 3</translate><instance_light url='#l'/></node>"
                       "</library_nodes>")
             asset = ("<asset><contributor><authoring_tool>Blender 3.4.1 commit date:2022-12-19</authoring_tool>"
-                     '</contributor><unit meter="0.5"/></asset>')
+                     '</contributor><unit meter="1"/></asset>')
             text = mesh_scene(lights, asset=asset).replace(
                 '<visual_scene id="vs">', '<visual_scene id="vs"><node><instance_node url="#lamp"/></node>')
             scene = self.write(f"{type_}.dae", text)
