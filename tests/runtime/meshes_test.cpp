@@ -148,6 +148,35 @@ TEST(FlatMesh, DisplacedAlikeEverywhereItKeepsItsFaces) {
     expect_colors(r.frame(), roof_normal, 1e-5);
 }
 
+TEST(FlatMesh, DisplacedAfterMorphAndSkinItHasTheFacesOfNow) {
+    for (bool skinned : {false, true}) {
+        SceneText scene;
+        scene.mesh("roof", kRoof, kRoofTriangles)
+            .look("look",
+                  show(kWorldN) + "\ndisplacement d() { P += vector \"object\" (0, 0, 0.5); }",
+                  kBoth);
+        std::vector<dvec3> low = kRoof;
+        for (dvec3& p : low) p.z = 0;
+        scene.mesh("low", low, kRoofTriangles);
+        scene.controllers = morph("m", "roof", "NORMALIZED", "low", {0.5}) + skin("s", "m", 6);
+        if (skinned)
+            scene.nodes += kBone + controlled("s", "<skeleton>#bone</skeleton>");
+        else
+            scene.nodes += controlled("m");
+        SceneOptions options;
+        options.dice = 1;
+        options.width = options.height = 32;
+        const double c = 1 / std::sqrt(5.0);
+        expect_colors(
+            Rendering(scene.text(), options).frame(),
+            [&](dvec2 p) {
+                double side = (skinned ? p.y : p.x) < 0 ? -c : c;
+                return skinned ? dvec3(0, side, 2 * c) : dvec3(side, 0, 2 * c);
+            },
+            1e-5);
+    }
+}
+
 // N in a displacement is the face's: both sides rise by 0.1 along their own.
 TEST(FlatMesh, DisplacementsMoveAlongTheFacesNormals) {
     SceneText scene;
