@@ -121,9 +121,9 @@ void bind_only_material(Extraction& x, Link instance, MeshInstance& mesh, uint32
     for (const std::string& symbol : bound)
         used = used || (!symbol.empty() && symbols.first_group.count(symbol));
     const std::vector<PrimitiveGroup>& groups = x.scene.geometries[mesh.geometry].groups;
-    for (uint32_t first : symbols.groups) {
+    auto bind = [&](uint32_t first) {
         const PrimitiveGroup& group = groups[first];
-        if (bound.count(group.material) || (!group.material.empty() && used)) continue;
+        if (bound.count(group.material)) return;
         if (materials.size() == 1) {
             bind_alike(x, instance, only, group.material, mesh, node_number, mesh_number);
             if (!group.material.empty())
@@ -132,7 +132,12 @@ void bind_only_material(Extraction& x, Link instance, MeshInstance& mesh, uint32
         } else if (group.material.empty()) {
             x.diag.report(Code::MAT_AMBIGUOUS, group.where, materials.size());
         }
-    }
+    };
+    auto plain = symbols.first_group.find("");
+    if (!used)
+        for (uint32_t first : symbols.groups) bind(first);
+    else if (plain != symbols.first_group.end())
+        bind(plain->second);
 }
 
 void report_unbound(Extraction& x, Link instance, const MeshInstance& mesh) {

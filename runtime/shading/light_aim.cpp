@@ -92,7 +92,9 @@ void LightRecords::report_aims(Diagnostics& diagnostics) const {
     for (size_t l = 0; l < scene.lights.size(); ++l) {
         const LightSource& light = scene.lights[l];
         const ShaderInstance& look = *scene.looks[light.look];
-        if (look.area_light || !bindings_.directed(l)) continue;
+        // A shader that does not read its space has another aim, as the default lights have.
+        bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
+        if (look.area_light || !aims || !bindings_.directed(l)) continue;
         Arena arena;
         std::span<float*> out = run_probes(scene, look, arena);
         dvec3 forward(current_from_space(scene, "shader", look.space_owner())[2]);

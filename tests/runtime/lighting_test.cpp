@@ -324,16 +324,17 @@ vec3 under_ambient_light(const char* model, const std::string& slots) {
 TEST(AmbientLight, IsColouredByTheTextureOfDiffuse) {
     const std::string texture = "<texture texture=\"blue-sampler\" texcoord=\"UV\"/>";
     const std::string half = "<color>0.5 0.5 1 1</color>";
+    constexpr double kHalf = 0.2140411405;  // of 0.5: ((0.5 + 0.055) / 1.055) ^ 2.4
     auto slots = [](const std::string& ambient, const std::string& diffuse) {
         return "<ambient>" + ambient + "</ambient><diffuse>" + diffuse + "</diffuse>";
     };
     struct {
         std::string ambient, diffuse;
         dvec3 want;
-    } rows[] = {{half, texture, {0.1, 0.2, 0.8}},     // locked: the texture's color
+    } rows[] = {{half, texture, {0.2 * kHalf, 0.4 * kHalf, 0.8}},  // locked: the texture's color
                 {texture, texture, {0.2, 0.4, 0.8}},  // its own texture is not applied twice
                 {texture, half, {0.2, 0.4, 0.8}},
-                {half, half, {0.5, 0.5, 1}}};  // colors are two things
+                {half, half, {kHalf, kHalf, 1}}};  // colors are two things
     for (const char* model : {"lambert", "phong", "blinn"})
         for (const auto& row : rows) {
             vec3 seen = under_ambient_light(model, slots(row.ambient, row.diffuse));
