@@ -83,8 +83,13 @@ std::string ColladaExporter::image(const std::string& texture_name) {
     std::error_code code;
     std::string link;
     if (fs::is_regular_file(path, code)) {
-        fs::path folder = fs::absolute(path_, code).lexically_normal().parent_path();
-        link = fs::absolute(path, code).lexically_normal().lexically_relative(folder).string();
+        // ".." is seen from where links of the file system lead.
+        auto folder_of = [&](const fs::path& file) {
+            return fs::weakly_canonical(fs::absolute(file, code).parent_path(), code);
+        };
+        link = (folder_of(path) / fs::path(path).filename())
+                   .lexically_relative(folder_of(path_))
+                   .generic_string();
     } else if (std::string bytes = inner_file(path); !bytes.empty()) {
         const char* type = bytes.starts_with("\x89PNG") ? ".png" : ".jpg";
         link = fmt::format("{}_{}{}", fs::path(path_).stem().string(), own, type);

@@ -345,6 +345,58 @@ class ToDae(Convert):
         self.assertNotIn("CONVERT_OUTSIDE", str(convert(scene, out)))  # a picture may lie anywhere
         self.assertNotIn("CONVERT_OUTSIDE", str(convert(scene, self.folder / "c.dae")))
 
+    def textured(self, link):
+        return mesh_scene(f'<library_images><image id="wood"><init_from>{link}</init_from></image></library_images>').replace(
+            '<technique sid="c"><lambert>\n<diffuse><color>0.8 0.1 0.1 1</color></diffuse>',
+            '<newparam sid="f"><surface type="2D"><init_from>wood</init_from></surface></newparam><newparam sid="s">'
+            '<sampler2D><source>f</source></sampler2D></newparam><technique sid="c"><lambert>'
+            '<diffuse><texture texture="s" texcoord="UV"/></diffuse>')
+
+    def test_a_picture_is_linked_where_it_was_found(self):
+        """Exporters' absolute paths and wrong folders: the picture beside the document, or in textures/."""
+        (self.folder / "in/textures").mkdir(parents=True)
+        png.write(self.folder / "in/textures/wood.png", 2, 1, [bytes((188, 128, 240, 20, 220, 30))])
+        linked = []
+        for link in ("C:/Users/me/wood.png", "file:///home/me/tex/wood.png", "lost/WOOD.PNG", "textures/wood.png"):
+            scene = self.write("in/a.dae", self.textured(link))
+            out = self.converted(scene, "out/b.dae")
+            linked.append(re.search("(?s)<image .*?<init_from>(.*?)<", out.read_text()).group(1))
+            self.assertIn("<init_from>wood</init_from>", out.read_text())  # an image's id is no file
+            self.assertNotIn("FILE_MISSING", str(render("--list", "materials", out)))
+            self.assertEqual(self.picture(out), self.picture(scene))
+        self.assertEqual(linked, ["../in/textures/wood.png"] * 4)
+        # Through a link of the file system ".." leads elsewhere.
+        (self.folder / "far/away").mkdir(parents=True)
+        (self.folder / "near").symlink_to(self.folder / "far/away")
+        for source in (scene, self.converted(scene, "a.glb")):
+            out = self.converted(source, "near/c.dae")
+            self.assertEqual(self.picture(out), self.picture(source))
+
+    def test_a_missing_picture_is_told(self):
+        scene = self.write("a.dae", self.textured("none/wood.png"))
+        self.expect(convert(scene, self.folder / "out/b.dae"), 0, "FILE_MISSING", "none/wood.png")
+        self.expect(convert(scene, self.folder / "out/c.dae", "--strict"), 5, "FILE_MISSING")
+        self.assertFalse((self.folder / "out/c.dae").exists())
+
+    def test_textures_are_copied_beside_the_output(self):
+        (self.folder / "in/tex").mkdir(parents=True)
+        png.write(self.folder / "in/tex/wood.png", 2, 1, [bytes((188, 128, 240, 20, 220, 30))])
+        wood = (self.folder / "in/tex/wood.png").read_bytes()
+        scene = self.write("in/a.dae", self.textured("tex/wood.png"))
+        self.write("out/textures/wood.png", "another picture")  # stays
+        for source in (scene, self.converted(scene, "a.glb")):
+            for _ in range(2):  # the second finds the picture there
+                out = self.converted(source, "out/b.dae", "--copy-textures")
+            name = re.search("(?s)<image .*?<init_from>(.*?)<", out.read_text()).group(1)
+            self.assertTrue(name.startswith("textures/"), name)
+            self.assertEqual((self.folder / "out" / name).read_bytes(), wood)
+            (self.folder / "out").rename(self.folder / "moved")
+            self.assertLess(self.difference(self.picture(self.folder / "moved/b.dae"), self.picture(source)), SAME)
+            (self.folder / "moved").rename(self.folder / "out")
+        self.assertEqual((self.folder / "out/textures/wood.png").read_text(), "another picture")
+        self.assertLessEqual(len(list((self.folder / "out").rglob("*.*"))), 4)
+        self.expect(convert(scene, self.folder / "o.glb", "--copy-textures"), 2, "--copy-textures")
+
     def test_links_to_documents_outside_the_new_folder_are_told(self):
         self.write("parts/p.dae", mesh_scene())
         scene = self.write("a.dae", mesh_scene("<library_nodes><node id=\"o\">"

@@ -78,7 +78,7 @@ class Conversion {
         if (to_dae && !is_gltf(options_.input)) {
             std::optional<std::string> text = convert_document(options_, diag_);
             if (int code = tell(text.has_value())) return code;
-            return finish(*text, watch);
+            return finish_document(*text, {}, watch);
         }
         if (!import()) return tell(false);
         WornShaders worn;
@@ -143,11 +143,19 @@ class Conversion {
         if (options_.up_axis || options_.meter)
             result.text = canonical(
                 change_axes(options_.output, result.text, options_.up_axis, options_.meter, diag_));
-        for (const auto& [name, bytes] : result.files)
-            if (int failed =
-                    write_whole((fs::path(options_.output).parent_path() / name).string(), bytes))
+        WrittenFiles files;
+        for (auto& [name, bytes] : result.files) files.push_back({name, std::move(bytes)});
+        return finish_document(result.text, std::move(files), watch);
+    }
+
+    // A .dae and what lies beside it.
+    int finish_document(std::string text, WrittenFiles files, const Stopwatch& watch) {
+        if (options_.copy_textures) text = canonical(copy_textures(options_.output, text, files));
+        for (const WrittenFile& file : files)
+            if (int failed = write_whole(
+                    (fs::path(options_.output).parent_path() / file.name).string(), file.bytes))
                 return failed;
-        return finish(result.text, watch);
+        return finish(text, watch);
     }
 
     static std::string canonical(const std::string& text) {

@@ -12,6 +12,12 @@
 
 namespace kinora {
 
+// A file that is written beside the document: its name relative to it.
+struct WrittenFile {
+    std::string name, bytes;
+};
+using WrittenFiles = std::vector<WrittenFile>;
+
 struct ConvertOptions {
     std::string input, output;
     std::vector<std::pair<std::string, std::string>>
@@ -19,6 +25,7 @@ struct ConvertOptions {
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;            // of the output; the picture stays
     std::optional<double> meter;              // likewise
+    bool copy_textures = false;               // into textures/ beside a .dae
     double animation_error = 1e-4;            // GltfExportOptions
     std::vector<std::string> allow_external;  // folders outside the scene's that it may read
     bool confine = false;                     // pictures too
@@ -54,8 +61,13 @@ std::string change_axes(const std::string& path, const std::string& text,
 // The text with relative links of files (images, other documents, shaders) as seen from another
 // folder. `archive` is the folder that a .zae was unpacked to ("" for none): its files are copied
 // into NAME_files beside NAME.dae, where the links then lead. CONVERT_OUTSIDE for links that lead
-// out of the new document's folder.
+// out of the new document's folder. Pictures that the old document's readers find elsewhere are
+// linked where they are; FILE_MISSING for those that are nowhere.
 std::string move_links(const std::string& path, const std::string& text,
                        const std::string& new_path, const std::string& archive, Diagnostics& diag);
+
+// --copy-textures: the text with pictures linked in textures/ beside the output. `files` are those
+// to write beside it: they move there, and the pictures come to them.
+std::string copy_textures(const std::string& output, const std::string& text, WrittenFiles& files);
 
 }  // namespace kinora

@@ -30,6 +30,8 @@ void declare(CLI::App& app, Given& given, ConvertOptions& o) {
                        {{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}},
                        "the up axis a .dae shall have: X, Y or Z");
     app.add_option("--unit", o.meter, "metres per unit a .dae shall have");
+    app.add_flag("--copy-textures", o.copy_textures,
+                 "copy pictures into textures/ beside a .dae; else it links to where they are");
     app.add_option("--animation-error", o.animation_error,
                    "how near sampled curves must come (1e-4 of the range they move over)");
     add_list(app, "--allow-external", o.allow_external,
@@ -59,6 +61,8 @@ void interpret(const Given& given, ConvertOptions& o) {
         throw CLI::ValidationError("output", "takes a name that ends in .glb, .gltf or .dae");
     if (!to_dae && (o.up_axis.value_or(UpAxis::Y) != UpAxis::Y || o.meter.value_or(1) != 1))
         throw CLI::ValidationError("--up, --unit", "glTF is always y up and in metres");
+    if (!to_dae && o.copy_textures)
+        throw CLI::ValidationError("--copy-textures", "is for .dae; glTF holds its pictures");
     o.threads = parse_threads(given.threads);
     o.stats = !given.stats.empty();
     o.stats_json = given.stats == "json";

@@ -7,10 +7,13 @@
 #include <set>
 
 #include "collada/document/edit.h"
+#include "collada/document/findings.h"
 #include "collada/document/uri.h"
 #include "collada/schema/links.h"
+#include "runtime/base/picture_search.h"
 #include "runtime/description/findings.h"
 #include "runtime/programs/convert/convert.h"
+#include "runtime/programs/convert/links_p.h"
 
 namespace kinora {
 
@@ -23,12 +26,6 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
 
-std::string_view trimmed(std::string_view text) {
-    size_t begin = text.find_first_not_of(kSpace);
-    if (begin == text.npos) return {};
-    return text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
-}
-
 bool is_relative(std::string_view file) {
     return !file.empty() && file[0] != '/' && file[0] != '\\' && file.find(':') == file.npos;
 }
@@ -36,15 +33,6 @@ bool is_relative(std::string_view file) {
 bool is_file(const fs::path& file) {
     std::error_code error;
     return fs::is_regular_file(file, error);
-}
-
-std::string encoded(const std::string& name) {
-    std::string link;
-    for (char c : name)
-        link += uint8_t(c) <= ' ' || std::string_view("%#?\"<>").find(c) != std::string_view::npos
-                    ? fmt::format("%{:02X}", uint8_t(c))
-                    : std::string(1, c);
-    return link;
 }
 
 // Elements whose links are of files as a whole; others name an element behind '#'.
@@ -71,23 +59,23 @@ class LinkMove {
   public:
     LinkMove(const Document& document, std::string_view text) : document_(document), text_(text) {}
 
-    // False: the documents share a folder.
-    bool between(const std::string& path, const std::string& new_path, const std::string& archive) {
+    // Documents that share a folder keep their links.
+    void between(const std::string& path, const std::string& new_path, const std::string& archive) {
         std::error_code code;
         from_ = fs::weakly_canonical(fs::absolute(path), code).parent_path();
         to_ = fs::weakly_canonical(fs::absolute(new_path), code).parent_path();
-        if (from_ == to_) return false;
-        if (archive.empty()) return true;
+        stays_ = from_ == to_;
+        if (stays_ || archive.empty()) return;
         // Out of an archive everything comes along, into a folder beside the new document.
         archive_ = fs::weakly_canonical(archive, code);
         unpacked_ = fs::path(new_path).stem().string() + "_files";
         fs::copy(archive, to_ / unpacked_,
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
-        return true;
     }
 
     std::string run(Diagnostics& diag) {
-        for (const collada::UriValue& uri : collada::uri_values(document_)) move_uri(uri);
+        for (const collada::UriValue& uri : collada::uri_values(document_)) move_uri(uri, diag);
+        if (stays_) return std::string(text_);
         visit_code(document_.root());
         // Links were taken as it says, and say so themselves now.
         if (const collada::Attribute* base = document_.root().attribute("xml:base"))
@@ -115,22 +103,34 @@ class LinkMove {
         return (from_ / (below.empty() ? fs::path(path) : below)).lexically_normal();
     }
 
-    void move_uri(const collada::UriValue& uri) {
-        std::string_view link = trimmed(uri.value);
+    void move_uri(const collada::UriValue& uri, Diagnostics& diag) {
+        std::string_view link = link_of(uri.value);
+        if (links_picture(*uri.element) && !link.empty() && find_picture(uri, link, diag)) return;
         size_t hash = std::min(link.find('#'), link.size());
-        if (!is_relative(trimmed(link.substr(0, hash)))) return;
+        if (stays_ || !is_relative(link_of(link.substr(0, hash)))) return;
         fs::path file = found(collada::path_of_uri(document_, link.substr(0, hash)));
         // A fragment without its '#' is no file.
         if (hash == link.size() && !names_file(*uri.element) && !is_file(file)) return;
-        bool picture = uri.element->name == "init_from" || uri.element->name == "ref";
-        std::string name = encoded(moved(file, picture)) + std::string(link.substr(hash));
-        if (uri.attribute)
-            edits_.push_back(
-                collada::set_attribute(text_, *uri.element, uri.attribute->name, name));
-        else
-            edits_.push_back({{uri.element->start_tag.end,
-                               uint32_t(text_.rfind("</", uri.element->bytes.end - 1))},
-                              collada::escape_text(name)});
+        bool picture = links_picture(*uri.element);
+        edits_.push_back(set_link(
+            text_, uri, encoded_link(moved(file, picture)) + std::string(link.substr(hash))));
+    }
+
+    // True: the picture was found elsewhere than its link says (beside the document, in
+    // textures/), where no reader looks once the document is in another folder.
+    bool find_picture(const collada::UriValue& uri, std::string_view link, Diagnostics& diag) {
+        FoundPicture picture = search_.find(collada::path_of_uri(document_, link),
+                                            document_.directory(), AllowedPaths());
+        if (picture.match == PictureMatch::Missing)
+            diag.report(collada::Code::FILE_MISSING, {}, link);
+        bool elsewhere =
+            picture.match == PictureMatch::Case || picture.match == PictureMatch::Elsewhere;
+        if (!elsewhere || stays_) return false;
+        std::error_code code;
+        fs::path file = fs::absolute(picture.path, code);
+        file = fs::weakly_canonical(file.parent_path(), code) / file.filename();
+        edits_.push_back(set_link(text_, uri, encoded_link(moved(file, true))));
+        return true;
     }
 
     // A shader's code includes files beside the document.
@@ -158,10 +158,40 @@ class LinkMove {
     std::string_view text_;
     fs::path from_, to_, archive_, unpacked_;
     std::set<std::string> outside_;
+    PictureSearch search_;
+    bool stays_ = false;
     std::vector<Edit> edits_;
 };
 
 }  // namespace
+
+bool links_picture(const Element& e) {
+    const Element* owner = e.parent;
+    if (!owner) return false;
+    if (e.name == "ref") return links_picture(*owner);
+    return e.name == "init_from" && (owner->name == "image" || owner->name.starts_with("create_"));
+}
+
+std::string_view link_of(std::string_view value) {
+    size_t begin = value.find_first_not_of(kSpace);
+    if (begin == value.npos) return {};
+    return value.substr(begin, value.find_last_not_of(kSpace) + 1 - begin);
+}
+
+std::string encoded_link(const std::string& name) {
+    std::string link;
+    for (char c : name)
+        link += uint8_t(c) <= ' ' || std::string_view("%#?\"<>").find(c) != std::string_view::npos
+                    ? fmt::format("%{:02X}", uint8_t(c))
+                    : std::string(1, c);
+    return link;
+}
+
+Edit set_link(std::string_view text, const collada::UriValue& uri, const std::string& link) {
+    if (uri.attribute) return collada::set_attribute(text, *uri.element, uri.attribute->name, link);
+    return {{uri.element->start_tag.end, uint32_t(text.rfind("</", uri.element->bytes.end - 1))},
+            collada::escape_text(link)};
+}
 
 std::string move_links(const std::string& path, const std::string& text,
                        const std::string& new_path, const std::string& archive, Diagnostics& diag) {
@@ -169,7 +199,8 @@ std::string move_links(const std::string& path, const std::string& text,
     std::optional<Document> document = collada::read_document_text(path, text, quiet);
     if (!document || !document->whole()) return text;
     LinkMove move(*document, quiet.files.text(document->file()));
-    return move.between(path, new_path, archive) ? move.run(diag) : text;
+    move.between(path, new_path, archive);
+    return move.run(diag);
 }
 
 }  // namespace kinora
