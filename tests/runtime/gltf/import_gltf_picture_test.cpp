@@ -327,19 +327,22 @@ TEST(GltfTexture, TangentsOfTheFileTurnTheNormalMap) {
 // ---- lights
 
 TEST(GltfLight, PointsFallWithTheSquareOfTheDistanceUpToTheirRange) {
-    auto radiance = [](double distance, double range) {
+    auto at = [](double distance, double range) {
         GltfText g = wall({{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
                            {"extensions", {{"KHR_materials_ior", {{"ior", 1.0}}}}}});
         json light = {{"type", "point"}, {"intensity", 40}};
         if (range > 0) light["range"] = range;
         lit(g, light, {{"translation", {0.0625, -0.0625, distance}}});  // over pixel 8, 8
-        return middle(g).x;
+        return g;
     };
+    auto radiance = [&](double distance, double range) { return middle(at(distance, range)).x; };
     EXPECT_NEAR(radiance(2, 0), 40 / (M_PI * 4), 1e-4);
     EXPECT_NEAR(radiance(4, 0), 40 / (M_PI * 16), 1e-4);
     // KHR_lights_punctual: max(min(1 - (d / range)^4, 1), 0) / d^2
     EXPECT_NEAR(radiance(4, 5), 40 / (M_PI * 16) * (1 - std::pow(0.8, 4)), 1e-4);
-    EXPECT_EQ(radiance(4, 3.9), 0);
+    auto beyond = rendering_of(at(4, 3.9));
+    EXPECT_EQ(beyond->frame().color(8, 8).x, 0);
+    EXPECT_EQ(beyond->count("LIGHTS_DARK"), 1);
 }
 
 TEST(GltfLight, SpotsFadeFromTheInnerToTheOuterCone) {
