@@ -93,8 +93,12 @@ void UnknownNames::function(const CallExpr& e) {
     Finding& finding = reporter_.report(Code::RSL_UNKNOWN_FUNCTION, e.span, e.name);
     for (const FunctionHint& row : kFunctionHints)
         if (row.name == e.name) finding.help = row.help;
-    for (const ShaderDefinition* shader : ast_.shaders)
-        if (shader->name == e.name) finding.help = "it is a shader, which cannot be called";
+    for (const ShaderDefinition* shader : ast_.shaders) {
+        if (shader->name != e.name) continue;
+        finding.help = fmt::format("'{}' is a {} shader; only functions can be called", e.name,
+                                   shader_kind_name(shader->kind));
+        finding.notes.push_back({shader->span.where, "defined here"});
+    }
     if (const Symbol* symbol = scopes_.find_variable(e.name); symbol && finding.help.empty())
         finding.help = symbol->type == Type{BaseType::String, -1}
                            ? fmt::format(

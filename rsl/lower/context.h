@@ -50,6 +50,13 @@ class LoweringContext {
         if (!ast().reported.first(diagnostics_, info, where, message)) return nullptr;
         return &diagnostics_.add(info, where, std::move(message));
     }
+    // The same, once for the source wherever else it stands too.
+    template <class... Args>
+    Finding* report_first(const FindingInfo& info, Location where, const Args&... args) {
+        std::string message = fmt::vformat(info.text, fmt::make_format_args(args...));
+        if (!ast().reported.first(diagnostics_, info, {}, message)) return nullptr;
+        return &diagnostics_.add(info, where, std::move(message));
+    }
     template <class... Args>
     void error(const FindingInfo& info, Location where, const Args&... args) {
         report(info, where, args...);

@@ -26,7 +26,8 @@ struct LowerOptions {
     bool want_P = false;
     std::vector<std::string> aovs;      // names of output parameters wanted
     std::vector<std::string> messages;  // light shaders: parameters that some lightsource() reads
-    // Known coordinate systems besides the standard ones; null: any name is taken.
+    // Known coordinate systems besides the standard ones: what else is named means "shader". Null:
+    // any name is taken.
     const std::vector<std::string>* spaces = nullptr;
 };
 
@@ -60,8 +61,8 @@ struct LoweredShader {
 };
 
 // Lowers a stack of displacement and surface layers, or one light (or other) shader. Errors of use
-// (an unknown constant space name, an array over 1 MiB, a construct not yet compiled) are findings
-// at their location in the shader source; the result is then empty.
+// (an array over 1 MiB, a construct not yet compiled) are findings at their location in the shader
+// source; the result is then empty.
 std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOptions& options,
                                    Diagnostics& diagnostics);
 

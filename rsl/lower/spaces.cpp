@@ -11,7 +11,8 @@ namespace kinora::rsl {
 namespace {
 
 constexpr std::string_view kProjective[] = {"screen", "NDC", "raster"};
-constexpr std::string_view kStandard[] = {"world", "object", "shader", "screen", "NDC", "raster"};
+constexpr std::string_view kStandard[] = {"world",  "object", "shader", "current",
+                                          "camera", "screen", "NDC",    "raster"};
 
 // Of displacements, as true displacement has it: the object's own space.
 constexpr std::string_view kOfObject[] = {"current", "object", "shader"};
@@ -24,25 +25,32 @@ bool contains(const List& list, std::string_view name) {
 }  // namespace
 
 Space Spaces::space(Value name, Location where) {
-    if (!context_.bends_normals()) return kernel_space(name, where);
     const std::string* text = e_.constant_text(name);
-    if (text && contains(kOfObject, *text)) return {};
-    Space object = input_space("object"), other = kernel_space(name, where);
+    std::string meant = text ? meant_space(*text, where) : "";
+    if (text) text = &meant;
+    if (!context_.bends_normals()) return kernel_space(name, text);
+    if (text && contains(kOfObject, meant)) return {};
+    Space object = input_space("object"), other = kernel_space(name, text);
     if (other.identity) return {false, object.from_current, object.to_current};
     return {false, multiply(e_, other.to_current, object.from_current),
             multiply(e_, object.to_current, other.from_current)};
 }
 
-Space Spaces::kernel_space(Value name, Location where) {
-    const std::string* text = e_.constant_text(name);
-    if (!text) return variable_space(name);
-    if (*text == "current" || (*text == "camera" && !context_.options.of_vertices)) return {};
-    if (context_.options.spaces && *text != "camera" && !contains(kStandard, *text) &&
-        !contains(*context_.options.spaces, *text)) {
-        unknown_space(*text, where);
-        return {};
+std::string Spaces::meant_space(const std::string& name, Location where) {
+    if (contains(kStandard, name)) return name;
+    if (!context_.options.spaces) {  // any name may be that of a node
+        hint_at_near_name(name, where);
+        return name;
     }
-    return input_space(*text);
+    if (contains(*context_.options.spaces, name)) return name;
+    unknown_space(name, where);
+    return "shader";
+}
+
+Space Spaces::kernel_space(Value name, const std::string* meant) {
+    if (!meant) return variable_space(name);
+    if (*meant == "current" || (*meant == "camera" && !context_.options.of_vertices)) return {};
+    return input_space(*meant);
 }
 
 // The inputs hold matrices on column vectors, RSL's are on row vectors: row and column change
@@ -79,12 +87,21 @@ Lowered Spaces::from_object(const Lowered& x) {
 
 void Spaces::unknown_space(const std::string& name, Location where) {
     std::vector<std::string_view> known(std::begin(kStandard), std::end(kStandard));
-    known.push_back("current");
-    known.push_back("camera");
     known.insert(known.end(), context_.options.spaces->begin(), context_.options.spaces->end());
-    context_.failed = true;
-    Finding* finding = context_.report(Code::RSL_SPACE_UNKNOWN, where, name);
-    if (auto near = nearest_name(name, known); finding && !near.empty())
+    Finding* finding = context_.report_first(Code::RSL_SPACE_UNKNOWN, where, name);
+    if (!finding) return;
+    context_.failed |= finding->severity == Severity::Error;  // as --strict wants it
+    if (auto near = nearest_name(name, known); !near.empty())
+        finding->help = "did you mean '" + std::string(near) + "'?";
+}
+
+// "shadr" is a mistake, "camera1" a node.
+void Spaces::hint_at_near_name(const std::string& name, Location where) {
+    std::vector<std::string_view> standard(std::begin(kStandard), std::end(kStandard));
+    std::string_view near = nearest_name(name, standard);
+    size_t letters = name.find_last_not_of("0123456789._") + 1;
+    if (near.empty() || name.substr(0, letters) == near) return;
+    if (Finding* finding = context_.report_first(Code::RSL_SPACE_NEAR, where, name))
         finding->help = "did you mean '" + std::string(near) + "'?";
 }
 

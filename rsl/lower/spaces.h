@@ -29,10 +29,13 @@ class Spaces {
     Lowered from_object(const Lowered& x);  // what the mesh brings, in the layer's current
 
   private:
-    Space kernel_space(Value name, Location where);  // in terms of the kernel's current
+    // What a written name means: one that nobody knows is "shader", which is said once.
+    std::string meant_space(const std::string& name, Location where);
+    Space kernel_space(Value name, const std::string* meant);  // in terms of the kernel's current
     Space input_space(const std::string& name);
     Space variable_space(Value name);
     void unknown_space(const std::string& name, Location where);
+    void hint_at_near_name(const std::string& name, Location where);
     Lowered change_space(const Lowered& x, bool identity, const Lowered& m, const Lowered& inverse);
 
     Emitter& e_;

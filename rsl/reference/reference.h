@@ -40,6 +40,8 @@ struct ReferenceInputs {
     std::map<std::string, double> values;
     std::vector<ReferenceLight> lights;  // at any position asked for
     ReferenceService service;
+    // Coordinate systems beside the standard ones; any other name means "shader". Null: all exist.
+    const std::vector<std::string>* spaces = nullptr;
     // Not 0: every sum, product and built-in's result that is no whole number is moved by up to
     // 2^-22 of itself, at random from this seed (Monte Carlo arithmetic): shows what rounding may
     // change.

@@ -1,5 +1,6 @@
 // rsl/reference/spaces.cpp: coordinate systems at one point.
 #include <algorithm>
+#include <set>
 
 #include "rsl/reference/matrices_p.h"
 #include "rsl/reference/reference_p.h"
@@ -13,7 +14,12 @@ bool Reference<Real>::bends_normals() const {
 }
 
 template <class Real>
-auto Reference<Real>::space(const std::string& name, const char* direction) const -> Matrix {
+auto Reference<Real>::space(const std::string& named, const char* direction) const -> Matrix {
+    static const std::set<std::string> kStandard = {"current", "camera", "world", "object",
+                                                    "shader",  "screen", "NDC",   "raster"};
+    bool known = !in.spaces || kStandard.contains(named) ||
+                 std::find(in.spaces->begin(), in.spaces->end(), named) != in.spaces->end();
+    const std::string name = known ? named : "shader";
     if (!bends_normals()) return input_space(name, direction);
     bool to = direction[0] == 't';
     if (name == "current" || name == "object" || name == "shader") return identity<Real>();

@@ -163,6 +163,21 @@ void Parser::unknown_definition() {
                                  : fmt::format("did you mean '{}'?", near);
 }
 
+// "float fade(float x) {", where a macro of that name has put something else in the name's place.
+bool Parser::name_is_macro() {
+    const Token& name = cursor_.token(1);
+    if (!cursor_.is_type() || cursor_.token().macro != 0 || name.macro == 0 ||
+        name.kind == TokenKind::Identifier)
+        return false;
+    std::string_view macro = ast_.tokens.macros[name.macro].name;
+    Finding* finding =
+        errors_.error(Code::RSL_SYNTAX, name, "a function name", fmt::format("'{}'", name.text));
+    if (finding)
+        finding->help = fmt::format(
+            "the function's name is a macro: '#undef {}' before it, or another name", macro);
+    return true;
+}
+
 // "[uniform] [type] name (": the detail of a result is inferred.
 void Parser::function_definition() {
     while (true) {
@@ -171,6 +186,7 @@ void Parser::function_definition() {
         else if (!foreign_.accept_idle_word())
             break;
     }
+    if (name_is_macro()) return;
     int name = (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1)) || foreign_.at_type();
     bool named =
         cursor_.token(name).kind == TokenKind::Identifier && cursor_.is(Punct::LeftParen, name + 1);

@@ -33,6 +33,7 @@ class Parser {
     BlockStmt* body_as_function(BlockStmt* body);
     void function_definition();
     void unknown_definition();
+    bool name_is_macro();
 
     Ast& ast_;
     TokenCursor cursor_;

@@ -87,6 +87,7 @@ void Directives::run_include(const Token& name, Line line) {
     std::string file;
     if (!tokens.empty() && tokens[0].kind == TokenKind::String && tokens[0].text.size() > 1) {
         file = tokens[0].text.substr(1, tokens[0].text.size() - 2);
+        text_behind(tokens, 1);
         include(file, true, tokens[0]);
         return;
     }
@@ -95,11 +96,19 @@ void Directives::run_include(const Token& name, Line line) {
         return;
     }
     Token at = tokens[0];
-    for (size_t i = 1; i < tokens.size() && tokens[i].punct != Punct::Greater; ++i) {
+    size_t i = 1;
+    for (; i < tokens.size() && tokens[i].punct != Punct::Greater; ++i) {
         file += tokens[i].text;
         at.where.end = std::max(at.where.end, tokens[i].where.end);
     }
+    text_behind(tokens, i + 1);
     include(file, false, at);
+}
+
+// What stands behind the file's name on its line belongs to no line of the source.
+void Directives::text_behind(Line line, size_t first) {
+    if (first >= line.size() || line[first].punct == Punct::Semicolon) return;
+    reporter_.report(Code::RSL_TEXT_BEHIND_INCLUDE, line[first], line[first].text);
 }
 
 void Directives::include(const std::string& file, bool quoted, const Token& at) {

@@ -42,6 +42,7 @@ class Directives {
     void run_undef(const Token& name, Line line);
     void run_include(const Token& name, Line line);
     void include(const std::string& file, bool quoted, const Token& at);
+    void text_behind(Line line, size_t first);
     void run_if(const Token& name, Line line);
     void run_ifdef(const Token& name, Line line);
     void run_ifndef(const Token& name, Line line);

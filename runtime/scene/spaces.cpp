@@ -62,7 +62,7 @@ dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t nod
         const NodeDefinition& definition = scene.description->nodes[n.definition];
         if (definition.id == name) return view.camera_from_world * n.world;
     }
-    return dmat4(1.0);
+    return current_from_space(scene, "shader", node);
 }
 
 dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t object) {

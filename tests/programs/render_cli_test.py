@@ -5,6 +5,7 @@ import resource
 import signal
 import subprocess
 
+import written_scenes as scenes
 from programs import MATTE, ProgramTest, command, main, render
 
 SMALL = ("--size", "24x16", "--spp", "1", "--threads", "1")
@@ -70,6 +71,15 @@ class ExitCodes(ProgramTest):
         column = rows[line - 1].index("difuse(") + 1
         result = render(scene, "-o", self.folder / "a.png", *SMALL)
         self.expect(result, 4, f"broken.dae:{line}:{column}: error")
+
+    def test_an_unknown_coordinate_system_is_a_warning_and_an_error_under_strict(self):
+        code = 'surface s() { Ci = xcomp(transform("nowhere", P)) + ycomp(transform("nowhere", P)); }'
+        scene = self.write("space.dae", scenes.document(
+            scenes.CAMERA + scenes.geometries(scenes.square()) + scenes.rsl(code), scenes.EYE + scenes.place()))
+        words = (scene, "-o", self.folder / "space.png", "--size", "16x16")
+        result = self.expect(render(*words), 0, "no coordinate system is named 'nowhere'; it is taken as 'shader'")
+        self.assertEqual(result.err.count("RSL_SPACE_UNKNOWN"), 1)
+        self.expect(render(*words, "--strict"), 4, "error: no coordinate system is named 'nowhere'")
 
     def test_unwritable_outputs_exit_6_and_leave_nothing(self):
         self.write("file", "not a folder")

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "rsl/reference/reference.h"
 #include "tests/rsl/run_shader.h"
+#include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
 namespace {
@@ -100,16 +102,65 @@ TEST(LowerExpression, ConvertsColorSpaces) {
                 0.7, 1e-4);
 }
 
-TEST(LowerExpression, ReportsWhatItCannotCompile) {
+TEST(LowerExpression, AnUnknownCoordinateSystemIsShader) {
     std::vector<std::string> spaces = {"node7"};
     LowerOptions options;
     options.spaces = &spaces;
-    RunShader shader("surface t() { point p = transform(\"shadr\", P); Ci = color(xcomp(p)); }",
-                     options);
-    EXPECT_FALSE(shader.ok());
+    RunShader shader(
+        "surface t() { point p = transform(\"shadr\", P), q = transform(\"shadr\", P + 1);"
+        " Ci = color(xcomp(p), xcomp(q), xcomp(transform(\"node7\", P))); }",
+        options);
+    ASSERT_TRUE(shader.ok()) << shader.findings();
+    ASSERT_EQ(shader.diagnostics.findings().size(), 1u) << shader.findings();
+    const Finding& finding = shader.diagnostics.findings()[0];
+    EXPECT_EQ(finding.severity, Severity::Warning);
     EXPECT_NE(shader.findings().find("test.sl:1"), std::string::npos);
-    EXPECT_NE(shader.findings().find("did you mean 'shader'"), std::string::npos)
-        << shader.findings();
+    EXPECT_EQ(finding.help, "did you mean 'shader'?");
+    std::string moved = text(space_key("shader", false, 0, 3));
+    shader.set(moved, 7);
+    shader.set3("P", 2, 0, 0);
+    auto out = shader.run();
+    EXPECT_EQ(out["Ci.r"][0], 9);
+    EXPECT_EQ(out["Ci.g"][0], 10);
+    EXPECT_EQ(out["Ci.b"][0], 2);
+
+    ReferenceInputs inputs;  // the language's own definition says the same
+    inputs.spaces = &spaces;
+    inputs.values = {{"P.x", 2}, {moved, 7}};
+    Layer layer{shader.shaders.back().get(), {}};
+    ReferenceResult want = run_reference<double>({&layer, 1}, inputs);
+    EXPECT_EQ(want.values["Ci.r"], 9);
+    EXPECT_EQ(want.values["Ci.b"], 2);
+}
+
+TEST(LowerExpression, AnUnknownCoordinateSystemIsAnErrorWhereThatIsWanted) {
+    std::vector<std::string> spaces;
+    LowerOptions options;
+    options.spaces = &spaces;
+    TestSource source("surface t() { Ci = color(xcomp(transform(\"shadr\", P))); }");
+    source.diagnostics.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
+    auto shaders = compile(source.source, {}, source.diagnostics);
+    ASSERT_EQ(shaders.size(), 1u);
+    Layer layer{shaders[0].get(), {}};
+    EXPECT_FALSE(lower({&layer, 1}, options, source.diagnostics));
+    EXPECT_TRUE(source.diagnostics.has_errors());
+}
+
+// Without a scene any name may be a node's: only what looks like a slip is hinted at.
+TEST(LowerExpression, HintsAtCoordinateSystemsThatLookMisspelt) {
+    auto help = [](const std::string& name) {
+        RunShader shader("surface t() { Ci = color(xcomp(transform(\"" + name + "\", P))); }");
+        EXPECT_TRUE(shader.ok());
+        return shader.diagnostics.findings().empty() ? "" : shader.diagnostics.findings()[0].help;
+    };
+    EXPECT_EQ(help("shadr"), "did you mean 'shader'?");
+    EXPECT_EQ(help("wrold"), "did you mean 'world'?");
+    EXPECT_EQ(help("obejct"), "did you mean 'object'?");
+    for (const char* name : {"world", "projector", "lamp", "camera1", "object_2", "table"})
+        EXPECT_EQ(help(name), "") << name;
+}
+
+TEST(LowerExpression, ReportsWhatItCannotCompile) {
     RunShader large("surface t(float i = 0;) { float a[200000]; a[s] = 1; Ci = a[t]; }");
     EXPECT_NE(large.findings().find("array 'a' is too large"), std::string::npos)
         << large.findings();

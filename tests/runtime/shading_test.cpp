@@ -90,11 +90,17 @@ TEST(Spaces, EveryNodeIdNamesASpace) {
     });
 }
 
-TEST(Spaces, AnUnknownNameIsAnErrorAtLoadNamingIt) {
-    SceneText scene = floor_scene(show(components("transform(\"nowhere\", P)")));
-    Rendering r(scene.text());
-    ASSERT_TRUE(r.diagnostics.has_errors());
-    EXPECT_NE(r.findings().find("nowhere"), std::string::npos) << r.findings();
+TEST(Spaces, AnUnknownNameIsAWarningAndMeansShader) {
+    for (const char* name : {"\"nowhere\"", "(s > -9 ? \"nowhere\" : \"world\")"}) {
+        SceneText scene;
+        scene.square("floor", 3)
+            .look("floor-look", show(components(fmt::format("transform({}, P)", name))))
+            .place("floor", "floor-look", "<translate>0.25 0.5 0</translate>");
+        Rendering r(scene.text());
+        expect_colors(r.frame(), [](dvec2 p) { return dvec3(p.x - 0.25, p.y - 0.5, 0); });
+        bool constant = name[0] == '"';  // another is known at run time alone
+        EXPECT_EQ(r.findings().find("RSL_SPACE_UNKNOWN") != std::string::npos, constant);
+    }
 }
 
 // ---- parameters of the surface

@@ -158,6 +158,7 @@ SceneOptions Render::scene_options() const {
 
 int Render::load() {
     set_thread_count(options_.threads);
+    if (options_.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
     if (!options_.target_missing.empty())
         diagnostics_.report(Code::TARGET_UNAVAILABLE, Location{}, options_.target_missing,
                             jit::best_target().name);
