@@ -1,8 +1,8 @@
-/* gltf_spot.sl: KHR_lights_punctual: a point light in a cone around -z, whole within inner_angle,
+/* gltf_spot.sl: KHR_lights_punctual: a point light in a cone around z, whole within inner_angle,
    nothing beyond outer_angle (both from the axis, radians). */
 light gltf_spot(color lightcolor = 1; float intensity = 1; float range = 0; float inner_angle = 0;
                 float outer_angle = 0.785398;) {
-    uniform vector axis = normalize(vector "shader" (0, 0, -1));
+    uniform vector axis = normalize(vector "shader" (0, 0, 1));
     illuminate(P, axis, outer_angle) {
         float d = length(L);
         float window = 1;

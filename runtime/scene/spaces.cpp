@@ -39,15 +39,20 @@ dmat4 ndc_from_screen(const raytrace::Camera& view) {
     return m;
 }
 
+dmat4 current_from_owner(const Scene& scene, SpaceOwner owner) {
+    dmat4 m = scene.view.camera_from_world;
+    if (owner.node != kNone) m = m * scene.nodes[owner.node].world;
+    if (owner.light) m[2] = -m[2];
+    return m;
+}
+
 }  // namespace
 
-dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node) {
+dmat4 current_from_space(const Scene& scene, std::string_view name, SpaceOwner owner) {
     const raytrace::Camera& view = scene.view;
     if (name == "current" || name == "camera") return dmat4(1.0);
     if (name == "world") return view.camera_from_world;
-    if (name == "shader" || name == "object")
-        return node == kNone ? view.camera_from_world
-                             : view.camera_from_world * scene.nodes[node].world;
+    if (name == "shader" || name == "object") return current_from_owner(scene, owner);
     dmat4 screen = screen_from_camera(view);
     if (name == "screen") return glm::inverse(screen);
     dmat4 ndc = ndc_from_screen(view) * screen;
@@ -62,7 +67,7 @@ dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t nod
         const NodeDefinition& definition = scene.description->nodes[n.definition];
         if (definition.id == name) return view.camera_from_world * n.world;
     }
-    return current_from_space(scene, "shader", node);
+    return current_from_owner(scene, owner);
 }
 
 dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t object) {

@@ -10,10 +10,19 @@ namespace kinora {
 
 struct Scene;
 
+// Whose "object" and "shader" space is meant: a scene node's (kNone: the world's). That of a light
+// on it is RenderMan's: x right, y up, z where the light looks, which is the node's with z
+// mirrored.
+struct SpaceOwner {
+    uint32_t node;
+    bool light = false;
+    SpaceOwner(uint32_t n, bool is_light = false) : node(n), light(is_light) {}
+};
+
 // current_from_space of a named space at the scene's present state: "world", "camera", "current",
-// "screen", "NDC", "raster", "object"/"shader" of scene node `node` (kNone: world), or a node's id.
-// Composed in double. A name that is none of these means "shader".
-dmat4 current_from_space(const Scene& scene, std::string_view name, uint32_t node);
+// "screen", "NDC", "raster", "object"/"shader" of the owner, or a node's id. Composed in double. A
+// name that is none of these means "shader".
+dmat4 current_from_space(const Scene& scene, std::string_view name, SpaceOwner owner);
 
 // The same with the space of scene node `object` as "current": what vertices are displaced in.
 dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t object);

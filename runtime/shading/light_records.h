@@ -28,6 +28,8 @@ class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
     void begin_frame() { area_lights_.begin_frame(); }
+    // Names the lights that shine only against where they look (light_aim.cpp).
+    void report_aims(Diagnostics& diagnostics) const;
 
     // What every grid with lights needs for them.
     void want_columns(Grid& grid) const;

@@ -44,11 +44,11 @@ uint32_t surface_row(const Asker& asker) {
 // The same from the look's "shader" space: a surface's is that of what wears it.
 void to_current(rsl::BaseType type, const Asker& asker, const ShaderInstance& look,
                 const double* values, Answer& answer) {
-    uint32_t node = look.node;
-    uint32_t row = node == kNone ? surface_row(asker) : kNone;
+    SpaceOwner owner = look.space_owner();
+    uint32_t row = owner.node == kNone ? surface_row(asker) : kNone;
     if (row != kNone && asker.scene.surfaces[row].look == look.index)
-        node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
-    to_current(type, current_from_space(asker.scene, "shader", node), values, answer);
+        owner.node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
+    to_current(type, current_from_space(asker.scene, "shader", owner), values, answer);
 }
 
 rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {

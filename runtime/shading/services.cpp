@@ -29,10 +29,10 @@ TextureStore& SceneHost::textures() const {
     return *scene_.textures;
 }
 dmat4 SceneHost::current_from_space(std::string_view name, size_t) const {
-    return kinora::current_from_space(scene_, name, look_.node);
+    return kinora::current_from_space(scene_, name, look_.space_owner());
 }
 dmat4 SceneHost::world_from_current() const {
-    return glm::inverse(kinora::current_from_space(scene_, "world", look_.node));
+    return glm::inverse(kinora::current_from_space(scene_, "world", kNone));
 }
 void SceneHost::print(const jit::ServiceCall& call) {
     std::fputs(print_text(call, 0).c_str(), stdout);
@@ -60,12 +60,12 @@ GridHost::GridHost(Grid& grid, const GridServices& services)
 
 // "shader" and "object" of a surface are those of the shape that wears it.
 dmat4 GridHost::current_from_space(std::string_view name, size_t point) const {
-    uint32_t node = look_.node;
+    SpaceOwner owner = look_.space_owner();
     if (look_.kind == ShaderInstanceKind::Surface) {
         uint32_t hit = grid_.points[std::min(point, grid_.count() - 1)];
-        node = scene_.shapes[scene_.surfaces[grid_.hits.instance[hit]].shape].node;
+        owner.node = scene_.shapes[scene_.surfaces[grid_.hits.instance[hit]].shape].node;
     }
-    return kinora::current_from_space(scene_, name, node);
+    return kinora::current_from_space(scene_, name, owner);
 }
 void GridHost::print(const jit::ServiceCall& call) {
     services_.prints.add(grid_, call);

@@ -281,7 +281,7 @@ void ShaderInstance::update_for_vertices(const FrameContext& context, uint32_t o
 
 void ShaderInstance::update(const FrameContext& context) {
     for (size_t s = 0; s < spaces.size(); ++s)
-        current_from_space[s] = kinora::current_from_space(context.scene, spaces[s], node);
+        current_from_space[s] = kinora::current_from_space(context.scene, spaces[s], space_owner());
     full.update(context, *this);
     if (opacity) opacity->update(context, *this);
 }

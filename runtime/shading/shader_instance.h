@@ -14,6 +14,7 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/base/arena.h"
 #include "runtime/description/scene_description.h"
+#include "runtime/scene/spaces.h"
 #include "runtime/shading/kernels/columns.h"
 
 namespace kinora {
@@ -116,6 +117,10 @@ struct ShaderInstance {
 
     bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }
     const rsl::Shader& shader() const { return *layers.back().shader; }
+    // Whose "shader" space it has, where that is no surface's of its own.
+    SpaceOwner space_owner() const {
+        return {node, kind == ShaderInstanceKind::Light && !area_light};
+    }
     void update(const FrameContext& context);
     // The same for a kernel of vertices: "current" is the space of `object`, a scene node.
     void update_for_vertices(const FrameContext& context, uint32_t object);

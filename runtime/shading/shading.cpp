@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "runtime/base/parallel.h"
 #include "runtime/scene/scene.h"
@@ -46,6 +47,7 @@ struct Shading::Objects {
     Prints prints;
     Bakes bakes{frame.scene};
     GridServices services{lights, rays, gathers, prints, bakes};
+    bool aims_reported = false;
 };
 
 Shading::Shading(const Scene& scene) {
@@ -120,6 +122,7 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     objects_->prints.flush();
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
+    if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
     return total;
 }
 

@@ -7,6 +7,7 @@ import struct
 import unittest
 
 import programs
+import written_scenes as scenes
 from convert_test import PICTURE, SAME, Convert, convert, glb_json, mesh_scene, png, validated
 from programs import render
 
@@ -183,6 +184,25 @@ class Materials(GltfConvert):
         del g.tree["textures"], g.tree["samplers"]
         before, _ = self.stays(self.save("shader", g), times=3)
         self.assertGreater(len(set(before[2])), 3)
+
+    def test_lights_in_rsl_stay_in_a_glb_and_back(self):
+        code = ('light beam() { illuminate(P, vector "shader" (0.2, 0.1, 1), 0.3) { point p = transform("shader", Ps);'
+                " Cl = color(1, 0.5 + 0.5 * xcomp(p), 0.5 + 0.5 * ycomp(p)); } }")
+        lamp = (f'<library_effects><effect id="lfx"><profile_RSL><technique sid="t"><code><![CDATA[{code}]]></code>'
+                '<pass><shader stage="LIGHT"/></pass></technique></profile_RSL></effect></library_effects>'
+                '<library_lights><light id="lamp"><technique_common><point><color>1 1 1</color></point>'
+                '</technique_common><extra><technique profile="RSL"><instance_effect url="#lfx"/></technique></extra>'
+                "</light></library_lights>")
+        node = '<node id="ln"><translate>0 0 3</translate><rotate>0 0 1 20</rotate><instance_light url="#lamp"/></node>'
+        for up in ("Y_UP", "Z_UP"):
+            with self.subTest(up):
+                scene = self.write(f"{up}.dae", scenes.document(
+                    scenes.CAMERA + scenes.geometries(scenes.square()) + scenes.MATTE + lamp,
+                    scenes.EYE + scenes.place() + node, up=up))
+                before, glb = self.stays(scene)
+                self.assertGreater(len(set(before[2])), 20)
+                back = self.converted(glb, f"{up}-back.dae")
+                self.assertLess(self.difference(before, self.picture(back)), SAME)
 
     def test_other_viewers_see_transforms_of_textures(self):
         self.image("a.png", self.TEXELS)

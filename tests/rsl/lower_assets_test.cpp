@@ -160,7 +160,7 @@ TEST(Assets, ColladaSpotFallsOff) {
     // On the axis, 20 degrees off, 40 degrees off.
     float tan20 = std::tan(20 * 3.14159265f / 180);
     light.set("Ps.x", {0, 2 * tan20, 2});
-    light.set("Ps.z", -2);
+    light.set("Ps.z", 2);  // a light looks along z
     auto Cl = light.run(3)["light:0:Cl.r"];
     EXPECT_FLOAT_EQ(Cl[0], 0.25f);
     float cos20 = std::cos(20 * 3.14159265f / 180);

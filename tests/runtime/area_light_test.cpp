@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "expect_colors.h"
 #include "jit/target.h"
 #include "scene_text.h"
 
@@ -51,6 +52,20 @@ double rectangle_factor(dvec2 p, double half, double height) {
     double x0 = -half - p.x, x1 = half - p.x, y0 = -half - p.y, y1 = half - p.y;
     return signed_corner(x1, y1) - signed_corner(x0, y1) - signed_corner(x1, y0) +
            signed_corner(x0, y0);
+}
+
+// Its "shader" space is the geometry's, without the mirror of lights on nodes.
+TEST(AreaLight, HasTheSpaceOfItsGeometry) {
+    SceneText scene =
+        floor_scene("surface s() { Oi = 1; Ci = 0; illuminance(P, N, PI/2) Ci += Cl; }");
+    lamp(scene,
+         "light area() { illuminate(P, N, PI/2) { point p = transform(\"shader\", Ps);"
+         "  Cl = color(xcomp(p), ycomp(p), zcomp(p)); } }",
+         0.1, 11, 4);
+    Rendering r(scene.text());
+    // kDown turns it about x: y and z of the geometry go against the world's.
+    expect_colors(
+        r.frame(), [](dvec2 p) { return dvec3(p.x, -p.y, 11); }, 1e-4);
 }
 
 TEST(AreaLight, ARectanglesIrradianceIsItsFormFactor) {

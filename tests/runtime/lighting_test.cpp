@@ -89,13 +89,63 @@ TEST(Lights, IlluminanceByCategoryTakesThatCategoryOnly) {
     scene
         .rsl_light("a",
                    "light a(string __category = \"fill,key\") {"
-                   " solar(vector \"shader\" (0,0,-1), 0) Cl = color(1,0,0); }")
+                   " solar(vector \"shader\" (0,0,1), 0) Cl = color(1,0,0); }")
         .rsl_light("b",
                    "light b(string __category = \"fill\") {"
-                   " solar(vector \"shader\" (0,0,-1), 0) Cl = color(0,1,0); }");
+                   " solar(vector \"shader\" (0,0,1), 0) Cl = color(0,1,0); }");
     Rendering r(scene.text());
     expect_colors(r.frame(), [](dvec2) { return dvec3(1, 10, 0); });
     EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+}
+
+// RenderMan's: x right, y up, z where the light looks. A node that is named has its own axes.
+TEST(Lights, ShaderSpaceLooksAlongZ) {
+    SceneText scene =
+        floor_scene("surface s() { Oi = 1; Ci = 0; illuminance(P, N, PI/2) Ci += Cl; }");
+    scene.rsl_light("lamp",
+                    "light lamp(string space = \"shader\";) {"
+                    "  point a = transform(\"shader\", Ps), b = transform(\"lamp-node\", Ps);"
+                    "  point c = transform(space, Ps), d = transform(concat(\"obj\", \"ect\"), Ps);"
+                    "  float alike = distance(a, c) + distance(a, d) < 1e-5 ? 1 : 0;"
+                    "  illuminate(point \"shader\" (0, 0, 0), vector \"shader\" (0, 0, 1), PI / 2)"
+                    "    Cl = alike * color(xcomp(a), ycomp(a), zcomp(a) + 10 * zcomp(b)); }",
+                    "<translate>0.25 0.5 2</translate>");
+    Rendering r(scene.text());
+    expect_colors(r.frame(), [](dvec2 p) { return dvec3(p.x - 0.25, p.y - 0.5, 2 - 20); });
+    EXPECT_EQ(r.findings(), "");
+}
+
+// Customary lights aim at their defaults: a spotlight of the specification lights what is below it.
+TEST(Lights, CustomaryLightsNeedNoTurning) {
+    SceneText scene = floor_scene(kMatte);
+    scene.rsl_light("lamp",
+                    "light spot(point from = point \"shader\" (0, 0, 0);"
+                    "           point to = point \"shader\" (0, 0, 1); float coneangle = 1.5;) {"
+                    "  uniform vector A = (to - from) / length(to - from);"
+                    "  illuminate(from, A, coneangle) Cl = 1; }",
+                    "<translate>0 0 2</translate>");
+    Rendering r(scene.text());
+    expect_colors(r.frame(),
+                  [](dvec2 p) { return dvec3(2 / std::sqrt(p.x * p.x + p.y * p.y + 4)); });
+    EXPECT_EQ(r.findings(), "");
+}
+
+TEST(Lights, ThatAimBackAreNamed) {
+    auto named = [](const std::string& statement) {
+        SceneText scene = floor_scene(kMatte);
+        scene.rsl_light("lamp", "light l() { " + statement + " Cl = 1; }",
+                        "<translate>0.1 0.2 3</translate><rotate>1 0 0 10</rotate>");
+        Rendering r(scene.text());
+        r.frame();
+        return r.findings().find("LIGHT_AIMS_BACK") != std::string::npos;
+    };
+    EXPECT_TRUE(named("solar(vector \"shader\" (0, 0, -1), 0)"));
+    EXPECT_TRUE(named("illuminate(P, vector \"shader\" (0, 0, -1), 0.02)"));
+    EXPECT_TRUE(named("illuminate(P, vector \"shader\" (0.3, 0, -1), 0.5)"));
+    EXPECT_FALSE(named("solar(vector \"shader\" (0, 0, 1), 0)"));
+    EXPECT_FALSE(named("illuminate(P, vector \"shader\" (0, 0, 1), 0.02)"));
+    EXPECT_FALSE(named("illuminate(P)"));
+    EXPECT_FALSE(named("illuminate(P, vector \"shader\" (0, 0, -1), 3)"));
 }
 
 TEST(Lights, SurfacesReadALightsParametersAndOutputs) {

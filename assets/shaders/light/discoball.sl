@@ -5,6 +5,7 @@ light discoball(float intensity = 34; float facets = 42; float spin = 0.1; float
                 float colors = 0.7;) {
     illuminate(point "shader" (0, 0, 0)) {
         vector D = normalize(vtransform("shader", L));
+        setzcomp(D, -zcomp(D));
         D = vector rotate(point D, 2 * PI * spin * time, point(0, 0, 0), point(0, 1, 0));
         float latitude = asin(clamp(ycomp(D), -1, 1));
         float row = floor(facets / 2 * latitude / (PI / 2) + 0.5);

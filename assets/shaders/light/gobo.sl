@@ -5,11 +5,11 @@
 light gobo(float intensity = 24; float scale = 7; float density = 0.58; float softness = 0.10;
            float coneangle = 26; float wind = 0.3;
            color lightcolor = color(1, 0.92, 0.72); color leafcolor = color(0.10, 0.16, 0.03);) {
-    uniform vector axis = normalize(vector "shader" (0, 0, -1));
+    uniform vector axis = normalize(vector "shader" (0, 0, 1));
     illuminate(point "shader" (0, 0, 0), axis, radians(coneangle)) {
         vector beam = vtransform("shader", L);
-        float x = scale * xcomp(beam) / max(-zcomp(beam), 0.0001) * 2;
-        float y = scale * ycomp(beam) / max(-zcomp(beam), 0.0001) * 2;
+        float x = scale * xcomp(beam) / max(zcomp(beam), 0.0001) * 2;
+        float y = scale * ycomp(beam) / max(zcomp(beam), 0.0001) * 2;
         /* Three layers of leaves, each a cell with an ellipse that leans its own way. */
         float open = 1;
         uniform float layer;

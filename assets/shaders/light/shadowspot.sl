@@ -6,7 +6,7 @@ light shadowspot(float intensity = 22; color lightcolor = color(1, 0.95, 0.88);
                  float blur = 0.03; float samples = 8; float bias = 0.01;
                  float coneangle = 25; float conedeltaangle = 7; float beamdistribution = 2;
                  output float shaded = 0;) {
-    uniform vector axis = normalize(vector "shader" (0, 0, -1));
+    uniform vector axis = normalize(vector "shader" (0, 0, 1));
     uniform float outer = cos(radians(coneangle));
     uniform float inner = cos(radians(coneangle - conedeltaangle));
     illuminate(point "shader" (0, 0, 0), axis, radians(coneangle)) {

@@ -1,12 +1,12 @@
 /* slideprojector.sl: throws a picture: the image `slide`, or without one a slide of its own (rings
    and spokes in colours) through a square gate.
-   Parameters: intensity, fov in degrees of the gate, slide, blur, from (the lamp, looks along -z of
+   Parameters: intensity, fov in degrees of the gate, slide, blur, from (the lamp, looks along z of
    its own space). */
 #define SLIDE_GATE 0.96
 
 light slideprojector(float intensity = 22; float fov = 34; float blur = 0.02; string slide = "";
                      point from = point "shader" (0, 0, 0);) {
-    uniform vector axis = normalize(vector "shader" (0, 0, -1));
+    uniform vector axis = normalize(vector "shader" (0, 0, 1));
     uniform float reach = tan(radians(fov) / 2);
 
     /* What the gate shows at x, y in -1..1. */
@@ -22,7 +22,7 @@ light slideprojector(float intensity = 22; float fov = 34; float blur = 0.02; st
     }
     illuminate(from, axis, atan(1.5 * reach)) {
         vector beam = vtransform("shader", L);
-        float away = max(-zcomp(beam), 0.0001);
+        float away = max(zcomp(beam), 0.0001);
         float x = xcomp(beam) / (away * reach);
         float y = ycomp(beam) / (away * reach);
         color shown;

@@ -34,7 +34,9 @@ light uberlight(float intensity = 1.5; color lightcolor = color(1, 0.94, 0.82);
     }
     /* Where the point is in the beam's own space: z away from the lamp. */
     point Q = transform("shader", Ps);
-    float away = -zcomp(Q);
+    point haze = Q;
+    setzcomp(haze, -zcomp(Q));
+    float away = zcomp(Q);
     float depthways = distance(Q, point(0, 0, 0));
     if (lighttype == "omni")
         away = depthways;
@@ -61,7 +63,7 @@ light uberlight(float intensity = 1.5; color lightcolor = color(1, 0.94, 0.82);
         atten *= pow(max(away / depthways, 0), beamdistribution);
     }
     if (noiseamp > 0) {
-        float n = float noise(noisefreq * Q + vector(0, 0, 0.4 * time));
+        float n = float noise(noisefreq * haze + vector(0, 0, 0.4 * time));
         n = smoothstep(0, 1, 0.5 + noiseamp * (n - 0.5));
         atten *= 0.5 + n;
     }

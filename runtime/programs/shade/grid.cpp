@@ -141,7 +141,7 @@ void Patch::add_sphere_point(int x, int y, uint32_t pixel) {
 void Patch::set_light(bool flip) {
     double z = current_from_object_[3].z - (sphere_ ? 2.0 : 1.0);
     current_from_shader_ = glm::translate(dmat4(1.0), dvec3(0, 0, z));
-    if (!flip) current_from_shader_ = glm::rotate(current_from_shader_, kPi, dvec3(0, 1, 0));
+    if (flip) current_from_shader_ = glm::rotate(current_from_shader_, kPi, dvec3(0, 1, 0));
 }
 
 dmat4 Patch::current_from_space(std::string_view name) const {

@@ -30,8 +30,8 @@ class Patch {
     const dmat4& current_from_object() const { return current_from_object_; }
     // By name; one that is not standard is taken for the object's.
     dmat4 current_from_space(std::string_view name) const;
-    // From now on "shader" space is a light's: 1 before the patch's middle, its -z towards the
-    // patch as COLLADA's lights and ours have it (flip: its +z).
+    // From now on "shader" space is a light's: 1 before the patch's middle, its z towards the
+    // patch, where a light looks (flip: its -z).
     void set_light(bool flip);
 
     // What its shader may read.

@@ -28,7 +28,7 @@ struct ShadeOptions {
     std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE
     int width = 256, height = 256;                            // of the grid of points
     bool sphere = false;
-    bool flip = false;  // a light shines along +z of its space
+    bool flip = false;  // a light shines along -z of its space
     std::string output = "Ci";
     const jit::Target* target = nullptr;  // null: run: the best; bench: all this CPU supports
     jit::math::Tier math = jit::math::Tier::Precise;

@@ -74,7 +74,7 @@ void add_grid(CLI::App& command, ShadeOptions& o, Texts& texts) {
     add_list(command, "--param", texts.params,
              "NAME=VALUE: a number, several with commas, or a text");
     command.add_flag("--sphere", o.sphere, "a sphere instead of a square");
-    command.add_flag("--flip", o.flip, "a light shines along +z of its space instead of -z");
+    command.add_flag("--flip", o.flip, "a light shines along -z of its space instead of z");
     command.add_option("--output", o.output,
                        "Ci, Oi, N, P or an output parameter of the shader (Ci)");
     command.add_option("--target", texts.target, "avx512, avx2, neon or interp");
