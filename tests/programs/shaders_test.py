@@ -46,7 +46,9 @@ class Shaders(ProgramTest):
     def test_are_clean(self):
         for file in FILES:
             with self.subTest(file=file.name):
-                self.expect(shade("check", file, "-I", SHADERS / "include"), 0,
+                # All four models of COLLADA have the same parameters.
+                model = ["-Wno-unused-parameter"] if file.stem.startswith("collada_") else []
+                self.expect(shade("check", file, "-I", SHADERS / "include", *model), 0,
                             "0 errors, 0 warnings")
 
     def test_say_what_they_look_like(self):

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "rsl/builtins/table.h"
+#include "rsl/lint/lint.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
@@ -34,6 +35,22 @@ std::vector<Expected> expected_findings(const fs::path& path) {
     return all;
 }
 
+// Exactly these, in this order.
+void expect_findings(const TestSource& source, const std::vector<Expected>& expected) {
+    const auto& findings = source.diagnostics.findings();
+    EXPECT_EQ(findings.size(), expected.size()) << source.messages();
+    if (findings.size() != expected.size()) return;
+    for (size_t i = 0; i < findings.size(); ++i) {
+        LineColumn at =
+            source.diagnostics.files.line_column(findings[i].where.file, findings[i].where.begin);
+        EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].position);
+        EXPECT_EQ(severity_name(findings[i].severity), expected[i].severity);
+        EXPECT_EQ(findings[i].info->code, expected[i].code);
+        std::string said = findings[i].message + "\n" + findings[i].help;
+        EXPECT_NE(said.find(expected[i].text), std::string::npos) << said;
+    }
+}
+
 // Compiles every .sl below the folder; the number of them.
 int check_folder(const char* folder) {
     int files = 0;
@@ -42,20 +59,8 @@ int check_folder(const char* folder) {
         ++files;
         TestSource source(read_file(path));
         auto shaders = compile(source.source, front_end_only(), source.diagnostics);
-        const auto& findings = source.diagnostics.findings();
-        auto expected = expected_findings(path);
-        EXPECT_EQ(findings.size(), expected.size()) << source.messages();
+        expect_findings(source, expected_findings(path));
         EXPECT_EQ(shaders.empty(), source.diagnostics.has_errors());
-        if (findings.size() != expected.size()) continue;
-        for (size_t i = 0; i < findings.size(); ++i) {
-            LineColumn at = source.diagnostics.files.line_column(findings[i].where.file,
-                                                                 findings[i].where.begin);
-            EXPECT_EQ(fmt::format("{}:{}", at.line, at.column), expected[i].position);
-            EXPECT_EQ(severity_name(findings[i].severity), expected[i].severity);
-            EXPECT_EQ(findings[i].info->code, expected[i].code);
-            std::string said = findings[i].message + "\n" + findings[i].help;
-            EXPECT_NE(said.find(expected[i].text), std::string::npos) << said;
-        }
     }
     return files;
 }
@@ -67,6 +72,35 @@ TEST(CheckFiles, GiveExactlyTheFindingsTheyExpect) {
 // What people get wrong: each program with what must be said of it, and nothing else.
 TEST(WrongPrograms, GiveExactlyTheFindingsTheyExpect) {
     EXPECT_GE(check_folder("tests/rsl/wrong"), 243);
+}
+
+// What compiles and is most likely a slip.
+TEST(Lint, GivesExactlyTheWarningsThatFilesExpect) {
+    int files = 0;
+    for (const fs::path& path : shader_files("tests/rsl/lint")) {
+        SCOPED_TRACE(path.string());
+        ++files;
+        TestSource source(read_file(path));
+        auto shaders = compile(source.source, front_end_only(), source.diagnostics);
+        ASSERT_FALSE(shaders.empty()) << source.messages();
+        source.diagnostics.clear();
+        lint(shaders, {source.source.map.file, {path.parent_path().string()}}, source.diagnostics);
+        source.diagnostics.sort_unique();
+        expect_findings(source, expected_findings(path));
+    }
+    EXPECT_GE(files, 5);
+}
+
+TEST(Lint, NamesOfWarningsLeadBackToThem) {
+    for (const std::string& name : warning_names()) {
+        const FindingInfo* info = find_warning(name);
+        ASSERT_NE(info, nullptr) << name;
+        EXPECT_EQ(warning_name(*info), name);
+        EXPECT_EQ(info->severity, Severity::Warning);
+    }
+    ASSERT_NE(find_warning("unused-variable"), nullptr);
+    EXPECT_STREQ(find_warning("unused-variable")->code, "RSL_UNUSED_VARIABLE");
+    EXPECT_EQ(find_warning("syntax"), nullptr);  // an error
 }
 
 std::vector<std::unique_ptr<Shader>> compiled(TestSource& source) {

@@ -2,7 +2,7 @@
    pixel sees another of its points. It shines along z.
    Parameters: intensity, lightcolor, width and height of the sheet (0: shine from P). */
 light arealight(float intensity = 16; color lightcolor = color(1, 0.97, 0.92); float width = 1.6;
-                float height = 1.6; float samples = 1;) {
+                float height = 1.6;) {
     uniform vector out = normalize(vector "shader" (0, 0, 1));
     vector across = vector "shader" (1, 0, 0);
     vector up = vector "shader" (0, 1, 0);

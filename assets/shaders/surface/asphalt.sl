@@ -13,7 +13,6 @@ surface asphalt(float Ka = 1; float Kd = 0.8; float Ks = 0.35; float scale = 45;
     Ct *= 0.75 + 0.5 * float noise(1.3 * Pw);
 
     float x = xcomp(Pw) - 0.95;
-    float wx = max(abs(Du(x) * du) + abs(Dv(x) * dv), 0.001);
     float paint = filterstep(-line, x, "width", 1.5) * (1 - filterstep(line, x, "width", 1.5));
     paint *= step(0.0001, line) * smoothstep(0.30, 0.45, float noise(7 * Pw) + 0.25 * stone);
     Ct = mix(Ct, paintcolor * (0.8 + 0.2 * tone), 0.85 * paint);

@@ -1,9 +1,9 @@
 /* brushedmetal.sl: steel that was turned on a lathe: fine scratches around it stretch every
    highlight across them (Ward's anisotropic model).
    Parameters: alongrough and acrossrough (width of the highlight in the two directions), scratches
-   (per unit of t), depth of their brightness, metalcolor, Kr of the blurred room. */
+   (per unit of t), metalcolor, Kr of the blurred room. */
 surface brushedmetal(float Ka = 0.9; float Ks = 0.5; float alongrough = 0.09;
-                     float acrossrough = 0.34; float scratches = 260; float depth = 0.5;
+                     float acrossrough = 0.34; float scratches = 260;
                      float Kr = 0.55; color metalcolor = color(0.72, 0.73, 0.76);) {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);

@@ -9,7 +9,7 @@ surface chalk(float strokes = 22; float pressure = 1.25; color slatecolor = colo
     float number = 0;
     illuminance(P, Nf, PI / 2) {
         float nondiffuse = 0;
-        float asked = lightsource("__nondiffuse", nondiffuse);
+        lightsource("__nondiffuse", nondiffuse);
         float spread = 0;
         if (lightsource("coneangle", spread) == 0)
             spread = 0.5;

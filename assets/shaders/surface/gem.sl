@@ -4,7 +4,6 @@
 surface gem(float Ks = 1; float roughness = 0.01; float Kr = 1; float facets = 18; float ior = 1.9;
             float dispersion = 0.06; color gemcolor = color(0.75, 0.05, 0.16);) {
     vector In = normalize(I);
-    point Q = transform("object", P);
     /* A facet's normal: that of the middle of its cell in s, t, shifted row by row. */
     float row = floor(facets * t);
     float column = floor(facets * s + 0.5 * mod(row, 2));

@@ -12,7 +12,6 @@ surface oldstone(float Ka = 1; float Kd = 0.95; float blocks = 9; float courses 
                  color stonecolor = color(0.60, 0.54, 0.44); color staincolor = color(0.20, 0.18, 0.15);) {
     point Q = transform("shader", P);
     float dQ = filterwidthp(Q);
-    float sbrick, tbrick;
     float x = s + 0.004 * snoise(9 * Q);
     float y = t + 0.004 * snoise(9 * Q + vector(3, 9, 1));
     float row = floor(y * courses);

@@ -8,13 +8,14 @@ surface wetstone(float Ka = 1; float Kd = 0.7; float Ks = 0.8; float roughness =
     float fogdistance = 0;
     string renderer = "";
     string identifier = "";
-    float deep = displacement("Km", Km);
-    float inside = incident("density", density) + opposite("density", density);
+    displacement("Km", Km);
+    incident("density", density);
+    opposite("density", density);
     float airy = atmosphere("distance", fogdistance);
-    float told = rendererinfo("renderer", renderer);
-    float named = attribute("identifier:name", identifier);
+    rendererinfo("renderer", renderer);
+    attribute("identifier:name", identifier);
     float own = 0;
-    float asks = surface("speckles", own);
+    surface("speckles", own);
 
     point Q = transform("object", P);
     setxcomp(Q, xcomp(Q) + 0.1 * float noise(3 * Q));

@@ -6,7 +6,7 @@ volume incense(float density = 0.7; float stepsize = 0.5; float maxsteps = 40; f
              float ground = 3; vector wind = vector "world" (0.3, 0.1, 0.05);
              color smokecolor = color(0.75, 0.76, 0.80);) {
     float thick(point p) {
-        point q = scale * transform("world", p) - scale * time * vector(0.3, 0.1, 0.05);
+        point q = scale * transform("world", p) - scale * time * vtransform("world", wind);
         float value = 0;
         float weight = 0.6;
         uniform float octave;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "rsl/lint/lint.h"
 #include "rsl/lower/lower.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/source.h"
@@ -40,7 +41,8 @@ Json json_of(const ShadeSource& source, const ShadeOptions& options) {
     for (const auto& shader : source.shaders)
         shaders.push_back({{"name", shader->name}, {"kind", rsl::shader_kind_name(shader->kind)}});
     for (const Finding& finding : source.diagnostics.findings())
-        findings.push_back(json_of(finding, source.diagnostics.files));
+        if (finding.severity != Severity::Off)
+            findings.push_back(json_of(finding, source.diagnostics.files));
     return {{"source", options.source},
             {"ok", !source.failed(options)},
             {"errors", source.diagnostics.count(Severity::Error)},
@@ -60,6 +62,16 @@ void print_summary(const ShadeSource& source, const ShadeOptions& options) {
                 names.empty() ? "" : ": ", names.c_str());
 }
 
+// Textures are sought beside the source, where it is checked, and where headers are.
+rsl::LintOptions lint_options(const ShadeOptions& options, const ShadeSource& source) {
+    rsl::LintOptions lint;
+    lint.file = source.map.file;
+    lint.folders = {options.source.substr(0, options.source.rfind('/') + 1), ""};
+    for (const auto* more : {&options.compile.include_directories, &options.allow_external})
+        lint.folders.insert(lint.folders.end(), more->begin(), more->end());
+    return lint;
+}
+
 // One of the sources; with --json a row of `list`.
 int check_source(const ShadeOptions& options, Json& list) {
     ShadeSource source;
@@ -72,6 +84,7 @@ int check_source(const ShadeOptions& options, Json& list) {
         // Lowering finds what only it knows: unknown spaces, arrays too large.
         rsl::lower({&layer, 1}, {}, source.diagnostics);
     }
+    rsl::lint(source.shaders, lint_options(options, source), source.diagnostics);
     source.print_findings(silent);
     if (options.json)
         list.push_back(json_of(source, options));

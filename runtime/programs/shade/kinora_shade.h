@@ -32,11 +32,12 @@ struct ShadeOptions {
     std::string output = "Ci";
     const jit::Target* target = nullptr;  // null: run: the best; bench: all this CPU supports
     jit::math::Tier math = jit::math::Tier::Precise;
-    int iterations = 0;               // 0: the command's own
-    std::string compare;              // "", "interp", "reference"
-    std::string file;                 // -o
-    std::vector<std::string> stages;  // dump
-    std::string markdown;             // manual: a name of manual_pages.h; "": for the terminal
+    int iterations = 0;                 // 0: the command's own
+    std::string compare;                // "", "interp", "reference"
+    std::string file;                   // -o
+    std::vector<std::string> stages;    // dump
+    std::string markdown;               // manual: a name of manual_pages.h; "": for the terminal
+    std::vector<std::string> unwarned;  // -Wno-NAME: codes of findings that are left out
 };
 
 // Reads the command line. Returns an exit code when there is nothing to do (help, usage error,

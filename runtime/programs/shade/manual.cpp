@@ -1,7 +1,7 @@
-// runtime/programs/shade/manual.cpp: the manual of the built-in functions and the shader
-// globals on the terminal.
+// runtime/programs/shade/manual.cpp: the manual of the language on the terminal.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -12,6 +12,7 @@
 #include "runtime/programs/shade/kinora_shade.h"
 #include "runtime/programs/shade/manual_pages.h"
 #include "runtime/programs/shade/manual_rows.h"
+#include "runtime/programs/shade/manual_statements.h"
 
 namespace kinora {
 
@@ -45,6 +46,39 @@ void print_global(const rsl::GlobalInfo& global, bool whole) {
                 kinds_of(global.writers).c_str());
 }
 
+std::string indented(std::string_view text) {
+    std::string result;
+    for (size_t at = 0; at < text.size();) {
+        size_t end = std::min(text.find('\n', at), text.size());
+        result += fmt::format("    {}\n", text.substr(at, end - at));
+        at = end + 1;
+    }
+    return result;
+}
+
+void print_entry(const ManualEntry& entry) {
+    std::printf("%s\n    %s\n\n%s", std::string(entry.form).c_str(),
+                std::string(entry.text).c_str(), indented(entry.example).c_str());
+    if (!entry.attach.empty())
+        std::printf("\n    In a scene:\n\n%s", indented(entry.attach).c_str());
+}
+
+// All of them without a name; else those that have it.
+bool print_chapters(const std::string& name) {
+    bool found = false;
+    for (const ManualChapter& chapter : manual_chapters()) {
+        if (name.empty()) std::printf("\n%s\n", std::string(chapter.title).c_str());
+        for (const ManualEntry& entry : chapter.entries) {
+            if (name.empty())
+                std::printf("  %s\n", std::string(entry.form).c_str());
+            else if (entry.has_name(name))
+                print_entry(entry);
+            found |= entry.has_name(name);
+        }
+    }
+    return found;
+}
+
 }  // namespace
 
 int shade_manual(const ShadeOptions& options) {
@@ -67,13 +101,15 @@ int shade_manual(const ShadeOptions& options) {
         print_global(global, !options.source.empty());
         found = true;
     }
+    found |= print_chapters(options.source);
     if (found) return kExitOk;
     std::vector<std::string_view> names;
     for (const auto& name : rsl::builtin_names()) names.push_back(name);
     for (const rsl::GlobalInfo& global : rsl::globals()) names.push_back(global.name);
+    for (const ManualChapter& chapter : manual_chapters())
+        for (const ManualEntry& entry : chapter.entries) names.push_back(entry.names);
     std::string_view near = nearest_name(options.source, names);
-    std::fprintf(stderr, "kinora-shade: no built-in function or global '%s'%s\n",
-                 options.source.c_str(),
+    std::fprintf(stderr, "kinora-shade: the language has no '%s'%s\n", options.source.c_str(),
                  near.empty() ? "; kinora-shade manual lists all"
                               : fmt::format("; did you mean '{}'?", near).c_str());
     return kExitUsage;

@@ -12,6 +12,7 @@
 #include "rsl/text/findings.h"
 #include "runtime/base/check.h"
 #include "runtime/programs/shade/manual_rows.h"
+#include "runtime/programs/shade/manual_statements.h"
 
 namespace kinora {
 
@@ -195,15 +196,28 @@ std::string findings_page() {
     return page;
 }
 
+std::string statements_page() {
+    std::string page;
+    for (const ManualChapter& chapter : manual_chapters()) {
+        page += fmt::format("### {}\n\n", chapter.title);
+        for (const ManualEntry& entry : chapter.entries) {
+            page +=
+                fmt::format("`{}`\n\n{}\n\n```c\n{}```\n\n", entry.form, entry.text, entry.example);
+            if (!entry.attach.empty())
+                page += fmt::format("In a scene:\n\n```xml\n{}```\n\n", entry.attach);
+        }
+    }
+    page.pop_back();
+    return page;
+}
+
 struct Page {
     std::string_view name;
     std::string (*text)();
 };
 constexpr Page kPages[] = {
-    {"builtins", builtins_page},
-    {"globals", globals_page},
-    {"words", words_page},
-    {"findings", findings_page},
+    {"builtins", builtins_page},     {"globals", globals_page},   {"words", words_page},
+    {"statements", statements_page}, {"findings", findings_page},
 };
 
 }  // namespace

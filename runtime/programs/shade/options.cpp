@@ -1,6 +1,7 @@
 // runtime/programs/shade/options.cpp: kinora-shade's command line.
 #include <cstdio>
 
+#include "rsl/lint/lint.h"
 #include "runtime/images/image_io.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/shade/manual_pages.h"
@@ -43,9 +44,19 @@ std::pair<std::string, std::string> name_and_value(const std::string& text, cons
 // What the options' texts hold until all are known.
 struct Texts {
     std::string size, target;
-    std::vector<std::string> params, defines;
+    std::vector<std::string> params, defines, unwarned;
     bool list = false;
 };
+
+// The codes of warnings that -Wno-NAME leaves out.
+std::string code_of_warning(const std::string& name) {
+    if (const FindingInfo* row = rsl::find_warning(name)) return row->code;
+    std::vector<std::string> names = rsl::warning_names();
+    std::string_view near = nearest_name(name, {names.begin(), names.end()});
+    throw CLI::ValidationError(
+        "-Wno-" + name, near.empty() ? "no warning has that name; 'check' prints their codes"
+                                     : fmt::format("no such warning; did you mean '{}'?", near));
+}
 
 void add_telling(CLI::App& app, ShadeOptions& o) {
     app.set_version_flag("--version", "kinora-shade " KINORA_VERSION);
@@ -61,6 +72,8 @@ void add_compile(CLI::App& command, ShadeOptions& o, Texts& texts) {
              "DIR: a scene's shader may read files there too, outside its folder");
     command.add_flag("-E", o.preprocess_only, "print the preprocessed text only");
     command.add_flag("--Werror", o.warnings_fail, "warnings fail too (also -Werror)");
+    add_list(command, "--no-warning", texts.unwarned,
+             "NAME: leaves a warning out, as unused-variable (also -Wno-NAME)");
 }
 
 void add_source(CLI::App& command, ShadeOptions& o, Texts& texts) {
@@ -110,12 +123,17 @@ void add_commands(CLI::App& app, ShadeOptions& o, Texts& texts) {
     add_source(*bench, o, texts);
     add_grid(*bench, o, texts);
     bench->add_flag("--json", o.json, "as JSON");
-    CLI::App* manual = app.add_subcommand("manual", "the built-in functions and globals");
-    manual->add_option("name", o.source, "a function or a global; without one, all are listed");
+    CLI::App* manual = app.add_subcommand(
+        "manual", "the language: functions, globals, statements, kinds of shader");
+    manual->add_option(
+        "name", o.source,
+        "a function, global, statement, storage class, preprocessor line or kind of shader; "
+        "without one, all are listed");
     manual->add_flag("--list", texts.list, "one line each (what it does without a name)");
     manual
-        ->add_option("--markdown", o.markdown,
-                     "[PAGE]: as docs has it: builtins, globals, words or findings (builtins)")
+        ->add_option(
+            "--markdown", o.markdown,
+            "[PAGE]: as docs has it: builtins, globals, words, statements or findings (builtins)")
         ->check(one_of(manual_pages()));
     for (CLI::App* command : app.get_subcommands({})) add_telling(*command, o);
 }
@@ -146,6 +164,7 @@ void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
         o.compile.defines.push_back(text.find('=') == std::string::npos
                                         ? std::pair(text, std::string("1"))
                                         : name_and_value(text, "-D"));
+    for (const std::string& name : texts.unwarned) o.unwarned.push_back(code_of_warning(name));
     if (!o.markdown.empty() && !o.source.empty())
         throw CLI::ValidationError("--markdown",
                                    "writes whole pages; leave '" + o.source + "' out");
@@ -167,6 +186,9 @@ std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& o) {
     std::vector<std::string> words = words_of(argc, argv);
     // -Werror is one word, as compilers have it; CLI11 would read -W -e -r ...
     std::replace(words.begin(), words.end(), std::string("-Werror"), std::string("--Werror"));
+    constexpr std::string_view kNo = "-Wno-";
+    for (std::string& word : words)
+        if (word.starts_with(kNo)) word = "--no-warning=" + word.substr(kNo.size());
     return parse_command_line(
         app, words, {{"--markdown", "builtins"}}, [&] { interpret(app, texts, o); },
         [&] { check_command(app, words); });

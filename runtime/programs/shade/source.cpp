@@ -142,6 +142,8 @@ int read_shade_source(const ShadeOptions& options, ShadeSource& source) {
 }
 
 std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource& source) {
+    for (const std::string& code : options.unwarned)
+        source.diagnostics.set_severity(code, Severity::Off);
     if (int code = read_shade_source(options, source)) return code;
     if (options.preprocess_only) {
         rsl::TokenStream tokens =
