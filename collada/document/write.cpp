@@ -84,10 +84,16 @@ bool is_number(std::string_view word, double& value) {
 
 class Writer {
   public:
-    explicit Writer(std::string_view source) : source_(source) { out_.reserve(source.size()); }
+    Writer(std::string_view source, Layout layout) : source_(source), layout_(layout) {
+        out_.reserve(source.size());
+    }
 
     std::string write(const Document& document) {
-        out_ = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n";
+        bool declared = layout_ != Layout::Dense || source_.starts_with("<?xml");
+        if (declared) out_ = "<?xml version=\"1.0\"";
+        if (layout_ != Layout::Dense) out_ += " encoding=\"utf-8\"";  // the default
+        if (declared) out_ += "?>";
+        if (declared) end_line();
         const Element& root = document.root();
         misc(0, root.bytes.begin, 0);
         element(root, 0, false);
@@ -99,7 +105,12 @@ class Writer {
     std::string_view bytes(uint32_t begin, uint32_t end) const {
         return source_.substr(begin, end - begin);
     }
-    void indent(int depth) { out_.append(size_t(depth) * 2, ' '); }
+    void indent(int depth) {
+        if (layout_ == Layout::Indented) out_.append(size_t(depth) * 2, ' ');
+    }
+    void end_line() {
+        if (layout_ != Layout::Dense) out_ += '\n';
+    }
 
     // As in the file, but line feeds alone.
     void copy(std::string_view text) {
@@ -131,7 +142,7 @@ class Writer {
             if (!declaration) {
                 indent(depth);
                 copy(whole);
-                out_ += '\n';
+                end_line();
             }
             at = after;
         }
@@ -177,7 +188,7 @@ class Writer {
         indent(depth);
         if (copied(e)) {
             copy(bytes(e.bytes.begin, e.bytes.end));
-            out_ += '\n';
+            end_line();
             return;
         }
         std::string_view name = full_name(e);
@@ -197,16 +208,19 @@ class Writer {
             children(e, depth, is_private_data || is_private(e));
         if (out_.size() == content) {
             out_.resize(tag_end);
-            out_ += "/>\n";
+            out_ += "/>";
+            end_line();
             return;
         }
         if (out_.back() == '\n' && only_space(e.text)) indent(depth);
-        ((out_ += "</") += name) += ">\n";
+        ((out_ += "</") += name) += '>';
+        end_line();
     }
 
     void children(const Element& e, int depth, bool is_private_data) {
         size_t begin = out_.size();
-        out_ += '\n';
+        end_line();
+        size_t first = out_.size();
         uint32_t at = e.start_tag.end;
         for (const Element& child : e.children()) {
             misc(at, child.bytes.begin, depth + 1);
@@ -214,7 +228,7 @@ class Writer {
             at = child.bytes.end;
         }
         misc(at, content_end(e), depth + 1);
-        if (out_.size() == begin + 1) out_.resize(begin);
+        if (out_.size() == first) out_.resize(begin);
     }
 
     void text(const Element& e, bool is_private_data) {
@@ -240,6 +254,7 @@ class Writer {
     }
 
     std::string_view source_;
+    Layout layout_;
     std::string out_;
 };
 
@@ -327,9 +342,9 @@ bool holds_numbers(const Element& element) {
            std::binary_search(std::begin(kNumberElements), std::end(kNumberElements), element.name);
 }
 
-std::string write(const Document& document, const SourceFiles& files) {
+std::string write(const Document& document, const SourceFiles& files, Layout layout) {
     CHECK(document.whole());
-    return Writer(files.text(document.file())).write(document);
+    return Writer(files.text(document.file()), layout).write(document);
 }
 
 bool equal(const Document& a, const Document& b, std::string* difference) {

@@ -16,9 +16,17 @@
 
 namespace kinora::collada {
 
+// Where the line ends are. In the others an element may be on a line with its neighbours.
+enum class Layout : uint8_t {
+    Indented,  // canonical
+    Lines,     // without the indents
+    Dense      // without line ends: for documents that have none
+};
+
 // `files` are those of the Diagnostics the document was read with. The document must be whole().
 // write(read(write(x))) == write(x), and read(write(x)) equals x.
-std::string write(const Document& document, const SourceFiles& files);
+std::string write(const Document& document, const SourceFiles& files,
+                  Layout layout = Layout::Indented);
 
 // Whether a number list may be written anew inside this element: its text is numbers by its name,
 // and it is not inside private data (<extra>, <technique profile>).

@@ -41,7 +41,10 @@ std::string list_text(std::span<const T> numbers, auto&& digits_of) {
 }  // namespace
 
 std::string number_text(std::span<const double> numbers) {
-    return list_text(numbers, [](double x) { return collada::shortest_number(x); });
+    return list_text(numbers, [](double x) {
+        // What glTF has as a float stays that float; more digits would be of no use.
+        return double(float(x)) == x ? fmt::format("{}", float(x)) : collada::shortest_number(x);
+    });
 }
 
 std::string number_text(std::span<const float> numbers) {
@@ -175,7 +178,7 @@ std::string ColladaExporter::transform(const Transform& t, const std::string& no
     }
     // A quaternion: its four numbers together are the matrix.
     for (int k = 0; k < 4; ++k) targets_[t.value + uint32_t(k)] = {target, false, k};
-    dmat4 m = transform_matrix(t.kind, &description_.values[t.value]);
+    dmat4 m(mat4(transform_matrix(t.kind, &description_.values[t.value])));  // glTF's are floats
     bool moves = false;
     for (uint32_t k = 0; k < 4; ++k) moves |= description_.animated[t.value + k];
     if (!moves && is_identity(m)) return "";
@@ -271,6 +274,7 @@ std::string ColladaExporter::library(const char* name, const std::string& conten
 
 ColladaExport ColladaExporter::run() {
     name_all();
+    merge_vertices();
     std::string shared, tops, geometries, lights, cameras, scene_extra;
     for (uint32_t n = 0; n < description_.nodes.size(); ++n)
         if (uses_[n] > 1) shared += node(n);

@@ -55,7 +55,7 @@ Keys component_keys(const anim::Sampler& s, uint32_t component) {
 void add_matrix(Keys& keys, double time, const dmat4& m, const char* interpolation) {
     keys.times.push_back(time);
     for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) keys.values.push_back(m[c][r]);
+        for (int c = 0; c < 4; ++c) keys.values.push_back(float(m[c][r]));  // as good as its source
     keys.interpolations.push_back(interpolation);
 }
 

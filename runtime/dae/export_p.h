@@ -12,6 +12,17 @@
 
 namespace kinora {
 
+// glTF has a vertex for each combination of attributes; COLLADA an index for each. Vertices that
+// are at one place in every pose are one. Empty: all stay.
+struct MergedVertices {
+    std::vector<uint32_t> vertex;  // of each position
+    std::vector<uint32_t> first;   // of each vertex, its first position
+
+    uint32_t of(uint32_t position) const { return vertex.empty() ? position : vertex[position]; }
+    // Of `count` positions those that stay.
+    std::vector<uint32_t> kept(size_t count) const;
+};
+
 class ColladaExporter {
   public:
     ColladaExporter(const SceneDescription& description, const std::string& path,
@@ -36,6 +47,7 @@ class ColladaExporter {
 
     // export_mesh.cpp: geometries and controllers
     const MeshDefinition& with_triangles(uint32_t mesh) const;
+    void merge_vertices();
     std::string geometry(uint32_t index);
     std::vector<float> numbers_of(const VertexAttribute& values, bool by_rsl) const;
     std::string skin(const MeshUse& use, const std::string& controller);
@@ -72,6 +84,7 @@ class ColladaExporter {
     std::set<std::string> taken_;
     std::vector<std::string> node_ids_, mesh_ids_, material_ids_, light_ids_, camera_ids_;
     std::vector<uint32_t> uses_, parents_;  // of node definitions
+    std::vector<MergedVertices> merged_;    // of meshes
     std::vector<bool> joint_;
     std::set<std::pair<uint32_t, std::string>> rsl_groups_;  // mesh and symbol: RSL is worn there
     std::string images_, effects_, materials_, controllers_;

@@ -150,6 +150,67 @@ class ToDae(Convert):
                 self.assertEqual(once.read_bytes(), again.read_bytes())
                 self.assertEqual(self.picture(SCENES / f"{scene}.dae"), self.picture(once))
 
+    def test_a_document_never_grows(self):
+        scenes = list(SCENES.glob("*.dae"))
+        if SHARED_SCENES:
+            scenes += [SHARED_SCENES / name for name in ("thinmatrix_cowboy/model.dae", "cts_x_up/x_up.dae",
+                                                         "gltf_box_animated/BoxAnimated.dae")]
+        texts = {scene.stem: scene.read_bytes() for scene in scenes if scene.exists()}
+        texts["indented"] = mesh_scene().encode()
+        texts["flat"] = re.sub(r">\s+<", "><", mesh_scene()).encode()
+        texts["bare"] = texts["flat"].split(b"?>", 1)[1].strip()
+        for name, text in texts.items():
+            with self.subTest(name):
+                (self.folder / f"{name}.dae").write_bytes(text)
+                out = self.converted(self.folder / f"{name}.dae", f"{name}_out.dae")
+                self.assertLessEqual(out.stat().st_size, len(text))
+                again = self.converted(out, f"{name}_again.dae")
+                self.assertEqual(again.read_bytes(), out.read_bytes())
+        self.whole_if(SHARED_SCENES)
+
+    def test_each_input_has_its_own_index_after_gltf(self):
+        """A cube of 8 places, 6 normals and 4 texture coordinates has 24 vertices in glTF."""
+        places = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        normals = [tuple(side if a == axis else 0 for a in range(3)) for axis in range(3) for side in (-1, 1)]
+        corners = []
+        for n, normal in enumerate(normals):
+            face = [p for p, place in enumerate(places) if sum(map(lambda a, b: a * b, place, normal)) > 0]
+            for k in (0, 1, 3, 0, 3, 2):
+                corners += [face[k], n, k, k]
+
+        def source(name, rows, params):
+            return (f'<source id="{name}"><float_array id="{name}a" count="{len(rows) * len(params)}">'
+                    + " ".join(str(x) for row in rows for x in row) + f'</float_array><technique_common><accessor source="#{name}a" '
+                    f'count="{len(rows)}" stride="{len(params)}">' + "".join(f'<param name="{c}" type="float"/>' for c in params)
+                    + "</accessor></technique_common></source>")
+        uv = source("u", [(0.1, 0.1), (0.9, 0.1), (0.1, 0.9), (0.9, 0.9)], "ST")
+        mesh = (source("p", [[0.1 * x for x in place] for place in places], "XYZ") + source("n", normals, "XYZ") + uv +
+                uv.replace('"u', '"w').replace('"#u', '"#w') + '<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>'
+                '<triangles count="12" material="m"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" '
+                'source="#n" offset="1"/><input semantic="TEXCOORD" source="#u" offset="2" set="0"/><input semantic="TEXCOORD" '
+                f'source="#w" offset="3" set="1"/><p>{" ".join(map(str, corners))}</p></triangles>')
+        scene = self.write("cube.dae", re.sub("(?s)<mesh>.*</mesh>", f"<mesh>{mesh}</mesh>", mesh_scene()))
+        out = self.converted(self.converted(scene, "cube.glb"), "back.dae")
+        text = out.read_text()
+        arrays = re.findall('<float_array [^>]*count="([0-9]+)">([^<]*)<', text)
+        self.assertEqual([int(count) for count, _ in arrays], [8 * 3, 6 * 3, 4 * 2])  # the second set shares the array
+        self.assertEqual(set(arrays[0][1].split()), {"-0.1", "0.1"})
+        self.assertEqual(len(re.findall('<input semantic="TEXCOORD"', text)), 2)
+        self.assertEqual(len(re.search("<p>(.*?)</p>", text).group(1).split()), 36 * 3)
+        self.assertLess(self.difference(self.picture(out), self.picture(scene)), SAME)
+
+    def test_skins_and_morphs_keep_their_shape_with_fewer_vertices(self):
+        if not SHARED_SCENES:
+            self.skipTest("no shared scenes")
+        for name, time in (("thinmatrix_cowboy/model.dae", "0.4"), ("gltf_box_animated/BoxAnimated.dae", "1")):
+            scene = SHARED_SCENES / name
+            with self.subTest(name):
+                binary = self.converted(scene, "a.glb")
+                out = self.converted(binary, "a.dae")
+                self.assertLess(self.difference(self.picture(out, "--time", time), self.picture(binary, "--time", time)), SAME)
+                part = lambda path: len(re.search("(?s)<library_geometries.*</library_geometries>", path.read_text()).group())
+                self.assertLessEqual(part(out), 1.5 * part(scene))
+
     def test_axes_and_unit_change_and_the_picture_stays(self):
         scenes = [(SCENES / "matte.dae", "Z", "0.01", "0")]
         if SHARED_SCENES:

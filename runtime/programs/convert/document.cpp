@@ -29,7 +29,12 @@ std::optional<std::string> convert_document(const ConvertOptions& options, Diagn
         for (const Finding& f : again.findings()) diag.add(*f.info, {}, f.message);
         return std::nullopt;
     }
-    return collada::write(*result, again.files);
+    // Never longer than it was: what has no indents gets none.
+    for (collada::Layout layout : {collada::Layout::Indented, collada::Layout::Lines}) {
+        std::string written = collada::write(*result, again.files, layout);
+        if (written.size() <= text.size()) return written;
+    }
+    return collada::write(*result, again.files, collada::Layout::Dense);
 }
 
 }  // namespace kinora

@@ -6,6 +6,7 @@
 
 #include "collada/document/edit.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/description/display_color.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/load/override_scene.h"
@@ -77,6 +78,18 @@ const Element* rsl_technique(const Element& owner) {
     return nullptr;
 }
 
+// COLLADA's colors are display values, those of profile_RSL linear.
+std::string linear_bind(const char* param, std::string_view display) {
+    std::string text(display);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+    std::vector<double> numbers = parse_numbers(text).value_or(std::vector<double>{});
+    numbers.resize(3, 1.0);
+    dvec3 linear = linear_of_display({numbers[0], numbers[1], numbers[2]});
+    return fmt::format("<bind symbol=\"{}\"><color>{} {} {}</color></bind>", param, linear.x,
+                       linear.y, linear.z);
+}
+
 // What COLLADA's light gives to the light shader that takes its place, as parameters that the
 // light shaders of COLLADA have (collada_*.sl).
 OldParams values_of_light(const Element& light) {
@@ -100,6 +113,10 @@ OldParams values_of_light(const Element& light) {
     for (const Row& row : kRows) {
         if (row.kinds > number) continue;
         const Element* value = kind->child(row.element);
+        if (value && row.type == std::string_view("color")) {
+            old.binds.emplace_back(row.param, linear_bind(row.param, value->text));
+            continue;
+        }
         old.binds.emplace_back(
             row.param,
             fmt::format("<bind symbol=\"{0}\"><{1}>{2}</{1}></bind>", row.param, row.type,
