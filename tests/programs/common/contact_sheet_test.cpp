@@ -1,4 +1,4 @@
-// tests/programs/contact_sheet_test.cpp: the frames of a render on one picture.
+// tests/programs/common/contact_sheet_test.cpp: the frames of a render on one picture.
 #include "runtime/programs/common/contact_sheet.h"
 
 #include <gtest/gtest.h>

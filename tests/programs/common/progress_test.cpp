@@ -1,4 +1,4 @@
-// tests/programs/progress_test.cpp: what a user sees while frames are made.
+// tests/programs/common/progress_test.cpp: what a user sees while frames are made.
 #include "runtime/programs/common/progress.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/programs/frame_list_test.cpp: frame ranges, exact times, numbered names.
+// tests/programs/common/frame_list_test.cpp: frame ranges, exact times, numbered names.
 #include "runtime/programs/common/frame_list.h"
 
 #include <gtest/gtest.h>

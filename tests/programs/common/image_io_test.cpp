@@ -1,5 +1,5 @@
-// tests/programs/image_io_test.cpp: pictures come back as they were written, and a name stands for
-// a whole file or for none.
+// tests/programs/common/image_io_test.cpp: pictures come back as they were written, and a name
+// stands for a whole file or for none.
 #include "runtime/images/image_io.h"
 
 #include <ImfChannelList.h>
