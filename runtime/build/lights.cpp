@@ -72,7 +72,8 @@ void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
     if (wanted == LightSet::Auto && (lit || needs_no_light(scene, uses))) return;
     std::vector<double>& values = scene.description->values;
     // Before NodeTree::add, which takes the description's values over into the scene.
-    std::vector<LightDefinition> lights = default_lights(values, diagnostics);
+    std::vector<LightDefinition> lights = scene.description->default_lights;
+    if (lights.empty()) lights = default_lights(values, diagnostics);
     uint32_t node = tree.add(default_light_node(values), scene.cameras[scene.camera].node);
     for (LightDefinition& light : lights) add_default_light(scene, std::move(light), node);
 }

@@ -223,6 +223,7 @@ struct SceneDescription {
     std::vector<MorphDefinition> morphs;
     std::vector<MaterialDefinition> materials;
     std::vector<LightDefinition> lights;
+    std::vector<LightDefinition> default_lights;  // instead of those of runtime/build/defaults.h
     std::vector<CameraDefinition> cameras;
     PictureShaders picture;
     std::vector<ClipDefinition> clips;

@@ -136,11 +136,12 @@ bool override_param(SceneDescription& description, const std::string& target,
         for_each_layer(material, [&](ShaderUse& use) { change.apply(use); });
         drop_binds(description, m, name);
     }
-    for (LightDefinition& light : description.lights) {
-        if (!glob_matches(pattern, light.id, light.name)) continue;
-        matched = true;
-        change.apply(light.shader);
-    }
+    for (auto* lights : {&description.lights, &description.default_lights})
+        for (LightDefinition& light : *lights) {
+            if (!glob_matches(pattern, light.id, light.name)) continue;
+            matched = true;
+            change.apply(light.shader);
+        }
     auto on_picture = [&](std::vector<ShaderUse>& stack) {
         for (ShaderUse& use : stack) {
             std::string shader(use.shader->name);

@@ -81,12 +81,13 @@ constexpr StageRow kStages[] = {{ShaderKind::Surface, &MaterialDefinition::surfa
 bool put_on_lights(SceneDescription& description, const std::string& pattern,
                    const SharedShader& shader) {
     bool matched = false;
-    for (LightDefinition& light : description.lights) {
-        if (!glob_matches(pattern, light.id, light.name)) continue;
-        light.shader = with_sources(shader, {&light.shader, 1});
-        light.ambient = false;
-        matched = true;
-    }
+    for (auto* lights : {&description.lights, &description.default_lights})
+        for (LightDefinition& light : *lights) {
+            if (!glob_matches(pattern, light.id, light.name)) continue;
+            light.shader = with_sources(shader, {&light.shader, 1});
+            light.ambient = false;
+            matched = true;
+        }
     return matched;
 }
 

@@ -195,6 +195,21 @@ class Shaders(Changes):
             self.scene, "--shader", f"red={lamp}", "--list", "lights", "--json"), 0).out)["lights"]
         self.assertEqual(sorted(row["area"] for row in lights), [False, True])
 
+    def test_default_lights_have_params_and_shaders_too(self):
+        # With the fill and the rim light off, the squares facing the eye get the key light's red alone.
+        white = self.write("white.sl", "surface white() { Oi = 1; Ci = diffuse(normalize(N)); }")
+        words = ("--lights", "default", "--shader", f"*={white}")
+        plain = self.sides(*words)[0]
+        red = self.sides(*words, "--param", "default key light.lightcolor=0.5,0,0",
+                         "--param", "default fill light.lightcolor=0", "--param", "default rim light.lightcolor=0")[0]
+        self.assertGreater(min(plain), 0)
+        self.assertGreater(red[0], 0)
+        self.assertEqual(red[1:], (0, 0))
+        off = self.write("off.sl", "light off() { solar(vector \"camera\" (0, 0, 1), 0) Cl = 0; }")
+        self.assertEqual(self.sides(*words, "--shader", f"default*={off}")[0], (0, 0, 0))
+        listed = self.expect(render(MATTE, "--list", "params"), 0).out
+        self.assertIn("param default key light.lightcolor (color, of collada_directional)", listed)
+
     def test_an_atmosphere_lies_between_eye_and_surface(self):
         veil = self.write("veil.sl", "volume veil(float k = 1) { Ci = k * color(0, 1, 0); Oi = 1; }")
         self.assertEqual(self.sides("--atmosphere", veil), ((0, 255, 0), (0, 255, 0)))

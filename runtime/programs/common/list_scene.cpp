@@ -141,8 +141,8 @@ std::string our_line(const Json& row) {
                        row["name"].get<std::string>());
 }
 
-// What --param takes: NAME.PARAMETER of the materials, lights, atmospheres and imagers of the file.
-// Lights that are added come after it.
+// What --param takes: NAME.PARAMETER of the materials, lights, atmospheres and imagers, added
+// lights too.
 Json params(const Scene& scene) {
     const SceneDescription& description = *scene.description;
     Json list = Json::array();
@@ -160,8 +160,7 @@ Json params(const Scene& scene) {
                                    &m.exterior, &m.lights})
             for (const ShaderUse& use : *layers) add(shown(m.id, m.name), use);
     for (const LightDefinition& light : description.lights)
-        if (std::ranges::find(scene.added, light.name) == scene.added.end())
-            add(shown(light.id, light.name), light.shader);
+        add(shown(light.id, light.name), light.shader);
     auto of_picture = [&](const PictureShaders& picture) {
         for (const auto* stack : {&picture.atmosphere, &picture.imagers})
             for (const ShaderUse& use : *stack) add(std::string(use.shader->name), use);

@@ -9,6 +9,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/build/build_scene.h"
+#include "runtime/build/defaults.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/play_range.h"
 #include "runtime/frame/exposure.h"
@@ -189,6 +190,8 @@ int Render::load() {
         flush_findings();
         return report_unreadable();
     }
+    description->default_lights = default_lights(description->values, diagnostics_);
+    description->animated.resize(description->values.size(), false);
     for (const auto& [pattern, file] : options_.shaders)
         override_shader(*description, pattern, {file, options_.include_directories}, diagnostics_);
     if (!options_.atmosphere.empty())
