@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "jit/ir/kernel_call.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/kernels/columns.h"
@@ -57,31 +56,24 @@ std::span<float*> run_probes(const Scene& scene, const ShaderInstance& look, Are
         if (column >= kColP && column < kColP + 3) return float(origin[column - kColP]);
         return 0.0f;
     };
-    std::span<const float*> in = arena.allocate_span<const float*>(bound.columns.size());
-    for (size_t i = 0; i < in.size(); ++i) {
-        float* row = new_row();
+    std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
+    for (uint16_t column : bound.columns) {
+        float* row = columns[column] = new_row();
         for (size_t k = 0; k < kProbes; ++k)
-            row[k] = value(bound.columns[i], dvec3(current * dvec4(probe(k, scene.size), 1)));
-        in[i] = row;
+            row[k] = value(column, dvec3(current * dvec4(probe(k, scene.size), 1)));
     }
-    std::span<float*> out = arena.allocate_span<float*>(kernel.outputs.size());
-    for (float*& row : out) row = new_row();
+    std::span<float*> out = take_outputs(kernel, kProbes, arena);
     std::span<jit::RecordSet> records = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(records.begin(), records.end(), jit::RecordSet{});
     std::span<uint8_t> faults = arena.allocate_span<uint8_t>(kernel.fault_sites.size());
     SilentHost host(scene, look);
-    jit::KernelCall{.kernel = kernel,
-                    .count = kProbes,
-                    .in = in,
-                    .out = out,
-                    .row_floats = kProbes,
-                    .frame = bound.frame,
-                    .scratch = arena.allocate_span<std::byte>(kernel.scratch_bytes),
-                    .faults = faults,
-                    .services = bound.services,
-                    .record_sets = records,
-                    .host = static_cast<KernelHost*>(&host)}
-        .run();
+    bound.run({.count = kProbes,
+               .columns = columns,
+               .out = out,
+               .faults = faults,
+               .record_sets = records,
+               .host = host},
+              arena);
     return out;
 }
 

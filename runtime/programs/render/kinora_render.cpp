@@ -190,8 +190,10 @@ int Render::load() {
         flush_findings();
         return report_unreadable();
     }
-    description->default_lights = default_lights(description->values, diagnostics_);
-    description->animated.resize(description->values.size(), false);
+    if (!options_.shaders.empty() || !options_.params.empty()) {  // which may name these lights
+        description->default_lights = default_lights(description->values, diagnostics_);
+        description->animated.resize(description->values.size(), false);
+    }
     for (const auto& [pattern, file] : options_.shaders)
         override_shader(*description, pattern, {file, options_.include_directories}, diagnostics_);
     if (!options_.atmosphere.empty())
