@@ -206,81 +206,111 @@ struct ShadowPacket {
     vec3 dir(int j) const { return {rays.dir_x[j], rays.dir_y[j], rays.dir_z[j]}; }
 };
 
-}  // namespace
+// Casts the rays of one light's grid, a packet at a time.
+class ShadowCaster {
+  public:
+    ShadowCaster(const ShadingFrame& frame, const Grid& grid, const LightPoints& at,
+                 const SentLight& light, raytrace::RayBatch& rest)
+        : frame_(frame),
+          grid_(grid),
+          at_(at),
+          light_(light),
+          rest_(rest),
+          counters_(grid.memory.counters.trace),
+          accel_from_camera_(glm::transpose(frame.camera_from_accel)),
+          smooth_(frame.scene) {}
 
-void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& light) const {
-    ThreadMemory& memory = grid.memory;
-    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
-    ShadowPacket packet;
-    NestedWavefront nested(memory);
-    raytrace::RayBatch& rest = nested->rays;
-    if (frame_.any_transparent) rest.reserve(kGridPoints);
-    rest.count = 0;
-    SmoothSurface smooth(frame_.scene);
-    const bool of_surface = grid.look->kind == ShaderInstanceKind::Surface;
+    // All points that the light reaches; blocked ones lose its colour, and what only transparent
+    // surfaces may dim is left in `rest`.
+    void run() {
+        const bool of_surface = grid_.look->kind == ShaderInstanceKind::Surface;
+        for (uint32_t i = 0; i < at_.count; ++i) {
+            if (light_.lit && jit::bits_of(light_.lit[i]) == 0) continue;
+            if (light_.Cl[0][i] == 0 && light_.Cl[1][i] == 0 && light_.Cl[2][i] == 0) continue;
+            vec3 up(0.0f);
+            if (of_surface && triple(at_.Ng, i) != vec3(0.0f))
+                up = smooth_.way_from(grid_.hits, grid_.points[at_.first + i], to_light(i));
+            int j = packet_.filled++;
+            packet_.up[j] = up;
+            packet_.lifted |= uint32_t(up != vec3(0.0f)) << j;
+            aim(j, i, up);
+            if (packet_.filled == raytrace::kPacket) flush();
+        }
+        flush();
+    }
+
+  private:
+    vec3 to_light(uint32_t i) const { return accel_from_camera_ * triple(light_.L, i); }
+
     // The ray of a point, from `up` above its facet.
-    auto aim = [&](int j, uint32_t i, vec3 up) {
-        vec3 to_light = accel_from_camera * triple(light.L, i);
-        vec3 P = triple(at.accel, i);
-        vec3 Ng = triple(at.Ng, i);
+    void aim(int j, uint32_t i, vec3 up) {
+        vec3 way = to_light(i), P = triple(at_.accel, i), Ng = triple(at_.Ng, i);
         // A point that is on no known surface leaves its error box along the ray itself.
-        if (Ng == vec3(0)) Ng = glm::normalize(to_light);
+        if (Ng == vec3(0)) Ng = glm::normalize(way);
         vec3 org = up == vec3(0.0f)
-                       ? raytrace::offset_ray_origin(P, triple(at.error, i), Ng, to_light)
-                       : raytrace::offset_ray_origin(P + up, triple(at.error, i), Ng, up);
-        vec3 dir = light.solar ? to_light : P + to_light - org;
-        if (light.samples && !light.solar)
-            dir += before_sample(light.samples->hits, i, P, to_light);
-        packet.set(j, i, org, dir, light.solar ? std::numeric_limits<float>::infinity() : 1.0f);
-    };
+                       ? raytrace::offset_ray_origin(P, triple(at_.error, i), Ng, way)
+                       : raytrace::offset_ray_origin(P + up, triple(at_.error, i), Ng, up);
+        vec3 dir = light_.solar ? way : P + way - org;
+        if (light_.samples && !light_.solar) dir += before_sample(light_.samples->hits, i, P, way);
+        packet_.set(j, i, org, dir, light_.solar ? std::numeric_limits<float>::infinity() : 1.0f);
+    }
+
     // From the facets after all, where something stands on the way to their smooth surface.
-    auto lower = [&](uint32_t unblocked) {
+    uint32_t lower(uint32_t unblocked) {
         uint32_t lowered = 0;
-        for (uint32_t left = packet.lifted & unblocked; left; left &= left - 1) {
+        for (uint32_t left = packet_.lifted & unblocked; left; left &= left - 1) {
             int j = std::countr_zero(left);
-            uint32_t i = packet.points[j];
-            if (is_way_free(frame_.scene.accel, triple(at.accel, i), triple(at.error, i),
-                            triple(at.Ng, i), packet.up[j], memory.counters.trace))
+            uint32_t i = packet_.points[j];
+            if (is_way_free(frame_.scene.accel, triple(at_.accel, i), triple(at_.error, i),
+                            triple(at_.Ng, i), packet_.up[j], counters_))
                 continue;
             aim(j, i, vec3(0.0f));
             lowered |= 1u << j;
         }
-        if (lowered == 0) return 0u;
-        packet.rays.active = lowered;
-        return frame_.scene.accel.occluded16(packet.rays, memory.counters.trace);
-    };
-    auto flush = [&] {
-        if (packet.filled == 0) return;
-        packet.rays.active = (1u << packet.filled) - 1;
-        uint32_t blocked = frame_.scene.accel.occluded16(packet.rays, memory.counters.trace);
+        if (lowered == 0) return 0;
+        packet_.rays.active = lowered;
+        return frame_.scene.accel.occluded16(packet_.rays, counters_);
+    }
+
+    void flush() {
+        if (packet_.filled == 0) return;
+        packet_.rays.active = (1u << packet_.filled) - 1;
+        uint32_t blocked = frame_.scene.accel.occluded16(packet_.rays, counters_);
         blocked |= lower(~blocked);
-        for (int j = 0; j < packet.filled; ++j) {
-            uint32_t i = packet.points[j];
+        for (int j = 0; j < packet_.filled; ++j) {
+            uint32_t i = packet_.points[j];
             if (blocked >> j & 1) {
-                for (size_t k = 0; k < 3; ++k) light.Cl[k][i] = 0;
+                for (size_t k = 0; k < 3; ++k) light_.Cl[k][i] = 0;
             } else if (frame_.any_transparent) {
-                set_nested_ray(rest, rest.count, packet.org(j), packet.dir(j), packet.rays.tfar[j],
-                               grid.hits, grid.points[at.first + i]);
-                rest.slot[rest.count++] = i;
+                set_nested_ray(rest_, rest_.count, packet_.org(j), packet_.dir(j),
+                               packet_.rays.tfar[j], grid_.hits, grid_.points[at_.first + i]);
+                rest_.slot[rest_.count++] = i;
             }
         }
-        packet.filled = 0;
-        packet.lifted = 0;
-    };
-    for (uint32_t i = 0; i < at.count; ++i) {
-        if (light.lit && jit::bits_of(light.lit[i]) == 0) continue;
-        if (light.Cl[0][i] == 0 && light.Cl[1][i] == 0 && light.Cl[2][i] == 0) continue;
-        vec3 up(0.0f);
-        if (of_surface && triple(at.Ng, i) != vec3(0.0f))
-            up = smooth.way_from(grid.hits, grid.points[at.first + i],
-                                 accel_from_camera * triple(light.L, i));
-        int j = packet.filled++;
-        packet.up[j] = up;
-        packet.lifted |= uint32_t(up != vec3(0.0f)) << j;
-        aim(j, i, up);
-        if (packet.filled == raytrace::kPacket) flush();
+        packet_.filled = 0;
+        packet_.lifted = 0;
     }
-    flush();
+
+    const ShadingFrame& frame_;
+    const Grid& grid_;
+    const LightPoints& at_;
+    const SentLight& light_;
+    raytrace::RayBatch& rest_;
+    raytrace::TraceCounters& counters_;
+    mat3 accel_from_camera_;
+    SmoothSurface smooth_;
+    ShadowPacket packet_;
+};
+
+}  // namespace
+
+void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& light) const {
+    ThreadMemory& memory = grid.memory;
+    NestedWavefront nested(memory);
+    raytrace::RayBatch& rest = nested->rays;
+    if (frame_.any_transparent) rest.reserve(kGridPoints);
+    rest.count = 0;
+    ShadowCaster(frame_, grid, at, light, rest).run();
     if (rest.count == 0) return;
     std::span<vec3> through = memory.arena.allocate_span<vec3>(rest.count);
     std::span<uint32_t> points = memory.arena.allocate_span<uint32_t>(rest.count);
