@@ -10,7 +10,7 @@
 namespace kinora::skin {
 namespace {
 
-constexpr size_t kChunk = 1024;  // entries a task; a chunk stays in the nearest cache
+constexpr size_t kMorphChunk = 1024;  // entries a task; a chunk stays in the nearest cache
 
 vec4 padded(const vec3& v) {
     return {v.x, v.y, v.z, 0.0f};
@@ -100,11 +100,11 @@ void deform(const Morph& morph, std::span<const double> weights, std::span<vec4>
             std::span<vec4> normals) {
     CHECK_EQ(positions.size(), morph.base_positions.size());
     CHECK_EQ(normals.size(), morph.base_normals.size());
-    parallel_for(0, positions.size(), kChunk, [&](size_t begin, size_t end) {
+    parallel_for(0, positions.size(), kMorphChunk, [&](size_t begin, size_t end) {
         sum_chunk(morph, morph.base_positions, &MorphTarget::positions, weights, begin, end,
                   positions);
     });
-    parallel_for(0, normals.size(), kChunk, [&](size_t begin, size_t end) {
+    parallel_for(0, normals.size(), kMorphChunk, [&](size_t begin, size_t end) {
         sum_chunk(morph, morph.base_normals, &MorphTarget::normals, weights, begin, end, normals);
         make_unit(normals.subspan(begin, end - begin));
     });

@@ -14,7 +14,7 @@
 namespace kinora::skin {
 namespace {
 
-constexpr size_t kChunk = 64;  // blocks a task: 1024 vertices, a few microseconds
+constexpr size_t kSkinChunk = 64;  // blocks a task: 1024 vertices, a few microseconds
 
 struct KernelChoice {
     const DeformKernel* kernel;
@@ -86,7 +86,7 @@ void run_tail(const Run& run, DeformBlocks kernel, size_t block) {
 
 void run_blocks(const Run& run, DeformBlocks kernel) {
     size_t whole = run.blocks.count / InfluenceBlocks::kBlock;
-    parallel_for(0, whole, kChunk,
+    parallel_for(0, whole, kSkinChunk,
                  [&](size_t begin, size_t end) { kernel(task_at(run, begin), begin, end); });
     if (whole * InfluenceBlocks::kBlock < run.blocks.count) run_tail(run, kernel, whole);
 }

@@ -7,6 +7,7 @@
 //                          interface: breakpoints and backtraces name kernels and shader lines
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ void show_code(Kernel& kernel, const SourceFiles* files);
 
 // "kinora_plastic_avx512": how a kernel is named there.
 std::string code_symbol(const Kernel& kernel);
+
+// Where its machine code lies.
+inline uint64_t address_of(const Kernel& kernel) {
+    return reinterpret_cast<uintptr_t>(kernel.machine_code.data());
+}
 
 // An ELF object for the running instruction set: one function symbol over the kernel's code where
 // it lies, and its lines as DWARF. What show_code registers.

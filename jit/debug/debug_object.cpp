@@ -10,10 +10,6 @@ namespace kinora::jit {
 
 namespace {
 
-uint64_t address_of(const Kernel& kernel) {
-    return reinterpret_cast<uintptr_t>(kernel.machine_code.data());
-}
-
 // One compile unit without children: its name, range and lines.
 constexpr uint8_t kAbbreviations[] = {1,    0x11, 0,  // DW_TAG_compile_unit, no children
                                       0x03, 0x08,     // DW_AT_name, DW_FORM_string

@@ -51,10 +51,6 @@ std::string record(RecordId id, const std::string& body) {
     return bytes + body;
 }
 
-uint64_t address_of(const Kernel& kernel) {
-    return reinterpret_cast<uintptr_t>(kernel.machine_code.data());
-}
-
 // Stands before the code that it is about.
 std::string lines(const Kernel& kernel, const SourceFiles& files) {
     std::string rows;

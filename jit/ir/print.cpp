@@ -22,17 +22,13 @@
 #include <iterator>
 
 #include "jit/ir/ir.h"
+#include "jit/ir/type_name_p.h"
 
 namespace kinora::jit {
 
 namespace {
 
-constexpr const char* kTypeNames[] = {"none", "f", "i", "m"};
 constexpr const char* kRateNames[] = {"constant", "frame", "point"};
-
-const char* type_name(Type type) {
-    return kTypeNames[static_cast<int>(type)];
-}
 
 std::string lower(const char* name) {
     std::string out;

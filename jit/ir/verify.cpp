@@ -3,15 +3,11 @@
 
 #include "jit/ir/analysis.h"
 #include "jit/ir/ir.h"
+#include "jit/ir/type_name_p.h"
 
 namespace kinora::jit {
 
 namespace {
-
-const char* type_name(Type type) {
-    constexpr const char* kNames[] = {"none", "f", "i", "m"};
-    return kNames[static_cast<int>(type)];
-}
 
 // Checks one function; the first fault stops it.
 class Verifier {

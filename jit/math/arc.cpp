@@ -7,8 +7,6 @@
 namespace kinora::jit::math {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 // j pi/4 + angle + low where j is an integer 0 .. 4 and |angle| <= pi/4.
 Num plus_eighths(Num j, Num angle, Num low) {
     Num base = j * kQuarterPi[0];  // exact

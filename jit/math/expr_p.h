@@ -3,6 +3,7 @@
 // fused one is written fma(a, b, c).
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "jit/math/math.h"
 
 namespace kinora::jit::math {
+
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // A float, int or mask value together with the builder that holds it.
 struct Num {

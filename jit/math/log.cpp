@@ -8,7 +8,6 @@
 namespace kinora::jit::math {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kSmallestNormal = std::numeric_limits<float>::min();
 constexpr int32_t kSqrtHalfBits = 0x3f3504f3;
 

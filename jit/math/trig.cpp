@@ -116,11 +116,11 @@ Num divide(Num n, Num n_low, Num d, Num d_low) {
     return q + remainder / d;
 }
 
-struct Sum {
+struct TwoFloats {
     Num hi, lo;
 };
 // hi + lo where |hi| >= |lo| (Dekker).
-Sum renormalize(Num hi, Num lo) {
+TwoFloats renormalize(Num hi, Num lo) {
     Num sum = hi + lo;
     return {sum, (hi - sum) + lo};
 }
@@ -129,8 +129,8 @@ Sum renormalize(Num hi, Num lo) {
 Num tan_precise(Num x) {
     Reduced r = reduce(x);
     SinCos sc = sin_cos(r.hi, r.lo);
-    Sum s = renormalize(sc.sin, sc.sin_low);
-    Sum c = renormalize(sc.cos, sc.cos_low);
+    TwoFloats s = renormalize(sc.sin, sc.sin_low);
+    TwoFloats c = renormalize(sc.cos, sc.cos_low);
     Mask odd = bit_set(r.quadrant, 0);
     Num tangent = divide(select(odd, c.hi, s.hi), select(odd, c.lo, s.lo), select(odd, s.hi, c.hi),
                          select(odd, s.lo, c.lo));
