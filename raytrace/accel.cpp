@@ -12,6 +12,8 @@
 #endif
 
 #include "raytrace/accel_state_p.h"
+#include "raytrace/packet_recorder.h"
+#include "raytrace/points/points.h"
 
 namespace kinora::raytrace {
 
@@ -32,20 +34,14 @@ bool within(float x, float limit) {
     return std::abs(x) <= limit;
 }
 
-// Whether all sixteen rays can go to Embree as they are: nearly always so. One loop without
-// branches, which the compiler turns into vector code. A usual |dir|^2 implies a finite direction.
+// Whether all sixteen rays can go to Embree as they are: nearly always so. A usual |dir|^2 implies
+// a finite direction.
 bool all_sound(const RayPacket16& rays, float far) {
-    uint32_t sound = 1;
-    for (int i = 0; i < kPacket; ++i) {
-        const float x = rays.dir_x[i], y = rays.dir_y[i], z = rays.dir_z[i];
-        const float length2 = x * x + y * y + z * z;
-        sound &= uint32_t(std::abs(rays.org_x[i]) <= far) &
-                 uint32_t(std::abs(rays.org_y[i]) <= far) &
-                 uint32_t(std::abs(rays.org_z[i]) <= far) & uint32_t(length2 >= kSmallestDir2) &
-                 uint32_t(length2 <= kLargestDir2) & uint32_t(rays.tnear[i] >= 0) &
-                 uint32_t(rays.tnear[i] <= FLT_MAX) & uint32_t(rays.tnear[i] <= rays.tfar[i]);
-    }
-    return sound != 0;
+    return point_kernels().sound({{rays.org_x, rays.org_y, rays.org_z},
+                                  {rays.dir_x, rays.dir_y, rays.dir_z},
+                                  rays.tnear,
+                                  rays.tfar},
+                                 far, kSmallestDir2, kLargestDir2);
 }
 
 Lanes classify(const RayPacket16& rays, float far) {
@@ -90,12 +86,21 @@ void rescale(RayPacket16& rays, uint32_t which, double length[kPacket]) {
     }
 }
 
+PacketRecorder* g_recorder = nullptr;
+
 }  // namespace
+
+void record_packets(PacketRecorder* recorder) {
+    g_recorder = recorder;
+}
 
 uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
                             TraceCounters& counters) const {
     const State& s = *state_;
+    if (g_recorder) [[unlikely]]
+        g_recorder->closest(rays);
     Lanes lanes = classify(rays, s.largest_origin);
+    ++counters.packets;
     counters.rays += uint64_t(std::popcount(rays.active & 0xffffu));
     counters.filtered += uint64_t(std::popcount(lanes.filtered));
     bool as_they_are = lanes.sound == rays.active;
@@ -114,7 +119,10 @@ uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
 
 uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) const {
     const State& s = *state_;
+    if (g_recorder) [[unlikely]]
+        g_recorder->any(rays);
     Lanes lanes = classify(rays, s.largest_origin);
+    ++counters.shadow_packets;
     counters.shadow_rays += uint64_t(std::popcount(rays.active & 0xffffu));
     counters.filtered += uint64_t(std::popcount(lanes.filtered));
     if (!s.top) return 0;

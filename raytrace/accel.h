@@ -55,13 +55,16 @@ struct alignas(64) HitPacket16 {
 
 // Owned by the thread that traces, summed by whoever wants the sum.
 struct TraceCounters {
-    uint64_t rays = 0;         // closest-hit rays asked for (active lanes)
-    uint64_t shadow_rays = 0;  // occlusion rays asked for
-    uint64_t filtered = 0;     // of both: not well-formed, answered "miss"
+    uint64_t rays = 0;                         // closest-hit rays asked for (active lanes)
+    uint64_t shadow_rays = 0;                  // occlusion rays asked for
+    uint64_t filtered = 0;                     // of both: not well-formed, answered "miss"
+    uint64_t packets = 0, shadow_packets = 0;  // that they came in
     void operator+=(const TraceCounters& o) {
         rays += o.rays;
         shadow_rays += o.shadow_rays;
         filtered += o.filtered;
+        packets += o.packets;
+        shadow_packets += o.shadow_packets;
     }
 };
 

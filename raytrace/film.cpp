@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytrace/pixels/pixels.h"
 #include "runtime/base/check.h"
 
 namespace kinora::raytrace {
@@ -72,6 +73,19 @@ double FilterSampler::offset(double u) const {
     const double x = std::clamp(u, 0.0, 1.0) * kCells;
     const size_t cell = std::min<size_t>(size_t(x), kCells - 1);
     return inverse_[cell] + (inverse_[cell + 1] - inverse_[cell]) * (x - double(cell));
+}
+
+FilterTable FilterSampler::table() const {
+    static_assert(kCells == kFilterCells);
+    FilterTable table;
+    const double first = inverse_.front(), mean = (inverse_.back() - first) / kCells;
+    table.linear = true;
+    for (size_t i = 0; i < kCells; ++i) {
+        table.cells[i] = {inverse_[i], inverse_[i + 1] - inverse_[i]};
+        table.linear &= std::abs(inverse_[i] - (first + mean * double(i))) <= 0x1p-48 * -first;
+    }
+    if (table.linear) table.cells[0].step = mean;
+    return table;
 }
 
 }  // namespace kinora::raytrace

@@ -11,6 +11,8 @@
 
 namespace kinora::raytrace {
 
+struct FilterTable;  // raytrace/pixels/pixels.h
+
 // What a non-finite shader result becomes.
 enum class NanPolicy : uint8_t { Zero, Magenta, Keep };
 
@@ -61,6 +63,7 @@ class FilterSampler {
   public:
     explicit FilterSampler(const PixelFilter& filter, double width = 0);  // 0: the row's own
     double offset(double u) const;  // pixels from the pixel's centre, along one axis
+    FilterTable table() const;
 
   private:
     std::vector<double> inverse_;

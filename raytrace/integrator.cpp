@@ -19,8 +19,7 @@ void IntegratorCounters::operator+=(const IntegratorCounters& o) {
     non_finite += o.non_finite;
     non_finite_geometry = std::min(non_finite_geometry, o.non_finite_geometry);
     too_deep += o.too_deep;
-    trace_ms += o.trace_ms;
-    shade_ms += o.shade_ms;
+    stages += o.stages;
 }
 
 namespace {
@@ -43,7 +42,8 @@ void prepare(Film& film, const Camera& camera, const IntegratorSettings& setting
     const PixelFilter* filter = settings.filter ? settings.filter : &pixel_filters()[0];
     if (!scratch.filter || scratch.filter_row != filter ||
         scratch.filter_width != settings.filter_width) {
-        scratch.filter = std::make_unique<FilterSampler>(*filter, settings.filter_width);
+        scratch.filter =
+            std::make_unique<FilterTable>(FilterSampler(*filter, settings.filter_width).table());
         scratch.filter_row = filter;
         scratch.filter_width = settings.filter_width;
     }
@@ -55,6 +55,7 @@ void prepare(Film& film, const Camera& camera, const IntegratorSettings& setting
         thread->reserve(std::max(settings.chunk_rays, pixels), pixels, film.aovs.size());
         if (misses) thread->misses.reserve(std::max(settings.chunk_rays, pixels));
         thread->counters = {};
+        thread->begun = thread->passed = 0;
     }
 }
 
@@ -70,8 +71,11 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
     std::atomic<bool> stop{false};
     std::mutex mutex;
     int done = 0;
+    StageScope idle(Stage::Idle);  // but for the tiles, which have clocks of their own
     parallel_for(0, size_t(tiles), 1, [&](size_t first, size_t last) {
         const int thread = thread_index();
+        StageClock clock;
+        RunningClock running(clock);
         TileJob job(accel, camera, shading, film, settings, *scratch.filter,
                     *scratch.threads[size_t(thread)], thread);
         for (size_t i = first;
@@ -81,6 +85,7 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
             std::lock_guard lock(mutex);
             if (!(*progress)(++done, tiles)) stop = true;
         }
+        scratch.threads[size_t(thread)]->counters.stages += clock.ticks();
     });
     IntegratorCounters total;
     for (auto& thread : scratch.threads) total += thread->counters;

@@ -12,8 +12,11 @@
 #include "raytrace/film.h"
 #include "raytrace/wavefront.h"
 #include "runtime/base/parallel.h"
+#include "runtime/base/stage_clock.h"
 
 namespace kinora::raytrace {
+
+struct FilterTable;  // raytrace/pixels/pixels.h
 
 // The looks of surfaces, implemented by the runtime. shade() is called by many threads at once with
 // dense batches (up to IntegratorSettings::chunk_rays hits of one tile, not sorted); it may trace
@@ -54,8 +57,7 @@ struct IntegratorCounters {
     uint64_t non_finite = 0;               // results replaced by IntegratorSettings::nan
     uint32_t non_finite_geometry = kNone;  // Geometry::id of the lowest row that gave one
     uint64_t too_deep = 0;  // rays that met more than IntegratorSettings::max_layers surfaces
-    double trace_ms = 0;    // summed over threads
-    double shade_ms = 0;
+    StageTicks stages;      // summed over threads
     void operator+=(const IntegratorCounters& o);
 };
 
@@ -67,7 +69,7 @@ class IntegratorScratch {
     ~IntegratorScratch();
     struct Thread;
     std::vector<std::unique_ptr<Thread>> threads;
-    std::unique_ptr<FilterSampler> filter;
+    std::unique_ptr<FilterTable> filter;
     const PixelFilter* filter_row = nullptr;
     double filter_width = -1;
 };

@@ -2,76 +2,41 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "raytrace/accel_state_p.h"
+#include "raytrace/points/points.h"
 
 namespace kinora::raytrace {
 
 namespace {
 
-constexpr size_t kBlock = 16;
-
-struct Corners {
-    float p[3][3][kBlock];  // corner, component, hit
-};
-
 void gather(const std::vector<GeometryState>& rows, size_t count, const uint32_t* instance,
-            const uint32_t* primitive, Corners& corners) {
-    for (size_t i = 0; i < kBlock; ++i) {
-        size_t from = std::min(i, count - 1);  // the tail repeats the last hit
+            const uint32_t* primitive, const float* u, const float* v, TrianglePoints& at) {
+    for (size_t i = 0; i < kPoints; ++i) {
+        const size_t from = std::min(i, count - 1);  // the tail repeats the last hit
         const Geometry& g = rows[instance[from]].seen;
         const uint32_t* index = &g.triangles[3 * size_t(primitive[from])];
-        for (int k = 0; k < 3; ++k) {
-            const vec4& p = g.positions[index[k]];
-            for (int c = 0; c < 3; ++c) corners.p[k][c][i] = p[c];
-        }
-    }
-}
-
-struct Block {
-    float P[3][kBlock], error[3][kBlock], N[3][kBlock];
-};
-
-void interpolate(const Corners& corners, const float* u, const float* v, size_t count, Block& out) {
-    float b[3][kBlock];
-    for (size_t i = 0; i < kBlock; ++i) {
-        size_t from = std::min(i, count - 1);
-        b[1][i] = u[from];
-        b[2][i] = v[from];
-        b[0][i] = 1.0f - u[from] - v[from];
-    }
-    for (int c = 0; c < 3; ++c)
-        for (size_t i = 0; i < kBlock; ++i) {
-            float x = b[0][i] * corners.p[0][c][i], y = b[1][i] * corners.p[1][c][i],
-                  z = b[2][i] * corners.p[2][c][i];
-            out.P[c][i] = x + y + z;
-            out.error[c][i] = gamma(7) * (std::abs(x) + std::abs(y) + std::abs(z));
-        }
-    for (size_t i = 0; i < kBlock; ++i) {
-        float e[3], f[3];
-        for (int c = 0; c < 3; ++c) {
-            e[c] = corners.p[1][c][i] - corners.p[0][c][i];
-            f[c] = corners.p[2][c][i] - corners.p[0][c][i];
-        }
-        out.N[0][i] = e[1] * f[2] - e[2] * f[1];
-        out.N[1][i] = e[2] * f[0] - e[0] * f[2];
-        out.N[2][i] = e[0] * f[1] - e[1] * f[0];
+        for (int k = 0; k < 3; ++k)
+            std::memcpy(at.corner[k][i], &g.positions[index[k]], sizeof(vec4));
+        at.u[i] = u[from];
+        at.v[i] = v[from];
     }
 }
 
 // For triangles so small or large that the squared length of their normal leaves the floats.
-vec3 careful_normal(const Corners& corners, size_t i) {
+vec3 careful_normal(const TrianglePoints& at, size_t i) {
     dvec3 p[3];
     for (int k = 0; k < 3; ++k)
-        for (int c = 0; c < 3; ++c) p[k][c] = double(corners.p[k][c][i]);
+        for (int c = 0; c < 3; ++c) p[k][c] = double(at.corner[k][i][c]);
     dvec3 e = p[1] - p[0], f = p[2] - p[0];
     dvec3 n{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
     double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
     return largest > 0 ? vec3(n / largest) : vec3(0.0f);
 }
 
-void apply_placement(const GeometryState& row, Block& block, size_t i) {
+void apply_placement(const GeometryState& row, PointBlock& block, size_t i) {
     vec3 p{block.P[0][i], block.P[1][i], block.P[2][i]};
     vec3 error{block.error[0][i], block.error[1][i], block.error[2][i]};
     place_point(row.placement, p, error);
@@ -85,34 +50,18 @@ void apply_placement(const GeometryState& row, Block& block, size_t i) {
 
 constexpr float kSmallestNormal2 = 1e-30f, kLargestNormal2 = 1e30f;
 
-float normal_length2(const Block& b, size_t i) {
-    return b.N[0][i] * b.N[0][i] + b.N[1][i] * b.N[1][i] + b.N[2][i] * b.N[2][i];
-}
-
-void set_normal(Block& block, size_t i, vec3 n) {
-    for (int c = 0; c < 3; ++c) block.N[c][i] = n[c];
-}
-
 // In local space, before placing: so that neither way the squares overflow or vanish.
-void mend_normals(const Corners& corners, Block& block) {
-    for (size_t i = 0; i < kBlock; ++i) {
-        float length2 = normal_length2(block, i);
-        if (!(length2 > kSmallestNormal2 && length2 < kLargestNormal2))
-            set_normal(block, i, careful_normal(corners, i));
-    }
-}
-
-void normalize(Block& block) {
-    for (size_t i = 0; i < kBlock; ++i) {
-        float length2 = normal_length2(block, i);
-        float scale = length2 > 0 ? 1.0f / std::sqrt(length2) : 0.0f;
-        for (int c = 0; c < 3; ++c) block.N[c][i] *= scale;
+void mend_normals(const TrianglePoints& at, uint32_t lanes, PointBlock& block) {
+    for (; lanes; lanes &= lanes - 1) {
+        const size_t i = size_t(std::countr_zero(lanes));
+        const vec3 n = careful_normal(at, i);
+        for (int c = 0; c < 3; ++c) block.N[c][i] = n[c];
     }
 }
 
 // Instances and mirrors are rarer than plain rows: lane by lane.
 void apply_rows(const std::vector<GeometryState>& rows, const uint32_t* instance, size_t count,
-                Block& block) {
+                PointBlock& block) {
     for (size_t i = 0; i < count; ++i) {
         const GeometryState& row = rows[instance[i]];
         if (row.seen.kind == GeometryKind::Instanced) {
@@ -132,15 +81,17 @@ void apply_rows(const std::vector<GeometryState>& rows, const uint32_t* instance
 void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_t* primitive,
                            const float* u, const float* v, const SurfacePoints& out) const {
     const std::vector<GeometryState>& rows = state_->rows;
-    Corners corners;
-    Block block;
-    for (size_t first = 0; first < count; first += kBlock) {
-        size_t n = std::min(kBlock, count - first);
-        gather(rows, n, instance + first, primitive + first, corners);
-        interpolate(corners, u + first, v + first, n, block);
-        mend_normals(corners, block);
+    const PointKernels& kernels = point_kernels();
+    TrianglePoints at;
+    PointBlock block;
+    for (size_t first = 0; first < count; first += kPoints) {
+        const size_t n = std::min(kPoints, count - first);
+        gather(rows, n, instance + first, primitive + first, u + first, v + first, at);
+        const uint32_t careful =
+            kernels.interpolate(at, gamma(7), kSmallestNormal2, kLargestNormal2, block);
+        mend_normals(at, careful, block);
         apply_rows(rows, instance + first, n, block);
-        normalize(block);
+        kernels.normalize(block);
         for (int c = 0; c < 3; ++c) {
             std::copy_n(block.P[c], n, out.P[c] + first);
             std::copy_n(block.error[c], n, out.P_error[c] + first);

@@ -3,23 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "raytrace/sampling.h"
-#include "runtime/base/stats.h"
+#include <limits>
+#include <utility>
 
 namespace kinora::raytrace {
 
 void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t aovs) {
-    if (slot_pixel.size() < chunk) {
+    if (passages.size() < chunk) {
         rays.count = 0;
         rays.reserve(chunk);
         hits.reserve(chunk);
         slot_pixel.resize(chunk);
+        slot_pixels = 0;
         for (auto& v : color) v.resize(chunk);
         for (auto& v : through) v.resize(chunk);
         for (auto& v : shaded) v.resize(chunk + kPacket);
         passages.resize(chunk);
     }
+    order.reserve(tile_pixels);
     for (auto& v : sum) v.resize(std::max(v.size(), tile_pixels));
     if (shaded_aov.size() != aovs) {
         shaded_aov.resize(aovs);
@@ -33,7 +34,49 @@ void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t
     }
 }
 
+void TileOrder::reserve(size_t pixels) {
+    if (x.size() >= pixels) return;
+    width = height = 0;
+    for (auto* v : {&x, &y, &scramble[0], &scramble[1]}) v->resize(pixels);
+}
+
+void TileOrder::set_size(int w, int h) {
+    if (w == width && h == height) return;
+    width = w, height = h;
+    size_t i = 0;
+    for (int by = 0; by < h; by += kBlock)
+        for (int bx = 0; bx < w; bx += kBlock)
+            for (int py = by; py < std::min(by + kBlock, h); ++py)
+                for (int px = bx; px < std::min(bx + kBlock, w); ++px, ++i)
+                    x[i] = uint32_t(px), y[i] = uint32_t(py);
+}
+
+PixelSet TileOrder::pixels(const Tile& tile) {
+    return {tile.pixels(), uint32_t(tile.x0), uint32_t(tile.y0),
+            x.data(),      y.data(),          {scramble[0].data(), scramble[1].data()}};
+}
+
+PixelView pixel_view(const Camera& camera) {
+    PixelView view{};
+    view.orthographic = camera.orthographic;
+    view.clip = camera.clip;
+    view.znear = camera.znear;
+    view.zfar = camera.zfar;
+    view.centre_x = 0.5 * camera.width;
+    view.centre_y = 0.5 * camera.height;
+    for (int c = 0; c < 3; ++c) {
+        view.eye[c] = camera.eye[c];
+        view.forward[c] = camera.forward[c];
+        view.dx[c] = camera.raster_dx[c];
+        view.dy[c] = camera.raster_dy[c];
+        view.dx_square += view.dx[c] * view.dx[c];
+        view.dy_square += view.dy[c] * view.dy[c];
+    }
+    return view;
+}
+
 void TileJob::run(const Tile& tile) {
+    StageScope stage(Stage::Film);
     tile_ = tile;
     begin_tile();
     const int per_chunk = std::max(1, int(settings_.chunk_rays / tile.pixels()));
@@ -51,62 +94,83 @@ void TileJob::run(const Tile& tile) {
 void TileJob::begin_tile() {
     for (auto& v : m_.sum) std::fill_n(v.begin(), tile_.pixels(), 0.0);
     for (auto& v : m_.sum_aov) std::fill_n(v.begin(), tile_.pixels(), 0.0);
+    m_.order.set_size(tile_.x1 - tile_.x0, tile_.y1 - tile_.y0);
+    if (std::exchange(m_.slot_pixels, tile_.pixels()) != tile_.pixels())
+        for (size_t slot = 0; slot < m_.slot_pixel.size(); ++slot)
+            m_.slot_pixel[slot] = uint32_t(slot % tile_.pixels());
+    if (settings_.samples_per_pixel > 1) kernels_.scrambles(m_.order.pixels(tile_), settings_.seed);
+}
+
+namespace {
+
+// The columns `first` rays further on.
+PixelRays rays_from(PixelRays rays, size_t first) {
+    for (auto* columns : {&rays.org, &rays.first_org, &rays.dir, &rays.ddir_dx, &rays.ddir_dy})
+        for (float*& column : *columns) column += first;
+    rays.tnear += first, rays.tfar += first;
+    rays.pixel_x += first, rays.pixel_y += first;
+    return rays;
+}
+
+}  // namespace
+
+// What all rays of the camera share, in the rays [begin, end).
+void TileJob::begin_rays(size_t begin, size_t end) {
+    RayBatch& r = m_.rays;
+    auto set = [&](auto* column, auto value) { std::fill(column + begin, column + end, value); };
+    for (int c = 0; c < 3; ++c) {
+        set(r.org[c], float(camera_.eye[c]));
+        set(r.first_org[c], float(camera_.eye[c]));
+        set(r.dOdx[c], camera_.orthographic ? float(camera_.raster_dx[c]) : 0.0f);
+        set(r.dOdy[c], camera_.orthographic ? float(camera_.raster_dy[c]) : 0.0f);
+        set(r.dDdx[c], 0.0f);
+        set(r.dDdy[c], 0.0f);
+    }
+    set(r.tnear, 0.0f);
+    set(r.tfar, std::numeric_limits<float>::infinity());
+    for (float* column : {r.time, r.t_passed}) set(column, 0.0f);
+    for (float* column : {r.share, r.weight}) set(column, 1.0f);
+    for (uint32_t* column : {r.layer, r.medium, r.turns, r.spent}) set(column, 0u);
+    for (size_t k = begin; k < end; ++k) r.slot[k] = uint32_t(k);
 }
 
 void TileJob::make_rays(int first_sample, int end_sample) {
-    m_.rays.count = 0;
-    m_.rays.passing = false;
-    for (int sample = first_sample; sample < end_sample; ++sample)
-        for (int by = tile_.y0; by < tile_.y1; by += kBlock)
-            for (int bx = tile_.x0; bx < tile_.x1; bx += kBlock)
-                for (int y = by; y < std::min(by + kBlock, tile_.y1); ++y)
-                    for (int x = bx; x < std::min(bx + kBlock, tile_.x1); ++x)
-                        add_ray(uint32_t(x), uint32_t(y), uint32_t(sample));
-    for (int c = 0; c < 3; ++c) {
-        std::fill_n(m_.color[c].begin(), m_.rays.count, 0.0f);
-        std::fill_n(m_.through[c].begin(), m_.rays.count, 1.0f);
-    }
-}
-
-void TileJob::add_ray(uint32_t x, uint32_t y, uint32_t sample) {
-    dvec2 offset{0.0};
-    if (settings_.samples_per_pixel > 1) {
-        const dvec2 u = stratified_sample(sample, hash(x, y, settings_.seed));
-        offset = {filter_.offset(u.x), filter_.offset(u.y)};
-    }
-    const CameraRay ray = camera_ray(camera_, x + 0.5 + offset.x, y + 0.5 + offset.y);
+    StageScope stage(Stage::Sample);
     RayBatch& r = m_.rays;
-    const size_t k = r.count++;
+    const PixelSet pixels = m_.order.pixels(tile_);
+    r.count = pixels.count * size_t(end_sample - first_sample);
+    r.passing = false;
+    begin_rays(0, std::min(std::exchange(m_.passed, 0), m_.begun));
+    if (m_.begun < r.count) begin_rays(std::exchange(m_.begun, r.count), r.count);
+    PixelRays out{};
+    out.tnear = r.tnear;
+    out.tfar = r.tfar;
+    out.pixel_x = r.pixel_x;
+    out.pixel_y = r.pixel_y;
     for (int c = 0; c < 3; ++c) {
-        r.org[c][k] = r.first_org[c][k] = ray.org[c];
-        r.dir[c][k] = ray.dir[c];
-        r.dOdx[c][k] = ray.dorg_dx[c];
-        r.dOdy[c][k] = ray.dorg_dy[c];
-        r.dDdx[c][k] = ray.ddir_dx[c];
-        r.dDdy[c][k] = ray.ddir_dy[c];
+        out.org[c] = r.org[c];
+        out.first_org[c] = r.first_org[c];
+        out.dir[c] = r.dir[c];
+        out.ddir_dx[c] = r.dDdx[c];
+        out.ddir_dy[c] = r.dDdy[c];
     }
-    r.tnear[k] = ray.tnear;
-    r.tfar[k] = ray.tfar;
-    r.time[k] = 0;
-    r.t_passed[k] = 0;
-    r.pixel_x[k] = x;
-    r.pixel_y[k] = y;
-    r.sample[k] = sample;
-    r.layer[k] = 0;
-    r.medium[k] = 0;
-    r.share[k] = r.weight[k] = 1;
-    r.turns[k] = r.spent[k] = 0;
-    r.slot[k] = uint32_t(k);
-    m_.slot_pixel[k] = uint32_t(tile_.pixel(x, y));
+    const FilterTable* filter = settings_.samples_per_pixel > 1 ? &filter_ : nullptr;
+    for (int sample = first_sample; sample < end_sample; ++sample) {
+        const size_t first = pixels.count * size_t(sample - first_sample);
+        kernels_.rays(view_, pixels, sample_bits(uint32_t(sample)), filter, rays_from(out, first));
+        std::fill_n(r.sample + first, pixels.count, uint32_t(sample));
+    }
+    for (int c = 0; c < 3; ++c) {
+        std::fill_n(m_.color[c].begin(), r.count, 0.0f);
+        std::fill_n(m_.through[c].begin(), r.count, 1.0f);
+    }
 }
 
 // Each round traces the rays that still see through, and shades all their hits at once.
 void TileJob::follow_layers() {
     for (int layer = 0; m_.rays.count > 0; ++layer) {
-        Stopwatch watch;
         const HitBatch& hits =
             trace(accel_, m_.rays, kMaskAll | kMaskCamera, 0, m_.hits, m_.counters.trace);
-        m_.counters.trace_ms += watch.restart();
         if (shading_.miss_distance() > 0) shade_misses(hits);
         if (hits.count == 0) return;
         if (layer == settings_.max_layers) {  // what is left is not seen
@@ -114,7 +178,6 @@ void TileJob::follow_layers() {
             return;
         }
         shade(hits);
-        m_.counters.shade_ms += watch.ms();
         keep_aovs(hits);
         composite(hits);
     }
@@ -122,12 +185,10 @@ void TileJob::follow_layers() {
 
 // What lies along the rays that leave the scene ends them.
 void TileJob::shade_misses(const HitBatch& hits) {
-    Stopwatch watch;
     const HitBatch& ends = missed(m_.rays, hits, shading_.miss_distance(), m_.misses);
     if (ends.count == 0) return;
     shade(ends, Ends::Nothing);
     for (size_t k = 0; k < ends.count; ++k) lay_behind(ends, k);
-    m_.counters.shade_ms += watch.ms();
 }
 
 void TileJob::shade(const HitBatch& hits, Ends ends) {
@@ -139,6 +200,7 @@ void TileJob::shade(const HitBatch& hits, Ends ends) {
                        m_.aov_pointers,
                        m_.passages.data()};
     std::fill_n(m_.passages.begin(), hits.count, Passage{});
+    StageScope stage(Stage::Gather);
     if (ends == Ends::Surfaces)
         shading_.shade(hits, thread_, result);
     else
@@ -148,12 +210,29 @@ void TileJob::shade(const HitBatch& hits, Ends ends) {
 }
 
 void TileJob::mend(const HitBatch& hits) {
-    for (size_t k = 0; k < hits.count; ++k) {
-        if (mend_hit(k)) continue;
-        ++m_.counters.non_finite;
-        m_.counters.non_finite_geometry =
-            std::min(m_.counters.non_finite_geometry, hits.geometry[k]);
+    for (size_t first = 0; first < hits.count; first += kPacket) {
+        if (all_finite(first)) continue;
+        for (size_t k = first; k < std::min<size_t>(first + kPacket, hits.count); ++k) {
+            if (mend_hit(k)) continue;
+            ++m_.counters.non_finite;
+            m_.counters.non_finite_geometry =
+                std::min(m_.counters.non_finite_geometry, hits.geometry[k]);
+        }
     }
+}
+
+// Of sixteen results from `first` on, those behind the last included.
+bool TileJob::all_finite(size_t first) const {
+    float zero[kPacket] = {};  // NaN if anything is not finite
+    auto look = [&](const std::vector<float>& column) {
+        const float* v = column.data() + first;
+        for (int i = 0; i < kPacket; ++i) zero[i] += v[i] * 0.0f;
+    };
+    for (const auto& column : m_.shaded) look(column);
+    for (const auto& column : m_.shaded_aov) look(column);
+    bool finite = true;
+    for (float z : zero) finite &= z == 0;
+    return finite;
 }
 
 // Replaces what is not finite; returns whether all was finite. Zero gives a black, covered point:
@@ -223,6 +302,7 @@ void TileJob::composite(const HitBatch& hits) {
         m_.rays.weight[going_on] = largest_through(m_.rays.slot[going_on]);
         m_.rays.medium[going_on++] = medium;
     }
+    m_.passed = std::max(m_.passed, going_on);
     m_.rays.count = going_on;
     m_.rays.passing = true;
 }
@@ -236,31 +316,29 @@ bool TileJob::passes(size_t slot) const {
 }
 
 void TileJob::finish_samples(size_t slots) {
-    for (size_t slot = 0; slot < slots; ++slot) {
-        const size_t pixel = m_.slot_pixel[slot];
-        double coverage = 0;
+    const size_t pixels = tile_.pixels();
+    const PixelSums sums{{m_.sum[0].data(), m_.sum[1].data(), m_.sum[2].data()}, m_.sum[3].data()};
+    for (size_t first = 0; first < slots; first += pixels) {
+        const float *color[3], *through[3];
         for (int c = 0; c < 3; ++c) {
-            const double through = double(m_.through[c][slot]);
-            double color = double(m_.color[c][slot]);
-            if (settings_.background) color += through * double((*settings_.background)[c]);
-            m_.sum[c][pixel] += color;
-            coverage += (1 - through) / 3;
+            color[c] = m_.color[c].data() + first;
+            through[c] = m_.through[c].data() + first;
         }
-        m_.sum[3][pixel] += settings_.background ? 1.0 : coverage;
+        kernels_.add(pixels, color, through,
+                     settings_.background ? &settings_.background->x : nullptr, sums);
     }
 }
 
 void TileJob::write_tile() const {
     const double weight = 1.0 / settings_.samples_per_pixel;
-    size_t pixel = 0;
-    for (int y = tile_.y0; y < tile_.y1; ++y)
-        for (int x = tile_.x0; x < tile_.x1; ++x, ++pixel) {
-            vec4& out = film_.at(x, y);
-            for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[c][pixel]);
-            const size_t at = size_t(y) * size_t(film_.width) + size_t(x);
-            for (size_t k = 0; k < m_.sum_aov.size(); ++k)
-                film_.aovs[k].values[at] = float(m_.sum_aov[k][pixel]);
-        }
+    for (size_t pixel = 0; pixel < tile_.pixels(); ++pixel) {
+        const int x = tile_.x0 + int(m_.order.x[pixel]), y = tile_.y0 + int(m_.order.y[pixel]);
+        vec4& out = film_.at(x, y);
+        for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[c][pixel]);
+        const size_t at = size_t(y) * size_t(film_.width) + size_t(x);
+        for (size_t k = 0; k < m_.sum_aov.size(); ++k)
+            film_.aovs[k].values[at] = float(m_.sum_aov[k][pixel]);
+    }
 }
 
 }  // namespace kinora::raytrace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raytrace/integrator.h"
+#include "raytrace/pixels/pixels.h"
 
 namespace kinora::raytrace {
 
@@ -12,12 +13,21 @@ struct Tile {
     int x0, y0, x1, y1;  // pixels [x0, x1) x [y0, y1)
     int width() const { return x1 - x0; }
     size_t pixels() const { return size_t(x1 - x0) * size_t(y1 - y0); }
-    size_t pixel(uint32_t x, uint32_t y) const {
-        return size_t(int(y) - y0) * size_t(width()) + size_t(int(x) - x0);
-    }
 };
 
 inline constexpr int kBlock = 4;  // a packet is 4x4 pixels of one sample
+
+// The pixels of a tile in the order of their rays: in blocks, so that packets hold neighbours. The
+// same for all tiles of a size.
+struct TileOrder {
+    int width = 0, height = 0;
+    std::vector<uint32_t> x, y;         // within the tile
+    std::vector<uint32_t> scramble[2];  // PixelSet::scramble
+
+    void reserve(size_t pixels);
+    void set_size(int w, int h);
+    PixelSet pixels(const Tile& tile);
+};
 
 // What one thread needs for the tile it is at.
 struct IntegratorScratch::Thread {
@@ -29,20 +39,27 @@ struct IntegratorScratch::Thread {
     std::vector<Passage> passages;            // by hit
     std::vector<std::vector<float>> shaded_aov;
     std::vector<float*> aov_pointers;
-    std::vector<uint32_t> slot_pixel;
-    std::vector<double> sum[4];  // by pixel of the tile
+    TileOrder order;
+    std::vector<uint32_t> slot_pixel;  // of a tile of slot_pixels, in its order
+    size_t slot_pixels = 0;
+    size_t begun = 0;   // rays from the first that hold what all rays of the camera share ...
+    size_t passed = 0;  // but for so many, which went on behind hits
+    std::vector<double> sum[4];  // by pixel of the tile, in its order
     std::vector<std::vector<double>> sum_aov;
 
     void reserve(size_t chunk, size_t tile_pixels, size_t aovs);
 };
 
+PixelView pixel_view(const Camera& camera);
+
 class TileJob {
   public:
     TileJob(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
-            const IntegratorSettings& settings, const FilterSampler& filter,
+            const IntegratorSettings& settings, const FilterTable& filter,
             IntegratorScratch::Thread& scratch, int thread)
         : accel_(accel),
           camera_(camera),
+          view_(pixel_view(camera)),
           shading_(shading),
           film_(film),
           settings_(settings),
@@ -55,12 +72,13 @@ class TileJob {
   private:
     void begin_tile();
     void make_rays(int first_sample, int end_sample);
-    void add_ray(uint32_t x, uint32_t y, uint32_t sample);
+    void begin_rays(size_t begin, size_t end);
     void follow_layers();
     enum class Ends : uint8_t { Surfaces, Nothing };
     void shade(const HitBatch& hits, Ends ends = Ends::Surfaces);
     void shade_misses(const HitBatch& hits);
     void mend(const HitBatch& hits);
+    bool all_finite(size_t first) const;
     bool mend_hit(size_t k);
     bool shows_first(const HitBatch& hits, size_t k) const;
     void keep_aovs(const HitBatch& hits);
@@ -73,10 +91,12 @@ class TileJob {
 
     const Accel& accel_;
     const Camera& camera_;
+    const PixelView view_;
+    const PixelKernels& kernels_ = pixel_kernels();
     SurfaceShading& shading_;
     Film& film_;
     const IntegratorSettings& settings_;
-    const FilterSampler& filter_;
+    const FilterTable& filter_;
     IntegratorScratch::Thread& m_;
     int thread_;
     Tile tile_{};

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "raytrace/points/points.h"
 #include "runtime/base/check.h"
+#include "runtime/base/stage_clock.h"
 
 namespace kinora::raytrace {
 
@@ -118,47 +120,79 @@ void append_hits(const HitPacket16& hits, uint32_t lanes, size_t first, HitBatch
     }
 }
 
-template <class T>
-void pick(const HitBatch& hits, const T* from, const T* to) {
-    for (size_t k = 0; k < hits.count; ++k) own(to)[k] = from[hits.ray[k]];
-}
-
 constexpr float kLeastCosine = 0.01f;
 
-// Igehy, Tracing ray differentials, 1999, eq. 10-12: dP = dO + t dD + dt D, with dt such that dP
-// lies in the plane of N. dO, dD are per pixel; t is from the ray's first origin.
-void footprint(const HitBatch& hits, float* const dO[3], float* const dD[3],
-               const float* const dP[3]) {
-    for (size_t k = 0; k < hits.count; ++k) {
-        const uint32_t ray = hits.ray[k];
-        float q[3], cosine = 0, along = 0;
-        for (int c = 0; c < 3; ++c) {
-            q[c] = dO[c][ray] + hits.t[k] * dD[c][ray];
-            cosine += hits.Ng[c][k] * hits.dir[c][k];
-            along += hits.Ng[c][k] * q[c];
-        }
-        if (std::abs(cosine) < kLeastCosine) cosine = std::copysign(kLeastCosine, cosine);
-        for (int c = 0; c < 3; ++c) own(dP[c])[k] = q[c] - along / cosine * hits.dir[c][k];
+// Reads columns of rays at up to sixteen hits. Hits come in the order of their rays: where none of
+// the rays has missed they lie as the hits do.
+class BlockOfHits {
+  public:
+    BlockOfHits(const uint32_t* ray, size_t count)
+        : ray_(ray), count_(count), dense_(count == kPacket && ray[kPacket - 1] - ray[0] == 15) {}
+
+    template <class T>
+    const T* at(const T* column, T (&scratch)[kPacket]) const {
+        if (dense_) return column + ray_[0];
+        for (size_t i = 0; i < kPacket; ++i) scratch[i] = column[ray_[i < count_ ? i : 0]];
+        return scratch;
     }
+    template <class T>
+    void copy(const T* from, const T* to) const {  // `to` has room for sixteen
+        T scratch[kPacket];
+        std::memcpy(own(to), at(from, scratch), sizeof(scratch));
+    }
+    void copy(const float* const (&from)[3], const float* const (&to)[3], size_t first) const {
+        for (int c = 0; c < 3; ++c) copy(from[c], to[c] + first);
+    }
+
+  private:
+    const uint32_t* ray_;
+    size_t count_;
+    bool dense_;
+};
+
+void footprint(const BlockOfHits& block, const HitBatch& hits, size_t first, float* const dO[3],
+               float* const dD[3], const float* const dP[3]) {
+    float scratch[6][kPacket];
+    FootprintRays rays;
+    float* to[3];
+    for (int c = 0; c < 3; ++c) {
+        rays.dO[c] = block.at<float>(dO[c], scratch[c]);
+        rays.dD[c] = block.at<float>(dD[c], scratch[3 + c]);
+        rays.dir[c] = hits.dir[c] + first;
+        rays.Ng[c] = hits.Ng[c] + first;
+        to[c] = own(dP[c]) + first;
+    }
+    rays.t = hits.t + first;
+    point_kernels().footprint(rays, kLeastCosine, to);
 }
 
+// In blocks of sixteen; what is written behind the last hit is padding.
 void fill_from_rays(const RayBatch& rays, const HitBatch& hits) {
-    for (size_t k = 0; k < hits.count; ++k)
-        own(hits.beside)[k] = rays.passing && hits.t[k] <= rays.window[hits.ray[k]];
-    for (size_t k = 0; k < hits.count; ++k) own(hits.t)[k] += rays.t_passed[hits.ray[k]];
-    for (int c = 0; c < 3; ++c) {
-        pick<float>(hits, rays.first_org[c], hits.org[c]);
-        pick<float>(hits, rays.dir[c], hits.dir[c]);
-        pick<float>(hits, rays.dDdx[c], hits.dDdx[c]);
-        pick<float>(hits, rays.dDdy[c], hits.dDdy[c]);
+    static_assert(kPacket == kPoints);
+    for (size_t first = 0; first < hits.count; first += kPacket) {
+        const BlockOfHits block(hits.ray + first, std::min<size_t>(hits.count - first, kPacket));
+        float scratch[kPacket];
+        float* t = own(hits.t) + first;
+        uint32_t* beside = own(hits.beside) + first;
+        std::fill_n(beside, kPacket, 0u);
+        if (rays.passing) {
+            const float* window = block.at<float>(rays.window, scratch);
+            for (size_t i = 0; i < kPacket; ++i) beside[i] = t[i] <= window[i];
+        }
+        const float* passed = block.at<float>(rays.t_passed, scratch);
+        for (size_t i = 0; i < kPacket; ++i) t[i] += passed[i];
+        block.copy(rays.first_org, hits.org, first);
+        block.copy(rays.dir, hits.dir, first);
+        block.copy(rays.dDdx, hits.dDdx, first);
+        block.copy(rays.dDdy, hits.dDdy, first);
+        block.copy<float>(rays.time, hits.time + first);
+        block.copy<uint32_t>(rays.pixel_x, hits.pixel_x + first);
+        block.copy<uint32_t>(rays.pixel_y, hits.pixel_y + first);
+        block.copy<uint32_t>(rays.sample, hits.sample + first);
+        block.copy<uint32_t>(rays.layer, hits.layer + first);
+        footprint(block, hits, first, rays.dOdx, rays.dDdx, hits.dPdx);
+        footprint(block, hits, first, rays.dOdy, rays.dDdy, hits.dPdy);
     }
-    pick<float>(hits, rays.time, hits.time);
-    pick<uint32_t>(hits, rays.pixel_x, hits.pixel_x);
-    pick<uint32_t>(hits, rays.pixel_y, hits.pixel_y);
-    pick<uint32_t>(hits, rays.sample, hits.sample);
-    pick<uint32_t>(hits, rays.layer, hits.layer);
-    footprint(hits, rays.dOdx, rays.dDdx, hits.dPdx);
-    footprint(hits, rays.dOdy, rays.dDdy, hits.dPdy);
 }
 
 // Padding repeats the last hit, so that whole vectors may be read (and shaded) at the end.
@@ -202,13 +236,17 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
     out.count = 0;
     out.depth = depth;
     out.rays = &rays;
-    RayPacket16 packet;
-    HitPacket16 hits;
-    for (size_t first = 0; first < rays.count; first += kPacket) {
-        load_packet(rays, first, mask, packet);
-        packet.coherent = depth == 0;
-        append_hits(hits, accel.intersect16(packet, hits, counters), first, out);
+    {
+        StageScope stage(Stage::Trace);
+        RayPacket16 packet;
+        HitPacket16 hits;
+        for (size_t first = 0; first < rays.count; first += kPacket) {
+            load_packet(rays, first, mask, packet);
+            packet.coherent = depth == 0;
+            append_hits(hits, accel.intersect16(packet, hits, counters), first, out);
+        }
     }
+    StageScope stage(Stage::Points);
     accel.surface_points(out.count, out.instance, out.primitive, out.u, out.v,
                          {{own(out.P[0]), own(out.P[1]), own(out.P[2])},
                           {own(out.P_error[0]), own(out.P_error[1]), own(out.P_error[2])},
@@ -274,8 +312,8 @@ float step_back(const HitBatch& hits, size_t k) {
 
 }  // namespace
 
-void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hits, size_t k) {
-    const size_t from = hits.ray[k];
+void move_ray(RayBatch& r, size_t to, size_t from) {
+    if (to == from) return;
     auto move = [&](auto* column) { column[to] = column[from]; };
     auto move3 = [&](float* const(&columns)[3]) {
         for (float* column : columns) move(column);
@@ -285,7 +323,12 @@ void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hi
     move(r.tnear), move(r.tfar), move(r.time), move(r.t_passed), move(r.window);
     move(r.passed_first), move(r.passed_last);
     move(r.pixel_x), move(r.pixel_y), move(r.sample), move(r.share), move(r.medium), move(r.slot);
-    move(r.weight), move(r.turns), move(r.spent);
+    move(r.weight), move(r.turns), move(r.spent), move(r.layer);
+}
+
+void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hits, size_t k) {
+    const size_t from = hits.ray[k];
+    move_ray(r, to, from);
     r.layer[to] = hits.layer[k] + 1;
     const uint32_t body = accel.body(hits.instance[k]);
     if (hits.beside[k]) {  // one more at the same point

@@ -130,6 +130,9 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
 // wide as a surface across the ray would have it.
 const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance, HitStore& store);
 
+// Ray `to` of the batch becomes what ray `from` is.
+void move_ray(RayBatch& rays, size_t to, size_t from);
+
 // Ray `to` of the batch becomes the ray of hit k as it goes on behind it, its footprint, slot and
 // all; it meets what other bodies have at the very point of the hit before what lies behind, each
 // body once. `to` must not lie behind the ray's old index (hits come in the order of rays); the

@@ -10,8 +10,6 @@
 namespace kinora::raytrace::test {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr GeometryKind kKinds[] = {GeometryKind::Static, GeometryKind::Deforming,
                                    GeometryKind::Instanced};
 

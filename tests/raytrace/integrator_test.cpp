@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -183,6 +184,106 @@ TEST(Integrator, PicturesAreTheSameBytesForAnyThreadCountTileAndChunk) {
                     << threads << " threads, tile " << tile << ", chunk " << chunk;
                 ASSERT_EQ(first_z, p.film.aovs[0].values);
             }
+}
+
+// Pictures that fill no tile and no packet, clipped or parallel views, any number of samples.
+TEST(Integrator, TracesTheCamerasRayOfEachSampleOnce) {
+    TestMesh wall = square(1e4, 0);
+    const PixelFilter& gaussian = *find_pixel_filter("gaussian");
+    const FilterSampler sampler(gaussian, 3);
+    for (auto [width, height] : {std::pair(1, 1), {5, 3}, {67, 65}, {64, 1}})
+        for (int spp : {1, 2, 3, 17})
+            for (bool parallel : {false, true}) {
+                if (width * height * spp > 10000 && parallel) continue;
+                Picture p;
+                p.camera = front_camera(width, height, 5, 100);
+                p.camera.orthographic = parallel;
+                p.camera.clip = spp == 3;
+                p.camera.zfar = 1e6;
+                p.rows = {wall.geometry(1)};
+                p.settings.samples_per_pixel = spp;
+                p.settings.filter = &gaussian;
+                p.settings.filter_width = 3;
+                p.settings.seed = 99;
+                std::vector<int> seen(size_t(width * height * spp), 0);
+                Looks looks([&](const HitBatch& h, size_t k, vec3&, vec3&) {
+                    const uint32_t x = h.pixel_x[k], y = h.pixel_y[k], sample = h.sample[k];
+                    ++seen[(size_t(y) * size_t(width) + x) * size_t(spp) + sample];
+                    dvec2 offset(0.0);
+                    if (spp > 1) {
+                        const dvec2 u = stratified_sample(sample, hash(x, y, 99));
+                        offset = {sampler.offset(u.x), sampler.offset(u.y)};
+                    }
+                    const CameraRay ray =
+                        camera_ray(p.camera, x + 0.5 + offset.x, y + 0.5 + offset.y);
+                    for (int c = 0; c < 3; ++c) {
+                        ASSERT_FLOAT_EQ(h.dir[c][k], ray.dir[c]);
+                        ASSERT_FLOAT_EQ(h.org[c][k], ray.org[c]);
+                        ASSERT_NEAR(h.dDdx[c][k], ray.ddir_dx[c], 1e-6 * double(ray.ddir_dx.x));
+                        ASSERT_NEAR(h.dDdy[c][k], ray.ddir_dy[c], 1e-6 * -double(ray.ddir_dy.y));
+                        ASSERT_EQ(h.rays->dOdx[c][h.ray[k]], ray.dorg_dx[c]);
+                        ASSERT_EQ(h.rays->dOdy[c][h.ray[k]], ray.dorg_dy[c]);
+                    }
+                    ASSERT_FLOAT_EQ(h.rays->tnear[h.ray[k]], ray.tnear);
+                    ASSERT_FLOAT_EQ(h.rays->tfar[h.ray[k]], ray.tfar);
+                });
+                p.take(looks);
+                for (int times : seen) ASSERT_EQ(times, 1);
+            }
+}
+
+// What rays that go on leave in their columns must not reach the next samples or the next frame.
+TEST(Integrator, RaysBehindHitsLeaveNothingToTheNextSamples) {
+    TestMesh front = square(100, 1), back = square(100, 0);
+    Picture p;
+    p.camera = front_camera(40, 30);
+    p.rows = {front.geometry(0), back.geometry(1)};
+    p.rows[0].opaque = false;
+    p.settings.samples_per_pixel = 23;
+    p.settings.tile = 16;
+    p.settings.chunk_rays = 256;
+    std::atomic<size_t> hits = 0;
+    Looks looks([&](const HitBatch& h, size_t k, vec3&, vec3& Oi) {
+        ++hits;
+        const uint32_t ray = h.ray[k];
+        ASSERT_EQ(h.geometry[k], h.layer[k]);
+        ASSERT_EQ(h.org[2][k], 5);
+        ASSERT_NEAR(h.t[k] * h.dir[2][k], h.layer[k] == 0 ? -4 : -5, 1e-5);
+        ASSERT_EQ(h.rays->t_passed[ray] == 0, h.layer[k] == 0);
+        if (h.layer[k] == 0) {
+            ASSERT_EQ(h.rays->slot[ray], ray);
+            ASSERT_EQ(h.rays->weight[ray], 1);
+            ASSERT_EQ(h.rays->turns[ray] + h.rays->spent[ray] + h.rays->medium[ray], 0u);
+        }
+        // A different part of the pixels sees through in each frame.
+        Oi = vec3(h.layer[k] == 1 || (h.pixel_x[k] * 7 + h.pixel_y[k]) % 3 == p.settings.seed
+                      ? 1.0f
+                      : 0.25f);
+    });
+    for (uint32_t frame = 0; frame < 3; ++frame) {
+        p.settings.seed = frame;
+        p.take(looks);
+    }
+    EXPECT_EQ(hits, 3u * 23 * 1200 + 2u * 23 * 1200);
+}
+
+// The sum of the stages is what the threads spent, whatever they are.
+TEST(Integrator, StagesOfThreadsAreTimedWithinTheFrames) {
+    TestMesh wall = square(100, 0);
+    Picture p;
+    p.rows = {wall.geometry(1)};
+    Looks white([](const HitBatch&, size_t, vec3&, vec3&) {});
+    StageClock frame;
+    {
+        RunningClock running(frame);
+        p.take(white);
+    }
+    const StageTicks outer = frame.ticks(), inner = p.counters.stages;
+    for (Stage s : {Stage::Sample, Stage::Trace, Stage::Points, Stage::Film, Stage::Gather})
+        EXPECT_GT(inner[s], 0u) << stage_name(s);
+    EXPECT_GT(outer[Stage::Idle], 0u);
+    for (Stage s : {Stage::Sample, Stage::Trace, Stage::Points, Stage::Film, Stage::Gather})
+        EXPECT_EQ(outer[s], 0u) << stage_name(s);
 }
 
 TEST(Integrator, FootprintsAreThePixelsSizeOnAWallAndCappedAtGrazing) {

@@ -11,6 +11,9 @@
 
 namespace kinora::raytrace::test {
 
+inline constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInf = std::numeric_limits<float>::infinity();
+
 struct TestMesh {
     std::vector<vec4> positions;
     std::vector<uint32_t> triangles;

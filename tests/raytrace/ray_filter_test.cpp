@@ -10,9 +10,6 @@
 namespace kinora::raytrace::test {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInf = std::numeric_limits<float>::infinity();
-
 struct OneSphere : ::testing::Test {
     TestMesh ball = sphere(1, {0, 0, 0});
     Accel accel;

@@ -1,0 +1,93 @@
+// raytrace/pixels/pixels.h: samples of pixels to camera rays, and colours of samples to pixels,
+// many at a time; one source, compiled per instruction set and chosen at run time.
+//
+// The kernel files are compiled for one instruction set each, so this header must hold no inline
+// function of the library: the linker could keep the wrong copy of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace kinora::raytrace {
+
+// The inverse of a filter's integral, tabulated: FilterSampler::offset as value + step * fraction.
+inline constexpr uint32_t kFilterCells = 1024;
+struct FilterTable {
+    struct Cell {
+        double value, step;  // to the next cell's value
+    };
+    Cell cells[kFilterCells];
+    bool linear;  // all steps are the same, so the first cell is enough
+};
+
+// A camera as its rays need it; raytrace/camera.h. Axes are unit and at right angles.
+struct PixelView {
+    bool orthographic;
+    bool clip;
+    double znear, zfar;
+    double eye[3], forward[3];
+    double dx[3], dy[3];          // from one pixel to the next, and to the one below
+    double dx_square, dy_square;  // their squared lengths
+    double centre_x, centre_y;    // of the picture, pixels
+};
+
+// The pixels of a tile in the order of their rays.
+struct PixelSet {
+    size_t count;
+    uint32_t x0, y0;  // added to x and y
+    const uint32_t* x;
+    const uint32_t* y;
+    uint32_t*
+        scramble[2];  // filled by `scrambles`, read by the others: what permutes a pixel's samples
+};
+
+// Numbers of one sample that all pixels share (raytrace/sampling.h, stratified_sample).
+struct SampleBits {
+    uint32_t index;           // first dimension: van der Corput's, reversed
+    uint32_t sobol_reversed;  // second
+};
+SampleBits sample_bits(uint32_t sample);
+
+// Columns of RayBatch, at the ray of the set's first pixel.
+struct PixelRays {
+    float* org[3];  // orthographic: written; perspective: not, nor first_org
+    float* first_org[3];
+    float* dir[3];
+    float* ddir_dx[3];  // perspective: written
+    float* ddir_dy[3];
+    float* tnear;  // with PixelView::clip: written
+    float* tfar;
+    uint32_t* pixel_x;
+    uint32_t* pixel_y;
+};
+
+// The sums of a tile's pixels, in the order of the set.
+struct PixelSums {
+    double* color[3];
+    double* coverage;
+};
+
+struct PixelKernels {
+    const char* name;
+    // PixelSet::scramble from the pixels and the frame's seed.
+    void (*scrambles)(const PixelSet& pixels, uint32_t seed);
+    // Rays of one sample of all pixels. `filter` null: through the pixels' centres.
+    void (*rays)(const PixelView& view, const PixelSet& pixels, const SampleBits& sample,
+                 const FilterTable* filter, const PixelRays& out);
+    // Adds one sample of `count` pixels: what it shows, before `background` where that is not null.
+    void (*add)(size_t count, const float* const color[3], const float* const through[3],
+                const float* background, const PixelSums& sums);
+};
+extern const PixelKernels kPortablePixels;
+extern const PixelKernels kAvx2Pixels;
+extern const PixelKernels kAvx512Pixels;
+
+// Those this CPU can run, the widest first; all give the same bits.
+struct UsablePixelKernels {
+    const PixelKernels* kernels[3];
+    size_t count;
+};
+const UsablePixelKernels& usable_pixel_kernels();
+const PixelKernels& pixel_kernels();
+
+}  // namespace kinora::raytrace

@@ -1,0 +1,70 @@
+// raytrace/points/points.h: points on triangles with their error bounds, and footprints of rays on
+// them, sixteen at a time; one source, compiled per instruction set and chosen at run time.
+//
+// The kernel files are compiled for one instruction set each, so this header must hold no inline
+// function of the library: the linker could keep the wrong copy of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace kinora::raytrace {
+
+inline constexpr size_t kPoints = 16;
+
+// Sixteen triangles and where on them. Four floats a corner, as meshes have them.
+struct alignas(64) TrianglePoints {
+    float corner[3][kPoints][4];
+    float u[kPoints], v[kPoints];  // barycentrics of corners 1 and 2
+};
+
+// What is there: the point, a bound of its rounding error, the cross product of two edges.
+struct alignas(64) PointBlock {
+    float P[3][kPoints], error[3][kPoints], N[3][kPoints];
+};
+
+// Columns of sixteen rays that met a surface.
+struct FootprintRays {
+    const float* dO[3];  // change of the origin, a pixel
+    const float* dD[3];  // and of the direction
+    const float* dir[3];
+    const float* Ng[3];
+    const float* t;
+};
+
+// Sixteen rays.
+struct PacketRays {
+    const float* org[3];
+    const float* dir[3];
+    const float* tnear;
+    const float* tfar;
+};
+
+struct PointKernels {
+    const char* name;
+    // error_scale: gamma(7) of Pharr, Jakob, Humphreys, 6.8.1. Returns a bit for each normal whose
+    // squared length is not between least and most: its caller finds it with more care.
+    uint32_t (*interpolate)(const TrianglePoints& at, float error_scale, float least, float most,
+                            PointBlock& out);
+    // Lengths of 1; 0 stays.
+    void (*normalize)(PointBlock& block);
+    // Whether in all rays origins are within +-far, squared lengths of directions from least to
+    // most, and 0 <= tnear <= tfar, tnear finite. A NaN anywhere is false.
+    bool (*sound)(const PacketRays& rays, float far, float least, float most);
+    // Igehy, Tracing ray differentials, 1999, eq. 10-12: dP = dO + t dD + dt D, with dt such that
+    // dP lies in the plane of Ng; t is from the ray's first origin.
+    void (*footprint)(const FootprintRays& rays, float least_cosine, float* const dP[3]);
+};
+extern const PointKernels kPortablePoints;
+extern const PointKernels kAvx2Points;
+extern const PointKernels kAvx512Points;
+
+// Those this CPU can run, the widest first; all give the same bits.
+struct UsablePointKernels {
+    const PointKernels* kernels[3];
+    size_t count;
+};
+const UsablePointKernels& usable_point_kernels();
+const PointKernels& point_kernels();
+
+}  // namespace kinora::raytrace

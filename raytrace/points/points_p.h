@@ -1,0 +1,113 @@
+// raytrace/points/points_p.h: the kernels of points.h in plain C++. The compiler makes vectors of
+// the loops, as wide as the file that includes this is compiled for. Every operation rounds once
+// (no contraction), so all widths give the same bits.
+#pragma once
+
+#include "raytrace/points/points.h"
+
+namespace kinora::raytrace {
+namespace {
+
+using Four = float __attribute__((vector_size(16)));
+
+// Four corners' x, y and z into places i to i + 3 of three columns.
+__attribute__((always_inline)) inline void turn(const float (*corner)[4], size_t i,
+                                                float (&to)[3][kPoints]) {
+    Four a, b, c, d;
+    __builtin_memcpy(&a, corner[0], 16);
+    __builtin_memcpy(&b, corner[1], 16);
+    __builtin_memcpy(&c, corner[2], 16);
+    __builtin_memcpy(&d, corner[3], 16);
+    const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+               cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Four x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5),
+               y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+    const Four zab = __builtin_shufflevector(a, b, 2, 6, 2, 6),
+               zcd = __builtin_shufflevector(c, d, 2, 6, 2, 6);
+    const Four z = __builtin_shufflevector(zab, zcd, 0, 1, 4, 5);
+    __builtin_memcpy(to[0] + i, &x, 16);
+    __builtin_memcpy(to[1] + i, &y, 16);
+    __builtin_memcpy(to[2] + i, &z, 16);
+}
+
+uint32_t interpolate(const TrianglePoints& at, float error_scale, float least, float most,
+                     PointBlock& out) {
+    float p[3][3][kPoints];  // corner, component, point
+    for (int k = 0; k < 3; ++k)
+        for (size_t i = 0; i < kPoints; i += 4) turn(at.corner[k] + i, i, p[k]);
+    for (int c = 0; c < 3; ++c)
+        for (size_t i = 0; i < kPoints; ++i) {
+            const float x = (1.0f - at.u[i] - at.v[i]) * p[0][c][i], y = at.u[i] * p[1][c][i],
+                        z = at.v[i] * p[2][c][i];
+            out.P[c][i] = x + y + z;
+            out.error[c][i] =
+                error_scale * (__builtin_fabsf(x) + __builtin_fabsf(y) + __builtin_fabsf(z));
+        }
+    uint32_t outside[kPoints];
+    for (size_t i = 0; i < kPoints; ++i) {
+        const float ex = p[1][0][i] - p[0][0][i], ey = p[1][1][i] - p[0][1][i],
+                    ez = p[1][2][i] - p[0][2][i];
+        const float fx = p[2][0][i] - p[0][0][i], fy = p[2][1][i] - p[0][1][i],
+                    fz = p[2][2][i] - p[0][2][i];
+        const float x = ey * fz - ez * fy, y = ez * fx - ex * fz, z = ex * fy - ey * fx;
+        const float square = x * x + y * y + z * z;
+        out.N[0][i] = x;
+        out.N[1][i] = y;
+        out.N[2][i] = z;
+        outside[i] = (square > least) & (square < most) ? 0u : 1u << i;  // NaN is outside
+    }
+    uint32_t all = 0;
+    for (size_t i = 0; i < kPoints; ++i) all |= outside[i];
+    return all;
+}
+
+void normalize(PointBlock& block) {
+    for (size_t i = 0; i < kPoints; ++i) {
+        const float x = block.N[0][i], y = block.N[1][i], z = block.N[2][i];
+        const float square = x * x + y * y + z * z;
+        const float inverse = 1.0f / __builtin_sqrtf(square);
+        const float scale = square > 0 ? inverse : 0.0f;
+        block.N[0][i] = x * scale;
+        block.N[1][i] = y * scale;
+        block.N[2][i] = z * scale;
+    }
+}
+
+bool sound(const PacketRays& rays, float far, float least, float most) {
+    const PacketRays r = rays;
+    uint32_t good = 1;
+    for (size_t i = 0; i < kPoints; ++i) {
+        const float x = r.dir[0][i], y = r.dir[1][i], z = r.dir[2][i];
+        const float square = x * x + y * y + z * z;
+        good &= uint32_t(__builtin_fabsf(r.org[0][i]) <= far) &
+                uint32_t(__builtin_fabsf(r.org[1][i]) <= far) &
+                uint32_t(__builtin_fabsf(r.org[2][i]) <= far) & uint32_t(square >= least) &
+                uint32_t(square <= most) & uint32_t(r.tnear[i] >= 0) &
+                uint32_t(r.tnear[i] <= __FLT_MAX__) & uint32_t(r.tnear[i] <= r.tfar[i]);
+    }
+    return good != 0;
+}
+
+void footprint(const FootprintRays& rays, float least_cosine, float* const dP[3]) {
+    const FootprintRays r = rays;  // copies, which no store below can change
+    float *x = dP[0], *y = dP[1], *z = dP[2];
+#pragma GCC ivdep
+    for (size_t i = 0; i < kPoints; ++i) {
+        const float t = r.t[i], dx = r.dir[0][i], dy = r.dir[1][i], dz = r.dir[2][i];
+        const float nx = r.Ng[0][i], ny = r.Ng[1][i], nz = r.Ng[2][i];
+        const float qx = r.dO[0][i] + t * r.dD[0][i], qy = r.dO[1][i] + t * r.dD[1][i],
+                    qz = r.dO[2][i] + t * r.dD[2][i];
+        // From 0 on, so that -0 comes out as the sum of one by one.
+        float cosine = ((0.0f + nx * dx) + ny * dy) + nz * dz;
+        const float along = ((0.0f + nx * qx) + ny * qy) + nz * qz;
+        const float capped = __builtin_copysignf(least_cosine, cosine);
+        cosine = __builtin_fabsf(cosine) < least_cosine ? capped : cosine;
+        const float back = along / cosine;
+        x[i] = qx - back * dx;
+        y[i] = qy - back * dy;
+        z[i] = qz - back * dz;
+    }
+}
+
+}  // namespace
+}  // namespace kinora::raytrace

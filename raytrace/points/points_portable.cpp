@@ -1,0 +1,9 @@
+// raytrace/points/points_portable.cpp: the kernels for plain C++ (and NEON).
+#include "raytrace/points/points_p.h"
+
+namespace kinora::raytrace {
+
+extern const PointKernels kPortablePoints;
+const PointKernels kPortablePoints = {"portable", interpolate, normalize, sound, footprint};
+
+}  // namespace kinora::raytrace

@@ -1,0 +1,238 @@
+// tests/raytrace/points/points_test.cpp: points, normals and footprints against long double, by
+// every kernel that this CPU runs.
+#include "raytrace/points/points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace kinora::raytrace::test {
+namespace {
+
+using Real = long double;
+
+constexpr float kGamma7 = 7 * 0x1p-24f / (1 - 7 * 0x1p-24f);
+constexpr float kLeast = 1e-30f, kMost = 1e30f;
+
+class EachKernel : public testing::TestWithParam<size_t> {
+  protected:
+    const PointKernels& kernels() const { return *usable_point_kernels().kernels[GetParam()]; }
+};
+INSTANTIATE_TEST_SUITE_P(All, EachKernel, testing::Range<size_t>(0, usable_point_kernels().count),
+                         [](const auto& kernel) {
+                             return std::string(usable_point_kernels().kernels[kernel.param]->name);
+                         });
+
+// Triangles of any size at any place; the fourth float of a corner is not to be read.
+TrianglePoints random_triangles(std::mt19937& random, float size, float distance) {
+    std::uniform_real_distribution<float> unit(-1, 1);
+    TrianglePoints at;
+    for (size_t i = 0; i < kPoints; ++i) {
+        float centre[3];
+        for (float& c : centre) c = distance * unit(random);
+        for (auto& corner : at.corner) {
+            for (int c = 0; c < 3; ++c) corner[i][c] = centre[c] + size * unit(random);
+            corner[i][3] = std::numeric_limits<float>::quiet_NaN();
+        }
+        const float u = std::abs(unit(random)), v = std::abs(unit(random));
+        at.u[i] = u + v > 1 ? 1 - u : u;
+        at.v[i] = u + v > 1 ? 1 - v : v;
+    }
+    return at;
+}
+
+TEST_P(EachKernel, TheTruePointLiesWithinTheError) {
+    std::mt19937 random(3);
+    for (float size : {1e-3f, 1.0f, 1e6f})
+        for (float distance : {0.0f, 1.0f, 1e7f}) {
+            const TrianglePoints at = random_triangles(random, size, distance);
+            PointBlock out;
+            kernels().interpolate(at, kGamma7, kLeast, kMost, out);
+            for (size_t i = 0; i < kPoints; ++i)
+                for (int c = 0; c < 3; ++c) {
+                    const Real u = at.u[i], v = at.v[i];
+                    const Real truth = (1 - u - v) * Real(at.corner[0][i][c]) +
+                                       u * Real(at.corner[1][i][c]) + v * Real(at.corner[2][i][c]);
+                    EXPECT_LE(std::abs(Real(out.P[c][i]) - truth), Real(out.error[c][i]));
+                    Real sum = std::abs((1 - u - v) * Real(at.corner[0][i][c])) +
+                               std::abs(u * Real(at.corner[1][i][c])) +
+                               std::abs(v * Real(at.corner[2][i][c]));
+                    EXPECT_NEAR(double(out.error[c][i]), double(sum * Real(kGamma7)),
+                                1e-5 * double(sum * Real(kGamma7)));
+                }
+        }
+}
+
+TEST_P(EachKernel, NormalsAreTheTrianglesAndUnit) {
+    std::mt19937 random(4);
+    for (float size : {1e-3f, 1.0f, 1e4f}) {
+        const TrianglePoints at = random_triangles(random, size, 0);
+        PointBlock out;
+        EXPECT_EQ(kernels().interpolate(at, kGamma7, kLeast, kMost, out), 0u);
+        kernels().normalize(out);
+        for (size_t i = 0; i < kPoints; ++i) {
+            Real e[3], f[3];
+            for (int c = 0; c < 3; ++c) {
+                e[c] = Real(at.corner[1][i][c]) - Real(at.corner[0][i][c]);
+                f[c] = Real(at.corner[2][i][c]) - Real(at.corner[0][i][c]);
+            }
+            const Real n[3] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2],
+                               e[0] * f[1] - e[1] * f[0]};
+            const Real length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+            // What the edges' products lose beside the triangle's area, and some units.
+            const Real edges = std::sqrt((e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) *
+                                         (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(double(out.N[c][i]), double(n[c] / length),
+                            double(edges / length) * 4e-7);
+        }
+    }
+}
+
+TEST_P(EachKernel, NormalsOutsideTheSafeRangeAreNamed) {
+    std::mt19937 random(6);
+    TrianglePoints at = random_triangles(random, 1, 0);
+    for (auto& corner : at.corner) {
+        for (int c = 0; c < 3; ++c) {
+            corner[1][c] *= 1e-12f;  // squared length of 1e-48
+            corner[4][c] *= 1e12f;   // infinite
+            corner[15][c] = 0.5f;    // a point
+        }
+        corner[9][1] = std::numeric_limits<float>::quiet_NaN();
+    }
+    PointBlock out;
+    EXPECT_EQ(kernels().interpolate(at, kGamma7, kLeast, kMost, out),
+              1u << 1 | 1u << 4 | 1u << 9 | 1u << 15);
+    kernels().normalize(out);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(out.N[c][15], 0);
+}
+
+struct Rays {
+    float dO[3][kPoints], dD[3][kPoints], dir[3][kPoints], Ng[3][kPoints], t[kPoints];
+    FootprintRays view() const {
+        return {{dO[0], dO[1], dO[2]},
+                {dD[0], dD[1], dD[2]},
+                {dir[0], dir[1], dir[2]},
+                {Ng[0], Ng[1], Ng[2]},
+                t};
+    }
+};
+
+Rays random_rays(std::mt19937& random) {
+    std::normal_distribution<float> normal(0, 1);
+    Rays r;
+    for (size_t i = 0; i < kPoints; ++i) {
+        for (auto* unit : {&r.dir, &r.Ng}) {
+            Real v[3], square = 0;
+            for (Real& x : v) x = normal(random), square += x * x;
+            for (int c = 0; c < 3; ++c) (*unit)[c][i] = float(v[c] / std::sqrt(square));
+        }
+        for (int c = 0; c < 3; ++c) {
+            r.dO[c][i] = i % 3 ? 1e-3f * normal(random) : 0.0f;
+            r.dD[c][i] = 1e-3f * normal(random);
+        }
+        r.t[i] = std::abs(10 * normal(random));
+    }
+    return r;
+}
+
+TEST_P(EachKernel, FootprintsLieInThePlaneOrAreCapped) {
+    constexpr float kLeastCosine = 0.05f;
+    std::mt19937 random(8);
+    for (int round = 0; round < 50; ++round) {
+        Rays r = random_rays(random);
+        for (int c = 0; c < 3; ++c) r.Ng[c][7] = r.dir[(c + 1) % 3][7] * float(c != 1);
+        float x[kPoints], y[kPoints], z[kPoints];
+        float* const dP[3] = {x, y, z};
+        kernels().footprint(r.view(), kLeastCosine, dP);
+        for (size_t i = 0; i < kPoints; ++i) {
+            Real q[3], cosine = 0, along = 0, size = 0;
+            for (int c = 0; c < 3; ++c) {
+                q[c] = Real(r.dO[c][i]) + Real(r.t[i]) * Real(r.dD[c][i]);
+                cosine += Real(r.Ng[c][i]) * Real(r.dir[c][i]);
+                along += Real(r.Ng[c][i]) * q[c];
+                size += std::abs(q[c]);
+            }
+            if (std::abs(std::abs(cosine) - Real(kLeastCosine)) < 1e-5L) continue;
+            if (std::abs(cosine) < Real(kLeastCosine))
+                cosine = std::copysign(Real(kLeastCosine), cosine);
+            for (int c = 0; c < 3; ++c) {
+                const Real truth = q[c] - along / cosine * Real(r.dir[c][i]);
+                EXPECT_NEAR(double(dP[c][i]), double(truth),
+                            double(size / std::abs(cosine) / std::abs(cosine)) * 1e-6);
+            }
+        }
+    }
+}
+
+// One lane at a time is what it may be, on the edge of it or beyond.
+TEST_P(EachKernel, PacketsAreSoundWhereEachOfTheirRaysIs) {
+    constexpr float kFar = 1e18f, kShort = 0x1p-40f, kLong = 0x1p40f;
+    const float inf = std::numeric_limits<float>::infinity(),
+                nan = std::numeric_limits<float>::quiet_NaN(),
+                largest = std::numeric_limits<float>::max();
+    struct Case {
+        int column;  // org, dir, tnear, tfar
+        float value;
+        bool sound;
+    };
+    const Case cases[] = {
+        {0, kFar, true},     {1, -kFar, true},   {2, std::nextafter(kFar, inf), false},
+        {0, -inf, false},    {1, nan, false},    {3, 0x1p-20f, true},
+        {4, 0x1p20f, true},  {5, 0, false},      {3, 0x1p-21f, false},
+        {4, 0x1p21f, false}, {5, nan, false},    {3, inf, false},
+        {6, 0, true},        {6, -0.0f, true},   {6, -1e-30f, false},
+        {6, nan, false},     {6, 5, true},       {6, std::nextafter(5.0f, inf), false},
+        {6, inf, false},     {7, nan, false},    {7, -1, false},
+        {7, inf, true},      {7, largest, true},
+    };
+    for (const Case& one : cases)
+        for (size_t lane = 0; lane < kPoints; ++lane) {
+            float column[8][kPoints];
+            for (size_t i = 0; i < kPoints; ++i) {
+                for (int c = 0; c < 6; ++c) column[c][i] = c == one.column || c < 3 ? 1.0f : 0.0f;
+                if (one.column < 3 || one.column > 5) column[3][i] = 1;
+                column[6][i] = 0;
+                column[7][i] = 5;
+            }
+            column[one.column][lane] = one.value;
+            const PacketRays rays{{column[0], column[1], column[2]},
+                                  {column[3], column[4], column[5]},
+                                  column[6],
+                                  column[7]};
+            EXPECT_EQ(kernels().sound(rays, kFar, kShort, kLong), one.sound)
+                << "column " << one.column << " = " << one.value << ", lane " << lane;
+        }
+}
+
+TEST(PointKernels, GiveTheSameBits) {
+    const UsablePointKernels& usable = usable_point_kernels();
+    const PointKernels& plain = *usable.kernels[usable.count - 1];
+    std::mt19937 random(9);
+    for (size_t k = 0; k < usable.count; ++k)
+        for (int round = 0; round < 200; ++round) {
+            const PointKernels& other = *usable.kernels[k];
+            const float size = std::ldexp(1.0f, round % 80 - 40);
+            const TrianglePoints at = random_triangles(random, size, round % 7 ? 0.0f : 1e5f);
+            PointBlock a, b;
+            ASSERT_EQ(plain.interpolate(at, kGamma7, kLeast, kMost, a),
+                      other.interpolate(at, kGamma7, kLeast, kMost, b));
+            ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << other.name;
+            plain.normalize(a);
+            other.normalize(b);
+            ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << other.name;
+            const Rays rays = random_rays(random);
+            float p[3][kPoints], q[3][kPoints];
+            float *const to_p[3] = {p[0], p[1], p[2]}, *const to_q[3] = {q[0], q[1], q[2]};
+            plain.footprint(rays.view(), 0.01f, to_p);
+            other.footprint(rays.view(), 0.01f, to_q);
+            ASSERT_EQ(std::memcmp(p, q, sizeof(p)), 0) << other.name;
+        }
+}
+
+}  // namespace
+}  // namespace kinora::raytrace::test
