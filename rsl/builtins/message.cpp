@@ -133,6 +133,14 @@ void raydepth(LowerCall& c) {
 void isshadowray(LowerCall& c) {
     c.set(c.b.f(c.context.options.want_Ci ? 0.0f : 1.0f));
 }
+void isindirectray(LowerCall& c) {
+    auto& b = c.b;
+    c.context.out.uses_rng = true;
+    std::vector<Value> answer = c.services.call(
+        Service::query, std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern("type")), b.i('s'),
+                                   b.i(-1), b.i(1), rng_input(b)});
+    c.set(c.e.flag(b.op(jit::Op::IEq, b.bits(answer[1]), b.i(intern("diffuse")))));
+}
 void raylabel(LowerCall& c) {
     ray_fact(c, "label");
 }
@@ -208,6 +216,14 @@ void isshadowray(RefCall<Real>& c) {  // it looks as the camera does
 }
 
 template <class Real>
+void isindirectray(RefCall<Real>& c) {
+    std::vector<double> answer = c.eval.service(
+        Service::query,
+        {double(int(QueryKind::RayInfo)), double(intern("type")), double('s'), -1, 1, 0});
+    c.set(Dual<Real>(Real(at(answer, 1) == double(intern("diffuse")))));
+}
+
+template <class Real>
 void lightsource(RefCall<Real>& c) {
     const Type type = c.call.args[1]->type;
     size_t each = size_t(component_count(type.base)),
@@ -264,7 +280,8 @@ const Builtin kRows[] = {
      KINORA_RSL_REF(ref::rendererinfo), kMessage, 0, "A fact about the renderer: 1 if known."},
     {"rayinfo", kAnyVariable, lower::query<QueryKind::RayInfo>, KINORA_RSL_REF(ref::rayinfo),
      kMessage | kVaryingResult, 0,
-     "A fact about the ray that sees the point (depth type label origin direction length): 1 if "
+     "A fact about the ray that sees the point (depth type label origin direction length intent): "
+     "1 if "
      "known."},
     {"raydepth", "f=", lower::raydepth, KINORA_RSL_REF(ref::raydepth), kMessage | kVaryingResult, 0,
      "How many rays lie between the eye and this point: 0 for what the camera sees."},
@@ -272,6 +289,9 @@ const Builtin kRows[] = {
      "BMRT's name of raydepth."},
     {"isshadowray", "f=", lower::isshadowray, KINORA_RSL_REF(ref::isshadowray), kMessage, 0,
      "1 where only the opacity is asked for, as by rays to lights (BMRT)."},
+    {"isindirectray", "f=", lower::isindirectray, KINORA_RSL_REF(ref::isindirectray),
+     kMessage | kVaryingResult, 0,
+     "1 where indirect diffuse light is gathered: rayinfo's type is \"diffuse\" (BMRT)."},
     {"raylabel", "s=", lower::raylabel, KINORA_RSL_REF(ref::raylabel), kMessage | kVaryingResult, 0,
      "The label that trace or gather gave the ray that sees the point."},
     {"rayorigin", "p=", lower::rayorigin, KINORA_RSL_REF(ref::rayorigin), kMessage | kVaryingResult,

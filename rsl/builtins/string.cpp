@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <locale>
 #include <regex>
+#include <sstream>
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
@@ -57,6 +59,18 @@ void match(LowerCall& c) {
         c.set(c.b.f(matches(*known_pattern, *known_text) ? 1.0f : 0.0f));
     else
         c.set(c.services.call(Service::match, std::array{pattern, text})[0]);
+}
+
+// A number that a string's text tells.
+void number_of_text(LowerCall& c, Service service, float (*number)(std::string_view)) {
+    const std::string* known = c.e.constant_text(c.f(0));
+    c.set(known ? c.b.f(number(*known)) : c.services.call(service, std::array{c.f(0)})[0]);
+}
+void stof(LowerCall& c) {
+    number_of_text(c, Service::stof, leading_number);
+}
+void strlen(LowerCall& c) {
+    number_of_text(c, Service::strlen, [](std::string_view text) { return float(text.size()); });
 }
 
 // The numbers of a value as services take them: strings as ids bit for bit.
@@ -234,6 +248,20 @@ void format(RefCall<Real>& c) {
 }
 
 template <class Real>
+void stof(RefCall<Real>& c) {
+    std::istringstream stream(c.text(0));
+    stream.imbue(std::locale::classic());
+    float number = 0;
+    stream >> number;
+    c.set(Dual<Real>(Real(number)));
+}
+
+template <class Real>
+void strlen(RefCall<Real>& c) {
+    c.set(Dual<Real>(Real(c.text(0).size())));
+}
+
+template <class Real>
 void printf(RefCall<Real>&) {}  // what is printed is no value of the point
 
 }  // namespace
@@ -249,6 +277,11 @@ const Builtin kRows[] = {
     {"format", "s=s?*", lower::format, KINORA_RSL_REF(ref::format), kPure, 0,
      "Text with %f %d (floats) %c %p %v %n (triples) %m (matrices) %s (strings) replaced by the "
      "arguments. C's width and precision may stand after the %. A string has 65536 bytes at most."},
+    {"sprintf", "s=s?*", lower::format, KINORA_RSL_REF(ref::format), kPure, 0,
+     "PRMan's name of format()."},
+    {"stof", "f=s", lower::stof, KINORA_RSL_REF(ref::stof), kPure, 0,
+     "The number that the string begins with: stof(\"2.5 m\") is 2.5. Without one it is 0."},
+    {"strlen", "f=s", lower::strlen, KINORA_RSL_REF(ref::strlen), kPure, 0, "Bytes of the string."},
     {"match", "f=ss", lower::match, KINORA_RSL_REF(ref::match), kPure, 0,
      "1 if the pattern, a regular expression, occurs in the string: match(pattern, string)."},
     {"printf", "x=s?*", lower::print, KINORA_RSL_REF(ref::printf), kPrints, 0,

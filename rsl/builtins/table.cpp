@@ -79,6 +79,7 @@ const std::vector<BuiltinGroup>& builtin_groups() {
         {"Bump maps", builtins_bump()},
         {"Facts about image files, baking", builtins_texture_files()},
         {"Matrices", builtins_matrix()},
+        {"Resizable arrays", builtins_arrays()},
         {"Strings and printing", builtins_string()},
         {"Messages", builtins_message()},
     };
@@ -113,12 +114,12 @@ struct ForeignRow {
 };
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
-    {" fulltrace rayserver isindirectray isshadowray ", "BMRT"},
+    {" fulltrace rayserver ", "BMRT"},
     {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture "
-     "rayhittest irradiance stof sprintf strlen ",
+     "rayhittest irradiance ",
      "other renderers"},
-    {" getvar getshader getshaders getlights arraylength resize reserve push pop capacity "
-     "directlighting indirectspecular evaluateSamples generateSamples writeaov readaov ",
+    {" getvar getshader getshaders getlights hasmethod "
+     "directlighting indirectspecular evaluateSamples generateSamples ",
      "RSL 2.0"},
 };
 

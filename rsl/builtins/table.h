@@ -10,6 +10,7 @@
 namespace kinora::rsl {
 
 // The groups, each defined in rsl/builtins/<group>.cpp. A name may have several rows in one group.
+std::span<const Builtin> builtins_arrays();
 std::span<const Builtin> builtins_math();
 std::span<const Builtin> builtins_filterstep();
 std::span<const Builtin> builtins_spline();

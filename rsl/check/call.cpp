@@ -113,6 +113,9 @@ void CallBinder::end(CallExpr& e) {
 
 void CallBinder::end_builtin(CallExpr& e) {
     const Builtin& builtin = *e.builtin;
+    if ((builtin.effects & kSetsLength) && e.args[0]->type.array_length > 0)
+        if (const auto* array = as_if<VariableExpr>(e.args[0]))
+            reporter_.report(Code::RSL_NOT_RESIZABLE, e.args[0]->span, array->name);
     bool names_channels = builtin.effects & (kReadsChannels | kWritesChannels);
     if (!names_channels) drop_unfit_pairs(ast_, reporter_, e.args, e.pairs, e.name);
     const auto* file = e.args.empty() ? nullptr : as_if<StringExpr>(e.args[0]);

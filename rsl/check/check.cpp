@@ -12,11 +12,14 @@ Checker::Checker(Ast& ast, Reporter& reporter, const CompileOptions& options,
       scopes_(ast),
       unknown_(ast, reporter_, recovery, scopes_),
       assignments_(reporter_),
-      expressions_(ast, reporter_, options, recovery, scopes_, unknown_, assignments_, graph_),
+      outputs_(ast, reporter_, assignments_),
+      expressions_(ast, reporter_, options, recovery, scopes_, unknown_, assignments_, outputs_,
+                   graph_),
       statements_(ast, reporter_, recovery, scopes_, unknown_, assignments_, expressions_) {}
 
 void Checker::run() {
     Scopes::Guard file_scope(scopes_);
+    outputs_.begin();
     for (Function* f : ast_.functions) statements_.declare(*f);
     for (Function* f : ast_.functions) statements_.function(*f);
     for (size_t i = 0; i < ast_.shaders.size(); ++i) {
@@ -26,6 +29,7 @@ void Checker::run() {
                                  ast_.shaders[i]->name);
         check_shader(*ast_.shaders[i]);
     }
+    for (ShaderDefinition* shader : ast_.shaders) outputs_.end(*shader);
     graph_.mark_recursion(ast_.function_count);
 }
 

@@ -33,6 +33,7 @@ class Checker {
     CallGraph graph_;
     UnknownNames unknown_;
     Assignments assignments_;
+    NamedOutputs outputs_;
     ExpressionChecker expressions_;
     StatementChecker statements_;
 };

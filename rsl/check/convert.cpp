@@ -39,6 +39,15 @@ BaseType common_type(BaseType a, BaseType b) {
     return BaseType::Vector;
 }
 
+void convert_to_condition(Ast& ast, Expr*& slot) {
+    auto* cast = ast.make<CastExpr>(slot->span);
+    cast->to = BaseType::Bool;
+    cast->implicit = true;
+    cast->operand = slot;
+    cast->type = {BaseType::Bool, -1};
+    slot = cast;
+}
+
 bool convert(Ast& ast, Expr*& slot, BaseType to) {
     if (slot->type.base == to && !slot->type.is_array()) return true;
     if (slot->type.is_array() || conversion_cost(slot->type.base, to) < 0) return false;

@@ -15,6 +15,8 @@ const char* conversion_help(BaseType from, BaseType to);
 BaseType common_type(BaseType a, BaseType b);
 
 // Puts casts around the checked expression; false when there is no conversion.
+// The float in the slot as a condition: != 0.
+void convert_to_condition(Ast& ast, Expr*& slot);
 bool convert(Ast& ast, Expr*& slot, BaseType to);
 
 }  // namespace kinora::rsl

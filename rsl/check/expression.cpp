@@ -2,9 +2,12 @@
 // them.
 #include "rsl/check/expression.h"
 
+#include <algorithm>
+
 #include "rsl/builtins/table.h"
 #include "rsl/check/convert.h"
 #include "rsl/syntax/ast_visit.h"
+#include "rsl/syntax/copy_tree.h"
 
 namespace kinora::rsl {
 
@@ -44,7 +47,7 @@ void ExpressionChecker::bring_to(Expr*& slot, Type type, const std::string& what
 void ExpressionChecker::array_value(Expr*& slot, Type type, const std::string& what) {
     if (auto* literal = as_if<ArrayLiteralExpr>(slot)) {
         for (Expr*& item : literal->items) convert_to(item, type.element(), "the array element");
-        if (literal->items.size() > size_t(type.array_length))
+        if (type.array_length > 0 && literal->items.size() > size_t(type.array_length))
             reporter_.report(Code::RSL_ARRAY_LENGTH, slot->span, literal->items.size(),
                              type.array_length);
         literal->type = type;
@@ -68,12 +71,7 @@ void ExpressionChecker::condition(Expr*& slot) {
         reporter_.report(Code::RSL_CONDITION, slot->span, type_name(type));
         return;
     }
-    auto* cast = ast_.make<CastExpr>(slot->span);
-    cast->to = BaseType::Bool;
-    cast->implicit = true;
-    cast->operand = slot;
-    cast->type = {BaseType::Bool, -1};
-    slot = cast;
+    convert_to_condition(ast_, slot);
 }
 
 // A string alone: is it not empty?
@@ -206,8 +204,12 @@ void ExpressionChecker::check(Expr*&, ComponentExpr& e, BaseType) {
 // ---- calls --------------------------------------------------------------------------------------
 
 // Arguments are checked before the callee is chosen, except those whose type it will choose.
-void ExpressionChecker::check(Expr*&, CallExpr& e, BaseType wanted) {
+void ExpressionChecker::check(Expr*& slot, CallExpr& e, BaseType wanted) {
     std::vector<Function*> functions = scopes_.find_functions(e.name);
+    if (functions.empty() && NamedOutputs::is_call(e.name)) {
+        for (Expr*& argument : e.args) expression(argument, BaseType::Invalid);
+        return outputs_.bind(slot, e);
+    }
     bool builtin = functions.empty() && !find_builtin(e.name).empty();
     if (builtin && calls_.take_channel(e)) check_number(e.channel, "a channel");
     if (builtin) calls_.group_source(e);
@@ -218,9 +220,14 @@ void ExpressionChecker::check(Expr*&, CallExpr& e, BaseType wanted) {
         else if (!types_.is_flexible(*argument))
             expression(argument, BaseType::Invalid);
     }
+    if (functions.empty() && !builtin && written_name(e.name) != e.name) return no_struct_form(e);
     if (functions.empty() && !builtin) return unknown_.function(e);
     Callee callee = overloads_.choose(e, functions, wanted);
     if (!callee) return no_form(e, functions);
+    if (callee.function && !add_defaults(e, *callee.function)) {
+        e.type = callee.function->result;
+        return;
+    }
     calls_.begin(e, callee);
     for (size_t i = 0; i < e.args.size(); ++i) {
         if (types_.is_open(*e.args[i])) expression(e.args[i], calls_.parameter(e, i).type.base);
@@ -229,14 +236,56 @@ void ExpressionChecker::check(Expr*&, CallExpr& e, BaseType wanted) {
     calls_.end(e);
 }
 
+// Arguments that are left out: the parameters' defaults, which were checked where they stand, or,
+// before that, mean what they mean here. False: they call each other without end.
+bool ExpressionChecker::add_defaults(CallExpr& e, const Function& f) {
+    if (e.args.size() >= f.parameters.size()) return true;
+    constexpr int kMostDefaults = 4;
+    if (defaults_ == kMostDefaults) {
+        reporter_.report(Code::RSL_TOO_DEEP, e.span);
+        return false;
+    }
+    ++defaults_;
+    std::vector<Expr*> args(e.args.begin(), e.args.end());
+    for (size_t k = args.size(); k < f.parameters.size() && f.parameters[k]->initial; ++k) {
+        args.push_back(copy_tree(ast_, *f.parameters[k]->initial));
+        if (args[k]->type.base == BaseType::Invalid)
+            convert_to(args[k], f.parameters[k]->type, fmt::format("'{}'", f.parameters[k]->name));
+    }
+    --defaults_;
+    e.args = ast_.arena.copy(args);
+    return true;
+}
+
+// A struct is no argument of any function of that name.
+void ExpressionChecker::no_struct_form(CallExpr& e) {
+    std::string_view name = written_name(e.name), structs = e.name.substr(name.size());
+    std::vector<std::string_view> known = scopes_.function_names();
+    bool exists = !find_builtin(name).empty() ||
+                  std::any_of(known.begin(), known.end(),
+                              [&](std::string_view other) { return written_name(other) == name; });
+    e.name = name;
+    if (!exists) return unknown_.function(e);
+    std::string types;
+    for (size_t at = 1; at < structs.size();) {
+        size_t end = std::min(structs.find(' ', at), structs.size());
+        types +=
+            (types.empty() ? "struct " : ", struct ") + std::string(structs.substr(at, end - at));
+        at = end + 1;
+    }
+    reporter_.report(Code::RSL_NO_OVERLOAD, e.span, name, types);
+}
+
 // Neither a function of the source nor a built-in one takes these arguments.
 void ExpressionChecker::no_form(CallExpr& e, std::span<Function* const> functions) {
     if (functions.size() == 1) {
         const Function& only = *functions[0];
         e.type = only.result;
         if (only.damaged) return;  // its parameters may be among what is missing
+        size_t written = written_parameters(only);
         reporter_
-            .report(Code::RSL_ARGUMENT_COUNT, e.span, e.name, only.parameters.size(), e.args.size())
+            .report(Code::RSL_ARGUMENT_COUNT, e.span, written_name(e.name), written,
+                    e.args.size() + written - only.parameters.size())
             .notes.push_back({only.span.where, "defined here"});
         return;
     }

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "rsl/check/aovs.h"
 #include "rsl/check/assignments.h"
 #include "rsl/check/call.h"
 #include "rsl/check/convert.h"
@@ -22,13 +23,14 @@ class ExpressionChecker {
   public:
     ExpressionChecker(Ast& ast, TreeReporter& reporter, const CompileOptions& options,
                       const ParseRecovery& recovery, Scopes& scopes, UnknownNames& unknown,
-                      Assignments& assignments, CallGraph& graph)
+                      Assignments& assignments, NamedOutputs& outputs, CallGraph& graph)
         : ast_(ast),
           reporter_(reporter),
           recovery_(recovery),
           scopes_(scopes),
           unknown_(unknown),
           assignments_(assignments),
+          outputs_(outputs),
           types_(scopes),
           overloads_(types_),
           calls_(ast, reporter, options, scopes, overloads_, assignments, graph) {}
@@ -56,11 +58,13 @@ class ExpressionChecker {
     void check(Expr*&, ComponentExpr& e, BaseType wanted);
     void check(Expr*&, SelectExpr& e, BaseType wanted);
     void check(Expr*&, AssignExpr& e, BaseType wanted);
-    void check(Expr*&, CallExpr& e, BaseType wanted);
+    void check(Expr*& slot, CallExpr& e, BaseType wanted);
     void check(Expr*&, CastExpr& e, BaseType wanted);
     void check(Expr*&, TripleExpr& e, BaseType wanted);
     void check(Expr*&, SixteenExpr& e, BaseType wanted);
     void check(Expr*&, ArrayLiteralExpr& e, BaseType wanted);
+    bool add_defaults(CallExpr& e, const Function& f);
+    void no_struct_form(CallExpr& e);
     void no_form(CallExpr& e, std::span<Function* const> functions);
 
     // operator.cpp
@@ -80,9 +84,11 @@ class ExpressionChecker {
     Scopes& scopes_;
     UnknownNames& unknown_;
     Assignments& assignments_;
+    NamedOutputs& outputs_;
     TypeInference types_;
     OverloadResolution overloads_;
     CallBinder calls_;
+    int defaults_ = 0;  // defaults of arguments within one another
 };
 
 }  // namespace kinora::rsl

@@ -56,8 +56,33 @@ int OverloadResolution::argument_cost(const Expr& argument, Type type, bool outp
     return conversion_cost(argument.type.base, type.base);
 }
 
+std::string_view written_name(std::string_view name) {
+    return name.substr(0, name.find(' '));
+}
+
+size_t written_parameters(const Function& f) {
+    size_t count = 0;
+    std::string_view before;
+    for (const Symbol* p : f.parameters) {
+        size_t arrow = p->name.find("->");
+        std::string_view object = p->name.substr(0, arrow);
+        bool member = arrow != std::string_view::npos;
+        bool counts = !member || (object != before && object != "this" && object != "return");
+        count += counts;
+        before = member ? object : std::string_view();
+    }
+    return count;
+}
+
+bool takes_count(const Function& f, size_t arguments) {
+    if (arguments > f.parameters.size()) return false;
+    auto left_out = f.parameters.subspan(arguments);
+    return std::all_of(left_out.begin(), left_out.end(),
+                       [](const Symbol* p) { return p->initial; });
+}
+
 int OverloadResolution::function_cost(const CallExpr& e, const Function& f, BaseType wanted) const {
-    if (e.args.size() != f.parameters.size()) return -1;
+    if (!takes_count(f, e.args.size())) return -1;
     int total = result_cost(f.result, wanted);
     for (size_t i = 0; i < e.args.size(); ++i) {
         int cost = argument_cost(*e.args[i], f.parameters[i]->type, f.parameters[i]->output);
@@ -100,7 +125,7 @@ Callee OverloadResolution::choose(const CallExpr& e, std::span<Function* const> 
     }
     if (best) return best;
     best.builtin = choose_builtin(e, wanted);
-    bool counts = functions.size() == 1 && functions[0]->parameters.size() == e.args.size();
+    bool counts = functions.size() == 1 && takes_count(*functions[0], e.args.size());
     if (!best && counts) best.function = functions[0];
     return best;
 }

@@ -17,6 +17,15 @@ struct Callee {
     explicit operator bool() const { return function || builtin; }
 };
 
+// A function's name as the source has it: behind a blank, the name that expand_objects() gives has
+// the structs among the arguments.
+std::string_view written_name(std::string_view name);
+// How many parameters the source has of it: a struct is one, and a method's object none.
+size_t written_parameters(const Function& f);
+
+// Whether the function may be called with so many arguments: those left out have defaults.
+bool takes_count(const Function& f, size_t arguments);
+
 class OverloadResolution {
   public:
     explicit OverloadResolution(const TypeInference& types) : types_(types) {}

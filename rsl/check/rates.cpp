@@ -72,6 +72,7 @@ class RateWalk {
           rated_(rated),
           flows_(ast.symbol_count),
           known_(ast.symbol_count),
+          varying_lengths_(ast.symbol_count),
           locals_(ast.function_count) {}
 
     void run() {
@@ -178,6 +179,37 @@ class RateWalk {
     Flow at(NumberExpr&) { return kConstant; }
     Flow at(StringExpr&) { return kConstant; }
     Flow at(VariableExpr& e) { return e.symbol ? read(*e.symbol) : kUniform; }
+
+    // ---- lengths of arrays
+
+    // The array's length differs between points, or may.
+    void vary_length(const Expr* array) {
+        const auto* v = as_if<VariableExpr>(array);
+        if (!v || !v->symbol || varying_lengths_[v->symbol->id]) return;
+        varying_lengths_[v->symbol->id] = true;
+        note_change(v->symbol->function);
+    }
+    bool length_varies(const Expr* array) const {
+        const auto* v = as_if<VariableExpr>(array);
+        return v && v->symbol && varying_lengths_[v->symbol->id];
+    }
+    // One array takes the length of another.
+    void take_length(const Expr* to, const Expr* from) {
+        const auto* v = as_if<VariableExpr>(to);
+        bool changes = v && v->symbol && v->symbol->type.array_length == 0;
+        if (changes && (length_varies(from) || control_.any)) vary_length(to);
+    }
+    Flow length_of(const Expr* array) const {
+        const auto* v = as_if<VariableExpr>(array);
+        if (!v || !v->symbol || v->symbol->type.array_length > 0) return kConstant;
+        return {false, bool(varying_lengths_[v->symbol->id]), false};
+    }
+    void set_length(CallExpr& e) {
+        bool by_argument = e.name == "resize" || e.name == "reserve";
+        Flow amount = by_argument && e.args.size() > 1 ? flow(e.args[1]) : kConstant;
+        if (control_.any || amount.varying) vary_length(e.args[0]);
+    }
+
     Flow at(IndexExpr& e) { return join(flow(e.array), flow(e.index)); }
     Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
     Flow at(UnaryExpr& e) { return flow(e.operand); }
@@ -202,6 +234,7 @@ class RateWalk {
         Flow value = flow(e.value);
         if (e.op != Op::None) value = join(value, flow(e.target));
         store_to(e.target, value, e);
+        if (e.target->type.is_array()) take_length(e.target, e.value);
         return flow(e.target);
     }
     Flow at(CastExpr& e) {
@@ -225,6 +258,8 @@ class RateWalk {
         for (size_t i = 0; i < e.args.size(); ++i) f = join(f, flow(e.args[i]));
         uint32_t effects = e.builtin->effects;
         if (effects & kConstantResult) f = kConstant;
+        if (effects & kSetsLength) set_length(e);
+        if (effects & kReadsLength) f = length_of(e.args[0]);
         if (effects & kVaryingResult) f = kVaryingFlow;
         // "uniform float r = random()", and lightsource() into a uniform, as real shaders have it.
         if (effects == kVaryingResult || (effects & kMessage)) f.illegal = false;
@@ -246,10 +281,21 @@ class RateWalk {
             arguments.push_back(flow(e.args[i]));
             const Symbol& p = *f.parameters[i];
             if (declared_uniform(p) && arguments[i].illegal) complain_argument(p, e, *e.args[i]);
+            if (p.type.array_length == 0 && length_varies(e.args[i]) && !varying_lengths_[p.id]) {
+                varying_lengths_[p.id] = true;
+                note_change(&f);
+                calls_.clear();
+            }
         }
         CallSummary summary = summarise(f, arguments);
-        for (size_t i = 0; i < e.args.size(); ++i)
-            if (f.parameters[i]->output) store_to(e.args[i], summary.outputs[i], *e.args[i]);
+        for (size_t i = 0; i < e.args.size(); ++i) {
+            const Symbol& p = *f.parameters[i];
+            // Members of an object that the method only reads.
+            bool kept = !p.assigned && p.name.find("->") != std::string_view::npos;
+            if (!p.output || kept) continue;
+            store_to(e.args[i], summary.outputs[i], *e.args[i]);
+            if (varying_lengths_[p.id]) vary_length(e.args[i]);
+        }
         return summary.result;
     }
 
@@ -380,8 +426,10 @@ class RateWalk {
     void at(DeclareStmt& s) {
         for (Symbol* symbol : s.symbols) {
             declare_local(*symbol);
+            if (flow(symbol->length).varying) varying_lengths_[symbol->id] = true;
             if (!symbol->initial) continue;
             Flow value = flow(symbol->initial);
+            if (length_varies(symbol->initial)) varying_lengths_[symbol->id] = true;
             store(*symbol, value, kConstant, *symbol->initial);
         }
     }
@@ -439,6 +487,7 @@ class RateWalk {
     Rated& rated_;                              // expressions with a rate, of all shaders so far
     std::vector<Flow> flows_;                   // by Symbol::id
     std::vector<bool> known_;                   // by Symbol::id: locals that were met
+    std::vector<bool> varying_lengths_;         // by Symbol::id: of resizable arrays
     std::vector<std::vector<Symbol*>> locals_;  // by Function::id
     std::unordered_map<std::string, CallSummary> calls_;
     std::vector<Active> active_;            // functions being walked, outermost first

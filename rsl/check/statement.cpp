@@ -46,8 +46,7 @@ void StatementChecker::declare(Function& f) {
 
 void StatementChecker::check_initial(Symbol& symbol) {
     bool open = symbol.type.array_length == 0;
-    if (open && symbol.kind == SymbolKind::Local)
-        reporter_.report(Code::RSL_UNSIZED_ARRAY, symbol.span, symbol.name);
+    if (symbol.length) expressions_.convert_to(symbol.length, {BaseType::Float, -1}, "a length");
     if (open && symbol.kind == SymbolKind::Parameter) {
         reporter_.report(Code::RSL_OPEN_ARRAY, symbol.span, symbol.name);
         symbol.type.array_length = 1;

@@ -226,7 +226,7 @@ class UsageWalk {
         for (const Stmt* item : s.body) walk(*item);
     }
     void at(const DeclareStmt& s) {
-        for (const Symbol* symbol : s.symbols) walk(symbol->initial);
+        for (const Symbol* symbol : s.symbols) walk(symbol->length), walk(symbol->initial);
     }
     void at(const ExternStmt&) {}
     void at(const FunctionStmt&) {}

@@ -39,7 +39,7 @@ class NameWalk {
         }
     }
     void function(const Function& f) {
-        if (!f.called && source_.is_own(f.span))
+        if (!f.called && source_.is_own(f.span) && !is_method(f))
             source_.reporter.report(Code::RSL_UNUSED_FUNCTION, f.span, f.name);
         const Function* outer = std::exchange(function_, &f);
         auto loops = std::exchange(loops_, {});
@@ -48,9 +48,21 @@ class NameWalk {
         loops_ = std::move(loops);
         function_ = outer;
     }
+    // Others may call a class's methods and read its members.
+    bool is_method(const Function& f) const {
+        if (!shader_ || !shader_->shader_class) return false;
+        auto methods = shader_->shader_class->methods;
+        return std::find(methods.begin(), methods.end(), &f) != methods.end();
+    }
+    static bool is_member(const Symbol& symbol) {
+        return symbol.name.find("->") != std::string_view::npos;
+    }
     void declare(const Symbol& symbol) {
+        use(symbol.length);
         use(symbol.initial);
-        if (symbol.initial) set_[symbol.id] = true;
+        bool of_class = shader_ && shader_->shader_class && !function_;
+        if (symbol.initial || of_class || is_member(symbol)) set_[symbol.id] = true;
+        if (of_class || is_member(symbol)) return;
         declared_.push_back(&symbol);
         if (source_.is_own(symbol.span)) report_hiding(symbol);
     }

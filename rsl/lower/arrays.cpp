@@ -2,6 +2,7 @@
 #include "rsl/lower/arrays.h"
 
 #include <algorithm>
+#include <array>
 
 #include "jit/ir/kernel.h"
 #include "rsl/lower/values.h"
@@ -56,8 +57,102 @@ int Arrays::add(const Symbol& symbol, Type type, bool in_memory) {
     return int(arrays_.size()) - 1;
 }
 
+int Arrays::add_resizable(const Symbol& symbol, BaseType element, int capacity) {
+    int array = add(symbol, {element, std::max(capacity, 1)}, true);
+    arrays_[size_t(array)].count_slot = slots_.add(lowered(BaseType::Float, b_.f(0)));
+    return array;
+}
+
+Value Arrays::count(int array) {
+    const Array& a = arrays_[size_t(array)];
+    if (a.count_slot < 0) return b_.f(float(a.length));
+    return slots_.live(a.count_slot) ? slots_.read(a.count_slot).c[0] : b_.f(0);
+}
+
+bool Arrays::known_count(int array, int* count) {
+    float known;
+    if (!b_.constant_f(this->count(array), &known)) return false;
+    *count = int(known);
+    return true;
+}
+
+void Arrays::set_count(int array, Value count) {
+    slots_.write(arrays_[size_t(array)].count_slot, lowered(BaseType::Float, count));
+}
+
+Value Arrays::limited(int array, Value count, Location where) {
+    int room = length(array);
+    Value whole = b_.floor(count);
+    Value fits = b_.logical_and(b_.le(b_.f(0), whole), b_.le(whole, b_.f(float(room))));
+    bool known;
+    if (!b_.constant_m(fits, &known) || !known)
+        b_.fault(b_.fault_site(where, fmt::format("an array of more than {} elements; reserve() "
+                                                  "makes room where it is given a number",
+                                                  room)),
+                 b_.and_not(e_.running, fits));
+    return b_.min(b_.max(whole, b_.f(0)), b_.f(float(room)));
+}
+
+// body(index) for the elements from `first` up to `end`, floats that may differ between points.
+template <class Body>
+void Arrays::for_range(Value first, Value end, Location where, Body&& body) {
+    constexpr float kUnrolled = 16;
+    float from, to;
+    if (b_.constant_f(first, &from) && b_.constant_f(end, &to) && to - from <= kUnrolled) {
+        for (int k = int(from); k < int(to); ++k) body(b_.i(k));
+        return;
+    }
+    Value last = b_.ftoi(end), begin = b_.ftoi(first);
+    Value enter = b_.logical_and(e_.running, b_.op(jit::Op::ILt, begin, last));
+    Value inside = b_.begin_loop(enter, b_.fault_site(where, "too many elements of an array"));
+    Value index = b_.loop_var(begin);
+    Value outer = std::exchange(e_.running, inside);
+    body(index);
+    Value next = b_.iadd(index, b_.i(1));
+    b_.end_loop(b_.logical_and(inside, b_.op(jit::Op::ILt, next, last)), std::array{next});
+    e_.running = outer;
+}
+
+void Arrays::resize(int array, Value count, Location where) {
+    Value old = this->count(array), now = limited(array, count, where);
+    for_range(old, now, where, [&](Value k) { store(array, k, zero(e_, element(array))); });
+    set_count(array, now);
+}
+
+void Arrays::push(int array, const Lowered& value, Location where) {
+    Value old = count(array), wanted = b_.add(old, b_.f(1));
+    Value now = limited(array, wanted, where);
+    Value outer = e_.running;
+    e_.running = b_.logical_and(outer, b_.lt(old, now));
+    store(array, b_.ftoi(old), value);
+    e_.running = outer;
+    set_count(array, now);
+}
+
+Lowered Arrays::pop(int array, Location where) {
+    Value old = count(array), some = b_.lt(b_.f(0), old);
+    bool known;
+    if (!b_.constant_m(some, &known) || !known)
+        b_.fault(b_.fault_site(where, "pop() of an array without elements"),
+                 b_.and_not(e_.running, some));
+    Value now = b_.max(b_.sub(old, b_.f(1)), b_.f(0));
+    Lowered result = load(array, b_.ftoi(now)), none = zero(e_, element(array));
+    for (size_t c = 0; c < size_t(result.size()); ++c)
+        result.c[c] = b_.select(some, result.c[c], none.c[c]);
+    set_count(array, now);
+    return result;
+}
+
+void Arrays::copy(int to, int from, Location where) {
+    if (to == from) return;
+    Value count = this->count(from);
+    Value now = resizable(to) ? limited(to, count, where) : b_.min(count, b_.f(float(length(to))));
+    for_range(b_.f(0), now, where, [&](Value k) { store(to, k, load(from, k)); });
+    if (resizable(to)) set_count(to, now);
+}
+
 int Arrays::add_inputs(Type type, std::vector<int> first_inputs) {
-    arrays_.push_back({type.base, type.array_length, -1, {}, std::move(first_inputs)});
+    arrays_.push_back({type.base, type.array_length, -1, -1, {}, std::move(first_inputs)});
     return int(arrays_.size()) - 1;
 }
 

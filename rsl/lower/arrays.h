@@ -17,13 +17,31 @@ class Arrays {
 
     // A new one of the type, for the symbol, which findings name.
     int add(const Symbol& symbol, Type type, bool in_memory);
+    // A new one of no elements yet that may have so many.
+    int add_resizable(const Symbol& symbol, BaseType element, int capacity);
     // One that is only read; `first_inputs` holds the first input of each component.
     int add_inputs(Type type, std::vector<int> first_inputs);
 
+    // Of a resizable array: the most it may have.
     int length(int array) const { return arrays_[size_t(array)].length; }
     BaseType element(int array) const { return arrays_[size_t(array)].element; }
     // The slot of element 0; -1 unless all elements are values.
     int first_slot(int array) const { return arrays_[size_t(array)].first_slot; }
+    // ---- resizable arrays: memory, and the length in a slot (a float)
+
+    bool resizable(int array) const { return arrays_[size_t(array)].count_slot >= 0; }
+    int count_slot(int array) const { return arrays_[size_t(array)].count_slot; }  // or -1
+    Value count(int array);                   // elements, as a float; any array
+    bool known_count(int array, int* count);  // at compile time
+    void set_count(int array, Value count);
+    // floor(count), where the array has room for it; else there is a finding at run time.
+    Value limited(int array, Value count, Location where);
+    void resize(int array, Value count, Location where);  // new elements are 0
+    void push(int array, const Lowered& value, Location where);
+    Lowered pop(int array, Location where);
+    // All elements of another array; a resizable one gets its length too.
+    void copy(int to, int from, Location where);
+
     Lowered load(int array, Value index);
     void store(int array, Value index, const Lowered& value);
 
@@ -39,10 +57,13 @@ class Arrays {
         BaseType element = BaseType::Float;
         int length = 0;
         int first_slot = -1;      // elements as values
+        int count_slot = -1;      // resizable: how many elements there are
         std::vector<int> memory;  // arrays of the IR, one a component
         std::vector<int> inputs;  // first input of each component: a parameter never written
     };
     bool check_size(const Symbol& symbol, Type type);
+    template <class Body>
+    void for_range(Value first, Value end, Location where, Body&& body);
 
     Emitter& e_;
     jit::Builder& b_;

@@ -16,6 +16,13 @@ bool Calls::may_grow(const CallExpr& e) {
     return !context_.failed;
 }
 
+// Functions of the IR have no lengths of arrays among their arguments.
+void Calls::refuse_resizable(const Expr& argument) {
+    const Symbol& symbol = *as<VariableExpr>(argument).symbol;
+    if (arrays_.resizable(variables_.array_of(symbol)))
+        context_.error(Code::RSL_LENGTH_UNKNOWN, argument.span.where, symbol.name);
+}
+
 CallArguments Calls::evaluate(const CallExpr& e) {
     const Function& f = *e.function;
     CallArguments arguments{std::vector<Lowered>(e.args.size()), std::vector<LValue>(e.args.size()),
@@ -24,6 +31,7 @@ CallArguments Calls::evaluate(const CallExpr& e) {
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
         if (parameter.type.is_array()) {
+            if (f.recursive) refuse_resizable(*e.args[k]);
             arrays[k] = f.recursive ? variables_.array_of(*as<VariableExpr>(*e.args[k]).symbol)
                                     : array_argument(e, k);
         } else if (parameter.output) {
@@ -88,6 +96,12 @@ int Calls::array_argument(const CallExpr& e, size_t k) {
         written |= e.function->parameters[i]->output && symbol(e.args[i]) == symbol(&argument);
     int array = variables_.array_of(*symbol(&argument));
     if (parameter.output || !written) return array;
+    if (arrays_.resizable(array) || variables_.room_for(parameter) > 0) {
+        int copy =
+            variables_.make_array(parameter, {parameter.type.base, parameter.type.array_length});
+        arrays_.copy(copy, array, argument.span.where);
+        return copy;
+    }
     std::vector<Lowered> values = variables_.array_values(argument);
     int copy = variables_.make_array(parameter, {parameter.type.base, int(values.size())});
     for (size_t i = 0; i < values.size(); ++i) arrays_.store(copy, b_.i(int(i)), values[i]);

@@ -110,6 +110,7 @@ class Calls {
   private:
     bool may_grow(const CallExpr& e);
     int array_argument(const CallExpr& e, size_t k);
+    void refuse_resizable(const Expr& argument);
     CallArguments evaluate(const CallExpr& e);
 
     Emitter& e_;

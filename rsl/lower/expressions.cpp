@@ -180,9 +180,7 @@ Lowered Expressions::select_expr(const SelectExpr& e) {
 
 Lowered Expressions::assign(const AssignExpr& e) {
     if (e.target->type.is_array()) {
-        auto values = variables_.array_values(*e.value);
-        int array = variables_.array_of(*as<VariableExpr>(*e.target).symbol);
-        for (size_t k = 0; k < values.size(); ++k) arrays_.store(array, b_.i(int(k)), values[k]);
+        variables_.assign_array(*as<VariableExpr>(*e.target).symbol, *e.value);
         return zero(e_, e.target->type.base);
     }
     Lowered result;

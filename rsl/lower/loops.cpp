@@ -18,7 +18,9 @@ std::vector<int> Loops::carried_slots(const Changes& changes) {
     for (const Symbol* symbol : changes.symbols) {
         if (!symbol->type.is_array()) {
             add(variables_.slot_of(*symbol));
-        } else if (int k = variables_.known_array(*symbol); k >= 0 && arrays_.first_slot(k) >= 0) {
+        } else if (int k = variables_.known_array(*symbol); k >= 0 && arrays_.resizable(k)) {
+            add(arrays_.count_slot(k));
+        } else if (k >= 0 && arrays_.first_slot(k) >= 0) {
             for (int e = 0; e < arrays_.length(k); ++e) add(arrays_.first_slot(k) + e);
         }
     }

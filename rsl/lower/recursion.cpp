@@ -92,7 +92,10 @@ void Recursion::find_outside(Recursive& r, const CallExpr& e) {
                      (known || symbol->type.base == BaseType::String || symbol->type.is_array());
         if (again) continue;
         if (symbol->global) seen[size_t(symbol->global->id)] = true;
-        int length = symbol->type.is_array() ? arrays_.length(variables_.array_of(*symbol)) : -1;
+        int array = symbol->type.is_array() ? variables_.array_of(*symbol) : -1;
+        if (array >= 0 && arrays_.resizable(array))
+            context_.error(Code::RSL_LENGTH_UNKNOWN, e.span.where, symbol->name);
+        int length = array >= 0 ? arrays_.length(array) : -1;
         r.outside.push_back({symbol, Global::Count, length, written(symbol)});
     }
     for (size_t g = 0; g < size_t(Global::Count); ++g) {

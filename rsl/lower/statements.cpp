@@ -75,6 +75,7 @@ void Statements::run_statements(std::span<Stmt* const> body) {
 }
 
 void Statements::branch(const IfStmt& stmt) {
+    if (stmt.behind_opacity && !context_.options.want_Ci) return;
     Value condition = tree_.value(*stmt.condition);
     bool known;
     if (b_.constant_m(condition, &known)) {

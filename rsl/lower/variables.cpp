@@ -13,6 +13,7 @@ void Variables::enter_layer() {
     state_.array_of.assign(context_.ast().symbol_count, -1);
     state_.lent_slot.assign(context_.ast().symbol_count, -1);
     in_memory_ = memory_arrays(context_.ast());
+    capacities_ = array_capacities(context_.ast());
 }
 
 Variables::State Variables::enter_function() {
@@ -51,9 +52,29 @@ void Variables::declare(const Symbol& symbol) {
         slots_.write(slot_of(symbol), first);
         return;
     }
+    if (symbol.resizable) return declare_resizable(symbol);
     bool fresh = state_.array_of[symbol.id] < 0;
     int array = fresh ? make_array(symbol, symbol.type) : state_.array_of[symbol.id];
     if (!fresh || regions_.in_loop() || symbol.initial) fill_array(array, symbol.initial);
+}
+
+void Variables::declare_resizable(const Symbol& symbol) {
+    int array = array_of(symbol);
+    arrays_.set_count(array, b_.f(0));
+    if (symbol.length) arrays_.resize(array, tree_.value(*symbol.length), symbol.span.where);
+    if (symbol.initial) assign_array(symbol, *symbol.initial);
+}
+
+void Variables::assign_array(const Symbol& target, const Expr& value) {
+    int to = array_of(target);
+    if (auto* variable = as_if<VariableExpr>(&value)) {
+        int from = array_of(*variable->symbol);
+        if (arrays_.resizable(to) || arrays_.resizable(from))
+            return arrays_.copy(to, from, value.span.where);
+    }
+    std::vector<Lowered> values = array_values(value);
+    for (size_t k = 0; k < values.size(); ++k) arrays_.store(to, b_.i(int(k)), values[k]);
+    if (arrays_.resizable(to)) arrays_.set_count(to, b_.f(float(values.size())));
 }
 
 // Locals end with their block, so that no loop carries them and no If merges them.
@@ -65,6 +86,8 @@ void Variables::end_scope(std::span<Stmt* const> body) {
             int& array = state_.array_of[symbol->id];
             if (!symbol->type.is_array()) {
                 slots_.kill(slot_of(*symbol));
+            } else if (array >= 0 && arrays_.resizable(array)) {
+                slots_.kill(arrays_.count_slot(array));
             } else if (array >= 0 && arrays_.first_slot(array) >= 0) {
                 for (int k = 0; k < arrays_.length(array); ++k)
                     slots_.kill(arrays_.first_slot(array) + k);
@@ -77,7 +100,11 @@ void Variables::end_scope(std::span<Stmt* const> body) {
 // ---- arrays -------------------------------------------------------------------------------------
 
 int Variables::make_array(const Symbol& symbol, Type type) {
-    return state_.array_of[symbol.id] = arrays_.add(symbol, type, in_memory_[symbol.id]);
+    int capacity = std::max(capacities_[symbol.id], type.array_length);
+    bool resizable = symbol.resizable || (type.array_length == 0 && capacities_[symbol.id] > 0);
+    return state_.array_of[symbol.id] = resizable
+                                            ? arrays_.add_resizable(symbol, type.base, capacity)
+                                            : arrays_.add(symbol, type, in_memory_[symbol.id]);
 }
 
 void Variables::fill_array(int array, const Expr* initial) {
@@ -130,8 +157,11 @@ std::vector<Lowered> Variables::array_values(const Expr& e) {
         for (const Expr* item : literal->items) values.push_back(tree_.expr(*item));
         return values;
     }
-    int array = array_of(*as<VariableExpr>(e).symbol);
-    for (int k = 0; k < arrays_.length(array); ++k) values.push_back(arrays_.load(array, b_.i(k)));
+    const Symbol& symbol = *as<VariableExpr>(e).symbol;
+    int array = array_of(symbol), count = 0;
+    if (!arrays_.known_count(array, &count))
+        context_.error(Code::RSL_LENGTH_UNKNOWN, e.span.where, symbol.name);
+    for (int k = 0; k < count; ++k) values.push_back(arrays_.load(array, b_.i(k)));
     return values;
 }
 
@@ -141,12 +171,27 @@ void Variables::set_array(const Expr& e, std::span<const Lowered> values) {
 }
 
 // docs/numerics.md#indices: one message for the source line; the access itself is clamped.
-void Variables::check_index(Value x, int length, Location where) {
-    Value inside = b_.logical_and(b_.le(b_.f(0), x), b_.lt(x, b_.f(float(length))));
+void Variables::check_index(Value inside, Location where) {
     Value outside = regions_.asking_lanes(b_.and_not(e_.running, inside));
     bool known;
     if (b_.constant_m(outside, &known) && !known) return;
     b_.fault(b_.fault_site(where, "array index out of range"), outside);
+}
+
+Value Variables::element_index(int array, const IndexExpr& e) {
+    Value x = tree_.value(*e.index);
+    Value index;
+    if (arrays_.resizable(array)) {
+        Value count = arrays_.count(array);
+        Value last = b_.max(b_.sub(count, b_.f(1)), b_.f(0));
+        index = b_.ftoi(b_.min(b_.max(x, b_.f(0)), last));
+        check_index(b_.logical_and(b_.le(b_.f(0), x), b_.lt(x, count)), e.span.where);
+    } else {
+        float length = float(arrays_.length(array));
+        index = e_.index(x, arrays_.length(array));
+        check_index(b_.logical_and(b_.le(b_.f(0), x), b_.lt(x, b_.f(length))), e.span.where);
+    }
+    return index;
 }
 
 // ---- targets ------------------------------------------------------------------------------------
@@ -166,10 +211,7 @@ LValue Variables::target(const Expr& e) {
     }
     if (auto* element = as_if<IndexExpr>(&e)) {
         t.array = array_of(*as<VariableExpr>(*element->array).symbol);
-        Value x = tree_.value(*element->index);
-        int length = arrays_.length(t.array);
-        t.index = e_.index(x, length);
-        check_index(x, length, e.span.where);
+        t.index = element_index(t.array, *element);
         return t;
     }
     auto& component = as<ComponentExpr>(e);

@@ -53,6 +53,13 @@ class Variables {
     void store(const LValue& t, const Lowered& value);
 
     int array_of(const Symbol& symbol);
+    Arrays& arrays() { return arrays_; }
+    // How many elements a resizable array has room for.
+    int room_for(const Symbol& symbol) const {
+        return symbol.type.array_length > 0 ? symbol.type.array_length : capacities_[symbol.id];
+    }
+    // target = value, both arrays.
+    void assign_array(const Symbol& target, const Expr& value);
     int known_array(const Symbol& symbol) const { return state_.array_of[symbol.id]; }  // or -1
     int make_array(const Symbol& symbol, Type type);
     std::vector<Lowered> array_values(const Expr& array);  // all elements
@@ -73,7 +80,9 @@ class Variables {
   private:
     void fill_array(int array, const Expr* initial);
     int parameter_array(const Symbol& symbol);
-    void check_index(Value index_float, int length, Location where);
+    void check_index(Value inside, Location where);
+    Value element_index(int array, const IndexExpr& e);
+    void declare_resizable(const Symbol& symbol);
 
     Emitter& e_;
     jit::Builder& b_;
@@ -86,6 +95,7 @@ class Variables {
     TreeWalk& tree_;
     int symbol_base_ = int(Global::Count);  // slot of symbol 0 of this layer's Ast
     std::vector<uint8_t> in_memory_;        // by Symbol::id
+    std::vector<int> capacities_;           // by Symbol::id: of resizable arrays
     State state_;
 };
 

@@ -50,6 +50,8 @@ enum Effects : uint32_t {
     kWritesChannels = 1 << 11,  // pairs name channels and the values they are given
     kNamesPoints = 1 << 13,     // that file is a point file, else a picture
     kConstantResult = 1 << 12,  // known when the shader is compiled, whatever the arguments
+    kReadsLength = 1 << 14,     // the result is an array's length, whatever its elements are
+    kSetsLength = 1 << 15,      // changes the length of its first argument, a resizable array
 };
 
 // Shader kinds that may call the function.

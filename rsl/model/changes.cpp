@@ -103,7 +103,7 @@ namespace {
 // Walks everything of an Ast once, looking at how arrays are indexed and passed on.
 class ArrayWalk {
   public:
-    explicit ArrayWalk(const Ast& ast) : marks(ast.symbol_count) {
+    explicit ArrayWalk(const Ast& ast) : marks(ast.symbol_count), capacities(ast.symbol_count) {
         for (const Function* function : ast.functions) visit(function->body);
         for (const ShaderDefinition* shader : ast.shaders) {
             for (const Symbol* parameter : shader->parameters)
@@ -124,17 +124,75 @@ class ArrayWalk {
         }
     }
 
+    // Arrays that are handed on have room for what either side needs.
+    void spread_capacities() {
+        for (bool again = true; again;) {
+            again = false;
+            for (auto [a, b] : passed) {
+                int most = std::max(capacities[a->id], capacities[b->id]);
+                again = again || capacities[a->id] != most || capacities[b->id] != most;
+                capacities[a->id] = capacities[b->id] = most;
+            }
+        }
+    }
+
     std::vector<uint8_t> marks;
+    std::vector<int> capacities;
 
   private:
-    static constexpr int kLongest = 64;  // elements kept as values
+    static constexpr int kLongest = 64;    // elements kept as values
+    static constexpr int kCustomary = 64;  // elements of a resizable array that says nothing
+
+    void need(const Symbol* symbol, double count) {
+        int& room = capacities[symbol->id];
+        room = std::max(room, int(std::clamp(count, 1.0, 1e6)));
+    }
+    void need(const Symbol* symbol, const Expr* count) {
+        auto* number = as_if<NumberExpr>(count);
+        need(symbol, number ? number->value : kCustomary);
+    }
+    // A resizable array: at least as long as its initial value.
+    void declared(const Symbol* symbol) {
+        marks[symbol->id] = 1;
+        if (symbol->length) need(symbol, symbol->length);
+        if (auto* literal = as_if<ArrayLiteralExpr>(symbol->initial))
+            need(symbol, double(literal->items.size()));
+        if (auto* other = as_if<VariableExpr>(symbol->initial)) {
+            passed.push_back({symbol, other->symbol});
+            if (int length = other->symbol->type.array_length; length > 0) need(symbol, length);
+        }
+    }
+    void assigned(const Expr* target, const Expr* value) {
+        auto* variable = as_if<VariableExpr>(target);
+        if (!variable || !variable->type.is_array()) return;
+        if (auto* literal = as_if<ArrayLiteralExpr>(value))
+            need(variable->symbol, double(literal->items.size()));
+        auto* other = as_if<VariableExpr>(value);
+        if (!other) return;
+        if (int length = other->symbol->type.array_length; length > 0)
+            need(variable->symbol, length);
+        if (other->symbol->resizable || variable->symbol->resizable)
+            passed.push_back({variable->symbol, other->symbol});
+    }
+    // push(), resize() and such of an array.
+    void resized(const CallExpr& call) {
+        auto* array = as_if<VariableExpr>(call.args[0]);
+        if (!array) return;
+        bool counts = call.name == "resize" || call.name == "reserve";
+        if (counts)
+            need(array->symbol, call.args[1]);
+        else
+            need(array->symbol, kCustomary);
+    }
 
     void visit(const Stmt* stmt) {
         for_each_part(
             *stmt, [&](const Expr* expr) { visit(expr); }, [&](const Stmt* part) { visit(part); });
         if (auto* declare = as_if<DeclareStmt>(stmt))
-            for (const Symbol* symbol : declare->symbols)
+            for (const Symbol* symbol : declare->symbols) {
                 if (symbol->type.array_length > kLongest) marks[symbol->id] = 1;
+                if (symbol->resizable) declared(symbol);
+            }
         if (auto* nested = as_if<FunctionStmt>(stmt)) visit(nested->function->body);
     }
 
@@ -144,7 +202,9 @@ class ArrayWalk {
             auto* array = as_if<VariableExpr>(index->array);
             if (array && index->index->kind != ExprKind::Number) marks[array->symbol->id] = 1;
         }
+        if (auto* assign = as_if<AssignExpr>(expr)) assigned(assign->target, assign->value);
         auto* call = as_if<CallExpr>(expr);
+        if (call && call->builtin && (call->builtin->effects & kSetsLength)) resized(*call);
         if (!call || !call->function) return;
         for (size_t i = 0; i < call->args.size(); ++i) {
             auto* array = as_if<VariableExpr>(call->args[i]);
@@ -162,6 +222,13 @@ std::vector<uint8_t> memory_arrays(const Ast& ast) {
     ArrayWalk walk(ast);
     walk.spread();
     return std::move(walk.marks);
+}
+
+std::vector<int> array_capacities(const Ast& ast) {
+    if (!ast.resizes && !ast.resizable_arrays) return std::vector<int>(ast.symbol_count);
+    ArrayWalk walk(ast);
+    walk.spread_capacities();
+    return std::move(walk.capacities);
 }
 
 }  // namespace kinora::rsl

@@ -43,6 +43,10 @@ class ChangeFinder {
 // Functions pass arrays by reference, so what one indexes marks what its callers hand it.
 std::vector<uint8_t> memory_arrays(const Ast& ast);
 
+// How many elements resizable arrays have room for, by Symbol::id: what resize() and reserve() ask
+// for by numbers, or a customary count.
+std::vector<int> array_capacities(const Ast& ast);
+
 // Calls f(const Expr*) for each operand of `expr`, in the order of evaluation.
 template <class F>
 void for_each_operand(const Expr& expr, F&& f) {
@@ -105,7 +109,8 @@ void for_each_part(const Stmt& stmt, OnExpr&& on_expr, OnStmt&& on_stmt) {
             for (const Stmt* part : as<BlockStmt>(stmt).body) s(part);
             return;
         case StmtKind::Declare:
-            for (const Symbol* symbol : as<DeclareStmt>(stmt).symbols) e(symbol->initial);
+            for (const Symbol* symbol : as<DeclareStmt>(stmt).symbols)
+                e(symbol->length), e(symbol->initial);
             return;
         case StmtKind::Extern:
         case StmtKind::DefineFunction:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -12,6 +13,19 @@
 #include "rsl/model/renderer_services.h"
 
 namespace kinora::rsl {
+
+float leading_number(std::string_view text) {
+    size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    if (begin < text.size() && text[begin] == '+') ++begin;
+    float value = 0;
+    auto [end, error] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range) {
+        double wide = 0;
+        std::from_chars(text.data() + begin, end, wide);
+        return float(wide);
+    }
+    return std::isfinite(value) ? value : 0;  // "inf" and "nan" are no decimals
+}
 
 // ---- formats ------------------------------------------------------------------------------------
 
@@ -180,6 +194,14 @@ void match(const jit::ServiceCall& call) {
     for_distinct(call, 2, [&](int i) {
         return matches(interned(id_of(call, 0, i)), interned(id_of(call, 1, i))) ? 1.0f : 0.0f;
     });
+}
+
+void stof(const jit::ServiceCall& call) {
+    for_distinct(call, 1, [&](int i) { return leading_number(interned(id_of(call, 0, i))); });
+}
+
+void strlen(const jit::ServiceCall& call) {
+    for_distinct(call, 1, [&](int i) { return float(interned(id_of(call, 0, i)).size()); });
 }
 
 }  // namespace

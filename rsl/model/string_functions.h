@@ -36,6 +36,10 @@ inline std::string_view limited_text(std::string_view text) {
     return text.size() <= kMostText ? text : kTooLong;
 }
 
+// The decimal number that the text begins with, behind blanks; 0 if there is none. What is larger
+// than a float is infinite.
+float leading_number(std::string_view text);
+
 // What all strings of the process take (rsl/model/renderer_services.h, intern).
 size_t interned_bytes();
 

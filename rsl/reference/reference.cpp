@@ -34,7 +34,7 @@ template <class Real>
 auto Reference<Real>::storage(const Symbol& named) -> Storage& {
     const Symbol& symbol = means(named);
     Storage& items = variables_[&symbol];
-    size_t length = symbol.type.is_array() ? size_t(std::max(symbol.type.array_length, 1)) : 1;
+    size_t length = symbol.type.is_array() ? size_t(symbol.type.array_length) : 1;
     if (items.size() < length) items.resize(length, Item(symbol.type.base));
     return items;
 }
@@ -49,6 +49,13 @@ void Reference<Real>::declare(const Symbol& symbol) {
     } else if (symbol.initial) {
         items.push_back(convert(expr(*symbol.initial), symbol.type.base));
     }
+    if (symbol.length) {
+        Real wanted = std::floor(expr(*symbol.length).c[0].x);
+        Real room = Real(array_capacities(*layer->shader->ast)[symbol.id]);
+        if (!(wanted >= 0 && wanted <= room)) ++result.faults;
+        wanted = wanted > 0 ? std::min(wanted, room) : Real(0);
+        items.resize(size_t(decide(int(wanted))), Item(symbol.type.base));
+    }
     variables_[&symbol] = items;
     storage(symbol);  // the rest is 0
 }
@@ -62,32 +69,48 @@ size_t Reference<Real>::index(const Expr& e, size_t length) {
     return size_t(decide(int(x > 0 ? std::min(x, last) : Real(0))));
 }
 
-// Where an l-value is; *component is -1, or the component of the triple there.
+// Evaluates the indices of a target, each once.
 template <class Real>
-auto Reference<Real>::element(const Expr& target, int* component) -> Item* {
-    *component = -1;
+auto Reference<Real>::lvalue(const Expr& target) -> LValue {
     if (auto* node = as_if<ComponentExpr>(&target)) {
-        int none;
-        Item* whole = element(*node->operand, &none);
-        *component = int(index(*node->index, 3));
+        LValue whole = lvalue(*node->operand);
+        whole.component = int(index(*node->index, 3));
         return whole;
     }
+    LValue to;
     if (auto* node = as_if<IndexExpr>(&target)) {
-        Storage& items = storage(*as<VariableExpr>(*node->array).symbol);
-        return &items[index(*node->index, items.size())];
+        to.symbol = as<VariableExpr>(*node->array).symbol;
+        to.at = index(*node->index, std::max<size_t>(storage(*to.symbol).size(), 1));
+    } else {
+        to.symbol = &means(*as<VariableExpr>(target).symbol);
     }
-    const Symbol& symbol = means(*as<VariableExpr>(target).symbol);
-    return symbol.global ? &global(symbol.global->id) : &storage(symbol)[0];
+    return to;
 }
 
 template <class Real>
-void Reference<Real>::store(const Expr& target, const Item& value) {
-    int component;
-    Item* at = element(target, &component);
-    if (component >= 0)
-        at->c[size_t(component)] = value.c[0];
+auto Reference<Real>::item(const LValue& from) -> Item& {
+    if (from.symbol->global) return global(from.symbol->global->id);
+    Storage& items = storage(*from.symbol);
+    if (from.at < items.size()) return items[from.at];
+    ++result.faults;
+    no_element_ = Item(from.symbol->type.base);
+    return no_element_;
+}
+
+template <class Real>
+auto Reference<Real>::load(const LValue& from) -> Item {
+    const Item& whole = item(from);
+    if (from.component < 0) return whole;
+    return {BaseType::Float, whole.c[size_t(from.component)]};
+}
+
+template <class Real>
+void Reference<Real>::store(const LValue& to, const Item& value) {
+    Item& at = item(to);
+    if (to.component >= 0)
+        at.c[size_t(to.component)] = value.c[0];
     else
-        at->c = value.c;
+        at.c = value.c;
 }
 
 // ---- expressions --------------------------------------------------------------------------------
@@ -100,10 +123,8 @@ auto Reference<Real>::expr(const Expr& e) -> Item {
         case ExprKind::String:
             return {BaseType::String, Number(Real(intern(as<StringExpr>(e).value)))};
         case ExprKind::Variable:
-        case ExprKind::Index: {
-            int none;
-            return *element(e, &none);
-        }
+        case ExprKind::Index:
+            return item(lvalue(e));
         case ExprKind::Component: {
             auto& node = as<ComponentExpr>(e);
             Item whole = expr(*node.operand);
@@ -230,13 +251,23 @@ auto Reference<Real>::operate(Op op, const Item& a, const Item& b) -> Item {
 template <class Real>
 auto Reference<Real>::assign(const AssignExpr& e) -> Item {
     if (e.target->type.is_array()) {
-        storage(*as<VariableExpr>(*e.target).symbol) = storage(*as<VariableExpr>(*e.value).symbol);
+        const Symbol& target = *as<VariableExpr>(*e.target).symbol;
+        Storage value = storage(*as<VariableExpr>(*e.value).symbol);
+        Storage& items = storage(target);
+        size_t length = means(target).type.array_length > 0 ? items.size() : value.size();
+        items.resize(length, Item(target.type.base));
+        std::copy_n(value.begin(), std::min(length, value.size()), items.begin());
         return Item(e.target->type.base);
     }
-    Item before = e.op == Op::None ? Item() : expr(*e.target);  // a += b is a = a + b
-    Item value = expr(*e.value);
-    if (e.op != Op::None) value = binary(e.op, before, value);
-    store(*e.target, value);
+    if (e.op == Op::None) {
+        Item value = expr(*e.value);
+        store(*e.target, value);
+        return value;
+    }
+    LValue to = lvalue(*e.target);
+    Item before = load(to);  // a += b is a = a + b, from left to right
+    Item value = binary(e.op, before, expr(*e.value));
+    store(to, value);
     return value;
 }
 
@@ -390,7 +421,8 @@ std::optional<ConstantValue> evaluate_constant(const Expr& expr) {
     template auto Reference<Real>::jittered(Item)->Item;                       \
     template const Symbol& Reference<Real>::means(const Symbol&) const;        \
     template void Reference<Real>::declare(const Symbol&);                     \
-    template void Reference<Real>::store(const Expr&, const Item&);
+    template auto Reference<Real>::lvalue(const Expr&)->LValue;                \
+    template void Reference<Real>::store(const LValue&, const Item&);
 KINORA_REFERENCE_METHODS(float)
 KINORA_REFERENCE_METHODS(double)
 

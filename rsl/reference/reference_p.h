@@ -208,7 +208,15 @@ class Reference {
 
     const Symbol& means(const Symbol& symbol) const;
     Storage& storage(const Symbol& named);
-    Item* element(const Expr& target, int* component);
+    // Where a value is kept, its indices known.
+    struct LValue {
+        const Symbol* symbol = nullptr;
+        size_t at = 0;       // which element
+        int component = -1;  // of a triple; -1: all of it
+    };
+    LValue lvalue(const Expr& target);
+    Item& item(const LValue& from);
+    Item load(const LValue& from);
     size_t index(const Expr& e, size_t length);
     Item binary(Op op, const Item& a, const Item& b);
     Item operate(Op op, const Item& a, const Item& b);
@@ -228,7 +236,8 @@ class Reference {
     void run_again(const Function& f);
     Item call_builtin(const CallExpr& e);
     void declare(const Symbol& symbol);
-    void store(const Expr& target, const Item& value);
+    void store(const LValue& to, const Item& value);
+    void store(const Expr& target, const Item& value) { store(lvalue(target), value); }
 
     RefFlow statement(const Stmt& stmt);
     RefFlow block(std::span<Stmt* const> body);
@@ -253,6 +262,7 @@ class Reference {
     std::unordered_map<const Symbol*, Storage> variables_;
     std::unordered_map<const Symbol*, const Symbol*> stands_for_;  // output parameters
     std::map<Global, Item> globals_;
+    Item no_element_;  // of an array without elements
     Item returned_;
     int call_depth_ = 0;  // calls of recursive functions
     int calls_left_ = 0;

@@ -23,6 +23,7 @@ namespace kinora::rsl {
 struct Expr;
 struct Stmt;
 struct Function;
+struct StructDefinition;
 struct GlobalInfo;  // rsl/model/globals.h
 struct Builtin;     // rsl/model/builtin.h
 struct Signature;
@@ -48,7 +49,11 @@ struct Symbol {
     bool varying = false;                 // inferred: point rate (checker)
     uint32_t id = 0;  // dense in the Ast, 0 .. symbol_count-1: index of side tables
     SourceSpan span;
-    Expr* initial = nullptr;  // initialiser, or a shader parameter's default; may be null
+    bool resizable = false;   // an array whose length changes: RSL 2.0's "float a[];"
+    Expr* initial = nullptr;  // initialiser, or a parameter's default; may be null
+    Expr* length = nullptr;   // of a resizable array, at first; null: 0, or that of `initial`
+    // The struct that it is of, whose members stand in its place after expand_objects().
+    const StructDefinition* structure = nullptr;
     const GlobalInfo* global = nullptr;  // kind Global: its row of globals.def
     Function* function = nullptr;        // the function it belongs to; null in the shader's body
 };
@@ -113,13 +118,15 @@ struct StringExpr : Expr {
     static constexpr ExprKind kKind = ExprKind::String;
     std::string_view value;
 };
-// A variable as a value or as the target of an assignment; arrays as whole arguments too.
+// A variable as a value or as the target of an assignment; arrays as whole arguments too. A member
+// of a struct is the variable "a->b"; one of an element of an array is an element of "a->b".
 struct VariableExpr : Expr {
     static constexpr ExprKind kKind = ExprKind::Variable;
     std::string_view name;
     Symbol* symbol = nullptr;  // checker
 };
 // array[index]: `array` is a VariableExpr of array type; the index is a Float, truncated, clamped.
+// Elements of a resizable array are those below its length of the moment.
 struct IndexExpr : Expr {
     static constexpr ExprKind kKind = ExprKind::Index;
     Expr* array = nullptr;
@@ -168,6 +175,7 @@ struct AssignExpr : Expr {
 struct CallExpr : Expr {
     static constexpr ExprKind kKind = ExprKind::Call;
     std::string_view name;
+    bool method = false;  // object->name(args): args[0] is the object; gone after expand_objects()
     std::span<Expr*> args;
     Expr* channel = nullptr;               // texture-like calls: the [n] after the first argument
     Function* function = nullptr;          // user function
@@ -262,6 +270,8 @@ struct IfStmt : Stmt {
     Expr* condition = nullptr;  // Bool
     Stmt* yes = nullptr;
     Stmt* no = nullptr;  // may be null
+    // The part of a class's pipeline behind its opacity: kernels of opacity alone leave it out.
+    bool behind_opacity = false;
 };
 struct WhileStmt : Stmt {
     static constexpr StmtKind kKind = StmtKind::While;
@@ -343,7 +353,8 @@ struct GatherStmt : Stmt {
 // value (a write to one stays inside, with a warning).
 struct Function {
     std::string_view name;
-    Type result;  // Void: none
+    Type result;                                         // Void: none
+    const StructDefinition* result_structure = nullptr;  // as Symbol::structure
     std::span<Symbol*> parameters;
     BlockStmt* body = nullptr;
     SourceSpan span;
@@ -356,8 +367,23 @@ struct Function {
     bool damaged = false;        // something of it was skipped after a syntax error
 };
 
+// struct NAME { members and methods }.
+struct StructDefinition {
+    std::string_view name;
+    std::span<Symbol*> members;  // with their defaults
+    std::span<Function*> methods;
+    SourceSpan span;
+};
+
+// What a class has beside its parameters. expand_objects() makes the shader's body of it.
+struct ClassDefinition {
+    std::span<Stmt*> members;  // declarations, in order
+    std::span<Function*> methods;
+};
+
 struct ShaderDefinition {
     ShaderKind kind = ShaderKind::Surface;
+    ClassDefinition* shader_class = nullptr;
     std::string_view name;
     std::span<Symbol*> parameters;
     BlockStmt* body = nullptr;
@@ -412,9 +438,12 @@ struct Ast {
     TokenStream tokens;                // with the pragmas
     std::vector<Function*> functions;  // at file level, in order
     std::vector<ShaderDefinition*> shaders;
-    uint32_t symbol_count = 0;    // of Symbol::id
-    uint32_t function_count = 0;  // of Function::id
-    uint32_t site_count = 0;      // of CallExpr::site
+    std::vector<StructDefinition*> structs;
+    bool resizes = false;           // a call of resize(), push() or such stands in it
+    bool resizable_arrays = false;  // a resizable array is declared
+    uint32_t symbol_count = 0;      // of Symbol::id
+    uint32_t function_count = 0;    // of Function::id
+    uint32_t site_count = 0;        // of CallExpr::site
     mutable ReportedOnce reported;
 
     template <class Node>

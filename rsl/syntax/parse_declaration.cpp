@@ -13,7 +13,7 @@ std::span<Symbol*> DeclarationParser::parameters(SymbolKind kind) {
     }
     if (!errors_.expect(Punct::LeftParen, "'('")) return {};
     if (cursor_.is(Word::Void) && cursor_.is(Punct::RightParen, 1)) cursor_.advance();  // as in C
-    DeclarationHead head{{BaseType::Float, -1}, Detail::Unspecified, false};
+    DeclarationHead head{{BaseType::Float, -1}, nullptr, Detail::Unspecified, false};
     bool have_type = false;
     uint32_t begin = cursor_.position();  // of the parameter being read
     while (!errors_.panic() && !cursor_.is(Punct::RightParen) && !cursor_.is(Punct::LeftBrace)) {
@@ -25,7 +25,7 @@ std::span<Symbol*> DeclarationParser::parameters(SymbolKind kind) {
         }
         if (((cursor_.is_type() || cursor_.is_detail()) &&
              !(have_type && cursor_.word_as_name())) ||
-            foreign_.at_type() || foreign_.shader_handle()) {
+            struct_type() || foreign_.at_type() || foreign_.shader_handle()) {
             if (!read_head(head)) {
                 if (errors_.stopped() || !resume_parameters(begin)) break;
                 continue;
@@ -95,8 +95,14 @@ bool DeclarationParser::read_head(DeclarationHead& head) {
     head = DeclarationHead{};
     while (true) {
         if (cursor_.is(Word::Output)) head.output = true;
-        if (cursor_.is(Word::Uniform)) head.detail = Detail::Uniform;
+        if (cursor_.is(Word::Uniform) || cursor_.is_constant()) head.detail = Detail::Uniform;
         if (cursor_.is(Word::Varying)) head.detail = Detail::Varying;
+        if (const StructDefinition* structure = struct_type()) {
+            head.structure = structure;
+            head.type.base = BaseType::Invalid;
+            cursor_.advance();
+            return true;
+        }
         if (cursor_.is_detail())
             cursor_.advance();
         else if (!foreign_.accept_type(head.type.base))
@@ -124,6 +130,7 @@ Symbol* DeclarationParser::declarator(const DeclarationHead& head, SymbolKind ki
     auto* symbol = ast_.arena.make<Symbol>();
     symbol->kind = kind;
     symbol->type = head.type;
+    symbol->structure = head.structure;
     symbol->detail = head.detail;
     symbol->output = head.output;
     definition_.declare(*symbol);
@@ -138,16 +145,40 @@ Symbol* DeclarationParser::declarator(const DeclarationHead& head, SymbolKind ki
     return errors_.panic() ? nullptr : symbol;
 }
 
+namespace {
+
+// A length that is no arithmetic on numbers alone.
+bool names_something(const Expr& e) {
+    if (const auto* node = as_if<BinaryExpr>(&e))
+        return names_something(*node->left) || names_something(*node->right);
+    if (const auto* node = as_if<UnaryExpr>(&e)) return names_something(*node->operand);
+    return e.kind == ExprKind::Variable || e.kind == ExprKind::Call || e.kind == ExprKind::Index;
+}
+
+}  // namespace
+
 void DeclarationParser::array_suffix(Symbol& symbol) {
     if (!cursor_.accept(Punct::LeftBracket)) return;
     symbol.type.array_length = 0;
-    if (cursor_.accept(Punct::RightBracket)) return;
+    bool local = symbol.kind == SymbolKind::Local;
+    if (cursor_.accept(Punct::RightBracket)) {
+        bool listed = cursor_.is(Punct::Assign) && cursor_.is(Punct::LeftBrace, 1) &&
+                      !cursor_.is(Punct::RightBrace, 2);
+        symbol.resizable = local && (ast_.resizes || !listed);
+        ast_.resizable_arrays = ast_.resizable_arrays || symbol.resizable;
+        return;
+    }
     const Token& at = cursor_.token();
     Expr* length = expressions_.expression();
     if (errors_.panic() || !errors_.expect(Punct::RightBracket, "']'")) return;
     if (cursor_.is(Punct::LeftBracket)) {
         Finding* finding = errors_.error(Code::RSL_NOT_RSL, cursor_.token(), "an array of arrays");
         if (finding) finding->help = "use one index, as in a[i * n + j]";
+        return;
+    }
+    if (local && names_something(*length)) {
+        symbol.resizable = ast_.resizable_arrays = true;
+        symbol.length = length;
         return;
     }
     long value = constant_length(*length);
@@ -171,13 +202,31 @@ Expr* DeclarationParser::initialiser(Symbol& symbol) {
         node->items = ast_.arena.copy(items);
     }
     node->span = cursor_.span_from(at);
-    if (symbol.type.array_length == 0) symbol.type.array_length = int(node->items.size());
+    if (symbol.type.array_length == 0 && !symbol.resizable)
+        symbol.type.array_length = int(node->items.size());
     return node;
 }
 
+const StructDefinition* DeclarationParser::find_struct(std::string_view name) const {
+    for (const StructDefinition* structure : ast_.structs)
+        if (structure->name == name) return structure;
+    return nullptr;
+}
+
+const StructDefinition* DeclarationParser::struct_type(int ahead) const {
+    const Token& at = cursor_.token(ahead);
+    bool names = at.kind == TokenKind::Identifier &&
+                 cursor_.token(ahead + 1).kind == TokenKind::Identifier &&
+                 !cursor_.is_reserved(ahead + 1);
+    return names && !ast_.structs.empty() ? find_struct(at.text) : nullptr;
+}
+
 bool DeclarationParser::at_declaration() const {
+    if (struct_type()) return !cursor_.is(Punct::LeftParen, 2);
     if (cursor_.is(Word::Uniform) || cursor_.is(Word::Varying)) return !cursor_.word_as_name();
-    if (cursor_.is(Word::Output)) return cursor_.is_type(1) || cursor_.is_detail(1);
+    if (cursor_.is_constant()) return true;
+    if (cursor_.is(Word::Output))
+        return cursor_.is_type(1) || cursor_.is_detail(1) || struct_type(1);
     bool space = cursor_.is_type() && cursor_.token(1).kind == TokenKind::String &&
                  cursor_.token(2).kind == TokenKind::Identifier;
     if (space) {  // written before the name instead of the value

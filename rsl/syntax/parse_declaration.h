@@ -14,7 +14,8 @@ namespace kinora::rsl {
 
 // What stands before the declared names.
 struct DeclarationHead {
-    Type type;
+    Type type;  // Invalid for a struct's
+    const StructDefinition* structure = nullptr;
     Detail detail = Detail::Unspecified;
     bool output = false;
 };
@@ -30,6 +31,10 @@ class DeclarationParser {
           expressions_(expressions),
           definition_(definition) {}
 
+    // The struct of that name; null where there is none.
+    const StructDefinition* find_struct(std::string_view name) const;
+    // A struct's name before another name.
+    const StructDefinition* struct_type(int ahead = 0) const;
     // A type before a name, or a detail. "float noise(P)" and "color (1,2,3)" are expressions.
     bool at_declaration() const;
     // "output uniform float" in any order, the type last. False after an error.

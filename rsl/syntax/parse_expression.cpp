@@ -207,7 +207,11 @@ Expr* ExpressionParser::c_cast() {
 
 Expr* ExpressionParser::postfix() {
     Expr* operand = primary();
-    while (!errors_.panic() && cursor_.is(Punct::LeftBracket)) {
+    while (!errors_.panic() && (cursor_.is(Punct::LeftBracket) || cursor_.is(Punct::Arrow))) {
+        if (cursor_.is(Punct::Arrow)) {
+            operand = member(operand);
+            continue;
+        }
         uint32_t at = cursor_.position();
         int array_height = height_;
         cursor_.advance();
@@ -220,6 +224,39 @@ Expr* ExpressionParser::postfix() {
         operand = node;
     }
     return operand;
+}
+
+// operand->name, of a variable or an element, or operand->name(arguments).
+Expr* ExpressionParser::member(Expr* operand) {
+    uint32_t at = cursor_.position();
+    auto* element = as_if<IndexExpr>(operand);
+    auto* variable = as_if<VariableExpr>(element ? element->array : operand);
+    if (!variable || cursor_.token(1).kind != TokenKind::Identifier) {
+        errors_.syntax_error("a member of a variable");
+        return bad_expression();
+    }
+    cursor_.advance();
+    const Token& name = cursor_.token();
+    if (cursor_.is(Punct::LeftParen, 1)) {
+        int object_height = height_;
+        auto* node = as_if<CallExpr>(call());
+        std::vector<Expr*> args{operand};
+        args.insert(args.end(), node->args.begin(), node->args.end());
+        node->args = ast_.arena.copy(args);
+        node->method = true;
+        node->span = cursor_.span_from(operand->span, at + 1);
+        grow(object_height);
+        return node;
+    }
+    cursor_.advance();
+    std::string path = std::string(variable->name) + "->" + std::string(name.text);
+    auto* part = make<VariableExpr>(cursor_.span_from(variable->span, at + 1));
+    part->name = ast_.arena.copy(path);
+    if (!element) return part;
+    auto* node = make<IndexExpr>(cursor_.span_from(operand->span, at + 1));
+    node->array = part;
+    node->index = element->index;
+    return node;
 }
 
 Expr* ExpressionParser::primary() {

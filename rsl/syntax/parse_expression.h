@@ -37,6 +37,7 @@ class ExpressionParser {
     Expr* cast();
     Expr* c_cast();
     Expr* postfix();
+    Expr* member(Expr* operand);
     Expr* primary();
     Expr* string();
     Expr* parenthesised();

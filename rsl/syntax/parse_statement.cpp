@@ -79,6 +79,11 @@ Stmt* StatementParser::statement_unguarded() {
         default:
             break;
     }
+    if (cursor_.token().text == "struct" && cursor_.token(1).kind == TokenKind::Identifier &&
+        cursor_.is(Punct::LeftBrace, 2)) {
+        errors_.newer_language(cursor_.token(), "a struct inside a function");
+        return nullptr;
+    }
     if (foreign_.missing_statement()) return nullptr;
     if (foreign_.misspelt_statement()) return statement_unguarded();
     if (cursor_.is_detail() && at_function(1))
@@ -124,9 +129,14 @@ Stmt* StatementParser::function_statement() {
 Function* StatementParser::function() {
     auto* f = ast_.arena.make<Function>();
     f->result = {BaseType::Float, -1};
-    bool foreign = foreign_.at_type();
-    f->typed = foreign || (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
-    if (foreign) {
+    const StructDefinition* structure = declarations_.struct_type();
+    bool foreign = !structure && foreign_.at_type();
+    f->typed = foreign || structure || (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
+    if (structure) {
+        f->result = {BaseType::Void, -1};
+        f->result_structure = structure;
+        cursor_.advance();
+    } else if (foreign) {
         foreign_.accept_type(f->result.base);
     } else if (f->typed) {
         f->result.base = type_from_name(cursor_.token().text);
@@ -145,11 +155,10 @@ Function* StatementParser::function() {
     return f->body ? f : nullptr;
 }
 
-// "[type] name (...) {" inside a block.
 bool StatementParser::at_function(uint32_t ahead) const {
     int at = int(ahead);
-    bool typed =
-        (cursor_.is_type(at) && !cursor_.is(Punct::LeftParen, at + 1)) || foreign_.at_type(at);
+    bool typed = (cursor_.is_type(at) && !cursor_.is(Punct::LeftParen, at + 1)) ||
+                 declarations_.struct_type(at) || foreign_.at_type(at);
     uint32_t name = cursor_.position() + ahead + typed;
     const auto& tokens = cursor_.all();
     if (name + 1 >= tokens.size() || tokens[name].kind != TokenKind::Identifier) return false;

@@ -33,15 +33,16 @@ class StatementParser {
     BlockStmt* block();
     // "[type] name (...) {...}"; null where there is no body.
     Function* function();
+    // "[type] name (...) {" inside a block.
+    bool at_function(uint32_t ahead = 0) const;
+    Stmt* declaration_statement();
 
   private:
     Stmt* statement();
     Stmt* statement_unguarded();
     Stmt* body_statement();
     Stmt* empty_statement();
-    bool at_function(uint32_t ahead = 0) const;
     Stmt* function_statement();
-    Stmt* declaration_statement();
     Stmt* extern_statement();
     Stmt* expression_statement();
     Expr* effect();

@@ -22,9 +22,26 @@ Parser::Parser(Ast& ast, Reporter& reporter)
       foreign_(cursor_, errors_),
       expressions_(ast, cursor_, errors_, foreign_, nesting_),
       declarations_(ast, cursor_, errors_, foreign_, expressions_, open_),
-      statements_(ast, cursor_, errors_, foreign_, nesting_, open_, expressions_, declarations_) {}
+      statements_(ast, cursor_, errors_, foreign_, nesting_, open_, expressions_, declarations_),
+      objects_(ast, cursor_, errors_, open_, declarations_, statements_) {}
+
+namespace {
+
+// Whether some array of the source changes its length.
+bool resizes_arrays(const TokenCursor& cursor) {
+    constexpr std::string_view kCalls[] = {"resize", "push", "pop", "reserve"};
+    const auto& tokens = cursor.all();
+    for (size_t i = 0; i + 1 < tokens.size(); ++i)
+        if (tokens[i + 1].punct == Punct::LeftParen &&
+            std::find(std::begin(kCalls), std::end(kCalls), tokens[i].text) != std::end(kCalls))
+            return true;
+    return false;
+}
+
+}  // namespace
 
 void Parser::run() {
+    ast_.resizes = resizes_arrays(cursor_);
     while (!cursor_.at_end() && !errors_.full()) {
         uint32_t begin = cursor_.position();
         errors_.begin_definition();
@@ -48,10 +65,10 @@ bool Parser::newer_definition() {
         return true;
     }
     if (cursor_.token(1).kind != TokenKind::Identifier) return false;
-    if (cursor_.token().text == "class")
-        return errors_.newer_language(cursor_.token(), "'class' (shader objects)");
-    if (cursor_.token().text == "struct")
-        return errors_.newer_language(cursor_.token(), "'struct'");
+    if (objects_.at_class() || objects_.at_struct()) {
+        objects_.at_class() ? objects_.class_definition() : objects_.struct_definition();
+        return true;
+    }
     if (cursor_.token().text == "shader" && cursor_.is(Punct::LeftParen, 2)) {
         errors_.error(Code::RSL_NOT_RSL, cursor_.token(), "'shader' (Open Shading Language)");
         return true;
@@ -187,7 +204,8 @@ void Parser::function_definition() {
             break;
     }
     if (name_is_macro()) return;
-    int name = (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1)) || foreign_.at_type();
+    int name = (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1)) ||
+               declarations_.struct_type() || foreign_.at_type();
     bool named =
         cursor_.token(name).kind == TokenKind::Identifier && cursor_.is(Punct::LeftParen, name + 1);
     if (!named) {

@@ -9,6 +9,7 @@
 #include "rsl/syntax/parse_declaration.h"
 #include "rsl/syntax/parse_expression.h"
 #include "rsl/syntax/parse_foreign.h"
+#include "rsl/syntax/parse_object.h"
 #include "rsl/syntax/parse_recovery.h"
 #include "rsl/syntax/parse_statement.h"
 #include "rsl/syntax/syntax_errors.h"
@@ -44,6 +45,7 @@ class Parser {
     ExpressionParser expressions_;
     DeclarationParser declarations_;
     StatementParser statements_;
+    ObjectParser objects_;
 };
 
 }  // namespace kinora::rsl

@@ -49,7 +49,7 @@ void SyntaxErrors::syntax_error(const char* expected) {
     }
     if (foreign_character()) return;
     if (at.punct == Punct::Arrow) {
-        newer_language(at, "'->' (calls and members of shader objects)");
+        newer_language(at, "'->' behind something other than a variable");
         return;
     }
     for (const ForeignPunct& row : kForeign) {

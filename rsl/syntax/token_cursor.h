@@ -25,6 +25,15 @@ class TokenCursor {
         return token(ahead).word >= Word::Float && token(ahead).word <= Word::Void;
     }
     bool is_detail(int ahead = 0) const {
+        return (token(ahead).word >= Word::Uniform && token(ahead).word <= Word::Output) ||
+               is_constant(ahead);
+    }
+    // RSL 2.0's "constant float": elsewhere the word is a name.
+    bool is_constant(int ahead = 0) const {
+        return token(ahead).text == "constant" && (is_type(ahead + 1) || is_storage(ahead + 1)) &&
+               token(ahead + 2).kind == TokenKind::Identifier;
+    }
+    bool is_storage(int ahead = 0) const {
         return token(ahead).word >= Word::Uniform && token(ahead).word <= Word::Output;
     }
     // Control words always are words; types and details only where they can begin something.

@@ -23,7 +23,8 @@ enum class BaseType : uint8_t {
     Invalid,
 };
 
-// array_length: -1 = no array, 0 = unsized (`float a[]`: parameters of functions), else elements.
+// array_length: -1 = no array, 0 = unsized (`float a[]`: parameters of functions, and resizable
+// arrays), else elements.
 struct Type {
     BaseType base = BaseType::Void;
     int array_length = -1;

@@ -15,11 +15,6 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
 }
 
-bool same_letters(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
-}
-
 // "Pp": a letter that was hit twice, or held a key long.
 bool doubled(std::string_view word, std::string_view letter) {
     return letter.size() == 1 && word.size() == 2 && lower(word[0]) == lower(letter[0]) &&
@@ -36,6 +31,11 @@ bool same_beginning(std::string_view word, std::string_view name) {
 }
 
 }  // namespace
+
+bool same_letters(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
 
 std::string_view did_you_mean(std::string_view word, const std::vector<std::string_view>& names) {
     auto first = [&](auto fits) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "rsl/text/did_you_mean.h"
 #include "rsl/text/standard_headers.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
@@ -13,21 +14,16 @@ namespace kinora::rsl {
 
 namespace {
 
-bool same_letters(std::string_view a, std::string_view b) {
-    auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return lower(x) == lower(y); });
-}
-
 // The file of that name in whatever letter case, as systems find it whose names have none.
 std::filesystem::path in_any_case(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::exists(path, error)) return path;
     std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     std::filesystem::path best;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-        bool same = same_letters(entry.path().filename().string(), path.filename().string());
-        if (same && (best.empty() || entry.path() < best)) best = entry.path();
+    std::filesystem::directory_iterator at(folder, error), end;
+    for (; !error && at != end; at.increment(error)) {
+        bool same = same_letters(at->path().filename().string(), path.filename().string());
+        if (same && (best.empty() || at->path() < best)) best = at->path();
     }
     return best.empty() ? path : best;
 }

@@ -54,6 +54,10 @@ void Preprocessor::run(const ShaderSource& source) {
     std::string path;
     if (source.map.file != kNoFile) path = source_files_.name(source.map.file);
     files_.enter({texts_.keep(std::string(source.text)), &texts_.keep(source.map), path});
+    // The struct is known without its header, as if the source began with that.
+    if (source.text.find("__radiancesample") != source.text.npos)
+        if (auto header = includes_.find("stdrsl/RadianceSample.h", false, "", Token()))
+            files_.enter(*header);
     out_.tokens.reserve(source.text.size() / 4 + 16);
     read();
 }

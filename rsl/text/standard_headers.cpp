@@ -16,13 +16,16 @@ extern const size_t kStandardHeadersCount;
 
 // Names that differ by letter case are the same, as on the systems where shaders were written.
 std::string_view standard_header(std::string_view name) {
+    bool in_stdrsl = name.find("stdrsl/") != name.npos;
     name.remove_prefix(name.find_last_of('/') + 1);  // npos + 1 is 0
     std::string lower(name);
     for (char& c : lower)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     if (lower.ends_with(".sl")) lower.replace(lower.size() - 2, 2, "h");  // as some are spelled
     for (size_t i = 0; i < kStandardHeadersCount; ++i)
-        if (lower == kStandardHeaders[i].name) return kStandardHeaders[i].text;
+        if (lower == kStandardHeaders[i].name &&
+            in_stdrsl == std::string_view(kStandardHeaders[i].text).starts_with("// stdrsl/"))
+            return kStandardHeaders[i].text;
     return {};
 }
 

@@ -8,7 +8,7 @@
 namespace kinora::rsl {
 namespace {
 
-constexpr int kPoints = 21;
+constexpr int kLogicalPoints = 21;
 
 struct Answer {
     std::vector<float> values;  // of Ci.r
@@ -24,16 +24,16 @@ Answer answer_of(const std::string& source) {
         EXPECT_TRUE(run.ok()) << source << run.findings();
         if (!run.ok()) return answer;
         Columns columns;
-        for (int i = 0; i < kPoints; ++i) {
+        for (int i = 0; i < kLogicalPoints; ++i) {
             columns["s"].push_back(float(i));
             columns["t"].push_back(float(-i));
         }
         run.inputs = columns;
-        answer.values = run.run(kPoints)["Ci.r"];
+        answer.values = run.run(kLogicalPoints)["Ci.r"];
         answer.faults = run.faults > 0;
         bool reference_faults = false;
         Layer layer{run.shaders.back().get(), {}};
-        for (size_t i = 0; i < kPoints; ++i) {
+        for (size_t i = 0; i < kLogicalPoints; ++i) {
             auto reference = run_reference<float>({&layer, 1}, at_point(columns, {}, i));
             reference_faults = reference_faults || reference.faults > 0;
             EXPECT_EQ(answer.values[i], float(reference.values.at("Ci.r")))
@@ -52,8 +52,8 @@ std::string surface(const std::string& body) {
 template <class F>
 void expect_each(const std::string& body, bool faults, F&& expected) {
     Answer answer = answer_of(surface(body));
-    ASSERT_EQ(answer.values.size(), size_t(kPoints)) << body;
-    for (int i = 0; i < kPoints; ++i)
+    ASSERT_EQ(answer.values.size(), size_t(kLogicalPoints)) << body;
+    for (int i = 0; i < kLogicalPoints; ++i)
         EXPECT_EQ(answer.values[size_t(i)], float(expected(i))) << body << " at " << i;
     EXPECT_EQ(answer.faults, faults) << body;
 }
@@ -86,16 +86,16 @@ TEST(Logical, AnIndexThatIsAskedForIsStillOne) {
 TEST(Logical, ARightSideThatCallsRunsOnlyWhereItIsAskedFor) {
     std::string even = "float even(float n) { return n == 0 || (n > 1 && even(n - 2)); } ";
     Answer answer = answer_of(even + "surface t() { Ci = even(s); }");
-    ASSERT_EQ(answer.values.size(), size_t(kPoints));
-    for (int i = 0; i < kPoints; ++i) EXPECT_EQ(answer.values[size_t(i)], float(i % 2 == 0)) << i;
+    ASSERT_EQ(answer.values.size(), size_t(kLogicalPoints));
+    for (int i = 0; i < kLogicalPoints; ++i) EXPECT_EQ(answer.values[size_t(i)], float(i % 2 == 0)) << i;
     EXPECT_FALSE(answer.faults);
 
     std::string count = "float met(output float n;) { n += 1; return 1; } ";
     answer = answer_of(count +
                        "surface t() { float n = 0, k = 0; for (k = 0; k < 5; k += 1)"
                        " if (k < s && met(n) > 0) n += 10; Ci = n; }");
-    ASSERT_EQ(answer.values.size(), size_t(kPoints));
-    for (int i = 0; i < kPoints; ++i)
+    ASSERT_EQ(answer.values.size(), size_t(kLogicalPoints));
+    for (int i = 0; i < kLogicalPoints; ++i)
         EXPECT_EQ(answer.values[size_t(i)], float(11 * std::min(i, 5))) << i;
 }
 
@@ -114,8 +114,8 @@ TEST(Logical, FunctionsIndexForTheLanesThatCall) {
         "float get(float i; float x[3]) { return x[i]; } surface t() { "
         "float a[3] = {10, 20, 30}; ";
     Answer answer = answer_of(get + "Ci = s < 3 && get(s, a) > 15 ? 1 : 0; }");
-    ASSERT_EQ(answer.values.size(), size_t(kPoints));
-    for (int i = 0; i < kPoints; ++i)
+    ASSERT_EQ(answer.values.size(), size_t(kLogicalPoints));
+    for (int i = 0; i < kLogicalPoints; ++i)
         EXPECT_EQ(answer.values[size_t(i)], float(i == 1 || i == 2)) << i;
     EXPECT_FALSE(answer.faults);
 }

@@ -38,6 +38,8 @@ void ShaderWriter::find_rows(bool all_rows) {
         for (const Builtin& row : group) {
             bool usable = row.lower && (row.legal >> int(kind_) & 1) != 0;
             if (!usable || (!row.ref.single && !all_rows)) continue;
+            // The lengths of arrays change in statements of their own.
+            if (row.effects & (kSetsLength | kReadsLength)) continue;
             if (row.effects & kReadsChannels) continue;  // their arguments follow a list of names
             // Maps give their coordinates' slopes, which the reference does not know: a shader has
             // maps or takes derivatives.
@@ -58,6 +60,9 @@ void ShaderWriter::line(const std::string& text) {
 // ---- the whole ----------------------------------------------------------------------------------
 
 std::string ShaderWriter::write() {
+    uses_structs_ = chance(25);
+    is_class_ = kind_ == ShaderKind::Surface && chance(20);
+    if (uses_structs_) structs();
     for (int k = 0; k < policy_.functions; ++k) chance(20) ? recursion() : function();
     scope_.clear();
     calls_left_ = 5;
@@ -76,13 +81,13 @@ std::string ShaderWriter::write() {
         finish_surface();
     }
     --depth_;
-    line("}");
+    line(is_class_ ? "} }" : "}");
     return text_;
 }
 
 // Some parameters are bound to frame inputs, some to point inputs, some keep their defaults.
 std::string ShaderWriter::shader_head() {
-    std::string head = std::string(shader_kind_name(kind_)) + " fuzz(";
+    std::string head = is_class_ ? "class fuzz(" : std::string(shader_kind_name(kind_)) + " fuzz(";
     auto add = [&](const char* detail, const char* stem) {
         BaseType type = chance(60) ? BaseType::Float : value_type();
         if (type == BaseType::Matrix || type == BaseType::String) type = BaseType::Color;
@@ -99,7 +104,8 @@ std::string ShaderWriter::shader_head() {
         for (int k = below(3); k > 0; --k) add("varying ", "vary_");
     if (kind_ == ShaderKind::Surface)
         for (int k = below(2); k > 0; --k) add("output varying ", "aov_");
-    return head + ") {";
+    return head +
+           (is_class_ ? ") { public void surface(output color Ci; output color Oi;) {" : ") {");
 }
 
 void ShaderWriter::finish_surface() {
@@ -185,6 +191,7 @@ void ShaderWriter::statement() {
     if (takes(policy_.arrays)) return array_declaration();
     if (takes(policy_.calls)) return void_call();
     if (takes(5)) return light_loop();
+    if (takes(uses_structs_ ? 10 : 2)) return object_statement();
     if (takes(28)) return declaration();
     assignment();
 }

@@ -236,6 +236,8 @@ TEST(Rows, GiveTheSameBitsOnEveryTargetForAnyFloats) {
         for (const Builtin& row : group) {
             ++rows;
             ASSERT_TRUE(row.lower) << row.name;
+            // Of arrays that are declared without a length: objects/objects_test.cpp.
+            if (row.effects & kSetsLength) continue;
             for (const Signature& signature : parse_signatures(row.signature)) {
                 ++overloads;
                 for (bool wild : {false, true})

@@ -1,4 +1,4 @@
-// tests/rsl/shader_writer_p.h: the state of the random-shader generator, shared by its two files.
+// tests/rsl/shader_writer_p.h: the state of the random-shader generator, shared by its three files.
 #pragma once
 
 #include <map>
@@ -76,6 +76,13 @@ class ShaderWriter {
     }
     bool in_loop() const { return !loop_kinds_.empty(); }
 
+    // random_shader_objects.cpp
+    void structs();
+    void struct_declaration();
+    void struct_statement();
+    void resizable();
+    void object_statement();
+
     // random_shader_expressions.cpp
     BaseType value_type();
     std::string value(BaseType type, int depth);
@@ -104,6 +111,9 @@ class ShaderWriter {
     // By the statement being written: what calls write is not read or written elsewhere in it.
     std::vector<std::string> written_, read_;
     const UserFunction* inside_ = nullptr;
+    std::vector<std::string> objects_;  // variables of struct type
+    bool uses_structs_ = false;
+    bool is_class_ = false;
     bool uniform_ = false;  // only uniform values may be written
     bool in_illuminance_ = false, in_illuminate_ = false;
     int depth_ = 0;       // of blocks

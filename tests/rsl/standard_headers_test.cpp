@@ -78,11 +78,46 @@ const HeaderRow kHeaders[] = {
      "Ci = LocIllumOrenNayar(Nf, V, 0.5) + LocIllumGlossy(Nf, V, 0.1, 0.5);"
      "Ci += LocIllumWardAnisotropic(Nf, V, dPdu, 0.1, 0.3);"},
     {"normals.h", "", "Ci = color(shadingnormal(N));"},
+    {"broadlights.h", "", "Ci = broad_glow(P, N, reflect(I, N));"},
+    {"collada_slots.h", "SLOT(ambient_color, 0); SLOT(diffuse, 0); float x = 0;",
+     "Oi = slot_opacity(diffuse, diffuse_map, diffuse_s, diffuse_t, x, x, \"A_ONE\");"
+     "Ci = mirrored(AMBIENT_COLOR, x, N, I, Oi) * color(bumped(ambient_color_map, \"\", s, t, "
+     "x));"},
     {"project.h", "string how = \"spherical\";",
      "float ss, tt, ds, dt; ProjectTo2D(how, P, \"shader\", matrix 1, ss, tt, ds, dt);"
      "spherical_projection(transform(\"shader\", P), ss, tt); Ci = ss + tt + ds + dt;"
      "cylindrical_projection(transform(\"shader\", P), ss, tt); Ci += ss + tt;"},
     {"displace.h", "", "N = Displace(normalize(N), \"shader\", 0.1, 1); Ci = color N;"},
+    {"stdrsl/math.h", "", "Ci = M_TWOPI * s + M_INVFOURPI + M_MAXDIST + M_PI + M_EPSILON;"},
+    {"stdrsl/colors.h", "", "Ci = srgbToLinear(Cs) + linearToSrgb(Cs) + srgbToLinear(s);"},
+    {"stdrsl/samplemgr.h", "",
+     "stdrsl_SampleMgr m; float a, b, c; m->computeDepthBasedSampleReduction(1, 64, 4, 1, a);"
+     "m->computeIndirectDiffuseSamples(64, 0.02, b, c); stdrsl_SampleMgrPathTrace path; float n;"
+     "path->construct(); path->begin(); path->computeLightSamples(1, 16, n); Ci = a + b + c + n;"},
+    {"stdrsl/shadingcontext.h", "",
+     "stdrsl_ShadingContext c; c->construct(); c->init(); c->initWithTangentField(0.25);"
+     "Ci = color(c->m_Nn + c->m_Ns + c->m_Tangent) + c->m_EnteringRegion + c->m_RayDepth;"
+     "c->displace(c->m_Nn, 0.1 * s, \"bump\"); c->displace(c->m_Nn, 0.1, \"displace\");"
+     "c->reinit(); c->initHair(0); Ci += color(c->m_Vn + c->m_In + c->m_Bitangent);"
+     "normal Nn, Nf, Ns; vector In; c->m_ShadingUtils->GetShadingVars(0, 2, Nn, In, Nf, Ns);"
+     "Ci += color(Nn + Nf + Ns) + c->m_DiffuseDepth + color(c->m_OrigNn) + color(In);"},
+    {"stdrsl/fresnel.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
+     "Ci = f->m_Kr + f->m_Kt + color(f->m_Rv + f->m_Tv); f->initSchlick(c, 1, 0, 0.04);"
+     "Ci += f->m_Kr + color(f->m_Tv); f->initSchlick(c, 1, 1.3, 0.04); Ci += color(f->m_Tv);"},
+    {"stdrsl/radiancesample.h", "",
+     "__radiancesample a[]; resize(a, 2); a[0]->setLightSample(Cs, 0.5, vector N, 3);"
+     "a[1]->setMaterialResponse(Cs, 0.25); stdrsl_RadianceSample r; float counts[2] = {1, 1};"
+     "r->normalizeMaterialResponse(a, counts); r->accumulateMaterialResponse(a);"
+     "Ci = a[0]->radiance + a[1]->accumulatedMaterialResponse + a[0]->lightPdf + a[1]->valid;"},
+    {"stdrsl/lambert.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5); stdrsl_Lambert d;"
+     "d->init(Cs); d->init(c, Cs, 1, 4); __radiancesample a[]; d->genDiffuseSamps(c, f, a);"
+     "d->evalDiffuseSamps(c, f, a); Ci = a[0]->materialResponse + arraylength(a);"},
+    {"stdrsl/orennayar.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
+     "stdrsl_OrenNayar d; d->init(Cs, 0.3); __radiancesample a[]; resize(a, 1);"
+     "a[0]->direction = c->m_Vn; d->evalDiffuseSamps(c, f, a); Ci = a[0]->materialResponse;"},
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"
      "Ci = blend(Cs, Os, s) + lerp(0, 1, s) + boxstep(0.2, 0.4, s) + union(s, t) + complement(s);"
@@ -109,8 +144,9 @@ TEST(StandardHeaders, EveryFunctionCompilesWithoutAWarning) {
 TEST(StandardHeaders, AllOfThemAreTested) {
     std::filesystem::path folder =
         std::filesystem::path(KINORA_SOURCE_DIR) / "assets/shaders/include";
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        std::string name = entry.path().filename().string();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.is_directory()) continue;
+        std::string name = entry.path().lexically_relative(folder).generic_string();
         bool tested = std::any_of(std::begin(kHeaders), std::end(kHeaders),
                                   [&](const HeaderRow& row) { return row.header == name; });
         EXPECT_TRUE(tested) << name;

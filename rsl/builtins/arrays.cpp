@@ -1,0 +1,136 @@
+// rsl/builtins/arrays.cpp: resizable arrays.
+#include "rsl/builtins/table.h"
+#include "rsl/lower/builtin_call.h"
+#include "rsl/model/changes.h"
+#include "rsl/reference/reference_p.h"
+
+namespace kinora::rsl {
+
+namespace lower_arrays {
+
+const Symbol& symbol_of(const LowerCall& c) {
+    return *as<VariableExpr>(*c.call.args[0]).symbol;
+}
+
+int array_of(LowerCall& c) {
+    return c.variables.array_of(symbol_of(c));
+}
+
+// The array that changes its length; -1 where a function's argument cannot.
+int resizable(LowerCall& c) {
+    int array = array_of(c);
+    if (c.variables.arrays().resizable(array)) return array;
+    c.context.error(Code::RSL_NOT_RESIZABLE, c.where(), symbol_of(c).name);
+    return -1;
+}
+
+void arraylength(LowerCall& c) {
+    c.set(c.variables.arrays().count(array_of(c)));
+}
+
+void capacity(LowerCall& c) {
+    c.set(c.b.f(float(c.variables.room_for(symbol_of(c)))));
+}
+
+void resize(LowerCall& c) {
+    int array = resizable(c);
+    if (array >= 0) c.variables.arrays().resize(array, c.f(1), c.where());
+}
+
+void reserve(LowerCall& c) {
+    int array = resizable(c);
+    if (array >= 0) c.variables.arrays().limited(array, c.f(1), c.where());
+}
+
+void push(LowerCall& c) {
+    int array = resizable(c);
+    if (array >= 0) c.variables.arrays().push(array, c.args[1], c.where());
+}
+
+void pop(LowerCall& c) {
+    int array = resizable(c);
+    if (array < 0) return;
+    c.result = c.variables.arrays().pop(array, c.where());
+}
+
+}  // namespace lower_arrays
+
+namespace ref {
+namespace {
+
+template <class Real>
+int room(RefCall<Real>& c) {
+    const Symbol& symbol = *as<VariableExpr>(*c.call.args[0]).symbol;
+    if (symbol.type.array_length > 0) return symbol.type.array_length;
+    return array_capacities(*c.eval.layer->shader->ast)[symbol.id];
+}
+
+template <class Real>
+void arraylength(RefCall<Real>& c) {
+    c.set(Dual<Real>(Real(c.arrays[0].size())));
+}
+
+template <class Real>
+void capacity(RefCall<Real>& c) {
+    c.set(Dual<Real>(Real(room(c))));
+}
+
+template <class Real>
+void resize(RefCall<Real>& c) {
+    Real wanted = std::floor(c.f(1).x), most = Real(room(c));
+    if (!(wanted >= 0 && wanted <= most)) ++c.eval.result.faults;
+    int length = c.eval.decide(int(wanted > 0 ? std::min(wanted, most) : Real(0)));
+    c.arrays[0].resize(size_t(length), RefValue<Real>(c.args[0].type));
+}
+
+template <class Real>
+void reserve(RefCall<Real>& c) {
+    if (!(c.f(1).x <= Real(room(c)))) ++c.eval.result.faults;
+}
+
+template <class Real>
+void push(RefCall<Real>& c) {
+    if (int(c.arrays[0].size()) >= room(c)) return void(++c.eval.result.faults);
+    c.arrays[0].push_back(c.args[1]);
+    c.arrays[0].back().type = c.args[0].type;
+}
+
+template <class Real>
+void pop(RefCall<Real>& c) {
+    if (c.arrays[0].empty()) return void(++c.eval.result.faults);
+    c.result.c = c.arrays[0].back().c;
+    c.arrays[0].pop_back();
+}
+
+}  // namespace
+}  // namespace ref
+
+namespace {
+
+namespace lower = lower_arrays;
+
+constexpr const char* kLengthOf = "f=f[] f=c[] f=p[] f=v[] f=n[] f=m[] f=s[]";
+constexpr const char* kByNumber = "x=F[]f x=C[]f x=P[]f x=V[]f x=N[]f x=M[]f x=S[]f";
+
+const Builtin kRows[] = {
+    {"arraylength", kLengthOf, lower::arraylength, KINORA_RSL_REF(ref::arraylength), kReadsLength,
+     0, "How many elements the array has."},
+    {"capacity", kLengthOf, lower::capacity, KINORA_RSL_REF(ref::capacity), kReadsLength, 0,
+     "How many elements the array has room for."},
+    {"resize", kByNumber, lower::resize, KINORA_RSL_REF(ref::resize), kSetsLength, 0,
+     "Gives a resizable array a length. New elements are 0 or \"\"."},
+    {"reserve", kByNumber, lower::reserve, KINORA_RSL_REF(ref::reserve), kSetsLength, 0,
+     "Makes room for so many elements; the length stays. Other arrays have room for 64."},
+    {"push", "x=F[]f x=C[]c x=P[]p x=V[]v x=N[]n x=M[]m x=S[]s", lower::push,
+     KINORA_RSL_REF(ref::push), kSetsLength, 0, "Appends an element to a resizable array."},
+    {"pop", "f=F[] c=C[] p=P[] v=V[] n=N[] m=M[] s=S[]", lower::pop, KINORA_RSL_REF(ref::pop),
+     kSetsLength, 0, "Takes the last element off a resizable array and returns it."},
+};
+
+}  // namespace
+
+std::span<const Builtin> builtins_arrays() {
+    return kRows;
+}
+
+}  // namespace kinora::rsl

@@ -1,0 +1,226 @@
+// rsl/objects/pipeline.cpp: a class as one shader: its methods are called in the order of the
+// pipeline, and its members are variables that live through it.
+#include <algorithm>
+#include <optional>
+
+#include "rsl/objects/expand.h"
+
+namespace kinora::rsl {
+
+namespace {
+
+class Pipeline {
+  public:
+    Pipeline(Ast& ast, Reporter& reporter, ShaderDefinition& shader)
+        : ast_(ast), reporter_(reporter), shader_(shader), make_(ast, shader.span) {}
+
+    void run() {
+        std::optional<ShaderKind> kind = kind_of();
+        if (!kind) {
+            const Token& at = ast_.tokens.tokens[shader_.span.token];
+            reporter_.report(Code::RSL_CLASS_WITHOUT_METHODS, at, shader_.name);
+            return;
+        }
+        shader_.kind = *kind;
+        const ClassDefinition& c = *shader_.shader_class;
+        out_.assign(c.members.begin(), c.members.end());
+        for (Function* method : c.methods) {
+            auto* definition = ast_.make<FunctionStmt>(method->span);
+            definition->function = method;
+            out_.push_back(definition);
+        }
+        stages();
+        shader_.body->body = ast_.arena.copy(out_);
+    }
+
+  private:
+    const Function* find(std::string_view name) const {
+        for (const Function* method : shader_.shader_class->methods)
+            if (method->name == name) return method;
+        return nullptr;
+    }
+    bool has(std::string_view name) const { return find(name) != nullptr; }
+
+    // What the class is bound as: the first of these stages that it has.
+    std::optional<ShaderKind> kind_of() const {
+        constexpr struct {
+            std::string_view method;
+            ShaderKind kind;
+        } kKinds[] = {{"light", ShaderKind::Light},
+                      {"surface", ShaderKind::Surface},
+                      {"lighting", ShaderKind::Surface},
+                      {"diffuselighting", ShaderKind::Surface},
+                      {"specularlighting", ShaderKind::Surface},
+                      {"prelighting", ShaderKind::Surface},
+                      {"postlighting", ShaderKind::Surface},
+                      {"opacity", ShaderKind::Surface},
+                      {"volume", ShaderKind::Volume},
+                      {"imager", ShaderKind::Imager},
+                      {"transformation", ShaderKind::Transformation},
+                      {"displacement", ShaderKind::Displacement}};
+        for (const auto& row : kKinds)
+            if (has(row.method)) return row.kind;
+        return {};
+    }
+
+    void stages() {
+        call("construct", {});
+        call("begin", {});
+        switch (shader_.kind) {
+            case ShaderKind::Surface:
+                return surface();
+            case ShaderKind::Light:
+                return light();
+            case ShaderKind::Volume:
+                return call("volume", {"Ci", "Oi"});
+            case ShaderKind::Imager:
+                return call("imager", {"Ci", "Oi", "alpha"});
+            case ShaderKind::Transformation:
+                return call("transformation", {"P", "N"});
+            case ShaderKind::Displacement:
+                return call("displacement", {"P", "N"});
+        }
+    }
+
+    // Whether one of the words stands before such a punctuator in the method's text.
+    bool has_words(const Function& method, std::initializer_list<std::string_view> words,
+                   Punct behind) const {
+        const auto& tokens = ast_.tokens.tokens;
+        int depth = 0;
+        for (size_t i = method.body->span.token; i + 1 < tokens.size(); ++i) {
+            depth += tokens[i].punct == Punct::LeftBrace;
+            depth -= tokens[i].punct == Punct::RightBrace;
+            if (depth == 0) break;
+            bool named = std::find(words.begin(), words.end(), tokens[i].text) != words.end();
+            if (named && tokens[i + 1].punct == behind) return true;
+        }
+        return false;
+    }
+
+    // A light without illuminate and solar that sets L shines from Ps - L.
+    void light() {
+        const Function* method = find("light");
+        bool aims = has_words(*method, {"illuminate", "solar"}, Punct::LeftParen);
+        bool sets_L = method->parameters.size() > 1 &&
+                      has_words(*method, {method->parameters[0]->name}, Punct::Assign);
+        if (aims || !sets_L) {
+            drop_formals("light", {"L", "Cl", "Ol"});
+            return call("light", {"L", "Cl", "Ol"});
+        }
+        out_.push_back(make_.declare({local(BaseType::Vector, "pipeline->L"),
+                                      local(BaseType::Color, "pipeline->Cl"),
+                                      local(BaseType::Color, "pipeline->Ol")}));
+        call("light", {"pipeline->L", "pipeline->Cl", "pipeline->Ol"});
+        auto* from = ast_.make<IlluminateStmt>(shader_.span);
+        from->position =
+            make_.binary(Op::Subtract, make_.variable("Ps"), make_.variable("pipeline->L"));
+        from->body =
+            make_.block({make_.assign(make_.variable("Cl"), make_.variable("pipeline->Cl"))});
+        out_.push_back(from);
+    }
+
+    // L and Cl are those of the illuminate or solar statement, so a method's own are those too.
+    void drop_formals(std::string_view name, std::initializer_list<std::string_view> globals) {
+        for (Function* method : shader_.shader_class->methods) {
+            auto named = [&](const Symbol* formal) {
+                return std::find(globals.begin(), globals.end(), formal->name) != globals.end();
+            };
+            auto formals = method->parameters;
+            if (method->name == name && std::all_of(formals.begin(), formals.end(), named))
+                method->parameters = {};
+        }
+    }
+
+    // The method with as many of the globals as it takes; they are what it calls P, Ci and so on.
+    void call(std::string_view name, std::initializer_list<std::string_view> globals) {
+        const Function* method = find(name);
+        if (!method) return;
+        std::vector<Expr*> args;
+        for (std::string_view global : globals)
+            if (args.size() < method->parameters.size()) args.push_back(make_.variable(global));
+        out_.push_back(make_.effect(make_.call(name, args)));
+    }
+
+    void surface() {
+        bend();
+        out_.push_back(make_.assign(make_.variable("Ci"), make_.number(0)));
+        out_.push_back(make_.assign(make_.variable("Oi"), make_.variable("Os")));
+        bool opacity = has("opacity");
+        if (opacity) out_.push_back(opacity_call());
+        Expr* seen = make_.number(1);
+        if (opacity)
+            seen = make_.binary(Op::NotEqual, make_.variable("Oi"),
+                                make_.cast(BaseType::Color, make_.number(0)));
+        std::vector<Stmt*> before = std::exchange(out_, {});
+        shading();
+        IfStmt* rest = make_.branch(seen, std::exchange(out_, std::move(before)));
+        rest->behind_opacity = true;
+        out_.push_back(rest);
+    }
+
+    // __computesOpacity = 0 promises that shadow rays need not ask: they then see Os.
+    Stmt* opacity_call() {
+        std::vector<Stmt*> before = std::exchange(out_, {});
+        call("opacity", {"Oi"});
+        std::vector<Stmt*> made = std::exchange(out_, std::move(before));
+        for (const Symbol* parameter : shader_.parameters) {
+            const auto* number = as_if<NumberExpr>(parameter->initial);
+            if (parameter->name != "__computesOpacity" || !number || number->value != 0) continue;
+            IfStmt* guarded = make_.branch(make_.number(1), std::move(made));
+            guarded->behind_opacity = true;
+            return guarded;
+        }
+        return made[0];
+    }
+
+    void shading() {
+        call("prelighting", {"Ci", "Oi"});
+        if (has("lighting")) {
+            call("lighting", {"Ci", "Oi"});
+        } else if (has("diffuselighting") || has("specularlighting")) {
+            out_.push_back(make_.declare({local(BaseType::Color, "pipeline->Ii")}));
+            call("diffuselighting", {"Ci", "Oi", "pipeline->Ii"});
+            call("specularlighting", {"Ci", "Oi"});
+        } else {
+            call("surface", {"Ci", "Oi"});
+        }
+        call("postlighting", {"Ci", "Oi"});
+    }
+
+    Symbol* local(BaseType type, std::string_view name) {
+        return make_.symbol(SymbolKind::Local, name, {type, -1});
+    }
+
+    // As a displacement that is joined with a surface: the normal is bent, the points stay.
+    void bend() {
+        if (!has("displacement")) return;
+        Symbol* P = local(BaseType::Point, "pipeline->P");
+        Symbol* N = local(BaseType::Normal, "pipeline->N");
+        P->initial = make_.variable("P");
+        N->initial = make_.variable("N");
+        out_.push_back(make_.declare({P, N}));
+        call("displacement", {"P", "N"});
+        auto is = [&](Op op, std::string_view name, std::string_view before) {
+            return make_.binary(op, make_.variable(name), make_.variable(before));
+        };
+        Expr* moved = make_.call("calculatenormal", {make_.variable("P")});
+        out_.push_back(make_.branch(
+            make_.binary(Op::And, is(Op::NotEqual, "P", P->name), is(Op::Equal, "N", N->name)),
+            {make_.assign(make_.variable("N"), make_.call("normalize", {moved}))}));
+        out_.push_back(make_.assign(make_.variable("P"), make_.variable(P->name)));
+    }
+
+    Ast& ast_;
+    Reporter& reporter_;
+    ShaderDefinition& shader_;
+    TreeBuilder make_;
+    std::vector<Stmt*> out_;
+};
+
+}  // namespace
+
+void make_pipeline(Ast& ast, Reporter& reporter, ShaderDefinition& shader) {
+    Pipeline(ast, reporter, shader).run();
+}
+
+}  // namespace kinora::rsl

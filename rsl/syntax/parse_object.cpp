@@ -1,0 +1,124 @@
+// rsl/syntax/parse_object.cpp: classes and structs of RSL 2.0.
+#include "rsl/syntax/parse_object.h"
+
+#include <algorithm>
+
+namespace kinora::rsl {
+
+bool ObjectParser::at_class() const {
+    return cursor_.token().text == "class" && cursor_.token(1).kind == TokenKind::Identifier &&
+           (cursor_.is(Punct::LeftParen, 2) || cursor_.is(Punct::LeftBrace, 2));
+}
+
+bool ObjectParser::at_struct() const {
+    return cursor_.token().text == "struct" && cursor_.token(1).kind == TokenKind::Identifier &&
+           (cursor_.is(Punct::LeftBrace, 2) || cursor_.is(Punct::Colon, 2));
+}
+
+// "public" or "private" before a member or method.
+bool ObjectParser::accept_access() {
+    std::string_view word = cursor_.token().text;
+    if ((word != "public" && word != "private") || cursor_.token(1).kind != TokenKind::Identifier)
+        return false;
+    cursor_.advance();
+    return true;
+}
+
+void ObjectParser::item(std::vector<Stmt*>& members, std::vector<Function*>& methods) {
+    while (accept_access()) {
+    }
+    if (at_struct()) return struct_definition();
+    if (cursor_.is_detail() && statements_.at_function(1)) cursor_.advance();
+    if (statements_.at_function()) {
+        if (Function* method = statements_.function()) methods.push_back(method);
+    } else if (declarations_.at_declaration()) {
+        if (Stmt* member = statements_.declaration_statement()) members.push_back(member);
+    } else {
+        errors_.syntax_error("a member or method");
+    }
+}
+
+// "{ items }".
+void ObjectParser::items(std::vector<Stmt*>& members, std::vector<Function*>& methods) {
+    uint32_t open = cursor_.position();
+    if (!errors_.expect(Punct::LeftBrace, "'{'")) return;
+    while (!cursor_.is(Punct::RightBrace) && !cursor_.at_end() && !errors_.full()) {
+        if (cursor_.accept(Punct::Semicolon)) continue;
+        uint32_t before = cursor_.position();
+        item(members, methods);
+        errors_.leave_statement(before);
+        if (cursor_.position() == before && !cursor_.is(Punct::RightBrace)) cursor_.advance();
+    }
+    if (cursor_.accept(Punct::RightBrace)) return;
+    errors_.report(Code::RSL_UNCLOSED, cursor_.at(open), '{');
+    errors_.mark_broken();
+}
+
+void ObjectParser::class_definition() {
+    uint32_t at = cursor_.position();
+    cursor_.advance();
+    auto* shader = ast_.arena.make<ShaderDefinition>();
+    shader->span = SourceSpan{cursor_.token().where, at};
+    shader->name = errors_.expect_name("a class name");
+    open_.begin_shader();
+    if (cursor_.is(Punct::LeftParen))
+        shader->parameters = declarations_.parameters(SymbolKind::Parameter);
+    if (errors_.panic()) return;
+    std::vector<Stmt*> members;
+    std::vector<Function*> methods;
+    items(members, methods);
+    shader->shader_class = ast_.arena.make<ClassDefinition>();
+    shader->shader_class->members = ast_.arena.copy(members);
+    shader->shader_class->methods = ast_.arena.copy(methods);
+    shader->body = ast_.make<BlockStmt>(shader->span);
+    ast_.shaders.push_back(shader);
+}
+
+// Headers that are included twice define a struct again; the tokens from `begin` on are compared.
+bool ObjectParser::same_struct_again(uint32_t begin) {
+    auto end_of = [&](uint32_t at) {
+        int depth = 0;
+        for (const auto& tokens = cursor_.all(); at < tokens.size(); ++at) {
+            depth += tokens[at].punct == Punct::LeftBrace;
+            depth -= tokens[at].punct == Punct::RightBrace;
+            if (tokens[at].punct == Punct::RightBrace && depth == 0) return at + 1;
+        }
+        return at;
+    };
+    const StructDefinition* other = declarations_.find_struct(cursor_.at(begin + 1).text);
+    if (!other) return false;
+    uint32_t end = end_of(begin), other_end = end_of(other->span.token);
+    auto same = [](const Token& a, const Token& b) { return a.text == b.text; };
+    if (!std::equal(cursor_.all().begin() + begin, cursor_.all().begin() + end,
+                    cursor_.all().begin() + other->span.token, cursor_.all().begin() + other_end,
+                    same))
+        errors_.report(Code::RSL_REDEFINED, cursor_.at(begin + 1), other->name)
+            .notes.push_back({other->span.where, "first defined here"});
+    cursor_.move_to(end);
+    return true;
+}
+
+void ObjectParser::struct_definition() {
+    uint32_t at = cursor_.position();
+    if (same_struct_again(at)) return;
+    cursor_.advance();
+    auto* structure = ast_.arena.make<StructDefinition>();
+    structure->span = SourceSpan{cursor_.token().where, at};
+    structure->name = cursor_.token().text;
+    cursor_.advance();
+    if (cursor_.is(Punct::Colon)) {
+        errors_.newer_language(cursor_.token(1), "a struct that inherits from another");
+        return;
+    }
+    ast_.structs.push_back(structure);
+    std::vector<Stmt*> declarations;
+    std::vector<Function*> methods;
+    items(declarations, methods);
+    std::vector<Symbol*> members;
+    for (Stmt* stmt : declarations)
+        for (Symbol* symbol : as<DeclareStmt>(*stmt).symbols) members.push_back(symbol);
+    structure->members = ast_.arena.copy(members);
+    structure->methods = ast_.arena.copy(methods);
+}
+
+}  // namespace kinora::rsl

@@ -1,2 +1,0 @@
-// '->'
-surface newer_arrow() { float a = s; Ci = a->b; Ci = undefined; }

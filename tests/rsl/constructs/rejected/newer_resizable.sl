@@ -1,2 +1,0 @@
-// resizable arrays
-surface newer_resizable() { float a[]; Ci = 1; }

@@ -1,0 +1,84 @@
+// tests/rsl/random_shader_objects.cpp: resizable arrays, structs and classes at random.
+#include "tests/rsl/shader_writer_p.h"
+
+namespace kinora::rsl {
+
+// A struct of members that expressions may use, with a method that changes them.
+void ShaderWriter::structs() {
+    line("struct Inner { float w = 0.5; color c = color(0.25, 0.5, 1); }");
+    line("struct Both { vector v = 1; Inner inner; Inner other;");
+    line("    void turn(float by) { v = v * by + vector(inner->w, by, 1); swap(); }");
+    line("    void swap() { Inner kept = inner; inner = other; other->w += kept->w; } }");
+    line("Inner mixed(Inner a; float by) { Inner r = a; r->w *= by; r->c += by; return r; }");
+}
+
+// A variable of struct type: its members are names like others.
+void ShaderWriter::struct_declaration() {
+    std::string name = fresh("o");
+    line("Both " + name + ";");
+    for (const char* member : {"inner", "other"}) {
+        std::string path = name + "->" + member;
+        scope_.push_back({path + "->w", BaseType::Float, -1, false, true});
+        scope_.push_back({path + "->c", BaseType::Color, -1, false, true});
+    }
+    scope_.push_back({name + "->v", BaseType::Vector, -1, false, true});
+    objects_.push_back(name);
+}
+
+// A statement on some struct in scope.
+void ShaderWriter::struct_statement() {
+    std::vector<std::string> seen;
+    for (const Variable& v : scope_)
+        for (const std::string& object : objects_)
+            if (v.name == object + "->v") seen.push_back(object);
+    if (seen.empty()) return struct_declaration();
+    const std::string& a = seen[size_t(below(int(seen.size())))];
+    const std::string& b = seen[size_t(below(int(seen.size())))];
+    switch (below(4)) {
+        case 0:
+            return line(a + "->turn(" + value(BaseType::Float, 2) + ");");
+        case 1:
+            return line(a + "->inner = " + b + "->other;");
+        case 2:
+            return line(a + "->other = mixed(" + b + "->inner, " + value(BaseType::Float, 1) +
+                        ");");
+        default:
+            return line(a + " = " + b + ";");
+    }
+}
+
+// An array whose length changes, and what is in it at the end.
+void ShaderWriter::resizable() {
+    std::string name = fresh("g"), k = fresh("i");
+    BaseType type = chance(60) ? BaseType::Float : BaseType::Color;
+    line(std::string(type_name(type)) + " " + name + "[];");
+    for (int n = 2 + below(4); n > 0; --n) {
+        switch (below(5)) {
+            case 0:
+                line("resize(" + name + ", min(abs(" + value(BaseType::Float, 1) + "), 5));");
+                break;
+            case 1:
+                line("if (" + condition(1) + ") push(" + name + ", " + value(type, 2) + ");");
+                break;
+            case 2:
+                line("if (arraylength(" + name + ") > 1) " + name + "[0] = pop(" + name + ") + " +
+                     name + "[0] * 0.5;");
+                break;
+            default:
+                line("push(" + name + ", " + value(type, 2) + ");");
+        }
+    }
+    std::string sum = fresh("x");
+    line(std::string(type_name(type)) + " " + sum + " = 0; float " + k + ";");
+    line("for (" + k + " = 0; " + k + " < arraylength(" + name + "); " + k + " += 1) " + sum +
+         " += " + name + "[" + k + "];");
+    scope_.push_back({sum, type, -1, false, true});
+}
+
+// One of the above, as a statement among others.
+void ShaderWriter::object_statement() {
+    if (uses_structs_ && chance(60)) return struct_statement();
+    resizable();
+}
+
+}  // namespace kinora::rsl
