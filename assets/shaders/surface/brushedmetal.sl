@@ -2,6 +2,8 @@
    highlight across them (Ward's anisotropic model).
    Parameters: alongrough and acrossrough (width of the highlight in the two directions), scratches
    (per unit of t), metalcolor, Kr of the blurred room. */
+#include "broadlights.h"
+
 surface brushedmetal(float Ka = 0.9; float Ks = 0.5; float alongrough = 0.09;
                      float acrossrough = 0.34; float scratches = 260;
                      float Kr = 0.55; color metalcolor = color(0.72, 0.73, 0.76);) {
@@ -43,6 +45,7 @@ surface brushedmetal(float Ka = 0.9; float Ks = 0.5; float alongrough = 0.09;
         }
         room /= looks;
     }
+    room += 2 * broad_glow(P, Nb, reflect(-V, Nb));
     Oi = Os;
     Ci = Os * metalcolor * (1 - depth * 0.5 + depth * score) *
          (0.6 * Ka * ambient() + Ks * shine + Kr * room);
