@@ -21,7 +21,7 @@ void read_geometry(Extraction& x, Link link) {
     if (link.element->child("mesh")) geometry_index(x, link);
 }
 
-void read_visual_scene(Extraction& x, Link link) {
+void read_unshown_scene(Extraction& x, Link link) {
     for (const Element& child : link.element->children())
         if (child.name == "node") node_index(x, {link.doc, &child});
     rsl_extra_materials(x, link);
@@ -32,7 +32,7 @@ struct LibraryRow {
     void (*read)(Extraction&, Link);
 };
 constexpr LibraryRow kLibraries[] = {
-    {"library_visual_scenes", "visual_scene", read_visual_scene},
+    {"library_visual_scenes", "visual_scene", read_unshown_scene},
     {"library_nodes", "node", [](Extraction& x, Link link) { node_index(x, link); }},
     {"library_geometries", "geometry", read_geometry},
     {"library_controllers", "controller", read_controller},

@@ -3,6 +3,7 @@
 
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/raise_findings.h"
 
 namespace kinora::collada {
 
@@ -115,7 +116,8 @@ bool extract_into(Extraction& x, const Document& document) {
     reserve_lists(x, document);
     Link scene = find_visual_scene(x);
     if (!scene && !x.options.everything) {
-        x.diag.report(Code::SCENE_NONE, document.location(document.root()));
+        if (!raise_findings(x.diag, "XML_"))  // what is not well-formed may have cut it off
+            x.diag.report(Code::SCENE_NONE, document.location(document.root()));
         return false;
     }
     if (scene)

@@ -127,6 +127,8 @@ struct Extraction {
     PictureSearch pictures;
     AssetFrames frames{documents, diag, scene};
     std::vector<uint32_t> geometry_frames, skin_frames;  // of SceneData's lists
+    // Copies of targets of morphs, by geometry and frame.
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> converted_geometries;
 
     // Definitions by element; kNone: tried and not usable (reported).
     std::unordered_map<const Element*, uint32_t> made;

@@ -71,6 +71,13 @@ bool in_watts(const Extraction& x, Link link, const Light& light) {
     return std::max({color[0], color[1], color[2]}) >= kHundreds;
 }
 
+// In what kinora-convert made of Blender's file.
+bool was_blenders(const Element& light) {
+    const Element* technique = extra_technique(light, "KINORA");
+    const Element* world = technique ? technique->child("grey_world") : nullptr;
+    return world && parse_bool(world->text).value_or(false);
+}
+
 }  // namespace
 
 std::optional<bool> read_shadows(const Element& owner) {
@@ -115,6 +122,7 @@ uint32_t light_index(Extraction& x, Link link) {
     }
     check_light(x, light);
     light.shadows = read_shadows(e);
+    light.blender = authoring_tool(x.document(link.doc)).starts_with("Blender") || was_blenders(e);
     light.blender_watts = in_watts(x, link, light);
     x.scene.lights.push_back(std::move(light));
     std::vector<uint32_t> materials = rsl_extra_materials(x, link);

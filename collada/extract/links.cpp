@@ -32,6 +32,10 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
     const Element& element = *from.element;
     std::string_view url = trim(attribute.empty() ? element.text : element.value(attribute));
     Location where = attribute.empty() ? x.text_where(from) : x.where(from, attribute);
+    if (url.empty() && element.name.starts_with("instance_")) {
+        x.diag.report(Code::LINK_UNRESOLVED, where, url, kinds_text(kinds));
+        return {};
+    }
     if (url.empty()) {
         x.diag.report(Code::SCHEMA_MISSING_ATTRIBUTE, where, element.name,
                       attribute.empty() ? std::string_view("link") : attribute);

@@ -22,6 +22,44 @@ MorphMethod read_method(Extraction& x, Link link) {
     return MorphMethod::Normalized;
 }
 
+bool is_direction(std::string_view semantic) {
+    return semantic == "NORMAL" || semantic == "TANGENT" || semantic == "BINORMAL";
+}
+
+// A target whose own <asset> has another unit or up axis: the same in those of its base.
+uint32_t in_frame_of(Extraction& x, uint32_t target, uint32_t base, Location where) {
+    uint32_t frame = x.geometry_frames[base];
+    uint32_t conversion = x.frames.conversion(frame, x.geometry_frames[target]);
+    if (conversion == kNone) return target;
+    auto [known, fresh] = x.converted_geometries.try_emplace({target, frame}, kNone);
+    if (!fresh) return known->second;
+    const Geometry& from = x.scene.geometries[target];
+    uint64_t bytes = sizeof(Geometry) + from.positions.size() * sizeof(dvec3);
+    for (const FloatSource& source : from.sources) bytes += source.values.size() * sizeof(float);
+    for (const PrimitiveGroup& group : from.groups)
+        for (const auto& list : group.indices) bytes += list.size() * sizeof(uint32_t);
+    if (!x.budget.reserve(bytes, where)) return kNone;
+    const dmat4& matrix = x.scene.conversions[conversion];
+    Geometry made = from;
+    for (dvec3& p : made.positions) p = dvec3(matrix * dvec4(p, 1.0));
+    std::vector<bool> turned(made.sources.size(), false);
+    for (const PrimitiveGroup& group : made.groups)
+        for (const VertexInput& input : group.inputs) {
+            FloatSource& source = made.sources[input.source];
+            if (!is_direction(input.semantic) || source.stride != 3 || turned[input.source])
+                continue;
+            turned[input.source] = true;
+            for (size_t i = 0; i + 3 <= source.values.size(); i += 3) {
+                float* v = &source.values[i];
+                dvec3 d = dmat3(matrix) * dvec3(v[0], v[1], v[2]);
+                double length = std::hypot(d.x, d.y, d.z), was = std::hypot(v[0], v[1], v[2]);
+                for (int k = 0; k < 3; ++k) v[k] = length > 0 ? float(d[k] * was / length) : v[k];
+            }
+        }
+    x.geometry_frames.push_back(frame);
+    return known->second = append(x.scene.geometries, std::move(made));
+}
+
 // The geometry of one target with as many positions as the base; kNone (reported) otherwise.
 uint32_t read_target(Extraction& x, Link source, std::string_view name, uint32_t base) {
     std::string_view id = name;
@@ -34,7 +72,7 @@ uint32_t read_target(Extraction& x, Link source, std::string_view name, uint32_t
     }
     size_t has = x.scene.geometries[geometry].positions.size();
     size_t wanted = x.scene.geometries[base].positions.size();
-    if (has == wanted) return geometry;
+    if (has == wanted) return in_frame_of(x, geometry, base, x.where(source));
     x.diag.report(Code::MORPH_VERTEX_COUNT, x.where(source), name, has, wanted);
     return kNone;
 }

@@ -182,7 +182,8 @@ struct Light {
     std::array<Slot, size_t(LightSlot::Count)> slots;  // always filled (defaults 1,1,1 1 0 0 180 0)
     uint32_t rsl_material = kNone;  // <extra><technique profile="RSL">: shades instead of `kind`
     std::optional<bool> shadows;    // <shadows> of that extra
-    bool blender_watts = false;     // Blender wrote it, in watts
+    bool blender = false;           // Blender wrote it
+    bool blender_watts = false;     // in watts
     Location where;
     const Slot& operator[](LightSlot s) const { return slots[size_t(s)]; }
 };

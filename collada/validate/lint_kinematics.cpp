@@ -160,7 +160,7 @@ bool number_of(const Element* limit, double& value) {
     return parse_double(wrapped ? wrapped->text : limit->text, value);
 }
 
-void check_limits(Lint& lint) {
+void check_axis_limits(Lint& lint) {
     for (const Element* limits : lint.named("limits")) {
         std::string_view owner = limits->parent->name;
         if (owner != "prismatic" && owner != "revolute" && owner != "axis_info") continue;
@@ -206,7 +206,7 @@ void lint_kinematics(Lint& lint) {
     SidPaths paths(lint);
     check_attachments(lint, paths);
     check_axes(lint, paths);
-    check_limits(lint);
+    check_axis_limits(lint);
     check_binds(lint, paths);
 }
 

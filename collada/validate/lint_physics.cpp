@@ -169,7 +169,7 @@ void check_masses(Lint& lint) {
         }
 }
 
-void check_limits(Lint& lint) {
+void check_constraint_limits(Lint& lint) {
     for (const Element* limits : lint.named("limits"))
         for (const Element& axis : limits->children()) {
             const Element *min = axis.child("min"), *max = axis.child("max");
@@ -201,7 +201,7 @@ void lint_physics(Lint& lint) {
     check_sizes(lint);
     check_materials(lint);
     check_masses(lint);
-    check_limits(lint);
+    check_constraint_limits(lint);
 }
 
 }  // namespace kinora::collada

@@ -9,21 +9,14 @@
 #include "anim/sampler.h"
 #include "anim/time_cubic.h"
 #include "reference.h"
+#include "sampler_values.h"
 
 namespace kinora::anim {
 namespace {
 
-using Numbers = std::vector<double>;
-using Kinds = std::vector<Interpolation>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 const Kinds kBezier{Interpolation::Bezier};
-
-double at(const Sampler& sampler, double time) {
-    double value = -12345;
-    evaluate(sampler, time, 0, std::span(&value, 1));
-    return value;
-}
 
 TEST(SamplerExtremes, OneKeyIsConstantWhateverTheBehaviour) {
     Numbers times{3}, values{7};

@@ -8,18 +8,10 @@
 #include <random>
 
 #include "reference.h"
+#include "sampler_values.h"
 
 namespace kinora::anim {
 namespace {
-
-using Numbers = std::vector<double>;
-using Kinds = std::vector<Interpolation>;
-
-double at(const Sampler& sampler, double time) {
-    double value = -12345;
-    evaluate(sampler, time, 0, std::span(&value, 1));
-    return value;
-}
 
 Sampler numbers(const Numbers& times, const Numbers& values, const Kinds& kinds,
                 Behaviour pre = Behaviour::Constant, Behaviour post = Behaviour::Constant) {

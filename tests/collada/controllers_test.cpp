@@ -39,6 +39,44 @@ TEST(Morph, LeavesOutMissingTargetsAndKeepsWeightsAligned) {
     EXPECT_EQ(r.count("MORPH_TARGET_MISSING"), 1u);
 }
 
+// By hand: a metre is 100 units of the base, whose y axis is the target's z.
+TEST(Morph, TargetsHaveTheUnitAndTheAxesOfTheirBase) {
+    auto geometry = [](const std::string& id, const std::string& asset, const char* numbers) {
+        return "<geometry id=\"" + id + "\">" + asset + "<mesh>" +
+               float_source(id + "-p", numbers, 3, "XYZ") +
+               float_source(id + "-n", "0 0 1", 3, "XYZ") + "<vertices id=\"" + id +
+               "-v\"><input semantic=\"POSITION\" source=\"#" + id +
+               "-p\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#" +
+               id + "-v\" offset=\"0\"/><input semantic=\"NORMAL\" source=\"#" + id +
+               "-n\" offset=\"1\"/><p>0 0 1 0 2 0</p></triangles></mesh></geometry>";
+    };
+    std::string own =
+        "<asset><created/><modified/><unit meter=\"1\"/><up_axis>Z_UP</up_axis></asset>";
+    std::string text = with_scene(
+        "<asset><unit meter=\"0.01\"/><up_axis>Y_UP</up_axis></asset><library_geometries>" +
+            geometry("g", "", "0 0 0 1 0 0 0 1 0") + geometry("t", own, "0 0 0 1 0 0 0 0.25 2") +
+            geometry("u", "", "0 0 0 2 0 0 0 2 0") +
+            "</library_geometries><library_controllers><controller id=\"c\"><morph source=\"#g\">"
+            "<source id=\"ct\"><IDREF_array id=\"cta\" count=\"3\">t u t</IDREF_array>"
+            "<technique_common><accessor source=\"#cta\" count=\"3\"><param type=\"IDREF\"/>"
+            "</accessor></technique_common></source>" +
+            float_source("cw", "0 0 0", 1, "W") +
+            "<targets><input semantic=\"MORPH_TARGET\" source=\"#ct\"/><input "
+            "semantic=\"MORPH_WEIGHT\" source=\"#cw\"/></targets></morph></controller>"
+            "</library_controllers>",
+        "<node id=\"n\"><instance_controller url=\"#c\"/></node>");
+    Reading r;
+    read_text(r, text);
+    ASSERT_TRUE(r.scene && r.scene->morphs.size() == 1) << r.all();
+    const std::vector<uint32_t>& targets = r.scene->morphs[0].targets;
+    ASSERT_EQ(targets.size(), 3u) << r.all();
+    EXPECT_EQ(targets[0], targets[2]);  // one copy
+    const Geometry& converted = r.scene->geometries[targets[0]];
+    EXPECT_EQ(converted.positions, (std::vector<dvec3>{{0, 0, 0}, {100, 0, 0}, {0, 200, -25}}));
+    EXPECT_EQ(converted.sources.at(0).values, (std::vector<float>{0, 1, 0}));
+    EXPECT_EQ(r.scene->geometries[targets[1]].positions[1], dvec3(2, 0, 0));  // as it is
+}
+
 TEST(Morph, OfAnotherMorphChangesItsResultAndOneOfItselfIsLeftOut) {
     std::string mesh =
         "<library_geometries><geometry id=\"g\"><mesh>" +
