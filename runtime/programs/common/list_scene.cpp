@@ -129,10 +129,9 @@ std::string shader_line(const Json& row) {
 // What --shader, --atmosphere and --imager take by name.
 Json ours(const Scene&) {
     Json list = Json::array();
-    Diagnostics unused;
     for (std::string_view name : library_shader_names())
         list.push_back(
-            {{"name", name}, {"kind", rsl::shader_kind_name(library_shader(name, unused)->kind)}});
+            {{"name", name}, {"kind", rsl::shader_kind_name(library_shader(name)->kind)}});
     return list;
 }
 
@@ -283,6 +282,7 @@ constexpr Added kAdded[] = {
     {"default key light", "0.85, from over the camera's left shoulder; --lights scene: none"},
     {"default fill light", "0.22, wide, from the camera's right; no shadows, no highlights"},
     {"default rim light", "0.35, from behind, above; no shadows, no highlights"},
+    {"grey world", "0.05 from all sides, as Blender's; no shadows; --lights scene: none"},
 };
 
 std::string_view meaning_of(std::string_view added) {

@@ -13,6 +13,7 @@
 
 #include "collada/document/write.h"
 #include "runtime/base/parallel.h"
+#include "runtime/base/raise_findings.h"
 #include "runtime/base/stats.h"
 #include "runtime/dae/export.h"
 #include "runtime/description/findings.h"
@@ -81,6 +82,7 @@ class Conversion {
             return finish_document(*text, {}, watch);
         }
         if (!import()) return tell(false);
+        if (scene_.meshes.empty() && raise_findings(diag_, "XML_")) return tell(false);
         WornShaders worn;
         for (const auto& [pattern, shader] : options_.shaders)
             if (!put_shader(scene_, pattern, {shader, options_.include_directories}, worn, diag_)) {
@@ -102,6 +104,7 @@ class Conversion {
   private:
     // Prints findings. Not 0: nothing is written.
     int tell(bool readable) {
+        if (!readable) raise_findings(diag_, "XML_");
         printer_.print(diag_);
         printer_.summarize();
         for (const Finding& f : diag_.findings()) {
@@ -130,6 +133,8 @@ class Conversion {
 
     GltfExportOptions gltf_options() const {
         GltfExportOptions o;
+        std::string from = extension(options_.input);
+        if (from != ".zae" && from != ".kmz") o.path = options_.output;  // whose files go
         o.animation_error = options_.animation_error;
         return o;
     }
@@ -141,7 +146,7 @@ class Conversion {
             return kExitUnwritable;
         }
         if (options_.up_axis || options_.meter)
-            result.text = canonical(
+            result.text = rewritten(
                 change_axes(options_.output, result.text, options_.up_axis, options_.meter, diag_));
         WrittenFiles files;
         for (auto& [name, bytes] : result.files) files.push_back({name, std::move(bytes)});
@@ -150,7 +155,7 @@ class Conversion {
 
     // A .dae and what lies beside it.
     int finish_document(std::string text, WrittenFiles files, const Stopwatch& watch) {
-        if (options_.copy_textures) text = canonical(copy_textures(options_.output, text, files));
+        if (options_.copy_textures) text = rewritten(copy_textures(options_.output, text, files));
         for (const WrittenFile& file : files)
             if (int failed = write_whole(
                     (fs::path(options_.output).parent_path() / file.name).string(), file.bytes))
@@ -158,10 +163,14 @@ class Conversion {
         return finish(text, watch);
     }
 
-    static std::string canonical(const std::string& text) {
+    // With line ends where edits left none; an indented document stays so.
+    static std::string rewritten(const std::string& text) {
         Diagnostics quiet;
         auto document = collada::read_document_text("", text, quiet);
-        return document && document->whole() ? collada::write(*document, quiet.files) : text;
+        if (!document || !document->whole()) return text;
+        bool indented = text.find("\n  <") != text.npos;
+        return collada::write(*document, quiet.files,
+                              indented ? collada::Layout::Indented : collada::Layout::Lines);
     }
 
     // .gltf: the JSON with its buffer in a .bin beside it.

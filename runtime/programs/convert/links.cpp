@@ -14,6 +14,7 @@
 #include "runtime/description/findings.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/programs/convert/links_p.h"
+#include "runtime/programs/convert/rsl_files_p.h"
 
 namespace kinora {
 
@@ -77,6 +78,7 @@ class LinkMove {
         for (const collada::UriValue& uri : collada::uri_values(document_)) move_uri(uri, diag);
         if (stays_) return std::string(text_);
         visit_code(document_.root());
+        for (const RslFileName& name : rsl_file_names(document_, text_)) move_name(name);
         // Links were taken as it says, and say so themselves now.
         if (const collada::Attribute* base = document_.root().attribute("xml:base"))
             edits_.push_back({base->bytes, ""});
@@ -138,6 +140,12 @@ class LinkMove {
         if (e.name == "code")
             for (collada::ByteRange name : included_names(e.text)) move_include(e, name);
         for (const Element& child : e.children()) visit_code(child);
+    }
+
+    // Textures, maps and points that shaders name.
+    void move_name(const RslFileName& name) {
+        fs::path file = (from_ / name.name).lexically_normal();
+        if (is_file(file)) edits_.push_back(set_name(name, moved(file, true)));
     }
 
     void move_include(const Element& code, collada::ByteRange range) {

@@ -12,6 +12,7 @@
 #include "runtime/base/regular_file.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/programs/convert/links_p.h"
+#include "runtime/programs/convert/rsl_files_p.h"
 
 namespace kinora {
 
@@ -92,6 +93,13 @@ std::string copy_textures(const std::string& output, const std::string& text, Wr
         std::string path = collada::path_of_uri(*document, link_of(uri.value));
         std::string name = copies.link(path, document->directory());
         if (!name.empty()) edits.push_back(set_link(own, uri, encoded_link(name)));
+    }
+    for (const RslFileName& named : rsl_file_names(*document, own)) {
+        std::string path = fs::path(document->directory() + named.name).lexically_normal().string();
+        std::error_code code;
+        if (!fs::is_regular_file(path, code)) continue;
+        std::string name = copies.link(path, document->directory());
+        if (!name.empty()) edits.push_back(set_name(named, name));
     }
     copies.finish();
     return collada::apply_edits(own, std::move(edits));

@@ -5,16 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/programs/open/open_scene.h"
+
 namespace kinora {
-
-namespace {
-constexpr double kFurthestFrame = 1e12;  // as far as --frames goes
-}  // namespace
-
-int64_t first_frame(FrameRate rate, double start) {
-    double frame = std::round(start * rate.value());
-    return std::abs(frame) < kFurthestFrame ? int64_t(frame) : 0;
-}
 
 std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
     const RenderOptions& options, FrameRate rate, double start, double end) {

@@ -11,9 +11,6 @@
 
 namespace kinora {
 
-// The frame that a scene which plays from `start` seconds begins with.
-int64_t first_frame(FrameRate rate, double start);
-
 // Frames and their times, seconds: --time, --frames, a turn of the turntable, or all from `start`
 // to `end` seconds. Nothing, with a message on stderr, where they are too many or -o has one name
 // for several.

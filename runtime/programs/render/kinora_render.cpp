@@ -8,26 +8,16 @@
 #include <csignal>
 
 #include "runtime/base/parallel.h"
-#include "runtime/build/build_scene.h"
-#include "runtime/build/defaults.h"
 #include "runtime/description/findings.h"
-#include "runtime/description/play_range.h"
-#include "runtime/frame/exposure.h"
-#include "runtime/frame/frame.h"
-#include "runtime/frame/redice.h"
-#include "runtime/load/import_scene.h"
-#include "runtime/load/override_scene.h"
-#include "runtime/load/override_shader.h"
-#include "runtime/load/smooth_normals.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
 #include "runtime/programs/common/list_scene.h"
+#include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/frames_to_render.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/programs/render/stats.h"
-#include "runtime/scene/camera.h"
 
 namespace kinora {
 
@@ -65,22 +55,23 @@ class Render {
   private:
     int result() {
         if (!options_.list.empty()) {
-            std::fputs((options_.json ? list_scene_json(*scene_, options_.list)
-                                      : list_scene(*scene_, options_.list))
+            std::fputs((options_.json ? list_scene_json(*built_.scene, options_.list)
+                                      : list_scene(*built_.scene, options_.list))
                            .c_str(),
                        stdout);
             return kExitOk;
         }
         dump();
-        if (options_.output.empty() && options_.contact_sheet.empty()) return kExitOk;
+        if (options_.output.empty() && options_.contact_sheet.empty() && !options_.discard)
+            return kExitOk;
         int code = frames();
         if (options_.stats)
-            print_stats(options_, {load_ms_, build_ms_, first_ray_ms_, scene_->dice}, records_);
+            print_stats(options_, {load_ms_, build_ms_, first_ray_ms_, built_.scene->dice},
+                        records_);
         return code;
     }
 
     int load();
-    int exit_code_of_findings(int otherwise) const;
     void flush_findings();
     void dump() const;
     int frames();
@@ -91,17 +82,11 @@ class Render {
     bool keep_existing(const std::string& file, const std::string& print);
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
-    void expose();
-    SceneOptions scene_options() const;
-    int scaled(double pixels) const {
-        return int(std::clamp(std::round(pixels * options_.scale), 1.0, 65536.0));
-    }
 
     const RenderOptions& options_;
     Diagnostics diagnostics_;
     FindingPrinter printer_;
-    std::unique_ptr<Scene> scene_;
-    std::unique_ptr<Redicer> redicer_;  // null where nothing is diced
+    BuiltScene built_;
     FrameSettings settings_;
     raytrace::Film film_;
     ProgressReport progress_;
@@ -113,134 +98,35 @@ class Render {
     uint64_t scene_hash_ = 0;
 };
 
-int Render::exit_code_of_findings(int otherwise) const {
-    for (const Finding& finding : diagnostics_.findings()) {
-        if (finding.severity != Severity::Error) continue;
-        if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
-        for (const FindingInfo* usage :
-             {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
-              &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE,
-              &Code::NODE_UNKNOWN, &Code::AOV_UNKNOWN, &Code::CAMERA_PARALLEL})
-            if (finding.info == usage) return kExitUsage;
-    }
-    return otherwise;
-}
-
 void Render::flush_findings() {
     progress_.clear();
     printer_.print(diagnostics_);
 }
 
-SceneOptions Render::scene_options() const {
-    SceneOptions o;
-    o.camera = options_.camera;
-    o.view.follow = options_.follow;
-    o.view.yfov = options_.yfov;
-    o.view.from = options_.look_from;
-    o.view.at = parse_point(options_.look_at);
-    if (!o.view.at) o.view.at_node = options_.look_at;
-    o.math = options_.quality.math;
-    o.target = options_.target;
-    o.shadows = options_.shadows;
-    o.lights = options_.lights;
-    o.ray_depth = options_.quality.ray_depth;
-    o.diffuse_depth = options_.quality.diffuse_depth;
-    o.split = options_.quality.split;
-    o.ray_limit = options_.ray_limit;
-    o.accel.robust = options_.quality.robust;
-    o.accel.always_rebuild = options_.quality.always_rebuild;
-    o.accel.background = false;  // a frame depends on its time alone
-    o.decode_textures = options_.color == ColorEncoding::Srgb;
-    o.light_samples = options_.light_samples;
-    o.aovs = options_.aovs;
-    o.want_dumps = !options_.dump.empty();
-    o.displacement = options_.quality.displacement;
-    o.dice = options_.quality.dice;
-    if (options_.dice_limit) o.dice_limit = options_.dice_limit;
-    o.width = scaled(options_.width ? options_.width : 640);
-    o.height = options_.height ? scaled(options_.height) : 0;
-    return o;
-}
-
 int Render::load() {
     set_thread_count(options_.threads);
     if (options_.findings.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
-    if (!options_.target_missing.empty())
-        diagnostics_.report(Code::TARGET_UNAVAILABLE, Location{}, options_.target_missing,
-                            jit::best_target().name);
-    else if (!options_.target && jit::best_target().name == std::string_view("interp"))
-        diagnostics_.report(Code::TARGET_INTERPRETED, Location{});
     Stopwatch watch;
-    ImportOptions import;
-    import.allow_external = options_.allow_external;
-    import.confine = options_.confine;
-    import.up_axis = options_.up_axis;
-    import.meter = options_.meter;
-    import.transparency = options_.transparency;
-    import.decode_colors = options_.color == ColorEncoding::Srgb;
-    import.include_directories = options_.include_directories;
-    std::optional<SceneDescription> description =
-        import_scene(options_.scene, import, diagnostics_);
-    if (!description) {
-        auto no_scene = [](const Finding& f) {
-            return f.info->code == std::string_view("SCENE_NONE");
-        };
-        if (std::ranges::any_of(diagnostics_.findings(), no_scene))
-            diagnostics_.report(Code::SCENE_EMPTY, Location{});
+    std::optional<ImportedScene> imported = import_requested(options_, diagnostics_);
+    if (!imported) {
         flush_findings();
         return report_unreadable();
     }
-    if (!options_.shaders.empty() || !options_.params.empty()) {  // which may name these lights
-        description->default_lights = default_lights(description->values, diagnostics_);
-        description->animated.resize(description->values.size(), false);
-    }
-    for (const auto& [pattern, file] : options_.shaders)
-        override_shader(*description, pattern, {file, options_.include_directories}, diagnostics_);
-    if (!options_.atmosphere.empty())
-        override_atmosphere(*description, {options_.atmosphere, options_.include_directories},
-                            diagnostics_);
-    if (!options_.imager.empty())
-        override_imager(*description, {options_.imager, options_.include_directories},
-                        diagnostics_);
-    for (const auto& [target, value] : options_.params)
-        override_param(*description, target, value, diagnostics_);
-    override_visibility(*description, options_.hide, options_.only, diagnostics_);
-    if (options_.smooth) smooth_normals(*description, *options_.smooth);
     load_ms_ = watch.restart();
-    SceneOptions scene_options = this->scene_options();
-    PlayRange range = play_range(*description);
-    rate_ = options_.fps.value_or(frame_rate_of(range.rate));
-    if (!options_.clip.empty()) {
-        const ClipDefinition* clip = find_clip(*description, options_.clip);
-        if (!clip) {
-            flush_findings();
-            std::fprintf(stderr, "kinora-render: no clip '%s'; --list clips shows them\n",
-                         options_.clip.c_str());
-            return kExitUsage;
-        }
-        range.start = clip->start;
-        range.end = clip->end;
-        play_clip(*description, *clip);
+    if (!imported->clip_known) {
+        flush_findings();
+        std::fprintf(stderr, "kinora-render: no clip '%s'; --list clips shows them\n",
+                     options_.clip.c_str());
+        return kExitUsage;
     }
-    scene_options.frame_rate = rate_.value();
-    scene_options.start_time = range.start;
-    scene_options.end_time = range.end;
-    if (options_.turntable) {
-        scene_options.view.turn_seconds = *options_.turntable / rate_.value();
-        scene_options.view.turn_start = rate_.time(first_frame(rate_, range.start));
-    }
-    if (may_dice(*description, scene_options))
-        redicer_ = std::make_unique<Redicer>(*description, scene_options);
-    if (exit_code_of_findings(0) == 0)
-        scene_ = build_scene(std::make_shared<SceneDescription>(std::move(*description)),
-                             scene_options, diagnostics_);
-    if (!scene_ || !scene_->dice.triangles) redicer_.reset();
-    if (redicer_) redicer_->share(*scene_, diagnostics_.files);
+    rate_ = imported->rate;
+    imported->options.want_dumps = !options_.dump.empty();
+    built_ = build_imported(std::move(*imported), diagnostics_);
     build_ms_ = watch.ms();
     flush_findings();
-    int code = exit_code_of_findings(kExitOk);
+    int code = exit_code_of_findings(diagnostics_, kExitOk);
     if (code != kExitOk) return code;
-    if (!scene_) return report_unreadable();
+    if (!built_.scene) return report_unreadable();
     // An Error means that there is no picture; what --fail-on names besides comes with one.
     return printer_.exit_code_of_errors();
 }
@@ -254,7 +140,7 @@ int Render::report_unreadable() const {
 }
 
 void Render::dump() const {
-    for (const auto& [stage, text] : scene_->options.dumps)
+    for (const auto& [stage, text] : built_.scene->options.dumps)
         for (const std::string& wanted : options_.dump)
             if (stage == wanted || stage.starts_with(wanted + ":"))
                 std::printf("; stage %s\n%s\n", stage.c_str(), text.c_str());
@@ -294,6 +180,7 @@ bool Render::keep_existing(const std::string& file, const std::string& print) {
 int Render::one_frame(int64_t frame, double time, size_t index) {
     FrameRecord& record = records_.emplace_back();
     record.frame = frame;
+    record.pixels = size_t(settings_.width) * size_t(settings_.height);
     if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
     std::string print =
         fingerprint(options_, scene_hash_, settings_.width, settings_.height, rate_.value(), time);
@@ -305,7 +192,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     }
     if (wants_file)
         if (int code = refuse_unwritable(record.file)) return code;
-    settings_.integrator.seed = options_.seed * 0x9e3779b9u + uint32_t(frame);
+    settings_.integrator.seed = frame_seed(options_, frame);
     auto on_tile = [&](int done, int total) {
         progress_.tile(frame, index, done, total);
         return g_signal == 0;
@@ -341,31 +228,21 @@ bool Render::picture(FrameRecord& record, double time, const raytrace::Progress&
         settings_.most_dice_error = most_dice_error;
         return render_frame(scene, time, settings_, film_, record.stats, diagnostics_, &progress);
     };
-    bool whole = render(*scene_, redicer_ ? kMostDiceError : 0);
+    bool whole = render(*built_.scene, built_.redicer ? kMostDiceError : 0);
     record.dice_error = record.stats.dice_error;
     if (!record.stats.too_coarse) return whole;
     Stopwatch watch;
     diagnostics_.report(Code::DICE_AGAIN, Location{}, time, record.dice_error);
-    std::unique_ptr<Scene> closer = redicer_->make({time, {}}, diagnostics_);
+    std::unique_ptr<Scene> closer = built_.redicer->make({time, {}}, diagnostics_);
     record.redice_ms = watch.ms();
     if (g_signal) return false;
     if (closer) {
-        double pixels = record.dice_error * scene_->dice.pixels;
+        double pixels = record.dice_error * built_.scene->dice.pixels;
         size_t known = diagnostics_.findings().size();
         whole = render(*closer, pixels / closer->dice.pixels);
         diagnostics_.drop_repeats(known);  // a scene tells some things in its first frame
     }
-    return closer && !record.stats.too_coarse ? whole : render(*scene_, 0);
-}
-
-void Render::expose() {
-    double stops = options_.exposure;
-    settings_.stop = &g_signal;
-    if (options_.auto_exposure) {
-        stops = auto_exposure(*scene_, settings_, diagnostics_);
-        diagnostics_.report(Code::EXPOSURE_AUTO, Location{}, stops);
-    }
-    settings_.gain = std::exp2(stops);
+    return closer && !record.stats.too_coarse ? whole : render(*built_.scene, 0);
 }
 
 // From here on a signal lets go of the frame under way; before, it just ends the process.
@@ -379,23 +256,14 @@ void catch_signals() {
 
 int Render::frames() {
     catch_signals();
-    double aspect = camera_aspect(*scene_).value_or(16.0 / 9.0);
-    double width = options_.width ? options_.width : 640;
-    settings_.width = scaled(width);
-    settings_.height = scaled(options_.height ? options_.height : width / aspect);
-    settings_.integrator.samples_per_pixel = options_.quality.samples_per_pixel;
-    settings_.integrator.filter = raytrace::find_pixel_filter(options_.filter);
-    settings_.integrator.filter_width = options_.filter_width;
-    settings_.integrator.background = options_.background;
-    settings_.integrator.nan = options_.nan;
-    const SceneOptions& played = scene_->options;
+    const SceneOptions& played = built_.scene->options;
     auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
     if (!list) return kExitUsage;
     if (!options_.contact_sheet.empty())
         if (int code = refuse_unwritable(options_.contact_sheet)) return code;
     if (!options_.output.empty()) remove_stale_images(options_.output);
-    scene_hash_ = hash_inputs(diagnostics_.files, *scene_->description);
-    expose();
+    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
+    settings_ = frame_settings(options_, *built_.scene, diagnostics_, &g_signal);
     progress_ = ProgressReport(options_.progress, list->size());
     int result = kExitOk;
     for (size_t i = 0; i < list->size(); ++i) {

@@ -8,6 +8,7 @@
 #include "runtime/build/views.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
+#include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
 
@@ -109,13 +110,18 @@ struct Given {
     std::string stats, progress;
 };
 
-// What is rendered, where to and by what.
+// Which pictures are written.
+void declare_output(CLI::App& app, RenderOptions& o) {
+    app.add_option("-o,--output", o.output,
+                   "file; with a frame token (#### or %04d) for several frames; .png or .exr; null "
+                   "renders and writes nothing");
+}
+
+// What is rendered and by what.
 void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
     app.footer(std::string(kExitCodeHelp) + "\n" + kEnvironmentHelp);
-    app.set_version_flag("--version", "kinora-render " KINORA_VERSION);
+    app.set_version_flag("--version", app.get_name() + " " KINORA_VERSION);
     app.add_option("scene", o.scene, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
-    app.add_option("-o,--output", o.output,
-                   "file; with a frame token (#### or %04d) for several frames; .png or .exr");
     auto* frames =
         app.add_option("--frames", given.frames,
                        "1-240, 1-240x2, 300, 10-1x-1, comma separated (what is animated)");
@@ -244,15 +250,21 @@ void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
                  "read pictures too only there; else they may lie anywhere");
 }
 
-// Frames that exist or fail, and what is told.
+// What is told, and what of it is an error.
+void declare_findings(CLI::App& app, RenderOptions& o) {
+    app.add_flag("--strict", o.findings.strict,
+                 "what is missing, refused or left out is an error, and there is no picture");
+    add_fail_on(app, o.findings.fail_on);
+    app.add_flag("-v,--verbose", o.findings.verbose, "say everything");
+    app.add_flag("-q,--quiet", o.findings.quiet, "say only errors");
+}
+
+// Frames that exist or fail, and what is printed.
 void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     auto* skip = app.add_flag("--skip-existing", o.skip_existing,
                               "keep whole files of the same scene and options");
     app.add_flag("--overwrite", given.overwrite, "write every frame (the default)")->excludes(skip);
     app.add_flag("--keep-going", o.keep_going, "go on after a frame that failed");
-    app.add_flag("--strict", o.findings.strict,
-                 "what is missing, refused or left out is an error, and there is no picture");
-    add_fail_on(app, o.findings.fail_on);
     app.add_option("--stats", given.stats, "[=json]: what each stage took, per frame, on stdout")
         ->check(one_of({"text", "json", "none"}));
     app.add_option("--progress", given.progress, "bar, lines or none (bar on a terminal)")
@@ -262,8 +274,6 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_flag("--json", o.json, "the list as JSON")->needs(list);
     add_list(app, "--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm", ',');
     app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
-    app.add_flag("-v,--verbose", o.findings.verbose, "say everything");
-    app.add_flag("-q,--quiet", o.findings.quiet, "say only errors");
 }
 
 void interpret_quality(const Given& given, RenderOptions& o) {
@@ -300,6 +310,8 @@ void interpret_changes(const Given& given, RenderOptions& o) {
 void interpret_output(const Given& given, RenderOptions& o) {
     if (o.list.empty() && o.output.empty() && o.contact_sheet.empty() && o.dump.empty())
         throw CLI::RequiredError("-o FILE (or --list, --dump)");
+    o.discard = o.output == "null";
+    if (o.discard) o.output.clear();
     if (!o.output.empty() && !is_image_path(o.output))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
     bool pictures = !o.output.empty() || !o.contact_sheet.empty();
@@ -354,29 +366,43 @@ void interpret(const Given& given, RenderOptions& o) {
     interpret_view(given, o);
     interpret_quality(given, o);
     interpret_changes(given, o);
-    interpret_output(given, o);
 }
 
-}  // namespace
-
-std::optional<dvec3> parse_point(const std::string& text) {
-    dvec3 p;
-    char tail = 0;
-    bool three = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &tail) == 3;
-    if (!three || !std::isfinite(p.x + p.y + p.z)) return std::nullopt;
-    return p;
-}
-
-std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o) {
-    CLI::App app("kinora-render: COLLADA scenes with RSL shaders to pictures", "kinora-render");
-    Given given;
+void declare_scene(CLI::App& app, Given& given, RenderOptions& o) {
     declare_input(app, given, o);
     declare_quality(app, given, o);
     declare_look(app, given, o);
     declare_changes(app, given, o);
+    declare_findings(app, o);
+}
+
+}  // namespace
+
+std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o) {
+    CLI::App app("kinora-render: COLLADA scenes with RSL shaders to pictures", "kinora-render");
+    Given given;
+    declare_output(app, o);
+    declare_scene(app, given, o);
     declare_run(app, given, o);
     return parse_command_line(app, words_of(argc, argv), {{"--stats", "text"}, {"--list", "all"}},
-                              [&] { interpret(given, o); });
+                              [&] {
+                                  interpret(given, o);
+                                  interpret_output(given, o);
+                              });
+}
+
+std::optional<int> parse_scene_options(int argc, char** argv, const SceneProgram& program,
+                                       RenderOptions& o) {
+    CLI::App app(std::string(program.name) + ": " + program.what, program.name);
+    Given given;
+    declare_scene(app, given, o);
+    for (const OwnOption& own : program.own) {
+        if (own.text)
+            app.add_option(own.names, *own.text, own.help);
+        else
+            app.add_flag(own.names, *own.flag, own.help);
+    }
+    return parse_command_line(app, words_of(argc, argv), {}, [&] { interpret(given, o); });
 }
 
 }  // namespace kinora

@@ -7,65 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/dae/import.h"
-#include "runtime/frame/quality.h"
-#include "runtime/images/image_io.h"
-#include "runtime/programs/common/finding_printer.h"
-#include "runtime/programs/common/frame_list.h"
 #include "runtime/programs/common/progress.h"
-#include "runtime/scene/scene.h"
+#include "runtime/programs/open/scene_request.h"
 
 namespace kinora {
 
-struct RenderOptions {
-    std::string scene;
+struct RenderOptions : SceneRequest {
     std::string output;
+    bool discard = false;  // -o null: pictures are rendered and not written
     std::string contact_sheet;
     std::optional<std::vector<int64_t>> frames;
     std::optional<double> time;  // seconds: one frame at that time
-    std::optional<FrameRate> fps;
-    std::string clip;
-    int width = 0, height = 0;  // 0: 640 x 640 / aspect
-    double scale = 1;           // of width and height
-    std::string camera;
-    bool follow = false;
-    std::optional<int> turntable;  // frames of a full turn
-    double yfov = 0;               // degrees; 0: the camera's own
-    std::optional<dvec3> look_from;
-    std::string look_at;  // X,Y,Z or a node; "": nothing
-    int threads = 0;      // 0: all
-    const jit::Target* target = nullptr;
-    std::string target_missing;  // asked for, not on this CPU
-    Quality quality;             // the row with single options put over it
-    int ray_limit = 1000;        // SceneOptions::ray_limit
-    size_t dice_limit = 0;       // 0: the scene's own
-    std::string filter = "gaussian";
-    double filter_width = 0;
-    uint32_t seed = 0;
-    ShadowMode shadows = ShadowMode::Auto;
-    LightSet lights = LightSet::Auto;
-    double exposure = 0;  // stops
-    bool auto_exposure = false;
-    std::optional<vec3> background;
-    raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
-    ColorEncoding color = ColorEncoding::Srgb;
-    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL or LIGHT, SHADER
-    std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
-    std::vector<std::string> hide, only;                       // nodes
-    std::string imager;             // one of ours by name, FILE.sl, "none"; "": the scene's own
-    std::string atmosphere;         // likewise
-    uint32_t light_samples = 0;     // of area lights; 0: the file's
-    std::vector<std::string> aovs;  // output parameters of surfaces
-    std::vector<std::string> include_directories;
-    std::optional<UpAxis> up_axis;
-    std::optional<double> meter;
-    std::optional<double> smooth;  // degrees: normals for meshes without any
-    TransparencyMode transparency = TransparencyMode::Auto;
-    std::vector<std::string> allow_external;  // folders
-    bool confine = false;                     // pictures too
     bool skip_existing = false;
     bool keep_going = false;
-    FindingOptions findings;
     bool stats = false, stats_json = false;
     ProgressStyle progress = ProgressStyle::Lines;
     std::string list;               // "cameras", ..., "all"; "" = render
@@ -73,8 +27,21 @@ struct RenderOptions {
     std::vector<std::string> dump;  // stages: "ir", "ir:fold", "asm", ...
 };
 
-// "X,Y,Z"; nothing if it is not that.
-std::optional<dvec3> parse_point(const std::string& text);
+// A program that takes the options of scenes and pictures, and some of its own.
+struct OwnOption {
+    const char* names;
+    std::string* text;  // what is given; null: a flag
+    bool* flag;
+    const char* help;
+};
+struct SceneProgram {
+    const char* name;
+    const char* what;
+    std::vector<OwnOption> own;
+};
+// As below, without the options that say which files are written and how.
+std::optional<int> parse_scene_options(int argc, char** argv, const SceneProgram& program,
+                                       RenderOptions& options);
 
 // Reads the command line. Returns an exit code when there is nothing to render (help, usage error,
 // which is printed), nothing otherwise.

@@ -1,6 +1,7 @@
 // runtime/programs/render/stats.cpp: times and counts of a run, as text and as JSON.
 #include "runtime/programs/render/stats.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -27,19 +28,53 @@ std::pair<size_t, double> rediced(const std::vector<FrameRecord>& frames) {
     return sum;
 }
 
+// The stages of which a frame's time is the sum, with the writing after it: f(name, ms).
+template <class F>
+void for_each_stage(const FrameRecord& record, F&& f) {
+    for (size_t s = 0; s < kStageCount; ++s) f(stage_name(Stage(s)), record.stats.stages[s]);
+    f("write", record.write_ms);
+}
+
+// How full the packets of 16 are on the mean, 0 to 1.
+double occupancy(uint64_t rays, uint64_t packets) {
+    return packets ? double(rays) / double(raytrace::kPacket * packets) : 0;
+}
+
+struct Occupancy {
+    double camera, shadow, nested;
+};
+Occupancy occupancy(const FrameStats& s) {
+    return {occupancy(s.camera_rays.rays, s.camera_rays.packets),
+            occupancy(s.shader_rays.shadow_rays, s.shader_rays.shadow_packets),
+            occupancy(s.shader_rays.rays, s.shader_rays.packets)};
+}
+
+double per_pixel(uint64_t rays, const FrameRecord& r) {
+    return double(rays) / double(std::max<size_t>(r.pixels, 1));
+}
+
+// Stages of less than a hundredth of a ms are left out.
+void print_frame(const FrameRecord& r) {
+    const FrameStats& s = r.stats;
+    std::printf("frame %lld: %.2f ms =", static_cast<long long>(r.frame), s.total + r.write_ms);
+    for_each_stage(r, [](const char* name, double ms) {
+        if (ms >= 0.005) std::printf(" %s %.2f", name, ms);
+    });
+    const Occupancy full = occupancy(s);
+    std::printf("; %.2f Mrays/s, %.2f Mpoints/s; %.2f rays a pixel; packets %.0f %% full",
+                double(s.rays) / s.total * 1e-3, double(s.shading_points) / s.total * 1e-3,
+                per_pixel(s.rays, r), 100 * full.camera);
+    if (s.shader_rays.shadow_packets) std::printf(", of shadows %.0f %%", 100 * full.shadow);
+    if (s.shader_rays.packets) std::printf(", of shaders %.0f %%", 100 * full.nested);
+    std::printf("\n");
+}
+
 void print_text(const RenderOptions& options, const RunRecord& run,
                 const std::vector<FrameRecord>& frames) {
     jit::CacheStats cache = jit::cache_stats();
     const jit::Target& target = target_of(options);
-    for (const FrameRecord& r : frames) {
-        if (r.skipped) continue;
-        const FrameStats& s = r.stats;
-        std::printf(
-            "frame %lld: %.2f ms = animate %.2f skin %.2f refit %.2f trace %.2f shade %.2f; "
-            "write %.2f; %.2f Mrays/s, %.2f Mpoints/s\n",
-            static_cast<long long>(r.frame), s.total, s.animate, s.skin, s.refit, s.trace, s.shade,
-            r.write_ms, double(s.rays) / s.total * 1e-3, double(s.shading_points) / s.total * 1e-3);
-    }
+    for (const FrameRecord& r : frames)
+        if (!r.skipped) print_frame(r);
     std::printf(
         "target %s (%d lanes), %d threads; load %.1f ms, build %.1f ms, first ray after %.1f "
         "ms; %zu kernels in %.2f ms, %zu bytes of code; peak memory %.1f MB\n",
@@ -80,15 +115,18 @@ void print_json(const RenderOptions& options, const RunRecord& run,
         if (r.skipped) {
             frame["skipped"] = true;
         } else {
-            frame.update({{"total_ms", s.total},
-                          {"animate_ms", s.animate},
-                          {"skin_ms", s.skin},
-                          {"displace_ms", s.displace},
-                          {"refit_ms", s.refit},
-                          {"trace_ms", s.trace},
-                          {"shade_ms", s.shade},
-                          {"write_ms", r.write_ms},
+            const Occupancy full = occupancy(s);
+            frame["total_ms"] = s.total;
+            for_each_stage(
+                r, [&](const char* name, double ms) { frame[std::string(name) + "_ms"] = ms; });
+            frame.update({{"displace_ms", s.displace},
                           {"rays", s.rays},
+                          {"rays_per_pixel", per_pixel(s.rays, r)},
+                          {"shadow_rays", s.shader_rays.shadow_rays},
+                          {"nested_rays", s.shader_rays.rays},
+                          {"camera_occupancy", full.camera},
+                          {"shadow_occupancy", full.shadow},
+                          {"nested_occupancy", full.nested},
                           {"rays_per_second", double(s.rays) / s.total * 1e3},
                           {"shading_points", s.shading_points},
                           {"points_per_second", double(s.shading_points) / s.total * 1e3},

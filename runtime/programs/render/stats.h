@@ -14,6 +14,7 @@ struct FrameRecord {
     int64_t frame;
     std::string file;
     FrameStats stats;
+    size_t pixels = 0;
     double write_ms = 0;
     double dice_error = 0;  // with the scene as loaded
     double redice_ms = 0;   // 0: that one was fine enough

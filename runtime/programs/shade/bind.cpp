@@ -147,8 +147,7 @@ int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl
                    stack);
     }
     if (shader.kind == rsl::ShaderKind::Displacement) {
-        Diagnostics unused;
-        stack.library.push_back(library_shader("matte", unused));
+        stack.library.push_back(library_shader("matte"));
         stack.layers.push_back({stack.library.back().get(), {}});
     }
     if (stack.light) {

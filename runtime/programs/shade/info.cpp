@@ -1,6 +1,7 @@
 // runtime/programs/shade/info.cpp: what a shader takes, reads and writes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -27,12 +28,65 @@ std::string joined(const std::vector<const rsl::GlobalInfo*>& globals) {
     return text.empty() ? " none" : text;
 }
 
+// Names of a class's methods, each once, in order; none of other shaders.
+std::vector<std::string> methods_of(const rsl::Shader& shader) {
+    std::vector<std::string> names;
+    const rsl::ClassDefinition* c = shader.definition->shader_class;
+    for (size_t k = 0; c && k < c->methods.size(); ++k) {
+        std::string_view name = c->methods[k]->name;
+        std::string written(name.substr(0, name.find(' ')));
+        if (std::find(names.begin(), names.end(), written) == names.end())
+            names.push_back(std::move(written));
+    }
+    return names;
+}
+
+std::vector<const rsl::Symbol*> members_of(const rsl::Shader& shader) {
+    std::vector<const rsl::Symbol*> members;
+    const rsl::ClassDefinition* c = shader.definition->shader_class;
+    for (size_t k = 0; c && k < c->members.size(); ++k)
+        if (auto* declared = rsl::as_if<rsl::DeclareStmt>(c->members[k]))
+            members.insert(members.end(), declared->symbols.begin(), declared->symbols.end());
+    return members;
+}
+
+const char* rate_of(const rsl::Symbol& member) {
+    return member.varying ? "varying" : "uniform";
+}
+
+// The rest of each "#pragma annotation" line.
+std::vector<std::string> annotations_of(const rsl::Shader& shader) {
+    constexpr std::string_view kWord = "annotation";
+    std::vector<std::string> lines;
+    for (const rsl::PragmaToken& pragma : shader.ast->tokens.pragmas) {
+        std::string text(pragma.text);
+        if (!text.starts_with(kWord)) continue;
+        text.erase(0, std::min(text.find_first_not_of(" \t", kWord.size()), text.size()));
+        lines.push_back(std::move(text));
+    }
+    return lines;
+}
+
+void print_class(const rsl::Shader& shader) {
+    for (const rsl::Symbol* member : members_of(shader))
+        std::printf("    member %s %s %.*s\n", rate_of(*member),
+                    rsl::type_name(member->type).c_str(), int(member->name.size()),
+                    member->name.data());
+    std::string methods;
+    for (const std::string& name : methods_of(shader)) methods += " " + name;
+    if (!methods.empty()) std::printf("    methods%s\n", methods.c_str());
+}
+
 void print_text(const rsl::Shader& shader, const ShadeSource& source) {
-    std::printf("%s \"%s\"\n", rsl::shader_kind_name(shader.kind), shader.name.c_str());
+    std::printf("%s%s \"%s\"\n", shader.definition->shader_class ? "class, as " : "",
+                rsl::shader_kind_name(shader.kind), shader.name.c_str());
     for (const rsl::ShaderParameter& parameter : shader.parameters)
         std::printf("    %s %s %.*s = %s\n", detail_of(parameter).c_str(),
                     rsl::type_name(parameter.type).c_str(), int(parameter.name.size()),
                     parameter.name.data(), default_of(parameter).c_str());
+    print_class(shader);
+    for (const std::string& line : annotations_of(shader))
+        std::printf("    annotation %s\n", line.c_str());
     std::printf("    reads%s\n    writes%s\n", joined(shader.globals_read).c_str(),
                 joined(shader.globals_written).c_str());
     for (const ShadeParam& param : source.params) {
@@ -67,6 +121,15 @@ nlohmann::ordered_json json_of(const rsl::Shader& shader) {
             row["value"] = parameter.constant->numbers;
         json["parameters"].push_back(std::move(row));
     }
+    if (shader.definition->shader_class) {
+        json["methods"] = methods_of(shader);
+        json["members"] = nlohmann::ordered_json::array();
+        for (const rsl::Symbol* member : members_of(shader))
+            json["members"].push_back({{"name", std::string(member->name)},
+                                       {"type", rsl::type_name(member->type)},
+                                       {"detail", rate_of(*member)}});
+    }
+    if (auto lines = annotations_of(shader); !lines.empty()) json["annotations"] = lines;
     json["reads"] = names_of(shader.globals_read);
     json["writes"] = names_of(shader.globals_written);
     return json;

@@ -11,8 +11,8 @@
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/kinora_shade.h"
 #include "runtime/programs/shade/manual_pages.h"
-#include "runtime/programs/shade/manual_rows.h"
-#include "runtime/programs/shade/manual_statements.h"
+#include "runtime/programs/manual/rows.h"
+#include "runtime/programs/manual/statements.h"
 
 namespace kinora {
 

@@ -11,8 +11,8 @@
 #include "rsl/model/pairs.h"
 #include "rsl/text/findings.h"
 #include "runtime/base/check.h"
-#include "runtime/programs/shade/manual_rows.h"
-#include "runtime/programs/shade/manual_statements.h"
+#include "runtime/programs/manual/rows.h"
+#include "runtime/programs/manual/statements.h"
 
 namespace kinora {
 

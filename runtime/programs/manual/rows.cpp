@@ -1,5 +1,5 @@
-// runtime/programs/shade/manual_rows.cpp: prototypes, effects and shader kinds in words.
-#include "runtime/programs/shade/manual_rows.h"
+// runtime/programs/manual/rows.cpp: prototypes, effects and shader kinds in words.
+#include "runtime/programs/manual/rows.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// runtime/programs/shade/manual_statements.cpp: the entries.
-#include "runtime/programs/shade/manual_statements.h"
+// runtime/programs/manual/statements.cpp: the entries.
+#include "runtime/programs/manual/statements.h"
 
 namespace kinora {
 
@@ -154,6 +154,66 @@ surface saturation(output varying float spread = 0;) {
     Ci = spread;
 }
 )"},
+    {"constant", "constant type name",
+     "RSL 2.0. A uniform value that is set once, by its first value or in construct().",
+     R"(class striped(float count = 8;) {
+    constant float width = 1 / count;
+    public void surface(output color Ci, Oi) { Ci = Oi * step(0.5, mod(s / width, 1)); }
+}
+)"},
+};
+
+constexpr ManualEntry kObjects[] = {
+    {"array resizable", "type name[];",
+     "RSL 2.0. An array whose length changes: resize(), push(), pop(), reserve() and "
+     "arraylength(). "
+     "It begins empty, or with the values or the length given. The length may differ between "
+     "points. It has room for 64 elements, or for the largest number that resize(), reserve() or "
+     "a list of values names; what is beyond is left out and reported.",
+     R"(surface rings(float count = 5;) {
+    float radii[], k;
+    for (k = 1; k <= count; k += 1) push(radii, k / count * 0.5);
+    float inside = 0;
+    for (k = 0; k < arraylength(radii); k += 1)
+        inside += step(distance(point(s, t, 0), point(0.5, 0.5, 0)), radii[k]);
+    Ci = inside / count;
+}
+)"},
+    {"struct ->", "struct name { members; methods }",
+     "RSL 2.0. Variables and functions together. a->x is a member and a->f(x) a call of a method, "
+     "which names its object's members alone or as this->x. Structs are assigned whole, passed by "
+     "reference and returned; members may be structs, and there are arrays of structs.",
+     R"(struct Facing {
+    normal n = 0;
+    float front = 0;
+    void init() {
+        n = normalize(N);
+        front = abs(n . normalize(I));
+    }
+    color shade(color c) { return c * mix(0.2, 1, front); }
+}
+surface glow(color tint = color(1, 0.6, 0.2);) {
+    Facing f;
+    f->init();
+    Ci = f->shade(tint) * (1 - f->front);
+}
+)"},
+    {"class public private this", "class name(parameters) { members; methods }",
+     "RSL 2.0. A shader of several methods. The renderer calls construct, begin, "
+     "displacement(P, N), opacity(Oi), prelighting(Ci, Oi), lighting(Ci, Oi) and postlighting. A "
+     "class without lighting has diffuselighting and specularlighting instead, or surface. Where "
+     "opacity() leaves 0 the rest is not run, and rays that ask for opacity alone run nothing "
+     "behind it. Instead a class may have light(L, Cl), volume(Ci, Oi) or displacement alone. "
+     "What a method writes to a member the next one reads at the same point.",
+     R"(class leaf(color green = color(0.1, 0.5, 0.1);) {
+    float across = 0;
+    public void begin() { across = abs(s - 0.5) * 2; }
+    public void opacity(output color Oi) { Oi = step(across, sqrt(t * (1 - t)) * 2); }
+    public void surface(output color Ci, Oi) {
+        Ci = Oi * green * (1 - 0.5 * smoothstep(0, 0.1, across)) * diffuse(normalize(N));
+    }
+}
+)"},
 };
 
 constexpr ManualEntry kLines[] = {
@@ -221,7 +281,7 @@ surface wall() {
     "  <instance_material symbol=\"the mesh's\" target=\"#m\"/>\n"          \
     "</technique_common></bind_material></instance_geometry>\n"
 
-constexpr ManualEntry kKinds[] = {
+constexpr ManualEntry kKindEntries[] = {
     {"surface", "surface name(parameters) { ... }",
      "The look of an object: sets Ci, the color that leaves P towards the eye, and Oi, its "
      "opacity.",
@@ -289,8 +349,9 @@ constexpr ManualEntry kKinds[] = {
 constexpr ManualChapter kChapters[] = {
     {"Statements", kStatements},
     {"Storage classes", kStorage},
+    {"Arrays, structs and classes of RSL 2.0", kObjects},
     {"Preprocessor lines", kLines},
-    {"Kinds of shader, and how a scene uses them", kKinds},
+    {"Kinds of shader, and how a scene uses them", kKindEntries},
 };
 
 }  // namespace

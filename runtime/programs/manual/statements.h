@@ -1,4 +1,4 @@
-// runtime/programs/shade/manual_statements.h: what the manual says of statements, storage classes,
+// runtime/programs/manual/statements.h: what the manual says of statements, storage classes,
 // preprocessor lines and kinds of shader: each with an example that compiles.
 #pragma once
 

@@ -1,4 +1,4 @@
-// runtime/programs/shade/manual_rows.h: rows of the language's tables in words, for the manual on
+// runtime/programs/manual/rows.h: rows of the language's tables in words, for the manual on
 // the terminal and the pages of docs.
 #pragma once
 

@@ -1,0 +1,144 @@
+// runtime/play/actions_picture.cpp: how the picture is shown, and where it is saved.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/play/core_p.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr double kMostStops = 60;
+constexpr double kSaveSeconds = 3600;
+
+CommandResult expose(PlayerCore& core, double stops) {
+    core.state.picture.exposure = std::clamp(stops, -kMostStops, kMostStops);
+    return {};
+}
+
+// The picture of the state as it is: without a clock refined where that is asked for.
+std::shared_ptr<const Picture> picture_now(PlayerCore& core) {
+    core.send_order();
+    if (!core.setup.real_time) core.wait_for([&] { return core.idle(); }, kSaveSeconds);
+    return core.loop.picture();
+}
+
+CommandResult written(PlayerCore& core, const std::string& file, const std::string& error) {
+    if (!error.empty()) return refused(fmt::format("'{}' cannot be written: {}", file, error), 1);
+    ++core.state.files_written;
+    return {true, file, 0};
+}
+
+std::string save_shown(const Picture& picture, const std::string& file) {
+    return write_png(file, {picture.width, picture.height, picture.rgba}, {});
+}
+
+std::string without_extension(const std::string& file) {
+    return is_image_path(file) ? file.substr(0, file.rfind('.')) : file;
+}
+
+}  // namespace
+
+CommandResult action_size(PlayerCore& core, const Arguments& a) {
+    for (size_t k = 0; k < 2; ++k)
+        if (!(a.number(k) >= 1 && a.number(k) <= 65536))
+            return refused("a picture has 1 to 65536 pixels a side", k + 1);
+    core.state.picture.width = int(a.number(0));
+    core.state.picture.height = int(a.number(1));
+    core.sized = true;
+    return {};
+}
+
+CommandResult action_exposure(PlayerCore& core, const Arguments& a) {
+    if (std::abs(a.number(0)) > kMostStops) return refused("exposure takes -60 to 60 stops", 1);
+    return expose(core, a.number(0));
+}
+CommandResult action_brighter(PlayerCore& core, const Arguments&) {
+    return expose(core, core.state.picture.exposure + 1.0 / 3);
+}
+CommandResult action_darker(PlayerCore& core, const Arguments&) {
+    return expose(core, core.state.picture.exposure - 1.0 / 3);
+}
+
+CommandResult action_tone(PlayerCore& core, const Arguments& a) {
+    ToneCurve& tone = core.state.picture.tone;
+    std::string wanted = a.text_or(0, tone == ToneCurve::Plain ? "filmic" : "plain");
+    if (wanted != "plain" && wanted != "filmic")
+        return refused(unknown_name("tone curve", wanted, {"plain", "filmic"}), 1);
+    tone = wanted == "plain" ? ToneCurve::Plain : ToneCurve::Filmic;
+    return {};
+}
+
+CommandResult action_aov(PlayerCore& core, const Arguments& a) {
+    if (!core.info) return refused("there is no scene yet");
+    const std::vector<std::string>& names = core.info->aovs;
+    std::string& aov = core.state.picture.aov;
+    auto found = std::ranges::find(names, a.text_or(0, aov));
+    if (a.has(0) && found == names.end()) return refused(unknown_name("AOV", a.text(0), names), 1);
+    if (!a.has(0) && (found == names.end() || ++found == names.end())) found = names.begin();
+    aov = *found;
+    return {};
+}
+
+CommandResult action_false_color(PlayerCore& core, const Arguments&) {
+    core.state.picture.false_color = !core.state.picture.false_color;
+    return {};
+}
+
+CommandResult action_hold_rate(PlayerCore& core, const Arguments& a) {
+    if (!(a.number(0) >= 1 && a.number(0) <= 240))
+        return refused("hold_rate takes 1 to 240 pictures a second", 1);
+    core.state.picture.hold_rate = a.number(0);
+    return {};
+}
+CommandResult action_adapt(PlayerCore& core, const Arguments&) {
+    core.state.picture.adapt = !core.state.picture.adapt;
+    return {};
+}
+CommandResult action_refine(PlayerCore& core, const Arguments&) {
+    core.state.picture.refine = !core.state.picture.refine;
+    return {};
+}
+
+CommandResult action_keep(PlayerCore& core, const Arguments&) {
+    if (core.kept) {
+        core.kept.reset();
+        core.state.picture.wipe.clear();
+        return {};
+    }
+    std::shared_ptr<const Picture> picture = picture_now(core);
+    if (!picture) return refused("there is no picture yet");
+    core.kept = picture;
+    core.state.picture.wipe = fmt::format("frame {:g}", picture->frame);
+    return {};
+}
+
+CommandResult action_wipe(PlayerCore& core, const Arguments& a) {
+    if (!(a.number(0) >= 0 && a.number(0) <= 1)) return refused("wipe takes 0 to 1", 1);
+    core.state.picture.wipe_at = a.number(0);
+    return {};
+}
+
+CommandResult action_save_picture(PlayerCore& core, const Arguments& a) {
+    std::shared_ptr<const Picture> picture = picture_now(core);
+    if (!picture) return refused("there is no picture yet");
+    std::string name = without_extension(
+        a.text_or(0, fmt::format("kinora-play.{:04}", std::lround(picture->frame))));
+    std::string error = write_image(name + ".exr", picture->film, core.request.color, {});
+    if (error.empty()) error = save_shown(*picture, name + ".png");
+    return written(core, name, error);
+}
+
+CommandResult action_screenshot(PlayerCore& core, const Arguments& a) {
+    const std::string& file = a.text(0);
+    if (!is_image_path(file)) return refused("a screenshot's name ends in .png or .exr", 1);
+    std::shared_ptr<const Picture> picture = picture_now(core);
+    if (!picture) return refused("there is no picture yet");
+    return written(core, file,
+                   file.ends_with(".exr") ? write_image(file, picture->film, core.request.color, {})
+                                          : save_shown(*picture, file));
+}
+
+}  // namespace kinora

@@ -1,0 +1,177 @@
+// runtime/play/actions_shader.cpp: the shader that is edited while it is shown.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+#include "runtime/play/core_p.h"
+
+namespace kinora {
+
+namespace {
+
+CommandResult no_text() {
+    return refused("no shader is being edited; select a material and say edit");
+}
+
+const MaterialInfo* material_of(const PlayerCore& core, const std::string& id) {
+    if (!core.info) return nullptr;
+    auto found = std::ranges::find_if(core.info->materials,
+                                      [&](const MaterialInfo& m) { return m.id == id; });
+    return found == core.info->materials.end() ? nullptr : &*found;
+}
+
+// The new text is shown as soon as it compiles. Letters typed one after the other are one change.
+void show_text(PlayerCore& core, std::string text, bool typed) {
+    ShaderDocument& document = core.document;
+    document.text = std::move(text);
+    document.caret = std::min(document.caret, document.text.size());
+    ++document.version;
+    document.compiling = true;
+    document.dirty = true;
+    SceneEdits edits = core.edits;
+    auto found = std::ranges::find_if(
+        edits.texts, [&](const SceneEdits::Text& t) { return t.material == document.material; });
+    if (found == edits.texts.end())
+        found = edits.texts.insert(edits.texts.end(), {document.material, document.name, "", 0});
+    found->text = document.text;
+    found->version = document.version;
+    if (typed && core.typing) {
+        core.edits = std::move(edits);
+        core.rebuild();
+    } else {
+        core.change_scene(std::move(edits));
+    }
+    core.typing = typed;
+}
+
+size_t offset_of(const std::string& text, int line, int column) {
+    size_t at = 0;
+    for (int k = 1; k < line; ++k) {
+        size_t end = text.find('\n', at);
+        if (end == text.npos) return text.size();
+        at = end + 1;
+    }
+    size_t end = std::min(text.find('\n', at), text.size());
+    return std::min(at + size_t(std::max(column, 1) - 1), end);
+}
+
+bool is_trailing(char c) {  // of a character of several bytes
+    return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+}
+
+}  // namespace
+
+CommandResult action_edit(PlayerCore& core, const Arguments& a) {
+    std::string id = core.state.selection.material;
+    if (id.empty() && core.info && !core.info->materials.empty())
+        id = core.info->materials.front().id;
+    const MaterialInfo* material = material_of(core, id);
+    if (!material || !material->source) return refused("no material with a shader is selected");
+    core.typing = false;
+    if (core.document.material != id) {
+        ShaderDocument document;
+        document.version = core.document.version;
+        document.material = id;
+        document.file = material->source->file;
+        document.name = material->source->name;
+        document.embedded = material->source->embedded;
+        document.text = material->source->text;
+        document.params = material->params;
+        for (const SceneEdits::Text& text : core.edits.texts)
+            if (text.material == id) document.text = text.text;
+        document.dirty = document.text != material->source->text;
+        core.document = std::move(document);
+    }
+    if (!a.has(0)) return {};
+    std::ifstream in(a.text(0), std::ios::binary);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    if (!in) return refused(fmt::format("'{}': {}", a.text(0), std::strerror(errno)), 1);
+    show_text(core, std::move(text), false);
+    return {};
+}
+
+CommandResult action_set_text(PlayerCore& core, const Arguments& a) {
+    if (core.document.material.empty()) return no_text();
+    show_text(core, a.text(0), true);
+    return {};
+}
+
+CommandResult action_type(PlayerCore& core, const Arguments& a) {
+    ShaderDocument& document = core.document;
+    if (document.material.empty()) return no_text();
+    std::string text = document.text;
+    size_t caret = document.caret;
+    text.insert(caret, a.text(0));
+    show_text(core, std::move(text), true);
+    document.caret = caret + a.text(0).size();
+    return {};
+}
+
+CommandResult action_erase(PlayerCore& core, const Arguments& a) {
+    ShaderDocument& document = core.document;
+    if (document.material.empty()) return no_text();
+    std::string text = document.text;
+    size_t begin = document.caret, end = begin;
+    int count = a.has(0) ? int(std::clamp(a.number(0), -1e6, 1e6)) : -1;
+    for (; count < 0 && begin > 0; ++count) do
+            --begin;
+        while (begin > 0 && is_trailing(text[begin]));
+    for (; count > 0 && end < text.size(); --count) do
+            ++end;
+        while (end < text.size() && is_trailing(text[end]));
+    text.erase(begin, end - begin);
+    document.caret = begin;
+    show_text(core, std::move(text), true);
+    return {};
+}
+
+CommandResult action_caret(PlayerCore& core, const Arguments& a) {
+    ShaderDocument& document = core.document;
+    if (document.material.empty()) return no_text();
+    document.caret = offset_of(document.text, int(std::clamp(a.number(0), 1.0, 1e9)),
+                               int(std::clamp(a.number(1), 1.0, 1e9)));
+    core.typing = false;
+    return {};
+}
+
+CommandResult action_find(PlayerCore& core, const Arguments& a) {
+    ShaderDocument& document = core.document;
+    if (document.material.empty()) return no_text();
+    size_t from = std::min(document.caret + 1, document.text.size());
+    size_t at = document.text.find(a.text(0), from);
+    if (at == std::string::npos) at = document.text.find(a.text(0));
+    if (at == std::string::npos)
+        return refused(fmt::format("the shader has no '{}'", a.text(0)), 1);
+    document.caret = at;
+    core.typing = false;
+    return {};
+}
+
+CommandResult action_save(PlayerCore& core, const Arguments& a) {
+    ShaderDocument& document = core.document;
+    if (document.material.empty()) return no_text();
+    const MaterialInfo* material = material_of(core, document.material);
+    if (!material || !material->source) return no_text();
+    std::string file = a.text_or(0, document.file), error;
+    if (a.has(0)) {
+        std::ofstream out(file, std::ios::binary);
+        out << document.text;
+        if (!out.flush()) error = std::strerror(errno);
+    } else {
+        error = save_source(*material->source, document.text);
+    }
+    if (!error.empty())
+        return refused(fmt::format("'{}' is not saved: {}", file, error), a.count());
+    ++core.state.files_written;
+    document.dirty = false;
+    if (a.has(0)) return {true, file, 0};
+    // From now on the file says it.
+    std::erase_if(core.edits.texts,
+                  [&](const SceneEdits::Text& text) { return text.material == document.material; });
+    core.maker.open(core.request, core.edits, false);
+    return {true, file, 0};
+}
+
+}  // namespace kinora

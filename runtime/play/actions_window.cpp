@@ -1,0 +1,38 @@
+// runtime/play/actions_window.cpp: what is open in the window. The state names it; the window shows
+// it.
+#include <vector>
+
+#include "runtime/play/core_p.h"
+
+namespace kinora {
+
+namespace {
+
+CommandResult toggle(PlayerCore& core, const std::string& panel) {
+    std::vector<std::string>& panels = core.state.panels;
+    if (std::erase(panels, panel) == 0) panels.push_back(panel);
+    return {};
+}
+
+}  // namespace
+
+CommandResult action_panel(PlayerCore& core, const Arguments& a) {
+    return toggle(core, a.text(0));
+}
+#define PANEL(word, name)                                             \
+    CommandResult action_##word(PlayerCore& core, const Arguments&) { \
+        return toggle(core, name);                                    \
+    }
+PANEL(show_scene, "scene")
+PANEL(show_parameters, "parameters")
+PANEL(show_editor, "editor")
+PANEL(show_pixel, "pixel")
+PANEL(show_findings, "findings")
+PANEL(show_times, "times")
+PANEL(hud, "hud")
+PANEL(full_screen, "full_screen")
+PANEL(keys, "keys")
+PANEL(commands, "commands")
+#undef PANEL
+
+}  // namespace kinora

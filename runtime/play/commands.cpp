@@ -1,0 +1,78 @@
+// runtime/play/commands.cpp: the table of commands, and a line's words.
+#include "runtime/play/commands.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace kinora {
+
+namespace {
+
+constexpr Command kCommands[] = {
+#define COMMAND(word, key, menu, arguments, example, setup, changes, help) \
+    {#word, key, menu, arguments, example, setup, Observable::changes, help},
+#include "runtime/play/commands.def"
+#undef COMMAND
+};
+
+bool has_key(std::string_view keys, std::string_view key) {
+    while (!keys.empty()) {
+        size_t end = std::min(keys.find(' '), keys.size());
+        if (keys.substr(0, end) == key) return true;
+        keys.remove_prefix(std::min(end + 1, keys.size()));
+    }
+    return false;
+}
+
+// The character of an escape in a quoted text.
+char escaped(char c) {
+    return c == 'n' ? '\n' : c == 't' ? '\t' : c;
+}
+
+}  // namespace
+
+std::span<const Command> commands() {
+    return kCommands;
+}
+
+const Command* find_command(std::string_view word) {
+    auto found = std::ranges::find_if(kCommands, [&](const Command& c) { return word == c.word; });
+    return found == std::end(kCommands) ? nullptr : found;
+}
+
+const Command* find_command_of_key(std::string_view key) {
+    auto found =
+        std::ranges::find_if(kCommands, [&](const Command& c) { return has_key(c.key, key); });
+    return found == std::end(kCommands) ? nullptr : found;
+}
+
+Words split_words(std::string_view line) {
+    Words words;
+    size_t at = 0;
+    while (true) {
+        while (at < line.size() && std::isspace(static_cast<unsigned char>(line[at]))) ++at;
+        if (at == line.size() || line[at] == '#') return words;
+        words.columns.push_back(int(at) + 1);
+        std::string& word = words.texts.emplace_back();
+        if (line[at] != '"') {
+            while (at < line.size() && !std::isspace(static_cast<unsigned char>(line[at])))
+                word += line[at++];
+            continue;
+        }
+        ++at;
+        while (at < line.size() && line[at] != '"') {
+            if (line[at] == '\\' && at + 1 < line.size())
+                word += escaped(line[++at]);
+            else
+                word += line[at];
+            ++at;
+        }
+        if (at == line.size()) {
+            words.error = "the quotation does not end";
+            return words;
+        }
+        ++at;
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,279 @@
+// runtime/play/core.cpp: between the state and the threads.
+#include "runtime/play/core_p.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+
+#include "runtime/play/clock.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kMostFindings = 1000;
+constexpr size_t kMostUndo = 200;
+constexpr double kAnswerSeconds = 600;
+
+bool same(const FindingText& a, const FindingText& b) {
+    return a.code == b.code && a.message == b.message && a.file == b.file && a.begin == b.begin;
+}
+
+void add_new(std::vector<FindingText>& to, const std::vector<FindingText>& from) {
+    for (const FindingText& finding : from) {
+        bool known = std::ranges::any_of(to, [&](const auto& f) { return same(f, finding); });
+        if (!known && to.size() < kMostFindings) to.push_back(finding);
+    }
+}
+
+// Where the camera looks: as far as the middle of the scene, seen along its way.
+double distance_to(const SceneInfo& info, const Picture& picture) {
+    dvec3 eye = picture.origin + picture.view.eye, middle = 0.5 * (info.low + info.high);
+    double along = glm::dot(middle - eye, picture.view.forward);
+    double size = glm::length(info.high - info.low);
+    return along > 0.05 * size ? along : std::max(size, 1e-6);
+}
+
+// As split_words() reads it.
+std::string quoted(const std::string& text) {
+    bool plain = !text.empty() && text.find_first_of(" \t\n\"\\#") == text.npos;
+    if (plain) return text;
+    std::string out = "\"";
+    for (char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c == '\n' ? std::string("\\n") : c == '\t' ? std::string("\\t") : std::string(1, c);
+    }
+    return out + "\"";
+}
+
+}  // namespace
+
+PlayerCore::PlayerCore(PlayerSetup player_setup)
+    : setup(std::move(player_setup)),
+      watch([this] {
+          {
+              std::lock_guard lock(wake_mutex);
+              files_changed = true;
+          }
+          wake();
+      }),
+      loop(setup.real_time, [this] { wake(); }),
+      maker([this] { wake(); }) {}
+
+void PlayerCore::wake() {
+    {
+        std::lock_guard lock(wake_mutex);
+        news = true;
+    }
+    woken.notify_all();
+    if (setup.wake) setup.wake();
+}
+
+bool PlayerCore::wait_for(const std::function<bool()>& reached, double seconds) {
+    auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (true) {
+        take_news();
+        if (reached()) return true;
+        std::unique_lock lock(wake_mutex);
+        if (!woken.wait_until(lock, end, [&] { return news; })) return false;
+        news = false;
+    }
+}
+
+void PlayerCore::take_news() {
+    if (auto shown = maker.take()) take_scene(std::move(shown));
+    for (const Answer& answer : loop.take_answers()) answer();
+    add_new(frame_findings, loop.take_findings());
+    bool reload = false;
+    {
+        std::lock_guard lock(wake_mutex);
+        std::swap(reload, files_changed);
+    }
+    if (reload && setup.watch_files) maker.open(request, edits, false);
+    merge_findings();
+}
+
+void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
+    scene_findings = shown->findings;
+    take_text(*shown);
+    exit_code = shown->exit_code;
+    if (!shown->files.empty()) watch.watch(shown->files);
+    if (!shown->scene) {
+        if (!info) load = LoadState::Failed;
+        return;  // the last good scene stays
+    }
+    bool first = !info || shown->replaces_camera;
+    info = shown->info;
+    request = shown->request;
+    if (first) document = {};
+    for (const MaterialInfo& material : info->materials)
+        if (material.id == document.material) document.params = material.params;
+    load = LoadState::Ready;
+    frame_findings.clear();
+    TimeState& time = state.time;
+    time.first = info->first;
+    time.last = info->last;
+    if (first) {
+        state.camera = {};
+        state.camera.index = shown->scene->camera;
+        state.time = {};
+        state.time.first = info->first;
+        state.time.last = info->last;
+        state.time.frame = info->first;
+        state.time.clip = request.clip;
+        state.selection = {};
+        if (!sized) {
+            state.picture.width = shown->settings.width;
+            state.picture.height = shown->settings.height;
+        }
+    } else {
+        state.camera.index =
+            std::min(state.camera.index, uint32_t(shown->scene->cameras.size() - 1));
+        time.frame = std::clamp(time.frame, time.first, time.last);
+    }
+    loop.show(std::shared_ptr<ShownScene>(std::move(shown)));
+    send_order();
+}
+
+// What has become of the edited text.
+void PlayerCore::take_text(const ShownScene& shown) {
+    for (const SceneEdits::Text& text : shown.edits.texts) {
+        if (text.material != document.material || text.version == 0) continue;
+        document.compiling = text.version != document.version;
+        document.compile_ms = shown.build_ms;
+        if (shown.scene) document.shown = text.version;
+        document.findings.clear();
+        for (const FindingText& finding : shown.findings)
+            if (finding.file == document.name) document.findings.push_back(finding);
+    }
+}
+
+// After undo: the text is what the edits say, or as it was read.
+void PlayerCore::restore_text() {
+    typing = false;
+    if (document.material.empty() || !info) return;
+    std::string text, as_read;
+    document.compiling = false;
+    document.shown = document.version;
+    for (const MaterialInfo& material : info->materials)
+        if (material.id == document.material && material.source) as_read = material.source->text;
+    text = as_read;
+    for (const SceneEdits::Text& edit : edits.texts)
+        if (edit.material == document.material) text = edit.text;
+    document.dirty = text != as_read;
+    if (text == document.text) return;
+    document.text = text;
+    ++document.version;
+    document.caret = std::min(document.caret, text.size());
+    document.findings.clear();
+    document.shown = document.version;
+    for (SceneEdits::Text& edit : edits.texts)
+        if (edit.material == document.material) edit.version = document.version;
+}
+
+void PlayerCore::merge_findings() {
+    all_findings.clear();
+    add_new(all_findings, scene_findings);
+    add_new(all_findings, frame_findings);
+}
+
+ViewOrder PlayerCore::view_order() const {
+    ViewOrder order;
+    order.frame = state.time.frame;
+    if (state.camera.free) {
+        order.camera = state.camera.own;
+        if (!state.camera.follow.empty()) order.follow = {state.camera.follow, follow_from};
+    }
+    order.camera_index = state.camera.index;
+    order.width = state.picture.width;
+    order.height = state.picture.height;
+    order.exposure = state.picture.exposure;
+    order.playing = state.time.playing;
+    order.refine = state.picture.refine;
+    order.adapt = state.picture.adapt;
+    order.hold_rate = state.picture.hold_rate;
+    return order;
+}
+
+DisplaySettings PlayerCore::display_settings() const {
+    DisplaySettings display;
+    display.tone = state.picture.tone;
+    display.aov = state.picture.aov;
+    display.false_color = state.picture.false_color;
+    display.encoding = request.color;
+    display.kept = kept;
+    display.wipe_at = state.picture.wipe_at;
+    return display;
+}
+
+void PlayerCore::send_order() {
+    if (info) loop.order(view_order(), display_settings());
+}
+
+void PlayerCore::ask(Question question) {
+    send_order();
+    loop.ask(std::move(question));
+    if (!setup.real_time) wait_for([&] { return loop.answered(); }, kAnswerSeconds);
+}
+
+FreeCamera* PlayerCore::own_camera(std::string& why_not) {
+    CameraState& camera = state.camera;
+    if (camera.locked && !camera.free) {
+        why_not = "the camera is locked; camera_lock frees it";
+        return nullptr;
+    }
+    if (camera.free) return &camera.own;
+    if (!info) {
+        why_not = "there is no scene yet";
+        return nullptr;
+    }
+    std::shared_ptr<const Picture> shown = loop.picture();
+    Picture posed;
+    if (!setup.real_time) {
+        // Where the camera is at this time, without a picture of it.
+        ViewOrder order = view_order();
+        ask({[order, this](ShownScene& scene) {
+                 std::optional<raytrace::Camera> view = view_of(scene, order);
+                 dvec3 origin = scene.scene->origin;
+                 return [this, view, origin] {
+                     if (!view) return;
+                     answered_view = {*view, origin};
+                 };
+             },
+             false});
+        if (answered_view) {
+            posed.view = answered_view->first;
+            posed.origin = answered_view->second;
+            answered_view.reset();
+            shown = std::make_shared<Picture>(std::move(posed));
+        }
+    }
+    if (!shown) {
+        why_not = "there is no picture yet";
+        return nullptr;
+    }
+    camera.own = free_camera_of(shown->view, shown->origin, distance_to(*info, *shown));
+    camera.free = true;
+    return &camera.own;
+}
+
+void PlayerCore::record_line(const Command& command, const std::vector<std::string>& arguments) {
+    if (!record.is_open()) return;
+    if (since_recorded >= 1e-3) record << fmt::format("wait {:.3f}\n", since_recorded);
+    since_recorded = 0;
+    record << command.word;
+    for (const std::string& argument : arguments) record << ' ' << quoted(argument);
+    record << std::endl;
+}
+
+void PlayerCore::change_scene(SceneEdits changed) {
+    undo.push_back(edits);
+    if (undo.size() > kMostUndo) undo.erase(undo.begin());
+    redo.clear();
+    edits = std::move(changed);
+    rebuild();
+}
+
+}  // namespace kinora

@@ -1,0 +1,103 @@
+// runtime/play/core_p.h: what Player holds, for the actions that its commands name.
+#pragma once
+
+#include <condition_variable>
+#include <fstream>
+#include <map>
+#include <mutex>
+
+#include "runtime/base/stats.h"
+#include "runtime/play/files/file_watch.h"
+#include "runtime/play/player.h"
+#include "runtime/play/render_loop.h"
+#include "runtime/play/scene_maker.h"
+
+namespace kinora {
+
+struct PlayerCore {
+    explicit PlayerCore(PlayerSetup player_setup);
+
+    PlayerSetup setup;
+    PlayerState state;
+    LoadState load = LoadState::Nothing;
+    SceneRequest request;
+    SceneEdits edits;
+    std::vector<SceneEdits> undo, redo;
+    std::shared_ptr<const SceneInfo> info;
+    ShaderDocument document;
+    std::vector<FindingText> scene_findings, frame_findings, all_findings;
+    std::shared_ptr<const Picture> kept;
+    dvec3 follow_from{0.0};
+    int exit_code = 0;
+    std::ofstream record;
+    double since_recorded = 0;  // seconds
+
+    // Other threads have something new; wait_for() sleeps until then.
+    std::mutex wake_mutex;
+    std::condition_variable woken;
+    bool typing = false;  // the last change was of the text, by keys
+    bool news = false;
+    bool files_changed = false;  // under the same mutex
+    bool sized = false;          // by a command: another scene does not change it
+    std::optional<std::pair<raytrace::Camera, dvec3>> answered_view;
+
+    FileWatch watch;
+    RenderLoop loop;
+    SceneMaker maker;
+
+    void wake();
+    // Until it is so, or for so many seconds. Takes up what comes in between.
+    bool wait_for(const std::function<bool()>& reached, double seconds);
+    void take_news();
+    void send_order();
+    ViewOrder view_order() const;
+    DisplaySettings display_settings() const;
+    bool idle() const { return maker.idle() && loop.idle(); }
+
+    // The answer is run before this returns where no clock runs; else when it comes.
+    void ask(Question question);
+    // The camera that is moved by hand, as the picture shows it; null with a reason.
+    FreeCamera* own_camera(std::string& why_not);
+    void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
+    void record_line(const Command& command, const std::vector<std::string>& arguments);
+    void restore_text();
+    void rebuild() { maker.edit(edits); }
+
+  private:
+    void take_text(const ShownScene& shown);
+    void take_scene(std::unique_ptr<ShownScene> shown);
+    void merge_findings();
+};
+
+// The words behind a command, as its row's `arguments` say them.
+class Arguments {
+  public:
+    explicit Arguments(const std::vector<std::string>& words) : words_(words) {}
+    size_t count() const { return words_.size(); }
+    bool has(size_t k) const { return k < words_.size(); }
+    const std::string& text(size_t k) const { return words_[k]; }
+    std::string text_or(size_t k, const std::string& otherwise) const {
+        return has(k) ? words_[k] : otherwise;
+    }
+    double number(size_t k) const;  // checked before the action is called
+
+  private:
+    const std::vector<std::string>& words_;
+};
+
+// An action by its row's word.
+using Action = CommandResult (*)(PlayerCore&, const Arguments&);
+#define COMMAND(word, ...) \
+    CommandResult action_##word(PlayerCore& core, const Arguments& arguments);
+#include "runtime/play/commands.def"
+#undef COMMAND
+
+inline CommandResult refused(std::string why, size_t argument = 0) {
+    return {false, std::move(why), argument};
+}
+
+// One of the names, or a refusal with what may have been meant.
+std::string unknown_name(const std::string& kind, const std::string& word,
+                         const std::vector<std::string>& known);
+
+}  // namespace kinora

@@ -1,0 +1,218 @@
+// runtime/play/display.cpp: tone curves, AOVs and false colors.
+#include "runtime/play/display.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/base/parallel.h"
+
+namespace kinora {
+
+namespace {
+
+float luminance(vec3 c) {  // of linear sRGB primaries, IEC 61966-2-1
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+
+// K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015.
+float filmic(float x) {
+    x = std::max(x, 0.0f);
+    return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
+}
+
+// A film of three numbers a pixel, opaque where `covered`.
+template <class F>
+raytrace::Film film_of(int width, int height, F&& value) {
+    raytrace::Film film(width, height);
+    for (size_t k = 0; k < film.rgba.size(); ++k) film.rgba[k] = value(k);
+    return film;
+}
+
+std::string base_of(const std::string& plane) {
+    size_t dot = plane.rfind('.');
+    return dot == plane.npos ? plane : plane.substr(0, dot);
+}
+
+std::vector<const raytrace::AovPlane*> planes_of(const raytrace::Film& film,
+                                                 const std::string& name) {
+    std::vector<const raytrace::AovPlane*> planes;
+    for (const raytrace::AovPlane& plane : film.aovs)
+        if (base_of(plane.name) == name) planes.push_back(&plane);
+    return planes;
+}
+
+// Numbers as grays or false colors from their least to their largest.
+raytrace::Film of_numbers(const raytrace::Film& film, const std::vector<float>& numbers,
+                          bool in_color) {
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (float v : numbers) {
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+    float range = high > low ? high - low : 1.0f;
+    return film_of(film.width, film.height, [&](size_t k) {
+        float at = (numbers[k] - low) / range;
+        return vec4(in_color ? false_color(at) : vec3(at), 1.0f);
+    });
+}
+
+vec3 color_of_number(uint32_t number) {
+    if (number == kNone) return vec3(0.0f);
+    uint32_t h = (number + 1) * 0x9e3779b9u;
+    h = (h ^ h >> 15) * 0x85ebca6bu;
+    h ^= h >> 13;
+    return vec3(float(h & 255), float(h >> 8 & 255), float(h >> 16 & 255)) / 300.0f + 0.1f;
+}
+
+raytrace::Film of_guide(const raytrace::Film& film, const PictureGuide& guide,
+                        const DisplaySettings& settings) {
+    if (settings.aov == "depth") return of_numbers(film, guide.depth, settings.false_color);
+    bool normals = settings.aov == "Ng";
+    return film_of(film.width, film.height, [&](size_t k) {
+        bool there = guide.surface[k] != kNone;
+        vec3 c = normals ? 0.5f * guide.Ng[k] + 0.5f : color_of_number(guide.surface[k]);
+        return there ? vec4(c, 1.0f) : vec4(0.0f);
+    });
+}
+
+raytrace::Film of_aov(const raytrace::Film& film, const DisplaySettings& settings) {
+    auto planes = planes_of(film, settings.aov);
+    if (planes.empty()) return raytrace::Film(film.width, film.height);
+    if (planes.size() < 3) return of_numbers(film, planes[0]->values, settings.false_color);
+    return film_of(film.width, film.height, [&](size_t k) {
+        vec3 c(planes[0]->values[k], planes[1]->values[k], planes[2]->values[k]);
+        return vec4(settings.false_color ? false_color(luminance(c)) : c, 1.0f);
+    });
+}
+
+raytrace::Film of_picture(const raytrace::Film& film, const DisplaySettings& settings) {
+    return film_of(film.width, film.height, [&](size_t k) {
+        vec4 pixel = film.rgba[k];
+        if (settings.false_color) return vec4(false_color(luminance(vec3(pixel))), 1.0f);
+        if (!(pixel.w > 0)) return pixel;
+        vec3 c = vec3(pixel) / pixel.w;
+        return vec4(vec3(filmic(c.x), filmic(c.y), filmic(c.z)) * pixel.w, pixel.w);
+    });
+}
+
+// to_8_bit's bytes from a table: its function of a component grows, so 255 thresholds say it all.
+class Bytes {
+  public:
+    explicit Bytes(ColorEncoding encoding) {
+        for (int v = 1; v < 256; ++v) {
+            uint32_t low = 0, high = std::bit_cast<uint32_t>(2.0f);  // not yet v; v or more
+            while (high - low > 1) {
+                uint32_t middle = low + (high - low) / 2;
+                (byte_of(std::bit_cast<float>(middle), encoding) >= v ? high : low) = middle;
+            }
+            least_[v] = std::bit_cast<float>(high);
+        }
+        for (uint32_t k = 0; k < first_.size(); ++k) {
+            float begin = std::bit_cast<float>((kFirst + k) << kShift);
+            first_[k] = byte_of(begin, encoding);
+        }
+    }
+    // c is no NaN.
+    uint8_t operator()(float c) const {
+        if (!(c >= std::bit_cast<float>(kFirst << kShift))) return 0;
+        if (c >= 1) return 255;
+        uint8_t v = first_[(std::bit_cast<uint32_t>(c) >> kShift) - kFirst];
+        while (v < 255 && c >= least_[v + 1]) ++v;
+        return v;
+    }
+
+  private:
+    // 128 steps in each power of two, from 2^-14 (byte 0 in either encoding) to 1.
+    static constexpr int kShift = 16;
+    static constexpr uint32_t kFirst = (127 - 14) << 7, kSteps = 14 << 7;
+
+    static uint8_t byte_of(float c, ColorEncoding encoding) {
+        raytrace::Film pixel(1, 1);
+        pixel.rgba[0] = {c, 0, 0, 1};
+        return to_8_bit(pixel, encoding).rgba[0];
+    }
+
+    std::array<float, 256> least_{};
+    std::array<uint8_t, kSteps> first_{};
+};
+
+const Bytes& bytes_of(ColorEncoding encoding) {
+    static const Bytes linear(ColorEncoding::Linear), srgb(ColorEncoding::Srgb);
+    return encoding == ColorEncoding::Linear ? linear : srgb;
+}
+
+void put_kept(const Picture& kept, double wipe_at, int width, int height,
+              std::vector<uint8_t>& out) {
+    if (kept.width != width || kept.height != height) return;
+    size_t bytes = 4 * size_t(std::lround(std::clamp(wipe_at, 0.0, 1.0) * width));
+    for (size_t y = 0; y < size_t(height); ++y)
+        std::memcpy(&out[4 * y * size_t(width)], &kept.rgba[4 * y * size_t(width)], bytes);
+}
+
+}  // namespace
+
+void fast_8_bit(const raytrace::Film& film, ColorEncoding encoding, std::vector<uint8_t>& out) {
+    const Bytes &color = bytes_of(encoding), &alpha = bytes_of(ColorEncoding::Linear);
+    out.resize(4 * film.rgba.size());
+    parallel_for(0, film.rgba.size(), 4096, [&](size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k) {
+            const vec4& p = film.rgba[k];
+            uint8_t* to = &out[4 * k];
+            if (!std::isfinite(p.x + p.y + p.z + p.w)) {
+                raytrace::Film pixel(1, 1);
+                pixel.rgba[0] = p;
+                Image8 image = to_8_bit(pixel, encoding);
+                std::copy_n(image.rgba.begin(), 4, to);
+                continue;
+            }
+            float scale = p.w > 0 ? 1.0f / p.w : 1.0f;
+            for (int c = 0; c < 3; ++c) to[c] = color(p[c] * scale);
+            to[3] = alpha(p.w);
+        }
+    });
+}
+
+bool shows_guide(const std::string& aov) {
+    return aov == "depth" || aov == "Ng" || aov == "surface";
+}
+
+std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& planes) {
+    std::vector<std::string> names{""};
+    for (const raytrace::AovPlane& plane : planes) {
+        std::string name = base_of(plane.name);
+        if (plane.in_file && std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    }
+    names.insert(names.end(), {"depth", "Ng", "surface"});
+    return names;
+}
+
+vec3 false_color(float value) {
+    if (!(value > 0)) return vec3(0.0f);
+    if (value > 1) return vec3(1.0f);
+    constexpr vec3 kStops[] = {
+        {0, 0, 0.3f}, {0, 0.3f, 1}, {0, 0.8f, 0.2f}, {1, 0.8f, 0}, {1, 0, 0}};
+    float at = value * 4;
+    size_t k = std::min(size_t(at), size_t(3));
+    float share = at - float(k);
+    return kStops[k] * (1 - share) + kStops[k + 1] * share;
+}
+
+void display(const raytrace::Film& film, const PictureGuide& guide, const DisplaySettings& settings,
+             std::vector<uint8_t>& out) {
+    bool plain = settings.aov.empty() && settings.tone == ToneCurve::Plain && !settings.false_color;
+    if (plain)
+        fast_8_bit(film, settings.encoding, out);
+    else if (shows_guide(settings.aov))
+        fast_8_bit(of_guide(film, guide, settings), settings.encoding, out);
+    else
+        fast_8_bit(settings.aov.empty() ? of_picture(film, settings) : of_aov(film, settings),
+                   settings.encoding, out);
+    if (settings.kept) put_kept(*settings.kept, settings.wipe_at, film.width, film.height, out);
+}
+
+}  // namespace kinora

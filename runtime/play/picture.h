@@ -1,0 +1,47 @@
+// runtime/play/picture.h: a picture that the render thread has finished. It does not change any
+// more; who holds the pointer may read it from any thread.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "raytrace/camera.h"
+#include "raytrace/film.h"
+#include "runtime/base/math.h"
+
+namespace kinora {
+
+// What the first surfaces are, pixel by pixel: of rays through the pixels' centers.
+struct PictureGuide {
+    std::vector<uint32_t> surface;  // row of Scene::surfaces; kNone: nothing is there
+    std::vector<vec3> Ng;           // world, towards the eye; length 1
+    std::vector<float> depth;       // along the view's direction
+};
+
+struct Picture {
+    uint64_t serial = 0;        // grows by one with each picture
+    int width = 0, height = 0;  // as shown
+    std::vector<uint8_t> rgba;  // to show: sRGB, not associated, rows from the top
+    // As rendered: `film` is smaller than the picture where `scale` < 1. Linear, associated.
+    raytrace::Film film;
+    PictureGuide guide;     // of the picture's size; empty where nothing was asked of it
+    raytrace::Camera view;  // that made it
+    dvec3 origin{0.0};      // of the view's space, in the world
+    double frame = 0;       // of the scene's time
+    double scale = 1;
+    int samples = 0;  // a pixel
+    // All samples that kinora-render takes, at full size: the same bits as in its file.
+    bool refined = false;
+};
+
+// ms that the last frames took. The rows of the HUD.
+struct StageTimes {
+    double animate = 0, skin = 0, refit = 0, trace = 0, shade = 0, present = 0, total = 0;
+    double scale = 1;
+    int samples = 1;
+    bool cancelled = false;
+    double at = 0;  // when it was ready: ms since the player began
+};
+
+}  // namespace kinora

@@ -1,0 +1,474 @@
+// runtime/play/render_loop.cpp: passes over the newest order: a quick one, then better ones.
+#include "runtime/play/render_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "runtime/frame/frame.h"
+#include "runtime/play/guide.h"
+#include "runtime/scene/camera.h"
+#include "runtime/scene/transforms.h"
+#include "runtime/scene/values.h"
+
+namespace kinora {
+
+namespace {
+
+double sum_of(const FrameStats& stats, std::initializer_list<Stage> stages) {
+    double ms = 0;
+    for (Stage stage : stages) ms += stats.stages[size_t(stage)];
+    return ms;
+}
+
+constexpr size_t kTimes = 120;
+constexpr int kSomeShare = 8;     // a pass of a share of the samples comes before the whole
+constexpr int kManySamples = 16;  // where there are at least so many
+constexpr double kLate = 1.5;     // a quick frame this many times too late is let go for a newer
+
+double seconds_of(FrameRate rate, double frame) {
+    double whole = std::round(frame);
+    return frame == whole ? rate.time(int64_t(whole)) : frame / rate.value();
+}
+
+}  // namespace
+
+std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {
+    Scene& scene = *shown.scene;
+    evaluate(scene, seconds_of(shown.rate, order.frame));
+    update_transforms(scene);
+    if (order.camera_index < scene.cameras.size()) scene.camera = order.camera_index;
+    if (raytrace::is_error(set_view(scene, order.width, order.height))) return std::nullopt;
+    return scene.view;
+}
+
+std::optional<dvec3> place_of(ShownScene& shown, const std::string& name, double frame) {
+    Scene& scene = *shown.scene;
+    uint32_t node = find_node(scene, name);
+    if (node == kNone) return std::nullopt;
+    evaluate(scene, seconds_of(shown.rate, frame));
+    update_transforms(scene);
+    return dvec3(scene.nodes[node].world[3]);
+}
+
+// Kept from frame to frame.
+struct RenderLoop::Memory {
+    std::vector<std::shared_ptr<Picture>> pictures;
+    uint64_t serial = 0;
+    raytrace::Film enlarged;
+    Pacer pacer;
+    std::unique_ptr<Scene> closer;  // displaced meshes diced for the refined picture
+    std::shared_ptr<ShownScene> closer_of;
+};
+
+bool ViewOrder::same_picture(const ViewOrder& o) const {
+    auto camera_key = [](const FreeCamera& c) {
+        return std::tuple(c.pivot, c.distance, c.axes, c.parallel, c.half_height);
+    };
+    bool same_camera =
+        camera.has_value() == o.camera.has_value() &&
+        (camera ? camera_key(*camera) == camera_key(*o.camera) : camera_index == o.camera_index);
+    return same_camera && follow == o.follow && frame == o.frame && width == o.width &&
+           height == o.height && exposure == o.exposure;
+}
+
+RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
+    : real_time_(real_time),
+      wake_(std::move(wake)),
+      memory_(std::make_unique<Memory>()),
+      thread_([this] { run(); }) {}
+
+RenderLoop::~RenderLoop() {
+    {
+        std::lock_guard lock(mutex_);
+        quit_ = true;
+        stop_ = 1;
+    }
+    wanted_.notify_one();
+    thread_.join();
+}
+
+void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
+    {
+        std::lock_guard lock(mutex_);
+        scene_ = std::move(scene);
+        next_ = Pass::Quick;
+        stop_ = 1;
+    }
+    wanted_.notify_one();
+}
+
+void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
+    {
+        std::lock_guard lock(mutex_);
+        bool same = order_.same_picture(order);
+        bool refines_now = order_.playing && !order.playing && order.refine;
+        bool quality_changed = order_.refine != order.refine;
+        order_ = order;
+        if (!(display == display_)) {
+            // The guide may be missing.
+            if (shows_guide(display.aov) && !shows_guide(display_.aov)) same = false;
+            display_ = display;
+            display_changed_ = true;
+        }
+        if (!same) {
+            next_ = Pass::Quick;
+            if (in_work_) {
+                // Time that goes by never ends a frame, and no two in a row are ended: there is
+                // always a next picture.
+                ViewOrder then = in_work_->order;
+                then.frame = order.frame;
+                bool moved = !then.same_picture(order);
+                bool late = work_began_.ms() > kLate * 1000 / std::max(order.hold_rate, 1e-3);
+                bool ended_last = !times_.empty() && times_.back().cancelled;
+                bool quick = in_work_->pass == Pass::Quick;
+                if (!quick || (real_time_ && moved && late && !ended_last)) stop_ = 1;
+            }
+        } else if ((refines_now || quality_changed) && next_ == Pass::Done) {
+            next_ = Pass::Quick;
+        }
+    }
+    wanted_.notify_one();
+}
+
+void RenderLoop::ask(Question question) {
+    {
+        std::lock_guard lock(mutex_);
+        questions_.push_back(std::move(question));
+        if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;  // it begins again after it
+    }
+    wanted_.notify_one();
+}
+
+std::shared_ptr<const Picture> RenderLoop::picture() const {
+    std::lock_guard lock(mutex_);
+    return shown_;
+}
+
+std::vector<Answer> RenderLoop::take_answers() {
+    std::lock_guard lock(mutex_);
+    return std::exchange(answers_, {});
+}
+
+bool RenderLoop::answered() const {
+    std::lock_guard lock(mutex_);
+    return !scene_ || (questions_.empty() && !working_);
+}
+
+std::vector<FindingText> RenderLoop::take_findings() {
+    std::lock_guard lock(mutex_);
+    return std::exchange(findings_, {});
+}
+
+std::vector<StageTimes> RenderLoop::times() const {
+    std::lock_guard lock(mutex_);
+    return {times_.begin(), times_.end()};
+}
+
+uint64_t RenderLoop::frames() const {
+    std::lock_guard lock(mutex_);
+    return frames_;
+}
+
+bool RenderLoop::idle() const {
+    std::lock_guard lock(mutex_);
+    return !working_ && (!scene_ || (next_ == Pass::Done && !display_changed_ &&
+                                     questions_.empty() && answers_.empty()));
+}
+
+bool RenderLoop::caught_up() const {
+    std::lock_guard lock(mutex_);
+    bool quick_to_come = next_ == Pass::Quick || (in_work_ && in_work_->pass == Pass::Quick);
+    return !scene_ || !quick_to_come;
+}
+
+void RenderLoop::run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+        std::optional<Step> step;
+        wanted_.wait(lock, [&] { return quit_ || (step = next_step()); });
+        if (quit_) return;
+        stop_ = 0;
+        working_ = true;
+        bool renders = !step->question && !step->display_only;
+        if (renders) {
+            ++frames_;
+            in_work_ = *step;
+            work_began_.restart();
+        }
+        lock.unlock();
+        Outcome outcome;
+        if (renders) plan(*step);
+        if (step->question) {
+            answer(*step);
+            lock.lock();
+        } else if (step->display_only) {
+            redisplay(*step);
+            lock.lock();
+        } else {
+            outcome = make(*step);
+            lock.lock();
+            finish(*step, outcome);
+        }
+        in_work_.reset();
+        working_ = false;
+        lock.unlock();
+        wake_();
+        lock.lock();
+    }
+}
+
+// With the lock. What is to be done now, if anything.
+std::optional<RenderLoop::Step> RenderLoop::next_step() {
+    if (!scene_) return std::nullopt;
+    Step step;
+    step.order = order_;
+    step.display = display_;
+    step.scene = scene_;
+    if (!questions_.empty() && (next_ != Pass::Quick || !questions_.front().posed)) {
+        step.question = std::move(questions_.front());
+        questions_.pop_front();
+        return step;
+    }
+    if (next_ == Pass::Done) {
+        if (!display_changed_) return std::nullopt;
+        step.display_only = true;
+        display_changed_ = false;
+        return step;
+    }
+    display_changed_ = false;
+    step.pass = next_;
+    // The order in work: a newer one sets `next_` again.
+    next_ = Pass::Done;
+    return step;
+}
+
+// The pass's size and samples.
+void RenderLoop::plan(Step& step) const {
+    step.whole_samples = step.scene->settings.integrator.samples_per_pixel;
+    switch (step.pass) {
+        case Pass::Quick:
+            // Without a clock, what is refined is made at once.
+            if (!real_time_ && !step.order.playing && step.order.refine) {
+                step.pass = Pass::Refined;
+                step.samples = step.whole_samples;
+            } else if (real_time_ && step.order.adapt) {
+                step.scale = memory_->pacer.scale();
+            }
+            break;
+        case Pass::Whole:
+            break;
+        case Pass::Some:
+            step.samples = step.whole_samples / kSomeShare;
+            break;
+        case Pass::Refined:
+        case Pass::Done:
+            step.samples = step.whole_samples;
+            break;
+    }
+}
+
+RenderLoop::Pass RenderLoop::after(const Step& step) const {
+    if (step.order.playing || !step.order.refine) return Pass::Done;
+    bool some = step.whole_samples >= kManySamples;
+    switch (step.pass) {
+        case Pass::Quick:
+            if (step.scale < 1) return Pass::Whole;
+            [[fallthrough]];
+        case Pass::Whole:
+            return some ? Pass::Some : Pass::Refined;
+        case Pass::Some:
+            return Pass::Refined;
+        case Pass::Refined:
+        case Pass::Done:
+            return Pass::Done;
+    }
+    return Pass::Done;
+}
+
+// With the lock.
+void RenderLoop::finish(const Step& step, const Outcome& outcome) {
+    times_.push_back(outcome.times);
+    if (times_.size() > kTimes) times_.pop_front();
+    if (next_ != Pass::Done) return;  // a newer order
+    if (outcome.whole)
+        next_ = after(step);
+    else if (stop_)  // let go for something that is done by now
+        next_ = step.pass == Pass::Refined && !real_time_ ? Pass::Quick : step.pass;
+    // Else no picture can be made; the findings say why.
+}
+
+RenderLoop::Outcome RenderLoop::make(const Step& step) {
+    Outcome outcome;
+    StageTimes& times = outcome.times;
+    Stopwatch watch;
+    ShownScene& shown = *step.scene;
+    std::shared_ptr<Picture> to = free_picture();
+    FrameSettings settings = shown.settings;
+    settings.width = std::max(1, int(std::lround(step.order.width * step.scale)));
+    settings.height = std::max(1, int(std::lround(step.order.height * step.scale)));
+    settings.gain *= std::exp2(step.order.exposure);
+    settings.integrator.samples_per_pixel = step.samples;
+    settings.integrator.seed = frame_seed(shown.request, std::llround(step.order.frame));
+    settings.stop = &stop_;
+    PlacedCamera placed;
+    if (step.order.camera) {
+        placed = {step.order.camera->optics(), step.order.camera->world_from_camera()};
+        if (const auto& follow = step.order.follow) {
+            dvec3 from = follow->second;
+            dvec3 to_place = place_of(shown, follow->first, step.order.frame).value_or(from);
+            placed.world[3] += dvec4(to_place - from, 0.0);
+        }
+        settings.camera = &placed;
+    } else if (step.order.camera_index < shown.scene->cameras.size()) {
+        shown.scene->camera = step.order.camera_index;
+    }
+    FrameStats stats;
+    try {
+        outcome.whole = step.pass == Pass::Refined
+                            ? render_refined(step, settings, *to, stats)
+                            : render(step, *shown.scene, settings, *to, stats);
+    } catch (const std::bad_alloc&) {
+        std::lock_guard lock(mutex_);
+        findings_.push_back(plain_finding("MEMORY", "there is not enough memory for the picture"));
+    }
+    times = {
+        stats.animate,
+        stats.skin,
+        stats.refit,
+        sum_of(stats, {Stage::Sample, Stage::Trace, Stage::Points, Stage::Shadows, Stage::Nested}),
+        sum_of(stats, {Stage::Gather, Stage::Lights, Stage::Kernels, Stage::Film, Stage::Imager}),
+        0,
+        0,
+        step.scale,
+        step.samples,
+        !outcome.whole,
+        0};
+    if (outcome.whole) {
+        Stopwatch present;
+        to->scale = step.scale;
+        to->samples = step.samples;
+        to->refined = step.scale == 1 && step.samples == step.whole_samples &&
+                      (step.pass == Pass::Refined || step.whole_samples == 1);
+        finish_picture(step, *to);
+        times.present = present.ms();
+        publish(std::move(to));
+    }
+    times.total = watch.ms();
+    times.at = since_start_.ms();
+    double target = 1000 / std::max(step.order.hold_rate, 1e-3);
+    // A frame that was ended early says nothing, unless it was late already.
+    if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
+        memory_->pacer.aim_at(target);
+        memory_->pacer.add(times.total);
+    }
+    return outcome;
+}
+
+bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
+                        FrameStats& stats) {
+    Diagnostics& diagnostics = *step.scene->diagnostics;
+    bool whole = render_frame(scene, seconds_of(step.scene->rate, step.order.frame), settings,
+                              to.film, stats, diagnostics);
+    std::vector<FindingText> found = kinora::take_findings(diagnostics);
+    if (!found.empty()) {
+        std::lock_guard lock(mutex_);
+        findings_.insert(findings_.end(), found.begin(), found.end());
+    }
+    return whole;
+}
+
+// As kinora-render makes a frame: where displaced meshes are too coarse for it, by a scene that is
+// diced for it too.
+bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings, Picture& to,
+                                FrameStats& stats) {
+    ShownScene& shown = *step.scene;
+    FrameSettings fine = settings;
+    fine.most_dice_error = shown.redicer ? kMostDiceError : 0;
+    if (render(step, *shown.scene, fine, to, stats)) return true;
+    if (!stats.too_coarse || stop_) return false;
+    double pixels = stats.dice_error * shown.scene->dice.pixels;
+    CloserView view{seconds_of(shown.rate, step.order.frame), {}};
+    if (settings.camera) view.camera = shown.scene->view;
+    shown.redicer->start(view);
+    while (!shown.redicer->ready() && !stop_)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (stop_) return false;  // the next start() gives it up
+    memory_->closer = shown.redicer->take(*shown.diagnostics);
+    memory_->closer_of = step.scene;
+    if (memory_->closer) {
+        memory_->closer->camera = shown.scene->camera;
+        fine.most_dice_error = pixels / memory_->closer->dice.pixels;
+        if (render(step, *memory_->closer, fine, to, stats)) return true;
+        if (stop_) return false;
+    }
+    fine.most_dice_error = 0;
+    return render(step, *shown.scene, fine, to, stats);
+}
+
+// The guide, the picture's own size, and what is displayed.
+void RenderLoop::finish_picture(const Step& step, Picture& to) {
+    to.width = step.order.width;
+    to.height = step.order.height;
+    to.frame = step.order.frame;
+    to.view = step.scene->scene->view;
+    to.origin = step.scene->scene->origin;
+    const raytrace::Film* film = &to.film;
+    bool small = film->width != to.width || film->height != to.height;
+    if (shows_guide(step.display.aov))
+        make_guide(*step.scene->scene, to.width, to.height, to.guide);
+    else if (small)  // a quarter of the rays says where the edges are
+        make_guide(*step.scene->scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
+    else
+        to.guide = {};
+    if (small) {
+        enlarge(to.film, to.guide, to.width, to.height, memory_->enlarged);
+        film = &memory_->enlarged;
+    }
+    DisplaySettings display = step.display;
+    if (small && !shows_guide(display.aov)) display.aov.clear();  // planes come with all pixels
+    kinora::display(*film, to.guide, display, to.rgba);
+}
+
+void RenderLoop::answer(const Step& step) {
+    Answer answer = step.question->ask(*step.scene);
+    std::lock_guard lock(mutex_);
+    if (answer) answers_.push_back(std::move(answer));
+}
+
+void RenderLoop::redisplay(const Step& step) {
+    std::shared_ptr<Picture> last;
+    {
+        std::lock_guard lock(mutex_);
+        last = shown_;
+    }
+    if (!last) return;
+    std::shared_ptr<Picture> to = free_picture();
+    uint64_t serial = to->serial;
+    *to = *last;
+    to->serial = serial;
+    bool small = to->film.width != to->width || to->film.height != to->height;
+    if (small) enlarge(to->film, to->guide, to->width, to->height, memory_->enlarged);
+    kinora::display(small ? memory_->enlarged : to->film, to->guide, step.display, to->rgba);
+    publish(std::move(to));
+}
+
+// One that nobody holds any more.
+std::shared_ptr<Picture> RenderLoop::free_picture() {
+    auto& pictures = memory_->pictures;
+    auto found = std::find_if(pictures.begin(), pictures.end(),
+                              [](const auto& picture) { return picture.use_count() == 1; });
+    std::atomic_thread_fence(std::memory_order_acquire);  // after its last reader
+    if (found != pictures.end()) return *found;
+    return pictures.emplace_back(std::make_shared<Picture>());
+}
+
+void RenderLoop::publish(std::shared_ptr<Picture> picture) {
+    picture->serial = ++memory_->serial;
+    std::lock_guard lock(mutex_);
+    shown_ = std::move(picture);
+}
+
+}  // namespace kinora

@@ -1,0 +1,55 @@
+// runtime/play/scene_info.h: what panels and menus list of the scene that is shown.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/base/math.h"
+#include "runtime/description/scene_description.h"
+#include "runtime/play/shader_document.h"
+#include "runtime/play/files/shader_source.h"
+
+namespace kinora {
+
+// A node of the tree, parents first.
+struct NodeInfo {
+    std::string path, name;  // ids parted by '/'; what is shown
+    uint32_t parent = kNone;
+    uint32_t depth = 0;
+    bool moves = false;    // it or a node above is animated
+    bool deforms = false;  // a mesh on it changes its form
+    uint32_t triangles = 0;
+    std::vector<std::string> materials;
+};
+
+struct MaterialInfo {
+    std::string id, name, shader;                    // the surface's
+    std::shared_ptr<const ShaderSourceText> source;  // its text as read; null: none
+    std::vector<ShaderParamInfo> params;
+};
+
+struct ClipInfo {
+    std::string name;
+    double first = 0, last = 0;  // frames
+};
+
+// Does not change; a new one comes with each scene.
+struct SceneInfo {
+    std::string path;
+    uint64_t serial = 0;  // of scenes shown so far
+    double frame_rate = 24;
+    double first = 0, last = 0;  // frames
+    UpAxis up_axis = UpAxis::Y;
+    dvec3 low{0.0}, high{0.0};  // of the first frame
+    std::vector<std::string> cameras;
+    std::vector<ClipInfo> clips;
+    std::vector<NodeInfo> nodes;
+    std::vector<MaterialInfo> materials;
+    std::vector<std::string> aovs;  // that `aov` takes, "" is the picture
+    std::vector<double> keys;       // frames that have keys, sorted
+};
+
+}  // namespace kinora

@@ -1,0 +1,35 @@
+// runtime/play/script.h: a player driven by lines of text.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "runtime/play/player.h"
+
+namespace kinora {
+
+// Besides the commands: wait SECONDS|loaded|picture|refined, key NAME, expect pixel X Y R G B
+// [TOLERANCE], expect time FRAME, expect state NAME TEXT, stats FILE, comments behind #.
+class Script {
+  public:
+    // `name` is the file's, for messages, which go to `report`.
+    Script(Player& player, std::string name, std::function<void(const std::string&)> report);
+
+    // Runs all lines; stops at the first that cannot be done. False then.
+    bool run(std::string_view text);
+
+  private:
+    CommandResult line(const Words& words);
+    CommandResult wait(const Words& words);
+    CommandResult expect(const Words& words);
+    CommandResult expect_pixel(const Words& words);
+    CommandResult stats(const std::string& file) const;
+    void let_go_by(double seconds);
+
+    Player& player_;
+    std::string name_;
+    std::function<void(const std::string&)> report_;
+};
+
+}  // namespace kinora

@@ -1,0 +1,66 @@
+// runtime/play/shown_scene.h: a scene that is ready to be shown, and the edits it was built with.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/play/scene_info.h"
+#include "runtime/play/shader_document.h"
+#include "runtime/programs/open/open_scene.h"
+
+namespace kinora {
+
+// What was changed of the scene since it was read. Undo keeps the edits of before.
+struct SceneEdits {
+    struct Text {
+        std::string material, file, text;
+        uint64_t version = 0;  // of ShaderDocument
+        bool operator==(const Text&) const = default;
+    };
+    std::vector<Text> texts;                                  // one a material: of its surface
+    std::vector<std::pair<std::string, std::string>> params;  // MATERIAL.NAME, VALUE
+    std::vector<std::string> hidden;                          // nodes, by id
+
+    bool operator==(const SceneEdits&) const = default;
+};
+
+struct ShownScene {
+    SceneRequest request;
+    SceneEdits edits;
+    FrameRate rate;
+    std::unique_ptr<Scene> scene;      // null: it could not be made; `findings` say why
+    std::unique_ptr<Redicer> redicer;  // null where nothing is diced
+    FrameSettings settings;            // as kinora-render has them for the request
+    std::shared_ptr<const SceneInfo> info;
+    std::unique_ptr<Diagnostics> diagnostics;  // findings to come
+    std::vector<FindingText> findings;         // of reading and building
+    std::vector<std::string> files;            // read: of the scene, its shaders and textures
+    double build_ms = 0;                       // of edits and build
+    int exit_code = 0;                         // kinora-render's, where it could not be made
+    bool replaces_camera = true;               // another scene, not the same one changed
+};
+
+FindingText finding_text(const Finding& finding, const SourceFiles& files);
+// An error that no file is to blame for.
+FindingText plain_finding(const std::string& code, const std::string& message);
+// All that there are, and none is left.
+std::vector<FindingText> take_findings(Diagnostics& diagnostics);
+
+// `read`: the scene as read, without edits, and the texts it came from.
+struct SceneRead {
+    const SceneDescription& description;
+    const SourceFiles& files;
+};
+std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
+                                      const SceneRequest& request, FrameRate rate);
+// "torso/head/eye", by ids.
+std::string node_path(const Scene& scene, uint32_t node);
+uint32_t find_node(const Scene& scene, const std::string& path_id_or_name);  // kNone: none
+
+// The edits on a scene as read. Findings; false after an error.
+bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
+                 Diagnostics& diagnostics);
+
+}  // namespace kinora

@@ -1,0 +1,75 @@
+// runtime/play/state.h: what the player is asked to show. A copy of it is all that a panel reads.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/base/math.h"
+#include "runtime/play/free_camera.h"
+
+namespace kinora {
+
+enum class LoopMode : uint8_t { Loop, PingPong, Once };
+enum class ToneCurve : uint8_t { Plain, Filmic };  // Plain: what kinora-render writes
+
+struct CameraState {
+    bool free = false;  // moved by hand; else the scene's camera `index`
+    uint32_t index = 0;
+    bool locked = false;  // moves do not leave the scene's camera
+    FreeCamera own;
+    bool turntable = false;
+    std::string follow;  // the node it moves with; "" none
+};
+
+struct TimeState {
+    double frame = 0;  // whole unless it plays
+    double first = 0, last = 0;
+    std::optional<double> in, out;  // of what plays, frames
+    bool playing = false;
+    double speed = 1;  // J K L: -4 .. 4 times, 1 forwards
+    LoopMode loop = LoopMode::Loop;
+    bool every_frame = false;  // none is dropped, it plays slower instead
+    std::string clip;
+};
+
+struct PictureState {
+    int width = 640, height = 360;  // of the refined picture
+    double exposure = 0;            // stops
+    ToneCurve tone = ToneCurve::Plain;
+    std::string aov;           // "" the picture itself
+    bool false_color = false;  // of the luminance or the AOV
+    double hold_rate = 30;     // pictures a second while something moves
+    bool adapt = true;         // fewer pixels where that rate is not reached
+    bool refine = true;        // to the quality of kinora-render when nothing moves
+    std::string wipe;          // the picture kept by `keep`, left of `wipe_at`; "" none
+    double wipe_at = 0.5;      // share of the width
+};
+
+// What lies under a pixel.
+struct PickedPixel {
+    int x = 0, y = 0;
+    bool hit = false;
+    std::string node, mesh, material, shader;
+    dvec3 P{0.0}, N{0.0};  // world
+    double u = 0, v = 0, distance = 0;
+    vec4 color{0.0f};  // of the picture shown: linear, associated
+};
+
+struct Selection {
+    std::string node, material;
+    std::optional<PickedPixel> pixel;
+};
+
+struct PlayerState {
+    CameraState camera;
+    TimeState time;
+    PictureState picture;
+    Selection selection;
+    std::vector<std::string> panels;  // open ones, by name
+    int files_written = 0;
+    bool quit = false;
+};
+
+}  // namespace kinora

@@ -1,0 +1,201 @@
+// runtime/programs/open/open_scene.cpp: import, what the options change, and the build.
+#include "runtime/programs/open/open_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "runtime/base/parallel.h"
+#include "runtime/build/build_scene.h"
+#include "runtime/build/defaults.h"
+#include "runtime/description/findings.h"
+#include "runtime/description/play_range.h"
+#include "runtime/frame/exposure.h"
+#include "runtime/load/import_scene.h"
+#include "runtime/load/override_scene.h"
+#include "runtime/load/override_shader.h"
+#include "runtime/load/smooth_normals.h"
+#include "runtime/programs/common/exit_codes.h"
+#include "runtime/scene/camera.h"
+
+namespace kinora {
+
+namespace {
+
+int scaled(const SceneRequest& request, double pixels) {
+    return int(std::clamp(std::round(pixels * request.scale), 1.0, 65536.0));
+}
+
+SceneOptions scene_options(const SceneRequest& request) {
+    SceneOptions o;
+    o.camera = request.camera;
+    o.view.follow = request.follow;
+    o.view.yfov = request.yfov;
+    o.view.from = request.look_from;
+    o.view.at = parse_point(request.look_at);
+    if (!o.view.at) o.view.at_node = request.look_at;
+    o.math = request.quality.math;
+    o.target = request.target;
+    o.shadows = request.shadows;
+    o.lights = request.lights;
+    o.ray_depth = request.quality.ray_depth;
+    o.diffuse_depth = request.quality.diffuse_depth;
+    o.split = request.quality.split;
+    o.ray_limit = request.ray_limit;
+    o.accel.robust = request.quality.robust;
+    o.accel.always_rebuild = request.quality.always_rebuild;
+    o.accel.background = false;  // a frame depends on its time alone
+    o.decode_textures = request.color == ColorEncoding::Srgb;
+    o.light_samples = request.light_samples;
+    o.aovs = request.aovs;
+    o.displacement = request.quality.displacement;
+    o.dice = request.quality.dice;
+    if (request.dice_limit) o.dice_limit = request.dice_limit;
+    o.width = scaled(request, request.width ? request.width : 640);
+    o.height = request.height ? scaled(request, request.height) : 0;
+    return o;
+}
+
+ImportOptions import_options(const SceneRequest& request) {
+    ImportOptions import;
+    import.allow_external = request.allow_external;
+    import.confine = request.confine;
+    import.up_axis = request.up_axis;
+    import.meter = request.meter;
+    import.transparency = request.transparency;
+    import.decode_colors = request.color == ColorEncoding::Srgb;
+    import.include_directories = request.include_directories;
+    return import;
+}
+
+void check_target(const SceneRequest& request, Diagnostics& diagnostics) {
+    if (!request.target_missing.empty())
+        diagnostics.report(Code::TARGET_UNAVAILABLE, Location{}, request.target_missing,
+                           jit::best_target().name);
+    else if (!request.target && jit::best_target().name == std::string_view("interp"))
+        diagnostics.report(Code::TARGET_INTERPRETED, Location{});
+}
+
+void change(SceneDescription& description, const SceneRequest& request, Diagnostics& diagnostics) {
+    if (!request.shaders.empty() || !request.params.empty()) {  // which may name these lights
+        description.default_lights = default_lights(description.values);
+        description.animated.resize(description.values.size(), false);
+    }
+    for (const auto& [pattern, file] : request.shaders)
+        override_shader(description, pattern, {file, request.include_directories}, diagnostics);
+    if (!request.atmosphere.empty())
+        override_atmosphere(description, {request.atmosphere, request.include_directories},
+                            diagnostics);
+    if (!request.imager.empty())
+        override_imager(description, {request.imager, request.include_directories}, diagnostics);
+    for (const auto& [target, value] : request.params)
+        override_param(description, target, value, diagnostics);
+    override_visibility(description, request.hide, request.only, diagnostics);
+    if (request.smooth) smooth_normals(description, *request.smooth);
+}
+
+void set_range(ImportedScene& imported, const SceneRequest& request) {
+    PlayRange range = play_range(imported.description);
+    imported.rate = request.fps.value_or(frame_rate_of(range.rate));
+    if (!request.clip.empty()) {
+        const ClipDefinition* clip = find_clip(imported.description, request.clip);
+        imported.clip_known = clip != nullptr;
+        if (!clip) return;
+        range.start = clip->start;
+        range.end = clip->end;
+        play_clip(imported.description, *clip);
+    }
+    imported.options.frame_rate = imported.rate.value();
+    imported.options.start_time = range.start;
+    imported.options.end_time = range.end;
+    if (!request.turntable) return;
+    imported.options.view.turn_seconds = *request.turntable / imported.rate.value();
+    imported.options.view.turn_start = imported.rate.time(first_frame(imported.rate, range.start));
+}
+
+}  // namespace
+
+std::optional<dvec3> parse_point(const std::string& text) {
+    dvec3 p;
+    char tail = 0;
+    bool three = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &tail) == 3;
+    if (!three || !std::isfinite(p.x + p.y + p.z)) return std::nullopt;
+    return p;
+}
+
+int64_t first_frame(FrameRate rate, double start) {
+    double frame = std::round(start * rate.value());
+    return std::abs(frame) < kFurthestFrame ? int64_t(frame) : 0;
+}
+
+std::optional<ImportedScene> import_requested(const SceneRequest& request,
+                                              Diagnostics& diagnostics) {
+    check_target(request, diagnostics);
+    auto description = import_scene(request.scene, import_options(request), diagnostics);
+    if (!description) {
+        auto no_scene = [](const Finding& f) {
+            return f.info->code == std::string_view("SCENE_NONE");
+        };
+        if (std::ranges::any_of(diagnostics.findings(), no_scene))
+            diagnostics.report(Code::SCENE_EMPTY, Location{});
+        return std::nullopt;
+    }
+    change(*description, request, diagnostics);
+    ImportedScene imported{std::move(*description), scene_options(request), {}};
+    set_range(imported, request);
+    return imported;
+}
+
+BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics) {
+    BuiltScene built;
+    if (may_dice(imported.description, imported.options))
+        built.redicer = std::make_unique<Redicer>(imported.description, imported.options);
+    if (exit_code_of_findings(diagnostics, 0) == 0)
+        built.scene =
+            build_scene(std::make_shared<SceneDescription>(std::move(imported.description)),
+                        imported.options, diagnostics);
+    if (!built.scene || !built.scene->dice.triangles) built.redicer.reset();
+    if (built.redicer) built.redicer->share(*built.scene, diagnostics.files);
+    return built;
+}
+
+FrameSettings frame_settings(const SceneRequest& request, Scene& scene, Diagnostics& diagnostics,
+                             const std::atomic<int>* stop) {
+    FrameSettings settings;
+    double aspect = camera_aspect(scene).value_or(16.0 / 9.0);
+    double width = request.width ? request.width : 640;
+    settings.width = scaled(request, width);
+    settings.height = scaled(request, request.height ? request.height : width / aspect);
+    settings.integrator.samples_per_pixel = request.quality.samples_per_pixel;
+    settings.integrator.filter = raytrace::find_pixel_filter(request.filter);
+    settings.integrator.filter_width = request.filter_width;
+    settings.integrator.background = request.background;
+    settings.integrator.nan = request.nan;
+    settings.stop = stop;
+    double stops = request.exposure;
+    if (request.auto_exposure) {
+        stops = auto_exposure(scene, settings, diagnostics);
+        diagnostics.report(Code::EXPOSURE_AUTO, Location{}, stops);
+    }
+    settings.gain = std::exp2(stops);
+    return settings;
+}
+
+uint32_t frame_seed(const SceneRequest& request, int64_t frame) {
+    return request.seed * 0x9e3779b9u + uint32_t(frame);
+}
+
+int exit_code_of_findings(const Diagnostics& diagnostics, int otherwise) {
+    for (const Finding& finding : diagnostics.findings()) {
+        if (finding.severity != Severity::Error) continue;
+        if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
+        for (const FindingInfo* usage :
+             {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
+              &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE,
+              &Code::NODE_UNKNOWN, &Code::AOV_UNKNOWN, &Code::CAMERA_PARALLEL})
+            if (finding.info == usage) return kExitUsage;
+    }
+    return otherwise;
+}
+
+}  // namespace kinora

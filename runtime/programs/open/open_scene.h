@@ -1,0 +1,52 @@
+// runtime/programs/open/open_scene.h: from what a command line asks for to a scene ready for
+// frames.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/redice.h"
+#include "runtime/programs/open/scene_request.h"
+
+namespace kinora {
+
+// A scene file read, with all that the request changes of it: what build_scene takes.
+struct ImportedScene {
+    SceneDescription description;
+    SceneOptions options;
+    FrameRate rate;
+    bool clip_known = true;  // SceneRequest::clip is one of its clips, or empty
+};
+
+// "X,Y,Z"; nothing if it is not that.
+std::optional<dvec3> parse_point(const std::string& text);
+
+// Reads and changes. Nothing where the file is no scene. Findings;
+// where some of them has an exit code (below), no picture is to be made.
+std::optional<ImportedScene> import_requested(const SceneRequest& request,
+                                              Diagnostics& diagnostics);
+
+struct BuiltScene {
+    std::unique_ptr<Scene> scene;      // null: findings say why
+    std::unique_ptr<Redicer> redicer;  // null where nothing is diced
+};
+BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics);
+
+// The picture's size, its samples, filter and so on, and its gain. Automatic exposure makes small
+// pictures of the scene; a `stop` that is not 0 ends them.
+FrameSettings frame_settings(const SceneRequest& request, Scene& scene, Diagnostics& diagnostics,
+                             const std::atomic<int>* stop = nullptr);
+
+// The seed of a frame.
+uint32_t frame_seed(const SceneRequest& request, int64_t frame);
+// The frame that a scene which plays from `start` seconds begins with.
+inline constexpr double kFurthestFrame = 1e12;  // as far as --frames goes
+int64_t first_frame(FrameRate rate, double start);
+
+// The exit code that errors among the findings call for: of a shader, of an option. `otherwise`
+// where none does.
+int exit_code_of_findings(const Diagnostics& diagnostics, int otherwise);
+
+}  // namespace kinora

@@ -1,0 +1,88 @@
+// runtime/programs/play/headless.cpp: scripts and screenshots.
+#include "runtime/programs/play/headless.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "runtime/play/script.h"
+#include "runtime/programs/common/exit_codes.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr double kPatience = 24 * 3600;
+
+void say(const std::string& line) {
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+int run_script(const PlayOptions& options, Player& player) {
+    std::ifstream in(options.script);
+    std::stringstream text;
+    text << in.rdbuf();
+    if (!in) {
+        say(fmt::format("kinora-play: error: the script '{}' cannot be read", options.script));
+        return kExitUsage;
+    }
+    return Script(player, options.script, say).run(text.str()) ? kExitOk : kExitSomeFailed;
+}
+
+int one_screenshot(Player& player, const std::string& file) {
+    CommandResult result = player.run("screenshot", {file});
+    if (result.done) return kExitOk;
+    say("kinora-play: error: " + result.message);
+    return kExitUnwritable;
+}
+
+int take_screenshots(const PlayOptions& options, Player& player) {
+    OutputName name(options.screenshot);
+    const RenderOptions& scene = options.scene;
+    if (scene.time) player.run("seek", {fmt::format("{}s", *scene.time)});
+    if (!scene.frames) {
+        player.wait_idle(kPatience);
+        return one_screenshot(player, name.file(int64_t(player.state().time.frame)));
+    }
+    if (scene.frames->size() > 1 && !name.has_token()) {
+        say("kinora-play: error: several frames need a frame token in --screenshot, as f.####.png");
+        return kExitUsage;
+    }
+    for (int64_t frame : *scene.frames) {
+        player.run("seek", {fmt::format("{}", frame)});
+        player.wait_idle(kPatience);
+        if (int code = one_screenshot(player, name.file(frame))) return code;
+    }
+    return kExitOk;
+}
+
+}  // namespace
+
+void FindingLines::print(const Player& player) {
+    for (const FindingText& finding : player.findings()) {
+        bool error = finding.severity == "error";
+        error_ |= error;
+        bool shown =
+            error || (!options_.quiet && (options_.verbose || finding.severity == "warning"));
+        if (!shown || std::ranges::find(printed_, finding.printed) != printed_.end()) continue;
+        printed_.push_back(finding.printed);
+        std::fputs(finding.printed.c_str(), stderr);
+    }
+}
+
+int run_headless(const PlayOptions& options, Player& player) {
+    FindingLines lines(options.scene.findings);
+    player.wait_loaded(kPatience);
+    lines.print(player);
+    if (player.load_state() != LoadState::Ready)
+        return player.exit_code() != 0 ? player.exit_code() : int(kExitUnreadable);
+    int code = options.script.empty() ? int(kExitOk) : run_script(options, player);
+    if (code == kExitOk && !options.screenshot.empty()) code = take_screenshots(options, player);
+    lines.print(player);
+    return code == kExitOk && lines.any_error() ? int(kExitSomeFailed) : code;
+}
+
+}  // namespace kinora

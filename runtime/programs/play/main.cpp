@@ -1,0 +1,56 @@
+// runtime/programs/play/main.cpp: kinora-play.
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+#include "runtime/play/player.h"
+#include "runtime/programs/common/finish.h"
+#include "runtime/programs/play/headless.h"
+#include "runtime/programs/play/options.h"
+#include "runtime/programs/play/ui/layout.h"
+#include "runtime/programs/play/window/window.h"
+
+namespace kinora {
+
+namespace {
+
+int play_scene(const PlayOptions& options) {
+    PlayerSetup setup;
+    setup.real_time = !options.headless || options.real_time;
+    setup.watch_files = setup.real_time;
+    if (!options.headless) setup.wake = play::wake_window;
+    Player player(setup);
+    if (!options.record.empty() && !player.record_to(options.record)) {
+        std::fprintf(stderr, "kinora-play: error: '%s' cannot be written\n",
+                     options.record.c_str());
+        return kExitUnwritable;
+    }
+    player.open(options.scene);
+    if (options.headless) return run_headless(options, player);
+    std::string error;
+    const play::WindowOptions window{options.scene.width > 0 || options.scene.scale != 1, false,
+                                     play::layout_file()};
+    if (play::run_window(player, window, error)) return kExitOk;
+    std::fprintf(stderr,
+                 "kinora-play: error: there is no display (%s); "
+                 "kinora-play --headless --script FILE works without one\n",
+                 error.c_str());
+    return kExitUsage;
+}
+
+}  // namespace
+
+}  // namespace kinora
+
+int main(int argc, char** argv) {
+    kinora::PlayOptions options;
+    if (std::optional<int> code = kinora::parse_play_options(argc, argv, options))
+        return kinora::finish(*code, "kinora-play");
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return kinora::finish(kinora::play_scene(options), "kinora-play");
+    } catch (const std::bad_alloc&) {
+        std::fputs("kinora-play: out of memory\n", stderr);
+        return kinora::kExitRetry;
+    }
+}

@@ -1,0 +1,30 @@
+// runtime/programs/play/options.cpp: kinora-play's command line.
+#include "runtime/programs/play/options.h"
+
+#include <cstdio>
+
+#include "runtime/programs/common/exit_codes.h"
+
+namespace kinora {
+
+std::optional<int> parse_play_options(int argc, char** argv, PlayOptions& o) {
+    SceneProgram program{"kinora-play", "a scene that plays while its shaders are edited", {}};
+    program.own = {
+        {"--headless", nullptr, &o.headless,
+         "no window: --script or --screenshot say what is done"},
+        {"--script", &o.script, nullptr, "FILE: one command a line (docs/play.md)"},
+        {"--screenshot", &o.screenshot, nullptr,
+         "FILE: the refined picture as .png or .exr, with a frame token (####) of each frame"},
+        {"--record", &o.record, nullptr, "FILE: writes a script of what is done"},
+        {"--real-time", nullptr, &o.real_time,
+         "without a window too, time runs by the clock and pictures adapt to it"},
+    };
+    if (auto code = parse_scene_options(argc, argv, program, o.scene)) return code;
+    if (o.headless && o.script.empty() && o.screenshot.empty()) {
+        std::fputs("kinora-play: --headless needs --script FILE or --screenshot FILE\n", stderr);
+        return kExitUsage;
+    }
+    return std::nullopt;
+}
+
+}  // namespace kinora

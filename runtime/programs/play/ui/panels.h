@@ -1,0 +1,126 @@
+// runtime/programs/play/ui/panels.h: the panels, each drawn into the window it finds open.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "runtime/programs/play/raster/raster.h"
+#include "runtime/programs/play/ui/context.h"
+
+namespace kinora::play {
+
+// The tree of nodes: what moves, deforms or stands.
+class NodesPanel {
+  public:
+    void draw(Context& context);
+
+  private:
+    void list(const SceneInfo& scene);
+    void row(Context& context, const SceneInfo& scene, size_t index);
+
+    uint64_t scene_ = 0;
+    std::set<uint32_t> closed_;
+    std::vector<uint32_t> shown_;  // rows of SceneInfo::nodes
+    std::vector<char> has_children_;
+    std::string filter_, shown_filter_;
+    std::string selected_;  // as last scrolled to
+};
+
+// The materials, and the parameters of the one being edited.
+void draw_parameters(Context& context);
+
+// The shader's text.
+class EditorPanel {
+  public:
+    explicit EditorPanel(const EditorColors& colors) : pane_(colors) {}
+    void draw(Context& context);
+    bool focused() const { return pane_.focused(); }
+    void release() { pane_.focus(false); }
+
+  private:
+    void toolbar(Context& context, const ShaderDocument& document);
+    void follow(const ShaderDocument& document);
+    void follow_selection(Context& context);
+
+    EditorPane pane_;
+    std::string selected_;  // material
+    std::string material_;
+    uint64_t version_ = 0;
+    size_t caret_ = 0;  // as the player has it
+};
+
+void draw_findings(Context& context);
+// Everything known of the pixel that was clicked.
+void draw_pixel(Context& context);
+// Stage times of the last frames, as stacked bars: `size` at the cursor.
+void draw_stage_times(Context& context, ImVec2 size);
+void draw_times(Context& context);
+
+// Transport buttons and the ruler of frames.
+class Timeline {
+  public:
+    void draw(Context& context);
+    float height(const Theme& theme) const { return theme.px(74); }
+
+  private:
+    void transport(Context& context);
+    void ruler(Context& context);
+};
+
+// The picture, and the mouse over it.
+class Viewport {
+  public:
+    // `follow_size`: the picture is made of as many pixels as there are here.
+    explicit Viewport(bool follow_size) : follow_size_(follow_size) {}
+    void draw(Context& context, ImVec2 corner, ImVec2 size);
+    // The pixel under the pointer in words; "" none.
+    const std::string& under_pointer() const { return under_pointer_; }
+    // Seconds until it has to be drawn again; < 0: never by itself.
+    double next_turn() const { return next_turn_; }
+
+  private:
+    void place(const Picture& picture, ImVec2 corner, ImVec2 size);
+    void follow(Context& context, ImVec2 size);
+    void take_mouse(Context& context, bool hovered);
+    void take_wheel(Context& context);
+    void show_under_pointer(const Context& context);
+    void overlay(Context& context, ImVec2 corner, ImVec2 size);
+
+    bool follow_size_;
+    std::shared_ptr<const Picture> picture_;  // drawn; kept while the rasteriser reads it
+    Texture texture_;
+    ImVec2 low_{0, 0}, high_{0, 0};  // where it is on the screen
+    int width_ = 0, height_ = 0;     // asked for last
+    double wanted_since_ = 0, next_turn_ = -1;
+    ImVec2 wanted_{0, 0};
+    int button_ = -1;  // held down
+    bool moved_ = false;
+    std::string under_pointer_;
+};
+
+// The rows of the table as a menu bar.
+void draw_menu(Context& context);
+
+// Any command by name.
+class Palette {
+  public:
+    // `wanted`: as the state has it.
+    void draw(Context& context, bool wanted);
+    bool open() const { return open_; }
+
+  private:
+    void find();
+    void execute(Context& context);
+
+    bool open_ = false, focus_ = false;
+    char text_[512] = "";
+    std::string searched_;
+    std::vector<const Command*> found_;
+    size_t chosen_ = 0;
+};
+
+// All keys at a glance.
+void draw_cheat_sheet(Context& context);
+
+}  // namespace kinora::play

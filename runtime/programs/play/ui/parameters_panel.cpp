@@ -1,0 +1,190 @@
+// runtime/programs/play/ui/parameters_panel.cpp: materials, and widgets by declared types.
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "runtime/programs/play/ui/panels.h"
+
+namespace kinora::play {
+
+namespace {
+
+const char* type_name(ParamKind kind) {
+    switch (kind) {
+        case ParamKind::Float:
+            return "float";
+        case ParamKind::Color:
+            return "color";
+        case ParamKind::Point:
+            return "point";
+        case ParamKind::Vector:
+            return "vector";
+        case ParamKind::Normal:
+            return "normal";
+        case ParamKind::Matrix:
+            return "matrix";
+        case ParamKind::Text:
+            return "string";
+    }
+    return "";
+}
+
+size_t components(ParamKind kind) {
+    switch (kind) {
+        case ParamKind::Float:
+            return 1;
+        case ParamKind::Matrix:
+            return 16;
+        case ParamKind::Text:
+            return 0;
+        case ParamKind::Color:
+        case ParamKind::Point:
+        case ParamKind::Vector:
+        case ParamKind::Normal:
+            return 3;
+    }
+    return 0;
+}
+
+// The numbers of one element, changed in place. A step of a drag is a share of the number.
+bool edit_numbers(const Theme& theme, ParamKind kind, double* numbers) {
+    const float width = ImGui::GetContentRegionAvail().x - theme.px(4);
+    ImGui::SetNextItemWidth(width);
+    float values[16];
+    const size_t count = components(kind);
+    float largest = 0;
+    for (size_t i = 0; i < count; ++i) {
+        values[i] = static_cast<float>(numbers[i]);
+        largest = std::max(largest, std::abs(values[i]));
+    }
+    const float speed = std::max(0.002f, largest * 0.005f);
+    bool changed = false;
+    if (kind == ParamKind::Color) {
+        changed = ImGui::ColorEdit3("##value", values,
+                                    ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+    } else if (kind == ParamKind::Matrix) {
+        for (int row = 0; row < 4; ++row) {
+            ImGui::PushID(row);
+            ImGui::SetNextItemWidth(width);
+            changed |= ImGui::DragFloat4("##row", values + 4 * row, speed, 0, 0, "%.3g");
+            ImGui::PopID();
+        }
+    } else if (count == 1) {
+        changed = ImGui::DragFloat("##value", values, speed, 0, 0, "%.4g");
+    } else {
+        changed = ImGui::DragFloat3("##value", values, speed, 0, 0, "%.4g");
+    }
+    if (changed)
+        for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<double>(values[i]);
+    return changed;
+}
+
+std::string numbers_text(const std::vector<double>& numbers) {
+    std::string text;
+    for (double number : numbers) text += fmt::format("{}{:.7g}", text.empty() ? "" : " ", number);
+    return text;
+}
+
+void draw_value(Context& context, const ShaderParamInfo& param) {
+    if (param.kind == ParamKind::Text) {
+        std::string text = param.text;
+        ImGui::SetNextItemWidth(-1);
+        if (ImGui::InputText("##text", &text, ImGuiInputTextFlags_EnterReturnsTrue))
+            context.run("param", {param.name, text});
+        return;
+    }
+    if (param.numbers.empty()) {
+        ImGui::TextDisabled("differs from point to point");
+        return;
+    }
+    std::vector<double> numbers = param.numbers;
+    const size_t step = components(param.kind);
+    bool changed = false;
+    for (size_t at = 0; at + step <= numbers.size(); at += step) {
+        ImGui::PushID(static_cast<int>(at));
+        changed |= edit_numbers(context.theme, param.kind, numbers.data() + at);
+        ImGui::PopID();
+    }
+    if (changed) context.run("param", {param.name, numbers_text(numbers)});
+}
+
+void draw_parameter(Context& context, const ShaderParamInfo& param) {
+    const Theme& theme = context.theme;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, param.changed ? theme.accent : theme.text);
+    ImGui::TextUnformatted(param.name.c_str());
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s%s%s %s%s", param.output ? "output " : "",
+                          param.varying ? "varying " : "", type_name(param.kind),
+                          param.name.c_str(), param.changed ? "\nchanged by hand" : "");
+    ImGui::TableNextColumn();
+    const bool fixed = param.animated || !Context::has("param");
+    if (param.animated) {
+        ImGui::PushStyleColor(ImGuiCol_Text, theme.accent);
+        ImGui::TextUnformatted("animated");
+        ImGui::PopStyleColor();
+    }
+    ImGui::BeginDisabled(fixed);
+    draw_value(context, param);
+    ImGui::EndDisabled();
+}
+
+void draw_materials(Context& context, const SceneInfo& scene) {
+    const std::string& current = context.state().selection.material;
+    const Theme& theme = context.theme;
+    const float row = ImGui::GetTextLineHeightWithSpacing();
+    // Those of the defaults have no name.
+    const auto named =
+        std::count_if(scene.materials.begin(), scene.materials.end(),
+                      [](const MaterialInfo& material) { return !material.id.empty(); });
+    const auto shown = static_cast<float>(std::min<long>(named, 7));
+    ImGui::BeginChild("materials", {0, row * shown + theme.px(4)});
+    for (const MaterialInfo& material : scene.materials) {
+        if (material.id.empty()) continue;
+        ImGui::PushID(material.id.c_str());
+        if (ImGui::Selectable("##material", material.id == current) &&
+            context.has("select_material"))
+            context.run("select_material", {material.id});
+        ImGui::SameLine(theme.px(6));
+        ImGui::TextUnformatted((material.name.empty() ? material.id : material.name).c_str());
+        const float right = ImGui::GetContentRegionAvail().x;
+        const float width = ImGui::CalcTextSize(material.shader.c_str()).x;
+        ImGui::SameLine(
+            std::max(ImGui::GetCursorPosX() + right - width - theme.px(6), theme.px(90)));
+        ImGui::TextDisabled("%s", material.shader.c_str());
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+    ImGui::Separator();
+}
+
+}  // namespace
+
+void draw_parameters(Context& context) {
+    const auto scene = context.player.scene();
+    if (!scene) return empty_note(context.theme, "No scene is open.");
+    draw_materials(context, *scene);
+    const ShaderDocument& shader = context.player.shader();
+    if (shader.material.empty())
+        return empty_note(context.theme, "Choose a material to see its parameters.");
+    if (shader.params.empty()) return empty_note(context.theme, "This shader has no parameters.");
+    ImGui::BeginChild("parameters");
+    if (ImGui::BeginTable("parameters", 2, ImGuiTableFlags_SizingStretchProp)) {
+        ImGui::TableSetupColumn("name", 0, 0.38f);
+        ImGui::TableSetupColumn("value", 0, 0.62f);
+        for (const ShaderParamInfo& param : shader.params) {
+            ImGui::PushID(param.name.c_str());
+            draw_parameter(context, param);
+            ImGui::PopID();
+        }
+        ImGui::EndTable();
+    }
+    ImGui::EndChild();
+}
+
+}  // namespace kinora::play

@@ -1,0 +1,59 @@
+// runtime/programs/play/ui/ui.h: the whole window's content, drawn with Dear ImGui once a turn.
+#pragma once
+
+#include <string>
+
+#include "runtime/programs/play/ui/context.h"
+#include "runtime/programs/play/ui/panels.h"
+
+namespace kinora::play {
+
+class Ui {
+  public:
+    // For the current ImGui context. `follow_size`: see Viewport.
+    Ui(Player& player, const Layout& layout, float scale, bool follow_size);
+    Ui(const Ui&) = delete;
+
+    // Between ImGui::NewFrame and Render.
+    void draw();
+    // The same into memory: a whole frame of ImGui's.
+    void render(const Target& target, float seconds);
+
+    // A key of the table by its name: "Ctrl+S". False: no row has it, or the keyboard belongs to a
+    // text.
+    bool press(const std::string& key);
+    // Whether letters are text at present.
+    bool wants_text() const;
+    // Seconds until it changes by itself; < 0: never.
+    double next_turn() const;
+
+    const Layout& layout() const { return layout_; }
+    Context& context() { return context_; }
+
+  private:
+    struct Box {
+        ImVec2 low, high;
+        ImVec2 size() const { return {high.x - low.x, high.y - low.y}; }
+    };
+    void restore_panels();
+    void remember_panels();
+    bool shows(Area area) const;
+    void draw_area(Area area, const Box& box);
+    void draw_panel(const char* name);
+    void splitter(Area area, const Box& box);
+    void status_bar(const Box& box);
+    void draw_toast(const Box& box);
+
+    Layout layout_;
+    Theme theme_;
+    Texture font_;
+    Context context_;
+    NodesPanel nodes_;
+    EditorPanel editor_;
+    Timeline timeline_;
+    Viewport viewport_;
+    Palette palette_;
+    bool failed_ = false;
+};
+
+}  // namespace kinora::play

@@ -1,0 +1,206 @@
+// runtime/programs/play/ui/viewport.cpp: the picture, the mouse over it, and what is written on it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/programs/play/ui/panels.h"
+
+namespace kinora::play {
+
+namespace {
+
+constexpr double kSizeDelay = 0.2;  // seconds that a size must last before pictures have it
+constexpr float kDegreesPerPixel = 0.4f;
+constexpr float kDollyPerPixel = 1.005f, kDollyPerNotch = 1.12f;
+
+std::string number(double value) {
+    return fmt::format("{:.6g}", value);
+}
+
+void shadowed_text(ImDrawList* list, ImVec2 at, ImU32 color, const std::string& text) {
+    list->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
+    list->AddText(at, color, text.c_str());
+}
+
+}  // namespace
+
+// As large as it fits, without distortion; where it fits exactly, pixel on pixel.
+void Viewport::place(const Picture& picture, ImVec2 corner, ImVec2 size) {
+    const auto width = static_cast<float>(picture.width),
+               height = static_cast<float>(picture.height);
+    float zoom = std::min(size.x / width, size.y / height);
+    if (zoom > 1 && zoom < 1.02f) zoom = 1;
+    const ImVec2 shown{std::round(width * zoom), std::round(height * zoom)};
+    low_ = {corner.x + std::floor((size.x - shown.x) / 2),
+            corner.y + std::floor((size.y - shown.y) / 2)};
+    high_ = {low_.x + shown.x, low_.y + shown.y};
+}
+
+void Viewport::follow(Context& context, ImVec2 size) {
+    next_turn_ = -1;
+    if (!follow_size_ || !Context::has("size")) return;
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    const ImVec2 wanted{std::floor(size.x * scale.x), std::floor(size.y * scale.y)};
+    if (wanted.x < 16 || wanted.y < 16) return;
+    const double now = ImGui::GetTime();
+    if (wanted.x != wanted_.x || wanted.y != wanted_.y) {
+        wanted_ = wanted;
+        wanted_since_ = now;
+    }
+    const int width = static_cast<int>(wanted.x), height = static_cast<int>(wanted.y);
+    if (width == width_ && height == height_) return;
+    const double left = wanted_since_ + kSizeDelay - now;
+    if (left > 0 && width_ > 0) {
+        next_turn_ = left;
+        return;
+    }
+    width_ = width;
+    height_ = height;
+    context.player.run("size", {fmt::format("{}", width), fmt::format("{}", height)});
+}
+
+void Viewport::take_wheel(Context& context) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseWheel != 0 && Context::has("dolly"))
+        context.run("dolly", {number(std::pow(kDollyPerNotch, io.MouseWheel))});
+}
+
+// Left: orbit; with Shift, or the middle button: pan; right: dolly. Without a move: a click.
+void Viewport::take_mouse(Context& context, bool hovered) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (hovered) take_wheel(context);
+    for (int button = 0; button < 3; ++button)
+        if (button_ < 0 && hovered && ImGui::IsMouseClicked(button)) {
+            button_ = button;
+            moved_ = false;
+        }
+    if (button_ < 0) return;
+    if (!ImGui::IsMouseDown(button_)) {
+        const int button = std::exchange(button_, -1);
+        if (moved_ || !picture_) return;
+        const auto pixel = [](float p, float low, float high, int count) {
+            return fmt::format("{}", std::clamp(static_cast<int>((p - low) / (high - low) *
+                                                                 static_cast<float>(count)),
+                                                0, count - 1));
+        };
+        const std::vector<std::string> at{pixel(io.MousePos.x, low_.x, high_.x, picture_->width),
+                                          pixel(io.MousePos.y, low_.y, high_.y, picture_->height)};
+        const bool inside = io.MousePos.x >= low_.x && io.MousePos.y >= low_.y &&
+                            io.MousePos.x < high_.x && io.MousePos.y < high_.y;
+        if (inside && button == 0 && Context::has("click")) context.run("click", at);
+        if (inside && button == 2 && Context::has("pivot")) context.run("pivot", at);
+        return;
+    }
+    if (!moved_ && !ImGui::IsMouseDragging(button_, 3)) return;
+    ImVec2 moved = io.MouseDelta;
+    if (!moved_) moved = ImGui::GetMouseDragDelta(button_, 0);
+    moved_ = true;
+    if (moved.x == 0 && moved.y == 0) return;
+    const float height = std::max(1.0f, high_.y - low_.y);
+    if (button_ == 2 || (button_ == 0 && io.KeyShift))
+        context.run("pan", {number(-moved.x / height), number(moved.y / height)});
+    else if (button_ == 0)
+        context.run("orbit",
+                    {number(-moved.x * kDegreesPerPixel), number(moved.y * kDegreesPerPixel)});
+    else
+        context.run("dolly", {number(std::pow(kDollyPerPixel, moved.y))});
+}
+
+void Viewport::show_under_pointer(const Context& context) {
+    under_pointer_.clear();
+    const ImVec2 p = ImGui::GetIO().MousePos;
+    if (!picture_ || p.x < low_.x || p.y < low_.y || p.x >= high_.x || p.y >= high_.y) return;
+    const raytrace::Film& film = picture_->film;
+    if (film.width <= 0 || film.height <= 0) return;
+    const float x = (p.x - low_.x) / (high_.x - low_.x), y = (p.y - low_.y) / (high_.y - low_.y);
+    const auto at = [](float share, int count) {
+        return std::min(static_cast<int>(share * static_cast<float>(count)), count - 1);
+    };
+    const vec4& c = film.at(at(x, film.width), at(y, film.height));
+    under_pointer_ =
+        fmt::format("{:4d} {:4d}   {:8.4f} {:8.4f} {:8.4f}   {:.3f}", at(x, picture_->width),
+                    at(y, picture_->height), c.x, c.y, c.z, c.w);
+    if (!context.state().picture.aov.empty()) under_pointer_ += "   " + context.state().picture.aov;
+}
+
+void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
+    const Theme& theme = context.theme;
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float margin = theme.px(12), line = ImGui::GetTextLineHeight() + theme.px(2);
+    const LoadState load = context.player.load_state();
+    if (!picture_ || load == LoadState::Failed) {
+        std::string text = "Drop a scene here: .dae .zae .kmz .gltf .glb";
+        if (load == LoadState::Loading) text = "Reading the scene";
+        if (load == LoadState::Ready) text = "Making the first picture";
+        if (load == LoadState::Failed)
+            text = "The scene could not be opened. The findings say why.";
+        const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+        const ImVec2 at{std::round(corner.x + (size.x - extent.x) / 2),
+                        picture_ ? corner.y + margin : std::round(corner.y + size.y / 2)};
+        list->AddRectFilled({at.x - margin, at.y - theme.px(7)},
+                            {at.x + extent.x + margin, at.y + extent.y + theme.px(7)},
+                            IM_COL32(0, 0, 0, 150), theme.px(5));
+        list->AddText(at, load == LoadState::Failed ? theme.error : theme.text, text.c_str());
+    } else if (load == LoadState::Loading) {
+        shadowed_text(list, {corner.x + margin, corner.y + size.y - line - margin}, theme.accent,
+                      "Reading the scene");
+    }
+    if (!picture_ || !context.open("hud")) return;
+    const auto times = context.player.stage_times();
+    if (times.empty()) return;
+    const StageTimes& last = times.back();
+    ImVec2 at{corner.x + margin, corner.y + margin};
+    const PictureState& state = context.state().picture;
+    shadowed_text(
+        list, at, theme.text,
+        fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total, picture_->width, picture_->height,
+                    picture_->samples, picture_->refined ? "   refined" : ""));
+    at.y += line;
+    if (picture_->scale < 1) {
+        shadowed_text(list, at, theme.accent,
+                      fmt::format("{:.0f} % of the width, to hold {:.0f} pictures a second",
+                                  100 * picture_->scale, state.hold_rate));
+        at.y += line;
+    }
+    if (!state.aov.empty()) {
+        shadowed_text(list, at, theme.accent,
+                      state.aov + (state.false_color ? ", false color" : ""));
+        at.y += line;
+    }
+    if (state.exposure != 0) {
+        shadowed_text(list, at, theme.dim, fmt::format("{:+.2g} stops", state.exposure));
+        at.y += line;
+    }
+    ImGui::SetCursorScreenPos({at.x, at.y + theme.px(4)});
+    draw_stage_times(context, {theme.px(240), theme.px(52)});
+}
+
+void Viewport::draw(Context& context, ImVec2 corner, ImVec2 size) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, context.theme.stage);
+    follow(context, size);
+    picture_ = context.player.picture();
+    ImGui::SetCursorScreenPos(corner);
+    ImGui::InvisibleButton("viewport", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    const bool hovered = ImGui::IsItemHovered();
+    if (picture_ && picture_->width > 0 && picture_->height > 0) {
+        texture_ = {picture_->rgba.data(), picture_->width, picture_->height, TexelFormat::Rgba8};
+        place(*picture_, corner, size);
+        list->AddImage(texture_id(&texture_), low_, high_);
+        const PictureState& state = context.state().picture;
+        if (!state.wipe.empty()) {
+            const float x =
+                std::round(low_.x + (high_.x - low_.x) * static_cast<float>(state.wipe_at));
+            list->AddRectFilled({x, low_.y}, {x + 1, high_.y}, IM_COL32(255, 255, 255, 200));
+        }
+    }
+    take_mouse(context, hovered);
+    under_pointer_.clear();
+    if (hovered) show_under_pointer(context);
+    overlay(context, corner, size);
+}
+
+}  // namespace kinora::play

@@ -1,0 +1,248 @@
+// runtime/programs/play/window/window.cpp: events in, commands out, pictures shown. The loop sleeps
+// until there is an event, a picture or a time to advance to.
+#include "runtime/programs/play/window/window.h"
+
+#include <SDL.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <optional>
+
+#include "runtime/programs/play/ui/ui.h"
+#include "runtime/programs/play/window/input.h"
+#include "runtime/programs/play/window/keys.h"
+#include "runtime/programs/play/window/surface.h"
+
+namespace kinora::play {
+
+namespace {
+
+std::atomic<uint32_t> g_wake_event{0};  // 0: there is no window
+std::atomic<bool> g_woken{false};       // an event is on its way: one is enough
+
+constexpr double kPlayTurn = 1.0 / 60;  // seconds between turns while time goes on
+constexpr int kTurnsAfterEvent = 3;     // ImGui settles sizes in the frames after a change
+
+using Clock = std::chrono::steady_clock;
+
+struct ImGuiScope {
+    ImGuiScope() { ImGui::CreateContext(); }
+    ~ImGuiScope() {
+        free_pointers();
+        ImGui::DestroyContext();
+    }
+};
+
+// The events of one turn. ImGui sees states, so that a button that goes down and up in a turn would
+// be lost, and the order of keys too: such an event waits for the next turn.
+class Batch {
+  public:
+    bool takes(const SDL_Event& event) {
+        switch (event.type) {
+            case SDL_MOUSEBUTTONDOWN:
+            case SDL_MOUSEBUTTONUP: {
+                const unsigned bit = 1u << (event.button.button & 31);
+                if (buttons_ & bit) return false;
+                buttons_ |= bit;
+                return true;
+            }
+            case SDL_KEYDOWN:
+                if (key_) return false;
+                key_ = event.key.keysym.scancode;
+                return true;
+            case SDL_KEYUP:
+                return event.key.keysym.scancode != key_;
+            case SDL_MOUSEMOTION:
+                return !buttons_;  // a press is where it was
+            default:
+                return true;
+        }
+    }
+
+  private:
+    unsigned buttons_ = 0;
+    int key_ = 0;
+};
+
+class WindowLoop {
+  public:
+    WindowLoop(Player& player, const WindowOptions& options)
+        : player_(player),
+          options_(options),
+          layout_(read_layout(options.layout)),
+          surface_("Kinora", {layout_.width, layout_.height, layout_.maximized}) {
+        scale_ = layout_.scale > 0 ? layout_.scale : surface_.display_scale();
+        surface_.set_full_screen(options.full_screen);
+        show_first();
+        ui_.emplace(player, layout_, scale_ * surface_.pixels_per_unit(), !options.fixed_size);
+        connect_input();
+    }
+
+    void run() {
+        last_ = Clock::now();
+        while (!player_.state().quit && !closed_) {
+            wait();
+            turn();
+        }
+        Layout layout = ui_->layout();
+        if (!surface_.full_screen()) {
+            const WindowPlace place = surface_.place();
+            layout.maximized = place.maximized;
+            if (!place.maximized) layout.width = place.width, layout.height = place.height;
+        }
+        write_layout(options_.layout, layout);
+    }
+
+  private:
+    // The window is visible before fonts are loaded and the first panels are laid out.
+    void show_first() {
+        const Target target = surface_.frame();
+        std::fill_n(target.pixels,
+                    static_cast<size_t>(target.width) * static_cast<size_t>(target.height),
+                    0xff171514u);
+        surface_.present();
+    }
+
+    // Seconds that may pass without an event; < 0: any time.
+    double patience() const {
+        if (turns_ > 0) return 0;
+        if (player_.state().time.playing || player_.state().camera.turntable)
+            return surface_.hidden() ? 0.1 : kPlayTurn;
+        return ui_->next_turn();
+    }
+
+    void wait() {
+        SDL_Event event;
+        const double seconds = patience();
+        int some = 0;
+        if (held_)
+            some = 0;
+        else if (seconds < 0)
+            some = SDL_WaitEvent(&event);
+        else
+            some = SDL_WaitEventTimeout(&event,
+                                        std::max(1, static_cast<int>(std::ceil(seconds * 1000))));
+        Batch batch;
+        if (held_) {
+            event = *std::exchange(held_, std::nullopt);
+            some = 1;
+        }
+        while (some) {
+            if (!batch.takes(event)) {
+                held_ = event;
+                break;
+            }
+            take(event);
+            some = SDL_PollEvent(&event);
+        }
+    }
+
+    void take(const SDL_Event& event) {
+        turns_ = std::max(turns_, 1);
+        if (event.type == g_wake_event) {
+            g_woken = false;
+            return;
+        }
+        turns_ = kTurnsAfterEvent;
+        take_event(event, surface_.pixels_per_unit());
+        switch (event.type) {
+            case SDL_QUIT:
+                closed_ = true;
+                break;
+            case SDL_DROPFILE:
+                ui_->context().run("open", {event.drop.file});
+                SDL_free(event.drop.file);
+                break;
+            case SDL_KEYDOWN:
+                press(event.key);
+                break;
+            default:
+                break;
+        }
+    }
+
+    void press(const SDL_KeyboardEvent& event) {
+        const std::string name = key_name(event.keysym.sym, event.keysym.mod);
+        if (name.empty()) return;
+        const bool took = ui_->press(name);
+        // Letters of a key that was a command are no text: of the palette that it opened, say.
+        swallow_text_ = took;
+    }
+
+    void turn() {
+        const auto now = Clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        player_.advance(seconds);
+        if (turns_ > 0) --turns_;
+        follow_title();
+        follow_full_screen();
+        if (surface_.hidden()) return;
+        const Target target = surface_.frame();
+        if (!target.pixels) return;
+        ImGuiIO& io = ImGui::GetIO();
+        io.DisplaySize = {static_cast<float>(target.width), static_cast<float>(target.height)};
+        if (std::exchange(swallow_text_, false)) io.ClearInputCharacters();
+        ui_->render(target, static_cast<float>(seconds));
+        show_pointer();
+        surface_.present();
+    }
+
+    void follow_title() {
+        const auto scene = player_.scene();
+        if (!scene || scene->serial == titled_) return;
+        titled_ = scene->serial;
+        surface_.set_title(scene->path.substr(scene->path.rfind('/') + 1) + " - Kinora");
+    }
+
+    void follow_full_screen() {
+        const auto& panels = player_.state().panels;
+        const bool wanted = options_.full_screen != (std::find(panels.begin(), panels.end(),
+                                                               "full_screen") != panels.end());
+        if (wanted != full_screen_) surface_.set_full_screen(full_screen_ = wanted);
+    }
+
+    Player& player_;
+    const WindowOptions& options_;
+    Layout layout_;
+    Surface surface_;
+    ImGuiScope imgui_;
+    std::optional<Ui> ui_;
+    std::optional<SDL_Event> held_;
+    Clock::time_point last_;
+    float scale_ = 1;
+    int turns_ = kTurnsAfterEvent;
+    bool closed_ = false, swallow_text_ = false, full_screen_ = false;
+    uint64_t titled_ = 0;
+};
+
+}  // namespace
+
+void wake_window() {
+    const uint32_t type = g_wake_event;
+    if (!type || g_woken.exchange(true)) return;
+    SDL_Event event{};
+    event.type = type;
+    SDL_PushEvent(&event);
+}
+
+bool run_window(Player& player, const WindowOptions& options, std::string& error) {
+    std::optional<WindowLoop> loop;
+    try {
+        loop.emplace(player, options);
+    } catch (const std::exception& reason) {
+        error = reason.what();
+        return false;
+    }
+    static const uint32_t type = SDL_RegisterEvents(1);
+    g_wake_event = type;
+    loop->run();
+    g_wake_event = 0;
+    return true;
+}
+
+}  // namespace kinora::play

@@ -1,0 +1,23 @@
+// runtime/programs/play/window/window.h: the player in a window.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "runtime/play/player.h"
+
+namespace kinora::play {
+
+struct WindowOptions {
+    bool fixed_size = false;   // --size: pictures keep it, whatever the window's size
+    bool full_screen = false;  // from the start
+    std::string layout;        // the file of remembered sizes; "" none
+};
+
+// For PlayerSetup::wake, from any thread: the window turns. Nothing happens without a window.
+void wake_window();
+
+// Until the player or the window is closed. False where no window could be had; `error` says why.
+bool run_window(Player& player, const WindowOptions& options, std::string& error);
+
+}  // namespace kinora::play

@@ -1,0 +1,173 @@
+// tests/runtime/play/commands_test.cpp: every row of the table changes what it says it does.
+#include "runtime/play/commands.h"
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "runtime/images/image_io.h"
+#include "tests/runtime/play/played.h"
+
+namespace kinora {
+namespace {
+
+class EveryCommand : public testing::TestWithParam<Command> {};
+
+TEST_P(EveryCommand, ChangesWhatItsRowSays) {
+    const Command& row = GetParam();
+    ASSERT_EQ(chdir(KINORA_SOURCE_DIR), 0);
+    bool clips = std::string_view(row.word) == "clip";  // of all scenes one has some
+    Played played(clips ? "gltf/bender.glb" : "scenes/walker.dae");
+    ASSERT_EQ(played.script(row.setup), "");
+    ASSERT_TRUE(played.player.wait_idle(kLong));
+    std::string before = played.player.observe(row.changes);
+    CommandResult result = played.player.run_line(std::string(row.word) + " " + row.example);
+    ASSERT_TRUE(result.done) << result.message;
+    ASSERT_TRUE(played.player.wait_idle(kLong));
+    EXPECT_NE(played.player.observe(row.changes), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryCommand, testing::ValuesIn(commands().begin(), commands().end()),
+                         [](const auto& row) { return std::string(row.param.word); });
+
+TEST(Commands, HaveKeysAndWordsOfTheirOwn) {
+    std::set<std::string> words, keys, menus;
+    for (const Command& row : commands()) {
+        EXPECT_TRUE(words.insert(row.word).second) << row.word;
+        EXPECT_EQ(find_command(row.word), &row);
+        EXPECT_FALSE(std::string_view(row.help).empty()) << row.word;
+        if (*row.menu) {
+            EXPECT_TRUE(menus.insert(row.menu).second) << row.menu;
+        }
+        std::istringstream each(row.key);
+        for (std::string key; each >> key;) {
+            EXPECT_TRUE(keys.insert(key).second) << key;
+            EXPECT_EQ(find_command_of_key(key), &row);
+        }
+    }
+    EXPECT_EQ(find_command("orbitt"), nullptr);
+    EXPECT_EQ(find_command_of_key("Shift"), nullptr);
+}
+
+TEST(Commands, SplitLinesIntoWords) {
+    Words words = split_words("  param Kd \"0.5 \\\"a\\\" \\n\" # why");
+    ASSERT_EQ(words.texts.size(), 3u);
+    EXPECT_EQ(words.texts[2], "0.5 \"a\" \n");
+    EXPECT_EQ(words.columns, (std::vector<int>{3, 9, 12}));
+    EXPECT_FALSE(split_words("say \"no").error.empty());
+    EXPECT_TRUE(split_words(" # nothing").texts.empty());
+}
+
+TEST(Script, SaysWhereItStopsAndWhatMayBeMeant) {
+    Played played("scenes/matte.dae");
+    EXPECT_EQ(played.script("seek 0;  orbitt 3 4"),
+              "test:2:3: error: there is no command 'orbitt'; did you mean 'orbit'?");
+    EXPECT_EQ(played.script("orbit 3 up"), "test:1:9: error: 'up' is no number");
+    EXPECT_EQ(played.script("orbit 3"), "test:1:7: error: orbit takes right:number up:number");
+    EXPECT_EQ(played.script("select lefft"),
+              "test:1:8: error: there is no node 'lefft'; did you mean 'left'?");
+    EXPECT_EQ(played.script("seek 2; expect time 3"), "test:2:14: error: the frame is 2, not 3");
+    EXPECT_NE(played.script("wait forever").find("test:1:6: error: wait takes"), std::string::npos);
+}
+
+TEST(Script, TimeRunsInStepsThatAreAlwaysTheSame) {
+    for (int turn = 0; turn < 2; ++turn) {
+        Played played("scenes/walker.dae");
+        EXPECT_EQ(played.script("first; play on; wait 0.5; pause; expect time 13"), "");
+    }
+}
+
+TEST(Script, KeysDoWhatTheirRowsSay) {
+    Played played("scenes/walker.dae");
+    EXPECT_EQ(played.script("seek 5; key Right; expect time 6; key Home; expect time 1;"
+                            "key Space; expect playback plays"),
+              "");
+}
+
+TEST(Script, PixelsAreExpectedWithinATolerance) {
+    Played played("scenes/matte.dae");
+    played.player.wait_idle(kLong);
+    const uint8_t* p = &played.player.picture()->rgba[4 * (18 * 64 + 20)];
+    auto line = [&](int off, const char* tolerance) {
+        return "expect pixel 20 18 " + std::to_string(p[0] + off) + " " + std::to_string(p[1]) +
+               " " + std::to_string(p[2]) + tolerance;
+    };
+    EXPECT_EQ(played.script(line(0, "")), "");
+    EXPECT_EQ(played.script(line(3, " 3")), "");
+    EXPECT_NE(played.script(line(3, " 2")), "");
+    EXPECT_NE(played.script("expect pixel 64 0 0 0 0"), "");
+}
+
+TEST(Script, RecordsWhatItCanRunAgain) {
+    std::string file = testing::TempDir() + "kinora_recorded.txt";
+    std::string camera;
+    {
+        Played played("scenes/walker.dae");
+        ASSERT_TRUE(played.player.record_to(file));
+        EXPECT_EQ(played.script("orbit 30 10; play on; wait 0.25; pause; panel \"A \\\"b\\\"\""),
+                  "");
+        camera = played.player.observe(Observable::Camera);
+    }
+    std::ifstream in(file);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    Played again("scenes/walker.dae");
+    EXPECT_EQ(again.script(text + "\nexpect time 7"), "");
+    EXPECT_EQ(again.player.observe(Observable::Camera), camera);
+    EXPECT_EQ(again.player.observe(Observable::Panels), "A \"b\"");
+}
+
+TEST(Pick, NamesWhatIsThere) {
+    Played played("scenes/matte.dae");
+    EXPECT_EQ(played.script("view_front; frame_all; click 32 18"), "");
+    bool left = false, right = false;
+    for (int x = 0; x < 64; x += 2) {
+        EXPECT_EQ(played.script("click " + std::to_string(x) + " 18"), "");
+        const auto& pixel = played.player.state().selection.pixel;
+        ASSERT_TRUE(pixel.has_value());
+        if (!pixel->hit) continue;
+        left |= pixel->node == "left";
+        right |= pixel->node == "right";
+        EXPECT_EQ(pixel->shader, "matte");
+        EXPECT_NEAR(pixel->N.x * pixel->N.x + pixel->N.y * pixel->N.y + pixel->N.z * pixel->N.z, 1,
+                    1e-6);
+    }
+    EXPECT_TRUE(left && right);
+    EXPECT_EQ(played.script("click 0 0"), "");
+    EXPECT_FALSE(played.player.state().selection.pixel->hit);
+}
+
+TEST(Edits, UndoBringsThePictureBack) {
+    Played played("scenes/matte.dae");
+    auto pixels = [&] {
+        EXPECT_TRUE(played.player.wait_idle(kLong));
+        return played.player.picture()->rgba;
+    };
+    std::vector<uint8_t> first = pixels();
+    EXPECT_EQ(played.script("select_material bright; param Kd 0.1"), "");
+    std::vector<uint8_t> changed = pixels();
+    EXPECT_NE(changed, first);
+    EXPECT_EQ(played.script("undo"), "");
+    EXPECT_EQ(pixels(), first);
+    EXPECT_EQ(played.script("redo"), "");
+    EXPECT_EQ(pixels(), changed);
+    EXPECT_EQ(played.script("hide left"), "");
+    EXPECT_NE(pixels(), changed);
+}
+
+TEST(Edits, ABadValueKeepsTheLastGoodScene) {
+    Played played("scenes/matte.dae");
+    EXPECT_TRUE(played.player.wait_idle(kLong));
+    std::vector<uint8_t> first = played.player.picture()->rgba;
+    std::string scene = played.player.observe(Observable::Scene);
+    EXPECT_EQ(played.script("select_material bright; param Kdd 0.1"), "");
+    EXPECT_TRUE(played.player.wait_idle(kLong));
+    EXPECT_EQ(played.player.observe(Observable::Scene), scene);
+    EXPECT_EQ(played.player.picture()->rgba, first);
+    bool told = false;
+    for (const FindingText& finding : played.player.findings())
+        told |= finding.code == "PARAM_UNKNOWN";
+    EXPECT_TRUE(told);
+}
+
+}  // namespace
+}  // namespace kinora

@@ -1,0 +1,118 @@
+// tests/runtime/play/display_test.cpp: what a screen shows of a film.
+#include "runtime/play/display.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "runtime/play/guide.h"
+
+namespace kinora {
+namespace {
+
+raytrace::Film random_film() {
+    raytrace::Film film(256, 64);
+    uint32_t state = 3;
+    auto number = [&] {
+        state = state * 1664525u + 1013904223u;
+        return float(state >> 8) / float(1 << 24);
+    };
+    for (vec4& pixel : film.rgba) {
+        pixel = {number() * 1.2f, number() * number() * number(), -0.1f + number(), number()};
+        if (number() < 0.1f) pixel.w = 0;
+        if (number() < 0.02f) pixel.x = std::numeric_limits<float>::quiet_NaN();
+        if (number() < 0.02f) pixel.y = std::numeric_limits<float>::infinity();
+        if (number() < 0.1f) pixel.z = std::exp2(-30 * number());
+    }
+    return film;
+}
+
+TEST(Display, IsThePngOfTheFilm) {
+    raytrace::Film film = random_film();
+    for (ColorEncoding encoding : {ColorEncoding::Srgb, ColorEncoding::Linear}) {
+        std::vector<uint8_t> shown;
+        DisplaySettings settings;
+        settings.encoding = encoding;
+        display(film, {}, settings, shown);
+        EXPECT_EQ(shown, to_8_bit(film, encoding).rgba);
+    }
+}
+
+// Every float around each byte's threshold.
+TEST(Display, HasTheSameBytesAtEveryThreshold) {
+    raytrace::Film film(1, 1);
+    film.rgba.clear();
+    for (int v = 0; v < 255; ++v) {
+        double encoded = (v + 0.5) / 255;
+        double linear =
+            encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+        uint32_t bits = std::bit_cast<uint32_t>(float(linear));
+        for (uint32_t k = 0; k < 64; ++k) {
+            float c = std::bit_cast<float>(bits + k - 32);
+            film.rgba.push_back({c, c, c, 1});
+        }
+    }
+    film.width = int(film.rgba.size());
+    std::vector<uint8_t> shown;
+    fast_8_bit(film, ColorEncoding::Srgb, shown);
+    EXPECT_EQ(shown, to_8_bit(film, ColorEncoding::Srgb).rgba);
+}
+
+TEST(Display, FalseColorsGrowFromBlackOverBlueToRedAndWhite) {
+    EXPECT_EQ(false_color(-1), vec3(0.0f));
+    EXPECT_GT(false_color(0.2f).z, false_color(0.2f).x);
+    EXPECT_EQ(false_color(1), vec3(1, 0, 0));
+    EXPECT_EQ(false_color(1.01f), vec3(1.0f));
+}
+
+TEST(Display, AKeptPictureStandsLeftOfTheWipe) {
+    auto kept = std::make_shared<Picture>();
+    kept->width = 4;
+    kept->height = 1;
+    kept->rgba.assign(16, 7);
+    raytrace::Film film(4, 1);
+    for (vec4& pixel : film.rgba) pixel = vec4(1.0f);
+    DisplaySettings settings;
+    settings.kept = kept;
+    settings.wipe_at = 0.25;
+    std::vector<uint8_t> shown;
+    display(film, {}, settings, shown);
+    EXPECT_EQ(shown[3], 7);
+    EXPECT_EQ(shown[4], 255);
+}
+
+// Two surfaces that meet in the middle: neither color reaches over.
+TEST(Enlarge, KeepsTheEdgesOfSurfaces) {
+    constexpr int kSmall = 8, kLarge = 32;
+    raytrace::Film small(kSmall, kSmall), large;
+    for (int y = 0; y < kSmall; ++y)
+        for (int x = 0; x < kSmall; ++x) small.at(x, y) = vec4(x < 4 ? 0.0f : 1.0f);
+    PictureGuide guide;
+    for (int k = 0; k < kLarge * kLarge; ++k) {
+        guide.surface.push_back(k % kLarge < 16 ? 0 : 1);
+        guide.Ng.push_back({0, 0, 1});
+        guide.depth.push_back(1);
+    }
+    enlarge(small, guide, kLarge, kLarge, large);
+    for (int y = 0; y < kLarge; ++y)
+        for (int x = 0; x < kLarge; ++x) EXPECT_NEAR(large.at(x, y).x, x < 16 ? 0 : 1, 1e-2) << x;
+}
+
+// By a guide of half the size, where the edge lies between two of its pixels.
+TEST(Enlarge, TakesAGuideOfHalfTheSize) {
+    raytrace::Film small(4, 1), large;
+    for (int x = 0; x < 4; ++x) small.at(x, 0) = vec4(x < 2 ? 0.25f : 0.75f);
+    PictureGuide guide;
+    for (int k = 0; k < 5; ++k) {  // of 9 x 2 pixels
+        guide.surface.push_back(k < 2 ? 0 : 1);
+        guide.Ng.push_back({0, 0, 1});
+        guide.depth.push_back(1);
+    }
+    enlarge(small, guide, 9, 2, large);
+    for (int x = 0; x < 9; ++x) EXPECT_NEAR(large.at(x, 1).x, x < 4 ? 0.25f : 0.75f, 1e-2f) << x;
+}
+
+}  // namespace
+}  // namespace kinora

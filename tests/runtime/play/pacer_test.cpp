@@ -1,0 +1,94 @@
+// tests/runtime/play/pacer_test.cpp: sizes by times that were recorded or made up.
+#include "runtime/play/pacer.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace kinora {
+namespace {
+
+constexpr double kTarget = 33.3;
+
+// Frames whose whole pictures cost that much; the steps' scales.
+std::vector<double> scales(Pacer& pacer, const std::vector<double>& whole_ms, double fixed_ms = 0) {
+    std::vector<double> out;
+    for (double ms : whole_ms) {
+        double scale = pacer.scale();
+        out.push_back(scale);
+        pacer.add(fixed_ms + ms * scale * scale);
+    }
+    return out;
+}
+
+int changes(const std::vector<double>& scales, size_t first) {
+    int count = 0;
+    for (size_t k = first + 1; k < scales.size(); ++k) count += scales[k] != scales[k - 1];
+    return count;
+}
+
+Pacer pacer_at_target() {
+    Pacer pacer;
+    pacer.aim_at(kTarget);
+    return pacer;
+}
+
+TEST(Pacer, KeepsAllPixelsWhereTheyFit) {
+    Pacer pacer = pacer_at_target();
+    for (double scale : scales(pacer, std::vector<double>(100, 30))) EXPECT_EQ(scale, 1);
+}
+
+TEST(Pacer, ASpikeOfOneAndAHalfChangesNothing) {
+    Pacer pacer = pacer_at_target();
+    std::vector<double> ms(100, 30);
+    for (size_t k = 10; k < ms.size(); k += 7) ms[k] = 45;
+    EXPECT_EQ(changes(scales(pacer, ms), 0), 0);
+}
+
+// The whole picture costs three times as much from one frame on.
+TEST(Pacer, IsBackInTimeFourFramesAfterAStepOfThree) {
+    Pacer pacer = pacer_at_target();
+    std::vector<double> ms(20, 30);
+    ms.resize(60, 90);
+    std::vector<double> scale = scales(pacer, ms);
+    for (size_t k = 24; k < 60; ++k) EXPECT_LE(90 * scale[k] * scale[k], kTarget) << k;
+    EXPECT_GT(90 * scale[59] * scale[59], 0.5 * kTarget);  // no smaller than need be
+}
+
+TEST(Pacer, GrowsAgainWhenFramesBecomeCheap) {
+    Pacer pacer = pacer_at_target();
+    std::vector<double> ms(20, 90);
+    ms.resize(200, 20);
+    EXPECT_EQ(scales(pacer, ms).back(), 1);
+}
+
+TEST(Pacer, NeverSwingsUnderASteadyLoad) {
+    for (double load : {20.0, 34.0, 40.0, 47.0, 60.0, 95.0, 140.0, 400.0, 3000.0})
+        for (double fixed : {0.0, 8.0, 20.0}) {
+            Pacer pacer = pacer_at_target();
+            std::vector<double> scale = scales(pacer, std::vector<double>(1000, load), fixed);
+            // After it has found its size: tries of a larger one become rare.
+            EXPECT_LE(changes(scale, 40), 8) << load << " " << fixed;
+        }
+}
+
+// Loads that jitter by a quarter, by a fixed generator: the size does not follow them.
+TEST(Pacer, NeverSwingsUnderJitter) {
+    Pacer pacer = pacer_at_target();
+    uint32_t state = 1;
+    std::vector<double> ms;
+    for (int k = 0; k < 1000; ++k) {
+        state = state * 1664525u + 1013904223u;
+        ms.push_back(60 * (0.875 + 0.25 * (state >> 8) / double(1 << 24)));
+    }
+    EXPECT_LE(changes(scales(pacer, ms), 40), 8);
+}
+
+TEST(Pacer, StopsAtItsSmallestSize) {
+    Pacer pacer = pacer_at_target();
+    EXPECT_EQ(scales(pacer, std::vector<double>(50, 1e5)).back(),
+              Pacer::scale_of(Pacer::kSteps - 1));
+}
+
+}  // namespace
+}  // namespace kinora

@@ -1,0 +1,65 @@
+// tests/runtime/play/played.h: a player without a clock, small and quick.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "runtime/base/parallel.h"
+#include "runtime/frame/quality.h"
+#include "runtime/play/player.h"
+#include "runtime/play/script.h"
+
+namespace kinora {
+
+inline std::string text_of(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write(const std::string& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+constexpr double kLong = 300;  // seconds: more is a hang
+
+inline std::string scene_path(const std::string& name) {
+    return KINORA_SOURCE_DIR "/assets/" + name;
+}
+
+inline SceneRequest small_request(const std::string& scene, int samples = 1) {
+    SceneRequest request;
+    request.scene = scene;
+    request.width = 64;
+    request.height = 36;
+    request.threads = 2;
+    request.quality = *find_quality(kDefaultQuality);
+    request.quality.samples_per_pixel = samples;
+    return request;
+}
+
+struct Played {
+    explicit Played(const SceneRequest& request, PlayerSetup setup = {false, false, nullptr})
+        : player(setup) {
+        player.open(request);
+        EXPECT_TRUE(player.wait_loaded(kLong));
+    }
+    explicit Played(const std::string& name) : Played(small_request(scene_path(name))) {}
+
+    // Lines parted by ';'. What was reported, "" where all was done.
+    std::string script(std::string lines) {
+        std::string said;
+        for (char& c : lines)
+            if (c == ';') c = '\n';
+        Script run(player, "test", [&](const std::string& line) { said += line; });
+        run.run(lines);
+        return said;
+    }
+
+    Player player;
+};
+
+}  // namespace kinora

@@ -1,0 +1,191 @@
+// tests/runtime/play/shader_test.cpp: shaders edited while they are shown, and saved.
+#include <algorithm>
+#include <fstream>
+
+#include "runtime/play/files/shader_source.h"
+#include "tests/runtime/play/played.h"
+
+namespace kinora {
+namespace {
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+std::vector<uint8_t> pixels(Player& player) {
+    EXPECT_TRUE(player.wait_idle(kLong));
+    return player.picture()->rgba;
+}
+
+constexpr const char* kFrom = "value * (Ka * ambient()";
+constexpr const char* kTo = "color(1, 0, 1) * value * (Ka * ambient()";
+
+struct WalkerCopy : testing::Test {
+    std::string file = testing::TempDir() + "kinora_play_walker.dae";
+    std::string original = text_of(scene_path("scenes/walker.dae"));
+    void SetUp() override { write(file, original); }
+};
+
+TEST(ShaderSource, XmlHoldsAnyText) {
+    for (const std::string& text :
+         {std::string("if (a < b && c > d) \"x\" 'y'"), std::string("a ]]> b ]]]>"),
+          std::string("\n\tlines\n"), std::string("]]>"), std::string("")})
+        for (bool wanted : {true, false}) {
+            bool cdata = false;
+            std::string xml = xml_text(text, wanted);
+            EXPECT_EQ(plain_text(xml, cdata), text);
+            EXPECT_EQ(cdata, wanted);
+            if (!wanted) {
+                EXPECT_EQ(xml.find('<'), std::string::npos);
+            }
+        }
+    bool cdata = false;
+    EXPECT_EQ(plain_text("a &lt; b\r\n<![CDATA[c < d\r\ne]]> f &amp; &#", cdata),
+              "a < b\nc < d\ne f & &#");
+}
+
+// What is typed into the player gives the picture of a file that was written so.
+TEST_F(WalkerCopy, AnEditGivesThePictureOfTheEditedFile) {
+    Played played(small_request(file));
+    std::vector<uint8_t> before = pixels(played.player);
+    EXPECT_EQ(played.script("select_material wall-material; edit; find \"value * (Ka\"; "
+                            "type \"color(1, 0, 1) * \""),
+              "");
+    EXPECT_TRUE(played.player.shader().dirty);
+    std::vector<uint8_t> edited = pixels(played.player);
+    EXPECT_EQ(played.player.shader().shown, played.player.shader().version);
+    EXPECT_NE(edited, before);
+
+    write(file, replaced(original, kFrom, kTo));
+    Played again(small_request(file));
+    EXPECT_EQ(pixels(again.player), edited);
+}
+
+TEST_F(WalkerCopy, SavingChangesTheTextAndNoOtherByte) {
+    Played played(small_request(file));
+    EXPECT_EQ(played.script("select_material wall-material; edit; find \"value * (Ka\"; "
+                            "type \"color(1, 0, 1) * \"; wait refined; save"),
+              "");
+    EXPECT_EQ(text_of(file), replaced(original, kFrom, kTo));
+    EXPECT_FALSE(played.player.shader().dirty);
+    std::vector<uint8_t> saved = pixels(played.player);
+    Played again(small_request(file));
+    EXPECT_EQ(pixels(again.player), saved);
+    EXPECT_EQ(again.player.load_state(), LoadState::Ready);
+}
+
+TEST_F(WalkerCopy, AFileThatSomeoneElseChangedIsNotOverwritten) {
+    Played played(small_request(file));
+    EXPECT_EQ(played.script("select_material wall-material; edit; type \"/**/\""), "");
+    std::string theirs = replaced(original, "surface plaster(", "surface  plaster(");
+    write(file, theirs);
+    EXPECT_NE(played.script("save").find("has changed"), std::string::npos);
+    EXPECT_EQ(text_of(file), theirs);
+}
+
+TEST_F(WalkerCopy, AnErrorIsUnderlinedAndTheLastGoodShaderStays) {
+    Played played(small_request(file));
+    std::vector<uint8_t> before = pixels(played.player);
+    EXPECT_EQ(played.script("select_material wall-material; edit; find ambient; type x"), "");
+    EXPECT_EQ(pixels(played.player), before);
+    const ShaderDocument& document = played.player.shader();
+    EXPECT_LT(document.shown, document.version);
+    EXPECT_FALSE(document.compiling);
+    ASSERT_FALSE(document.findings.empty());
+    const FindingText& finding = document.findings.front();
+    EXPECT_EQ(finding.severity, "error");
+    EXPECT_EQ(document.text.substr(finding.begin, 8), "xambient");
+    EXPECT_EQ(finding.line,
+              1 + std::count(document.text.begin(), document.text.begin() + finding.begin, '\n'));
+    EXPECT_EQ(played.script("erase"), "");
+    EXPECT_EQ(pixels(played.player), before);
+    EXPECT_TRUE(document.findings.empty());
+    EXPECT_EQ(document.shown, document.version);
+    EXPECT_EQ(played.player.load_state(), LoadState::Ready);
+}
+
+TEST_F(WalkerCopy, UndoTakesATypedWordBack) {
+    Played played(small_request(file));
+    std::vector<uint8_t> before = pixels(played.player);
+    EXPECT_EQ(played.script("select_material wall-material; edit"), "");
+    std::string text = played.player.shader().text;
+    EXPECT_EQ(played.script("find \"value * (Ka\"; type \"0\"; type \" * \""), "");
+    EXPECT_NE(pixels(played.player), before);
+    EXPECT_EQ(played.script("undo"), "");  // both letters were one change
+    EXPECT_EQ(played.player.shader().text, text);
+    EXPECT_FALSE(played.player.shader().dirty);
+    EXPECT_EQ(pixels(played.player), before);
+}
+
+TEST_F(WalkerCopy, ParametersAreListedAsDeclared) {
+    Played played(small_request(file));
+    EXPECT_EQ(played.script("select_material wall-material; edit; param Kd 0.25; wait refined"),
+              "");
+    const std::vector<ShaderParamInfo>& params = played.player.shader().params;
+    ASSERT_EQ(params.size(), 4u);
+    EXPECT_EQ(params[1].name, "Kd");
+    EXPECT_EQ(params[1].kind, ParamKind::Float);
+    EXPECT_EQ(params[1].numbers, std::vector<double>{0.25});
+    EXPECT_EQ(params[3].name, "surface_color");
+    EXPECT_EQ(params[3].kind, ParamKind::Color);
+    EXPECT_EQ(params[3].numbers.size(), 3u);
+}
+
+TEST(Shader, OneOfOursIsSavedElsewhere) {
+    Played played("gltf/bender.glb");
+    std::string to = testing::TempDir() + "kinora_play_ours.sl";
+    EXPECT_EQ(played.script("select_material clay; edit"), "");
+    EXPECT_NE(played.player.shader().text.find("surface gltf_pbr"), std::string::npos);
+    EXPECT_NE(played.script("save").find("one of ours"), std::string::npos);
+    EXPECT_EQ(played.script("save " + to), "");
+    EXPECT_EQ(text_of(to), played.player.shader().text);
+}
+
+TEST(Shader, OneThatLoopsForEverIsLeftBehind) {
+    Played played(small_request(scene_path("scenes/matte.dae")), {true, false, nullptr});
+    Player& player = played.player;
+    std::vector<uint8_t> before = pixels(player);
+    EXPECT_EQ(played.script("select_material bright; edit"), "");
+    std::string text = player.shader().text;
+    uint64_t frames = player.frames_rendered();
+    ASSERT_TRUE(player
+                    .run("set_text", {"surface a(float Ka = 1, Kd = 1) {\n"
+                                      "    float k = 0; while (1) k += 1; Ci = k; Oi = 1; }"})
+                    .done);
+    while (player.frames_rendered() == frames) {
+        player.advance(0);
+        usleep(1000);
+    }
+    ASSERT_TRUE(player.run("set_text", {text}).done);
+    EXPECT_EQ(pixels(player), before);
+}
+
+// Edits by a fixed generator, good and broken, while it plays.
+TEST(Shader, AHundredRandomEditsLeaveItWell) {
+    Played played(small_request(scene_path("scenes/matte.dae")), {true, false, nullptr});
+    Player& player = played.player;
+    EXPECT_EQ(played.script("select_material bright; edit; play on"), "");
+    std::string text = player.shader().text;
+    const char* pieces[] = {"(", ";", "}", "Ci", "= 3", "\"", "while (1)", "normal", "#", " "};
+    uint32_t state = 7;
+    for (int k = 0; k < 100; ++k) {
+        state = state * 1664525u + 1013904223u;
+        std::string edited = text;
+        edited.insert(state % text.size(), pieces[(state >> 16) % std::size(pieces)]);
+        ASSERT_TRUE(player.run("set_text", {edited}).done);
+        player.advance(0.01);
+        if (k % 10 == 0) {
+            EXPECT_TRUE(player.wait_picture(kLong));
+        }
+    }
+    EXPECT_TRUE(player.run("set_text", {text}).done);
+    EXPECT_TRUE(player.run_line("play off").done);
+    EXPECT_TRUE(player.wait_idle(kLong));
+    EXPECT_EQ(player.shader().shown, player.shader().version);
+    EXPECT_TRUE(player.picture()->refined);
+}
+
+}  // namespace
+}  // namespace kinora
