@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/raise_findings.h"
 #include "runtime/build/cameras.h"
 #include "runtime/build/displacement/displacement.h"
 #include "runtime/build/instances/instances.h"
@@ -56,6 +57,7 @@ bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
     const SceneDescription& description = *scene.description;
     if (anything_to_draw(scene) || has_picture_shaders(description)) return true;
     bool hidden = description.only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
+    if (!hidden && raise_findings(diagnostics, "XML_")) return false;
     diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});
     return hidden;
 }

@@ -21,9 +21,9 @@ struct Seen {
     double depth;
 };
 
-class Grid {
+class CoverageGrid {
   public:
-    explicit Grid(const raytrace::Camera& camera) : camera_(camera) {
+    explicit CoverageGrid(const raytrace::Camera& camera) : camera_(camera) {
         nearest_ = camera.clip ? camera.znear : 0;
         farthest_ = camera.clip ? camera.zfar : std::numeric_limits<double>::infinity();
     }
@@ -95,7 +95,7 @@ class Grid {
 };
 
 // All positions of a shape, in accel space.
-void place_vertices(const Scene& scene, const Shape& shape, const Grid& grid,
+void place_vertices(const Scene& scene, const Shape& shape, const CoverageGrid& grid,
                     std::vector<Seen>& vertices) {
     const Mesh& mesh = scene.meshes[shape.mesh];
     vertices.clear();
@@ -112,7 +112,7 @@ void place_vertices(const Scene& scene, const Shape& shape, const Grid& grid,
 }  // namespace
 
 double covered_share(const Scene& scene, const raytrace::Camera& camera, double enough) {
-    Grid grid(camera);
+    CoverageGrid grid(camera);
     std::vector<Seen> vertices;
     uint32_t placed = kNone;
     for (const Surface& surface : scene.surfaces) {

@@ -1,4 +1,4 @@
-// runtime/build/defaults.cpp: the default lights.
+// runtime/build/defaults.cpp: the default lights and the grey world.
 #include "runtime/build/defaults.h"
 
 #include "runtime/description/shader_library.h"
@@ -25,7 +25,7 @@ NodeDefinition default_light_node(std::vector<double>& values) {
     return node;
 }
 
-std::vector<LightDefinition> default_lights(std::vector<double>& values, Diagnostics& diagnostics) {
+std::vector<LightDefinition> default_lights(std::vector<double>& values) {
     // Judged on white spheres: the key's middle is just not burnt, the darkest tenth a fifth of it.
     struct Row {
         const char *name, *shader;
@@ -34,12 +34,13 @@ std::vector<LightDefinition> default_lights(std::vector<double>& values, Diagnos
     };
     static constexpr Row kRows[] = {{"default key light", "collada_directional", 0.85, true},
                                     {"default fill light", "default_fill", 0.22, false},
-                                    {"default rim light", "default_rim", 0.35, false}};
+                                    {"default rim light", "default_rim", 0.35, false},
+                                    {kGreyWorld, "grey_world", kGreyWorldLight, false}};
     std::vector<LightDefinition> lights;
     for (const Row& row : kRows) {
         LightDefinition& light = lights.emplace_back();
         light.id = light.name = row.name;
-        light.shader.shader = library_shader(row.shader, diagnostics);
+        light.shader.shader = library_shader(row.shader);
         if (!row.shadows) light.shadows = false;
         ParamSource color;
         color.name = "lightcolor";

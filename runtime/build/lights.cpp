@@ -6,11 +6,15 @@
 #include "runtime/build/area_lights.h"
 #include "runtime/build/defaults.h"
 #include "runtime/build/light_watts.h"
+#include "runtime/description/findings.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
 
 namespace {
+
+// Counting what is black costs some 0.3 % of a frame, so it ends after these.
+constexpr uint32_t kWatchedFrames = 4;
 
 // Whether one of them shines from somewhere: ambient light alone shows no form.
 bool add_lights_of_nodes(Scene& scene, const NodeTree& tree) {
@@ -56,6 +60,27 @@ void add_default_light(Scene& scene, LightDefinition definition, uint32_t node) 
     scene.added.push_back(description.lights.back().name);
 }
 
+// The default lights, which options may have changed.
+std::vector<LightDefinition> lights_to_add(Scene& scene) {
+    SceneDescription& description = *scene.description;
+    if (!description.default_lights.empty()) return description.default_lights;
+    return default_lights(description.values);
+}
+
+// Blender shows what its lamps leave dark under its grey world, which its exporters leave out.
+void add_grey_world(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& diagnostics) {
+    if (!scene.options.decode_textures) return;  // --color legacy: as the file says
+    auto lamp = std::ranges::find_if(scene.lights, [&](const LightSource& light) {
+        return scene.description->lights[light.definition].blender;
+    });
+    if (lamp == scene.lights.end() || needs_no_light(scene, uses)) return;
+    uint32_t node = lamp->node;
+    diagnostics.report(Code::LIGHTS_WORLD, scene.description->lights[lamp->definition].where);
+    for (LightDefinition& light : lights_to_add(scene))
+        if (light.name == kGreyWorld) add_default_light(scene, std::move(light), node);
+    scene.world_light = kGreyWorldLight;
+}
+
 }  // namespace
 
 void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
@@ -68,14 +93,18 @@ void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
         scale_watts(scene, diagnostics);
     }
     if (wanted == LightSet::Scene) return;
-    scene.watch_dark = wanted == LightSet::Auto && lit;
-    if (wanted == LightSet::Auto && (lit || needs_no_light(scene, uses))) return;
-    std::vector<double>& values = scene.description->values;
+    if (wanted == LightSet::Auto && lit) {
+        scene.watch_dark = kWatchedFrames;
+        add_grey_world(scene, uses, diagnostics);
+        return;
+    }
+    if (wanted == LightSet::Auto && needs_no_light(scene, uses)) return;
     // Before NodeTree::add, which takes the description's values over into the scene.
-    std::vector<LightDefinition> lights = scene.description->default_lights;
-    if (lights.empty()) lights = default_lights(values, diagnostics);
-    uint32_t node = tree.add(default_light_node(values), scene.cameras[scene.camera].node);
-    for (LightDefinition& light : lights) add_default_light(scene, std::move(light), node);
+    std::vector<LightDefinition> lights = lights_to_add(scene);
+    NodeDefinition carrier = default_light_node(scene.description->values);
+    uint32_t node = tree.add(carrier, scene.cameras[scene.camera].node);
+    for (LightDefinition& light : lights)
+        if (light.name != kGreyWorld) add_default_light(scene, std::move(light), node);
 }
 
 }  // namespace kinora

@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "collada/document/document.h"
 #include "collada/document/edit.h"
 #include "collada/document/write.h"
 #include "runtime/dae/export_p.h"
+#include "runtime/description/display_color.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/transforms.h"
 
@@ -23,6 +27,13 @@ std::string xml(const std::string& name, const std::string& attributes,
 
 std::string attribute(const std::string& name, const std::string& value) {
     return " " + collada::attribute_text(name, value);
+}
+
+std::string input(const char* semantic, const std::string& source, int offset, uint32_t set) {
+    std::string attributes = attribute("semantic", semantic) + attribute("source", "#" + source);
+    if (offset >= 0) attributes += attribute("offset", std::to_string(offset));
+    if (set != kNone) attributes += attribute("set", std::to_string(set));
+    return "<input" + attributes + "/>";
 }
 
 namespace {
@@ -43,7 +54,8 @@ std::string list_text(std::span<const T> numbers, auto&& digits_of) {
 std::string number_text(std::span<const double> numbers) {
     return list_text(numbers, [](double x) {
         // What glTF has as a float stays that float; more digits would be of no use.
-        return double(float(x)) == x ? fmt::format("{}", float(x)) : collada::shortest_number(x);
+        return double(float(x)) == x ? fmt::format("{}", float(x))
+                                     : collada::shortest_number(fmt::format("{:.15g}", x));
     });
 }
 
@@ -63,6 +75,18 @@ std::string float_source(const std::string& id, const std::string& numbers, size
         "<technique_common><accessor source=\"#{0}-array\" count=\"{3}\" stride=\"{4}\">{5}"
         "</accessor></technique_common></source>",
         id, count * width, numbers, count, width, list);
+}
+
+dvec3 short_display_color(const dvec3& linear, double error) {
+    dvec3 display = display_of_linear(linear);
+    for (int digits = 6; digits < 17; ++digits) {
+        dvec3 rounded;
+        for (int k = 0; k < 3; ++k)
+            rounded[k] = std::strtod(fmt::format("{:.{}g}", display[k], digits).c_str(), nullptr);
+        dvec3 off = glm::abs(linear_of_display(rounded) - linear);
+        if (glm::all(glm::lessThanEqual(off, error * glm::abs(linear)))) return rounded;
+    }
+    return display;
 }
 
 namespace {
@@ -93,10 +117,7 @@ std::string xml_name(const std::string& wanted) {
 
 // An XML name that no other element has.
 std::string ColladaExporter::id(const std::string& wanted, const char* kind) {
-    std::string name = wanted.empty() ? kind : xml_name(wanted);
-    std::string unique = name;
-    for (int n = 2; !taken_.insert(unique).second; ++n) unique = fmt::format("{}_{}", name, n);
-    return unique;
+    return names_.name(wanted, kind);
 }
 
 void ColladaExporter::lost(const std::string& what, const std::string& why, Location where) {
@@ -170,19 +191,49 @@ std::string ColladaExporter::transform(const Transform& t, const std::string& no
     std::string sid = fmt::format(
         "{}{}", size_t(t.kind) < std::size(kRows) ? kRows[size_t(t.kind)].name : "rotation",
         number);
-    std::string target = node + "/" + sid, where = attribute("sid", sid);
+    std::string target = node + "/" + sid;
+    auto where = [&](ValueSlot slot) {
+        return animation_.moves(slot) ? attribute("sid", sid) : "";
+    };
     if (size_t(t.kind) < std::size(kRows)) {
         const Row& row = kRows[size_t(t.kind)];
-        address({t.value, row.count}, target, row.members);
-        return xml(row.name, where, number_text(values({t.value, row.count})));
+        ValueSlot slot{t.value, row.count};
+        animation_.name(slot, target, row.members);
+        return xml(row.name, where(slot), number_text(values(slot)));
     }
-    // A quaternion: its four numbers together are the matrix.
-    for (int k = 0; k < 4; ++k) targets_[t.value + uint32_t(k)] = {target, false, k};
-    dmat4 m(mat4(transform_matrix(t.kind, &description_.values[t.value])));  // glTF's are floats
-    bool moves = false;
-    for (uint32_t k = 0; k < 4; ++k) moves |= description_.animated[t.value + k];
-    if (!moves && is_identity(m)) return "";
-    return xml("matrix", where, matrix_text(m));
+    ValueSlot slot{t.value, 4};
+    std::optional<dvec3> axis = animation_.hinge(t.value);
+    animation_.name_rotation(t.value, target, axis);
+    const double* quaternion = &description_.values[t.value];
+    dmat4 m(mat4(transform_matrix(t.kind, quaternion)));  // glTF's are floats
+    if (!animation_.moves(slot) && is_identity(m)) return "";
+    if (!axis) return xml("matrix", where(slot), matrix_text(m));
+    float angle = float(angle_about(*axis, quaternion));
+    return xml("rotate", where(slot),
+               number_text(std::array{float(axis->x), float(axis->y), float(axis->z), angle}));
+}
+
+// Which inputs the material reads: all that RSL may read, and texture coordinates by their names.
+std::string ColladaExporter::vertex_inputs(const MaterialUse& use,
+                                           const PrimitiveGroup& group) const {
+    const MaterialDefinition& material = description_.materials[use.material];
+    bool rsl = is_rsl(material);
+    std::set<std::string> names;
+    for (const ShaderUse& surface : material.surfaces)
+        for (const ParamSource& p : surface.params) names.insert(p.texcoord);
+    std::string text;
+    for (const VertexBinding& b : use.vertex_bindings) {
+        bool there = std::any_of(
+            group.attributes.begin(), group.attributes.end(), [&](const VertexAttribute& a) {
+                return a.semantic == b.semantic && (b.set == kNone || a.set == b.set);
+            });
+        bool read = rsl || b.semantic != "TEXCOORD" || names.contains(b.param);
+        if (!there || !read) continue;
+        text += fmt::format("<bind_vertex_input{}{}{}/>", attribute("semantic", b.param),
+                            attribute("input_semantic", b.semantic),
+                            b.set == kNone ? "" : attribute("input_set", std::to_string(b.set)));
+    }
+    return text;
 }
 
 std::string ColladaExporter::mesh_instance(const MeshUse& use) {
@@ -200,20 +251,14 @@ std::string ColladaExporter::mesh_instance(const MeshUse& use) {
                 content += xml("skeleton", "", "#" + node_ids_[top]);
         }
     }
-    std::set<std::string> symbols;
-    for (const PrimitiveGroup& group : mesh.groups) symbols.insert(group.symbol);
     for (const MaterialUse& m : use.materials) {
-        if (m.material == kNone || !symbols.count(m.symbol)) continue;
-        std::string binds;
-        for (const VertexBinding& b : m.vertex_bindings)
-            binds +=
-                fmt::format("<bind_vertex_input{}{}{}/>", attribute("semantic", b.param),
-                            attribute("input_semantic", b.semantic),
-                            b.set == kNone ? "" : attribute("input_set", std::to_string(b.set)));
+        auto worn = std::find_if(mesh.groups.begin(), mesh.groups.end(),
+                                 [&](const PrimitiveGroup& g) { return g.symbol == m.symbol; });
+        if (m.material == kNone || worn == mesh.groups.end()) continue;
         materials += xml("instance_material",
                          attribute("symbol", xml_name(m.symbol)) +
                              attribute("target", "#" + material_ids_[m.material]),
-                         binds);
+                         vertex_inputs(m, *worn));
     }
     if (!materials.empty())
         content += xml("bind_material", "", xml("technique_common", "", materials));
@@ -311,18 +356,18 @@ ColladaExport ColladaExporter::run() {
     scene_id = scene_id.substr(0, scene_id.find('"'));
     std::string text =
         "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">" +
-        asset() + animations() + library("cameras", cameras) + library("lights", lights) +
-        library("images", images_) + library("materials", materials_) +
-        library("effects", effects_) + library("geometries", geometries) +
-        library("controllers", controllers_) + library("nodes", shared) +
-        library("visual_scenes", scene) +
+        asset() + library("animations", animation_.text(diagnostics_)) +
+        library("cameras", cameras) + library("lights", lights) + library("images", images_) +
+        library("materials", materials_) + library("effects", effects_) +
+        library("geometries", geometries) + library("controllers", controllers_) +
+        library("nodes", shared) + library("visual_scenes", scene) +
         xml("scene", "", xml("instance_visual_scene", attribute("url", "#" + scene_id), "")) +
         "</COLLADA>";
     Diagnostics quiet;
     std::optional<collada::Document> document =
         collada::read_document_text(path_, std::move(text), quiet);
     if (document && document->whole())
-        result_.text = collada::write(*document, quiet.files);
+        result_.text = collada::write(*document, quiet.files, collada::Layout::Lines);
     else  // what the reader says is what is wrong with it: nested too deep
         collada::read_document_text(path_, std::string(quiet.files.text(0)), diagnostics_);
     return std::move(result_);

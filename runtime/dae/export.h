@@ -11,8 +11,8 @@
 namespace kinora {
 
 struct ColladaExport {
-    // COLLADA 1.4.1, canonical (collada/document/write.h); "" where no reader would take it, with
-    // findings.
+    // COLLADA 1.4.1, a line for each element (collada::Layout::Lines); "" where no reader would
+    // take it, with findings.
     std::string text;
     // Images that were inside the scene's file: names relative to the document, and bytes.
     std::vector<std::pair<std::string, std::string>> files;
@@ -20,7 +20,8 @@ struct ColladaExport {
 
 // `path` is where the document will stand: image links are relative to it.
 //
-// Nodes keep their stacks; a quaternion becomes a <matrix>, whose LINEAR keys turn as glTF's do.
+// Nodes keep their stacks. A quaternion that always turns about one axis becomes a <rotate>,
+// another a <matrix>, whose LINEAR keys turn as glTF's do.
 // Curves become LINEAR, STEP or BEZIER with the same values at all times. COLLADA's own shading
 // models and lights are written as such. glTF's become the nearest of them (nearest_common.h). RSL
 // is written as profile_RSL with its code, beside a profile_COMMON that comes near. Colours of

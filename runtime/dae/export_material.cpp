@@ -12,6 +12,7 @@
 #include "runtime/dae/export_p.h"
 #include "runtime/dae/nearest_common.h"
 #include "runtime/description/display_color.h"
+#include "runtime/description/rsl_literals.h"
 #include "runtime/description/shader_library.h"
 
 namespace kinora {
@@ -21,9 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool is_library(const ShaderUse& use, std::string_view name) {
-    Diagnostics quiet;
-    return use.shader && use.shader->name == name &&
-           library_shader(name, quiet).get() == use.shader.get();
+    return use.shader && use.shader->name == name && library_shader(name).get() == use.shader.get();
 }
 
 const ParamSource* source_of(const ShaderUse& use, std::string_view name) {
@@ -82,12 +81,13 @@ std::string ColladaExporter::image(const std::string& texture_name) {
     std::string own = found->second = id(fs::path(path).stem().string(), "image");
     std::error_code code;
     std::string link;
-    if (fs::is_regular_file(path, code)) {
+    std::string file = is_memory_file(path) ? path : description_.pictures.find(path).path;
+    if (fs::is_regular_file(file, code)) {
         // ".." is seen from where links of the file system lead.
-        auto folder_of = [&](const fs::path& file) {
-            return fs::weakly_canonical(fs::absolute(file, code).parent_path(), code);
+        auto folder_of = [&](const fs::path& of) {
+            return fs::weakly_canonical(fs::absolute(of, code).parent_path(), code);
         };
-        link = (folder_of(path) / fs::path(path).filename())
+        link = (folder_of(file) / fs::path(file).filename())
                    .lexically_relative(folder_of(path_))
                    .generic_string();
     } else if (std::string bytes = inner_file(path); !bytes.empty()) {
@@ -122,7 +122,7 @@ std::vector<double> ColladaExporter::display_color(ValueSlot color, double facto
     std::span<const double> v = values(color);
     bool grey = v.size() < 3;
     dvec3 linear = v.empty() ? dvec3(1.0) : dvec3(v[0], v[grey ? 0 : 1], v[grey ? 0 : 2]);
-    dvec3 display = display_of_linear(factor * linear);
+    dvec3 display = short_display_color(factor * linear, 1e-12);
     return {display.x, display.y, display.z};
 }
 
@@ -245,8 +245,10 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
             v.push_back(with_alpha ? values(alpha->value)[0] : 1.0);
         }
         std::string sid = row.element;
-        if (model) address(written(p->value), effect + "/common/" + sid, nullptr);
-        return xml(is_color ? "color" : "float", attribute("sid", sid), number_text(v));
+        if (model) animation_.name(written(p->value), effect + "/common/" + sid, nullptr);
+        bool moves = model && animation_.moves(written(p->value));
+        return xml(is_color ? "color" : "float", moves ? attribute("sid", sid) : "",
+                   number_text(v));
     };
     auto add = [&](const SlotRow& row, const char* param) {
         std::string content = value(row, param);
@@ -280,7 +282,8 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
     std::set<std::string> written;  // import_gltf reads each stage's code by itself
     for (const ShaderUse* use : uses) {
         if (!use->shader) continue;
-        std::string code = rsl::print_ast(*use->shader->ast);
+        std::string code =
+            relinked_code(rsl::print_ast(*use->shader->ast), description_.pictures, path_);
         if (written.insert(code).second)
             codes +=
                 xml("code", "", collada::cdata(told(code, fmt::format("effect '{}'", effect))));
@@ -291,8 +294,10 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
             std::string value;
             if (!p.strings.empty()) {
                 if (p.strings[0].empty()) continue;
-                bool file = p.name.ends_with("_map") ||
-                            fs::is_regular_file(parse_texture_name(p.strings[0]).path);
+                std::string path = parse_texture_name(p.strings[0]).path;
+                std::error_code error;
+                bool file = p.name.ends_with("_map") || is_memory_file(path) ||
+                            fs::is_regular_file(description_.pictures.find(path).path, error);
                 value = file ? image(p.strings[0])
                              : told(p.strings[0], fmt::format("effect '{}'", effect));
                 std::optional<std::string> words = texture_words(parse_texture_name(p.strings[0]));
@@ -308,7 +313,7 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
             std::string sid = use->shader->name + "-" + p.name;
             params += xml("newparam", attribute("sid", sid),
                           xml(kTypes[size_t(parameter->type.base)], "", value));
-            if (p.value.present()) address(p.value, effect + "/" + sid, nullptr);
+            animation_.name(p.value, effect + "/" + sid, nullptr);
             binds += xml("bind", attribute("symbol", p.name),
                          fmt::format("<param{}/>", attribute("ref", sid)));
         }
@@ -420,19 +425,23 @@ std::string ColladaExporter::light(uint32_t index) {
     double factor = theirs ? number("intensity", 1) / kPi : 1.0;
     const ParamSource* tint = source_of(l.shader, "lightcolor");
     ValueSlot color = tint ? tint->value : ValueSlot{};
-    if (!theirs) address(written(color), own + "/color", nullptr);
-    std::string content =
-        xml("color", attribute("sid", "color"), number_text(display_color(color, factor)));
+    std::string content;
+    auto put = [&](const char* name, ValueSlot slot, std::span<const double> numbers) {
+        animation_.name(slot, own + "/" + name, nullptr);
+        content +=
+            xml(name, animation_.moves(slot) ? attribute("sid", name) : "", number_text(numbers));
+    };
+    put("color", theirs ? ValueSlot{} : written(color), display_color(color, factor));
     auto add = [&](const char* name, double value) {
         const ParamSource* p = source_of(l.shader, name);
-        if (p && p->value.present() && !theirs) address(p->value, own + "/" + name, nullptr);
-        content +=
-            xml(name, attribute("sid", name), number_text(std::span<const double>(&value, 1)));
+        put(name, p && !theirs ? p->value : ValueSlot{}, std::span<const double>(&value, 1));
     };
     if (row && row->falls_off) {
         add("constant_attenuation", theirs ? 0 : number("constant_attenuation", 1));
         add("linear_attenuation", theirs ? 0 : number("linear_attenuation", 0));
-        add("quadratic_attenuation", theirs ? 1 : number("quadratic_attenuation", 0));
+        double unit = number("unit", 1);  // of the scene's in a metre
+        add("quadratic_attenuation",
+            theirs ? 1 / (unit * unit) : number("quadratic_attenuation", 0));
     }
     std::string name = fmt::format("light '{}'", own);
     if (row && row->cone) {
@@ -445,6 +454,9 @@ std::string ColladaExporter::light(uint32_t index) {
     }
     if (theirs && row->falls_off && number("range", 0) > 0) lost(name, "where its range ends");
     std::string extra = row ? "" : rsl_extra({l.shader}, own);
+    if (l.blender)
+        extra += xml("extra", "",
+                     xml("technique", attribute("profile", "KINORA"), xml("grey_world", "", "1")));
     return xml("light",
                attribute("id", own) + (l.name.empty() ? "" : attribute("name", xml_name(l.name))),
                xml("technique_common", "", xml(row ? row->element : "point", "", content)) + extra);
@@ -457,9 +469,9 @@ std::string ColladaExporter::camera(uint32_t index) {
     auto add = [&](const char* name, ValueSlot slot, double otherwise = 0) {
         double value = slot.present() ? values(slot)[0] : otherwise;
         if (!slot.present() && otherwise == 0) return;
-        if (slot.present()) address(slot, own + "/" + name, nullptr);
-        content +=
-            xml(name, attribute("sid", name), number_text(std::span<const double>(&value, 1)));
+        animation_.name(slot, own + "/" + name, nullptr);
+        content += xml(name, animation_.moves(slot) ? attribute("sid", name) : "",
+                       number_text(std::span<const double>(&value, 1)));
     };
     add(c.orthographic ? "xmag" : "xfov", c.x);
     add(c.orthographic ? "ymag" : "yfov", c.y);

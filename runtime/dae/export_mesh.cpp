@@ -13,6 +13,8 @@ namespace kinora {
 
 namespace {
 
+constexpr double kHalfFloatStep = 3e-8;  // relative: a float that is read as itself
+
 std::vector<std::string> param_names(const std::string& semantic, uint32_t stride) {
     static const std::vector<std::string> kSt = {"S", "T", "P", "Q"}, kRgb = {"R", "G", "B", "A"},
                                           kXyz = {"X", "Y", "Z", "W"};
@@ -38,14 +40,6 @@ std::string matrix_rows(const dmat4& m) {
     for (int r = 0; r < 4; ++r)
         for (int c = 0; c < 4; ++c) rows.push_back(m[c][r]);
     return number_text(rows);
-}
-
-std::string input(const char* semantic, const std::string& source, int offset = -1,
-                  uint32_t set = kNone) {
-    std::string attributes = attribute("semantic", semantic) + attribute("source", "#" + source);
-    if (offset >= 0) attributes += attribute("offset", std::to_string(offset));
-    if (set != kNone) attributes += attribute("set", std::to_string(set));
-    return "<input" + attributes + "/>";
 }
 
 template <class T>
@@ -120,7 +114,7 @@ std::vector<float> ColladaExporter::numbers_of(const VertexAttribute& values, bo
     if (by_rsl || values.semantic != "COLOR" || values.stride < 3) return numbers;
     for (size_t i = 0; i + values.stride <= numbers.size(); i += values.stride) {
         float* v = &numbers[i];
-        dvec3 display = display_of_linear({v[0], v[1], v[2]});
+        dvec3 display = short_display_color({v[0], v[1], v[2]}, kHalfFloatStep);
         for (int k = 0; k < 3; ++k) v[k] = float(display[k]);
     }
     return numbers;
@@ -270,7 +264,8 @@ std::string ColladaExporter::morph(uint32_t index, uint32_t mesh) {
             own, count, targets) +
         float_source(own + "-weights", number_text(values(morph.weights)), count, {"WEIGHT"});
     for (uint32_t i = 0; i < count; ++i)
-        targets_[morph.weights.offset + i] = {fmt::format("{}-weights({})", own, i)};
+        animation_.name({morph.weights.offset + i, 1}, fmt::format("{}-weights({})", own, i),
+                        nullptr);
     controllers_ += xml("controller", attribute("id", own),
                         xml("morph",
                             attribute("method", morph.relative ? "RELATIVE" : "NORMALIZED") +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/dae/export.h"
+#include "runtime/dae/export_animation_p.h"
 #include "runtime/description/texture_name.h"
 
 namespace kinora {
@@ -27,7 +28,10 @@ class ColladaExporter {
   public:
     ColladaExporter(const SceneDescription& description, const std::string& path,
                     Diagnostics& diagnostics)
-        : description_(description), path_(path), diagnostics_(diagnostics) {}
+        : description_(description),
+          path_(path),
+          diagnostics_(diagnostics),
+          animation_(description, names_) {}
     ColladaExport run();
 
   private:
@@ -42,7 +46,7 @@ class ColladaExporter {
     std::string node(uint32_t index);
     std::string child(const ChildUse& use);
     std::string mesh_instance(const MeshUse& use);
-    std::string skinned_instances();
+    std::string vertex_inputs(const MaterialUse& use, const PrimitiveGroup& group) const;
     std::string library(const char* name, const std::string& content) const;
 
     // export_mesh.cpp: geometries and controllers
@@ -73,15 +77,12 @@ class ColladaExporter {
     std::string light(uint32_t index);
     std::string camera(uint32_t index);
 
-    // export_animation.cpp
-    void address(ValueSlot slot, const std::string& target, const char* const* members);
-    std::string animations();
-
     const SceneDescription& description_;
     std::string path_;
     Diagnostics& diagnostics_;
     ColladaExport result_;
-    std::set<std::string> taken_;
+    UniqueNames names_;
+    AnimationWriter animation_;
     std::vector<std::string> node_ids_, mesh_ids_, material_ids_, light_ids_, camera_ids_;
     std::vector<uint32_t> uses_, parents_;  // of node definitions
     std::vector<MergedVertices> merged_;    // of meshes
@@ -90,22 +91,21 @@ class ColladaExporter {
     std::string images_, effects_, materials_, controllers_;
     std::map<std::string, std::string> image_ids_, controller_ids_;
     std::map<uint32_t, std::string> morph_ids_;
-    struct Target {
-        std::string path;
-        bool matrix = false;  // all 16 by one channel
-        int quaternion = -1;  // component of one that stands as a matrix
-    };
-    std::map<uint32_t, Target> targets_;  // by offset in values
-    std::vector<double> more_values_;     // behind the description's
-    std::string skinned_;                 // nodes of skinned meshes, at the top
+    std::vector<double> more_values_;  // behind the description's
+    std::string skinned_;              // nodes of skinned meshes, at the top
 };
 
 // "<name a="b">text</name>" with `attributes` as they stand (" a=\"b\"").
 std::string xml(const std::string& name, const std::string& attributes, const std::string& content);
 std::string attribute(const std::string& name, const std::string& value);
 std::string xml_name(const std::string& wanted);  // xs:NCName: other characters become '_'
+std::string input(const char* semantic, const std::string& source, int offset = -1,
+                  uint32_t set = kNone);
+// Doubles that are no floats have 15 digits: the last bits of what was computed say nothing.
 std::string number_text(std::span<const double> numbers);
 std::string number_text(std::span<const float> numbers);
+// The display colour with the fewest digits that is read as this colour, but for a relative error.
+dvec3 short_display_color(const dvec3& linear, double error);
 // A <source> of floats with an accessor of these params ("XYZ", or "" for one without names).
 std::string float_source(const std::string& id, const std::string& numbers, size_t count,
                          const std::vector<std::string>& params, const char* type = "float");

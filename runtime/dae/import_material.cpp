@@ -169,13 +169,13 @@ namespace {
 using collada::CommonSlot;
 
 // Slots of profile_COMMON that are parameters of collada_*.sl, as colors or numbers.
-struct SlotRow {
+struct ReadSlot {
     CommonSlot slot;
     const char* name;
     uint32_t count;
     bool display;  // a colour of light, encoded as a display's; <transparent> is a measure
 };
-constexpr SlotRow kSlots[] = {
+constexpr ReadSlot kReadSlots[] = {
     {CommonSlot::Emission, "emission", 3, true},
     {CommonSlot::Ambient, "ambient_color", 3, true},
     {CommonSlot::Diffuse, "diffuse", 3, true},
@@ -187,8 +187,8 @@ constexpr SlotRow kSlots[] = {
     {CommonSlot::Transparency, "transparency", 1, false},
     {CommonSlot::IndexOfRefraction, "index_of_refraction", 1, false},
 };
-constexpr const char* kModels[] = {"collada_constant", "collada_lambert", "collada_phong",
-                                   "collada_blinn"};                           // CommonModel
+constexpr const char* kShaderOfModel[] = {"collada_constant", "collada_lambert", "collada_phong",
+                                          "collada_blinn"};                    // CommonModel
 constexpr const char* kOpaque[] = {"A_ONE", "RGB_ZERO", "A_ZERO", "RGB_ONE"};  // Opaque
 
 // Only what the shader has a parameter for.
@@ -223,13 +223,13 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
     const collada::CommonShading& common = *effect.common;
     uint32_t effect_index = uint32_t(&effect - data_.effects.data());
     ShaderUse use;
-    use.shader = library_shader(kModels[size_t(common.model)], diagnostics_);
+    use.shader = library_shader(kShaderOfModel[size_t(common.model)]);
     use.linear_inputs = true;
     // What hides all is left out: the shader's own values are opaque, but for A_ZERO and RGB_ZERO
     // a transparency of 0 is. The mask of a texture stays.
     bool hides_all =
         data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto;
-    for (const SlotRow& row : kSlots) {
+    for (const ReadSlot& row : kReadSlots) {
         const collada::CommonValue& value = common[row.slot];
         bool mask = row.slot == CommonSlot::Transparent;
         ValueSlot slot;
@@ -265,7 +265,7 @@ ValueSlot ColladaImport::bound_slot(uint32_t material, const collada::ParamBindi
     ValueSlot value = slot(param.ref);
     uint32_t effect = material == kNone ? kNone : data_.materials[material].effect;
     if (effect == kNone || data_.effects[effect].rsl || value.count < 3) return value;
-    for (const SlotRow& row : kSlots)
+    for (const ReadSlot& row : kReadSlots)
         if (row.display && param.semantic == row.name) return linear({value.offset, 3});
     return value;
 }
@@ -345,8 +345,9 @@ void ColladaImport::import_lights() {
         }
         if (to.shader.shader) continue;
         to.ambient = from.kind == collada::LightKind::Ambient;
+        to.blender = from.blender;
         to.blender_watts = from.blender_watts;
-        to.shader.shader = library_shader(kKinds[size_t(from.kind)], diagnostics_);
+        to.shader.shader = library_shader(kKinds[size_t(from.kind)]);
         for (size_t s = 0; s < size_t(LightSlot::Count); ++s) {
             if (!find_parameter(*to.shader.shader, kSlotNames[s])) continue;
             ParamSource source;

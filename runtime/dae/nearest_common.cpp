@@ -24,11 +24,9 @@ class GltfToCommon {
     CommonSurface run() {
         bool unlit = from_.shader->name == "gltf_unlit";
         bool none = from_.shader->name == "default_surface";
-        Diagnostics quiet;
         to_.use.shader = library_shader(unlit  ? "collada_constant"
                                         : none ? "collada_lambert"
-                                               : "collada_blinn",
-                                        quiet);
+                                               : "collada_blinn");
         to_.use.linear_inputs = true;
         if (unlit)
             light("emission", "base_color", color("base_color", 1));
@@ -160,10 +158,8 @@ class GltfToCommon {
 
 bool has_nearest_common(const ShaderUse& surface) {
     if (!surface.shader) return false;
-    Diagnostics quiet;
     for (const char* name : {"gltf_pbr", "gltf_unlit", "default_surface"})
-        if (surface.shader->name == name &&
-            library_shader(name, quiet).get() == surface.shader.get())
+        if (surface.shader->name == name && library_shader(name).get() == surface.shader.get())
             return true;
     return false;
 }

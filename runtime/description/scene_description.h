@@ -171,6 +171,7 @@ struct LightDefinition {
     ShaderUse shader;
     std::optional<bool> shadows;  // profile RSL's <shadows>; nothing: automatic
     bool ambient = false;
+    bool blender = false;        // Blender wrote it, without the grey world that it lights with too
     bool blender_watts = false;  // one of COLLADA's that Blender wrote in watts
     uint32_t samples = 0;        // of a light on geometry; 0: not said
     Location where;

@@ -17,7 +17,7 @@ struct EmbeddedShader {
 extern const EmbeddedShader kEmbeddedShaders[];
 extern const size_t kEmbeddedShadersCount;
 
-std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics&) {
+std::shared_ptr<const rsl::Shader> library_shader(std::string_view name) {
     static std::mutex mutex;
     static std::map<std::string, std::shared_ptr<const rsl::Shader>, std::less<>> compiled;
     static Diagnostics library_diagnostics;  // locations in the library outlive every scene

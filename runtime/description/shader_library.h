@@ -13,7 +13,7 @@ namespace kinora {
 
 // The shader of that name (its file's name without .sl); compiled on first use. A name that is not
 // in the library gives null; an error in a library shader is a bug (CHECK).
-std::shared_ptr<const rsl::Shader> library_shader(std::string_view name, Diagnostics& diagnostics);
+std::shared_ptr<const rsl::Shader> library_shader(std::string_view name);
 
 // Its text as in assets/shaders; "" for a name that is not in the library.
 std::string_view library_shader_text(std::string_view name);

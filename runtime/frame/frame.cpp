@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/frame/report_p.h"
 #include "runtime/scene/camera.h"
@@ -15,6 +16,24 @@
 namespace kinora {
 
 namespace {
+
+// Times a frame from its construction to its end.
+class FrameTimer {
+  public:
+    explicit FrameTimer(FrameStats& stats) : stats_(stats), running_(clock_) {}
+    ~FrameTimer() {
+        stats_.total = watch_.ms();
+        stats_.stages = stage_ms(clock_.ticks(), tiles, thread_count(), stats_.total);
+    }
+    FrameTimer(const FrameTimer&) = delete;
+    StageTicks tiles;  // summed over the threads
+
+  private:
+    FrameStats& stats_;
+    Stopwatch watch_;
+    StageClock clock_;
+    RunningClock running_;
+};
 
 // The film's planes are those of the scene's outputs.
 void prepare_planes(const Scene& scene, raytrace::Film& film) {
@@ -34,12 +53,16 @@ bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& fi
                  raytrace::IntegratorCounters& counters, const raytrace::Progress* progress) {
     prepare_planes(scene, film);
     scene.shading->stop_by(settings.stop);
-    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
+    {
+        StageScope stage(Stage::Kernels);
+        scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
+    }
     raytrace::IntegratorSettings integrator = settings.integrator;
     float gain = float(settings.gain);
     if (integrator.background) *integrator.background /= gain;  // it is no part of the scene
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film, integrator,
                                      scene.scratch, counters, progress);
+    StageScope stage(Stage::Film);
     if (gain != 1)
         for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);
     return whole;
@@ -51,14 +74,18 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
                 Diagnostics& diagnostics) {
     {
         StageTimer timer(stats.animate);
+        StageScope stage(Stage::Animate);
         evaluate(scene, time);
         scene.shutter = settings.shutter;
         update_transforms(scene);
     }
-    raytrace::CameraStatus camera = set_view(scene, settings.width, settings.height);
+    raytrace::CameraStatus camera =
+        settings.camera ? set_view(scene, *settings.camera, settings.width, settings.height)
+                        : set_view(scene, settings.width, settings.height);
     if (!report_camera(scene, camera, diagnostics)) return false;
     {
         StageTimer timer(stats.skin);
+        StageScope stage(Stage::Skin);
         pose(scene);
         stats.dice_error = dice_error(scene);
         stats.too_coarse =
@@ -71,6 +98,7 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
     }
     {
         StageTimer timer(stats.refit);
+        StageScope stage(Stage::Refit);
         const raytrace::AccelUpdate& update = scene.accel.update(scene.geometry);
         stats.refits = update.refits;
         stats.rebuilds = update.rebuilds + update.low_rebuilds;
@@ -85,11 +113,13 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
 bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
                   FrameStats& stats, Diagnostics& diagnostics, const raytrace::Progress* progress) {
     stats = {};
-    StageTimer total(stats.total);
+    FrameTimer timer(stats);
     if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
     raytrace::IntegratorCounters counters;
     bool whole = trace_frame(scene, settings, film, counters, progress);
+    timer.tiles = counters.stages;
     if (whole && scene.imager != kNone) {
+        StageScope stage(Stage::Imager);
         size_t bad = scene.shading->run_imager(film, settings.integrator.nan);
         film.non_finite += bad;
         report_imager(scene, bad, stats, diagnostics);

@@ -1,9 +1,11 @@
 // runtime/frame/frame.h: a time to a picture.
 #pragma once
 
+#include <array>
 #include <atomic>
 
 #include "raytrace/film.h"
+#include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/shading.h"
 
@@ -15,10 +17,11 @@ struct FrameStats {
     double skin = 0;      // transformations and displacements included
     double displace = 0;  // of that, theirs
     double refit = 0;
-    double trace = 0;  // tracing and shading overlap on all threads: their sums, divided by threads
-    double shade = 0;
     double total = 0;
-    uint64_t rays = 0;  // camera, shadow and reflection rays
+    std::array<double, kStageCount> stages{};  // sum to the total; of threads, the mean
+    uint64_t rays = 0;                         // camera, shadow and reflection rays
+    raytrace::TraceCounters camera_rays;       // of those, the camera's and their continuations
+    raytrace::TraceCounters shader_rays;       // and those of lights and shaders
     uint64_t shading_points = 0;
     uint64_t non_finite = 0;
     int refits = 0, rebuilds = 0;
@@ -26,12 +29,15 @@ struct FrameStats {
     bool too_coarse = false;  // the frame was let go for that
 };
 
+struct PlacedCamera;  // runtime/scene/camera.h
+
 struct FrameSettings {
     int width = 640, height = 360;
     double shutter = 0;                      // seconds
     double most_dice_error = 0;              // 0: any
     double gain = 1;                         // of the picture's colours: 2 ^ exposure
     const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
+    const PlacedCamera* camera = nullptr;    // instead of the scene's
     raytrace::IntegratorSettings integrator;
 };
 

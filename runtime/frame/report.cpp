@@ -126,13 +126,14 @@ void report_shading(Scene& scene, const ShadingCounters& shading,
     if (shading.out_of_rays)
         diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
                            scene.options.ray_limit);
+    if (scene.watch_dark > 0) --scene.watch_dark;
     if (shading.dark > shading.seen / 2) {
-        scene.watch_dark = false;
+        scene.watch_dark = 0;
         diagnostics.report(Code::LIGHTS_DARK, Location{});
     }
     scene.textures->report(diagnostics);
-    stats.trace = counters.trace_ms / thread_count();
-    stats.shade = counters.shade_ms / thread_count();
+    stats.camera_rays = counters.trace;
+    stats.shader_rays = shading.trace;
     stats.rays = counters.trace.rays + counters.trace.shadow_rays + shading.trace.rays +
                  shading.trace.shadow_rays;
     stats.shading_points = shading.points;

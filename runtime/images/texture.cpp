@@ -15,10 +15,8 @@ namespace kinora {
 
 namespace {
 
-constexpr int kLanes = jit::kMaxLanes;
-
 const float* argument(const jit::ServiceCall& call, int index) {
-    return call.args + index * kLanes;
+    return call.args + index * jit::kMaxLanes;
 }
 
 // The "filter" parameter; any other name is the default, anisotropic.
@@ -47,14 +45,14 @@ TextureFilter filter_of(int32_t name) {
 uint32_t lanes_like_first(const float* row, uint32_t mask) {
     int32_t first = jit::bits_of(row[std::countr_zero(mask)]);
     uint32_t same = 0;
-    for (int i = 0; i < kLanes; ++i) same |= uint32_t(jit::bits_of(row[i]) == first) << i;
+    for (int i = 0; i < jit::kMaxLanes; ++i) same |= uint32_t(jit::bits_of(row[i]) == first) << i;
     return same & mask;
 }
 
 void fill_lanes(uint32_t mask, const float* fill, float* results) {
     for (int k = 0; k < 4; ++k)
-        for (int i = 0; i < kLanes; ++i)
-            if (mask >> i & 1) results[k * kLanes + i] = fill[i];
+        for (int i = 0; i < jit::kMaxLanes; ++i)
+            if (mask >> i & 1) results[k * jit::kMaxLanes + i] = fill[i];
 }
 
 // The texture of lanes that share a name; null for none.
@@ -64,13 +62,13 @@ const Texture* texture_of(TextureStore& store, const float* names, uint32_t mask
 
 // Directions as coordinates, footprints as their angles: lanes without a direction leave `mask`.
 struct DirectionRows {
-    alignas(64) float s[kLanes], t[kLanes], ds[kLanes], dt[kLanes];
+    alignas(64) float s[jit::kMaxLanes], t[jit::kMaxLanes], ds[jit::kMaxLanes], dt[jit::kMaxLanes];
     uint32_t mask = 0;
 };
 DirectionRows directions_of(const jit::ServiceCall& call) {
     DirectionRows rows;
     constexpr float kPiF = 3.14159265358979f;
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < jit::kMaxLanes; ++i) {
         float v[9];  // R, dRdx, dRdy
         constexpr int kFirst = rsl::service_argument(rsl::Service::environment, "R").first;
         for (int k = 0; k < 9; ++k) v[k] = argument(call, kFirst + k)[i];
@@ -95,7 +93,7 @@ DirectionRows directions_of(const jit::ServiceCall& call) {
 }
 
 constexpr auto filled_row(float value) {
-    std::array<float, kLanes> row{};
+    std::array<float, jit::kMaxLanes> row{};
     row.fill(value);
     return row;
 }

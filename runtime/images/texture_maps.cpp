@@ -14,10 +14,8 @@ namespace kinora {
 
 namespace {
 
-constexpr int kLanes = jit::kMaxLanes;
-
 float argument(const jit::ServiceCall& call, int index, int lane) {
-    return call.args[index * kLanes + lane];
+    return call.args[index * jit::kMaxLanes + lane];
 }
 vec3 triple(const jit::ServiceCall& call, int first, int lane) {
     return {argument(call, first, lane), argument(call, first + 1, lane),
@@ -120,7 +118,7 @@ void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::textureinfo, name).first;
     };
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < jit::kMaxLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
         float values[16] = {};
         int32_t name = jit::bits_of(argument(call, at("map"), i));
@@ -133,7 +131,7 @@ void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store) {
         else if (texture && field == "exists")
             count = 1;
         call.results[i] = jit::float_of(count);
-        for (int k = 0; k < 16; ++k) call.results[(1 + k) * kLanes + i] = values[k];
+        for (int k = 0; k < 16; ++k) call.results[(1 + k) * jit::kMaxLanes + i] = values[k];
     }
 }
 
@@ -143,9 +141,9 @@ void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current
         return rsl::service_argument(rsl::Service::shadow, name).first;
     };
     mat4 to_world(world_from_current);
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < jit::kMaxLanes; ++i) {
         if (!(call.mask >> i & 1)) continue;
-        for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = 0;
+        for (int k = 0; k < 3; ++k) call.results[k * jit::kMaxLanes + i] = 0;
         const Texture* texture = find_texture(store, jit::bits_of(argument(call, at("map"), i)));
         if (!texture || !texture->image->error.empty() || !texture->image->facts.has_matrices)
             continue;
@@ -168,7 +166,7 @@ void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current
             int(std::ceil(std::sqrt(std::clamp(samples, 1.0f, float(kMostSide * kMostSide)))));
         float hidden =
             share_behind(*texture->image, point, extent, argument(call, at("bias"), i), side);
-        for (int k = 0; k < 3; ++k) call.results[k * kLanes + i] = hidden;
+        for (int k = 0; k < 3; ++k) call.results[k * jit::kMaxLanes + i] = hidden;
     }
 }
 
@@ -176,12 +174,12 @@ void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::environment, name).first;
     };
-    alignas(64) float s[kLanes] = {}, t[kLanes] = {}, ds[kLanes] = {}, zero[kLanes] = {},
-                      one[kLanes];
-    int face[kLanes] = {};
-    std::fill_n(one, kLanes, 1.0f);
+    alignas(64) float s[jit::kMaxLanes] = {}, t[jit::kMaxLanes] = {}, ds[jit::kMaxLanes] = {},
+                      zero[jit::kMaxLanes] = {}, one[jit::kMaxLanes];
+    int face[jit::kMaxLanes] = {};
+    std::fill_n(one, jit::kMaxLanes, 1.0f);
     float size = float(image.faces[0].levels[0].width);
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < jit::kMaxLanes; ++i) {
         if (!(mask >> i & 1)) continue;
         vec3 d = triple(call, at("R"), i), dx = triple(call, at("dRdx"), i),
              dy = triple(call, at("dRdy"), i);
@@ -193,7 +191,7 @@ void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_
         float width = std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))) / (2 * large);
         ds[i] = width >= 0 ? std::min(width, 1.0f) : 0;
     }
-    auto row = [&](int index) { return call.args + index * kLanes; };
+    auto row = [&](int index) { return call.args + index * jit::kMaxLanes; };
     TextureLanes lanes{
         row(at("channel")), s,           t, ds, zero, zero, ds, row(at("blur")), one, one,
         row(at("fill")),    call.results};
@@ -201,7 +199,7 @@ void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_
     modes.wrap_s = modes.wrap_t = TextureWrap::Clamp;
     for (int f = 0; f < 6; ++f) {
         uint32_t here = 0;
-        for (int i = 0; i < kLanes; ++i) here |= uint32_t(face[i] == f) << i;
+        for (int i = 0; i < jit::kMaxLanes; ++i) here |= uint32_t(face[i] == f) << i;
         here &= mask;
         if (here)
             sample_texture(image.faces[size_t(f)], modes, TextureFilter::Anisotropic, here, lanes);

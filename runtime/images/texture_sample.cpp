@@ -12,8 +12,6 @@ namespace kinora {
 
 namespace {
 
-constexpr int kLanes = jit::kMaxLanes;
-
 // Largest integer <= x, for |x| < 2^31.
 int floor_int(float x) {
     int i = int(x);
@@ -141,10 +139,11 @@ float log2_of(float x) {
 
 // Where and how finely each lane looks.
 struct Footprints {
-    alignas(64) float s[kLanes], t[kLanes];
-    alignas(64) float ds[kLanes], dt[kLanes];  // the longer side, along which taps lie
-    alignas(64) float lod[kLanes];
-    alignas(64) float taps[kLanes];
+    alignas(64) float s[jit::kMaxLanes], t[jit::kMaxLanes];
+    alignas(64) float ds[jit::kMaxLanes],
+        dt[jit::kMaxLanes];  // the longer side, along which taps lie
+    alignas(64) float lod[jit::kMaxLanes];
+    alignas(64) float taps[jit::kMaxLanes];
 };
 
 void find_footprints(const TexturePyramid& pyramid, const TextureName& modes, TextureFilter filter,
@@ -165,7 +164,7 @@ void find_footprints(const TexturePyramid& pyramid, const TextureName& modes, Te
         s = modes.turn[0] * s0 - modes.turn[1] * t;
         t = modes.turn[1] * s0 + modes.turn[0] * t;
     };
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < jit::kMaxLanes; ++i) {
         float s = in.s[i], t = in.t[i];
         float dsdx = in.dsdx[i] * in.swidth[i], dtdx = in.dtdx[i] * in.twidth[i];
         float dsdy = in.dsdy[i] * in.swidth[i], dtdy = in.dtdy[i] * in.twidth[i];
@@ -222,7 +221,7 @@ void store_result(float4 texel, int colors, const TextureLanes& lanes, int i) {
         float channel = lanes.channel[i] + float(k);
         int c = channel >= 0.0f && channel < 4.0f ? int(channel) : -1;
         bool present = c == 3 || (c >= 0 && c < colors);
-        lanes.results[k * kLanes + i] = present ? texel[c] : lanes.fill[i];
+        lanes.results[k * jit::kMaxLanes + i] = present ? texel[c] : lanes.fill[i];
     }
 }
 
@@ -234,7 +233,7 @@ void sample_lanes(const TexelSampler<Texel>& sampler, TextureFilter filter, uint
     for (; mask; mask &= mask - 1) {
         int i = std::countr_zero(mask);
         if (at.s[i] != at.s[i] || at.t[i] != at.t[i]) {
-            for (int k = 0; k < 4; ++k) lanes.results[k * kLanes + i] = lanes.fill[i];
+            for (int k = 0; k < 4; ++k) lanes.results[k * jit::kMaxLanes + i] = lanes.fill[i];
             continue;
         }
         store_result(sample_lane(sampler, filter, at, i), sampler.pyramid.colors, lanes, i);

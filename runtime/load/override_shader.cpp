@@ -127,7 +127,7 @@ bool names_shader_file(std::string_view shader) {
 }
 
 std::shared_ptr<const rsl::Shader> named_shader(const std::string& name, Diagnostics& diagnostics) {
-    SharedShader shader = library_shader(name, diagnostics);
+    SharedShader shader = library_shader(name);
     if (shader) return shader;
     std::string_view near = nearest_name(name, library_shader_names());
     diagnostics.report(Code::SHADER_UNKNOWN, Location{}, name).help =

@@ -56,6 +56,14 @@ raytrace::CameraStatus set_view(Scene& scene, int width, int height) {
     return status;
 }
 
+raytrace::CameraStatus set_view(Scene& scene, const PlacedCamera& camera, int width, int height) {
+    raytrace::CameraStatus status = raytrace::make_camera(
+        camera.optics, camera.world, width, height, scene.origin, scene.size, scene.view);
+    scene.view.clip = false;
+    bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;  // it had none
+    return repaired ? raytrace::CameraStatus::Ok : status;
+}
+
 std::optional<double> camera_aspect(const Scene& scene) {
     return raytrace::picture_aspect(optics_of(scene));
 }

@@ -11,6 +11,13 @@ namespace kinora {
 // Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
 raytrace::CameraStatus set_view(Scene& scene, int width, int height);
 
+// A camera that is no part of the scene; its units and axes are the scene's.
+struct PlacedCamera {
+    raytrace::CameraOptics optics;  // angles in radians
+    dmat4 world{1.0};               // as a camera node's
+};
+raytrace::CameraStatus set_view(Scene& scene, const PlacedCamera& camera, int width, int height);
+
 // Width / height of the scene's camera where its optics say so, at its base values.
 std::optional<double> camera_aspect(const Scene& scene);
 

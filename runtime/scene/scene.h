@@ -236,7 +236,9 @@ struct Scene {
     // Interiors and exteriors, into looks: ShaderInstance::volume is k + 1.
     std::vector<uint32_t> volumes;
     std::vector<std::string> added;  // "default camera", "default key light": what --list shows
-    bool watch_dark = false;         // only its own lights shine; LIGHTS_DARK is not told yet
+    // Frames whose points are yet to be counted for LIGHTS_DARK: only its own lights shine.
+    uint32_t watch_dark = 0;
+    float world_light = 0;  // the brightness of the grey world that was added, which is no light
 
     double time = 0, shutter = 0;  // of the last evaluate, seconds
 

@@ -17,7 +17,6 @@ namespace kinora {
 
 namespace {
 
-constexpr int kLanes = jit::kMaxLanes;
 constexpr size_t kNeighbours = 8, kMostPhotons = 64;
 
 // World space, as the files have it.
@@ -37,7 +36,7 @@ struct ToWorld {
 
 struct Rows {
     const jit::ServiceCall& call;
-    float number(int row, int lane) const { return call.args[row * kLanes + lane]; }
+    float number(int row, int lane) const { return call.args[row * jit::kMaxLanes + lane]; }
     int32_t integer(int row, int lane) const { return jit::bits_of(number(row, lane)); }
     vec3 triple(int row, int lane) const {
         return {number(row, lane), number(row + 1, lane), number(row + 2, lane)};
@@ -98,9 +97,10 @@ vec3 photon_density(const PointCloud& cloud, int offset, vec3 P, vec3 N, int wan
 void look_up_points(const Scene& scene, const jit::ServiceCall& call) {
     Rows rows{call};
     ToWorld to_world(scene);
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         call.results[lane] = jit::float_of(0);
-        for (int k = 0; k < rsl::kPointFloats; ++k) call.results[(1 + k) * kLanes + lane] = 0;
+        for (int k = 0; k < rsl::kPointFloats; ++k)
+            call.results[(1 + k) * jit::kMaxLanes + lane] = 0;
         if (!(call.mask >> lane & 1)) continue;
         PointStore::Lookup found = scene.points->find(rows.integer(0, lane), rows.integer(1, lane));
         if (!found.cloud) continue;
@@ -116,7 +116,7 @@ void look_up_points(const Scene& scene, const jit::ServiceCall& call) {
             if (channel.offset >= 0) known |= int32_t(1u << c);
             for (int k = 0; k < channel.components; ++k, ++next)
                 if (channel.offset >= 0)
-                    call.results[next * kLanes + lane] = mean.number(channel.offset + k);
+                    call.results[next * jit::kMaxLanes + lane] = mean.number(channel.offset + k);
         }
         call.results[lane] = jit::float_of(known);
     }
@@ -127,7 +127,7 @@ void look_up_photons(const Scene& scene, const jit::ServiceCall& call) {
     static const int32_t kDiffusion = rsl::intern("color _ssdiffusion,color _radiance_t");
     Rows rows{call};
     ToWorld to_world(scene);
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         vec3 light(0.0f);
         int32_t file = rows.integer(0, lane);
         if ((call.mask >> lane & 1) && file != 0) {
@@ -146,7 +146,7 @@ void look_up_photons(const Scene& scene, const jit::ServiceCall& call) {
                                        rows.integer(2, lane));
             }
         }
-        for (int k = 0; k < 3; ++k) call.results[k * kLanes + lane] = light[k];
+        for (int k = 0; k < 3; ++k) call.results[k * jit::kMaxLanes + lane] = light[k];
     }
 }
 

@@ -16,7 +16,6 @@ namespace kinora {
 
 namespace {
 
-constexpr int kLanes = jit::kMaxLanes;
 constexpr uint32_t kMostDepth = 64;  // of --rays
 using GatherResult = rsl::LoweredShader::GatherResult;
 
@@ -77,17 +76,17 @@ class Records {
     Records(GatherMemory& memory, int count, int width, size_t first)
         : memory_(memory), width_(width) {
         size_t columns = size_t(count) * size_t(width);
-        memory.values.assign(columns * kLanes, 0.0f);
+        memory.values.assign(columns * jit::kMaxLanes, 0.0f);
         memory.columns.resize(columns);
         memory.records.resize(size_t(count));
         for (size_t c = 0; c < columns; ++c)  // read at the grid's point: a part starts before it
-            memory.columns[c] = memory.values.data() + c * kLanes - first;
+            memory.columns[c] = memory.values.data() + c * jit::kMaxLanes - first;
         for (size_t r = 0; r < size_t(count); ++r)
             memory.records[r] = {memory.columns.data() + r * size_t(width), nullptr};
     }
     float& at(uint32_t record, int column, int lane) {
-        return memory_
-            .values[(size_t(record) * size_t(width_) + size_t(column)) * kLanes + size_t(lane)];
+        return memory_.values[(size_t(record) * size_t(width_) + size_t(column)) * jit::kMaxLanes +
+                              size_t(lane)];
     }
     void set(uint32_t record, int column, int lane, vec3 v) {
         for (int k = 0; k < 3; ++k) at(record, column + k, lane) = v[k];
@@ -105,9 +104,9 @@ struct Row {
 
 // The rays of one call at each lane: how many, and the share of the eye's ray that each has.
 struct RayCounts {
-    int samples[kLanes] = {};
-    float share[kLanes] = {};  // 0: not shot
-    int most = 0;              // of any lane
+    int samples[jit::kMaxLanes] = {};
+    float share[jit::kMaxLanes] = {};  // 0: not shot
+    int most = 0;                      // of any lane
 };
 
 // Rays that cannot be shot meet nothing, and are left out where the statement has no use for that;
@@ -115,7 +114,7 @@ struct RayCounts {
 RayCounts count_rays(Grid& grid, const Lanes& lanes, int flags, bool shoots) {
     RayCounts counts;
     bool wants_rays = !(flags & rsl::kGatherNoRays), hits_only = flags & rsl::kGatherHitsOnly;
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         if (!lanes.asks(lane)) continue;
         float length = glm::length(lanes.triple(Row::D, lane));
         if (!(length > 0 && length < kMiss)) continue;
@@ -163,6 +162,75 @@ void record_ray(Records& records, std::span<const RayColumn> columns, uint32_t r
                 break;
         }
 }
+
+// The directions of one lane over a map: of n, every other one by the map's brightness where a
+// table is given, the rest over the cone. The solid angle of each is 1 over the density of them all
+// (E. Veach's balance heuristic), so sums over solid angles have the mean of even directions.
+class MapDirections {
+  public:
+    MapDirections(const Cone& cone, const EnvironmentTable* table, int n)
+        : cone_(cone), table_(n > 1 ? table : nullptr), of_table_(table_ ? n / 2 : 0), n_(n) {}
+
+    vec3 direction(uint32_t k, uint32_t seed) const {
+        if (!table_) return cone_.direction(k, seed);
+        if (k % 2 == 0) return cone_.direction(k / 2, seed);
+        return table_->direction(raytrace::stratified_sample(k / 2, raytrace::hash(seed, 1u)));
+    }
+    // 0: outside the cone.
+    float solid_angle(vec3 d) const {
+        if (table_ && glm::dot(d, cone_.z) < cone_.cosine) return 0;
+        float density = float(n_ - of_table_) / (2 * float(kPi) * (1 - cone_.cosine));
+        if (table_) density += float(of_table_) * table_->density(d);
+        return 1 / density;
+    }
+
+    // Of a look at the map. One for all where densities differ: a wide look beside what is bright
+    // would count it twice.
+    float width(float solid_angle) const {
+        return table_ ? EnvironmentTable::kWidth : std::sqrt(solid_angle);
+    }
+
+  private:
+    const Cone& cone_;
+    const EnvironmentTable* table_;
+    int of_table_, n_;
+};
+
+// The rays of one lane: along the axis of a cone without width, by the brightness of a map, or
+// even.
+class LaneRays {
+  public:
+    // `over`: null for directions that are even.
+    LaneRays(const Grid& grid, const RayStart& start, const Cone& cone, bool wide, uint32_t seed,
+             const MapDirections* over)
+        : grid_(grid),
+          start_(start),
+          cone_(cone),
+          wide_(wide),
+          seed_(seed),
+          over_(over),
+          fan_(grid, start, cone, seed) {}
+
+    vec3 direction(uint32_t k) {
+        if (!wide_) return cone_.z;
+        return over_ ? over_->direction(k, seed_) : fan_.direction(k);
+    }
+    void add(raytrace::RayBatch& rays, uint32_t k, vec3 dir, float reach, float bias, float share) {
+        uint32_t slot = uint32_t(rays.count);
+        if (wide_ && !over_) return fan_.add(rays, k, reach, bias, slot, share);
+        add_ray(rays, grid_, start_, dir, reach, bias, raytrace::hash(seed_, k), slot, share);
+        spread_ray(rays, *start_.hits, start_.hit);
+    }
+
+  private:
+    const Grid& grid_;
+    const RayStart& start_;
+    const Cone& cone_;
+    bool wide_;
+    uint32_t seed_;
+    const MapDirections* over_;
+    RayFan fan_;
+};
 
 // The solid angle that each of n directions of the cone stands for: 1 / (n density).
 float solid_angle(const Cone& cone, vec3 direction, int n) {
@@ -247,6 +315,22 @@ GatherMemory& GatherRays::records_of(const Grid& grid, int nesting) {
     return *memories[index];
 }
 
+const EnvironmentTable* GatherRays::table_of(int32_t map) {
+    std::lock_guard lock(tables_mutex_);
+    auto found = tables_.find(map);
+    if (found == tables_.end()) {
+        std::vector<vec3> directions(EnvironmentTable::kCells), light(EnvironmentTable::kCells);
+        for (uint32_t c = 0; c < EnvironmentTable::kCells; ++c)
+            directions[c] = EnvironmentTable::middle(c);
+        light_of_map(*frame_.scene.textures, map, directions, EnvironmentTable::kWidth,
+                     light.data());
+        std::vector<float> brightness;
+        for (vec3 c : light) brightness.push_back(c.x + c.y + c.z);
+        found = tables_.emplace(map, EnvironmentTable(brightness)).first;
+    }
+    return found->second.uneven() ? &found->second : nullptr;
+}
+
 int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
     int any = std::countr_zero(call.mask);
@@ -255,12 +339,19 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < frame_.ray_depth &&
                   !frame_.stopped();
     RayCounts counts = count_rays(grid, lanes, flags, shoots);
+    if (is_noting(grid)) {  // its turns wait for the second run
+        grid.record_sets[kGatherSets + size_t(level)] = {};
+        return int32_t(kGatherSets) + level;
+    }
 
     ThreadMemory& own = grid.memory;
     GatherMemory& memory = records_of(grid, level);
     Records records(memory, counts.most, record_width(results), size_t(call.first));
     Arena::Mark mark = own.arena.mark();
     std::span<const RayColumn> of_ray = ray_columns(results, own.arena);
+    // Who takes no solid angles may count all directions alike: these stay even.
+    bool weighs = std::ranges::any_of(
+        of_ray, [](const RayColumn& c) { return c.fact == RayFact::SolidAngle; });
     mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
     NestedWavefront nested(own);
     raytrace::RayBatch& rays = nested->rays;
@@ -275,12 +366,12 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
             shade({grid, results, records, {lane_of, n}, {sample_of, n}, label}, rays);
         rays.count = 0;
     };
-    for (int lane = 0; lane < kLanes; ++lane)
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
         for (int k = counts.samples[lane]; k < counts.most; ++k)
             records.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
     lanes.for_each_text(Row::Label, [&](const Lanes& alike) {
         label = alike.integer(Row::Label, alike.first());
-        for (int lane = 0; lane < kLanes; ++lane) {
+        for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
             int n = alike.asks(lane) ? counts.samples[lane] : 0;
             if (n == 0) continue;
             uint32_t seed = lanes.seed(lane);
@@ -289,22 +380,28 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
             Cone cone(accel_from_camera * lanes.triple(Row::D, lane), angle,
                       flags & rsl::kGatherCosine);
             RayStart start = ray_start(grid, lanes.point(lane), P);
+            int32_t map = lanes.integer(Row::Map, lane);
+            bool by_brightness = map && weighs && !cone.by_cosine && cone.cosine < 0.999f;
+            MapDirections over(cone, by_brightness ? table_of(map) : nullptr, n);
+            LaneRays of_lane(grid, start, cone, angle > 0, seed, by_brightness ? &over : nullptr);
             for (uint32_t k = 0; k < uint32_t(n); ++k) {
-                // A cone without width is its axis.
-                vec3 dir = angle > 0 ? cone.direction(k, seed) : cone.z;
+                vec3 dir = of_lane.direction(k);
                 RayFacts facts{P, frame_.camera_from_accel * dir, reach};
-                if (int32_t map = lanes.integer(Row::Map, lane)) {
-                    facts.solid_angle = solid_angle(cone, dir, n);
+                if (map) {
+                    facts.solid_angle =
+                        by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
+                    if (by_brightness && facts.solid_angle == 0) {
+                        records.at(k, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
+                        continue;
+                    }
                     light_of_map(*frame_.scene.textures, map, {&dir, 1},
-                                 std::sqrt(facts.solid_angle), &facts.map_color);
+                                 over.width(facts.solid_angle), &facts.map_color);
                 }
                 record_ray(records, of_ray, k, lane, facts);
                 if (counts.share[lane] == 0) continue;
                 lane_of[rays.count] = uint8_t(lane);
                 sample_of[rays.count] = k;
-                add_ray(rays, grid, start, dir, reach, lanes.number(Row::Bias, lane),
-                        raytrace::hash(seed, k), uint32_t(rays.count), counts.share[lane]);
-                spread_ray(rays, grid.hits, start.hit);
+                of_lane.add(rays, k, dir, reach, lanes.number(Row::Bias, lane), counts.share[lane]);
                 if (rays.count == kGridPoints) flush();
             }
         }

@@ -13,6 +13,7 @@
 namespace kinora {
 
 class LightShadows;
+class RayCollector;
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
 inline constexpr size_t kRecordSets = 256;   // handles a grid may hold at once
@@ -55,14 +56,15 @@ struct Grid {
     std::span<float*> columns;              // by Column
     std::span<jit::RecordSet> record_sets;  // [0]: lights at P
     uint32_t next_record_set = 1;
-    int32_t record_group = -1;              // first lane of the group that lights_at served last
-    Arena::Mark record_mark{};              // where its records begin
-    uint32_t record_calls = 0;              // of the group
-    const LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
+    int32_t record_group = -1;        // first lane of the group that lights_at served last
+    Arena::Mark record_mark{};        // where its records begin
+    uint32_t record_calls = 0;        // of the group
+    LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
     RayTag ray;
     std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet
     std::span<PointRays> rays;  // of each point; a light's are those of the points it lights
     bool goes_on = false;       // the rays that see the points may go on behind them
+    RayCollector* collector = nullptr;  // of rays that wait for those of other points
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null
     // in lights and volumes: each point's own surface.
     const ShaderInstance* surface = nullptr;

@@ -7,7 +7,9 @@
 
 #include "raytrace/hits.h"
 #include "rsl/model/renderer_services.h"
+#include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/nested_rays.h"
 
 namespace kinora {
 
@@ -49,28 +51,51 @@ void copy_outputs(const HitOutputs& wanted, const jit::Kernel& kernel, std::span
 
 }  // namespace
 
+struct HitShader::Call {
+    const raytrace::HitBatch& hits;
+    const RayTag& ray;
+    ThreadMemory& memory;
+    raytrace::ShadeResult& result;
+    const HitOutputs* outputs;
+};
+
 void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
                       raytrace::ShadeResult& result, const HitOutputs* outputs) {
+    StageScope stage(Stage::Gather);
     const Scene& scene = frame_.scene;
-    Arena::Mark mark = memory.arena.mark();
+    Arena& arena = memory.arena;
+    Arena::Mark mark = arena.mark();
     DenormalMode mode(scene);
-    // A counting sort by look keeps the hits' order within each, so rows stay together.
-    size_t looks = scene.looks.size();
-    std::span<uint32_t> begin = memory.arena.allocate_span<uint32_t>(looks + 1);
-    std::fill(begin.begin(), begin.end(), 0u);
-    for (size_t i = 0; i < hits.count; ++i) ++begin[scene.surfaces[hits.instance[i]].look + 1];
-    for (size_t l = 0; l < looks; ++l) begin[l + 1] += begin[l];
-    std::span<uint32_t> order = memory.arena.allocate_span<uint32_t>(hits.count);
-    std::span<uint32_t> next = memory.arena.allocate_span<uint32_t>(looks);
-    std::copy_n(begin.begin(), looks, next.begin());
-    for (uint32_t i = 0; i < hits.count; ++i)
-        order[next[scene.surfaces[hits.instance[i]].look]++] = i;
-    for (size_t l = 0; l < looks; ++l)
-        for (size_t at = begin[l]; at < begin[l + 1]; at += kGridPoints)
-            shade_look(hits, order.subspan(at, std::min(kGridPoints, begin[l + 1] - at)),
-                       *scene.looks[l], ray, memory, result, outputs);
+    Call call{hits, ray, memory, result, outputs};
+    std::span<const LookRun> runs = runs_by_look(scene, hits, arena);
+    // Small grids of several looks are lit together, so that their shadow rays fill packets.
+    std::span<Grid*> lit = arena.allocate_span<Grid*>(runs.size());
+    size_t grids = 0, points = 0;
+    ShadowQueue shadows(frame_, transmission_, memory, ray);
+    Arena::Mark part = arena.mark();
+    NestedRays nested(frame_, *this);
+    RayCollector rays(nested, hits.depth + 1, memory);
+    auto shade_lit = [&] {
+        shadows.finish();
+        collect(lit.first(grids), rays);
+        for (Grid* grid : lit.first(grids)) {
+            rays.answer(*grid);
+            shade_grid(call, *grid);
+        }
+        rays.reset();
+        arena.release(part);
+        grids = points = 0;
+    };
+    for (const LookRun& run : runs)
+        for (size_t at = 0, n; at < run.hits.size(); at += n) {
+            n = std::min(kGridPoints, run.hits.size() - at);
+            if (points + n > kGridPoints) shade_lit();
+            lit[grids++] = &light_grid(call, run.hits.subspan(at, n), *run.look, shadows);
+            points += n;
+        }
+    shade_lit();
     volumes_.apply(hits, ray, shadows_, memory, result);
-    memory.arena.release(mark);
+    arena.release(mark);
 }
 
 namespace {
@@ -81,51 +106,100 @@ float largest(const float* const rows[3], size_t i) {
     return std::max({rows[0][i], rows[1][i], rows[2][i]});
 }
 
-// Whether light from somewhere arrives at the side of the grid's point i that the ray sees.
-bool is_lit(const Grid& grid, size_t i) {
-    vec3 N = triple(grid.columns.data() + kColN, i);
-    vec3 seen_along = grid.frame.camera_from_accel * triple(grid.hits.dir, grid.points[i]);
-    if (glm::dot(N, seen_along) > 0) N = -N;
+// The points of `dark`, up to the returned number, at whose side that the ray sees no light from
+// somewhere arrives. Record by record, whose columns then are read in their order.
+size_t drop_lit(const Grid& grid, std::span<uint32_t> dark) {
+    std::span<vec3> N = grid.memory.arena.allocate_span<vec3>(grid.count());
+    for (uint32_t i : dark) {
+        N[i] = triple(grid.columns.data() + kColN, i);
+        vec3 seen_along = grid.frame.camera_from_accel * triple(grid.hits.dir, grid.points[i]);
+        if (glm::dot(N[i], seen_along) > 0) N[i] = -N[i];
+    }
+    const float least = std::max(kBlack, grid.frame.scene.world_light);
     const jit::RecordSet& set = grid.record_sets[0];
-    for (int32_t r = 0; r < set.count; ++r) {
+    for (int32_t r = 0; r < set.count && !dark.empty(); ++r) {
         const jit::Record& record = set.records[r];
         if (jit::bits_of(record.uniforms[rsl::kLightKind]) == rsl::kLightAmbient) continue;
-        if (jit::bits_of(record.columns[rsl::kLightLit][i]) == 0) continue;
-        float facing = glm::dot(N, triple(record.columns + rsl::kLightL, i));
-        if (facing > 0 && largest(record.columns + rsl::kLightCl, i) > kBlack) return true;
+        const float* lit = record.columns[rsl::kLightLit];
+        auto is_lit = [&](uint32_t i) {
+            return jit::bits_of(lit[i]) != 0 &&
+                   largest(record.columns + rsl::kLightCl, i) > least &&
+                   glm::dot(N[i], triple(record.columns + rsl::kLightL, i)) > 0;
+        };
+        dark = dark.first(size_t(std::remove_if(dark.begin(), dark.end(), is_lit) - dark.begin()));
     }
-    return false;
+    return dark.size();
 }
 
 }  // namespace
 
-// For LIGHTS_DARK: black points of surfaces that ask for light and get none.
+// For LIGHTS_DARK: black points of surfaces that ask for light and get none. What the grey world
+// alone shows counts as black.
 void HitShader::count_dark(const Grid& grid, const raytrace::ShadeResult& result) const {
     ShadingCounters& counters = grid.memory.counters;
-    for (size_t i = 0; i < grid.count(); ++i) {
+    std::span<uint32_t> dark = grid.memory.arena.allocate_span<uint32_t>(grid.count());
+    size_t count = 0;
+    const float most = kBlack + frame_.scene.world_light;
+    for (uint32_t i = 0; i < grid.count(); ++i) {
         uint32_t hit = grid.points[i];
         if (!(largest(result.Oi, hit) > 0)) continue;
         counters.seen += 1;
-        bool black = largest(result.Ci, hit) < kBlack;
-        counters.dark += black && grid.look->lowered.uses_lights && !is_lit(grid, i);
+        bool black = largest(result.Ci, hit) < most;
+        if (black && grid.look->lowered.uses_lights) dark[count++] = i;
     }
+    if (count > 0) counters.dark += drop_lit(grid, dark.first(count));
 }
 
-void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
-                           const ShaderInstance& look, const RayTag& ray, ThreadMemory& memory,
-                           raytrace::ShadeResult& result, const HitOutputs* outputs) {
-    Arena::Mark mark = memory.arena.mark();
-    Grid grid(frame_, memory, hits, points, &look);
-    kernels_.prepare(grid, ray);
-    grid.shadows = &shadows_;
-    grid.goes_on = result.passages;
+namespace {
+
+// Whether a kernel calls services whose rays can be collected.
+bool collects(const ShaderInstance& look) {
+    static const jit::ServiceFn fns[] = {find_service("trace"), find_service("indirectdiffuse")};
+    return std::any_of(look.full.services.begin(), look.full.services.end(),
+                       [](jit::ServiceFn fn) { return fn == fns[0] || fn == fns[1]; });
+}
+
+}  // namespace
+
+// The rays of all grids together, where there is more than one lane group of them.
+void HitShader::collect(std::span<Grid* const> grids, RayCollector& rays) {
+    size_t points = 0;
+    for (const Grid* grid : grids)
+        if (collects(*grid->look)) points += grid->count();
+    if (points <= jit::kMaxLanes || grids[0]->depth >= frame_.ray_depth || frame_.stopped()) return;
+    rays.start();
+    for (Grid* grid : grids) {
+        if (!collects(*grid->look)) continue;
+        grid->collector = &rays;
+        kernels_.run_noting(*grid);
+    }
+    rays.finish();
+}
+
+// A grid in the arena with all that its kernel reads; its shadows are cast at the queue's end.
+Grid& HitShader::light_grid(const Call& call, std::span<const uint32_t> points,
+                            const ShaderInstance& look, LightShadows& shadows) {
+    void* at = call.memory.arena.allocate(sizeof(Grid));
+    Grid& grid = *new (at) Grid(frame_, call.memory, call.hits, points, &look);
+    kernels_.prepare(grid, call.ray);
+    grid.shadows = &shadows;
+    grid.goes_on = call.result.passages;
     want_columns(grid, look.full.columns);
     if (look.lowered.uses_lights) lights_.want_columns(grid);
     gather(grid);
     if (look.lowered.uses_lights) lights_.run(grid);
+    grid.shadows = &shadows_;
+    return grid;
+}
+
+void HitShader::shade_grid(const Call& call, Grid& grid) {
+    const ShaderInstance& look = *grid.look;
+    std::span<const uint32_t> points = grid.points;
+    const raytrace::HitBatch& hits = call.hits;
+    raytrace::ShadeResult& result = call.result;
     std::span<float*> out = kernels_.run(look.full, grid);
-    if (outputs) copy_outputs(*outputs, look.full.kernel(), out, points);
-    memory.counters.points += grid.count();
+    if (call.outputs) copy_outputs(*call.outputs, look.full.kernel(), out, points);
+    grid.memory.counters.points += grid.count();
     float *Ci[3], *Oi[3];
     find_color(look.full.kernel(), out, rsl::Global::Ci, Ci);
     find_color(look.full.kernel(), out, rsl::Global::Oi, Oi);
@@ -139,11 +213,10 @@ void HitShader::shade_look(const raytrace::HitBatch& hits, std::span<const uint3
         uint32_t turns = hits.rays->turns[hits.ray[points[i]]];
         result.passages[points[i]] = {rays.onward, turns + rays.reflects, rays.shot};
     }
-    if (frame_.scene.watch_dark && grid.depth == 0) count_dark(grid, result);
+    if (frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];
-    memory.arena.release(mark);
 }
 
 // Nothing lies there, so a volume begins with Ci and Oi of 0; without one they stay so.

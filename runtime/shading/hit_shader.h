@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "runtime/shading/light_records.h"
+#include "runtime/shading/transmission.h"
 #include "runtime/shading/volumes.h"
 
 namespace kinora {
@@ -18,8 +18,13 @@ struct HitOutputs {
 class HitShader {
   public:
     HitShader(const ShadingFrame& frame, KernelRunner& kernels, LightRecords& lights,
-              const LightShadows& shadows, Volumes& volumes)
-        : frame_(frame), kernels_(kernels), lights_(lights), shadows_(shadows), volumes_(volumes) {}
+              Transmission& transmission, Volumes& volumes)
+        : frame_(frame),
+          kernels_(kernels),
+          lights_(lights),
+          transmission_(transmission),
+          shadows_(frame, transmission),
+          volumes_(volumes) {}
 
     // The colours of hits of rays with that tag, with what volumes before them add. `outputs`:
     // wanted beside Ci and Oi.
@@ -30,15 +35,19 @@ class HitShader {
                       raytrace::ShadeResult& result);
 
   private:
-    void shade_look(const raytrace::HitBatch& hits, std::span<const uint32_t> points,
-                    const ShaderInstance& look, const RayTag& ray, ThreadMemory& memory,
-                    raytrace::ShadeResult& result, const HitOutputs* outputs);
+    // One call of shade().
+    struct Call;
+    Grid& light_grid(const Call& call, std::span<const uint32_t> points, const ShaderInstance& look,
+                     LightShadows& shadows);
+    void collect(std::span<Grid* const> grids, RayCollector& rays);
+    void shade_grid(const Call& call, Grid& grid);
     void count_dark(const Grid& grid, const raytrace::ShadeResult& result) const;
 
     const ShadingFrame& frame_;
     KernelRunner& kernels_;
     LightRecords& lights_;
-    const LightShadows& shadows_;
+    Transmission& transmission_;
+    ShadowRays shadows_;
     Volumes& volumes_;
 };
 

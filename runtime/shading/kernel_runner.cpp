@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/stage_clock.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/scene_host.h"
@@ -58,18 +59,38 @@ void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
     grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
     grid.calls = arena.allocate_span<uint16_t>(padded(grid.count()));
-    std::fill(grid.calls.begin(), grid.calls.end(), uint16_t(0));
     grid.rays = arena.allocate_span<PointRays>(grid.count());
+    start_accounts(grid);
+    grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
+    std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
+}
+
+void KernelRunner::start_accounts(Grid& grid) const {
+    std::fill(grid.calls.begin(), grid.calls.end(), uint16_t(0));
     for (size_t i = 0; i < grid.count(); ++i) {
         grid.rays[i] = {};
         if (const raytrace::RayBatch* rays = grid.hits.rays)
             grid.rays[i].shot = rays->spent[grid.hits.ray[grid.points[i]]];
     }
-    grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
-    std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
+}
+
+void KernelRunner::run_noting(Grid& grid) const {
+    Arena& arena = grid.memory.arena;
+    const BoundKernel& bound = grid.look->full;
+    GridHost host(grid, services_);
+    // Its faults may come of what it does not know yet.
+    bound.run({.count = grid.count(),
+               .columns = grid.columns,
+               .out = take_outputs(bound.kernel(), grid.count(), arena),
+               .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
+               .record_sets = grid.record_sets,
+               .host = host},
+              arena);
+    start_accounts(grid);
 }
 
 std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
+    StageScope stage(Stage::Kernels);
     Arena& arena = grid.memory.arena;
     std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
     GridHost host(grid, services_);
@@ -81,6 +102,45 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
                .host = host},
               arena);
     return out;
+}
+
+namespace {
+
+void sort_few(const uint32_t* look, std::span<uint32_t> order) {
+    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        return look[a] != look[b] ? look[a] < look[b] : a < b;
+    });
+}
+
+void sort_by_counting(const uint32_t* look, size_t looks, std::span<uint32_t> order, Arena& arena) {
+    std::span<uint32_t> next = arena.allocate_span<uint32_t>(looks + 1);
+    std::fill(next.begin(), next.end(), 0u);
+    for (size_t i = 0; i < order.size(); ++i) ++next[look[i] + 1];
+    for (size_t l = 0; l < looks; ++l) next[l + 1] += next[l];
+    for (uint32_t i = 0; i < order.size(); ++i) order[next[look[i]]++] = i;
+}
+
+}  // namespace
+
+std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
+                                      Arena& arena) {
+    std::span<uint32_t> look = arena.allocate_span<uint32_t>(hits.count);
+    for (size_t i = 0; i < hits.count; ++i) look[i] = scene.surfaces[hits.instance[i]].look;
+    std::span<uint32_t> order = arena.allocate_span<uint32_t>(hits.count);
+    if (hits.count < scene.looks.size())
+        sort_few(look.data(), order);
+    else
+        sort_by_counting(look.data(), scene.looks.size(), order, arena);
+    std::span<LookRun> runs =
+        arena.allocate_span<LookRun>(std::min(hits.count, scene.looks.size()));
+    size_t count = 0;
+    for (size_t begin = 0, end; begin < hits.count; begin = end) {
+        uint32_t own = look[order[begin]];
+        for (end = begin + 1; end < hits.count && look[order[end]] == own;) ++end;
+        runs[count++] = {scene.looks[own].get(), order.subspan(begin, end - begin)};
+    }
+    return runs.first(count);
 }
 
 raytrace::ShadeResult take_colors(Arena& arena, size_t count) {

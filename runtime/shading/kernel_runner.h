@@ -25,6 +25,10 @@ class KernelRunner {
 
     // Gives the grid what a kernel of its look takes, its columns still null. `ray`: of its hits.
     void prepare(Grid& grid, const RayTag& ray) const;
+    // The accounts of the grid's points as they are before its kernel runs.
+    void start_accounts(Grid& grid) const;
+    // Runs the look's kernel for what its calls of services note; accounts and outputs are lost.
+    void run_noting(Grid& grid) const;
     // Runs a kernel of the grid's look; its output rows, from the thread's arena.
     std::span<float*> run(const BoundKernel& bound, Grid& grid);
 
@@ -33,6 +37,16 @@ class KernelRunner {
     const GridServices& services_;
     std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]
 };
+
+// The hits of one look, in their order.
+struct LookRun {
+    const ShaderInstance* look;
+    std::span<uint32_t> hits;
+};
+// All of a batch's, by the number of the look; from the arena. The cost does not depend on how many
+// looks a scene has, but where there are more hits than looks.
+std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
+                                      Arena& arena);
 
 // Memory for the colours of that many hits.
 raytrace::ShadeResult take_colors(Arena& arena, size_t count);

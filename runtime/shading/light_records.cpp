@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "raytrace/hits.h"
+#include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -70,6 +71,7 @@ void LightRecords::want_columns(Grid& grid) const {
 }
 
 void LightRecords::run(Grid& grid) {
+    StageScope stage(Stage::Lights);
     Arena& arena = grid.memory.arena;
     size_t count = grid.count();
     LightPoints at;

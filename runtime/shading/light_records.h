@@ -20,8 +20,8 @@ struct SentLight {
 class LightShadows {
   public:
     virtual ~LightShadows() = default;
-    // Leaves in Cl what arrives at each point.
-    virtual void cast(const Grid& grid, const LightPoints& at, const SentLight& light) const = 0;
+    // Leaves in Cl what arrives at each point, at once or when the caller says so.
+    virtual void cast(const Grid& grid, const LightPoints& at, const SentLight& light) = 0;
 };
 
 class LightRecords {

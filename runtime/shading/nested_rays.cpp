@@ -29,16 +29,24 @@ constexpr int kUsualDepth = 16;
 
 RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
     RayStart start;
-    start.hit = grid.points[std::min(point, grid.count() - 1)];
     const mat3& camera_from_accel = grid.frame.camera_from_accel;
     vec3 eye = grid.frame.eye;
-    vec3 on_surface = triple(grid.hits.P, start.hit);
-    if (camera_from_accel * (on_surface - eye) == P) {
+    auto is_at = [&](const raytrace::HitBatch& hits, uint32_t hit) {
+        vec3 on_surface = triple(hits.P, hit);
+        start.hits = &hits;
+        start.hit = hit;
+        if (camera_from_accel * (on_surface - eye) != P) return false;
         start.P = on_surface;
-        start.error = triple(grid.hits.P_error, start.hit);
-        start.Ng = triple(grid.hits.Ng, start.hit);
+        start.error = triple(hits.P_error, hit);
+        start.Ng = triple(hits.Ng, hit);
+        return true;
+    };
+    size_t last = std::min(point, grid.count() - 1);
+    // A light on geometry has hits of its own: samples of its mesh.
+    if (grid.lit && &grid.lit->hits != &grid.hits &&
+        is_at(grid.lit->hits, grid.lit->points[grid.lit_first + last]))
         return start;
-    }
+    if (is_at(grid.hits, grid.points[last])) return start;
     start.P = glm::transpose(camera_from_accel) * P + eye;
     // gamma(4) of the magnitudes bounds a rotation and a sum.
     start.error = (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(eye)) * 2.4e-7f;
@@ -57,10 +65,10 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
     }
     size_t i = rays.count++;
     set_nested_ray(rays, i, org, dir, tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar,
-                   grid.hits, start.hit);
+                   *start.hits, start.hit);
     if (bias > 0) rays.tnear[i] = bias;
     if (!grid.scene.volumes.empty())
-        rays.medium[i] = nested_medium(grid.scene, grid.hits, start.hit, dir);
+        rays.medium[i] = nested_medium(grid.scene, *start.hits, start.hit, dir);
     rays.sample[i] = path;
     rays.share[i] = share;
     rays.slot[i] = slot;
@@ -89,25 +97,50 @@ void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32
     set_triple(rays.dDdy, i, turned(triple(from.dDdy, hit)));
 }
 
-// An orthonormal basis without a branch: Duff et al., Building an Orthonormal Basis, Revisited,
-// JCGT 2017.
-Cone::Cone(vec3 axis, float angle, bool cosine_weighted) : by_cosine(cosine_weighted) {
-    z = axis / glm::length(axis);
-    float sign = std::copysign(1.0f, z.z);
-    float a = -1.0f / (sign + z.z), b = z.x * z.y * a;
-    x = vec3(1.0f + sign * z.x * z.x * a, sign * b, -sign * z.x);
-    y = vec3(b, sign + z.y * z.y * a, -z.y);
-    float half_turn = by_cosine ? 1.57079633f : 3.14159265f;
-    cosine = std::cos(std::clamp(angle, 0.0f, half_turn));
+RayFan::RayFan(const Grid& grid, const RayStart& start, const Cone& cone, uint32_t seed)
+    : grid_(grid), hits_(*start.hits), hit_(start.hit), cone_(cone), seed_(seed) {
+    const raytrace::HitBatch& from = hits_;
+    source_ = {start.P,
+               start.error,
+               start.Ng,
+               triple(from.Ng, hit_),
+               triple(from.dir, hit_),
+               triple(from.dDdx, hit_),
+               triple(from.dDdy, hit_)};
 }
 
-// By cosine: a disc's uniform points lifted to the sphere (Malley); else uniform in solid angle.
-vec3 Cone::direction(uint32_t k, uint32_t seed) const {
-    dvec2 s = raytrace::stratified_sample(k, seed);
-    double phi = 2 * kPi * s.y, c = cosine;
-    double up = by_cosine ? std::sqrt(1 - s.x * (1 - c * c)) : 1 - s.x * (1 - c);
-    double out = std::sqrt(std::max(0.0, 1 - up * up));
-    return float(out * std::cos(phi)) * x + float(out * std::sin(phi)) * y + float(up) * z;
+// The place of sample k.
+int RayFan::at(uint32_t k) {
+    if (k / kSixteen != made_) {
+        made_ = k / kSixteen;
+        ray_kernels().directions(cone_, made_ * kSixteen, seed_, rays_);
+        ray_kernels().leave(source_, rays_);
+    }
+    return int(k % kSixteen);
+}
+
+vec3 RayFan::direction(uint32_t k) {
+    int j = at(k);
+    return {rays_.dir[0][j], rays_.dir[1][j], rays_.dir[2][j]};
+}
+
+void RayFan::add(raytrace::RayBatch& rays, uint32_t k, float tfar, float bias, uint32_t slot,
+                 float share) {
+    int j = at(k);
+    auto at_j = [&](const float(&columns)[3][kSixteen]) {
+        return vec3(columns[0][j], columns[1][j], columns[2][j]);
+    };
+    vec3 dir = at_j(rays_.dir);
+    size_t i = rays.count++;
+    set_nested_ray(rays, i, at_j(rays_.org), dir,
+                   tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar, hits_, hit_);
+    set_triple(rays.dDdx, i, at_j(rays_.dDdx));
+    set_triple(rays.dDdy, i, at_j(rays_.dDdy));
+    if (bias > 0) rays.tnear[i] = bias;
+    if (!grid_.scene.volumes.empty()) rays.medium[i] = nested_medium(grid_.scene, hits_, hit_, dir);
+    rays.sample[i] = raytrace::hash(seed_, k);
+    rays.share[i] = share;
+    rays.slot[i] = slot;
 }
 
 namespace {
@@ -168,7 +201,7 @@ PointRays* account(Grid& grid, size_t point) {
 }
 
 void end_account(Grid& grid, PointRays& rays) {
-    grid.memory.counters.out_of_rays += !rays.ended;
+    grid.memory.counters.out_of_rays += !rays.ended && !is_noting(grid);  // it runs again
     rays.ended = true;
 }
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <span>
 
+#include "runtime/base/parallel.h"
+#include "runtime/rays/ray_kernels.h"
 #include "runtime/shading/grid.h"
 
 namespace kinora {
@@ -19,11 +22,13 @@ inline constexpr int kMostSamples = 65536;  // of one call at one point
 struct RayStart {
     vec3 P, error;     // with the bound of its rounding error
     vec3 Ng;           // of the surface that P is on, length 1; 0: on none that is known
-    uint32_t hit = 0;  // of the grid's batch: the point that asks
+    uint32_t hit = 0;  // of `hits`: the point that asks
+    const raytrace::HitBatch* hits =
+        nullptr;  // the grid's, or those that a light on geometry lights
 };
 
-// An unmodified P is the hit itself (docs/decisions.md#precision); any other carries the error of
-// coming from current space.
+// An unmodified P is the hit itself (docs/decisions.md#precision), as is Ps in a light's shader;
+// any other carries the error of coming from current space.
 RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 
 // A ray of a batch from there in a direction of any length but 0; `bias` >= 0 leaves out what is
@@ -91,13 +96,26 @@ inline bool on_surface(const Grid& grid) {
 bool is_way_free(const raytrace::Accel& accel, vec3 P, vec3 error, vec3 Ng, vec3 way,
                  raytrace::TraceCounters& counters);
 
-// The axes of a cone and the direction of sample k of n stratified ones in it.
-struct Cone {
-    vec3 x, y, z;  // orthonormal, z the axis
-    float cosine;  // of the angle between axis and side
-    bool by_cosine;
-    Cone(vec3 axis, float angle, bool cosine_weighted);
-    vec3 direction(uint32_t k, uint32_t seed) const;
+// The rays of one point's samples in a cone, made sixteen at a time.
+class RayFan {
+  public:
+    RayFan(const Grid& grid, const RayStart& start, const Cone& cone, uint32_t seed);
+    vec3 direction(uint32_t k);
+    // As add_ray() and spread_ray() do.
+    void add(raytrace::RayBatch& rays, uint32_t k, float tfar, float bias, uint32_t slot,
+             float share = 1);
+
+  private:
+    int at(uint32_t k);
+
+    const Grid& grid_;
+    const raytrace::HitBatch& hits_;
+    uint32_t hit_;
+    Cone cone_;
+    uint32_t seed_;
+    RaySource source_;
+    uint32_t made_ = kNone;  // k / 16 of those in rays_
+    SixteenRays rays_;
 };
 
 // Rays that see something: `type` and `label` are interned texts.
@@ -130,6 +148,8 @@ class NestedRays {
 class Lanes {
   public:
     explicit Lanes(const jit::ServiceCall& call) : call_(call), mask_(call.mask) {}
+    const jit::ServiceCall& call() const { return call_; }
+    uint32_t mask() const { return mask_; }
     bool asks(int lane) const { return mask_ >> lane & 1; }
     float number(int row, int lane) const { return call_.args[row * jit::kMaxLanes + lane]; }
     int32_t integer(int row, int lane) const { return jit::bits_of(number(row, lane)); }
@@ -171,5 +191,76 @@ class Lanes {
     const jit::ServiceCall& call_;
     uint32_t mask_;
 };
+
+// The rays that a call sends from each lane.
+struct RayPlan {
+    int count[jit::kMaxLanes] = {};
+    float share[jit::kMaxLanes] = {};
+    TracedRay way[jit::kMaxLanes];
+};
+
+// Rays of many points in full batches (docs/rays.md#full-packets). A kernel that shoots rays runs
+// twice: first its calls only say which rays they send, and see nothing; these rays are traced
+// together; then the calls get what was seen. A call whose arguments depend on what an earlier one
+// saw asks for other rays the second time, which are traced for it alone.
+class RayCollector {
+  public:
+    // Of grids whose hits rays of `depth` see.
+    RayCollector(NestedRays& nested, uint32_t depth, ThreadMemory& memory)
+        : nested_(nested), depth_(depth), memory_(memory), batch_(memory) {}
+
+    // Between these two, calls are noted.
+    void start();
+    void finish();
+    bool collecting() const { return collecting_; }
+    // Before the second run of a grid.
+    void answer(const Grid& grid);
+    // Forgets all calls, whose memory is the arena's.
+    void reset();
+
+    // Notes a call; what its rays see comes to stand there, a ray after the other.
+    std::span<SeenByRay> note(const Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan);
+    // Where the next ray with that tag is to be added.
+    raytrace::RayBatch& batch(const RayTag& tag);
+    // Of the ray added last.
+    void expect(SeenByRay& seen) { targets_[batch_->rays.count - 1] = &seen; }
+    // What the rays of the same call saw; nothing where it was not noted.
+    std::optional<std::span<const SeenByRay>> find(const Grid& grid, const Lanes& lanes, int rows,
+                                                   const RayPlan& plan);
+
+  private:
+    struct Call;
+    void flush();
+
+    NestedRays& nested_;
+    uint32_t depth_;
+    ThreadMemory& memory_;
+    NestedWavefront batch_;
+    RayTag tag_;
+    std::span<SeenByRay*> targets_;
+    Call *first_ = nullptr, *last_ = nullptr;
+    Call* next_ = nullptr;  // of the grid that is answered
+    bool collecting_ = false;
+};
+
+// Whether calls of ray services are noted now (RayCollector).
+inline bool is_noting(const Grid& grid) {
+    return grid.collector && grid.collector->collecting();
+}
+
+// The sample that each element of a batch is: of which lane, and its number there.
+struct SampleSpan {
+    std::span<const uint8_t> lane;
+    std::span<const uint32_t> number;
+};
+
+// Adds the ray of sample k of a lane to the batch, or none where it sees nothing.
+using AddSample = FunctionRef<void(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot)>;
+using SumSamples = FunctionRef<void(const SampleSpan& samples, std::span<const SeenByRay> seen)>;
+
+// Sees along all rays of a plan; `sum` gets the samples in the order of lanes and numbers. It is
+// not called where rays are only noted: all that is seen is then unknown, and black.
+void see_samples(Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan, const RayTag& tag,
+                 NestedRays& nested, const AddSample& add, const SumSamples& sum);
 
 }  // namespace kinora

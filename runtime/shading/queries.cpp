@@ -3,6 +3,7 @@
 #include "runtime/shading/queries.h"
 
 #include <algorithm>
+#include <bit>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -239,22 +240,55 @@ bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::Shade
     return false;
 }
 
+namespace {
+
+// The rows of a call's arguments.
+constexpr int kLanes = jit::kMaxLanes, kAskedRows = 5;
+int32_t integer(const jit::ServiceCall& call, int row, int lane) {
+    return jit::bits_of(call.args[row * kLanes + lane]);
+}
+Question question_of(const jit::ServiceCall& call, int lane) {
+    return {rsl::interned(integer(call, 1, lane)), char(integer(call, 2, lane)),
+            integer(call, 3, lane), integer(call, 4, lane)};
+}
+
+bool ask_the_same(const jit::ServiceCall& call, int first) {
+    uint32_t differs[kLanes] = {};
+    for (int row = 0; row < kAskedRows; ++row)
+        for (int lane = 0; lane < kLanes; ++lane)
+            differs[lane] |= uint32_t(integer(call, row, lane) ^ integer(call, row, first));
+    for (uint32_t left = call.mask; left; left &= left - 1)
+        if (differs[std::countr_zero(left)]) return false;
+    return true;
+}
+
+}  // namespace
+
 void answer_query(const Scene& scene, const ShaderInstance& look, const Grid* grid,
                   const jit::ServiceCall& call) {
-    constexpr int kLanes = jit::kMaxLanes;
-    auto integer = [&](int row, int lane) { return jit::bits_of(call.args[row * kLanes + lane]); };
-    for (int lane = 0; lane < kLanes; ++lane) {
-        float* known = &call.results[lane];
-        *known = jit::float_of(0);
-        if (!(call.mask >> lane & 1)) continue;
+    auto answer_at = [&](int lane, Answer& answer) {
         Asker asker{scene, look, grid};
         if (grid) asker.point = std::min(size_t(call.first + lane), grid->count() - 1);
-        Question question{rsl::interned(integer(1, lane)), char(integer(2, lane)), integer(3, lane),
-                          integer(4, lane)};
+        return answer_question(QueryKind(integer(call, 0, lane)), asker, question_of(call, lane),
+                               answer);
+    };
+    if (call.mask == 0) return;
+    int first = std::countr_zero(call.mask);
+    Question question = question_of(call, first);
+    if (is_same_for_grid(QueryKind(integer(call, 0, first)), question) &&
+        ask_the_same(call, first)) {
         Answer answer{};
-        if (!answer_question(QueryKind(integer(0, lane)), asker, question, answer)) continue;
-        *known = jit::float_of(1);
+        std::fill_n(call.results, kLanes, jit::float_of(int32_t(answer_at(first, answer))));
         for (int k = 0; k < question.components(); ++k)
+            std::fill_n(call.results + (1 + k) * kLanes, kLanes, answer[size_t(k)]);
+        return;
+    }
+    for (int lane = 0; lane < kLanes; ++lane) {
+        call.results[lane] = jit::float_of(0);
+        Answer answer{};
+        if (!(call.mask >> lane & 1) || !answer_at(lane, answer)) continue;
+        call.results[lane] = jit::float_of(1);
+        for (int k = 0; k < question_of(call, lane).components(); ++k)
             call.results[(1 + k) * kLanes + lane] = answer[size_t(k)];
     }
 }

@@ -48,6 +48,9 @@ void answer_query(const Scene& scene, const ShaderInstance& look, const Grid* gr
 // prefix "Ri:" is the same without it. False where the name or the type is not known.
 bool answer_fact(rsl::QueryKind kind, const Asker& asker, const Question& question, Answer& answer);
 
+// Whether the answer is the same for all points of a grid.
+bool is_same_for_grid(rsl::QueryKind kind, const Question& question);
+
 // A shader parameter as it is bound (or its constant default): `kind` chooses the layer, the last
 // one first. False if there is none of that name and type.
 bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,

@@ -205,6 +205,10 @@ Fact kind(const Asker& asker) {
     constexpr std::string_view kNames[] = {"camera", "specular", "diffuse", "transmission"};
     return kNames[size_t(asker.grid->ray.kind)];
 }
+// Nothing is shaded to be kept: neither a cache nor a grid.
+Fact intent(const Asker&) {
+    return std::string_view("shaderay");
+}
 Fact label(const Asker& asker) {
     return std::string_view(rsl::interned(asker.grid->ray.label));
 }
@@ -237,6 +241,8 @@ Fact shadow_depth(const Asker& asker) {
 constexpr Row kRay[] = {
     {"depth", depth},
     {"type", kind},
+    {"intent", intent},
+    {"shadingintent", intent},
     {"label", label},
     {"origin", origin},
     {"direction", direction},
@@ -261,6 +267,16 @@ std::span<const Row> rows_of(rsl::QueryKind kind_asked) {
         default:
             return {};
     }
+}
+
+// Of rays, by name: what their tag and depth say.
+constexpr std::string_view kOfTag[] = {"depth",         "type",         "label",
+                                       "speculardepth", "diffusedepth", "shadowdepth"};
+
+std::string_view plain_name(const Question& question) {
+    std::string_view name = question.name;
+    if (name.starts_with("Ri:")) name.remove_prefix(3);
+    return name;
 }
 
 // Several numbers are read as an array no longer than they are, three as a triple, sixteen as a
@@ -308,11 +324,18 @@ bool answer_fact(rsl::QueryKind kind_asked, const Asker& asker, const Question& 
         kind_asked == rsl::QueryKind::Attribute || kind_asked == rsl::QueryKind::RayInfo;
     if (of_point && !asker.grid) return false;
     if (kind_asked == rsl::QueryKind::Attribute && !asker.on_surface()) return false;
-    std::string_view name = question.name;
-    if (name.starts_with("Ri:")) name.remove_prefix(3);
+    std::string_view name = plain_name(question);
     for (const Row& row : rows_of(kind_asked))
         if (row.name == name) return read(row.find(asker), question, answer);
     return kind_asked == rsl::QueryKind::Attribute && user_attribute(asker, question, answer);
+}
+
+bool is_same_for_grid(rsl::QueryKind kind_asked, const Question& question) {
+    if (kind_asked == rsl::QueryKind::Option || kind_asked == rsl::QueryKind::RendererInfo)
+        return true;
+    return kind_asked == rsl::QueryKind::RayInfo &&
+           std::find(std::begin(kOfTag), std::end(kOfTag), plain_name(question)) !=
+               std::end(kOfTag);
 }
 
 }  // namespace kinora

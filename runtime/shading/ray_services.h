@@ -2,10 +2,13 @@
 // one lane group of a grid.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
+#include "runtime/images/environment_table.h"
 #include "runtime/shading/grid.h"
 
 namespace kinora {
@@ -55,12 +58,16 @@ class GatherRays {
   private:
     struct Job;
     GatherMemory& records_of(const Grid& grid, int nesting);
+    // Null where the map's light does not come from a small part of it.
+    const EnvironmentTable* table_of(int32_t map);
     void shade(const Job& job, raytrace::RayBatch& rays);
 
     const ShadingFrame& frame_;
     HitShader& hits_;
     // [thread][depth and nesting]
     std::vector<std::vector<std::unique_ptr<GatherMemory>>> memories_;
+    std::mutex tables_mutex_;
+    std::map<int32_t, EnvironmentTable> tables_;  // by map
 };
 
 }  // namespace kinora

@@ -7,8 +7,12 @@
 
 namespace kinora {
 
+class Bakes;
+class GatherRays;
+class LightRecords;
+class Prints;
+class RayServices;
 struct Grid;
-struct GridServices;
 struct Scene;
 struct ShaderInstance;
 
@@ -49,6 +53,15 @@ class VertexHost : public SceneHost {
   private:
     uint32_t object_;
     PrintedLines& prints_;  // of this part of the vertices
+};
+
+// The objects that answer the kernels of a grid.
+struct GridServices {
+    LightRecords& lights;
+    RayServices& rays;
+    GatherRays& gathers;
+    Prints& prints;
+    Bakes& bakes;
 };
 
 // A kernel over the points of a grid.

@@ -1,9 +1,10 @@
 // runtime/shading/services.cpp: a scene's answers to its kernels.
-#include "runtime/shading/services.h"
+#include "runtime/shading/scene_host.h"
 
 #include <algorithm>
 #include <glm/matrix.hpp>
 
+#include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/shading/bake.h"
@@ -12,7 +13,6 @@
 #include "runtime/shading/print.h"
 #include "runtime/shading/queries.h"
 #include "runtime/shading/ray_services.h"
-#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 
@@ -67,25 +67,38 @@ dmat4 GridHost::current_from_space(std::string_view name, size_t point) const {
     }
     return kinora::current_from_space(scene_, name, owner);
 }
+// While rays are only noted (RayCollector), nothing is printed, baked or lit.
 void GridHost::print(const jit::ServiceCall& call) {
+    if (is_noting(grid_)) return;
     services_.prints.add(grid_, call);
 }
 void GridHost::lights(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Lights);
+    if (is_noting(grid_)) {
+        grid_.record_sets[1] = {};
+        answer_handle(call, 1);
+        return;
+    }
     answer_handle(call, services_.lights.at(grid_, call));
 }
 void GridHost::trace(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Nested);
     services_.rays.trace(grid_, call);
 }
 void GridHost::transmission(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Nested);
     services_.rays.transmission(grid_, call);
 }
 void GridHost::occlusion(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Nested);
     services_.rays.occlusion(grid_, call);
 }
 void GridHost::indirect_diffuse(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Nested);
     services_.rays.indirect_diffuse(grid_, call);
 }
 void GridHost::gather(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Nested);
     answer_handle(call, services_.gathers.gather(grid_, call));
 }
 void GridHost::ray_limit(const jit::ServiceCall& call) {
@@ -95,6 +108,7 @@ void GridHost::query(const jit::ServiceCall& call) {
     answer_query(scene_, look_, &grid_, call);
 }
 void GridHost::bake3d(const jit::ServiceCall& call) {
+    if (is_noting(grid_)) return;
     services_.bakes.add(grid_, call);
 }
 

@@ -14,7 +14,7 @@
 #include "runtime/shading/nested_rays.h"
 #include "runtime/shading/print.h"
 #include "runtime/shading/ray_services.h"
-#include "runtime/shading/services.h"
+#include "runtime/shading/scene_host.h"
 #include "runtime/shading/transmission.h"
 
 namespace kinora {
@@ -41,8 +41,7 @@ struct Shading::Objects {
     LightRecords lights{frame, kernels};
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
-    ShadowRays shadows{frame, transmission};
-    HitShader hits{frame, kernels, lights, shadows, volumes};
+    HitShader hits{frame, kernels, lights, transmission, volumes};
     NestedRays nested{frame, hits};
     RayServices rays{frame, nested, transmission};
     GatherRays gathers{frame, hits};

@@ -26,6 +26,25 @@ vec3 unit(vec3 v) {
                                                                          : vec3(0.0f);
 }
 
+// Whether way_from() surely comes to an amount of 0: the facet sees the light with a cosine beyond
+// kSeesLight, and the signs of two products with the mixed normal, of which it takes no more, are
+// clear without making the corners' normals exactly unit. True of most points, and without roots.
+bool surely_sees_light(const vec3 n[3], const float weight[3], vec3 Ng, vec3 to_light) {
+    constexpr float kNearUnit = 2e-3f;  // of squares: lengths are within half of that
+    constexpr float kClear = 4e-3f;     // the mixture is off by no more than a quarter of that
+    const float square = glm::dot(to_light, to_light), cosine = glm::dot(Ng, to_light);
+    if (!(cosine * cosine > 1.02f * kSeesLight * kSeesLight * square)) return false;
+    vec3 mixed(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        if (!(std::abs(glm::dot(n[k], n[k]) - 1) < kNearUnit)) return false;
+        mixed += weight[k] * n[k];
+    }
+    const float of_facet = glm::dot(mixed, Ng), of_light = glm::dot(mixed, to_light);
+    if (!(std::abs(of_facet) > kClear && of_light * of_light > kClear * kClear * square))
+        return false;
+    return (of_facet < 0) == ((of_light < 0) != (cosine < 0));
+}
+
 }  // namespace
 
 void SmoothSurface::enter(uint32_t row) {
@@ -53,7 +72,9 @@ vec3 SmoothSurface::way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 
     if (row != row_) enter(row);
     float weight[3] = {1 - hits.u[hit] - hits.v[hit], hits.u[hit], hits.v[hit]};
     vec3 Ng = triple(hits.Ng, hit), N(0.0f);
-    for (size_t k = 0; k < 3; ++k) N += weight[k] * (n[k] = unit(normals_ * n[k]));
+    for (vec3& normal : n) normal = normals_ * normal;
+    if (surely_sees_light(n, weight, Ng, to_light)) return vec3(0.0f);
+    for (size_t k = 0; k < 3; ++k) N += weight[k] * (n[k] = unit(n[k]));
 
     // All on the side of the surface that the light is on.
     float side = glm::dot(N, to_light) < 0 ? -1.0f : 1.0f;

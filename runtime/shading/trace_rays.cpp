@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "raytrace/hits.h"
 #include "raytrace/sampling.h"
@@ -77,22 +78,29 @@ class ConeRays {
         bool asks = grid_.shadows && has_direction(lanes_.triple(kN, lane));
         return asks ? lanes_.samples(kSamples, lane) : 0;
     }
-    vec3 direction(int lane, uint32_t k) const {
-        vec3 axis = accel_from_camera_ * lanes_.triple(kN, lane);
-        return Cone(axis, lanes_.number(kAngle, lane), true).direction(k, lanes_.seed(lane));
-    }
-    void add(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot, vec3 dir,
-             float share = 1) const {
-        RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(kP, lane));
-        add_ray(rays, grid_, start, dir, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane),
-                raytrace::hash(lanes_.seed(lane), k), slot, share);
-        spread_ray(rays, grid_.hits, start.hit);
+    vec3 direction(int lane, uint32_t k) { return fan(lane).direction(k); }
+    void add(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot, float share = 1) {
+        fan(lane).add(rays, k, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane), slot,
+                      share);
     }
 
   private:
+    RayFan& fan(int lane) {
+        if (lane != lane_) {
+            Cone cone(accel_from_camera_ * lanes_.triple(kN, lane), lanes_.number(kAngle, lane),
+                      true);
+            RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(kP, lane));
+            fan_.emplace(grid_, start, cone, lanes_.seed(lane));
+            lane_ = lane;
+        }
+        return *fan_;
+    }
+
     const Grid& grid_;
     const Lanes& lanes_;
     mat3 accel_from_camera_;
+    int lane_ = -1;  // whose rays fan_ makes
+    std::optional<RayFan> fan_;
 };
 
 // Of the nearest surface along each ray, kMiss without one.
@@ -133,67 +141,65 @@ void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> direct
 }
 
 void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
-    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label, Weight, Through };
+    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label, Weight, Through, Rows };
     Lanes lanes(call);
     vec3 color[kLanes] = {};
-    float distance[kLanes], share[kLanes] = {};
-    TracedRay way[kLanes];
+    float distance[kLanes];
     std::fill_n(distance, kLanes, kMiss);
     auto count = [&](int lane) {
         return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
     };
+    RayPlan plan;
     // How many of them are shot.
     auto shoot = [&](int lane) {
         if (!has_direction(lanes.triple(R, lane))) return 0;
         size_t point = lanes.point(lane);
         int n = count(lane);
-        share[lane] = ray_share(grid, point, n);
-        if (share[lane] == 0) {
+        plan.share[lane] = ray_share(grid, point, n);
+        if (plan.share[lane] == 0) {
             refuse_rays(grid, point, n);
             return 0;
         }
-        way[lane] =
+        plan.way[lane] =
             choose_way(grid, point, lanes.number(Weight, lane), lanes.number(Through, lane));
-        return way[lane].factor > 0 && spend_rays(grid, point, n) ? n : 0;
+        return plan.way[lane].factor > 0 && spend_rays(grid, point, n) ? n : 0;
     };
     bool deep = grid.depth >= frame_.ray_depth;
-    for (int lane = 0; deep && lane < kLanes; ++lane)
-        if (lanes.asks(lane)) refuse_rays(grid, lanes.point(lane), count(lane));
-    if (grid.shadows && !deep && !frame_.stopped()) {
-        ThreadMemory& memory = grid.memory;
-        Arena::Mark mark = memory.arena.mark();
-        std::span<SeenByRay> seen = memory.arena.allocate_span<SeenByRay>(kGridPoints);
-        mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
-        NestedWavefront nested(memory);
-        lanes.for_each_text(Label, [&](const Lanes& alike) {
-            in_batches(
-                alike, nested->rays, shoot,
-                [&](int lane, uint32_t k, uint32_t slot) {
-                    uint32_t seed = lanes.seed(lane);
-                    vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
-                    if (float spread = lanes.number(Spread, lane); spread > 0)
-                        dir = Cone(dir, spread, false).direction(k, seed);
-                    RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
-                    add_ray(nested->rays, grid, start, dir, lanes.number(Maxdist, lane),
-                            lanes.number(Bias, lane), raytrace::hash(seed, k), slot, share[lane]);
-                    nested->rays.weight[slot] = way[lane].weight;
-                    spread_ray(nested->rays, grid.hits, start.hit);
-                },
-                [&](std::span<const uint8_t> lane_of) {
-                    RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, lane_of[0]));
-                    nested_.see(nested->rays, grid.depth + 1, tag, memory, seen);
-                    for (size_t i = 0; i < lane_of.size(); ++i) {
-                        color[lane_of[i]] += seen[i].color;
-                        distance[lane_of[i]] = std::min(distance[lane_of[i]], seen[i].distance);
-                    }
-                });
-        });
-        memory.arena.release(mark);
+    bool shoots = grid.shadows && !deep && !frame_.stopped();
+    for (int lane = 0; lane < kLanes; ++lane) {
+        if (!lanes.asks(lane)) continue;
+        if (deep) refuse_rays(grid, lanes.point(lane), count(lane));
+        if (shoots) plan.count[lane] = shoot(lane);
     }
+    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
+    auto add = [&](raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot) {
+        uint32_t seed = lanes.seed(lane);
+        vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
+        if (float spread = lanes.number(Spread, lane); spread > 0)
+            dir = Cone(dir, spread, false).direction(k, seed);
+        RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
+        add_ray(rays, grid, start, dir, lanes.number(Maxdist, lane), lanes.number(Bias, lane),
+                raytrace::hash(seed, k), slot, plan.share[lane]);
+        rays.weight[rays.count - 1] = plan.way[lane].weight;
+        spread_ray(rays, *start.hits, start.hit);
+    };
+    auto sum = [&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
+        for (size_t i = 0; i < seen.size(); ++i) {
+            int lane = samples.lane[i];
+            color[lane] += seen[i].color;
+            distance[lane] = std::min(distance[lane], seen[i].distance);
+        }
+    };
+    if (shoots)
+        lanes.for_each_text(Label, [&](const Lanes& alike) {
+            RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, alike.first()));
+            see_samples(grid, alike, Rows, plan, tag, nested_, add, sum);
+        });
     for (int lane = 0; lane < kLanes; ++lane) {
         int n = lanes.asks(lane) ? count(lane) : 1;
         if (n > 1) color[lane] /= float(n);
-        lanes.set(0, lane, way[lane].factor == 1 ? color[lane] : color[lane] * way[lane].factor);
+        float factor = plan.way[lane].factor;
+        lanes.set(0, lane, factor == 1 ? color[lane] : color[lane] * factor);
         lanes.set(3, lane, distance[lane]);
     }
 }
@@ -255,10 +261,10 @@ class RayServices::Passing {
     };
 
     vec3 way_up(const RayStart& end, vec3 dir) {
-        bool hit = end.Ng != vec3(0.0f) && on_surface(grid_) &&
-                   (!grid_.lit || &grid_.lit->hits == &grid_.hits);
+        const raytrace::HitBatch& lit = grid_.lit ? grid_.lit->hits : grid_.hits;
+        bool hit = end.Ng != vec3(0.0f) && on_surface(grid_) && end.hits == &lit;
         if (!hit) return vec3(0.0f);
-        return smooth_.way_from(grid_.hits, end.hit, dir);
+        return smooth_.way_from(lit, end.hit, dir);
     }
     bool is_free(const RayStart& end, vec3 up) const {
         return up == vec3(0.0f) || is_way_free(frame_.scene.accel, end.P, end.error, end.Ng, up,
@@ -298,7 +304,7 @@ class RayServices::Passing {
         set_triple(rays.org, i, org);
         set_triple(rays.first_org, i, org);
         if (!frame_.scene.volumes.empty())
-            rays.medium[i] = nested_medium(frame_.scene, grid_.hits, start.hit, off);
+            rays.medium[i] = nested_medium(frame_.scene, *start.hits, start.hit, off);
     }
 
     const ShadingFrame& frame_;
@@ -327,6 +333,10 @@ void RayServices::transmission(Grid& grid, const jit::ServiceCall& call) {
         int n =
             lanes.number(Passing::kSpread, lane) > 0 ? lanes.samples(Passing::kSamples, lane) : 1;
         count[lane] = spend_samples(grid, lanes.point(lane), n);
+    }
+    if (is_noting(grid)) {
+        for (int lane = 0; lane < kLanes; ++lane) lanes.set(0, lane, vec3(1.0f));
+        return;
     }
     ThreadMemory& memory = grid.memory;
     Arena::Mark mark = memory.arena.mark();
@@ -360,12 +370,13 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     for (int lane = 0; lane < kLanes; ++lane) {
         int wanted = lanes.asks(lane) && !frame_.stopped() ? cone.count(lane) : 0;
         if (wanted > 0) count[lane] = spend_samples(grid, lanes.point(lane), wanted);
+        if (is_noting(grid)) count[lane] = 0;
     }
     in_batches(
         lanes, nested->rays, [&](int lane) { return count[lane]; },
         [&](int lane, uint32_t k, uint32_t slot) {
             dirs[slot] = cone.direction(lane, k);
-            cone.add(nested->rays, lane, k, slot, dirs[slot]);
+            cone.add(nested->rays, lane, k, slot);
         },
         [&](std::span<const uint8_t> lane_of) {
             bool by_distance = false;
@@ -411,7 +422,7 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
 }
 
 void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
-    enum { Map = kMoreArgs };
+    enum { Map = kMoreArgs, Rows };
     Lanes lanes(call);
     ThreadMemory& memory = grid.memory;
     vec3 sum[kLanes] = {}, sky[kLanes] = {};
@@ -433,41 +444,40 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
         share[lane] = fit_samples(grid, point, samples[lane]);
         if (shoots && !spend_rays(grid, point, samples[lane])) samples[lane] = 0;
     }
+    RayPlan plan;
+    for (int lane = 0; lane < kLanes; ++lane) {
+        bool shoots = lanes.asks(lane) && (bounces || lanes.integer(Map, lane) != 0);
+        plan.count[lane] = shoots && cone.count(lane) > 0 ? samples[lane] : 0;
+        plan.share[lane] = share[lane];
+    }
     Arena::Mark mark = memory.arena.mark();
-    std::span<SeenByRay> seen = memory.arena.allocate_span<SeenByRay>(kGridPoints);
-    std::span<vec3> dirs = memory.arena.allocate_span<vec3>(kGridPoints);
-    std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
-    NestedWavefront nested(memory);
-    auto count = [&](int lane) {
-        bool shoots = bounces || lanes.integer(Map, lane) != 0;
-        return shoots && cone.count(lane) > 0 ? samples[lane] : 0;
-    };
-    in_batches(
-        lanes, nested->rays, count,
-        [&](int lane, uint32_t k, uint32_t slot) {
-            dirs[slot] = cone.direction(lane, k);
-            seen[slot] = {};
+    size_t most = is_noting(grid) ? 0 : kGridPoints;
+    std::span<vec3> dirs = memory.arena.allocate_span<vec3>(most);
+    std::span<vec3> light = memory.arena.allocate_span<vec3>(most);
+    see_samples(
+        grid, lanes, Rows, plan, deeper(grid, RayKind::Diffuse, 0), nested_,
+        [&](raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot) {
             if (bounces && lanes.number(kMaxdist, lane) > 0)
-                cone.add(nested->rays, lane, k, slot, dirs[slot], share[lane]);
+                cone.add(rays, lane, k, slot, plan.share[lane]);
         },
-        [&](std::span<const uint8_t> lane_of) {
-            nested_.see(nested->rays, grid.depth + 1, deeper(grid, RayKind::Diffuse, 0), memory,
-                        seen);
-            for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
-                light_of_map(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
-                             sample_width(samples[lane_of[begin]]), light.data());
+        [&](const SampleSpan& all, std::span<const SeenByRay> seen) {
+            for_each_map(lanes, Map, all.lane, [&](size_t begin, size_t end, int32_t map) {
+                int lane = all.lane[begin];
                 for (size_t i = begin; i < end; ++i)
-                    sky[lane_of[i]] += seen[i].open * light[i - begin];
+                    dirs[i - begin] = cone.direction(lane, all.number[i]);
+                light_of_map(*frame_.scene.textures, map, dirs.first(end - begin),
+                             sample_width(samples[lane]), light.data());
+                for (size_t i = begin; i < end; ++i) sky[lane] += seen[i].open * light[i - begin];
             });
-            for (size_t i = 0; i < lane_of.size(); ++i) {
+            for (size_t i = 0; i < seen.size(); ++i) {
                 vec3 open = seen[i].open;
-                sum[lane_of[i]] += seen[i].color;
-                blocked[lane_of[i]] += 1 - (open.x + open.y + open.z) / 3;
+                sum[all.lane[i]] += seen[i].color;
+                blocked[all.lane[i]] += 1 - (open.x + open.y + open.z) / 3;
             }
         });
-    memory.arena.release(mark);
+    if (!is_noting(grid)) memory.arena.release(mark);
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? count(lane) : 0;
+        int n = plan.count[lane];
         lanes.set(0, lane, n ? (sum[lane] + sky[lane]) / float(n) : vec3(0.0f));
         lanes.set(3, lane, n ? sky[lane] / float(n) : vec3(0.0f));
         lanes.set(6, lane, n ? blocked[lane] / float(n) : 0.0f);

@@ -10,6 +10,7 @@
 
 #include "raytrace/hits.h"
 #include "raytrace/sampling.h"
+#include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/nested_rays.h"
 
@@ -56,7 +57,7 @@ static void aim_at(raytrace::RayBatch& rays, size_t i, vec3 end) {
 void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& from,
                                     ThreadMemory& memory, vec3* through) {
     const Scene& scene = frame_.scene;
-    for (size_t r = 0; r < rays.count; ++r) through[r] = vec3(1.0f);
+    for (size_t r = 0; r < rays.count; ++r) through[rays.slot[r]] = vec3(1.0f);
     RayTag tag = from;
     tag.kind = RayKind::Transmission;
     Arena::Mark mark = memory.arena.mark();
@@ -111,16 +112,42 @@ void Transmission::pass_ends(const raytrace::RayBatch& rays, const raytrace::Hit
     memory.arena.release(mark);
 }
 
+namespace {
+
+// Leaves those rays for which keep(ray) is true, in their order.
+template <class Keep>
+void keep_rays(raytrace::RayBatch& rays, Keep&& keep) {
+    size_t kept = 0;
+    for (size_t r = 0; r < rays.count; ++r)
+        if (keep(r)) raytrace::move_ray(rays, kept++, r);
+    rays.count = kept;
+}
+
+}  // namespace
+
 void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
                         std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
     std::fill(through.begin(), through.end(), vec3(1.0f));
+    // Most rays meet nothing at all. Where objects have volumes, such a ray may run through one.
+    if (frame_.any_transparent && frame_.scene.volumes.empty()) {
+        raytrace::occluded(frame_.scene.accel, rays, raytrace::kMaskAll, blocked,
+                           memory.counters.trace);
+        keep_rays(rays, [&](size_t r) { return blocked[r] != 0; });
+    }
+    pass_blocked(rays, from, memory, through);
+}
+
+void Transmission::pass_blocked(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+                                std::span<vec3> through) {
+    uint8_t blocked[kGridPoints];
     raytrace::occluded(frame_.scene.accel, rays, raytrace::kMaskOpaque, blocked,
                        memory.counters.trace);
-    size_t count = rays.count;
-    if (frame_.any_transparent) pass_transparent(rays, from, memory, through.data());
-    for (size_t r = 0; r < count; ++r)
-        if (blocked[r]) through[r] = vec3(0.0f);
+    for (size_t r = 0; r < rays.count; ++r)
+        if (blocked[r]) through[rays.slot[r]] = vec3(0.0f);
+    if (!frame_.any_transparent) return;
+    keep_rays(rays, [&](size_t r) { return !blocked[r]; });
+    pass_transparent(rays, from, memory, through.data());
 }
 
 // ---- opacity of what rays meet ------------------------------------------------------------------
@@ -129,20 +156,14 @@ void Transmission::opacity(const raytrace::HitBatch& hits, const RayTag& ray, Th
                            vec3* Oi) {
     const Scene& scene = frame_.scene;
     Arena::Mark mark = memory.arena.mark();
-    std::span<uint32_t> points = memory.arena.allocate_span<uint32_t>(hits.count);
-    for (size_t l = 0; l < scene.looks.size(); ++l) {
-        const ShaderInstance& look = *scene.looks[l];
-        size_t count = 0;
-        for (uint32_t i = 0; i < hits.count; ++i)
-            if (scene.surfaces[hits.instance[i]].look == l) points[count++] = i;
-        if (count == 0) continue;
-        if (!look.opacity) {
-            for (size_t i = 0; i < count; ++i) Oi[points[i]] = vec3(1.0f);
+    for (const LookRun& run : runs_by_look(scene, hits, memory.arena)) {
+        if (!run.look->opacity) {
+            for (uint32_t h : run.hits) Oi[h] = vec3(1.0f);
             continue;
         }
-        for (size_t at = 0; at < count; at += kGridPoints)
-            run_opacity(hits, points.subspan(at, std::min(kGridPoints, count - at)), look, ray,
-                        memory, Oi);
+        for (size_t at = 0; at < run.hits.size(); at += kGridPoints)
+            run_opacity(hits, run.hits.subspan(at, std::min(kGridPoints, run.hits.size() - at)),
+                        *run.look, ray, memory, Oi);
     }
     memory.arena.release(mark);
 }
@@ -181,147 +202,159 @@ vec3 before_sample(const raytrace::HitBatch& samples, size_t i, vec3 P, vec3 to_
     return raytrace::offset_ray_origin(end, error, triple(samples.Ng, i), -to_light) - end;
 }
 
-// Shadow rays by the packet, and the lit points that asked for them.
-struct ShadowPacket {
-    raytrace::RayPacket16 rays;
-    uint32_t points[raytrace::kPacket];
-    vec3 up[raytrace::kPacket];
-    uint32_t lifted = 0;  // bit j: ray j leaves a smooth surface, not its facet
-    int filled = 0;
-
-    void set(int j, uint32_t point, vec3 org, vec3 dir, float tfar) {
-        rays.org_x[j] = org.x;
-        rays.org_y[j] = org.y;
-        rays.org_z[j] = org.z;
-        rays.dir_x[j] = dir.x;
-        rays.dir_y[j] = dir.y;
-        rays.dir_z[j] = dir.z;
-        rays.tnear[j] = 0;
-        rays.tfar[j] = tfar;
-        rays.mask[j] = raytrace::kMaskOpaque;
-        rays.time[j] = 0;
-        points[j] = point;
-    }
-    vec3 org(int j) const { return {rays.org_x[j], rays.org_y[j], rays.org_z[j]}; }
-    vec3 dir(int j) const { return {rays.dir_x[j], rays.dir_y[j], rays.dir_z[j]}; }
-};
-
-// Casts the rays of one light's grid, a packet at a time.
-class ShadowCaster {
-  public:
-    ShadowCaster(const ShadingFrame& frame, const Grid& grid, const LightPoints& at,
-                 const SentLight& light, raytrace::RayBatch& rest)
-        : frame_(frame),
-          grid_(grid),
-          at_(at),
-          light_(light),
-          rest_(rest),
-          counters_(grid.memory.counters.trace),
-          accel_from_camera_(glm::transpose(frame.camera_from_accel)),
-          smooth_(frame.scene) {}
-
-    // All points that the light reaches; blocked ones lose its colour, and what only transparent
-    // surfaces may dim is left in `rest`.
-    void run() {
-        const bool of_surface = grid_.look->kind == ShaderInstanceKind::Surface;
-        for (uint32_t i = 0; i < at_.count; ++i) {
-            if (light_.lit && jit::bits_of(light_.lit[i]) == 0) continue;
-            if (light_.Cl[0][i] == 0 && light_.Cl[1][i] == 0 && light_.Cl[2][i] == 0) continue;
-            vec3 up(0.0f);
-            if (of_surface && triple(at_.Ng, i) != vec3(0.0f))
-                up = smooth_.way_from(grid_.hits, grid_.points[at_.first + i], to_light(i));
-            int j = packet_.filled++;
-            packet_.up[j] = up;
-            packet_.lifted |= uint32_t(up != vec3(0.0f)) << j;
-            aim(j, i, up);
-            if (packet_.filled == raytrace::kPacket) flush();
-        }
-        flush();
-    }
-
-  private:
-    vec3 to_light(uint32_t i) const { return accel_from_camera_ * triple(light_.L, i); }
-
-    // The ray of a point, from `up` above its facet.
-    void aim(int j, uint32_t i, vec3 up) {
-        vec3 way = to_light(i), P = triple(at_.accel, i), Ng = triple(at_.Ng, i);
-        // A point that is on no known surface leaves its error box along the ray itself.
-        if (Ng == vec3(0)) Ng = glm::normalize(way);
-        vec3 org = up == vec3(0.0f)
-                       ? raytrace::offset_ray_origin(P, triple(at_.error, i), Ng, way)
-                       : raytrace::offset_ray_origin(P + up, triple(at_.error, i), Ng, up);
-        vec3 dir = light_.solar ? way : P + way - org;
-        if (light_.samples && !light_.solar) dir += before_sample(light_.samples->hits, i, P, way);
-        packet_.set(j, i, org, dir, light_.solar ? std::numeric_limits<float>::infinity() : 1.0f);
-    }
-
-    // From the facets after all, where something stands on the way to their smooth surface.
-    uint32_t lower(uint32_t unblocked) {
-        uint32_t lowered = 0;
-        for (uint32_t left = packet_.lifted & unblocked; left; left &= left - 1) {
-            int j = std::countr_zero(left);
-            uint32_t i = packet_.points[j];
-            if (is_way_free(frame_.scene.accel, triple(at_.accel, i), triple(at_.error, i),
-                            triple(at_.Ng, i), packet_.up[j], counters_))
-                continue;
-            aim(j, i, vec3(0.0f));
-            lowered |= 1u << j;
-        }
-        if (lowered == 0) return 0;
-        packet_.rays.active = lowered;
-        return frame_.scene.accel.occluded16(packet_.rays, counters_);
-    }
-
-    void flush() {
-        if (packet_.filled == 0) return;
-        packet_.rays.active = (1u << packet_.filled) - 1;
-        uint32_t blocked = frame_.scene.accel.occluded16(packet_.rays, counters_);
-        blocked |= lower(~blocked);
-        for (int j = 0; j < packet_.filled; ++j) {
-            uint32_t i = packet_.points[j];
-            if (blocked >> j & 1) {
-                for (size_t k = 0; k < 3; ++k) light_.Cl[k][i] = 0;
-            } else if (frame_.any_transparent) {
-                set_nested_ray(rest_, rest_.count, packet_.org(j), packet_.dir(j),
-                               packet_.rays.tfar[j], grid_.hits, grid_.points[at_.first + i]);
-                rest_.slot[rest_.count++] = i;
-            }
-        }
-        packet_.filled = 0;
-        packet_.lifted = 0;
-    }
-
-    const ShadingFrame& frame_;
-    const Grid& grid_;
-    const LightPoints& at_;
-    const SentLight& light_;
-    raytrace::RayBatch& rest_;
-    raytrace::TraceCounters& counters_;
-    mat3 accel_from_camera_;
-    SmoothSurface smooth_;
-    ShadowPacket packet_;
-};
-
 }  // namespace
 
-void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& light) const {
-    ThreadMemory& memory = grid.memory;
-    NestedWavefront nested(memory);
-    raytrace::RayBatch& rest = nested->rays;
-    if (frame_.any_transparent) rest.reserve(kGridPoints);
-    rest.count = 0;
-    ShadowCaster(frame_, grid, at, light, rest).run();
-    if (rest.count == 0) return;
-    std::span<vec3> through = memory.arena.allocate_span<vec3>(rest.count);
-    std::span<uint32_t> points = memory.arena.allocate_span<uint32_t>(rest.count);
-    size_t count = rest.count;
-    for (size_t r = 0; r < count; ++r) {
-        points[r] = rest.slot[r];
-        rest.slot[r] = uint32_t(r);
+ShadowQueue::ShadowQueue(const ShadingFrame& frame, Transmission& transmission,
+                         ThreadMemory& memory, const RayTag& tag)
+    : frame_(frame),
+      transmission_(transmission),
+      memory_(memory),
+      tag_(tag),
+      dims_(frame.any_transparent),
+      straight_(frame.scene.volumes.empty()),
+      accel_from_camera_(glm::transpose(frame.camera_from_accel)),
+      smooth_(frame.scene),
+      rest_(memory) {
+    rest_->rays.count = 0;
+}
+
+void ShadowQueue::cast(const Grid& grid, const LightPoints& at, const SentLight& light) {
+    StageScope stage(Stage::Shadows);
+    const bool of_surface = grid.look->kind == ShaderInstanceKind::Surface;
+    for (uint32_t i = 0; i < at.count; ++i) {
+        if (light.lit && jit::bits_of(light.lit[i]) == 0) continue;
+        if (light.Cl[0][i] == 0 && light.Cl[1][i] == 0 && light.Cl[2][i] == 0) continue;
+        Asked& ray = asked_[filled_];
+        ray.target = {{light.Cl[0], light.Cl[1], light.Cl[2]}, i};
+        ray.hits = &grid.hits;
+        ray.hit = grid.points[at.first + i];
+        ray.P = triple(at.accel, i);
+        ray.error = triple(at.error, i);
+        ray.Ng = triple(at.Ng, i);
+        ray.way = accel_from_camera_ * triple(light.L, i);
+        ray.up = ray.short_of = vec3(0.0f);
+        ray.solar = light.solar;
+        if (of_surface && ray.Ng != vec3(0.0f))
+            ray.up = smooth_.way_from(grid.hits, ray.hit, ray.way);
+        if (light.samples && !light.solar)
+            ray.short_of = before_sample(light.samples->hits, i, ray.P, ray.way);
+        lifted_ |= uint32_t(ray.up != vec3(0.0f)) << filled_;
+        aim(filled_++);
+        if (filled_ == raytrace::kPacket) flush();
     }
-    transmission_.pass_transparent(rest, grid.ray, memory, through.data());
+}
+
+void ShadowQueue::finish() {
+    StageScope stage(Stage::Shadows);
+    flush();
+    pass_rest();
+    rest_targets_ = {};
+}
+
+// From `up` above the facet.
+void ShadowQueue::aim(int lane) {
+    const Asked& ray = asked_[lane];
+    // A point that is on no known surface leaves its error box along the ray itself.
+    vec3 Ng = ray.Ng == vec3(0) ? glm::normalize(ray.way) : ray.Ng;
+    bool lifted = ray.up != vec3(0.0f);
+    vec3 org = raytrace::offset_ray_origin(lifted ? ray.P + ray.up : ray.P, ray.error, Ng,
+                                           lifted ? ray.up : ray.way);
+    vec3 dir = ray.solar ? ray.way : ray.P + ray.way - org + ray.short_of;
+    packet_.org_x[lane] = org.x;
+    packet_.org_y[lane] = org.y;
+    packet_.org_z[lane] = org.z;
+    packet_.dir_x[lane] = dir.x;
+    packet_.dir_y[lane] = dir.y;
+    packet_.dir_z[lane] = dir.z;
+    packet_.tnear[lane] = packet_.time[lane] = 0;
+    packet_.tfar[lane] = ray.solar ? std::numeric_limits<float>::infinity() : 1.0f;
+}
+
+// The lanes that something of the mask blocks.
+uint32_t ShadowQueue::block(uint32_t lanes, uint32_t mask) {
+    if (lanes == 0) return 0;
+    packet_.active = lanes;
+    std::fill_n(packet_.mask, raytrace::kPacket, mask);
+    return frame_.scene.accel.occluded16(packet_, memory_.counters.trace);
+}
+
+// Aims rays from their facets after all, where something stands on the way to the smooth surface;
+// these rays.
+uint32_t ShadowQueue::lower(uint32_t lanes) {
+    uint32_t lowered = 0;
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        int j = std::countr_zero(left);
+        Asked& ray = asked_[j];
+        if (is_way_free(frame_.scene.accel, ray.P, ray.error, ray.Ng, ray.up,
+                        memory_.counters.trace))
+            continue;
+        ray.up = vec3(0.0f);
+        aim(j);
+        lowered |= 1u << j;
+    }
+    return lowered;
+}
+
+void ShadowQueue::flush() {
+    if (filled_ == 0) return;
+    const uint32_t all = filled_ == raytrace::kPacket ? 0xffffu : (1u << filled_) - 1;
+    const bool any = dims_ && straight_;
+    const uint32_t mask = any ? raytrace::kMaskAll : raytrace::kMaskOpaque;
+    uint32_t blocked = block(all, mask);
+    // Whether what is opaque blocks them, only lifted ones need to know at once.
+    uint32_t opaque = any ? block(blocked & lifted_, raytrace::kMaskOpaque) : blocked;
+    if (uint32_t lowered = lower(lifted_ & ~opaque))
+        blocked = (blocked & ~lowered) | block(lowered, mask);
+    for (int j = 0; j < filled_; ++j) {
+        bool met = blocked >> j & 1;
+        const Target& target = asked_[j].target;
+        if (dims_ && met == straight_)
+            keep(j);
+        else if (met)
+            for (float* Cl : target.Cl) Cl[target.point] = 0;
+    }
+    filled_ = 0;
+    lifted_ = 0;
+    if (rest_->rays.count + raytrace::kPacket > kGridPoints) pass_rest();
+}
+
+void ShadowQueue::keep(int lane) {
+    raytrace::RayBatch& rest = rest_->rays;
+    if (rest_targets_.empty()) {
+        rest.reserve(kGridPoints);
+        rest_targets_ = memory_.arena.allocate_span<Target>(kGridPoints);
+    }
+    const Asked& ray = asked_[lane];
+    vec3 org(packet_.org_x[lane], packet_.org_y[lane], packet_.org_z[lane]);
+    vec3 dir(packet_.dir_x[lane], packet_.dir_y[lane], packet_.dir_z[lane]);
+    size_t r = rest.count++;
+    set_nested_ray(rest, r, org, dir, packet_.tfar[lane], *ray.hits, ray.hit);
+    rest.slot[r] = uint32_t(r);
+    rest_targets_[r] = ray.target;
+}
+
+void ShadowQueue::pass_rest() {
+    raytrace::RayBatch& rest = rest_->rays;
+    size_t count = rest.count;
+    if (count == 0) return;
+    Arena::Mark mark = memory_.arena.mark();
+    std::span<vec3> through = memory_.arena.allocate_span<vec3>(count);
+    std::fill(through.begin(), through.end(), vec3(1.0f));
+    if (straight_)
+        transmission_.pass_blocked(rest, tag_, memory_, through);
+    else
+        transmission_.pass_transparent(rest, tag_, memory_, through.data());
     for (size_t r = 0; r < count; ++r)
-        for (size_t k = 0; k < 3; ++k) light.Cl[k][points[r]] *= through[r][int(k)];
+        for (size_t k = 0; k < 3; ++k)
+            rest_targets_[r].Cl[k][rest_targets_[r].point] *= through[r][int(k)];
+    rest.count = 0;
+    memory_.arena.release(mark);
+}
+
+void ShadowRays::cast(const Grid& grid, const LightPoints& at, const SentLight& light) {
+    ShadowQueue queue(frame_, transmission_, grid.memory, grid.ray);
+    queue.cast(grid, at, light);
+    queue.finish();
 }
 
 }  // namespace kinora

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "runtime/shading/light_records.h"
+#include "runtime/shading/nested_rays.h"
 #include "runtime/shading/volumes.h"
 
 namespace kinora {
@@ -19,6 +20,9 @@ class Transmission {
     // the grid that sends them.
     void pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
               std::span<vec3> through);
+    // The same of rays that are known to meet something; `through` is 1 before.
+    void pass_blocked(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+                      std::span<vec3> through);
     // The same of rays that meet nothing opaque.
     void pass_transparent(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
                           vec3* through);
@@ -36,13 +40,65 @@ class Transmission {
     Volumes& volumes_;
 };
 
-// Rays from lit points to their light.
+// Rays from lit points to their light, a whole packet at a time: those of several grids and lights
+// go together. What is opaque takes all of Cl; what is transparent dims it.
+class ShadowQueue final : public LightShadows {
+  public:
+    // `tag`: of all grids.
+    ShadowQueue(const ShadingFrame& frame, Transmission& transmission, ThreadMemory& memory,
+                const RayTag& tag);
+    // Grids, points and colours must live until finish().
+    void cast(const Grid& grid, const LightPoints& at, const SentLight& light) override;
+    void finish();
+
+  private:
+    // The colour that a ray may take.
+    struct Target {
+        float* Cl[3];
+        uint32_t point;
+    };
+    // What a ray was asked for, in accel space.
+    struct Asked {
+        Target target;
+        uint32_t hit;
+        const raytrace::HitBatch* hits;
+        vec3 P, error, Ng;
+        vec3 way;       // to the light
+        vec3 up;        // from the facet to where the ray leaves; 0: it leaves the facet
+        vec3 short_of;  // from the light's sample to where the ray ends
+        bool solar;
+    };
+
+    void aim(int lane);
+    uint32_t block(uint32_t lanes, uint32_t mask);
+    uint32_t lower(uint32_t lanes);
+    void flush();
+    void keep(int lane);
+    void pass_rest();
+
+    const ShadingFrame& frame_;
+    Transmission& transmission_;
+    ThreadMemory& memory_;
+    const RayTag tag_;
+    const bool dims_;      // what is transparent may dim a ray
+    const bool straight_;  // rays that meet nothing lose nothing
+    mat3 accel_from_camera_;
+    SmoothSurface smooth_;
+    raytrace::RayPacket16 packet_{};  // Embree looks at lanes that are not active, too
+    Asked asked_[raytrace::kPacket];
+    uint32_t lifted_ = 0;  // bit j: ray j leaves a smooth surface, not its facet
+    int filled_ = 0;
+    // Rays that what is transparent may dim, and the point of each.
+    NestedWavefront rest_;
+    std::span<Target> rest_targets_;
+};
+
+// The same, of one light at once.
 class ShadowRays final : public LightShadows {
   public:
     ShadowRays(const ShadingFrame& frame, Transmission& transmission)
         : frame_(frame), transmission_(transmission) {}
-    // What is opaque takes all of Cl; the rays it lets by go on through what is transparent.
-    void cast(const Grid& grid, const LightPoints& at, const SentLight& light) const override;
+    void cast(const Grid& grid, const LightPoints& at, const SentLight& light) override;
 
   private:
     const ShadingFrame& frame_;

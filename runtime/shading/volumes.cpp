@@ -106,7 +106,7 @@ void Volumes::for_each_grid(const Order& order, F&& f) const {
 }
 
 void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray,
-                    const LightShadows* shadows, raytrace::ShadeResult& result) {
+                    LightShadows* shadows, raytrace::ShadeResult& result) {
     std::span<const uint32_t> points = grid.points;
     Arena::Mark mark = grid.memory.arena.mark();
     kernels_.prepare(grid, ray);
@@ -135,7 +135,7 @@ void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray,
     grid.memory.arena.release(mark);
 }
 
-void Volumes::apply(const raytrace::HitBatch& hits, const RayTag& ray, const LightShadows& shadows,
+void Volumes::apply(const raytrace::HitBatch& hits, const RayTag& ray, LightShadows& shadows,
                     ThreadMemory& memory, raytrace::ShadeResult& result) {
     if (frame_.scene.atmosphere == kNone && frame_.scene.volumes.empty()) return;
     Arena::Mark mark = memory.arena.mark();

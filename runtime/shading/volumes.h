@@ -18,7 +18,7 @@ class Volumes {
         : frame_(frame), kernels_(kernels), lights_(lights) {}
 
     // What the volume before each hit makes of the hit's Ci and Oi. `ray`: of the hits.
-    void apply(const raytrace::HitBatch& hits, const RayTag& ray, const LightShadows& shadows,
+    void apply(const raytrace::HitBatch& hits, const RayTag& ray, LightShadows& shadows,
                ThreadMemory& memory, raytrace::ShadeResult& result);
     // What the insides of objects take from shadow rays on the way to each hit; the atmosphere and
     // exteriors take nothing, for a sun would never reach the ground through an endless fog.
@@ -29,7 +29,7 @@ class Volumes {
     Order sort(const raytrace::HitBatch& hits, Arena& arena, bool fills_only) const;
     template <class F>
     void for_each_grid(const Order& order, F&& f) const;
-    void shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, const LightShadows* shadows,
+    void shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, LightShadows* shadows,
                raytrace::ShadeResult& result);
 
     const ShadingFrame& frame_;

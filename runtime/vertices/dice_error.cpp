@@ -70,12 +70,6 @@ class BlockEdges {
     std::array<uint32_t, 2> edge_{};
 };
 
-dvec3 combine(const Stencil& s, std::span<const vec4> entries) {
-    dvec3 sum(0.0);
-    for (int k = 0; k < 3; ++k) sum += double(s.weight[k]) * dvec3(entries[s.entry[k]]);
-    return sum;
-}
-
 // Ends as sums of vertices of the base mesh, those that are needed.
 void name_vertices(const Mesh& base, const DicedMesh& made,
                    std::span<const std::array<uint32_t, 2>> edges, WatchedEdges& out) {

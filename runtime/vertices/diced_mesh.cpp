@@ -49,12 +49,6 @@ Stencil stencil(const Corners& entries, DicePoint at) {
     return s;
 }
 
-dvec3 combine(const Stencil& s, std::span<const vec4> entries) {
-    dvec3 sum(0.0);
-    for (int k = 0; k < 3; ++k) sum += double(s.weight[k]) * dvec3(entries[s.entry[k]]);
-    return sum;
-}
-
 // A wedge of the base mesh for each corner: equal where all that is known of the corners is equal.
 std::vector<uint32_t> number_wedges(const MeshGroup& group) {
     std::vector<uint32_t> wedges = group.flat() ? group.triangles : group.normal_corners;
@@ -281,6 +275,12 @@ bool on_marked_edge(const MarkedEdges& marked, const uint32_t corners[3], DicePo
 }
 
 }  // namespace
+
+dvec3 combine(const Stencil& s, std::span<const vec4> entries) {
+    dvec3 sum(0.0);
+    for (int k = 0; k < 3; ++k) sum += double(s.weight[k]) * dvec3(entries[s.entry[k]]);
+    return sum;
+}
 
 size_t DicedMesh::triangles() const {
     size_t count = 0;

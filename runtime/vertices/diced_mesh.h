@@ -16,6 +16,7 @@ struct Stencil {
     uint32_t entry[3];
     float weight[3];
 };
+dvec3 combine(const Stencil& stencil, std::span<const vec4> entries);
 
 // A wedge is a vertex as one group's corners see it: a position with one normal and one value of
 // each attribute. Kernels that move vertices run once a wedge.

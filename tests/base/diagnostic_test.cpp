@@ -5,6 +5,8 @@
 
 #include <thread>
 
+#include "runtime/base/raise_findings.h"
+
 namespace kinora {
 namespace {
 
@@ -132,6 +134,30 @@ TEST(Diagnostics, TakeReportsFromManyThreads) {
         });
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(diagnostics.count(Severity::Warning), 2000);
+}
+
+TEST(Diagnostics, WhatWasLeftOutBecomesTheErrorWhereNothingIsLeft) {
+    constexpr FindingInfo kCut =
+        finding_row("FORM_CUT", Severity::Warning, Severity::Error, "cut", "", "");
+    constexpr FindingInfo kRead =
+        finding_row("FORM_READ", Severity::Info, Severity::Warning, "read", "", "");
+    Diagnostics d;
+    d.judge(Judgement::Rendering);
+    d.report(kOdd, Location{}, "a", 1);
+    EXPECT_FALSE(raise_findings(d, "FORM_"));
+    d.report(kCut, Location{}).notes.push_back({Location{}, "opened here"});
+    d.report(kRead, Location{});
+    d.report(kOdd, Location{}, "b", 2);
+    EXPECT_FALSE(raise_findings(d, "ELSE_"));
+    EXPECT_FALSE(d.has_errors());
+    EXPECT_TRUE(raise_findings(d, "FORM_"));
+    ASSERT_EQ(d.findings().size(), 4u);  // in their order, with all they hold
+    EXPECT_EQ(d.findings()[0].message, "'a' is 1 times odd");
+    EXPECT_EQ(d.findings()[1].severity, Severity::Error);
+    ASSERT_EQ(d.findings()[1].notes.size(), 1u);
+    EXPECT_EQ(d.findings()[1].notes[0].message, "opened here");
+    EXPECT_EQ(d.findings()[2].severity, Severity::Info);
+    EXPECT_EQ(d.findings()[3].severity, Severity::Warning);
 }
 
 TEST(NearestName, FindsWhatWasMeantOrNothing) {

@@ -11,7 +11,6 @@
 namespace kinora {
 namespace {
 
-const char* kMatte = "surface matte() { Oi = 1; Ci = diffuse(normalize(N)); }";
 // The standard point light's falloff, and a Lambertian emitter of the same.
 const char* kPoint =
     "light area(float intensity = 1; color lightcolor = 1;) {"

@@ -1,8 +1,9 @@
 // tests/runtime/light_watts_test.cpp: lights that are in watts, against Blender's arithmetic;
-// lights that leave a scene dark.
+// lights that leave a scene dark; Blender's grey world.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "expect_colors.h"
@@ -10,7 +11,6 @@
 namespace kinora {
 namespace {
 
-const char* kMatte = "surface matte() { Oi = 1; Ci = diffuse(normalize(N)); }";
 const char* kBlender =
     "<extra><technique profile=\"blender\"><energy>1000</energy></technique></extra>";
 
@@ -19,6 +19,13 @@ std::string by(const char* tool) {
         "<contributor><authoring_tool>{}</authoring_tool></contributor>"
         "<unit name=\"meter\" meter=\"1\"/><up_axis>Y_UP</up_axis>",
         tool);
+}
+
+// Without Blender's world.
+SceneOptions own_lights() {
+    SceneOptions options;
+    options.lights = LightSet::Scene;
+    return options;
 }
 
 std::string point(double watts) {
@@ -48,7 +55,7 @@ TEST(LightWatts, BlendersPointsShineAsBrightAsThere) {
         SceneText scene = floor_scene(kMatte);
         scene.asset = by(row.tool);
         scene.light("lamp", point(row.watts), "<translate>0 0 3</translate>", row.extra);
-        Rendering r(scene.text());
+        Rendering r(scene.text(), own_lights());
         expect_colors(
             r.frame(), [&](dvec2 p) { return dvec3(blender_point(row.watts, p, 3)); }, 1e-5);
         EXPECT_EQ(r.count("LIGHT_WATTS"), 1) << row.tool << r.findings();
@@ -59,7 +66,7 @@ TEST(LightWatts, BlendersSunIsIrradiance) {
     SceneText scene = floor_scene(kMatte);
     scene.asset = by("Blender 2.93.4");
     scene.light("sun", "<directional><color>2 1 0.5</color></directional>", "", kBlender);
-    Rendering r(scene.text());
+    Rendering r(scene.text(), own_lights());
     r.frame();
     EXPECT_NEAR(r.color(8, 8).x, 2 / kPi, 1e-5);
 }
@@ -71,7 +78,7 @@ TEST(LightWatts, OfADocumentInOtherUnitsAreByItsOwnDistances) {
     size_t at = scene.asset.find("meter=\"1\"");
     scene.asset.replace(at, 9, "meter=\"0.01\"");
     scene.light("lamp", point(1000), "<translate>0 0 3</translate>", kBlender);
-    Rendering r(scene.text());
+    Rendering r(scene.text(), own_lights());
     expect_colors(
         r.frame(), [&](dvec2 p) { return dvec3(blender_point(1000, p, 3)); }, 1e-5);
 }
@@ -81,7 +88,7 @@ TEST(LightWatts, LightsOfOldBlendersStayAsTheyStand) {
         SceneText scene = floor_scene(kMatte);
         scene.asset = by(tool);
         scene.light("sun", "<directional><color>1.5 1.5 1.5</color></directional>", "", kBlender);
-        Rendering r(scene.text());
+        Rendering r(scene.text(), own_lights());
         EXPECT_FLOAT_EQ(r.frame().color(8, 8).x, 1.5f);
         EXPECT_EQ(r.count("LIGHT_WATTS"), 0) << r.findings();
     }
@@ -93,7 +100,7 @@ TEST(LightWatts, OtherLightsAreScaledTogetherWhereTheyBurn) {
     scene.light("a", "<directional><color>20 20 20</color></directional>")
         .light("b", "<directional><color>30 30 30</color></directional>",
                "<rotate>0 1 0 60</rotate>");
-    Rendering r(scene.text());
+    Rendering r(scene.text(), own_lights());
     EXPECT_NEAR(r.frame().color(8, 8).x, 35.0 / 40, 1e-6);
     EXPECT_EQ(r.count("LIGHT_WATTS"), 1);
     ASSERT_TRUE(r.find("LIGHT_WATTS"));
@@ -105,7 +112,7 @@ TEST(LightWatts, FourAtTheMiddleIsStillALight) {
         SceneText scene = floor_scene(kMatte);
         scene.light("a",
                     fmt::format("<directional><color>{0} {0} {0}</color></directional>", strength));
-        Rendering r(scene.text());
+        Rendering r(scene.text(), own_lights());
         EXPECT_NEAR(r.frame().color(8, 8).x, strength > 4 ? 1 : 4, 1e-6);
         EXPECT_EQ(r.count("LIGHT_WATTS"), strength > 4 ? 1 : 0);
     }
@@ -121,7 +128,7 @@ TEST(LightWatts, TheMiddleIsJudgedByDistanceAndCone) {
                "<translate>0 0 4</translate>")
         .light("spot", "<spot><color>90 90 90</color><falloff_angle>30</falloff_angle></spot>",
                "<translate>0 0 4</translate><rotate>0 1 0 40</rotate>");
-    Rendering r(scene.text());
+    Rendering r(scene.text(), own_lights());
     EXPECT_NEAR(r.frame(15, 15).color(7, 7).x, 1, 1e-5) << r.findings();
     EXPECT_EQ(r.count("LIGHT_WATTS"), 1);
 }
@@ -155,9 +162,22 @@ TEST(LightsDark, IsSaidOnceWhereOverHalfOfWhatIsSeenGetsNoLight) {
     EXPECT_NE(r.findings().find("--lights both"), std::string::npos);
 }
 
+TEST(LightsDark, IsDecidedInTheFirstFourFrames) {
+    for (double night : {2.5, 3.5}) {  // when the sun has set
+        SceneText scene = floor_scene(kMatte);
+        scene.light("sun", "<directional><color sid=\"color\">1 1 1</color></directional>");
+        scene.animate("sun/color.R", {0, night, night + 0.1}, {1, 1, 0})
+            .animate("sun/color.G", {0, night, night + 0.1}, {1, 1, 0})
+            .animate("sun/color.B", {0, night, night + 0.1}, {1, 1, 0});
+        Rendering r(scene.text());
+        for (int frame = 0; frame < 8; ++frame) r.frame(frame);
+        EXPECT_EQ(r.color(8, 8).x, 0);
+        EXPECT_EQ(r.count("LIGHTS_DARK"), night < 3) << r.findings();
+    }
+}
+
 TEST(LightsDark, IsNotSaidOfWhatIsLitOrNeedsNoLightOrWasWanted) {
     const char* kAway = "<rotate>0 1 0 120</rotate>";
-    const char* kSun = "<directional><color>1 1 1</color></directional>";
     SceneText lit = floor_scene(kMatte);
     lit.light("sun", kSun).light("behind", kSun, kAway);
     EXPECT_EQ(Rendering(lit.text()).frame().count("LIGHTS_DARK"), 0);
@@ -192,6 +212,96 @@ TEST(LightsDark, CountsWhatIsSeenNotThePicture) {
                    "<rotate>1 0 0 -90</rotate>");
         EXPECT_EQ(Rendering(scene.text()).frame(32, 32).count("LIGHTS_DARK"), mostly_dark);
     }
+}
+
+// ---- the world that Blender lights with too
+
+const char* kBothSides = "surface s() { Oi = 1; Ci = diffuse(faceforward(normalize(N), I)); }";
+const char* kSun = "<directional><color>1 1 1</color></directional>";
+const char* kFromBehind = "<rotate>0 1 0 150</rotate>";
+
+SceneText behind_lit(const std::string& asset, const std::string& turn = "") {
+    SceneText scene;
+    scene.asset = asset;
+    return scene.square("wall", 3)
+        .look("l", kBothSides)
+        .place("wall", "l", turn)
+        .light("sun", kSun, kFromBehind);
+}
+
+bool has_world(const Rendering& r) {
+    const auto& added = r.scene->added;
+    return std::ranges::find(added, "grey world") != added.end();
+}
+
+// A white surface in a sphere of brightness 0.05 is as bright, whichever side is seen however.
+TEST(GreyWorld, LightsWhatBlendersLampsLeaveDark) {
+    for (const char* tool : {"Blender v:249 - Illusoft Collada Exporter v:0.3.162",
+                             "Blender 2.79.0 commit date:2018-03-22", "Blender 3.4.1"})
+        for (const char* turn : {"", "<rotate>1 0 0 25</rotate>", "<rotate>0 1 0 180</rotate>"}) {
+            Rendering r(behind_lit(by(tool), turn).text());
+            r.frame().frame(0.5);
+            EXPECT_NEAR(r.color(8, 8).x, 0.05, 1e-6) << tool << turn;
+            EXPECT_TRUE(has_world(r));
+            EXPECT_EQ(r.count("LIGHTS_WORLD"), 1);
+            ASSERT_TRUE(r.find("LIGHTS_WORLD"));
+            EXPECT_EQ(r.find("LIGHTS_WORLD")->severity, Severity::Info);
+            EXPECT_EQ(r.count("LIGHTS_DARK"), 1) << "it is no light of the scene";
+        }
+}
+
+TEST(GreyWorld, AddsToWhatTheLampsLightWithoutHighlights) {
+    SceneText scene = floor_scene(
+        "surface s() { Oi = 1; normal n = normalize(N);"
+        " Ci = color(1, 0, 0) * diffuse(n) + color(0, 1, 0) * phong(n, -normalize(I), 0); }");
+    scene.asset = by("Blender 2.79.0");
+    scene.light("sun", kSun, "<rotate>0 1 0 60</rotate>");
+    Rendering r(scene.text());
+    EXPECT_NEAR(r.frame().color(8, 8).x, 0.5 + 0.05, 1e-5);
+    EXPECT_NEAR(r.color(8, 8).y, 1, 1e-5);  // pow(x, 0) of the sun alone
+    EXPECT_EQ(r.count("LIGHTS_DARK"), 0);
+}
+
+// A night scene stays one, and so does every picture that does not come from Blender.
+TEST(GreyWorld, LeavesOtherProgramsScenesAsTheyAre) {
+    const char* kMoon = "<directional><color>0.02 0.02 0.03</color></directional>";
+    for (const char* tool : {"", "FBX COLLADA exporter", "Autodesk Maya 2019", "SketchUp 8.0",
+                             "modo 701", "Open Asset Import Library", "not Blender 3.4.1"}) {
+        SceneText night = behind_lit(by(tool));
+        night.light("moon", kMoon, "<rotate>0 1 0 30</rotate>").octahedron("ball");
+        night.place("ball", "l", "<scale>0.6 0.6 0.6</scale>");
+        Rendering by_default(night.text()), alone(night.text(), own_lights());
+        by_default.frame(), alone.frame();
+        EXPECT_TRUE(same_bytes(by_default.film, alone.film)) << tool;
+        EXPECT_LT(by_default.color(0, 0).x, 0.005f);
+        EXPECT_FALSE(has_world(by_default));
+        EXPECT_EQ(by_default.count("LIGHTS_WORLD"), 0);
+    }
+}
+
+TEST(GreyWorld, IsNotThereWhereItIsNotWanted) {
+    SceneText scene = behind_lit(by("Blender 2.79.0"));
+    auto middle = [](const SceneText& of, const SceneOptions& options) {
+        Rendering r(of.text(), options);
+        r.frame();
+        EXPECT_FALSE(has_world(r));
+        EXPECT_EQ(r.count("LIGHTS_WORLD"), 0);
+        return r.color(8, 8).x;
+    };
+    EXPECT_EQ(middle(scene, own_lights()), 0);
+    SceneOptions legacy;
+    legacy.decode_textures = false;
+    EXPECT_EQ(middle(scene, legacy), 0);
+    SceneOptions both;  // the default lights are there instead
+    both.lights = LightSet::Both;
+    EXPECT_GT(middle(scene, both), 0.3f);
+    SceneText unlit = floor_scene(kBothSides);
+    unlit.asset = by("Blender 2.79.0");
+    EXPECT_GT(middle(unlit, {}), 0.3f);
+    SceneText own = floor_scene(kMatte);  // a light in RSL is meant as it is
+    own.asset = by("Blender 2.79.0");
+    own.rsl_light("b", "light l() { solar(vector \"world\" (0, 0, 1), 0) Cl = 1; }");
+    EXPECT_EQ(middle(own, {}), 0);
 }
 
 }  // namespace

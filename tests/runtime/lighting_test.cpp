@@ -13,9 +13,6 @@
 namespace kinora {
 namespace {
 
-const char* kMatte = "surface matte() { Oi = 1; Ci = diffuse(normalize(N)); }";
-const char* kSun = "<directional><color>1 1 1</color></directional>";
-
 std::string turned(const char* axis, double degrees) {
     return fmt::format("<rotate>{} {}</rotate>", axis, degrees);
 }

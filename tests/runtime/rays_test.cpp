@@ -163,6 +163,54 @@ TEST(Gather, GoesThroughAnEnvironmentMap) {
     EXPECT_EQ(r.color(2, 2).z, 0.0f);
 }
 
+// A dusk of 0.0003 with a sun of 2 by 2 of 128 by 64 texels, 30 degrees over the floor's horizon.
+struct SunSky {
+    std::string name = "kinora_rays_test_sun_" + std::to_string(getpid()) + ".png";
+    std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+    SunSky() {
+        Image8 image{128, 64, {}};
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 128; ++x) {
+                bool sun = (x == 84 || x == 85) && (y == 31 || y == 32);
+                uint8_t c = sun ? 255 : 1;
+                image.rgba.insert(image.rgba.end(), {c, c, c, 255});
+            }
+        EXPECT_EQ(write_png(path.string(), image, {}), "");
+    }
+    ~SunSky() { std::filesystem::remove(path); }
+};
+
+// As many directions by its brightness find the irradiance of a map with less error than even ones
+// of the same sharpness; the truth is the mean of a million.
+TEST(Gather, FollowsTheBrightnessOfAMap) {
+    SunSky sky;
+    auto gather = [&](const char* samples, const std::string& more) {
+        return " gather(\"environment:" + sky.name + "\", P, n, PI/2, " + samples +
+               ", \"environment:color\", c, \"environment:direction\", way" + more + ")";
+    };
+    SceneText scene = floor_and_wall(
+        floor_code("color c = 0; float a = 0, even = 0, bright = 0, truth = 0; vector way = 0;" +
+                   gather("64", "") + " even += comp(c, 0) * (normalize(way) . n) * 2 / 64;" +
+                   gather("64", ", \"environment:solidangle\", a") +
+                   " bright += comp(c, 0) * a * (normalize(way) . n) / PI;" +
+                   gather("4096", ", \"distribution\", \"cosine\"") +
+                   " truth += comp(c, 0) / 4096; Ci = color(even, bright, truth);"),
+        kBlack, 0.8);
+    Rendering r(scene.text());
+    r.frame();
+    ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+    dvec3 sum(0.0), square(0.0);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) sum += dvec3(r.color(x, y)) / 256.0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            dvec3 off = dvec3(r.color(x, y)) - sum.z;
+            square += off * off / 256.0;
+        }
+    EXPECT_NEAR(sum.y, sum.z, 0.02 * sum.z);
+    EXPECT_LT(std::sqrt(square.y), 0.5 * std::sqrt(square.x)) << sum.x << " " << sum.z;
+}
+
 TEST(Occlusion, CountsTransparentSurfacesByTheirOpacity) {
     auto share = [](const char* wall) {
         SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 64);"), wall, 0.8);

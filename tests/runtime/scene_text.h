@@ -60,6 +60,10 @@ struct SceneText {
     std::string text() const;
 };
 
+// A look that shows light and shade, and a light along -z.
+inline const char* const kMatte = "surface matte() { Oi = 1; Ci = diffuse(normalize(N)); }";
+inline const char* const kSun = "<directional><color>1 1 1</color></directional>";
+
 // A square about the origin, more than what the default camera sees, in a look "floor-look".
 SceneText floor_scene(const std::string& code,
                       const std::string& passes = "<shader stage=\"SURFACE\"/>");

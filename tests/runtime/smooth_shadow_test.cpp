@@ -149,6 +149,22 @@ TEST(SmoothShadow, IsThatOfAPointLightToo) {
     expect_smooth(scene, kWays[0]);
 }
 
+// Its shader runs at points of the lamp; the ray it sends to the lit point is that of the surface.
+TEST(SmoothShadow, IsThatOfALightOnGeometryThatCastsItsOwnRays) {
+    for (const char* ray :
+         {"transmission(P, Ps)", "transmission(Ps, P)", "color(visibility(P, Ps))",
+          "color(1 - float shadow(\"raytrace\", Ps))"}) {
+        SCOPED_TRACE(ray);
+        SceneText scene;
+        cylinder(scene, "body", 12, 0.8).look("probe", probe(kWays[0])).place("body", "probe");
+        scene.square("lamp", 1e-3)
+            .look("lamp-look", fmt::format("light own() {{ illuminate(P) {{ Cl = {}; }} }}", ray),
+                  "<shader stage=\"LIGHT\"/>", "", rsl_extra("<samples>2</samples>"))
+            .place("lamp", "lamp-look", "<translate>3 0 -0.26</translate>");
+        expect_smooth(scene, kWays[0]);
+    }
+}
+
 // Placed by a matrix, mirrored, flattened, repeated, moving, displaced, with all normals inside
 // out.
 TEST(SmoothShadow, HoldsHoweverTheMeshIsPlaced) {

@@ -10,8 +10,6 @@
 namespace kinora {
 namespace {
 
-const char* kSun = "<directional><color>1 1 1</color></directional>";
-const char* kMatte = "surface floor() { Oi = 1; Ci = diffuse(normalize(N)); }";
 const char* kMirror = "surface floor() { Oi = 1; Ci = trace(P, vector \"world\" (0, 0, 1)); }";
 
 // A floor; behind the camera, one above the other, `count` panes.

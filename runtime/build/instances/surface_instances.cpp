@@ -47,7 +47,7 @@ const MaterialDefinition& SurfaceInstances::default_material() {
     const auto& own = scene_.description->default_surface;
     default_material_.name = "default";
     ShaderUse use;
-    use.shader = own ? own : library_shader("default_surface", diagnostics_);
+    use.shader = own ? own : library_shader("default_surface");
     use.linear_inputs = !own;
     default_material_.surfaces.push_back(std::move(use));
     return default_material_;
@@ -56,7 +56,7 @@ const MaterialDefinition& SurfaceInstances::default_material() {
 // A light without a surface shader is seen in its colour.
 std::vector<ShaderUse> SurfaceInstances::emitter(const MaterialDefinition& material) {
     ShaderUse use;
-    use.shader = library_shader("area_emitter", diagnostics_);
+    use.shader = library_shader("area_emitter");
     for (const ParamSource& source : material.lights.back().params)
         if (source.name == "lightcolor") use.params.push_back(source);
     return {use};

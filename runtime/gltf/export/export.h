@@ -9,6 +9,8 @@
 namespace kinora {
 
 struct GltfExportOptions {
+    // Where the file will stand, as which code names files; "" leaves the names as they are.
+    std::string path;
     // Where a curve is none that glTF knows, it is sampled until straight pieces (slerp for
     // rotations) stay this near: translations and weights relative to the range they move over,
     // scales to their size, rotations in radians.

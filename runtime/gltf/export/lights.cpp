@@ -86,8 +86,10 @@ PunctualLight punctual_light(const UsedParams& p, double meters, double meter) {
         light.more = false;
     } else if (is("gltf_point") || is("gltf_spot")) {
         spot = is("gltf_spot");
-        light = punctual(spot ? "spot" : "point", p.number("intensity", 1) * most, color, most);
-        if (double range = p.number("range", 0); range > 0) light.json["range"] = range;
+        double unit = p.number("unit", 1) * meter;  // metres that its distances are in
+        light = punctual(spot ? "spot" : "point", p.number("intensity", 1) * most * unit * unit,
+                         color, most);
+        if (double range = p.number("range", 0); range > 0) light.json["range"] = range * unit;
         if (spot)
             light.json["spot"] = {{"innerConeAngle", p.number("inner_angle", 0)},
                                   {"outerConeAngle", p.number("outer_angle", kPi / 4)}};
@@ -120,6 +122,7 @@ uint32_t LightWriter::write_new(const LightDefinition& l, const dmat4& world) {
                                   : punctual_light(params, meters, description_.meter);
     Json& result = light.json;
     if (!l.id.empty()) result["name"] = l.id;
+    if (l.blender) result["extras"]["kinora_blender"] = true;  // it has a grey world
     if ((light.more || l.shadows) && use.shader) {
         Json extras = rsl_.shader(use);  // in the file's own unit: kinora_axes tells it
         result["extras"]["kinora_rsl"]["light"] = extras;

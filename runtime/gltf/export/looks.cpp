@@ -58,7 +58,7 @@ GltfLook GltfLooks::look_of(const MeshUse& use, const PrimitiveGroup& group) {
     if (plain_.surfaces.empty()) {
         const auto& own = description_.default_surface;
         ShaderUse& surface = plain_.surfaces.emplace_back();
-        surface.shader = own ? own : library_shader("default_surface", diagnostics_);
+        surface.shader = own ? own : library_shader("default_surface");
         surface.linear_inputs = !own;
     }
     bool is_plain = !bound || bound->material == kNone;

@@ -21,8 +21,7 @@ const ParamSource* find_map(const ShaderUse& use, const std::string& slot) {
 
 bool is_library_shader(const ShaderUse& use, std::string_view name) {
     if (!use.shader || use.shader->name != name) return false;
-    Diagnostics quiet;
-    return library_shader(name, quiet).get() == use.shader.get();
+    return library_shader(name).get() == use.shader.get();
 }
 
 bool is_animated(const SceneDescription& description, ValueSlot slot) {

@@ -1,16 +1,14 @@
 // runtime/gltf/export/rsl.cpp: shaders as extras.kinora_rsl.
 #include "runtime/gltf/export/rsl.h"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "collada/document/edit.h"
 #include "runtime/description/memory_file.h"
+#include "runtime/description/rsl_literals.h"
 #include "runtime/gltf/export/params.h"
 
 namespace kinora {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -43,7 +41,9 @@ Json RslWriter::shader(const ShaderUse& use) {
     if (is_library_shader(use, use.shader->name)) {
         result["library"] = use.shader->name;
     } else {
-        result["code"] = collada::utf8_text(rsl::print_ast(*use.shader->ast));
+        std::string code = rsl::print_ast(*use.shader->ast);
+        if (!path_.empty()) code = relinked_code(code, description_.pictures, path_);
+        result["code"] = collada::utf8_text(code);
         result["shader"] = use.shader->name;
     }
     Json params = Json::object();
@@ -59,11 +59,9 @@ Json RslWriter::shader(const ShaderUse& use) {
 
 // A texture where the one string names a file.
 void RslWriter::set_strings(const ParamSource& p, Json& params) {
-    std::error_code code;
     std::string path = parse_texture_name(p.strings[0]).path;
     uint32_t index = kNone;
-    if (p.strings.size() == 1 && (is_memory_file(path) || fs::is_regular_file(path, code)))
-        index = textures_.write(p.strings[0]);
+    if (p.strings.size() == 1 && textures_.has_file(path)) index = textures_.write(p.strings[0]);
     if (index != kNone) {
         TextureName name = parse_texture_name(p.strings[0]);
         params[p.name]["texture"] = index;

@@ -10,8 +10,10 @@ namespace kinora {
 
 class RslWriter {
   public:
-    RslWriter(const SceneDescription& description, TextureWriter& textures, LossReport& losses)
-        : description_(description), textures_(textures), losses_(losses) {}
+    // `path`: GltfExportOptions.
+    RslWriter(const SceneDescription& description, TextureWriter& textures, LossReport& losses,
+              const std::string& path)
+        : description_(description), textures_(textures), losses_(losses), path_(path) {}
 
     // {"library": name} or {"code", "shader"}, and "params".
     Json shader(const ShaderUse& use);
@@ -30,6 +32,7 @@ class RslWriter {
     const SceneDescription& description_;
     TextureWriter& textures_;
     LossReport& losses_;
+    std::string path_;
 };
 
 }  // namespace kinora

@@ -74,6 +74,11 @@ int min_filter(const TextureName& look) {
 
 }  // namespace
 
+bool TextureWriter::has_file(const std::string& path) const {
+    std::error_code code;
+    return is_memory_file(path) || fs::is_regular_file(pictures_.find(path).path, code);
+}
+
 uint32_t TextureWriter::write_image(const std::string& path) {
     auto [found, fresh] = images_.try_emplace(path, kNone);
     if (!fresh) return found->second;

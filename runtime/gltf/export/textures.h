@@ -20,6 +20,7 @@ class TextureWriter {
 
     // The texture of a name (texture_name.h); kNone where its image cannot be read.
     uint32_t write(const std::string& name);
+    bool has_file(const std::string& path) const;
 
   private:
     uint32_t write_image(const std::string& path);

@@ -36,7 +36,7 @@ void import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
     RslExtras rsl(file, options, textures, report, diagnostics, out);
     MaterialImporter materials(model, textures, rsl, report, diagnostics, out);
     materials.import_materials(ids);
-    import_lights(model, rsl, ids, report, diagnostics, out);
+    import_lights(model, axes.meter, rsl, ids, report, out);
     import_cameras(model, axes.meter, rsl, ids, report, out);
 
     AccessorReader accessors(model, report, budget);

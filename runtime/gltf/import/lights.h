@@ -6,7 +6,7 @@
 
 namespace kinora {
 
-void import_lights(const tinygltf::Model& model, RslExtras& rsl, UniqueIds& ids, GltfReport& report,
-                   Diagnostics& diagnostics, SceneDescription& out);
+void import_lights(const tinygltf::Model& model, double meter, RslExtras& rsl, UniqueIds& ids,
+                   GltfReport& report, SceneDescription& out);
 
 }  // namespace kinora

@@ -56,11 +56,16 @@ void MaterialImporter::import_materials(UniqueIds& ids) {
     inputs_.resize(model_.materials.size() + 1);
     for (uint32_t m = 0; m < model_.materials.size(); ++m) import_material(m, ids);
     // What primitives without a material wear (glTF 2.0, 3.9.6): all defaults.
+    bool worn = false;
+    for (const tinygltf::Mesh& mesh : model_.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            worn |= primitive.material < 0 || size_t(primitive.material) >= model_.materials.size();
+    if (!worn) return;
     MaterialDefinition& plain = out_.materials.emplace_back();
     plain.id = ids.id("default material", "material", model_.materials.size());
     plain.name = "default material";
     plain.hide_backfaces = true;
-    plain.surfaces.push_back({library_shader("gltf_pbr", diagnostics_), {}});
+    plain.surfaces.push_back({library_shader("gltf_pbr"), {}});
 }
 
 void MaterialImporter::import_material(uint32_t index, UniqueIds& ids) {
@@ -82,7 +87,7 @@ void MaterialImporter::set_one(ShaderUse& use, const char* name, double value) {
 ShaderUse MaterialImporter::shader_of(const tinygltf::Material& from, const std::string& pointer) {
     bool unlit = from.extensions.contains("KHR_materials_unlit");
     ShaderUse use;
-    use.shader = library_shader(unlit ? "gltf_unlit" : "gltf_pbr", diagnostics_);
+    use.shader = library_shader(unlit ? "gltf_unlit" : "gltf_pbr");
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     std::vector<double> base = factor(pbr.baseColorFactor, 4, 1.0);
     set_number(use, "base_color", std::span(base).first(3), out_.values);

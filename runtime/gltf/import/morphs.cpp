@@ -13,7 +13,7 @@ namespace kinora {
 
 namespace {
 
-constexpr uint32_t kPoint[] = {3};
+constexpr uint32_t kMorphPoint[] = {3};
 
 const VertexAttribute* normals_of(const PrimitiveGroup& group) {
     for (const VertexAttribute& a : group.attributes)
@@ -45,7 +45,7 @@ bool MorphImporter::read_differences(const Target& target, uint32_t primitive, c
     if (target.index >= targets.size()) return false;
     auto found = targets[target.index].find(name);
     if (found == targets[target.index].end()) return false;
-    return accessors_.read_vertices(found->second, kPoint,
+    return accessors_.read_vertices(found->second, kMorphPoint,
                                     meshes_.primitives(target.mesh)[primitive].count,
                                     fmt::format("{}/primitives/{}/targets/{}/{}", target.pointer,
                                                 primitive, target.index, name),

@@ -97,8 +97,19 @@ void NodeImporter::import_nodes(UniqueIds& ids) {
         for (uint32_t child : tree_.children[n]) to.children.push_back({child, dmat4(1.0)});
         import_content(n);
     }
-    for (int root : tree_.roots)
-        if (root >= 0) out_.roots.push_back({uint32_t(root), dmat4(1.0)});
+    for (int root : tree_.roots) {
+        if (root < 0) continue;
+        NodeDefinition& node = out_.nodes[uint32_t(root)];
+        bool bare = node.meshes.empty() && node.lights.empty() && node.cameras.empty() &&
+                    node.attributes.empty();
+        // The node that kinora-convert put around the scene for other readers is not there.
+        if (root == axes_node_ && bare) {
+            out_.roots.insert(out_.roots.end(), node.children.begin(), node.children.end());
+            node = {};
+        } else {
+            out_.roots.push_back({uint32_t(root), dmat4(1.0)});
+        }
+    }
 }
 
 // Its camera, light and mesh.

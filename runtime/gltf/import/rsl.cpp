@@ -161,7 +161,7 @@ RslExtras::Shaders RslExtras::compile(const tinygltf::Value& layer, const std::s
         for (auto& shader : compiled) shaders.push_back(std::move(shader));
     };
     if (!library.empty()) {
-        if (auto shader = library_shader(library, diagnostics_))
+        if (auto shader = library_shader(library))
             shaders.push_back(std::move(shader));
         else
             report_.add(Code::GLTF_RSL, pointer,

@@ -5,6 +5,7 @@
 
 #include "jit/ir/kernel_call.h"
 #include "runtime/description/findings.h"
+#include "runtime/shading/kernels/kernel_probe.h"
 
 namespace kinora {
 
@@ -59,23 +60,33 @@ void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out_[i][0];
 }
 
+namespace {
+KernelProbe* g_probe = nullptr;
+}
+void probe_kernels(KernelProbe* probe) {
+    g_probe = probe;
+}
+
 void BoundKernel::run(const PointLaunch& launch, Arena& arena) const {
     std::span<const float*> in = arena.allocate_span<const float*>(columns.size());
     for (size_t i = 0; i < in.size(); ++i) in[i] = launch.columns[columns[i]] + launch.first;
     std::span<float*> out = arena.allocate_span<float*>(launch.out.size());
     for (size_t o = 0; o < out.size(); ++o) out[o] = launch.out[o] + launch.first;
-    jit::KernelCall{.kernel = kernel(),
-                    .count = launch.count,
-                    .in = in,
-                    .out = out,
-                    .row_floats = jit::padded(launch.count),
-                    .frame = frame,
-                    .scratch = arena.allocate_span<std::byte>(kernel().scratch_bytes),
-                    .faults = launch.faults,
-                    .services = services,
-                    .record_sets = launch.record_sets,
-                    .host = &launch.host}
-        .run();
+    const jit::KernelCall call{.kernel = kernel(),
+                               .count = launch.count,
+                               .in = in,
+                               .out = out,
+                               .row_floats = jit::padded(launch.count),
+                               .frame = frame,
+                               .scratch = arena.allocate_span<std::byte>(kernel().scratch_bytes),
+                               .faults = launch.faults,
+                               .services = services,
+                               .record_sets = launch.record_sets,
+                               .host = &launch.host};
+    if (g_probe) [[unlikely]]
+        g_probe->run(call);
+    else
+        call.run();
 }
 
 std::span<float*> take_outputs(const jit::Kernel& kernel, size_t count, Arena& arena) {
