@@ -81,7 +81,9 @@ def pixels(path):
 
 
 def figures(picture):
-    """Shares: covered of all pixels; clipped, magenta and dark of what is covered by half and more."""
+    """Shares: covered of all pixels; clipped, magenta and dark of what is covered by half and more.
+
+    The checks of a missing image are pure: red and blue alike, no green but that of highlights. Violet has more."""
     width, height, rows = picture
     covered = solid = clipped = magenta = dark = night = red = blue = 0
     for row in rows:
@@ -94,7 +96,7 @@ def figures(picture):
             blue += b
             clipped += min(r, g, b) >= CLIPPED
             dark += max(r, g, b) < DARK
-            magenta += min(r, b) > 60 and (min(r, b) - g) * 5 > max(r, b) and abs(r - b) * 8 < max(r, b)
+            magenta += min(r, b) > 60 and g * 3 < min(r, b) and abs(r - b) * 8 < max(r, b)
             night += max(r, g, b) < NIGHT
     shares = {
         name: round(n / max(solid, 1), 4)
@@ -198,7 +200,8 @@ def pictures_of(file):
         if file.parent.parent.name not in ("corpus", "scenes", "blind")
         else [file.parent]
     )
-    return bool(wanted) and any(f.name.lower() in wanted for folder in around for f in folder.rglob("*"))
+    names = (name for folder in around for _, _, files in os.walk(folder) for name in files)
+    return bool(wanted) and any(name.lower() in wanted for name in names)
 
 
 def documents(folder):

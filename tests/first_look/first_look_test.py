@@ -30,6 +30,8 @@ exit "$(cat "$here/code.txt")"
 class Faults(ProgramTest):
     def setUp(self):
         super().setUp()
+        self.folder = self.folder / "project" / "models"  # pictures are looked for in the parent folder, too
+        self.folder.mkdir(parents=True)
         self.program = self.write("pretender", PRETENDER)
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
         self.scene = self.write("scene.dae", "<COLLADA><init_from>a%20wall.png</init_from></COLLADA>")
@@ -94,9 +96,11 @@ class Faults(ProgramTest):
         self.assertEqual(self.fault(self.part(0.65, (255, 255, 200))), "")
 
     def test_checks_where_the_image_exists(self):
-        for magenta in ((255, 0, 255), (120, 4, 120), (208, 144, 208)):
+        for magenta in ((255, 0, 255), (120, 4, 120), (208, 60, 208), (66, 0, 62)):
             self.assertEqual(self.fault(self.part(0.02, magenta)), "")
             self.assertEqual(self.fault(self.part(0.05, magenta)), "checks")
+        for violet in ((94, 58, 101), (149, 76, 148), (208, 144, 208), (120, 0, 160)):
+            self.assertEqual(self.fault(self.part(0.5, violet)), "")
         self.assertEqual(self.fault(self.part(0.05, (200, 60, 40))), "")
         self.assertEqual(self.fault(self.part(0.05, (80, 95, 160))), "")
         (self.folder / "A Wall.PNG").unlink()
