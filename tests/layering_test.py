@@ -31,7 +31,7 @@ PACKAGES = {
     r"OpenImageIO/": r"runtime/images_module/.*|tests/.*",
     r"CLI/": r"runtime/programs/.*",
     r"tiny_gltf": r"runtime/gltf/file/(file\.h|tinygltf\.cpp)",
-    r"SDL|imgui": r"runtime/programs/.*",
+    r"SDL|imgui": r"runtime/programs/.*|tests/bench/play_raster_bench.*",
     r"llvm": r"(?!)",
 }
 

@@ -129,8 +129,8 @@ void whole_integrator(benchmark::State& state) {
     for (auto _ : state) integrate(accel, camera, white, film, settings, scratch, counters);
     state.SetItemsProcessed(int64_t(counters.trace.rays));
     state.counters["hits"] = double(counters.shading_points) / double(counters.trace.rays);
-    state.counters["trace_ms"] = counters.trace_ms / double(state.iterations());
-    state.counters["shade_ms"] = counters.shade_ms / double(state.iterations());
+    for (Stage s : {Stage::Sample, Stage::Trace, Stage::Points, Stage::Film})
+        state.counters[stage_name(s)] = double(counters.stages[s]) / double(counters.stages.sum());
 }
 
 constexpr AccelPolicy kFast{.robust = false};

@@ -2,6 +2,7 @@
 kinora-convert: attributes, materials, clips, skins, texts; pictures before and after."""
 import base64
 import copy
+import itertools
 import json
 import math
 import os
@@ -125,7 +126,64 @@ class Lights(GltfConvert):
             _, out = self.stays(scene)
             light = glb_json(out)["extensions"]["KHR_lights_punctual"]["lights"][0]
             self.assertEqual(light["type"], type_)
+            self.assertTrue(light["extras"]["kinora_blender"])  # for its grey world, which the picture has
             self.assertAlmostEqual(light["intensity"], intensity, 4)
+
+
+    def test_lights_keep_their_picture_in_every_unit(self):
+        """A square lit from 3 units away, whose diffuse light is 0.8 at its middle by hand: 9 / 3^2."""
+        kinds = {"point": "<point><color>0.9 0.9 0.9</color>{}</point>",
+                 "spot": "<spot><color>0.9 0.9 0.9</color>{}<falloff_angle>60</falloff_angle></spot>"}
+        falls = ("<constant_attenuation>0</constant_attenuation><linear_attenuation>0</linear_attenuation>"
+                 "<quadratic_attenuation>0.1111111111</quadratic_attenuation>")
+        shown = {}
+        for kind, meter in itertools.product(kinds, (1, 0.0254, 0.01)):
+            with self.subTest(f"{kind} {meter}"):
+                lamp = (f'<library_lights><light id="lamp"><technique_common>{kinds[kind].format(falls)}</technique_common>'
+                        "</light></library_lights>")
+                node = '<node id="ln"><translate>0 0 3</translate><instance_light url="#lamp"/></node>'
+                scene = self.write(f"{kind}{meter}.dae", scenes.document(
+                    scenes.CAMERA + scenes.geometries(scenes.square()) + scenes.MATTE + lamp,
+                    scenes.EYE + scenes.place() + node, meter=meter))
+                before = self.picture(scene)
+                self.assertGreater(self.brightest(before, 0), 200)
+                glb = self.converted(scene, "a.glb")
+                self.assertAlmostEqual(glb_json(glb)["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"],
+                                       math.pi * 0.7874122 * 9 * meter * meter, 5)
+                if kind == "point":  # all of it is glTF's
+                    self.assertNotIn("kinora_rsl", str(glb_json(glb)["extensions"]))
+                again = self.converted(glb, "b.glb")
+                back = self.converted(again, "c.dae")
+                for file in (glb, again, back, self.converted(back, "d.glb")):
+                    self.assertLess(self.difference(before, self.picture(file)), SAME)
+                self.assertEqual(shown.setdefault(kind, before), before)
+
+    def test_gltfs_lights_are_in_metres_below_kinoras_axes(self):
+        for kind, more in (("point", {}), ("spot", {"spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.5}})):
+            pictures, files = [], []
+            for meter in (1, 0.01):
+                g = Gltf(pbrMetallicRoughness={"metallicFactor": 0})
+                size = 1 / meter
+                g.attributes["POSITION"] = g.floats("VEC3", [size * x for x in (-1, -1, 0, 1, -1, 0, 0, 1, 0)], bounds=True)
+                lamp = {"type": kind, "intensity": 9 * math.pi / 2, "range": 6, **more}
+                g.tree["extensionsUsed"] = ["KHR_lights_punctual"]
+                g.tree["extensions"] = {"KHR_lights_punctual": {"lights": [lamp]}}
+                g.tree["nodes"][1]["translation"] = [0, 0, 5 * size]
+                g.tree["nodes"] += [
+                    {"translation": [0, 0, 3 * size], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                    {"children": [0, 1, 2], "scale": [meter] * 3, "extras": {"kinora_axes": {"up": "Y", "meter": meter}}}]
+                g.tree["scenes"][0]["nodes"] = [3]
+                files.append(self.save(f"{kind}{meter}", g))
+                pictures.append(self.picture(files[-1]))
+            self.assertGreater(self.brightest(pictures[0], 0), 100)
+            self.assertLess(self.difference(*pictures), SAME)
+            again = self.converted(files[1], f"{kind}.glb")
+            self.assertLess(self.difference(pictures[0], self.picture(again)), SAME)
+            written = glb_json(again)["extensions"]["KHR_lights_punctual"]["lights"][0]
+            self.assertAlmostEqual(written["intensity"], 9 * math.pi / 2, 9)
+            self.assertAlmostEqual(written["range"], 6, 9)
+            daes = [self.picture(self.converted(file, f"{file.stem}.dae")) for file in files]
+            self.assertLess(self.difference(*daes), SAME)
 
 
 class Attributes(GltfConvert):
@@ -407,6 +465,64 @@ class Motion(GltfConvert):
         scene = self.save("stay", g)
         self.stays(scene, "--clip", "stay", "--time", "1")
         self.stays(scene, "--clip", "go", "--time", "0")
+
+    def test_turns_about_one_axis_are_angles_in_collada(self):
+        def quaternion(axis, degrees, sign=1):
+            half = math.radians(degrees / 2)
+            return [sign * axis[k] * math.sin(half) for k in range(3)] + [sign * math.cos(half)]
+
+        def turning(name, rotations, more=()):
+            g = Gltf(pbrMetallicRoughness={"baseColorFactor": [0.5, 0.25, 0.02, 1]}, extensions=UNLIT)
+            time = g.floats("SCALAR", [0, 1, 2], bounds=True)
+            rows = [("rotation", "VEC4", sum(rotations, [])), *more]
+            g.tree["animations"] = [{
+                "channels": [{"sampler": k, "target": {"node": 0, "path": row[0]}} for k, row in enumerate(rows)],
+                "samplers": [{"input": time, "output": g.floats(*row[1:])} for row in rows]}]
+            return self.converted(self.save(name, g), f"{name}.glb")
+        x, z = (1, 0, 0), (0, 0, 1)
+        moving = ("translation", "VEC3", [0, 0, 0, .5, .25, 0, -.5, .25, 0])
+        # From 100 degrees on to 260, though the second number has the other sign; a half turn is positive.
+        rows = [("spin", [quaternion(z, 0), quaternion(z, 100), quaternion(z, 260, -1)], [0, 100, 260]),
+                ("back", [quaternion(z, 0), quaternion(z, 300), quaternion(z, 240)], [0, -60, -120]),
+                ("half", [quaternion(z, 10), quaternion(z, 190), quaternion(z, 190)], [10, 190, 190]),
+                ("tumble", [quaternion(z, 0), quaternion(z, 80), quaternion(x, 80)], None)]
+        for name, rotations, angles in rows:
+            with self.subTest(name):
+                glb = turning(name, rotations, [moving])
+                dae = self.converted(glb, f"{name}.dae", "--strict")
+                text = dae.read_text()
+                self.assertEqual(len(re.findall('semantic="INPUT"', text)), 2)
+                self.assertEqual(len(set(re.findall('semantic="INPUT" source="([^"]*)"', text))), 1)
+                self.assertIn('/translate0"', text)
+                self.assertEqual("<matrix" in text, angles is None)
+                if angles:
+                    self.assertIn('/rotation1.ANGLE"', text)
+                    arrays = [list(map(float, a.split())) for a in re.findall('<float_array[^>]*count="3">([^<]*)<', text)]
+                    self.assertTrue(any(all(abs(a - b) < 1e-4 for a, b in zip(angles, have)) for have in arrays), arrays)
+                official(self, dae)
+                for time in ("0", "0.5", "1", "1.7", "2"):
+                    self.assertLess(self.difference(self.picture(glb, "--time", time), self.picture(dae, "--time", time)), SAME)
+        still = Gltf()
+        still.tree["nodes"][0].update(rotation=quaternion(z, 20), scale=[2, 1, 1])
+        text = self.converted(self.save("still", still), "still.dae").read_text()
+        self.assertIn("<rotate>0 0 1 20</rotate>", text)
+        self.assertIn("<scale>2 1 1</scale>", text)
+
+    def test_the_node_of_axes_and_unused_materials_and_inputs_are_not_written(self):
+        scene = self.write("a.dae", mesh_scene(asset='<asset><unit meter="0.01"/><up_axis>Z_UP</up_axis></asset>'))
+        glb = self.converted(scene, "a.glb")
+        dae = self.converted(glb, "b.dae")
+        text = dae.read_text()
+        self.assertEqual(len(re.findall("<node ", text)), len(re.findall("<node ", scene.read_text())))
+        self.assertEqual(len(re.findall("<material ", text)), 1)
+        self.assertNotIn("bind_vertex_input", text)
+        self.assertIn('meter="0.01"', text)
+        self.assertIn("Z_UP", text)
+        self.assertLess(self.difference(self.picture(scene), self.picture(dae)), SAME)
+        # And again: no node around a node.
+        names = [n["name"] for n in glb_json(self.converted(glb, "c.glb"))["nodes"]]
+        self.assertEqual(names.count("axes and unit"), 1)
+        self.assertEqual(names, [n["name"] for n in glb_json(glb)["nodes"]])
 
     TURN = """<library_animations><animation id="a">
 <source id="i"><float_array id="ia" count="3">0 1 2</float_array><technique_common><accessor source="#ia" count="3">

@@ -458,6 +458,49 @@ class ToDae(Convert):
         self.assertLessEqual(len(list((self.folder / "out").rglob("*.*"))), 4)
         self.expect(convert(scene, self.folder / "o.glb", "--copy-textures"), 2, "--copy-textures")
 
+    def test_files_that_rsl_names_are_linked_and_copied(self):
+        """Of a literal, of a parameter's default and of a <string>; in CDATA and in escaped text."""
+        (self.folder / "in/tex").mkdir(parents=True)
+        for name, color in (("wood", (200, 90, 30)), ("stone", (90, 120, 200)), ("moss", (40, 180, 60))):
+            png.write(self.folder / f"in/tex/{name}.png", 1, 1, [bytes(color)])
+        code = """// "tex/wood.png" stays here
+surface s(string map = "tex/wood.png"; string other = "";) {
+    float on = 1 < 2 && N . N > 0 ? 1 : 0;
+    string none = "tex/none.png"; /* "tex/wood.png" */
+    if (none != "tex/none.png") printf("gone");
+    Ci = on * (color texture(map) + 0.5 * color texture(other) + 0.3 * color texture("tex/moss.png"));
+}"""
+        def scene_of(code):
+            effect = ('<effect id="red-fx"><newparam sid="o"><string>tex/stone.png</string></newparam><profile_RSL>'
+                      f'<technique sid="t"><code>{code}</code><pass><shader stage="SURFACE"><bind symbol="other"><param ref="o"/>'
+                      "</bind></shader></pass></technique></profile_RSL></effect>")
+            return re.sub(r'(?s)<effect id="red-fx">.*?</effect>', lambda match: effect, mesh_scene())
+        escaped = code.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+        for kind, text in (("cdata", f"<![CDATA[{code}]]>"), ("escaped", escaped)):
+            scene = self.write(f"in/{kind}.dae", scene_of(text))
+            before = self.picture(scene)
+            self.assertGreater(sum(map(sum, before[2])), 1000)
+            out = self.converted(scene, "out/deep/b.dae")
+            self.assertEqual(self.picture(out), before)
+            written = out.read_text().replace("&quot;", '"')
+            for name in ('"../../in/tex/wood.png"', "<string>../../in/tex/stone.png<", '"../../in/tex/moss.png"',
+                         '// "tex/wood.png" stays', '/* "tex/wood.png" */', '!= "tex/none.png"'):
+                self.assertIn(name, written)
+            self.assertEqual(self.converted(scene, "in/c.dae").read_text().count("tex/wood.png"),
+                             scene.read_text().count("tex/wood.png"))
+            copied = self.converted(scene, "own/b.dae", "--copy-textures")
+            self.assertEqual(sorted(f.name for f in (self.folder / "own/textures").iterdir()), ["moss.png", "stone.png", "wood.png"])
+            (self.folder / "own").rename(self.folder / "else")
+            (self.folder / "in/tex").rename(self.folder / "in/hidden")
+            self.assertEqual(self.picture(self.folder / "else/b.dae"), before)
+            (self.folder / "in/hidden").rename(self.folder / "in/tex")
+            shutil.rmtree(self.folder / "else")
+            self.assertTrue(copied)
+            binary = self.converted(scene, "out/deeper/down/b.glb")
+            self.assertEqual(self.picture(binary), before)
+            self.assertIn("../../../in/tex/moss.png", str(glb_json(binary)))
+            self.assertLess(self.difference(self.picture(self.converted(binary, "back.dae")), before), SAME)
+
     def test_links_to_documents_outside_the_new_folder_are_told(self):
         self.write("parts/p.dae", mesh_scene())
         scene = self.write("a.dae", mesh_scene("<library_nodes><node id=\"o\">"

@@ -125,15 +125,37 @@ class Options(ProgramTest):
             self.assertIn(key, stats)
         self.assertEqual([frame["frame"] for frame in stats["frames"]], [1, 2])
         for frame in stats["frames"]:
-            for key in ("animate_ms", "skin_ms", "refit_ms", "trace_ms", "shade_ms", "write_ms",
-                        "total_ms", "rays", "rays_per_second", "shading_points",
-                        "points_per_second", "file"):
+            stages = [key + "_ms" for key in
+                      ("animate", "skin", "refit", "sample", "trace", "points", "gather", "lights",
+                       "shadows", "kernels", "nested", "film", "imager", "idle", "other")]
+            for key in (*stages, "write_ms", "displace_ms", "total_ms", "rays", "rays_per_second",
+                        "shading_points", "points_per_second", "rays_per_pixel", "shadow_rays",
+                        "nested_rays", "camera_occupancy", "shadow_occupancy", "nested_occupancy",
+                        "file"):
                 self.assertIn(key, frame)
             self.assertGreater(frame["rays"], 0)
+            self.assertAlmostEqual(sum(frame[stage] for stage in stages), frame["total_ms"], 6)
+            for stage in ("sample", "trace", "points", "kernels", "film"):
+                self.assertGreater(frame[stage + "_ms"], 0, stage)
+
+    def test_stats_count_rays_and_packets(self):
+        # Every pixel's packet of 16 neighbours is whole; nothing shoots rays but the camera.
+        words = ("-o", "null", "--size", "64x64", "--spp", "4", "--shadows", "off", "--stats=json")
+        stats = json.loads(self.expect(render(MATTE, *words), 0).out)
+        frame = stats["frames"][0]
+        self.assertEqual(frame["camera_occupancy"], 1)
+        self.assertEqual(frame["rays_per_pixel"], 4)
+        self.assertEqual((frame["shadow_rays"], frame["nested_rays"]), (0, 0))
+
+    def test_null_renders_and_writes_nothing(self):
+        words = ("-o", "null", "--frames", "1-2", "--stats", *SMALL)
+        result = self.expect(render(MATTE, *words), 0, "frame 2: ")
+        self.assertNotIn(" write ", result.out)
+        self.assertEqual(list(self.pictures()), [])
 
     def test_stats_as_text_go_to_stdout_too(self):
         result = render(MATTE, "-o", self.folder / "a.png", "--stats", *SMALL)
-        self.expect(result, 0, "animate", "kernels", "peak memory")
+        self.expect(result, 0, " ms = ", "Mrays/s", "rays a pixel", "peak memory")
 
     def test_lists_what_is_in_the_scene(self):
         self.expect(render(MATTE, "--list"), 0, "camera", "range")

@@ -117,6 +117,18 @@ class Info(ProgramTest):
         self.assertEqual(rows["s"]["value"], ["t"])
         self.assertIn("N", shader["writes"])
 
+    def test_a_class_has_methods_members_and_annotations(self):
+        file = SOURCE / "tests/rsl/constructs/classes/class_of_the_seed.sl"
+        self.expect(shade("info", file), 0, 'class, as surface "rslTwoShader"',
+                    "methods construct begin displacement opacity prelighting lighting"
+                    " postlighting userCreatedFunc", "member varying float classVar",
+                    'annotation base "gadgettype=colorslider"')
+        shader = json.loads(self.expect(shade("info", "--json", file), 0).out)["shaders"][0]
+        self.assertIn("opacity", shader["methods"])
+        self.assertIn({"name": "classVar", "type": "float", "detail": "varying"},
+                      shader["members"])
+        self.assertEqual(len(shader["annotations"]), 2)
+
 
 class Run(ProgramTest):
     def test_parameters_reach_the_shader(self):

@@ -53,7 +53,66 @@ RIGHT = [
 ]
 
 
+
+
+def identifiers(id, names, param):
+    """A <source> of sids."""
+    return (f'<source id="{id}"><SIDREF_array id="{id}-a" count="{len(names)}">{" ".join(names)}</SIDREF_array>'
+            f'<technique_common><accessor source="#{id}-a" count="{len(names)}" stride="1"><param name="{param}" '
+            'type="SIDREF"/></accessor></technique_common></source>')
+
+
+def numbers(id, values, params):
+    words = values.split()
+    return (f'<source id="{id}"><float_array id="{id}-a" count="{len(words)}">{values}</float_array><technique_common>'
+            f'<accessor source="#{id}-a" count="{len(words) // len(params)}" stride="{len(params)}">'
+            + "".join(f'<param name="{p}" type="float"/>' for p in params) + "</accessor></technique_common></source>")
+
+
+def line(sid, origin, direction):
+    return f'<curve sid="{sid}"><line><origin>{origin}</origin><direction>{direction}</direction></line></curve>'
+
+
+# COLLADA 1.5, chapter 9: a square of four lines in a plane; inputs lead to sources, <vertices> and to other parts of the <brep>.
+BREP = ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2008/03/COLLADASchema" version="1.5.0"><asset>'
+        "<created>2026-01-01T00:00:00Z</created><modified>2026-01-01T00:00:00Z</modified></asset>"
+        '<library_geometries><geometry id="square"><brep><curves>'
+        + line("a", "0 0 0", "1 0 0") + line("b", "1 0 0", "0 1 0") + line("c", "1 1 0", "-1 0 0") + line("d", "0 1 0", "0 -1 0")
+        + '</curves><surfaces><surface sid="s"><plane><equation>0 0 1 0</equation></plane></surface></surfaces>'
+        + identifiers("lines", [f"square/{sid}" for sid in "abcd"], "CURVE") + identifiers("planes", ["square/s"], "SURFACE")
+        + numbers("corners", "0 0 0 1 0 0 1 1 0 0 1 0", "XYZ") + numbers("range", "0 1", ["PARAM"])
+        + '<source id="ways"><Name_array id="ways-a" count="2">FORWARD REVERSED</Name_array><technique_common>'
+        '<accessor source="#ways-a" count="2" stride="1"><param name="ORIENTATION" type="name"/></accessor></technique_common>'
+        '</source><vertices id="points"><input semantic="POSITION" source="#corners"/></vertices>'
+        '<edges id="edges" count="4"><input semantic="CURVE" source="#lines" offset="0"/>'
+        '<input semantic="VERTEX" source="#points" offset="1"/><input semantic="VERTEX" source="#points" offset="2"/>'
+        '<input semantic="PARAM" source="#range" offset="3"/><input semantic="PARAM" source="#range" offset="4"/>'
+        "<p>0 0 1 0 1 1 1 2 0 1 2 2 3 0 1 3 3 0 0 1</p></edges>"
+        '<wires id="wires" count="1"><input semantic="EDGE" source="#edges" offset="0"/>'
+        '<input semantic="EDGE_ORIENTATION" source="#ways" offset="1"/><vcount>4</vcount><p>0 0 1 0 2 0 3 0</p></wires>'
+        '<faces id="faces" count="1"><input semantic="SURFACE" source="#planes" offset="0"/>'
+        '<input semantic="WIRE" source="#wires" offset="1"/><input semantic="WIRE_ORIENTATION" source="#ways" offset="2"/>'
+        "<vcount>1</vcount><p>0 0 0</p></faces>"
+        '<shells id="shells" count="1"><input semantic="FACE" source="#faces" offset="0"/>'
+        '<input semantic="FACE_ORIENTATION" source="#ways" offset="1"/><vcount>1</vcount><p>0 0</p></shells>'
+        '<solids id="solids" count="1"><input semantic="SHELL" source="#shells" offset="0"/>'
+        '<input semantic="SHELL_ORIENTATION" source="#ways" offset="1"/><vcount>1</vcount><p>0 0</p></solids>'
+        '</brep></geometry></library_geometries><library_visual_scenes><visual_scene id="vs"><node>'
+        '<instance_geometry url="#square"/></node></visual_scene></library_visual_scenes>'
+        '<scene><instance_visual_scene url="#vs"/></scene></COLLADA>')
+
+
 class Verdicts(ProgramTest):
+    def test_inputs_of_a_brep_lead_to_its_parts(self):
+        self.expect(self.validate(BREP), 0)
+        for input, part in (("EDGE", "edges"), ("WIRE", "wires"), ("FACE", "faces"), ("SHELL", "shells"),
+                            ("CURVE", "lines"), ("VERTEX", "points")):
+            with self.subTest(input):
+                old = f'semantic="{input}" source="#{part}"'
+                self.assertIn(old, BREP)
+                wrong = self.validate(BREP.replace(old, f'semantic="{input}" source="#gone"', 1))
+                self.expect(wrong, 1, "LINK_UNRESOLVED")
+
     def validate(self, text, name="a/b/scene.dae", *words):
         return run("kinora-validate", *words, self.write(name, text))
 
