@@ -15,6 +15,10 @@ RefFlow Reference<Real>::block(std::span<Stmt* const> body) {
 
 template <class Real>
 RefFlow Reference<Real>::statement(const Stmt& stmt) {
+    if (++statements_ > in.statement_budget) {
+        result.too_long = true;
+        return {RefFlow::Return, nullptr};
+    }
     switch (stmt.kind) {
         case StmtKind::Block:
             return block(as<BlockStmt>(stmt).body);

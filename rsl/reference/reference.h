@@ -47,6 +47,8 @@ struct ReferenceInputs {
     // change.
     uint64_t jitter = 0;
     int loop_budget = 1'000'000;  // docs/numerics.md#loops
+    // Statements run in all: loops inside recursion multiply. Beyond it the result is `too_long`.
+    int64_t statement_budget = INT64_MAX;
 };
 
 struct ReferenceResult {
@@ -54,8 +56,9 @@ struct ReferenceResult {
     // A hash of the branches taken and of the whole numbers that floor, step and the like gave. Two
     // runs with different decisions (float and double near an edge) are not comparable.
     uint64_t decisions = 0;
-    std::string missing;  // a built-in that was called and whose row has no reference; "" if none
-    int faults = 0;       // loops ended by their budget, indices outside their arrays
+    std::string missing;    // a built-in that was called and whose row has no reference; "" if none
+    int faults = 0;         // loops ended by their budget, indices outside their arrays
+    bool too_long = false;  // stopped at the statement budget: no value means anything
 };
 
 // Runs a stack of displacement and surface shaders, or one light. Parameters come from their

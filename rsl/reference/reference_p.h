@@ -266,6 +266,7 @@ class Reference {
     Item returned_;
     int call_depth_ = 0;  // calls of recursive functions
     int calls_left_ = 0;
+    int64_t statements_ = 0;  // run so far
     struct Source {
         const Stmt* stmt;
         Item L, Cl, Ol;

@@ -11,7 +11,7 @@ void set_rows(Scene& scene) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers;  // of instanced mesh groups
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
-        const ShaderInstance& instance = *scene.looks[surface.look];
+        const ShaderInstance& instance = *scene.shader_instances[surface.look];
         Shape& shape = scene.shapes[surface.shape];
         const Mesh& mesh = scene.meshes[shape.mesh];
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;

@@ -112,7 +112,7 @@ void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnost
 
 void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostics& diagnostics) {
     stats.non_finite += bad;
-    const ShaderInstance* imager = scene.looks[scene.imager].get();
+    const ShaderInstance* imager = scene.shader_instances[scene.imager].get();
     if (bad) report_non_finite(bad, imager->shader().name, imager, diagnostics);
 }
 
@@ -141,7 +141,7 @@ void report_shading(Scene& scene, const ShadingCounters& shading,
     if (counters.non_finite == 0) return;
     uint32_t row = counters.non_finite_geometry;  // kNone: where there is no surface
     const ShaderInstance* look =
-        row == kNone ? nullptr : scene.looks[scene.surfaces[row].look].get();
+        row == kNone ? nullptr : scene.shader_instances[scene.surfaces[row].look].get();
     report_non_finite(counters.non_finite, look ? look->name : "the atmosphere", look, diagnostics);
 }
 

@@ -61,8 +61,9 @@ void name(const Scene& scene, uint32_t row, PickedPixel& picked) {
     if (mesh != kNone) picked.mesh = scene.description->meshes[mesh].id;
     if (surface.material != kNone)
         picked.material = scene.description->materials[surface.material].id;
-    if (surface.look < scene.looks.size() && !scene.looks[surface.look]->layers.empty())
-        picked.shader = scene.looks[surface.look]->shader().name;
+    if (surface.look < scene.shader_instances.size() &&
+        !scene.shader_instances[surface.look]->layers.empty())
+        picked.shader = scene.shader_instances[surface.look]->shader().name;
 }
 
 vec4 color_at(const Picture* picture, int x, int y) {

@@ -121,9 +121,10 @@ struct VertexUse {
 struct Surface {
     uint32_t shape = kNone;
     uint32_t group = kNone;
-    uint32_t look = kNone;      // into Scene::looks
+    uint32_t look = kNone;      // into Scene::shader_instances
     uint32_t material = kNone;  // index into description.materials, kNone: the default
-    uint32_t interior = kNone;  // volumes inside and around, into Scene::looks; kNone: none
+    uint32_t interior =
+        kNone;  // volumes inside and around, into Scene::shader_instances; kNone: none
     uint32_t exterior = kNone;
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
     // Vertex inputs of the instance's varying parameters, in the order of ShaderInstance::varying.
@@ -226,14 +227,14 @@ struct Scene {
     std::vector<Surface> surfaces;
     std::vector<LightSource> lights;
     std::vector<CameraSource> cameras;
-    std::vector<std::unique_ptr<ShaderInstance>> looks;
+    std::vector<std::unique_ptr<ShaderInstance>> shader_instances;
     // Displacements and transformations.
     std::vector<std::unique_ptr<ShaderInstance>> vertex_instances;
     uint32_t camera = 0;          // into cameras
-    uint32_t atmosphere = kNone;  // the volume outside all objects, into looks
-    uint32_t imager = kNone;      // what the finished picture is run through, into looks
+    uint32_t atmosphere = kNone;  // the volume outside all objects, into shader_instances
+    uint32_t imager = kNone;      // what the finished picture is run through, into shader_instances
     std::vector<OutputPlane> outputs;
-    // Interiors and exteriors, into looks: ShaderInstance::volume is k + 1.
+    // Interiors and exteriors, into shader_instances: ShaderInstance::volume is k + 1.
     std::vector<uint32_t> volumes;
     std::vector<std::string> added;  // "default camera", "default key light": what --list shows
     // Frames whose points are yet to be counted for LIGHTS_DARK: only its own lights shine.

@@ -405,7 +405,7 @@ float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hi
     const Mesh& mesh = scene.meshes[shape.mesh];
     Corner c{surface,     shape,      mesh, mesh.groups[surface.group], hits.primitive[hit],
              hits.u[hit], hits.v[hit]};
-    const VaryingParam& param = scene.looks[surface.look]->varying[which];
+    const VaryingParam& param = scene.shader_instances[surface.look]->varying[which];
     float x[3];
     corner_values(c, param, surface.varying[which], component, x);
     return between(c, param, x);

@@ -100,7 +100,7 @@ bool writes(const ShaderInstance& look, rsl::Global global) {
 size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
                           raytrace::NanPolicy nan) {
     const Scene& scene = frame_.scene;
-    const ShaderInstance& look = *scene.looks[scene.imager];
+    const ShaderInstance& look = *scene.shader_instances[scene.imager];
     ThreadMemory& memory = *threads_[size_t(thread_index())];
     Arena& arena = memory.arena;
     Arena::Mark mark = arena.mark();

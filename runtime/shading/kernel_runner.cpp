@@ -20,7 +20,7 @@ size_t fault_row(const ShaderInstance& look, const BoundKernel& bound) {
 // Calls f(kernel, its row of faults) for each kernel of all looks.
 template <class F>
 void for_each_kernel(const Scene& scene, F&& f) {
-    for (const auto& look : scene.looks) {
+    for (const auto& look : scene.shader_instances) {
         f(look->full.kernel(), fault_row(*look, look->full));
         if (look->opacity) f(look->opacity->kernel(), fault_row(*look, *look->opacity));
     }
@@ -31,7 +31,7 @@ void for_each_kernel(const Scene& scene, F&& f) {
 void KernelRunner::begin_frame(size_t threads) {
     faults_.resize(std::max(faults_.size(), threads));
     for (auto& faults : faults_) {
-        faults.resize(2 * scene_.looks.size());
+        faults.resize(2 * scene_.shader_instances.size());
         for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
             faults[row].assign(kernel.fault_sites.size(), 0);
         });
@@ -39,7 +39,7 @@ void KernelRunner::begin_frame(size_t threads) {
 }
 
 void KernelRunner::report_faults(Diagnostics& diagnostics) const {
-    for (const auto& look : scene_.looks)
+    for (const auto& look : scene_.shader_instances)
         if (const SceneKernel& full = look->full; full.prints_asked > full.prints_shown)
             diagnostics.report(Code::PRINT_LIMIT, Location{}, look->shader().name,
                                full.prints_asked, full.prints_shown);
@@ -128,17 +128,17 @@ std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBat
     std::span<uint32_t> look = arena.allocate_span<uint32_t>(hits.count);
     for (size_t i = 0; i < hits.count; ++i) look[i] = scene.surfaces[hits.instance[i]].look;
     std::span<uint32_t> order = arena.allocate_span<uint32_t>(hits.count);
-    if (hits.count < scene.looks.size())
+    if (hits.count < scene.shader_instances.size())
         sort_few(look.data(), order);
     else
-        sort_by_counting(look.data(), scene.looks.size(), order, arena);
+        sort_by_counting(look.data(), scene.shader_instances.size(), order, arena);
     std::span<LookRun> runs =
-        arena.allocate_span<LookRun>(std::min(hits.count, scene.looks.size()));
+        arena.allocate_span<LookRun>(std::min(hits.count, scene.shader_instances.size()));
     size_t count = 0;
     for (size_t begin = 0, end; begin < hits.count; begin = end) {
         uint32_t own = look[order[begin]];
         for (end = begin + 1; end < hits.count && look[order[end]] == own;) ++end;
-        runs[count++] = {scene.looks[own].get(), order.subspan(begin, end - begin)};
+        runs[count++] = {scene.shader_instances[own].get(), order.subspan(begin, end - begin)};
     }
     return runs.first(count);
 }

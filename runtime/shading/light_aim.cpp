@@ -83,7 +83,7 @@ void LightRecords::report_aims(Diagnostics& diagnostics) const {
     const Scene& scene = frame_.scene;
     for (size_t l = 0; l < scene.lights.size(); ++l) {
         const LightSource& light = scene.lights[l];
-        const ShaderInstance& look = *scene.looks[light.look];
+        const ShaderInstance& look = *scene.shader_instances[light.look];
         // A shader that does not read its space has another aim, as the default lights have.
         bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
         if (look.area_light || !aims || !bindings_.directed(l)) continue;

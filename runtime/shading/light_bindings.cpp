@@ -147,17 +147,17 @@ float LightNumber::at_present(const Scene& scene) const {
 
 LightBindings::LightBindings(const Scene& scene) {
     for (const LightSource& light : scene.lights) {
-        const ShaderInstance& look = *scene.looks[light.look];
+        const ShaderInstance& look = *scene.shader_instances[light.look];
         auto& statements = statements_.emplace_back();
         for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
             statements.push_back(statement_of(look, s, scene.description->lights[light.definition],
                                               scene.options.shadows));
     }
-    for (const auto& look : scene.looks) {
+    for (const auto& look : scene.shader_instances) {
         auto& row = bindings_.emplace_back();
         if (look->kind == ShaderInstanceKind::Light) continue;
         for (const LightSource& light : scene.lights)
-            row.push_back(binding_of(*look, *scene.looks[light.look]));
+            row.push_back(binding_of(*look, *scene.shader_instances[light.look]));
     }
 }
 

@@ -59,7 +59,8 @@ LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     for (size_t l = 0; l < frame.scene.lights.size(); ++l) {
         const AreaLight* area = area_lights_.find(l);
         record_count_ += bindings_.statements(l).size() * (area ? area->samples : 1);
-        need_rng_ |= area || frame.scene.looks[frame.scene.lights[l].look]->lowered.uses_rng;
+        need_rng_ |=
+            area || frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
     }
 }
 
@@ -114,7 +115,7 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
 jit::Record* LightRecords::plain_records(Grid& grid, const LightPoints& at, size_t l,
                                          jit::Record* next) {
     const LightSource& light = frame_.scene.lights[l];
-    const ShaderInstance& look = *frame_.scene.looks[light.look];
+    const ShaderInstance& look = *frame_.scene.shader_instances[light.look];
     Arena& arena = grid.memory.arena;
     Grid lit(frame_, grid.memory, grid.hits, grid.points.subspan(at.first, at.count), &look);
     lit.depth = grid.depth;
@@ -141,7 +142,7 @@ jit::Record* LightRecords::plain_records(Grid& grid, const LightPoints& at, size
 jit::Record* LightRecords::area_records(Grid& grid, const LightPoints& at, size_t l,
                                         jit::Record* next) {
     const AreaLight& light = *area_lights_.find(l);
-    const ShaderInstance& look = *frame_.scene.looks[frame_.scene.lights[l].look];
+    const ShaderInstance& look = *frame_.scene.shader_instances[frame_.scene.lights[l].look];
     Arena& arena = grid.memory.arena;
     std::span<uint32_t> points = arena.allocate_span<uint32_t>(at.count);
     for (uint32_t i = 0; i < at.count; ++i) points[i] = i;

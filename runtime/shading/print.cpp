@@ -111,7 +111,7 @@ void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
         for (size_t look = 0; look < thread.looks.size(); ++look) {
             OfLook& of = thread.looks[look];
             if (of.asked == 0) continue;
-            OfLook& sum = shaders[scene.looks[look]->shader().name];
+            OfLook& sum = shaders[scene.shader_instances[look]->shader().name];
             std::move(of.prints.begin(), of.prints.end(), std::back_inserter(sum.prints));
             sum.asked += of.asked;
             of = {};

@@ -70,7 +70,8 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
         const Grid& grid = asker.grid->lit ? *asker.grid->lit : *asker.grid;
         size_t point = asker.point + asker.grid->lit_first;
         uint32_t hit = grid.points[point], row = grid.hits.instance[hit];
-        if (row == kNone || asker.scene.looks[asker.scene.surfaces[row].look].get() != &look)
+        if (row == kNone ||
+            asker.scene.shader_instances[asker.scene.surfaces[row].look].get() != &look)
             return false;
         uint32_t count = uint32_t(question.components());
         uint32_t first = question.element > 0 ? uint32_t(question.element) * count : 0;
@@ -141,7 +142,7 @@ bool from_default(const Asker& asker, const ShaderInstance& look,
 }
 
 const ShaderInstance* look_at(const Scene& scene, uint32_t index) {
-    return index < scene.looks.size() ? scene.looks[index].get() : nullptr;
+    return index < scene.shader_instances.size() ? scene.shader_instances[index].get() : nullptr;
 }
 
 // The volume on the side that the ray comes from, or on the other: outside is where Ng points.

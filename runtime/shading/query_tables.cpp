@@ -51,7 +51,7 @@ const NodeDefinition& node_of(const Asker& asker) {
     return asker.scene.description->nodes[asker.scene.nodes[shape.node].definition];
 }
 const ShaderInstance& look_of(const Asker& asker) {
-    return *asker.scene.looks[asker.surface().look];
+    return *asker.scene.shader_instances[asker.surface().look];
 }
 
 // The material or the mesh may say so.

@@ -194,7 +194,7 @@ void assign_columns(ShaderInstance& look) {
 
 }  // namespace
 
-bool compile_look(ShaderInstance& look, const SceneDescription& description,
+bool compile_instance(ShaderInstance& look, const SceneDescription& description,
                   const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
     assign_columns(look);
     std::vector<rsl::Layer> layers;

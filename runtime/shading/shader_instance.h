@@ -132,7 +132,7 @@ dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader,
 
 // Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
 // compiled (findings say why).
-bool compile_look(ShaderInstance& look, const SceneDescription& description,
-                  const ShaderInstanceOptions& options, Diagnostics& diagnostics);
+bool compile_instance(ShaderInstance& look, const SceneDescription& description,
+                      const ShaderInstanceOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -53,7 +53,8 @@ struct Shading::Objects {
 };
 
 Shading::Shading(const Scene& scene) {
-    for (size_t l = 0; l < scene.looks.size(); ++l) scene.looks[l]->index = uint32_t(l);
+    for (size_t l = 0; l < scene.shader_instances.size(); ++l)
+        scene.shader_instances[l]->index = uint32_t(l);
     objects_ = std::make_unique<Objects>(scene);
 }
 Shading::~Shading() = default;
@@ -63,7 +64,7 @@ namespace {
 // Brings all looks to the scene's time.
 void update_looks(const Scene& scene) {
     FrameContext context{scene};
-    for (const auto& look : scene.looks) look->update(context);
+    for (const auto& look : scene.shader_instances) look->update(context);
 }
 
 void set_view(ShadingFrame& frame) {
@@ -78,7 +79,7 @@ void set_view(ShadingFrame& frame) {
 
 // What there is on the way of rays.
 void set_media(ShadingFrame& frame) {
-    const auto& looks = frame.scene.looks;
+    const auto& looks = frame.scene.shader_instances;
     auto transparent = [](const auto& look) {
         return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
     };

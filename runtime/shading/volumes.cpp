@@ -36,7 +36,7 @@ uint32_t volume_before(const Scene& scene, const raytrace::HitBatch& hits, size_
     uint32_t around = within ? scene.volumes[within - 1] : scene.atmosphere;
     uint32_t row = hits.instance[k];
     if (row == kNone) {  // nothing was met: an object that was never left has a hole
-        bool inside = around != kNone && within && !scene.looks[around]->exterior;
+        bool inside = around != kNone && within && !scene.shader_instances[around]->exterior;
         return inside ? scene.atmosphere : around;
     }
     const Surface& surface = scene.surfaces[row];
@@ -52,8 +52,8 @@ uint32_t medium_behind(const Scene& scene, const raytrace::HitBatch& hits, size_
     const Surface& surface = scene.surfaces[hits.instance[k]];
     uint32_t left = surface.exterior, entered = surface.interior;
     if (!from_outside(hits, k)) std::swap(left, entered);
-    if (left != kNone) medium = leave_volume(medium, scene.looks[left]->volume);
-    if (entered != kNone) medium = enter_volume(medium, scene.looks[entered]->volume);
+    if (left != kNone) medium = leave_volume(medium, scene.shader_instances[left]->volume);
+    if (entered != kNone) medium = enter_volume(medium, scene.shader_instances[entered]->volume);
     return medium;
 }
 
@@ -72,7 +72,7 @@ struct Volumes::Order {
 
 Volumes::Order Volumes::sort(const raytrace::HitBatch& hits, Arena& arena, bool fills_only) const {
     const Scene& scene = frame_.scene;
-    size_t looks = scene.looks.size();
+    size_t looks = scene.shader_instances.size();
     std::span<uint32_t> volume = arena.allocate_span<uint32_t>(hits.count);
     Order order;
     order.begin = arena.allocate_span<uint32_t>(looks + 1);
@@ -84,7 +84,8 @@ Volumes::Order Volumes::sort(const raytrace::HitBatch& hits, Arena& arena, bool 
         if (fills_only && hits.instance[k] == kNone && within &&
             std::isfinite(hits.rays->tfar[hits.ray[k]]))
             volume[k] = scene.volumes[within - 1];
-        if (fills_only && volume[k] != kNone && !scene.looks[volume[k]]->opacity) volume[k] = kNone;
+        if (fills_only && volume[k] != kNone && !scene.shader_instances[volume[k]]->opacity)
+            volume[k] = kNone;
         if (volume[k] != kNone) ++order.begin[volume[k] + 1];
     }
     for (size_t l = 0; l < looks; ++l) order.begin[l + 1] += order.begin[l];
@@ -101,12 +102,12 @@ template <class F>
 void Volumes::for_each_grid(const Order& order, F&& f) const {
     for (size_t l = 0; l + 1 < order.begin.size(); ++l)
         for (size_t at = order.begin[l]; at < order.begin[l + 1]; at += kGridPoints)
-            f(*frame_.scene.looks[l],
+            f(*frame_.scene.shader_instances[l],
               order.points.subspan(at, std::min(kGridPoints, order.begin[l + 1] - at)));
 }
 
-void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray,
-                    LightShadows* shadows, raytrace::ShadeResult& result) {
+void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, LightShadows* shadows,
+                    raytrace::ShadeResult& result) {
     std::span<const uint32_t> points = grid.points;
     Arena::Mark mark = grid.memory.arena.mark();
     kernels_.prepare(grid, ray);

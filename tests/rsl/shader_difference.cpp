@@ -16,6 +16,7 @@ constexpr double kFloor = 2e-5;  // of 1 + |value|: where all agree to rounding
 constexpr double kFactor = 16;
 constexpr double kUnstable = 0.25;
 constexpr int kLoopBudget = 2000;  // reduction drops what ends loops
+constexpr int64_t kStatementBudget = 1'000'000;
 
 bool begins_with(std::string_view text, std::string_view start) {
     return text.substr(0, start.size()) == start;
@@ -161,6 +162,7 @@ std::string compare_point(std::span<const Layer> layers, const ReferenceInputs& 
     ReferenceResult exact = run_reference<double>(layers, inputs);
     ReferenceResult single = run_reference<float>(layers, inputs);
     if (!exact.missing.empty()) return counts.no_reference += got.size(), "";
+    if (exact.too_long || single.too_long) return counts.undecided += got.size(), "";
     if (exact.decisions != single.decisions) return counts.undecided += got.size(), "";
     Allowance near;  // found when first needed
     for (auto& [name, column] : got) {
@@ -198,6 +200,7 @@ std::string against_reference(RunShader& run, const Setting& setting,
         inputs.lights = lights;
         inputs.service = reference_service;
         inputs.loop_budget = kLoopBudget;
+        inputs.statement_budget = kStatementBudget;
         std::string wrong = compare_point(layers, inputs, i, got, counts);
         if (!wrong.empty()) return wrong;
     }

@@ -120,7 +120,7 @@ TEST(TrueDisplacement, ThatOnlyBendsNStaysAKernelOfTheSurface) {
     Rendering r(scene.text(), dice_of(2));
     ASSERT_TRUE(r.scene) << r.findings();
     EXPECT_EQ(mesh_of(r).positions.size(), 4u);
-    EXPECT_EQ(r.scene->looks[0]->done_layers, 0u);
+    EXPECT_EQ(r.scene->shader_instances[0]->done_layers, 0u);
     EXPECT_EQ(r.scene->dice.triangles, 0u);
 }
 
@@ -336,7 +336,7 @@ TEST(TrueDisplacement, LeavesItsParametersToDisplacementOfTheSurface) {
     scene.place("floor", "look");
     Rendering r(scene.text(), dice_of(1, 256));
     r.frame();
-    EXPECT_EQ(r.scene->looks[0]->done_layers, 1u);
+    EXPECT_EQ(r.scene->shader_instances[0]->done_layers, 1u);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
             dvec2 p = r.place(x, y);
@@ -404,7 +404,8 @@ TEST(TrueDisplacement, LeavesTextsMatricesAndArraysToTheSurfaceAsBumpDoes) {
             Rendering r(scene.text(), options);
             r.frame();
             ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
-            EXPECT_EQ(r.scene->looks[0]->done_layers, mode == DisplacementMode::True ? 1u : 0u);
+            EXPECT_EQ(r.scene->shader_instances[0]->done_layers,
+                      mode == DisplacementMode::True ? 1u : 0u);
             for (int y = 0; y < 16; ++y)
                 for (int x = 0; x < 16; ++x) {
                     dvec2 p = r.place(x, y);

@@ -267,7 +267,7 @@ TEST(TransparencyAuto, WhatTheFormulaHidesEverywhereIsOpaque) {
         Rendering r(wall(see_through(row.opaque, row.color, row.transparency)).text());
         EXPECT_EQ(opacity(r), 1) << row.opaque << " " << row.transparency;
         EXPECT_EQ(r.count("FX_TRANSPARENT_ALL"), 1) << row.opaque << " " << row.transparency;
-        EXPECT_TRUE(r.scene->looks[0]->opaque()) << row.opaque;
+        EXPECT_TRUE(r.scene->shader_instances[0]->opaque()) << row.opaque;
     }
 }
 

@@ -161,7 +161,7 @@ TEST(Parameters, AStringThatNamesAnImageBecomesItsFile) {
         .place("s", "l");
     Rendering r(scene.text());
     ASSERT_TRUE(r.scene) << r.findings();
-    const ShaderInstance& look = *r.scene->looks[0];
+    const ShaderInstance& look = *r.scene->shader_instances[0];
     ASSERT_EQ(look.layers[0].params.size(), 1u);
     const std::string& name = look.layers[0].params[0].strings[0];
     EXPECT_NE(name.find("textures/wood.png"), std::string::npos) << name;

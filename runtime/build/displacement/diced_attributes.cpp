@@ -72,7 +72,8 @@ void bind_diced_attributes(Scene& scene, const DisplacedMesh& mesh, DicedMesh& m
     // All are added before any is pointed at.
     for_each_surface(scene, mesh, [&](Surface& surface, size_t g) {
         PrimitiveGroup& group = *made.mesh.own_groups[g];
-        add_attributes(scene.looks[surface.look]->varying, made.mesh, made.groups[g], group);
+        add_attributes(scene.shader_instances[surface.look]->varying, made.mesh, made.groups[g],
+                       group);
         for (const VertexUse* use : {&surface.transformation, &surface.displacement})
             if (use->instance != kNone)
                 add_attributes(scene.vertex_instances[use->instance]->varying, made.mesh,
@@ -82,7 +83,7 @@ void bind_diced_attributes(Scene& scene, const DisplacedMesh& mesh, DicedMesh& m
         const PrimitiveGroup& old = *mesh.base.groups[g].definition;
         const PrimitiveGroup& group = *made.mesh.own_groups[g];
         surface.st = diced_attribute(surface.st, "TEXCOORD", old, group);
-        rebind(scene.looks[surface.look]->varying, old, group, surface.varying);
+        rebind(scene.shader_instances[surface.look]->varying, old, group, surface.varying);
         for (VertexUse* use : {&surface.transformation, &surface.displacement})
             if (use->instance != kNone)
                 rebind(scene.vertex_instances[use->instance]->varying, old, group, use->varying);

@@ -37,8 +37,8 @@ void add_imager(Scene& scene, std::span<const std::string> outputs) {
             varying.components = uint32_t(rsl::component_count(p.type.base));
             instance->varying.push_back(std::move(varying));
         }
-    scene.imager = uint32_t(scene.looks.size());
-    scene.looks.push_back(std::move(instance));
+    scene.imager = uint32_t(scene.shader_instances.size());
+    scene.shader_instances.push_back(std::move(instance));
 }
 
 }  // namespace kinora

@@ -14,7 +14,7 @@ bool InstanceCompiler::compile(ShaderInstance& instance, ShaderInstanceOptions w
     wanted.target = scene_.options.target;
     wanted.spaces = &space_names_;
     if (scene_.options.want_dumps) wanted.dumps = &scene_.options.dumps;
-    return compile_look(instance, *scene_.description, wanted, diagnostics_);
+    return compile_instance(instance, *scene_.description, wanted, diagnostics_);
 }
 
 }  // namespace kinora

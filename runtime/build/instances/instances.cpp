@@ -19,7 +19,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 // Outputs that gather statements read of what they hit.
 std::vector<std::string> gathered_outputs(const Scene& scene) {
     std::vector<std::string> result;
-    for (const auto& instance : scene.looks)
+    for (const auto& instance : scene.shader_instances)
         for (const ShaderUse& layer : instance->layers)
             for (const std::string& name : rsl::gathered_parameters(*layer.shader))
                 add_once(result, name);
@@ -33,7 +33,7 @@ bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompil
     of_surfaces.aovs = outputs.parameters();
     of_surfaces.gathered = gathered_outputs(scene);
     bool ok = true;
-    for (auto& instance : scene.looks) {
+    for (auto& instance : scene.shader_instances) {
         bool surface = instance->kind == ShaderInstanceKind::Surface;
         bool compiled =
             compiler.compile(*instance, surface ? of_surfaces : ShaderInstanceOptions());

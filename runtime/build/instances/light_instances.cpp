@@ -46,8 +46,8 @@ bool add_light_instances(Scene& scene, InstanceCompiler& compiler,
     for (LightSource& light : scene.lights) {
         auto instance = light_instance(scene, light);
         ok &= compiler.compile(*instance, wanted);
-        light.look = uint32_t(scene.looks.size());
-        scene.looks.push_back(std::move(instance));
+        light.look = uint32_t(scene.shader_instances.size());
+        scene.shader_instances.push_back(std::move(instance));
     }
     return ok;
 }

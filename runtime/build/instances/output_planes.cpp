@@ -26,7 +26,7 @@ const rsl::ShaderParameter* find_output(const ShaderInstance& instance, std::str
 
 // Of the first surface that has one.
 const rsl::ShaderParameter* find_output(const Scene& scene, std::string_view name) {
-    for (const auto& instance : scene.looks)
+    for (const auto& instance : scene.shader_instances)
         if (instance->kind == ShaderInstanceKind::Surface)
             if (const rsl::ShaderParameter* found = find_output(*instance, name)) return found;
     return nullptr;

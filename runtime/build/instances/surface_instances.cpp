@@ -37,8 +37,8 @@ void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
 }
 
 uint32_t SurfaceInstances::find_or_add(KeyedInstance made) {
-    auto [entry, is_new] = by_key_.try_emplace(made.key, uint32_t(scene_.looks.size()));
-    if (is_new) scene_.looks.push_back(std::move(made.instance));
+    auto [entry, is_new] = by_key_.try_emplace(made.key, uint32_t(scene_.shader_instances.size()));
+    if (is_new) scene_.shader_instances.push_back(std::move(made.instance));
     return entry->second;
 }
 

@@ -42,7 +42,7 @@ uint32_t VolumeInstances::add_volume(const std::vector<ShaderUse>& layers, const
     auto instance = volume_instance(name, layers, node);
     std::string key = fmt::format("{} {}", static_cast<const void*>(layers.data()), node);
     apply_binds(*scene_.description, use, instance->layers, key);
-    auto [entry, is_new] = by_key_.try_emplace(key, uint32_t(scene_.looks.size()));
+    auto [entry, is_new] = by_key_.try_emplace(key, uint32_t(scene_.shader_instances.size()));
     if (!is_new) return entry->second;
     if (scene_.volumes.size() == kMaxVolumes) {
         diagnostics_.report(Code::VOLUME_LIMIT, Location{}, kMaxVolumes, name);
@@ -51,7 +51,7 @@ uint32_t VolumeInstances::add_volume(const std::vector<ShaderUse>& layers, const
     scene_.volumes.push_back(entry->second);
     instance->volume = uint32_t(scene_.volumes.size());
     instance->exterior = exterior;
-    scene_.looks.push_back(std::move(instance));
+    scene_.shader_instances.push_back(std::move(instance));
     return entry->second;
 }
 
@@ -61,8 +61,9 @@ void add_atmosphere(Scene& scene) {
     const auto& own = description.cameras[camera.definition].picture.atmosphere;
     const auto& layers = own.empty() ? description.picture.atmosphere : own;
     if (layers.empty()) return;
-    scene.atmosphere = uint32_t(scene.looks.size());
-    scene.looks.push_back(volume_instance("atmosphere", layers, own.empty() ? kNone : camera.node));
+    scene.atmosphere = uint32_t(scene.shader_instances.size());
+    scene.shader_instances.push_back(
+        volume_instance("atmosphere", layers, own.empty() ? kNone : camera.node));
 }
 
 }  // namespace kinora

@@ -71,7 +71,7 @@ std::string clip_line(const Json& row) {
 Json materials(const Scene& scene) {
     Json list = Json::array();
     std::set<std::string> seen;
-    for (const auto& look : scene.looks) {
+    for (const auto& look : scene.shader_instances) {
         if (look->kind != ShaderInstanceKind::Surface || !seen.insert(look->name).second) continue;
         constexpr const char* kOpacity[] = {"opaque", "constant opacity", "computed opacity"};
         Json layers = Json::array();
@@ -98,7 +98,7 @@ std::string material_line(const Json& row) {
 template <class F>
 void for_each_shader(const Scene& scene, F&& f) {
     std::set<const rsl::Shader*> seen;
-    for (const auto* looks : {&scene.looks, &scene.vertex_instances})
+    for (const auto* looks : {&scene.shader_instances, &scene.vertex_instances})
         for (const auto& look : *looks)
             for (const ShaderUse& use : look->layers)
                 if (seen.insert(use.shader.get()).second) f(*use.shader);
@@ -178,7 +178,7 @@ std::string param_line(const Json& row) {
 Json aovs(const Scene& scene) {
     Json list = Json::array();
     std::set<std::string> seen;
-    for (const auto& look : scene.looks) {
+    for (const auto& look : scene.shader_instances) {
         if (look->kind != ShaderInstanceKind::Surface) continue;
         for (const ShaderUse& use : look->layers)
             for (const rsl::ShaderParameter& p : use.shader->parameters) {
