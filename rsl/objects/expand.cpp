@@ -198,11 +198,13 @@ void ObjectExpander::formals(Function& f, const StructDefinition* owner) {
 void ObjectExpander::function(Function& f, const StructDefinition* owner) {
     const StructDefinition* owner_before = owner_;
     const StructDefinition* result_before = std::exchange(result_, f.result_structure);
+    Function* function_before = std::exchange(function_, &f);
     if (owner) owner_ = owner;
     scopes_.emplace_back();
     formals(f, owner);
     f.body->body = list(f.body->body);
     scopes_.pop_back();
+    function_ = function_before;
     owner_ = owner_before;
     result_ = result_before;
 }
@@ -406,6 +408,7 @@ bool ObjectExpander::assign_struct(AssignExpr& e, Stmts& out) {
         Symbol* symbol = TreeBuilder(ast_, e.span)
                              .symbol(SymbolKind::Local, result.name, {BaseType::Invalid, -1});
         symbol->structure = target.structure;
+        symbol->function = function_;
         out.push_back(TreeBuilder(ast_, e.span).declare(expanded(ast_, *symbol)));
         auto& node = as<CallExpr>(*e.value);
         call(node, parts(result, e.span));

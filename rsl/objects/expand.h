@@ -77,6 +77,7 @@ class ObjectExpander {
     Reporter& reporter_;
     std::vector<Candidate> candidates_;
     std::vector<Scope> scopes_;
+    Function* function_ = nullptr;              // being rewritten; null in the shader's body
     const StructDefinition* owner_ = nullptr;   // of the method being rewritten
     const StructDefinition* result_ = nullptr;  // of the function being rewritten
     const ShaderDefinition* class_ = nullptr;   // the class being rewritten
