@@ -71,7 +71,7 @@ void Player::open(const SceneRequest& request, std::optional<Session> session) {
         parallel_for(0, 2, 1, [](size_t, size_t) {});  // the threads are there from here on
     }
     core_->request = request;
-    core_->open(request, std::move(session));
+    if (!request.scene.empty()) core_->open(request, std::move(session));
 }
 
 LoadState Player::load_state() const {

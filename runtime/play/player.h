@@ -49,7 +49,8 @@ class Player {
     ~Player();
     Player(const Player&) = delete;
 
-    // Begins to read a scene; the one shown stays until it is there. Options as kinora-render's.
+    // Begins to read a scene; without a name, none: its options are those of the first one that
+    // the command `open` names. The one shown stays until it is there. Options as kinora-render's.
     void open(const SceneRequest& request, std::optional<Session> session = std::nullopt);
     LoadState load_state() const;
 
