@@ -137,23 +137,6 @@ CommandResult action_reload(PlayerCore& core, const Arguments&) {
     return {};
 }
 
-CommandResult action_open(PlayerCore& core, const Arguments& a) {
-    SceneRequest request = core.request;
-    request.scene = a.text(0);
-    request.camera.clear();  // names of the scene before
-    request.clip.clear();
-    request.shaders.clear();
-    request.params.clear();
-    request.hide.clear();
-    request.only.clear();
-    core.edits = {};
-    core.undo.clear();
-    core.redo.clear();
-    if (!core.info) core.load = LoadState::Loading;
-    core.maker.open(request, {}, true);
-    return {};
-}
-
 CommandResult action_quit(PlayerCore& core, const Arguments&) {
     core.state.quit = true;
     return {};

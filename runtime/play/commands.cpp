@@ -46,6 +46,17 @@ const Command* find_command_of_key(std::string_view key) {
     return found == std::end(kCommands) ? nullptr : found;
 }
 
+std::string quoted(const std::string& text) {
+    bool plain = !text.empty() && text.find_first_of(" \t\n\"\\#") == text.npos;
+    if (plain) return text;
+    std::string out = "\"";
+    for (char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c == '\n' ? std::string("\\n") : c == '\t' ? std::string("\\t") : std::string(1, c);
+    }
+    return out + "\"";
+}
+
 Words split_words(std::string_view line) {
     Words words;
     size_t at = 0;

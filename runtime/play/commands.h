@@ -52,5 +52,7 @@ struct Words {
     std::string error;  // an unfinished quotation
 };
 Words split_words(std::string_view line);
+// A word as split_words() reads it.
+std::string quoted(const std::string& text);
 
 }  // namespace kinora

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <tuple>
+#include <utility>
 
 #include "runtime/play/clock.h"
 
@@ -34,18 +36,6 @@ double distance_to(const SceneInfo& info, const Picture& picture) {
     double along = glm::dot(middle - eye, picture.view.forward);
     double size = glm::length(info.high - info.low);
     return along > 0.05 * size ? along : std::max(size, 1e-6);
-}
-
-// As split_words() reads it.
-std::string quoted(const std::string& text) {
-    bool plain = !text.empty() && text.find_first_of(" \t\n\"\\#") == text.npos;
-    if (plain) return text;
-    std::string out = "\"";
-    for (char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c == '\n' ? std::string("\\n") : c == '\t' ? std::string("\\t") : std::string(1, c);
-    }
-    return out + "\"";
 }
 
 }  // namespace
@@ -128,6 +118,8 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
             state.picture.width = shown->settings.width;
             state.picture.height = shown->settings.height;
         }
+        if (std::optional<Session> taken = std::exchange(session, std::nullopt))
+            take_session(*taken, *shown);
     } else {
         state.camera.index =
             std::min(state.camera.index, uint32_t(shown->scene->cameras.size() - 1));
@@ -135,6 +127,43 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
     }
     loop.show(std::shared_ptr<ShownScene>(std::move(shown)));
     send_order();
+}
+
+void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with) {
+    if (!info) load = LoadState::Loading;
+    edits = with ? with->edits : SceneEdits{};
+    for (SceneEdits::Text& text : edits.texts) text.version = ++document.version;
+    undo.clear();
+    redo.clear();
+    session = std::move(with);
+    maker.open(scene, edits, true);
+}
+
+// What a new scene begins with instead of its own beginning.
+void PlayerCore::take_session(const Session& taken, const ShownScene& shown) {
+    Scene& scene = *shown.scene;
+    choose_camera(scene, taken.camera);
+    state.camera.index = scene.camera;
+    if (taken.camera.own) {
+        state.camera.own = *taken.camera.own;
+        state.camera.free = true;
+    }
+    if (taken.camera.follow) std::tie(state.camera.follow, follow_from) = *taken.camera.follow;
+    state.time.frame = taken.frame;
+    state.picture.exposure = taken.exposure;
+    if (taken.width > 0 && taken.height > 0) {
+        state.picture.width = taken.width;
+        state.picture.height = taken.height;
+        sized = true;
+    }
+    state.panels = taken.panels;
+    for (const std::string& line : taken.commands) {
+        Words words = split_words(line);
+        const Command* command = words.texts.empty() ? nullptr : find_command(words.texts.front());
+        if (!command) continue;  // of a newer Kinora
+        words.texts.erase(words.texts.begin());
+        act(size_t(command - commands().data()), words.texts);
+    }
 }
 
 // What has become of the edited text.

@@ -27,6 +27,7 @@ struct PlayerCore {
     ShaderDocument document;
     std::vector<FindingText> scene_findings, frame_findings, all_findings;
     std::shared_ptr<const Picture> kept;
+    std::optional<Session> session;  // to be taken up when its scene is there
     dvec3 follow_from{0.0};
     int exit_code = 0;
     std::ofstream record;
@@ -62,11 +63,15 @@ struct PlayerCore {
     void record_line(const Command& command, const std::vector<std::string>& arguments);
     void restore_text();
     void rebuild() { maker.edit(edits); }
+    // Another scene from now on, as soon as it is read; with what a session says of it.
+    void open(const SceneRequest& scene, std::optional<Session> with);
+    CommandResult act(size_t row, const std::vector<std::string>& arguments);
 
   private:
     void take_text(const ShownScene& shown);
     void take_scene(std::unique_ptr<ShownScene> shown);
     void merge_findings();
+    void take_session(const Session& taken, const ShownScene& shown);
 };
 
 // The words behind a command, as its row's `arguments` say them.

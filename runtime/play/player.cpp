@@ -61,17 +61,17 @@ std::string unknown_name(const std::string& kind, const std::string& word,
 Player::Player(PlayerSetup setup) : core_(std::make_unique<PlayerCore>(std::move(setup))) {}
 Player::~Player() = default;
 
-void Player::open(const SceneRequest& request) {
+CommandResult PlayerCore::act(size_t row, const std::vector<std::string>& arguments) {
+    return kActions[row](*this, Arguments(arguments));
+}
+
+void Player::open(const SceneRequest& request, std::optional<Session> session) {
     if (core_->load == LoadState::Nothing) {
         set_thread_count(request.threads > 0 ? request.threads : thread_count());
         parallel_for(0, 2, 1, [](size_t, size_t) {});  // the threads are there from here on
     }
-    if (!core_->info) core_->load = LoadState::Loading;
     core_->request = request;
-    core_->edits = {};
-    core_->undo.clear();
-    core_->redo.clear();
-    core_->maker.open(request, {}, true);
+    if (!request.scene.empty()) core_->open(request, std::move(session));
 }
 
 LoadState Player::load_state() const {
@@ -86,7 +86,7 @@ CommandResult Player::run(std::string_view word, const std::vector<std::string>&
         return refused(unknown_name("command", std::string(word), known));
     }
     if (CommandResult fits = check(*command, arguments); !fits.done) return fits;
-    CommandResult result = kActions[command - commands().data()](*core_, Arguments(arguments));
+    CommandResult result = core_->act(size_t(command - commands().data()), arguments);
     core_->send_order();
     if (result.done) core_->record_line(*command, arguments);
     return result;

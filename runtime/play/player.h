@@ -14,11 +14,18 @@
 #include "runtime/play/commands.h"
 #include "runtime/play/picture.h"
 #include "runtime/play/scene_info.h"
+#include "runtime/play/session/session.h"
 #include "runtime/play/shader_document.h"
 #include "runtime/play/state.h"
 #include "runtime/programs/open/scene_request.h"
 
 namespace kinora {
+
+// A scene as a session has it.
+struct OpenedSession {
+    SceneRequest request;
+    Session session;
+};
 
 struct PlayerSetup {
     // false: time moves by advance() alone, every picture has all pixels, and no measured time
@@ -26,7 +33,10 @@ struct PlayerSetup {
     bool real_time = true;
     bool watch_files = true;  // opens anew what changes on the disk
     // Called from other threads when there is something new to show. It must not wait.
-    std::function<void()> wake;
+    std::function<void()> wake = nullptr;
+    // Reads a .kinora file and its options; nothing and a message where it cannot.
+    std::function<std::optional<OpenedSession>(const std::string& file, std::string& error)>
+        read_session = nullptr;
 };
 
 enum class LoadState : uint8_t { Nothing, Loading, Ready, Failed };
@@ -39,8 +49,9 @@ class Player {
     ~Player();
     Player(const Player&) = delete;
 
-    // Begins to read a scene; the one shown stays until it is there. Options as kinora-render's.
-    void open(const SceneRequest& request);
+    // Begins to read a scene; without a name, none: its options are those of the first one that
+    // the command `open` names. The one shown stays until it is there. Options as kinora-render's.
+    void open(const SceneRequest& request, std::optional<Session> session = std::nullopt);
     LoadState load_state() const;
 
     // The only way to any action.

@@ -9,6 +9,7 @@
 
 #include "runtime/frame/frame.h"
 #include "runtime/play/guide.h"
+#include "runtime/play/session/session.h"
 #include "runtime/scene/camera.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
@@ -28,11 +29,6 @@ constexpr int kSomeShare = 8;     // a pass of a share of the samples comes befo
 constexpr int kManySamples = 16;  // where there are at least so many
 constexpr double kLate = 1.5;     // a quick frame this many times too late is let go for a newer
 
-double seconds_of(FrameRate rate, double frame) {
-    double whole = std::round(frame);
-    return frame == whole ? rate.time(int64_t(whole)) : frame / rate.value();
-}
-
 }  // namespace
 
 std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {
@@ -44,13 +40,8 @@ std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& orde
     return scene.view;
 }
 
-std::optional<dvec3> place_of(ShownScene& shown, const std::string& name, double frame) {
-    Scene& scene = *shown.scene;
-    uint32_t node = find_node(scene, name);
-    if (node == kNone) return std::nullopt;
-    evaluate(scene, seconds_of(shown.rate, frame));
-    update_transforms(scene);
-    return dvec3(scene.nodes[node].world[3]);
+std::optional<dvec3> place_of(ShownScene& shown, const std::string& node, double frame) {
+    return place_at(*shown.scene, node, seconds_of(shown.rate, frame));
 }
 
 // Kept from frame to frame.
@@ -315,12 +306,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     settings.stop = &stop_;
     PlacedCamera placed;
     if (step.order.camera) {
-        placed = {step.order.camera->optics(), step.order.camera->world_from_camera()};
-        if (const auto& follow = step.order.follow) {
-            dvec3 from = follow->second;
-            dvec3 to_place = place_of(shown, follow->first, step.order.frame).value_or(from);
-            placed.world[3] += dvec4(to_place - from, 0.0);
-        }
+        placed = placed_camera(*shown.scene, *step.order.camera, step.order.follow,
+                               seconds_of(shown.rate, step.order.frame));
         settings.camera = &placed;
     } else if (step.order.camera_index < shown.scene->cameras.size()) {
         shown.scene->camera = step.order.camera_index;

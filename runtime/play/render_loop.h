@@ -13,8 +13,8 @@
 
 #include "runtime/base/stats.h"
 #include "runtime/play/display.h"
-#include "runtime/play/free_camera.h"
 #include "runtime/play/pacer.h"
+#include "runtime/play/session/free_camera.h"
 #include "runtime/play/shown_scene.h"
 
 namespace kinora {

@@ -9,8 +9,8 @@
 
 #include "runtime/base/math.h"
 #include "runtime/description/scene_description.h"
-#include "runtime/play/shader_document.h"
 #include "runtime/play/files/shader_source.h"
+#include "runtime/play/shader_document.h"
 
 namespace kinora {
 

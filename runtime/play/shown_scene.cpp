@@ -1,73 +1,17 @@
-// runtime/play/shown_scene.cpp: edits put on a scene, and what lists say of it.
+// runtime/play/shown_scene.cpp: what lists say of a scene.
 #include "runtime/play/shown_scene.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "anim/animation.h"
-#include "rsl/compile.h"
 #include "runtime/description/shader_library.h"
-#include "runtime/load/override_scene.h"
 #include "runtime/play/display.h"
 #include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
 namespace {
-
-// The first shader of the text that can stand for the material's surface.
-std::shared_ptr<const rsl::Shader> surface_of(const SceneEdits::Text& edit,
-                                              const SceneRequest& request,
-                                              Diagnostics& diagnostics) {
-    rsl::CompileOptions options;
-    options.include_directories = request.include_directories;
-    rsl::ShaderSource source;
-    source.map.file = diagnostics.files.add(edit.file, edit.text);
-    source.text = edit.text;
-    for (auto& shader : rsl::compile(source, options, diagnostics))
-        if (shader->kind == rsl::ShaderKind::Surface) return std::move(shader);
-    return nullptr;
-}
-
-bool has_parameter(const rsl::Shader& shader, const std::string& name) {
-    return std::ranges::any_of(shader.parameters,
-                               [&](const rsl::ShaderParameter& p) { return p.name == name; });
-}
-
-// The last layer, which is seen, with the sources of parameters that the new text still has.
-void replace_surface(MaterialDefinition& material, std::shared_ptr<const rsl::Shader> shader) {
-    if (material.surfaces.empty()) material.surfaces.emplace_back();
-    ShaderUse& use = material.surfaces.back();
-    std::erase_if(use.params,
-                  [&](const ParamSource& p) { return !has_parameter(*shader, p.name); });
-    use.shader = std::move(shader);
-}
-
-const rsl::Shader* shown_surface(const MaterialDefinition& material) {
-    return material.surfaces.empty() ? nullptr : material.surfaces.back().shader.get();
-}
-
-// Materials whose shaders stand at one place of a file change together; those that wear one of ours
-// do not.
-bool shares_text(const rsl::Shader* a, const rsl::Shader* b) {
-    if (!a || !b || !a->definition || !b->definition || a->name != b->name) return false;
-    Location p = a->definition->span.where, q = b->definition->span.where;
-    return p.file == q.file && p.begin == q.begin && library_shader_text(a->name).empty();
-}
-
-bool apply_text(SceneDescription& description, const SceneEdits::Text& edit,
-                const SceneRequest& request, Diagnostics& diagnostics) {
-    auto shader = surface_of(edit, request, diagnostics);
-    if (!shader) return false;
-    std::shared_ptr<const rsl::Shader> before;
-    for (const MaterialDefinition& material : description.materials)
-        if (material.id == edit.material && shown_surface(material))
-            before = material.surfaces.back().shader;
-    for (MaterialDefinition& material : description.materials)
-        if (material.id == edit.material || shares_text(shown_surface(material), before.get()))
-            replace_surface(material, shader);
-    return true;
-}
 
 ParamKind kind_of(rsl::BaseType type) {
     switch (type) {
@@ -117,10 +61,6 @@ ShaderParamInfo param_info(const Scene& scene, const ShaderUse& use,
 
 std::string shown_name(const NodeDefinition& node) {
     return node.name.empty() ? node.id : node.name;
-}
-
-const std::string& id_of(const NodeDefinition& node) {
-    return node.id.empty() ? node.name : node.id;
 }
 
 std::vector<NodeInfo> node_infos(const Scene& scene) {
@@ -204,25 +144,6 @@ std::vector<FindingText> take_findings(Diagnostics& diagnostics) {
     return texts;
 }
 
-std::string node_path(const Scene& scene, uint32_t node) {
-    std::string path;
-    for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
-        if (scene.nodes[n].definition == kNone) continue;
-        const std::string& step = id_of(scene.description->nodes[scene.nodes[n].definition]);
-        path = step + (path.empty() ? "" : "/" + path);
-    }
-    return path;
-}
-
-uint32_t find_node(const Scene& scene, const std::string& wanted) {
-    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        if (scene.nodes[n].definition == kNone) continue;
-        const NodeDefinition& node = scene.description->nodes[scene.nodes[n].definition];
-        if (wanted == node.id || wanted == node.name || wanted == node_path(scene, n)) return n;
-    }
-    return kNone;
-}
-
 std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
                                       const SceneRequest& request, FrameRate rate) {
     auto info = std::make_shared<SceneInfo>();
@@ -246,21 +167,6 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
     for (double time : anim::key_times(description.animation))
         info->keys.push_back(time * rate.value());
     return info;
-}
-
-bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
-                 Diagnostics& diagnostics) {
-    bool good = true;
-    for (const SceneEdits::Text& text : edits.texts)
-        good &= apply_text(imported.description, text, request, diagnostics);
-    for (const auto& [target, value] : edits.params)
-        good &= override_param(imported.description, target, value, diagnostics);
-    if (!edits.hidden.empty()) {
-        std::vector<std::string> hidden = request.hide;
-        hidden.insert(hidden.end(), edits.hidden.begin(), edits.hidden.end());
-        good &= override_visibility(imported.description, hidden, request.only, diagnostics);
-    }
-    return good;
 }
 
 }  // namespace kinora

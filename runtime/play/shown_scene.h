@@ -7,24 +7,12 @@
 #include <vector>
 
 #include "runtime/play/scene_info.h"
+#include "runtime/play/session/places.h"
+#include "runtime/play/session/scene_edits.h"
 #include "runtime/play/shader_document.h"
 #include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
-
-// What was changed of the scene since it was read. Undo keeps the edits of before.
-struct SceneEdits {
-    struct Text {
-        std::string material, file, text;
-        uint64_t version = 0;  // of ShaderDocument
-        bool operator==(const Text&) const = default;
-    };
-    std::vector<Text> texts;                                  // one a material: of its surface
-    std::vector<std::pair<std::string, std::string>> params;  // MATERIAL.NAME, VALUE
-    std::vector<std::string> hidden;                          // nodes, by id
-
-    bool operator==(const SceneEdits&) const = default;
-};
 
 struct ShownScene {
     SceneRequest request;
@@ -55,12 +43,4 @@ struct SceneRead {
 };
 std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
                                       const SceneRequest& request, FrameRate rate);
-// "torso/head/eye", by ids.
-std::string node_path(const Scene& scene, uint32_t node);
-uint32_t find_node(const Scene& scene, const std::string& path_id_or_name);  // kNone: none
-
-// The edits on a scene as read. Findings; false after an error.
-bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
-                 Diagnostics& diagnostics);
-
 }  // namespace kinora

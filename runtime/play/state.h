@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
-#include "runtime/play/free_camera.h"
+#include "runtime/play/session/free_camera.h"
 
 namespace kinora {
 

@@ -64,11 +64,30 @@ class Play(ProgramTest):
 
     def test_usage(self):
         self.expect(play(MATTE, "--headless"), 2, "--script FILE or --screenshot FILE")
+        self.expect(play("--headless"), 2, "needs a scene")
+        self.expect(play(self.folder / "none.dae", "--headless"), 3, "there is no file", "none.dae")
         self.expect(play(MATTE, "--headless", "--script", self.folder / "none.txt"), 2, "cannot be read")
         self.expect(play(MATTE, "--headless", "--scrip", "a"), 2, "--script")
         self.expect(play(self.folder / "none.dae", "--headless", "--screenshot", "a.png"), 3)
         self.expect(play(MATTE, "--headless", "--screenshot", "/proc/none/a.png", *SMALL), 6, "cannot be written")
         self.expect(play(MATTE, "--camera", "nosuch", "--headless", "--screenshot", "a.png"), 2)
+
+    def test_a_shader_that_loops_for_ever_ends(self):
+        shot = self.folder / "a.png"
+        text = 'select_material bright\nedit\nset_text "surface s() { float x = 0; while (x < 1) x = x - 1; Ci = x; }"\n' \
+               f'wait refined\nset_text "surface s() {{ Ci = color(0, 1, 0); }}"\nwait refined\nscreenshot {shot}\n'
+        self.script(MATTE, text)
+        self.assertTrue(shot.exists())
+
+    def test_what_is_missing_is_an_error_where_that_is_asked_for(self):
+        texture = 'Ci = texture("none_of_this_name.png");'
+        shader = self.write("t.sl", "surface t() { " + texture + " }")
+        words = (MATTE, "--headless", "--screenshot", self.folder / "a.png", "--shader", f"*={shader}", *SMALL)
+        strict = play(*words, "--strict")
+        self.assertEqual(strict.code, render(MATTE, "-o", self.folder / "b.png", "--frames", "0", "--shader", f"*={shader}", *SMALL,
+                                             "--strict").code, strict)
+        self.assertEqual(strict.code, 5, strict)
+        self.expect(play(*words), 0)
 
     def test_a_recorded_session_runs_again(self):
         record, shot, again = (self.folder / name for name in ("record.txt", "a.exr", "b.exr"))

@@ -10,7 +10,7 @@
 
 namespace kinora {
 
-inline bool is_missing_asset(const FindingInfo& info) {
+inline bool is_missing_asset(std::string_view code) {
     constexpr std::string_view kCodes[] = {"FILE_MISSING",
                                            "FILE_EMPTY_URI",
                                            "IMAGE_EMBEDDED",
@@ -21,7 +21,11 @@ inline bool is_missing_asset(const FindingInfo& info) {
                                            "LINK_OUTSIDE",
                                            "RSL_FILE_OUTSIDE",
                                            "GLTF_FILE"};
-    return std::find(std::begin(kCodes), std::end(kCodes), info.code) != std::end(kCodes);
+    return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
+}
+
+inline bool is_missing_asset(const FindingInfo& info) {
+    return is_missing_asset(std::string_view(info.code));
 }
 
 }  // namespace kinora

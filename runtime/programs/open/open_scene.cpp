@@ -185,6 +185,11 @@ uint32_t frame_seed(const SceneRequest& request, int64_t frame) {
     return request.seed * 0x9e3779b9u + uint32_t(frame);
 }
 
+double seconds_of(FrameRate rate, double frame) {
+    double whole = std::round(frame);
+    return frame == whole ? rate.time(int64_t(whole)) : frame / rate.value();
+}
+
 int exit_code_of_findings(const Diagnostics& diagnostics, int otherwise) {
     for (const Finding& finding : diagnostics.findings()) {
         if (finding.severity != Severity::Error) continue;

@@ -45,6 +45,9 @@ uint32_t frame_seed(const SceneRequest& request, int64_t frame);
 inline constexpr double kFurthestFrame = 1e12;  // as far as --frames goes
 int64_t first_frame(FrameRate rate, double start);
 
+// When a frame is, or what lies between two.
+double seconds_of(FrameRate rate, double frame);
+
 // The exit code that errors among the findings call for: of a shader, of an option. `otherwise`
 // where none does.
 int exit_code_of_findings(const Diagnostics& diagnostics, int otherwise);

@@ -60,6 +60,7 @@ struct SceneRequest {
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too
     FindingOptions findings;
+    std::vector<std::string> words;  // what was given of the scene's options, one word each
 };
 
 }  // namespace kinora

@@ -10,12 +10,14 @@
 
 #include "runtime/play/script.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/common/missing_asset.h"
 
 namespace kinora {
 
 namespace {
 
 constexpr double kPatience = 24 * 3600;
+constexpr size_t kMostOfACode = 20;  // as kinora-render prints
 
 void say(const std::string& line) {
     std::fprintf(stderr, "%s\n", line.c_str());
@@ -63,25 +65,39 @@ int take_screenshots(const PlayOptions& options, Player& player) {
 
 void FindingLines::print(const Player& player) {
     for (const FindingText& finding : player.findings()) {
+        if (!seen_.insert(finding.printed).second) continue;
         bool error = finding.severity == "error";
         error_ |= error;
-        bool shown =
+        missing_ |= is_missing_asset(finding.code);
+        bool wanted =
             error || (!options_.quiet && (options_.verbose || finding.severity == "warning"));
-        if (!shown || std::ranges::find(printed_, finding.printed) != printed_.end()) continue;
-        printed_.push_back(finding.printed);
-        std::fputs(finding.printed.c_str(), stderr);
+        if (!wanted) continue;
+        if (++counts_[finding.code] <= kMostOfACode || options_.verbose)
+            std::fputs(finding.printed.c_str(), stderr);
     }
+}
+
+void FindingLines::summarize() const {
+    if (options_.quiet || options_.verbose) return;
+    for (const auto& [code, count] : counts_)
+        if (count > kMostOfACode)
+            say(fmt::format("kinora: {} more of {}; -v shows all", count - kMostOfACode, code));
 }
 
 int run_headless(const PlayOptions& options, Player& player) {
     FindingLines lines(options.scene.findings);
     player.wait_loaded(kPatience);
     lines.print(player);
-    if (player.load_state() != LoadState::Ready)
+    if (player.load_state() != LoadState::Ready) {
+        lines.summarize();
+        if (lines.lacks_assets()) return kExitMissingAsset;
         return player.exit_code() != 0 ? player.exit_code() : int(kExitUnreadable);
+    }
     int code = options.script.empty() ? int(kExitOk) : run_script(options, player);
     if (code == kExitOk && !options.screenshot.empty()) code = take_screenshots(options, player);
     lines.print(player);
+    lines.summarize();
+    if (code == kExitOk && lines.lacks_assets()) return kExitMissingAsset;
     return code == kExitOk && lines.any_error() ? int(kExitSomeFailed) : code;
 }
 

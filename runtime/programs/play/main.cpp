@@ -14,18 +14,26 @@ namespace kinora {
 
 namespace {
 
+std::optional<OpenedSession> read_session_file(const std::string& file, std::string& error) {
+    std::optional<RenderOptions> options = options_of_session(file, error);
+    if (!options) return std::nullopt;
+    Session session = *options->session;
+    return OpenedSession{std::move(*options), std::move(session)};
+}
+
 int play_scene(const PlayOptions& options) {
     PlayerSetup setup;
     setup.real_time = !options.headless || options.real_time;
     setup.watch_files = setup.real_time;
     if (!options.headless) setup.wake = play::wake_window;
+    setup.read_session = read_session_file;
     Player player(setup);
     if (!options.record.empty() && !player.record_to(options.record)) {
         std::fprintf(stderr, "kinora-play: error: '%s' cannot be written\n",
                      options.record.c_str());
         return kExitUnwritable;
     }
-    player.open(options.scene);
+    player.open(options.scene, options.scene.session);
     if (options.headless) return run_headless(options, player);
     std::string error;
     const play::WindowOptions window{options.scene.width > 0 || options.scene.scale != 1, false,

@@ -2,6 +2,7 @@
 #include "runtime/programs/play/options.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "runtime/programs/common/exit_codes.h"
 
@@ -20,7 +21,18 @@ std::optional<int> parse_play_options(int argc, char** argv, PlayOptions& o) {
          "without a window too, time runs by the clock and pictures adapt to it"},
     };
     if (auto code = parse_scene_options(argc, argv, program, o.scene)) return code;
-    if (o.headless && o.script.empty() && o.screenshot.empty()) {
+    if (!o.headless) return std::nullopt;
+    const std::string& scene = o.scene.scene;
+    if (scene.empty()) {
+        std::fputs("kinora-play: --headless needs a scene\n", stderr);
+        return kExitUsage;
+    }
+    std::error_code code;
+    if (!std::filesystem::exists(scene, code)) {
+        std::fprintf(stderr, "kinora-play: error: there is no file '%s'\n", scene.c_str());
+        return kExitUnreadable;
+    }
+    if (o.script.empty() && o.screenshot.empty()) {
         std::fputs("kinora-play: --headless needs --script FILE or --screenshot FILE\n", stderr);
         return kExitUsage;
     }

@@ -88,6 +88,7 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
     text += fmt::format(" split {} ray limit {}", o.quality.split, o.ray_limit);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
+    if (o.session) text += session_text(*o.session);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }
 

@@ -16,6 +16,9 @@ std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
         list.emplace_back(std::llround(*options.time * rate.value()), *options.time);
     } else if (options.frames) {
         for (int64_t frame : *options.frames) list.emplace_back(frame, rate.time(frame));
+    } else if (options.session) {
+        double frame = options.session->frame;
+        list.emplace_back(std::llround(frame), seconds_of(rate, frame));
     } else if (options.turntable) {
         int64_t first = first_frame(rate, start);
         for (int64_t frame = first; frame < first + *options.turntable; ++frame)

@@ -82,12 +82,14 @@ class Render {
     bool keep_existing(const std::string& file, const std::string& print);
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
+    void place_session_camera(double time);
 
     const RenderOptions& options_;
     Diagnostics diagnostics_;
     FindingPrinter printer_;
     BuiltScene built_;
     FrameSettings settings_;
+    PlacedCamera placed_;
     raytrace::Film film_;
     ProgressReport progress_;
     ContactSheet sheet_;
@@ -121,7 +123,9 @@ int Render::load() {
     }
     rate_ = imported->rate;
     imported->options.want_dumps = !options_.dump.empty();
-    built_ = build_imported(std::move(*imported), diagnostics_);
+    bool good = !options_.session ||
+                apply_edits(*imported, options_.session->edits, options_, diagnostics_);
+    if (good) built_ = build_imported(std::move(*imported), diagnostics_);
     build_ms_ = watch.ms();
     flush_findings();
     int code = exit_code_of_findings(diagnostics_, kExitOk);
@@ -220,10 +224,18 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     return baked ? kExitOk : kExitSomeFailed;
 }
 
+void Render::place_session_camera(double time) {
+    if (!options_.session || !options_.session->camera.own) return;
+    const SessionCamera& camera = options_.session->camera;
+    placed_ = placed_camera(*built_.scene, *camera.own, camera.follow, time);
+    settings_.camera = &placed_;
+}
+
 // By the scene as loaded; where its displaced meshes are too coarse for the frame, by one diced for
 // it too, so that a picture depends on its frame alone, not on those before. Where the limit of
 // triangles leaves that no finer, by the first after all.
 bool Render::picture(FrameRecord& record, double time, const raytrace::Progress& progress) {
+    place_session_camera(time);
     auto render = [&](Scene& scene, double most_dice_error) {
         settings_.most_dice_error = most_dice_error;
         return render_frame(scene, time, settings_, film_, record.stats, diagnostics_, &progress);
@@ -233,7 +245,10 @@ bool Render::picture(FrameRecord& record, double time, const raytrace::Progress&
     if (!record.stats.too_coarse) return whole;
     Stopwatch watch;
     diagnostics_.report(Code::DICE_AGAIN, Location{}, time, record.dice_error);
-    std::unique_ptr<Scene> closer = built_.redicer->make({time, {}}, diagnostics_);
+    CloserView view{time, {}};
+    if (settings_.camera) view.camera = built_.scene->view;
+    std::unique_ptr<Scene> closer = built_.redicer->make(view, diagnostics_);
+    if (closer) closer->camera = built_.scene->camera;
     record.redice_ms = watch.ms();
     if (g_signal) return false;
     if (closer) {
@@ -264,6 +279,12 @@ int Render::frames() {
     if (!options_.output.empty()) remove_stale_images(options_.output);
     scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
     settings_ = frame_settings(options_, *built_.scene, diagnostics_, &g_signal);
+    if (const auto& session = options_.session) {
+        choose_camera(*built_.scene, session->camera);
+        settings_.gain *= std::exp2(session->exposure);
+        if (session->width > 0) settings_.width = session->width;
+        if (session->height > 0) settings_.height = session->height;
+    }
     progress_ = ProgressReport(options_.progress, list->size());
     int result = kExitOk;
     for (size_t i = 0; i < list->size(); ++i) {

@@ -17,6 +17,12 @@ namespace {
 constexpr double kMostSeconds = 1e9;
 constexpr double kMostFilterWidth = 64;  // pixels
 
+// Of those that every program with a scene takes.
+constexpr std::string_view kNotOfThePicture[] = {"scene",  "--session", "--frames",  "--time",
+                                                 "--help", "--version", "--threads", "--target"};
+constexpr std::string_view kRepeatable[] = {"--shader", "--param", "--hide",
+                                            "--only",   "--aov",   "--allow-external"};
+
 void parse_size(const std::string& text, RenderOptions& o) {
     char tail = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &o.width, &o.height, &tail) != 2 || o.width < 1 ||
@@ -107,7 +113,7 @@ struct Given {
     std::optional<size_t> dice_limit;
     std::vector<std::string> shaders, params;
     bool overwrite = false;
-    std::string stats, progress;
+    std::string stats, progress, session;
 };
 
 // Which pictures are written.
@@ -121,7 +127,10 @@ void declare_output(CLI::App& app, RenderOptions& o) {
 void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
     app.footer(std::string(kExitCodeHelp) + "\n" + kEnvironmentHelp);
     app.set_version_flag("--version", app.get_name() + " " KINORA_VERSION);
-    app.add_option("scene", o.scene, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
+    app.add_option("scene", o.scene, "the scene: .dae, .zae, .kmz, .gltf or .glb; or a session");
+    app.add_option("--session", given.session,
+                   "FILE.kinora of kinora-play: its scene, camera, time and edits; other options "
+                   "go before its own");
     auto* frames =
         app.add_option("--frames", given.frames,
                        "1-240, 1-240x2, 300, 10-1x-1, comma separated (what is animated)");
@@ -368,12 +377,103 @@ void interpret(const Given& given, RenderOptions& o) {
     interpret_changes(given, o);
 }
 
-void declare_scene(CLI::App& app, Given& given, RenderOptions& o) {
+// The options that a picture depends on.
+std::vector<const CLI::Option*> declare_scene(CLI::App& app, Given& given, RenderOptions& o) {
     declare_input(app, given, o);
     declare_quality(app, given, o);
     declare_look(app, given, o);
     declare_changes(app, given, o);
+    std::vector<const CLI::Option*> options;
+    for (const CLI::Option* option : std::as_const(app).get_options()) {
+        std::string name = option->get_name();
+        if (std::ranges::find(kNotOfThePicture, name) == std::end(kNotOfThePicture))
+            options.push_back(option);
+    }
     declare_findings(app, o);
+    return options;
+}
+
+// "--spp=4", "-Ifolder", "--confine": a word each.
+std::vector<std::string> given_words(const std::vector<const CLI::Option*>& options) {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : options) {
+        const std::string name = option->get_name();
+        const bool flag = option->get_items_expected_max() == 0;
+        if (flag && option->count() > 0) words.push_back(name);
+        if (flag) continue;
+        for (const std::string& value : option->results())
+            words.push_back(name + (name.starts_with("--") ? "=" : "") + value);
+    }
+    return words;
+}
+
+bool gives(const std::vector<std::string>& words, std::string_view option) {
+    return std::ranges::any_of(words, [&](const std::string& word) {
+        return word.starts_with(option) &&
+               (word.size() == option.size() || word[option.size()] == '=');
+    });
+}
+
+// The session's words, but for those that the command line gives too. What may be given several
+// times adds up.
+std::vector<std::string> with_session(const Session& session,
+                                      const std::vector<std::string>& given) {
+    std::vector<std::string> words;
+    for (const std::string& word : session.options) {
+        std::string_view option = std::string_view(word).substr(0, word.find('='));
+        bool adds_up = std::ranges::find(kRepeatable, option) != std::end(kRepeatable);
+        if (option.starts_with("--") && (adds_up || !gives(given, option))) words.push_back(word);
+        if (!option.starts_with("--") && option.starts_with("-I")) words.push_back(word);
+    }
+    words.insert(words.end(), given.begin(), given.end());
+    return words;
+}
+
+// The command line is stronger than what the player was set to.
+void override_session(const std::vector<std::string>& given, Session& session) {
+    if (gives(given, "--size") || gives(given, "--scale")) session.width = session.height = 0;
+    if (gives(given, "--exposure")) session.exposure = 0;
+    for (const char* option : {"--camera", "--look-from", "--look-at", "--turntable"})
+        if (gives(given, option)) session.camera = {};
+}
+
+bool is_session(const std::string& word) {
+    return word.ends_with(".kinora") && !word.starts_with("-");
+}
+
+// The file of `--session FILE`, or a word that ends so, which is taken out; "" none.
+std::string take_session(std::vector<std::string>& words) {
+    for (size_t i = 0; i < words.size(); ++i) {
+        constexpr std::string_view kOption = "--session";
+        if (words[i] == kOption && i + 1 < words.size()) return words[i + 1];
+        if (words[i].starts_with("--session=")) return words[i].substr(kOption.size() + 1);
+    }
+    auto found = std::ranges::find_if(words, is_session);
+    if (found == words.end()) return "";
+    std::string file = *found;
+    words.erase(found);
+    return file;
+}
+
+// Puts the options of the session among the words, if they name one. An error text, or "".
+std::string read_session_of(std::vector<std::string>& words, RenderOptions& o) {
+    std::string error, file = take_session(words);
+    if (file.empty()) return "";
+    o.session = read_session(file, error);
+    if (!o.session) return error;
+    override_session(words, *o.session);
+    words = with_session(*o.session, words);
+    return "";
+}
+
+void interpret_scene(RenderOptions& o) {
+    if (o.scene.empty() && o.session) o.scene = o.session->scene;
+    if (o.session) o.session->scene = o.scene;
+}
+
+std::optional<int> refuse_session(const std::string& program, const std::string& error) {
+    std::fprintf(stderr, "%s: error: %s\n", program.c_str(), error.c_str());
+    return kExitUnreadable;
 }
 
 }  // namespace
@@ -384,25 +484,57 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     declare_output(app, o);
     declare_scene(app, given, o);
     declare_run(app, given, o);
-    return parse_command_line(app, words_of(argc, argv), {{"--stats", "text"}, {"--list", "all"}},
-                              [&] {
-                                  interpret(given, o);
-                                  interpret_output(given, o);
-                              });
+    std::vector<std::string> words = words_of(argc, argv);
+    if (std::string error = read_session_of(words, o); !error.empty())
+        return refuse_session(app.get_name(), error);
+    return parse_command_line(app, std::move(words), {{"--stats", "text"}, {"--list", "all"}}, [&] {
+        interpret(given, o);
+        interpret_scene(o);
+        if (o.scene.empty()) throw CLI::RequiredError("scene");
+        interpret_output(given, o);
+    });
 }
 
 std::optional<int> parse_scene_options(int argc, char** argv, const SceneProgram& program,
                                        RenderOptions& o) {
     CLI::App app(std::string(program.name) + ": " + program.what, program.name);
     Given given;
-    declare_scene(app, given, o);
+    auto of_scene = declare_scene(app, given, o);
     for (const OwnOption& own : program.own) {
         if (own.text)
             app.add_option(own.names, *own.text, own.help);
         else
             app.add_flag(own.names, *own.flag, own.help);
     }
-    return parse_command_line(app, words_of(argc, argv), {}, [&] { interpret(given, o); });
+    std::vector<std::string> words = words_of(argc, argv);
+    if (std::string error = read_session_of(words, o); !error.empty())
+        return refuse_session(app.get_name(), error);
+    return parse_command_line(app, std::move(words), {}, [&] {
+        interpret(given, o);
+        interpret_scene(o);
+        o.words = given_words(of_scene);
+    });
+}
+
+std::optional<RenderOptions> options_of_session(const std::string& file, std::string& error) {
+    CLI::App app("a session");
+    Given given;
+    RenderOptions o;
+    auto of_scene = declare_scene(app, given, o);
+    std::vector<std::string> words{file};
+    error = read_session_of(words, o);
+    if (!error.empty()) return std::nullopt;
+    try {
+        std::ranges::reverse(words);
+        app.parse(words);
+        interpret(given, o);
+        interpret_scene(o);
+        o.words = given_words(of_scene);
+        return o;
+    } catch (const CLI::ParseError& bad) {
+        error = fmt::format("'{}': {}", file, bad.what());
+        return std::nullopt;
+    }
 }
 
 }  // namespace kinora

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/play/session/session.h"
 #include "runtime/programs/common/progress.h"
 #include "runtime/programs/open/scene_request.h"
 
@@ -25,6 +26,8 @@ struct RenderOptions : SceneRequest {
     std::string list;               // "cameras", ..., "all"; "" = render
     bool json = false;              // of the list
     std::vector<std::string> dump;  // stages: "ir", "ir:fold", "asm", ...
+    // Read already: its options are among those above, with what the command line put over them.
+    std::optional<Session> session;
 };
 
 // A program that takes the options of scenes and pictures, and some of its own.
@@ -42,6 +45,9 @@ struct SceneProgram {
 // As below, without the options that say which files are written and how.
 std::optional<int> parse_scene_options(int argc, char** argv, const SceneProgram& program,
                                        RenderOptions& options);
+
+// What the options of a session ask for, without any other. Nothing where it cannot be read.
+std::optional<RenderOptions> options_of_session(const std::string& file, std::string& error);
 
 // Reads the command line. Returns an exit code when there is nothing to render (help, usage error,
 // which is printed), nothing otherwise.

@@ -1,5 +1,5 @@
 // tests/runtime/play/free_camera_test.cpp: a camera moved by hand, by geometry.
-#include "runtime/play/free_camera.h"
+#include "runtime/play/session/free_camera.h"
 
 #include <gtest/gtest.h>
 

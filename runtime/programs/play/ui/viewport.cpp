@@ -131,6 +131,10 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
     const LoadState load = context.player.load_state();
     if (!picture_ || load == LoadState::Failed) {
         std::string text = "Drop a scene here: .dae .zae .kmz .gltf .glb";
+        if (load == LoadState::Nothing)
+            text =
+                "Welcome. Drop a scene here (.dae .zae .kmz .gltf .glb), or press Ctrl+P and say "
+                "open.";
         if (load == LoadState::Loading) text = "Reading the scene";
         if (load == LoadState::Ready) text = "Making the first picture";
         if (load == LoadState::Failed)

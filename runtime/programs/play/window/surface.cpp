@@ -29,6 +29,12 @@ Surface::Surface(const std::string& title, const WindowPlace& place) {
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    // Without a folder for Wayland's socket that driver only complains.
+    if (!std::getenv("XDG_RUNTIME_DIR") && !std::getenv("SDL_VIDEODRIVER")) {
+        if (!std::getenv("DISPLAY"))
+            throw std::runtime_error("neither DISPLAY nor WAYLAND_DISPLAY leads to one");
+        SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");
+    }
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) throw std::runtime_error(SDL_GetError());
     // SDL's last resort is a driver that shows nothing: only for those who name it.
     const std::string driver = SDL_GetCurrentVideoDriver();

@@ -1,4 +1,4 @@
-// runtime/play/free_camera.h: a camera that is moved by hand: it looks at a pivot.
+// runtime/play/session/free_camera.h: a camera that is moved by hand: it looks at a pivot.
 #pragma once
 
 #include "raytrace/camera.h"

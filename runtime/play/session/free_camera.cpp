@@ -1,5 +1,5 @@
 // runtime/play/free_camera.cpp: a camera moved by hand.
-#include "runtime/play/free_camera.h"
+#include "runtime/play/session/free_camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,36 @@
+// runtime/play/session/places.cpp: paths of nodes.
+#include "runtime/play/session/places.h"
+
+#include "runtime/scene/transforms.h"
+#include "runtime/scene/values.h"
+
+namespace kinora {
+
+std::string node_path(const Scene& scene, uint32_t node) {
+    std::string path;
+    for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
+        if (scene.nodes[n].definition == kNone) continue;
+        const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
+        path = (step.id.empty() ? step.name : step.id) + (path.empty() ? "" : "/" + path);
+    }
+    return path;
+}
+
+uint32_t find_node(const Scene& scene, const std::string& wanted) {
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
+        if (scene.nodes[n].definition == kNone) continue;
+        const NodeDefinition& node = scene.description->nodes[scene.nodes[n].definition];
+        if (wanted == node.id || wanted == node.name || wanted == node_path(scene, n)) return n;
+    }
+    return kNone;
+}
+
+std::optional<dvec3> place_at(Scene& scene, const std::string& name, double seconds) {
+    uint32_t node = find_node(scene, name);
+    if (node == kNone) return std::nullopt;
+    evaluate(scene, seconds);
+    update_transforms(scene);
+    return dvec3(scene.nodes[node].world[3]);
+}
+
+}  // namespace kinora

@@ -1,0 +1,35 @@
+// runtime/play/session/scene_edits.h: what was changed of a scene since it was read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/programs/open/open_scene.h"
+
+namespace kinora {
+
+// Undo keeps the edits of before.
+struct SceneEdits {
+    struct Text {
+        std::string material, file, text;
+        uint64_t version = 0;  // of ShaderDocument
+        bool operator==(const Text&) const = default;
+    };
+    std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl or one of ours
+    std::vector<Text> texts;                                   // one a material: of its surface
+    std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
+    std::vector<std::string> hidden;                           // nodes, by id
+
+    bool operator==(const SceneEdits&) const = default;
+};
+
+// The edits on a scene as read. Findings; false after an error.
+bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
+                 Diagnostics& diagnostics);
+
+// The shader of a material's last layer, which is seen; null: none.
+const rsl::Shader* shown_surface(const MaterialDefinition& material);
+
+}  // namespace kinora

@@ -1,0 +1,33 @@
+// runtime/play/session/session.cpp: a session's camera in a scene.
+#include "runtime/play/session/session.h"
+
+#include "runtime/play/session/places.h"
+
+namespace kinora {
+
+void choose_camera(Scene& scene, const SessionCamera& camera) {
+    auto is_it = [&](uint32_t index) {
+        return index < scene.cameras.size() && scene.cameras[index].name == camera.name;
+    };
+    if (is_it(camera.index)) {
+        scene.camera = camera.index;
+        return;
+    }
+    for (uint32_t index = 0; index < scene.cameras.size(); ++index) {
+        if (!is_it(index)) continue;
+        scene.camera = index;
+        return;
+    }
+}
+
+PlacedCamera placed_camera(Scene& scene, const FreeCamera& own,
+                           const std::optional<std::pair<std::string, dvec3>>& follow,
+                           double seconds) {
+    PlacedCamera placed{own.optics(), own.world_from_camera()};
+    if (!follow) return placed;
+    dvec3 place = place_at(scene, follow->first, seconds).value_or(follow->second);
+    placed.world[3] += dvec4(place - follow->second, 0.0);
+    return placed;
+}
+
+}  // namespace kinora
