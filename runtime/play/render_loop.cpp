@@ -53,6 +53,30 @@ std::optional<dvec3> place_of(ShownScene& shown, const std::string& name, double
     return dvec3(scene.nodes[node].world[3]);
 }
 
+double time_of(const ShownScene& shown, const ViewOrder& order) {
+    return seconds_of(shown.rate, order.frame);
+}
+
+FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, PlacedCamera& placed) {
+    FrameSettings settings = shown.settings;
+    settings.width = order.width;
+    settings.height = order.height;
+    settings.gain *= std::exp2(order.exposure);
+    settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
+    if (order.camera) {
+        placed = {order.camera->optics(), order.camera->world_from_camera()};
+        if (const auto& follow = order.follow) {
+            dvec3 from = follow->second;
+            dvec3 to_place = place_of(shown, follow->first, order.frame).value_or(from);
+            placed.world[3] += dvec4(to_place - from, 0.0);
+        }
+        settings.camera = &placed;
+    } else if (order.camera_index < shown.scene->cameras.size()) {
+        shown.scene->camera = order.camera_index;
+    }
+    return settings;
+}
+
 // Kept from frame to frame.
 struct RenderLoop::Memory {
     std::vector<std::shared_ptr<Picture>> pictures;
@@ -306,25 +330,12 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     Stopwatch watch;
     ShownScene& shown = *step.scene;
     std::shared_ptr<Picture> to = free_picture();
-    FrameSettings settings = shown.settings;
+    PlacedCamera placed;
+    FrameSettings settings = refined_settings(shown, step.order, placed);
     settings.width = std::max(1, int(std::lround(step.order.width * step.scale)));
     settings.height = std::max(1, int(std::lround(step.order.height * step.scale)));
-    settings.gain *= std::exp2(step.order.exposure);
     settings.integrator.samples_per_pixel = step.samples;
-    settings.integrator.seed = frame_seed(shown.request, std::llround(step.order.frame));
     settings.stop = &stop_;
-    PlacedCamera placed;
-    if (step.order.camera) {
-        placed = {step.order.camera->optics(), step.order.camera->world_from_camera()};
-        if (const auto& follow = step.order.follow) {
-            dvec3 from = follow->second;
-            dvec3 to_place = place_of(shown, follow->first, step.order.frame).value_or(from);
-            placed.world[3] += dvec4(to_place - from, 0.0);
-        }
-        settings.camera = &placed;
-    } else if (step.order.camera_index < shown.scene->cameras.size()) {
-        shown.scene->camera = step.order.camera_index;
-    }
     FrameStats stats;
     try {
         outcome.whole = step.pass == Pass::Refined
