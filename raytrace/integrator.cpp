@@ -94,4 +94,21 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
     return !stop && !shading.stopped();
 }
 
+vec4 integrate_sample(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
+                      const IntegratorSettings& settings, IntegratorScratch& scratch, int x, int y,
+                      int sample) {
+    prepare(film, camera, settings, shading.miss_distance() > 0, scratch);
+    CHECK_LT(x, film.width);
+    CHECK_LT(y, film.height);
+    CHECK_LT(sample, settings.samples_per_pixel);
+    vec4 result(0.0f);
+    parallel_for(0, 1, 1, [&](size_t, size_t) {
+        const int thread = thread_index();
+        TileJob job(accel, camera, shading, film, settings, *scratch.filter,
+                    *scratch.threads[size_t(thread)], thread);
+        result = job.run_sample({x, y, x + 1, y + 1}, sample);
+    });
+    return result;
+}
+
 }  // namespace kinora::raytrace

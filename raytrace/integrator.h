@@ -85,4 +85,10 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
                const IntegratorSettings& settings, IntegratorScratch& scratch,
                IntegratorCounters& counters, const Progress* progress = nullptr);
 
+// What sample `sample` of a pixel of that film gives, as integrate() has it; associated, over no
+// background. `film` is not drawn to, but resized as there.
+vec4 integrate_sample(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
+                      const IntegratorSettings& settings, IntegratorScratch& scratch, int x, int y,
+                      int sample);
+
 }  // namespace kinora::raytrace

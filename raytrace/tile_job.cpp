@@ -91,6 +91,17 @@ void TileJob::run(const Tile& tile) {
     shading_.end_tile(thread_);
 }
 
+vec4 TileJob::run_sample(const Tile& tile, int sample) {
+    tile_ = tile;
+    begin_tile();
+    make_rays(sample, sample + 1);
+    follow_layers();
+    shading_.end_tile(thread_);
+    vec3 color(m_.color[0][0], m_.color[1][0], m_.color[2][0]);
+    float through = (m_.through[0][0] + m_.through[1][0] + m_.through[2][0]) / 3;
+    return vec4(color, 1 - through);
+}
+
 void TileJob::begin_tile() {
     for (auto& v : m_.sum) std::fill_n(v.begin(), tile_.pixels(), 0.0);
     for (auto& v : m_.sum_aov) std::fill_n(v.begin(), tile_.pixels(), 0.0);

@@ -68,6 +68,8 @@ class TileJob {
           thread_(thread) {}
 
     void run(const Tile& tile);
+    // One sample of the tile's first pixel, over no background.
+    vec4 run_sample(const Tile& tile, int sample);
 
   private:
     void begin_tile();

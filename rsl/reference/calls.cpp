@@ -76,7 +76,9 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
     uint32_t path = inline_path;
     inline_path = inline_path * 31 + e.site + 1;
     Item outer = std::exchange(returned_, Item(f.result.base));
+    const Function* caller = std::exchange(function_, &f);
     f.recursive ? run_again(f) : void(block(f.body->body));
+    function_ = caller;
     inline_path = path;
     Item value = std::exchange(returned_, outer);
     std::vector<Storage> outputs;
@@ -87,7 +89,7 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
         if (!f.parameters[k]->output || lent(e, k)) continue;
         Storage& after = outputs[k];
         if (e.args[k]->type.is_array())
-            storage(*as<VariableExpr>(*e.args[k]).symbol) = after;
+            set_array(*e.args[k], after);
         else
             store(*e.args[k], after[0]);
     }
@@ -135,7 +137,7 @@ auto Reference<Real>::call_builtin(const CallExpr& e) -> Item {
     if (in.jitter != 0 && e.builtin->tolerance_ulp > 0) move_results(call, plain);
     for (size_t k = 0; k < plain && k < e.signature->arguments.size(); ++k)
         if (e.signature->arguments[k].output && e.args[k]->type.is_array())
-            storage(*as<VariableExpr>(*e.args[k]).symbol) = call.arrays[k];
+            set_array(*e.args[k], call.arrays[k]);
         else if (e.signature->arguments[k].output)
             store(*e.args[k], call.args[k]);
     for (size_t k = plain, p = 0; k + 1 < e.args.size(); k += 2) {

@@ -24,9 +24,11 @@ RefFlow Reference<Real>::statement(const Stmt& stmt) {
             return block(as<BlockStmt>(stmt).body);
         case StmtKind::Declare:
             for (const Symbol* symbol : as<DeclareStmt>(stmt).symbols) declare(*symbol);
+            tell(stmt.span.where);
             return {};
         case StmtKind::Expression:
             expr(*as<ExpressionStmt>(stmt).expression);
+            tell(stmt.span.where);
             return {};
         case StmtKind::If: {
             auto& node = as<IfStmt>(stmt);
@@ -93,7 +95,10 @@ RefFlow Reference<Real>::loop(const Stmt& stmt, const Expr* condition, const Stm
         loop_counters.back() = turn;
         flow = statement(body);
         if (ends_loop(flow, stmt, leave)) break;
-        for (const Expr* e : step) expr(*e);
+        for (const Expr* e : step) {
+            expr(*e);
+            tell(e->span.where);
+        }
     }
     loop_counters.pop_back();
     return flow;
@@ -119,6 +124,8 @@ static bool matches(const ReferenceLight& light, const std::string& category) {
         return parts;
     };
     if (category.empty()) return true;
+    if (auto known = light.known_categories.find(category); known != light.known_categories.end())
+        return known->second;
     if (category.find_first_of("|&") == std::string::npos) {
         bool without = category[0] == '-';
         bool any = false;
@@ -144,8 +151,12 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
     RefFlow flow;
     bool leave = false;
     loop_counters.push_back(0);
-    for (size_t k = 0; k < in.lights.size() && !leave; ++k) {
-        const ReferenceLight& l = in.lights[k];
+    std::span<const ReferenceLight> lights = in.lights;
+    if (in.lights_at)
+        lights = in.lights_at({double(position.c[0].x), double(position.c[1].x),
+                               double(position.c[2].x)});
+    for (size_t k = 0; k < lights.size() && !leave; ++k) {
+        const ReferenceLight& l = lights[k];
         loop_counters.back() = int32_t(k);
         auto triple = [](BaseType type, const std::array<double, 3>& c) {
             return Item(type, Number(Real(c[0])), Number(Real(c[1])), Number(Real(c[2])));
@@ -174,6 +185,7 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
             for (size_t i = 0; i < found.size(); ++i) value.c[i] = Real(found[i]);
             if (!found.empty()) store(*stmt.pairs[p], value);
         }
+        if (in.observer) tell_light(stmt.span.where);
         flow = statement(*stmt.body);
         light = outer;
         for (size_t i = 0; i < 4; ++i) {

@@ -58,6 +58,7 @@ void Reference<Real>::declare(const Symbol& symbol) {
     }
     variables_[&symbol] = items;
     storage(symbol);  // the rest is 0
+    note(symbol);
 }
 
 // A float as an index: truncated, clamped (docs/numerics.md#indices).
@@ -111,12 +112,13 @@ void Reference<Real>::store(const LValue& to, const Item& value) {
         at.c[size_t(to.component)] = value.c[0];
     else
         at.c = value.c;
+    note(*to.symbol);
 }
 
 // ---- expressions --------------------------------------------------------------------------------
 
 template <class Real>
-auto Reference<Real>::expr(const Expr& e) -> Item {
+auto Reference<Real>::evaluate(const Expr& e) -> Item {
     switch (e.kind) {
         case ExprKind::Number:
             return {BaseType::Float, Number(Real(as<NumberExpr>(e).value))};
@@ -257,6 +259,7 @@ auto Reference<Real>::assign(const AssignExpr& e) -> Item {
         size_t length = means(target).type.array_length > 0 ? items.size() : value.size();
         items.resize(length, Item(target.type.base));
         std::copy_n(value.begin(), std::min(length, value.size()), items.begin());
+        note(means(target));
         return Item(e.target->type.base);
     }
     if (e.op == Op::None) {
@@ -344,6 +347,7 @@ void Reference<Real>::run_layer(const Layer& next) {
         smooth_P();
         given_P_ = global(Global::P);
     }
+    if (in.observer) tell_inputs();
     block(shader.definition->body->body);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {
@@ -381,7 +385,8 @@ void Reference<Real>::light_outputs() {
 template <class Real>
 ReferenceResult Reference<Real>::run() {
     const Shader& last = *layers_.back().shader;
-    for (const Layer& l : layers_) run_layer(l);
+    for (const Layer& l : layers_)
+        if (!l.done) run_layer(l);
     if (last.kind == ShaderKind::Light) {
         light_outputs();
         return result;
@@ -414,7 +419,7 @@ std::optional<ConstantValue> evaluate_constant(const Expr& expr) {
 }
 
 #define KINORA_REFERENCE_METHODS(Real)                                         \
-    template auto Reference<Real>::expr(const Expr&)->Item;                    \
+    template auto Reference<Real>::evaluate(const Expr&)->Item;                \
     template auto Reference<Real>::convert(const Item&, BaseType) const->Item; \
     template auto Reference<Real>::global(Global)->Item&;                      \
     template auto Reference<Real>::storage(const Symbol&)->Storage&;           \

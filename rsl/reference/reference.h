@@ -27,7 +27,29 @@ struct ReferenceLight {
     bool lit = true;
     // What lightsource() finds: numbers by name; it asks for so many.
     std::vector<std::pair<std::string, std::vector<double>>> messages;
+    std::string name;                             // for observers
+    std::map<std::string, bool> known_categories;  // whether it is of them; else by `categories`
 };
+
+// A variable's numbers, all elements counted; strings as intern ids.
+struct ReferenceVariable {
+    std::string_view name;
+    Type type;
+    bool varying = false;  // as the checker found
+    std::vector<double> values;
+};
+
+// What a statement has changed. The first of a shader has no changes but its parameters and the
+// globals that it reads; a turn of illuminance has one for L, Cl and Ol.
+struct ReferenceStep {
+    const Shader* shader = nullptr;
+    const Function* function = nullptr;  // null: the shader's body
+    Location where;
+    std::vector<int32_t> turns;             // of the loops around it
+    const ReferenceLight* light = nullptr;  // inside illuminance
+    std::vector<ReferenceVariable> changes;
+};
+using ReferenceObserver = std::function<void(const ReferenceStep&)>;
 
 // What a renderer answers; the defaults are a world without textures and other objects. Arguments
 // and results in the order of rsl/model/services.def; strings as intern ids.
@@ -38,7 +60,9 @@ using ReferenceService =
 // 03"): what is missing is 0, a missing space is the identity.
 struct ReferenceInputs {
     std::map<std::string, double> values;
-    std::vector<ReferenceLight> lights;  // at any position asked for
+    std::vector<ReferenceLight> lights;  // at any position asked for, but for `lights_at`
+    // Those of illuminance() at a position in "current". Null: `lights`.
+    std::function<std::span<const ReferenceLight>(std::array<double, 3> position)> lights_at;
     ReferenceService service;
     // Coordinate systems beside the standard ones; any other name means "shader". Null: all exist.
     const std::vector<std::string>* spaces = nullptr;
@@ -49,6 +73,7 @@ struct ReferenceInputs {
     int loop_budget = 1'000'000;  // docs/numerics.md#loops
     // Statements run in all: loops inside recursion multiply. Beyond it the result is `too_long`.
     int64_t statement_budget = INT64_MAX;
+    ReferenceObserver observer;  // called after each statement that changes something
 };
 
 struct ReferenceResult {
@@ -59,10 +84,11 @@ struct ReferenceResult {
     std::string missing;    // a built-in that was called and whose row has no reference; "" if none
     int faults = 0;         // loops ended by their budget, indices outside their arrays
     bool too_long = false;  // stopped at the statement budget: no value means anything
+    Location nan;  // with an observer: the first operation or call that gave a NaN; no file: none
 };
 
-// Runs a stack of displacement and surface shaders, or one light. Parameters come from their
-// bindings, as in lower().
+// Runs a stack of displacement and surface shaders, or one light; those that are done are passed
+// over. Parameters come from their bindings, as in lower().
 template <class Real>
 ReferenceResult run_reference(std::span<const Layer> layers, const ReferenceInputs& inputs);
 

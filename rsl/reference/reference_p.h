@@ -200,11 +200,32 @@ class Reference {
     std::vector<double> messages(std::string_view name, size_t count) const;  // empty: none
 
     // reference.cpp
-    Item expr(const Expr& e);
+    Item expr(const Expr& e) {
+        if (!in.observer) [[likely]]
+            return evaluate(e);
+        return observed(e);
+    }
     Item convert(const Item& x, BaseType to) const;
 
   private:
     using Storage = std::vector<Item>;
+
+    Item evaluate(const Expr& e);
+    // observe.cpp: nothing of it without an observer.
+    Item observed(const Expr& e);
+    void note(const Symbol& symbol) {
+        if (in.observer) note_change(symbol);
+    }
+    void note_change(const Symbol& symbol);
+    void tell(const Location& where) {
+        if (in.observer && !changed_.empty()) tell_changes(where);
+    }
+    void tell_changes(const Location& where);
+    void tell_inputs();
+    void tell_light(const Location& where);
+    ReferenceStep step_at(const Location& where) const;
+    ReferenceVariable variable(const Symbol& symbol);
+    ReferenceVariable variable(Global id, const Item& value) const;
 
     const Symbol& means(const Symbol& symbol) const;
     Storage& storage(const Symbol& named);
@@ -235,6 +256,11 @@ class Reference {
     bool may_call(const Function& f);
     void run_again(const Function& f);
     Item call_builtin(const CallExpr& e);
+    void set_array(const Expr& variable, const Storage& items) {
+        const Symbol& symbol = *as<VariableExpr>(variable).symbol;
+        storage(symbol) = items;
+        note(means(symbol));
+    }
     void declare(const Symbol& symbol);
     void store(const LValue& to, const Item& value);
     void store(const Expr& target, const Item& value) { store(lvalue(target), value); }
@@ -276,6 +302,8 @@ class Reference {
     Vec<Real> Ci_{}, Oi_{};
     bool have_surface_ = false;
     int gathers_ = 0;
+    std::vector<const Symbol*> changed_;  // since the observer was told
+    const Function* function_ = nullptr;  // that runs
 };
 
 template <class Real>

@@ -5,6 +5,7 @@
 
 #include "runtime/play/core_p.h"
 #include "runtime/play/pick.h"
+#include "runtime/play/pixel_insight.h"
 
 namespace kinora {
 
@@ -52,10 +53,12 @@ CommandResult action_click(PlayerCore& core, const Arguments& a) {
     core.ask({[&core, x, y, order, picture](ShownScene& scene) -> Answer {
                   PickedPixel picked =
                       pick_pixel(*scene.scene, x, y, order.width, order.height, picture().get());
-                  return [&core, picked] {
+                  auto story = picked.hit ? story_of(scene, order, x, y) : nullptr;
+                  return [&core, picked, story] {
                       core.state.selection.node = picked.node;
                       core.state.selection.material = picked.material;
                       core.state.selection.pixel = picked;
+                      core.state.selection.story = story;
                   };
               },
               true});
@@ -68,6 +71,7 @@ CommandResult action_select(PlayerCore& core, const Arguments& a) {
         core.state.selection.node = node->path;
         if (!node->materials.empty()) core.state.selection.material = node->materials.front();
         core.state.selection.pixel.reset();
+        core.state.selection.story.reset();
     }
     return result;
 }

@@ -44,6 +44,25 @@ std::optional<dvec3> place_of(ShownScene& shown, const std::string& node, double
     return place_at(*shown.scene, node, seconds_of(shown.rate, frame));
 }
 
+double time_of(const ShownScene& shown, const ViewOrder& order) {
+    return seconds_of(shown.rate, order.frame);
+}
+
+FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, PlacedCamera& placed) {
+    FrameSettings settings = shown.settings;
+    settings.width = order.width;
+    settings.height = order.height;
+    settings.gain *= std::exp2(order.exposure);
+    settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
+    if (order.camera) {
+        placed = placed_camera(*shown.scene, *order.camera, order.follow, time_of(shown, order));
+        settings.camera = &placed;
+    } else if (order.camera_index < shown.scene->cameras.size()) {
+        shown.scene->camera = order.camera_index;
+    }
+    return settings;
+}
+
 // Kept from frame to frame.
 struct RenderLoop::Memory {
     std::vector<std::shared_ptr<Picture>> pictures;
@@ -297,21 +316,12 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     Stopwatch watch;
     ShownScene& shown = *step.scene;
     std::shared_ptr<Picture> to = free_picture();
-    FrameSettings settings = shown.settings;
+    PlacedCamera placed;
+    FrameSettings settings = refined_settings(shown, step.order, placed);
     settings.width = std::max(1, int(std::lround(step.order.width * step.scale)));
     settings.height = std::max(1, int(std::lround(step.order.height * step.scale)));
-    settings.gain *= std::exp2(step.order.exposure);
     settings.integrator.samples_per_pixel = step.samples;
-    settings.integrator.seed = frame_seed(shown.request, std::llround(step.order.frame));
     settings.stop = &stop_;
-    PlacedCamera placed;
-    if (step.order.camera) {
-        placed = placed_camera(*shown.scene, *step.order.camera, step.order.follow,
-                               seconds_of(shown.rate, step.order.frame));
-        settings.camera = &placed;
-    } else if (step.order.camera_index < shown.scene->cameras.size()) {
-        shown.scene->camera = step.order.camera_index;
-    }
     FrameStats stats;
     try {
         outcome.whole = step.pass == Pass::Refined

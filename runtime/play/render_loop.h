@@ -19,6 +19,8 @@
 
 namespace kinora {
 
+struct PlacedCamera;  // runtime/scene/camera.h
+
 // What a picture is to show.
 struct ViewOrder {
     double frame = 0;
@@ -46,6 +48,11 @@ struct Question {
 
 // The view of an order, without a picture of it. For questions. Nothing where there is none.
 std::optional<raytrace::Camera> view_of(ShownScene& scene, const ViewOrder& order);
+
+// What the refined picture of an order is made with, and its time in seconds. `placed` keeps the
+// camera that is moved by hand.
+FrameSettings refined_settings(ShownScene& scene, const ViewOrder& order, PlacedCamera& placed);
+double time_of(const ShownScene& scene, const ViewOrder& order);
 
 // Where a node stands at a frame; nothing where there is none of that name. Likewise.
 std::optional<dvec3> place_of(ShownScene& scene, const std::string& node, double frame);

@@ -2,6 +2,7 @@
 #include "runtime/play/script.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +12,7 @@
 
 #include "runtime/base/stats.h"
 #include "runtime/load/override_scene.h"
+#include "runtime/play/pixel/pixel_story.h"
 
 namespace kinora {
 
@@ -128,6 +130,7 @@ void Script::let_go_by(double seconds) {
 CommandResult Script::expect(const Words& words) {
     const std::vector<std::string>& texts = words.texts;
     if (texts.size() > 1 && texts[1] == "pixel") return expect_pixel(words);
+    if (texts.size() > 1 && texts[1] == "variable") return expect_variable(words);
     if (texts.size() == 3 && texts[1] == "time") {
         std::optional<double> wanted = one_number(texts[2]);
         if (!wanted) return bad("expect time takes a frame", 2);
@@ -145,7 +148,7 @@ CommandResult Script::expect(const Words& words) {
         }
     }
     return unknown("expect", words, 1,
-                   {"pixel", "time", "camera", "playback", "picture", "selection", "shader",
+                   {"pixel", "variable", "time", "camera", "playback", "picture", "selection", "shader",
                     "scene", "panels"});
 }
 
@@ -172,6 +175,30 @@ CommandResult Script::expect_pixel(const Words& words) {
         if (std::abs(pixel[k] - numbers[2 + k]) > tolerance)
             return bad(fmt::format("the pixel is {} {} {}", pixel[0], pixel[1], pixel[2]), 4 + k);
     return {};
+}
+
+// Of the clicked pixel, after the line ran last: numbers to 1e-4 of their size, or a text.
+CommandResult Script::expect_variable(const Words& words) const {
+    const std::vector<std::string>& texts = words.texts;
+    std::optional<double> line = texts.size() > 4 ? one_number(texts[3]) : std::nullopt;
+    if (!line) return bad("expect variable takes NAME LINE VALUE...", 1);
+    const PixelStory* story = player_.state().selection.story.get();
+    if (!story) return bad("no surface was clicked", 0);
+    const StoryVariable* found = find_variable(*story, texts[2], int(*line));
+    if (!found) return bad(fmt::format("line {} does not change '{}'", *line, texts[2]), 2);
+    if (found->text) {
+        if (texts.size() == 5 && found->texts.size() == 1 && found->texts[0] == texts[4]) return {};
+        return bad(fmt::format("{} is \"{}\"", texts[2], fmt::join(found->texts, "\" \"")), 4);
+    }
+    bool same = texts.size() - 4 == found->values.size();
+    for (size_t k = 0; same && k < found->values.size(); ++k) {
+        std::optional<double> wanted = one_number(texts[4 + k]);
+        if (!wanted) return bad(fmt::format("'{}' is no number", texts[4 + k]), 4 + k);
+        double value = double(found->values[k]);
+        same = std::abs(value - *wanted) <= 1e-4 * std::max(std::abs(*wanted), 1e-2);
+    }
+    if (same) return {};
+    return bad(fmt::format("{} is {}", texts[2], fmt::join(found->values, " ")), 4);
 }
 
 CommandResult Script::stats(const std::string& file) const {

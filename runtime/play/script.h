@@ -10,7 +10,7 @@
 namespace kinora {
 
 // Besides the commands: wait SECONDS|loaded|picture|refined, key NAME, expect pixel X Y R G B
-// [TOLERANCE], expect time FRAME, expect state NAME TEXT, stats FILE, comments behind #.
+// [TOLERANCE], expect variable NAME LINE VALUE..., expect time FRAME, expect state NAME TEXT, stats FILE, comments behind #.
 class Script {
   public:
     // `name` is the file's, for messages, which go to `report`.
@@ -24,6 +24,7 @@ class Script {
     CommandResult wait(const Words& words);
     CommandResult expect(const Words& words);
     CommandResult expect_pixel(const Words& words);
+    CommandResult expect_variable(const Words& words) const;
     CommandResult stats(const std::string& file) const;
     void let_go_by(double seconds);
 

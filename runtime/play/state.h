@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "runtime/play/session/free_camera.h"
 
 namespace kinora {
+
+struct PixelStory;  // runtime/play/pixel/pixel_story.h
 
 enum class LoopMode : uint8_t { Loop, PingPong, Once };
 enum class ToneCurve : uint8_t { Plain, Filmic };  // Plain: what kinora-render writes
@@ -60,6 +63,7 @@ struct PickedPixel {
 struct Selection {
     std::string node, material;
     std::optional<PickedPixel> pixel;
+    std::shared_ptr<const PixelStory> story;  // of that pixel
 };
 
 struct PlayerState {

@@ -64,6 +64,15 @@ LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     }
 }
 
+std::vector<size_t> LightRecords::light_of_records() const {
+    std::vector<size_t> lights;
+    for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
+        const AreaLight* area = area_lights_.find(l);
+        lights.insert(lights.end(), bindings_.statements(l).size() * (area ? area->samples : 1), l);
+    }
+    return lights;
+}
+
 void LightRecords::want_columns(Grid& grid) const {
     want_triple(grid, kColP);
     want_triple(grid, kColN);

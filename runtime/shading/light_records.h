@@ -31,6 +31,9 @@ class LightRecords {
     // Names the lights that shine only against where they look (light_aim.cpp).
     void report_aims(Diagnostics& diagnostics) const;
 
+    // Which of Scene::lights each record of a set is of.
+    std::vector<size_t> light_of_records() const;
+
     // What every grid with lights needs for them.
     void want_columns(Grid& grid) const;
     // The records of a grid's own points, as its set 0. Grid::shadows casts their shadows.

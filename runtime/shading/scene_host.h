@@ -68,6 +68,8 @@ struct GridServices {
 class GridHost : public SceneHost {
   public:
     GridHost(Grid& grid, const GridServices& services);
+    Grid& grid() const { return grid_; }
+    const GridServices& services() const { return services_; }
 
     dmat4 current_from_space(std::string_view name, size_t point) const override;
     void print(const jit::ServiceCall& call) override;

@@ -82,37 +82,8 @@ uint32_t space_index(ShaderInstance& look, std::string_view space) {
 }
 
 FrameInput resolve_parameter(ShaderInstance& look, const rsl::KernelKey& key) {
-    FrameInput input;
-    if (key.layer >= look.layers.size()) return input;
-    const ShaderUse& use = look.layers[key.layer];
-    const std::string& name = rsl::name_of(key);
-    const ParamSource* source = find_source(use, name);
-    uint32_t element = uint32_t(std::max(key.element, 0)), component = key.component;
-    for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
-        if (parameter.name != name || !source) continue;
-        if (parameter.type.base == rsl::BaseType::String) {
-            std::string text =
-                element < source->strings.size() ? source->strings[element] : std::string();
-            input.fixed = jit::float_of(rsl::intern(text));
-            return input;
-        }
-        uint32_t width = uint32_t(rsl::component_count(parameter.type.base));
-        uint32_t needed = width * uint32_t(std::max(parameter.type.array_length, 1));
-        bool spatial = rsl::is_spatial(parameter.type.base);
-        input.source = spatial ? FrameInput::Source::Spatial : FrameInput::Source::Value;
-        input.type = parameter.type.base;
-        input.component = key.component;
-        uint32_t c = element * width + (spatial ? 0 : component);
-        if (source->by_columns && width == 16)
-            c = element * width + component % 4 * 4 + component / 4;
-        input.index = value_index(source->value, needed, c);
-        if (spatial) input.space = space_index(look, "shader");
-        if (spatial && source->value.count < 3) {  // one number for all three: no point to speak of
-            input.source = FrameInput::Source::Value;
-            input.index = source->value.offset;
-        }
-        return input;
-    }
+    FrameInput input = parameter_input(look, key);
+    if (input.source == FrameInput::Source::Spatial) input.space = space_index(look, "shader");
     return input;
 }
 
@@ -194,9 +165,42 @@ void assign_columns(ShaderInstance& look) {
 
 }  // namespace
 
-bool compile_instance(ShaderInstance& look, const SceneDescription& description,
-                  const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
-    assign_columns(look);
+FrameInput parameter_input(const ShaderInstance& look, const rsl::KernelKey& key) {
+    FrameInput input;
+    if (key.layer >= look.layers.size()) return input;
+    const ShaderUse& use = look.layers[key.layer];
+    const std::string& name = rsl::name_of(key);
+    const ParamSource* source = find_source(use, name);
+    uint32_t element = uint32_t(std::max(key.element, 0)), component = key.component;
+    for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
+        if (parameter.name != name || !source) continue;
+        if (parameter.type.base == rsl::BaseType::String) {
+            std::string text =
+                element < source->strings.size() ? source->strings[element] : std::string();
+            input.fixed = jit::float_of(rsl::intern(text));
+            return input;
+        }
+        uint32_t width = uint32_t(rsl::component_count(parameter.type.base));
+        uint32_t needed = width * uint32_t(std::max(parameter.type.array_length, 1));
+        bool spatial = rsl::is_spatial(parameter.type.base);
+        input.source = spatial ? FrameInput::Source::Spatial : FrameInput::Source::Value;
+        input.type = parameter.type.base;
+        input.component = key.component;
+        uint32_t c = element * width + (spatial ? 0 : component);
+        if (source->by_columns && width == 16)
+            c = element * width + component % 4 * 4 + component / 4;
+        input.index = value_index(source->value, needed, c);
+        if (spatial && source->value.count < 3) {  // one number for all three: no point to speak of
+            input.source = FrameInput::Source::Value;
+            input.index = source->value.offset;
+        }
+        return input;
+    }
+    return input;
+}
+
+std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
+                                     const SceneDescription& description) {
     std::vector<rsl::Layer> layers;
     for (uint32_t l = 0; l < look.layers.size(); ++l) {
         const ShaderUse& use = look.layers[l];
@@ -211,6 +215,13 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
             if (varying.layer == l && varying.name == "Cs")
                 layer.params.push_back({"Cs", rsl::ParamBinding::Kind::Varying, {}, {}});
     }
+    return layers;
+}
+
+bool compile_instance(ShaderInstance& look, const SceneDescription& description,
+                  const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
+    assign_columns(look);
+    std::vector<rsl::Layer> layers = bound_layers(look, description);
     rsl::LowerOptions lower;
     lower.math = options.math;
     lower.spaces = options.spaces;

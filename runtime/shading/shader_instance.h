@@ -126,6 +126,12 @@ struct ShaderInstanceOptions {
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
 };
 
+// The shaders as compile_instance() lowers them, their parameters bound.
+std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
+                                     const SceneDescription& description);
+// Where a parameter's frame-rate number comes from; `space` of a Spatial one is not set.
+FrameInput parameter_input(const ShaderInstance& look, const rsl::KernelKey& key);
+
 // A point-like parameter, given in shader space, in current space.
 dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader,
                            const double* value);

@@ -1,0 +1,41 @@
+// runtime/play/actions_pixel.cpp: what is known of the clicked pixel, to files.
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "runtime/play/core_p.h"
+#include "runtime/play/pixel_insight.h"
+#include "runtime/scene/camera.h"
+
+namespace kinora {
+
+std::shared_ptr<const PixelStory> story_of(ShownScene& scene, const ViewOrder& order, int x,
+                                           int y) {
+    PlacedCamera placed;
+    FrameSettings settings = refined_settings(scene, order, placed);
+    auto story = std::make_shared<PixelStory>(pixel_story(*scene.scene, time_of(scene, order),
+                                                          settings, scene.diagnostics->files, x, y,
+                                                          0));
+    story->frame = order.frame;
+    return story;
+}
+
+namespace {
+
+CommandResult write_text(PlayerCore& core, const std::string& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    if (!out.flush()) return refused(fmt::format("'{}' cannot be written", file), 1);
+    ++core.state.files_written;
+    return {};
+}
+
+}  // namespace
+
+CommandResult action_variables(PlayerCore& core, const Arguments& a) {
+    const PixelStory* story = core.state.selection.story.get();
+    if (!story) return refused("no surface was clicked");
+    return write_text(core, a.text(0), to_json(*story));
+}
+
+}  // namespace kinora

@@ -1,0 +1,11 @@
+// runtime/play/pixel/explain_point.h: a recorded point, run again by the reference evaluator.
+#pragma once
+
+#include "runtime/play/pixel/pixel_story.h"
+#include "runtime/play/pixel/point_recorder.h"
+
+namespace kinora {
+
+PointStory explain_point(RecordedPoint& point, const SourceFiles& files);
+
+}  // namespace kinora

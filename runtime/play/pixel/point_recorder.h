@@ -1,0 +1,44 @@
+// runtime/play/pixel/point_recorder.h: kernels watched while one sample of a pixel is shaded.
+#pragma once
+
+#include <functional>
+
+#include "runtime/play/pixel/recorded_calls.h"
+#include "runtime/shading/kernels/kernel_probe.h"
+#include "runtime/shading/scene_host.h"
+
+namespace kinora {
+
+// A surface kernel that ran at a point which the camera sees. All of it is valid only while
+// `found` runs.
+struct RecordedPoint {
+    const GridHost& host;
+    const jit::KernelCall& launch;  // done: its outputs are there
+    RecordedCalls& calls;
+    // Lights at other positions than P, which illuminance() was given.
+    struct LightsAt {
+        std::array<double, 3> position;
+        std::vector<rsl::ReferenceLight> lights;
+    };
+    std::vector<LightsAt> lights_at;
+};
+
+// Runs all launches. At the camera's points (grids of one point) it notes what services answer.
+// One at a time; a thread of its own shades.
+class PointRecorder : public KernelProbe {
+  public:
+    explicit PointRecorder(std::function<void(RecordedPoint&)> found);
+    ~PointRecorder() override;
+    PointRecorder(const PointRecorder&) = delete;
+
+    void run(const jit::KernelCall& call) override;
+    // Called by a service's stand-in, after the service.
+    void note(rsl::Service service, const jit::ServiceCall& call);
+
+  private:
+    std::function<void(RecordedPoint&)> found_;
+    const GridHost* host_ = nullptr;  // of the point that is being recorded
+    RecordedPoint* point_ = nullptr;
+};
+
+}  // namespace kinora
