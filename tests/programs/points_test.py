@@ -178,9 +178,10 @@ class Outputs(Points):
 class Grids(Points):
     def test_without_a_grid_derivatives_are_0(self):
         self.check("surface x(varying float w = 0;) {"
-                   " Ci = color(Du(w), Dv(s), area(P)) + Du(u); }",
+                   " Ci = color(Du(w), Dv(s), area(P)); Oi = color(Du(u), Dv(v), Dv(u)); }",
                    {"variables": {"P": SQUARE, "w": [1, 2, 3, 4], "u": [0, 1, 0, 1],
-                                  "v": [0, 0, 1, 1]}}, {"Ci": [[0, 0, 0]] * 4})
+                                  "v": [0, 0, 1, 1]}},
+                   {"Ci": [[0, 0, 0]] * 4, "Oi": [[1, 1, 0]] * 4})
 
     def test_edges_of_the_surface_are_as_given(self):
         self.check("surface x() { Ci = color(Du(P)); Oi = color(dPdv); }",
@@ -411,7 +412,7 @@ class Wrong(Points):
 class Example(Points):
     def test_the_one_of_the_documentation(self):
         page = (SOURCE / "docs/shade.md").read_text()
-        page = page[page.index("## Points of one's own"):]
+        page = page[page.index("## Points"):]
         shader, document, printed = re.findall(r"```(?:c|json)\n(.*?)```", page, re.S)[:3]
         got = self.run_points(shader, json.loads(document),
                               spot="light spot(float intensity = 1;) "

@@ -151,8 +151,7 @@ void PointSet::set(Global id, const std::vector<float>* components) {
 void PointSet::fill(const rsl::KernelKey& key, const PointsNumbers& numbers,
                     const dmat4& shader_space, std::span<float> out) const {
     Row row(count(), 0.0f);
-    bool one = key.kind == KeyKind::One && document_.columns > 0;
-    if (one) std::fill(row.begin(), row.end(), 1.0f);
+    if (key.kind == KeyKind::One) std::fill(row.begin(), row.end(), 1.0f);
     if (key.kind == KeyKind::Global && key.component < 3 && has(key.global()))
         row = rows_[size_t(key.global())][key.component];
     if (key.kind == KeyKind::Rng)

@@ -169,9 +169,10 @@ void count_points(std::optional<size_t> said, PointsDocument& document) {
         document.count = *said;
         return;
     }
-    for (const char* name : {"P", "N", "I", "s", "t", "u", "v"}) {
-        auto found = document.variables.find(name);
-        size_t depth = name[0] >= 'a' ? 1 : 2;  // lists around one value a point
+    for (std::string_view name : {"P", "N", "I", "s", "t", "u", "v", "Cs", "Os"}) {
+        auto found = document.variables.find(std::string(name));
+        bool triple = name[0] >= 'A' && name[0] <= 'Z';
+        size_t depth = triple ? 2 : 1;  // lists around one value a point
         if (found == document.variables.end() || found->second.lengths.size() != depth) continue;
         document.count = found->second.lengths[0];
         return;
