@@ -4,7 +4,7 @@
 #ifndef STDRSL_AREASAMPLER_H
 #define STDRSL_AREASAMPLER_H
 
-#include <stdrsl/math.h>
+#include <stdrsl/fresnel.h>
 #include <stdrsl/radiancesample.h>
 
 struct stdrsl_AreaSampler {

@@ -3,7 +3,7 @@
 #ifndef STDRSL_HAIR_H
 #define STDRSL_HAIR_H
 
-#include <stdrsl/shadingcontext.h>
+#include <stdrsl/fresnel.h>
 #include <stdrsl/radiancesample.h>
 
 struct stdrsl_Hair {
