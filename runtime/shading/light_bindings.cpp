@@ -7,6 +7,7 @@
 
 #include "rsl/model/kernel_keys.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/kernels/light_categories.h"
 
 namespace kinora {
 
@@ -26,39 +27,6 @@ std::string categories_of(const ShaderInstance& light) {
         if (p.name == "__category" && p.constant && !p.constant->strings.empty())
             return p.constant->strings[0];
     return "";
-}
-
-// The parts of a text between separators: calls each(part) until one is true.
-template <class Each>
-bool any_part(std::string_view text, char separator, Each&& each) {
-    for (size_t at = 0; at <= text.size();) {
-        size_t end = std::min(text.find(separator, at), text.size());
-        if (each(text.substr(at, end - at))) return true;
-        at = end + 1;
-    }
-    return false;
-}
-
-std::string_view trimmed(std::string_view text) {
-    size_t first = text.find_first_not_of(' ');
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
-// "a", "a,b" (any of them), "a|b", "a&-b"; & binds closer than |, - stands before a name.
-bool has_category(std::string_view own, std::string_view wanted) {
-    auto has = [&](std::string_view name) {
-        name = trimmed(name);
-        bool without = name.starts_with("-");
-        if (without) name = trimmed(name.substr(1));
-        return any_part(own, ',', [&](std::string_view part) { return trimmed(part) == name; }) !=
-               without;
-    };
-    if (wanted.find_first_of("|&") == std::string_view::npos)
-        return any_part(wanted, ',', [&](std::string_view name) { return has(name); });
-    return any_part(wanted, '|', [&](std::string_view both) {
-        return !any_part(both, '&', [&](std::string_view name) { return !has(name); });
-    });
 }
 
 // A light's float parameter: bound to a value, which may be animated, or its constant default.

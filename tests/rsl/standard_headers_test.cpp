@@ -118,6 +118,28 @@ const HeaderRow kHeaders[] = {
      "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
      "stdrsl_OrenNayar d; d->init(Cs, 0.3); __radiancesample a[]; resize(a, 1);"
      "a[0]->direction = c->m_Vn; d->evalDiffuseSamps(c, f, a); Ci = a[0]->materialResponse;"},
+    {"stdrsl/specularas.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5); float below = 0;"
+     "stdrsl_SpecularAS d; d->init(c, Cs, 0.2, 0.5, 1, 1, 4); __radiancesample a[];"
+     "d->initWithDownstreamRoughness(0.3, c, Cs, 0.2, 0.5, 1, 4, below);"
+     "d->genSpecularSamps(c, f, \"specular\", a); resize(a, 1); a[0]->direction = c->m_Vn;"
+     "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf + d->m_roughValueU;"
+     "Ci += below;"},
+    {"stdrsl/specularblinn.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
+     "stdrsl_SpecularBlinn d; d->init(c, Cs, 0.2, 1, 4); __radiancesample a[];"
+     "d->genSpecularSamps(c, f, \"specular\", a); resize(a, 1); a[0]->direction = c->m_Vn;"
+     "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf;"},
+    {"stdrsl/areasampler.h", "",
+     "stdrsl_AreaSampler a; __radiancesample x[]; a->generateSamples(P, \"disc\", 4, x);"
+     "a->evaluateSamples(P, \"sphere\", x); point o; vector d; float ss, tt, size;"
+     "a->generatePhoton(\"rect\", 2, o, d, ss, tt, size);"
+     "Ci = x[0]->radiance + color(o) + color(d) + ss + tt + size;"},
+    {"stdrsl/hair.h", "",
+     "stdrsl_ShadingContext c; c->initHair(0); stdrsl_Hair h; h->initDiffuse(c, 1, 1, 0.5, Cs, 1);"
+     "h->initSpecular(c, 4, 0, 0.1, 0.2, 1, 1.55); __radiancesample a[];"
+     "h->genDiffuseSamps(c, a); h->genSpecularSamps(c, a); h->evalDiffuseSamps(c, a);"
+     "h->evalSpecularSamps(c, a); Ci = a[0]->materialResponse;"},
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"
      "Ci = blend(Cs, Os, s) + lerp(0, 1, s) + boxstep(0.2, 0.4, s) + union(s, t) + complement(s);"

@@ -35,6 +35,7 @@ struct ShadeOptions {
     jit::math::Tier math = jit::math::Tier::Precise;
     int iterations = 0;                 // 0: the command's own
     std::string compare;                // "", "interp", "reference"
+    std::string points;                 // --points
     std::string file;                   // -o
     std::vector<std::string> stages;    // dump
     std::string markdown;               // manual: a name of manual_pages.h; "": for the terminal
@@ -49,6 +50,7 @@ std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& opti
 int shade_check(const ShadeOptions& options);   // check.cpp
 int shade_info(const ShadeOptions& options);    // info.cpp
 int shade_run(const ShadeOptions& options);     // run.cpp
+int shade_points(const ShadeOptions& options);  // points_run.cpp: run --points
 int shade_dump(const ShadeOptions& options);    // dump.cpp
 int shade_bench(const ShadeOptions& options);   // bench.cpp
 int shade_manual(const ShadeOptions& options);  // manual.cpp

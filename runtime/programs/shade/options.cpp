@@ -118,6 +118,9 @@ void add_commands(CLI::App& app, ShadeOptions& o, Texts& texts) {
     run->add_option("--compare", o.compare,
                     "interp (bit for bit) or reference (double precision): largest difference")
         ->check(one_of({"interp", "reference"}));
+    run->add_option("--points", o.points,
+                    "FILE.json: shade the points of a file instead and print numbers as JSON");
+    run->add_flag("--json", o.json, "as JSON, which --points always is");
     CLI::App* dump = app.add_subcommand("dump", "what a stage of the compiler makes of it");
     add_source(*dump, o, texts);
     add_grid(*dump, o, texts);
@@ -172,6 +175,14 @@ void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
     if (!o.markdown.empty() && !o.source.empty())
         throw CLI::ValidationError("--markdown",
                                    "writes whole pages; leave '" + o.source + "' out");
+    if (o.command == "run" && o.json && o.points.empty())
+        throw CLI::ValidationError("--json", "goes with --points FILE.json");
+    if (!o.points.empty() && (!o.file.empty() || !texts.size.empty() || o.sphere ||
+                              !o.compare.empty() || o.output != "Ci"))
+        throw CLI::ValidationError(
+            "--points",
+            "has points of its own and prints all outputs; leave --size, --sphere, "
+            "--output, --compare and -o out");
     hold_to_scene(o);
     if (!o.file.empty() && !is_image_path(o.file))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");

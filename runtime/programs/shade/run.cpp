@@ -99,6 +99,7 @@ double run_best(const ShadeOptions& options, ShadeKernel& kernel) {
 }  // namespace
 
 int shade_run(const ShadeOptions& options) {
+    if (!options.points.empty()) return shade_points(options);
     ShadeSource source;
     Patch patch(options.width, options.height, options.sphere);
     ShadeStack stack;
