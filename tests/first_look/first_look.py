@@ -4,9 +4,10 @@
     tests/first_look/first_look.py [PART ...] [--out FOLDER] [--against OLD.json] [--scale 20%] [--spp 4]
                                    [--build FOLDER] [--only GLOB ...] [--least 95]
 
-Parts: corpus (written by corpus.py), blind (ten documents written without knowledge of the sources), shared (../shared/scenes),
+Parts: corpus (written by corpus.py), blind (ten documents written without knowledge of the sources), stranger (written by the folder
+stranger, whose author had not read the sources either), shared (../shared/scenes),
 exporters (written by exporters.py with the packages that are installed), or a folder of documents of your own (a corpus.json in
-it says what is expected). Without a part: corpus, blind and shared. One line a file: its fault and figures; then totals a group.
+it says what is expected). Without a part: corpus, blind, stranger and shared. One line a file: its fault and figures; then totals a group.
 --out keeps pictures, first_look.json and sheets: the picture by default, and beside it a 50 % grey matte on everything. The exit
 code is 1 where fewer than --least per cent of the files of all parts together are right, 77 where all parts are missing.
 
@@ -35,11 +36,13 @@ ROOT = Path(os.environ.get("KINORA_SOURCE_DIR", HERE.parent.parent)).resolve()
 SHARED = Path(os.environ.get("KINORA_SHARED", ROOT.parent / "shared"))
 sys.path[:0] = [str(HERE), str(ROOT / "scripts")]
 import corpus  # noqa: E402
+import stranger  # noqa: E402
 from sheet import lettering, png  # noqa: E402
 
 BLANK, SPECK, WHITE, CHECKS, BLACK, ALL_BLACK = 0.002, 0.03, 0.6, 0.02, 0.3, 0.95
 CLIPPED, DARK, NIGHT = 253, 43, 8  # of 255
 SECONDS = 60
+WRITTEN = ("corpus", "stranger", "exporters")  # parts that a script writes
 KINDS = ("exit", "time", "blank", "speck", "holes", "white", "checks", "black", "colour", "silent")
 PAPER, INK, ALARM = (34, 34, 36), (225, 225, 220), (255, 90, 70)
 COLUMNS, STRIP = 8, 14
@@ -197,7 +200,7 @@ def pictures_of(file):
     wanted = {re.split(r"[/\\\\]", unquote(r).strip())[-1].lower() for r in references}
     around = (
         [file.parent, file.parent.parent]
-        if file.parent.parent.name not in ("corpus", "scenes", "blind")
+        if file.parent.parent.name not in ("corpus", "scenes", "blind", "stranger")
         else [file.parent]
     )
     names = (name for folder in around for _, _, files in os.walk(folder) for name in files)
@@ -218,6 +221,9 @@ def parts_of(options, scratch):
         if part == "corpus":
             folder = scratch / "corpus"
             expected = corpus.write(folder)
+        elif part == "stranger":
+            folder = scratch / "stranger"
+            expected = stranger.write(folder)
         elif part == "exporters":
             folder = scratch / "exporters"
             import exporters
@@ -232,9 +238,9 @@ def parts_of(options, scratch):
             continue
         for file in documents(folder):
             name = str(file.relative_to(folder))
-            group = name.split("/")[0] if part in ("corpus", "exporters") else folder.name if os.sep in part else part
+            group = name.split("/")[0] if part in WRITTEN else folder.name if os.sep in part else part
             if not options.only or any(fnmatch.fnmatch(f"{part}/{name}", g) for g in options.only):
-                yield group, name if part in ("corpus", "exporters") else f"{group}/{name}", file, expected.get(
+                yield group, name if part in WRITTEN else f"{group}/{name}", file, expected.get(
                     name, {}
                 )
 
@@ -315,7 +321,7 @@ def main():
     parser.add_argument("--only", action="append", metavar="GLOB")
     parser.add_argument("--least", type=float, default=95)
     options = parser.parse_args()
-    options.parts = options.parts or ["corpus", "blind", "shared"]
+    options.parts = options.parts or ["corpus", "blind", "stranger", "shared"]
     program = Path(os.environ.get("KINORA_BIN_DIR", options.build / "bin")) / "kinora-render"
     with tempfile.TemporaryDirectory(prefix="first_look_") as temporary:
         scratch = options.out or Path(temporary)
