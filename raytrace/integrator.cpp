@@ -31,6 +31,16 @@ Tile tile_at(const Film& film, int size, int index) {
     return {x, y, std::min(x + size, film.width), std::min(y + size, film.height)};
 }
 
+// Halved while the rays of all samples would not stay in the second cache.
+int tile_size(const IntegratorSettings& settings) {
+    constexpr int kRays = 4096, kSmallest = 16;
+    int size = settings.tile;
+    while (size % 8 == 0 && size / 2 >= kSmallest &&
+           int64_t(size) * size * settings.samples_per_pixel > kRays)
+        size /= 2;
+    return size;
+}
+
 int tile_count(const Film& film, int size) {
     return ((film.width + size - 1) / size) * ((film.height + size - 1) / size);
 }
@@ -67,7 +77,7 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
     CHECK_GE(settings.samples_per_pixel, 1);
     CHECK_GE(settings.tile, kBlock);
     prepare(film, camera, settings, shading.miss_distance() > 0, scratch);
-    const int tiles = tile_count(film, settings.tile);
+    const int size = tile_size(settings), tiles = tile_count(film, size);
     std::atomic<bool> stop{false};
     std::mutex mutex;
     int done = 0;
@@ -80,7 +90,7 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
                     *scratch.threads[size_t(thread)], thread);
         for (size_t i = first;
              i < last && !stop.load(std::memory_order_relaxed) && !shading.stopped(); ++i) {
-            job.run(tile_at(film, settings.tile, int(i)));
+            job.run(tile_at(film, size, int(i)));
             if (!progress) continue;
             std::lock_guard lock(mutex);
             if (!(*progress)(++done, tiles)) stop = true;

@@ -47,7 +47,7 @@ struct IntegratorSettings {
     std::optional<vec3> background;       // nothing: transparent
     NanPolicy nan = NanPolicy::Zero;
     float opaque_above = 0.9999f;  // a ray ends when its opacity exceeds this in all components
-    int tile = 64;                 // pixels, a multiple of 4
+    int tile = 64;                 // pixels, a multiple of 4; less where there are many samples
     size_t chunk_rays = 8192;      // rays of a tile traced and shaded at once; >= tile * tile
 };
 

@@ -40,6 +40,16 @@ struct PacketRays {
     const float* tfar;
 };
 
+// Sixteen rays that leave surfaces for an end.
+struct alignas(64) LeavingRays {
+    float P[3][kPoints], error[3][kPoints];  // where, with a bound of its rounding error
+    float Ng[3][kPoints];                    // length 1; 0: no surface is known
+    float way[3][kPoints];                   // from P to the end
+    float up[3][kPoints];        // from P to where the ray begins; 0: it leaves the surface itself
+    float short_of[3][kPoints];  // added to the end
+    uint32_t endless[kPoints];   // 1: the ray goes along `way`, without an end
+};
+
 struct PointKernels {
     const char* name;
     // error_scale: gamma(7) of Pharr, Jakob, Humphreys, 6.8.1. Returns a bit for each normal whose
@@ -54,6 +64,14 @@ struct PointKernels {
     // Igehy, Tracing ray differentials, 1999, eq. 10-12: dP = dO + t dD + dt D, with dt such that
     // dP lies in the plane of Ng; t is from the ray's first origin.
     void (*footprint)(const FootprintRays& rays, float least_cosine, float* const dP[3]);
+    // Origins as offset_ray_origin() gives them for P + up, and the directions from there to the
+    // ends, which are at 1 of their lengths.
+    void (*leave)(const LeavingRays& from, float* const org[3], float* const dir[3], float* tfar);
+    // A bit for each light that the facet surely sees as the smooth surface does: the cosine
+    // between Ng and the light is beyond +-least_cosine, and the mixture of the three normals that
+    // `at` has for corners is clearly on the same side of both. Also where the three are the same.
+    // Normals may be off 1 by a thousandth of their length.
+    uint32_t (*sees_light)(const TrianglePoints& at, const LeavingRays& from, float least_cosine);
 };
 extern const PointKernels kPortablePoints;
 extern const PointKernels kAvx2Points;

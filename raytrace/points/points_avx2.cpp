@@ -4,6 +4,7 @@
 namespace kinora::raytrace {
 
 extern const PointKernels kAvx2Points;
-const PointKernels kAvx2Points = {"avx2", interpolate, normalize, sound, footprint};
+const PointKernels kAvx2Points = {"avx2",    interpolate, normalize, sound,
+                                  footprint, leave,       sees_light};
 
 }  // namespace kinora::raytrace

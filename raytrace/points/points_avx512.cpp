@@ -4,6 +4,7 @@
 namespace kinora::raytrace {
 
 extern const PointKernels kAvx512Points;
-const PointKernels kAvx512Points = {"avx512", interpolate, normalize, sound, footprint};
+const PointKernels kAvx512Points = {"avx512",  interpolate, normalize, sound,
+                                    footprint, leave,       sees_light};
 
 }  // namespace kinora::raytrace

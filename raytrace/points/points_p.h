@@ -109,5 +109,88 @@ void footprint(const FootprintRays& rays, float least_cosine, float* const dP[3]
     }
 }
 
+// The neighbour of x above or below it; x is finite.
+__attribute__((always_inline)) inline float neighbour(float x, bool up) {
+    const uint32_t bits = __builtin_bit_cast(uint32_t, x);
+    const uint32_t next = up == (x > 0) ? bits + 1 : bits - 1;
+    const uint32_t of_zero = up ? 1u : 0x80000001u;
+    return __builtin_bit_cast(float, x == 0 ? of_zero : next);
+}
+
+// Pharr, Jakob, Humphreys, 6.8.6, as in offset_ray_origin().
+void leave(const LeavingRays& from, float* const org[3], float* const dir[3], float* tfar) {
+    alignas(64) float O[3][kPoints], D[3][kPoints], T[kPoints];
+    for (size_t i = 0; i < kPoints; ++i) {
+        const float wx = from.way[0][i], wy = from.way[1][i], wz = from.way[2][i];
+        const float ux = from.up[0][i], uy = from.up[1][i], uz = from.up[2][i];
+        const bool lifted = (ux != 0) | (uy != 0) | (uz != 0);
+        float nx = from.Ng[0][i], ny = from.Ng[1][i], nz = from.Ng[2][i];
+        const bool known = (nx != 0) | (ny != 0) | (nz != 0);
+        const float inverse = 1.0f / __builtin_sqrtf(wx * wx + wy * wy + wz * wz);
+        nx = known ? nx : wx * inverse;
+        ny = known ? ny : wy * inverse;
+        nz = known ? nz : wz * inverse;
+        const float px = from.P[0][i], py = from.P[1][i], pz = from.P[2][i];
+        float d = __builtin_fabsf(nx) * from.error[0][i] + __builtin_fabsf(ny) * from.error[1][i] +
+                  __builtin_fabsf(nz) * from.error[2][i];
+        const float ax = lifted ? ux : wx, ay = lifted ? uy : wy, az = lifted ? uz : wz;
+        d = nx * ax + ny * ay + nz * az < 0 ? -d : d;
+        const float n[3] = {nx, ny, nz}, p[3] = {px, py, pz}, w[3] = {wx, wy, wz};
+        const bool endless = from.endless[i] != 0;
+        for (int c = 0; c < 3; ++c) {
+            const float raised = p[c] + from.up[c][i], step = d * n[c];
+            const float at = (lifted ? raised : p[c]) + step;
+            const float beyond = neighbour(at, step > 0);
+            const float o = step != 0 ? beyond : at;
+            const float end = ((p[c] + w[c]) - o) + from.short_of[c][i];
+            O[c][i] = o;
+            D[c][i] = endless ? w[c] : end;
+        }
+        T[i] = endless ? __builtin_inff() : 1.0f;
+    }
+    for (int c = 0; c < 3; ++c) {
+        __builtin_memcpy(org[c], O[c], sizeof(T));
+        __builtin_memcpy(dir[c], D[c], sizeof(T));
+    }
+    __builtin_memcpy(tfar, T, sizeof(T));
+}
+
+uint32_t sees_light(const TrianglePoints& at, const LeavingRays& from, float least_cosine) {
+    constexpr float kNearUnit = 2e-3f;  // of squares: lengths are within half of that
+    constexpr float kClear = 4e-3f;     // the mixture is off by no more than a quarter of that
+    const float least = 1.02f * least_cosine * least_cosine;
+    alignas(64) float n[3][3][kPoints];  // corner, component, point
+    for (int k = 0; k < 3; ++k)
+        for (size_t i = 0; i < kPoints; i += 4) turn(at.corner[k] + i, i, n[k]);
+    uint32_t seen[kPoints];
+    for (size_t i = 0; i < kPoints; ++i) {
+        const float wx = from.way[0][i], wy = from.way[1][i], wz = from.way[2][i];
+        const float gx = from.Ng[0][i], gy = from.Ng[1][i], gz = from.Ng[2][i];
+        const float square = wx * wx + wy * wy + wz * wz;
+        const float cosine = gx * wx + gy * wy + gz * wz;
+        const float weight[3] = {1.0f - at.u[i] - at.v[i], at.u[i], at.v[i]};
+        float mx = 0, my = 0, mz = 0;
+        uint32_t sure = cosine * cosine > least * square;
+        for (int k = 0; k < 3; ++k) {
+            const float x = n[k][0][i], y = n[k][1][i], z = n[k][2][i];
+            sure &= uint32_t(__builtin_fabsf(x * x + y * y + z * z - 1) < kNearUnit);
+            mx += weight[k] * x;
+            my += weight[k] * y;
+            mz += weight[k] * z;
+        }
+        const float of_facet = mx * gx + my * gy + mz * gz, of_light = mx * wx + my * wy + mz * wz;
+        sure &= uint32_t(__builtin_fabsf(of_facet) > kClear) &
+                uint32_t(of_light * of_light > kClear * kClear * square) &
+                (uint32_t(of_facet < 0) ^ uint32_t(of_light < 0) ^ uint32_t(cosine < 0) ^ 1u);
+        uint32_t same = 1;
+        for (int c = 0; c < 3; ++c)
+            same &= uint32_t(n[0][c][i] == n[1][c][i]) & uint32_t(n[0][c][i] == n[2][c][i]);
+        seen[i] = (sure | same) << i;
+    }
+    uint32_t all = 0;
+    for (size_t i = 0; i < kPoints; ++i) all |= seen[i];
+    return all;
+}
+
 }  // namespace
 }  // namespace kinora::raytrace

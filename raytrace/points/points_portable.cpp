@@ -4,6 +4,7 @@
 namespace kinora::raytrace {
 
 extern const PointKernels kPortablePoints;
-const PointKernels kPortablePoints = {"portable", interpolate, normalize, sound, footprint};
+const PointKernels kPortablePoints = {"portable", interpolate, normalize, sound,
+                                      footprint,  leave,       sees_light};
 
 }  // namespace kinora::raytrace

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "raytrace/points/points.h"
 #include "runtime/base/parallel.h"
 #include "runtime/rays/ray_kernels.h"
 #include "runtime/shading/grid.h"
@@ -78,13 +79,25 @@ class SmoothSurface {
     // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
     // both accounts, where it is flat, and where the surface is hollow.
     vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
+    // The same for those of sixteen rays that `lanes` has bits for: fills their `up`; the bits of
+    // those where it is not 0.
+    uint32_t ways_from(const raytrace::HitBatch& hits, const uint32_t* hit, uint32_t lanes,
+                       raytrace::LeavingRays& rays);
 
   private:
+    // What a row of the scene has for its normals.
+    struct Row {
+        uint32_t number = kNone;
+        bool instanced = false;
+        std::span<const uint32_t> normal_corners, triangles;
+        std::span<const vec4> normals, positions;
+        mat3 from_rest{1.0f}, normals_from_rest{1.0f};
+    };
     void enter(uint32_t row);
+    const uint32_t* corners(uint32_t primitive) const;
 
     const Scene& scene_;
-    uint32_t row_ = kNone;
-    mat3 linear_{1.0f}, normals_{1.0f};  // of that row
+    Row row_;
 };
 
 // Whether a grid's points are hits of its surface: lights read those of the points they light.

@@ -5,7 +5,9 @@
 // above every smooth surface with those normals that bends one way. The facet is left only as far
 // as it looks away from the light: where it sees the light, it shades nothing of itself.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -26,55 +28,77 @@ vec3 unit(vec3 v) {
                                                                          : vec3(0.0f);
 }
 
-// Whether way_from() surely comes to an amount of 0: the facet sees the light with a cosine beyond
-// kSeesLight, and the signs of two products with the mixed normal, of which it takes no more, are
-// clear without making the corners' normals exactly unit. True of most points, and without roots.
-bool surely_sees_light(const vec3 n[3], const float weight[3], vec3 Ng, vec3 to_light) {
-    constexpr float kNearUnit = 2e-3f;  // of squares: lengths are within half of that
-    constexpr float kClear = 4e-3f;     // the mixture is off by no more than a quarter of that
-    const float square = glm::dot(to_light, to_light), cosine = glm::dot(Ng, to_light);
-    if (!(cosine * cosine > 1.02f * kSeesLight * kSeesLight * square)) return false;
-    vec3 mixed(0.0f);
-    for (int k = 0; k < 3; ++k) {
-        if (!(std::abs(glm::dot(n[k], n[k]) - 1) < kNearUnit)) return false;
-        mixed += weight[k] * n[k];
-    }
-    const float of_facet = glm::dot(mixed, Ng), of_light = glm::dot(mixed, to_light);
-    if (!(std::abs(of_facet) > kClear && of_light * of_light > kClear * kClear * square))
-        return false;
-    return (of_facet < 0) == ((of_light < 0) != (cosine < 0));
-}
-
 }  // namespace
 
 void SmoothSurface::enter(uint32_t row) {
-    row_ = row;
-    const Shape& shape = scene_.shapes[scene_.surfaces[row].shape];
-    bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-    linear_ = instanced ? mat3(dmat3(shape.world)) : mat3(1.0f);
-    normals_ = instanced ? normal_matrix(shape.world, shape.mirrored) : mat3(1.0f);
+    const Surface& surface = scene_.surfaces[row];
+    const Shape& shape = scene_.shapes[surface.shape];
+    const MeshGroup& group = scene_.meshes[shape.mesh].groups[surface.group];
+    row_ = {row,
+            shape.kind == raytrace::GeometryKind::Instanced,
+            group.normal_corners,
+            group.triangles,
+            shape.rest_normals,
+            shape.rest_positions,
+            mat3(1.0f),
+            mat3(1.0f)};
+    if (!row_.instanced) return;
+    row_.from_rest = mat3(dmat3(shape.world));
+    row_.normals_from_rest = normal_matrix(shape.world, shape.mirrored);
+}
+
+// Indices of its three normals; null where it has none.
+const uint32_t* SmoothSurface::corners(uint32_t primitive) const {
+    const size_t first = 3 * size_t(primitive), entries = row_.normals.size();
+    if (first + 3 > row_.normal_corners.size()) return nullptr;
+    const uint32_t* corner = &row_.normal_corners[first];
+    const bool good = corner[0] < entries && corner[1] < entries && corner[2] < entries;
+    return good ? corner : nullptr;
+}
+
+uint32_t SmoothSurface::ways_from(const raytrace::HitBatch& hits, const uint32_t* hit,
+                                  uint32_t lanes, raytrace::LeavingRays& rays) {
+    raytrace::TrianglePoints at;
+    if (lanes != 0xffffu) at = {};
+    uint32_t smooth = 0;
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        const uint32_t row = hits.instance[hit[i]];
+        if (row != row_.number && row != kNone) enter(row);
+        const uint32_t* corner = row == kNone ? nullptr : corners(hits.primitive[hit[i]]);
+        for (size_t k = 0; k < 3; ++k) {
+            vec4 n = corner ? row_.normals[corner[k]] : vec4(0.0f);
+            if (row_.instanced) n = vec4(row_.normals_from_rest * vec3(n), 0);
+            std::memcpy(at.corner[k][i], &n, sizeof(n));
+        }
+        at.u[i] = hits.u[hit[i]];
+        at.v[i] = hits.v[hit[i]];
+        smooth |= uint32_t(corner != nullptr) << i;
+    }
+    smooth &= ~raytrace::point_kernels().sees_light(at, rays, kSeesLight);
+    uint32_t lifted = 0;
+    for (; smooth; smooth &= smooth - 1) {
+        const int i = std::countr_zero(smooth);
+        vec3 to_light(rays.way[0][i], rays.way[1][i], rays.way[2][i]);
+        const vec3 up = way_from(hits, hit[i], to_light);
+        for (int c = 0; c < 3; ++c) rays.up[c][i] = up[c];
+        lifted |= uint32_t(up != vec3(0.0f)) << i;
+    }
+    return lifted;
 }
 
 vec3 SmoothSurface::way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light) {
     uint32_t row = hits.instance[hit];
     if (row == kNone) return vec3(0.0f);
-    const Surface& surface = scene_.surfaces[row];
-    const Shape& shape = scene_.shapes[surface.shape];
-    const MeshGroup& group = scene_.meshes[shape.mesh].groups[surface.group];
-    size_t first = 3 * size_t(hits.primitive[hit]);
-    if (first + 3 > group.normal_corners.size()) return vec3(0.0f);  // it has no normals
-    const uint32_t* corner = &group.normal_corners[first];
-    size_t entries = shape.rest_normals.size();
-    if (corner[0] >= entries || corner[1] >= entries || corner[2] >= entries) return vec3(0.0f);
+    if (row != row_.number) enter(row);
+    const uint32_t* corner = corners(hits.primitive[hit]);
+    if (!corner) return vec3(0.0f);
     vec3 n[3];
-    for (size_t k = 0; k < 3; ++k) n[k] = vec3(shape.rest_normals[corner[k]]);
+    for (size_t k = 0; k < 3; ++k) n[k] = vec3(row_.normals[corner[k]]);
     if (n[0] == n[1] && n[0] == n[2]) return vec3(0.0f);
-    if (row != row_) enter(row);
     float weight[3] = {1 - hits.u[hit] - hits.v[hit], hits.u[hit], hits.v[hit]};
     vec3 Ng = triple(hits.Ng, hit), N(0.0f);
-    for (vec3& normal : n) normal = normals_ * normal;
-    if (surely_sees_light(n, weight, Ng, to_light)) return vec3(0.0f);
-    for (size_t k = 0; k < 3; ++k) N += weight[k] * (n[k] = unit(n[k]));
+    for (size_t k = 0; k < 3; ++k) N += weight[k] * (n[k] = unit(row_.normals_from_rest * n[k]));
 
     // All on the side of the surface that the light is on.
     float side = glm::dot(N, to_light) < 0 ? -1.0f : 1.0f;
@@ -82,11 +106,11 @@ vec3 SmoothSurface::way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 
     float cosine = facing * glm::dot(Ng, to_light) / glm::length(to_light);
     float amount = std::clamp(1 - cosine / kSeesLight, 0.0f, 1.0f);
     if (!(amount > 0)) return vec3(0.0f);
-    const uint32_t* vertex = &group.triangles[first];
+    const uint32_t* vertex = &row_.triangles[3 * size_t(hits.primitive[hit])];
     vec3 at[3], P(0.0f);  // relative to the first corner
     for (size_t k = 0; k < 3; ++k) {
-        at[k] = linear_ *
-                (vec3(shape.rest_positions[vertex[k]]) - vec3(shape.rest_positions[vertex[0]]));
+        at[k] =
+            row_.from_rest * (vec3(row_.positions[vertex[k]]) - vec3(row_.positions[vertex[0]]));
         P += weight[k] * at[k];
     }
     vec3 way(0.0f);

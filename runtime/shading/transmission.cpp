@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
+#include <utility>
 
 #include "raytrace/hits.h"
 #include "raytrace/sampling.h"
@@ -212,6 +212,7 @@ ShadowQueue::ShadowQueue(const ShadingFrame& frame, Transmission& transmission,
       tag_(tag),
       dims_(frame.any_transparent),
       straight_(frame.scene.volumes.empty()),
+      mask_(dims_ && straight_ ? raytrace::kMaskAll : raytrace::kMaskOpaque),
       accel_from_camera_(glm::transpose(frame.camera_from_accel)),
       smooth_(frame.scene),
       rest_(memory) {
@@ -221,53 +222,88 @@ ShadowQueue::ShadowQueue(const ShadingFrame& frame, Transmission& transmission,
 void ShadowQueue::cast(const Grid& grid, const LightPoints& at, const SentLight& light) {
     StageScope stage(Stage::Shadows);
     const bool of_surface = grid.look->kind == ShaderInstanceKind::Surface;
-    for (uint32_t i = 0; i < at.count; ++i) {
-        if (light.lit && jit::bits_of(light.lit[i]) == 0) continue;
-        if (light.Cl[0][i] == 0 && light.Cl[1][i] == 0 && light.Cl[2][i] == 0) continue;
-        Asked& ray = asked_[filled_];
-        ray.target = {{light.Cl[0], light.Cl[1], light.Cl[2]}, i};
-        ray.hits = &grid.hits;
-        ray.hit = grid.points[at.first + i];
-        ray.P = triple(at.accel, i);
-        ray.error = triple(at.error, i);
-        ray.Ng = triple(at.Ng, i);
-        ray.way = accel_from_camera_ * triple(light.L, i);
-        ray.up = ray.short_of = vec3(0.0f);
-        ray.solar = light.solar;
-        if (of_surface && ray.Ng != vec3(0.0f))
-            ray.up = smooth_.way_from(grid.hits, ray.hit, ray.way);
-        if (light.samples && !light.solar)
-            ray.short_of = before_sample(light.samples->hits, i, ray.P, ray.way);
-        lifted_ |= uint32_t(ray.up != vec3(0.0f)) << filled_;
-        aim(filled_++);
-        if (filled_ == raytrace::kPacket) flush();
+    if (hits_ != &grid.hits || of_surface_ != of_surface) flush_all();
+    hits_ = &grid.hits;
+    of_surface_ = of_surface;
+    std::span<const uint32_t> points(chosen_, choose(at, light));
+    while (!points.empty()) {
+        const size_t n = std::min(points.size(), size_t(raytrace::kPacket - fresh_.count));
+        take(grid, at, light, points.first(n));
+        points = points.subspan(n);
+        if (fresh_.count == raytrace::kPacket) flush();
     }
+}
+
+// The points that the light reaches at all.
+size_t ShadowQueue::choose(const LightPoints& at, const SentLight& light) {
+    const float *r = light.Cl[0], *g = light.Cl[1], *b = light.Cl[2];
+    size_t count = 0;
+    for (uint32_t i = 0; i < at.count; ++i) {
+        const bool lit = !light.lit || jit::bits_of(light.lit[i]) != 0;
+        chosen_[count] = i;
+        count += lit & !((r[i] == 0) & (g[i] == 0) & (b[i] == 0));
+    }
+    return count;
+}
+
+namespace {
+
+// Elements of a column, which often lie one behind the other.
+void pick(const float* column, std::span<const uint32_t> points, float* to) {
+    if (points.back() - points.front() == points.size() - 1)
+        std::copy_n(column + points.front(), points.size(), to);
+    else
+        for (size_t j = 0; j < points.size(); ++j) to[j] = column[points[j]];
+}
+
+}  // namespace
+
+void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight& light,
+                       std::span<const uint32_t> points) {
+    raytrace::LeavingRays& rays = fresh_.rays;
+    const size_t first = size_t(fresh_.count), end = first + points.size();
+    float L[3][raytrace::kPacket];
+    for (size_t k = 0; k < 3; ++k) {
+        pick(at.accel[k], points, rays.P[k] + first);
+        pick(at.error[k], points, rays.error[k] + first);
+        pick(at.Ng[k], points, rays.Ng[k] + first);
+        pick(light.L[k], points, L[k]);
+        std::fill(rays.up[k] + first, rays.up[k] + end, 0.0f);
+        std::fill(rays.short_of[k] + first, rays.short_of[k] + end, 0.0f);
+    }
+    for (size_t j = 0; j < points.size(); ++j) {
+        const size_t lane = first + j;
+        const vec3 way = accel_from_camera_ * vec3(L[0][j], L[1][j], L[2][j]);
+        for (int k = 0; k < 3; ++k) rays.way[k][lane] = way[k];
+        rays.endless[lane] = light.solar;
+        fresh_.hit[lane] = grid.points[at.first + points[j]];
+        fresh_.target[lane] = {{light.Cl[0], light.Cl[1], light.Cl[2]}, points[j]};
+        if (!light.samples || light.solar) continue;
+        const vec3 off = before_sample(light.samples->hits, points[j],
+                                       {rays.P[0][lane], rays.P[1][lane], rays.P[2][lane]}, way);
+        for (int k = 0; k < 3; ++k) rays.short_of[k][lane] = off[k];
+    }
+    fresh_.count = int(end);
 }
 
 void ShadowQueue::finish() {
     StageScope stage(Stage::Shadows);
-    flush();
+    flush_all();
     pass_rest();
     rest_targets_ = {};
 }
 
-// From `up` above the facet.
-void ShadowQueue::aim(int lane) {
-    const Asked& ray = asked_[lane];
-    // A point that is on no known surface leaves its error box along the ray itself.
-    vec3 Ng = ray.Ng == vec3(0) ? glm::normalize(ray.way) : ray.Ng;
-    bool lifted = ray.up != vec3(0.0f);
-    vec3 org = raytrace::offset_ray_origin(lifted ? ray.P + ray.up : ray.P, ray.error, Ng,
-                                           lifted ? ray.up : ray.way);
-    vec3 dir = ray.solar ? ray.way : ray.P + ray.way - org + ray.short_of;
-    packet_.org_x[lane] = org.x;
-    packet_.org_y[lane] = org.y;
-    packet_.org_z[lane] = org.z;
-    packet_.dir_x[lane] = dir.x;
-    packet_.dir_y[lane] = dir.y;
-    packet_.dir_z[lane] = dir.z;
-    packet_.tnear[lane] = packet_.time[lane] = 0;
-    packet_.tfar[lane] = ray.solar ? std::numeric_limits<float>::infinity() : 1.0f;
+// Lanes behind the last become copies of the first.
+void ShadowQueue::aim(Packet& packet) {
+    raytrace::LeavingRays& r = packet.rays;
+    for (int j = packet.count; j < raytrace::kPacket; ++j) {
+        for (auto* rows : {&r.P, &r.error, &r.Ng, &r.way, &r.up, &r.short_of})
+            for (float(&row)[raytrace::kPacket] : *rows) row[j] = row[0];
+        r.endless[j] = r.endless[0];
+    }
+    float* const org[3] = {packet_.org_x, packet_.org_y, packet_.org_z};
+    float* const dir[3] = {packet_.dir_x, packet_.dir_y, packet_.dir_z};
+    raytrace::point_kernels().leave(r, org, dir, packet_.tfar);
 }
 
 // The lanes that something of the mask blocks.
@@ -278,59 +314,120 @@ uint32_t ShadowQueue::block(uint32_t lanes, uint32_t mask) {
     return frame_.scene.accel.occluded16(packet_, memory_.counters.trace);
 }
 
-// Aims rays from their facets after all, where something stands on the way to the smooth surface;
-// these rays.
-uint32_t ShadowQueue::lower(uint32_t lanes) {
-    uint32_t lowered = 0;
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        int j = std::countr_zero(left);
-        Asked& ray = asked_[j];
-        if (is_way_free(frame_.scene.accel, ray.P, ray.error, ray.Ng, ray.up,
-                        memory_.counters.trace))
-            continue;
-        ray.up = vec3(0.0f);
-        aim(j);
-        lowered |= 1u << j;
-    }
-    return lowered;
+void ShadowQueue::move(const Packet& from, int lane, Packet& to) {
+    const int j = to.count++;
+    auto copy = [&](const auto& a, auto& b) {
+        for (int c = 0; c < 3; ++c) b[c][j] = a[c][lane];
+    };
+    copy(from.rays.P, to.rays.P), copy(from.rays.error, to.rays.error);
+    copy(from.rays.Ng, to.rays.Ng), copy(from.rays.way, to.rays.way);
+    copy(from.rays.up, to.rays.up), copy(from.rays.short_of, to.rays.short_of);
+    to.rays.endless[j] = from.rays.endless[lane];
+    to.hit[j] = from.hit[lane];
+    to.target[j] = from.target[lane];
 }
 
-void ShadowQueue::flush() {
-    if (filled_ == 0) return;
-    const uint32_t all = filled_ == raytrace::kPacket ? 0xffffu : (1u << filled_) - 1;
-    const bool any = dims_ && straight_;
-    const uint32_t mask = any ? raytrace::kMaskAll : raytrace::kMaskOpaque;
-    uint32_t blocked = block(all, mask);
-    // Whether what is opaque blocks them, only lifted ones need to know at once.
-    uint32_t opaque = any ? block(blocked & lifted_, raytrace::kMaskOpaque) : blocked;
-    if (uint32_t lowered = lower(lifted_ & ~opaque))
-        blocked = (blocked & ~lowered) | block(lowered, mask);
-    for (int j = 0; j < filled_; ++j) {
-        bool met = blocked >> j & 1;
-        const Target& target = asked_[j].target;
+// What becomes of rays that are in packet_.
+void ShadowQueue::settle(const Packet& packet, uint32_t lanes, uint32_t blocked) {
+    for (; lanes; lanes &= lanes - 1) {
+        const int j = std::countr_zero(lanes);
+        const bool met = blocked >> j & 1;
+        const Target& target = packet.target[j];
         if (dims_ && met == straight_)
-            keep(j);
+            keep(packet, j);
         else if (met)
             for (float* Cl : target.Cl) Cl[target.point] = 0;
     }
-    filled_ = 0;
-    lifted_ = 0;
     if (rest_->rays.count + raytrace::kPacket > kGridPoints) pass_rest();
 }
 
-void ShadowQueue::keep(int lane) {
+// Of rays that leave a smooth surface, those that nothing opaque blocks wait for others: whether
+// the way there is free is asked for sixteen at once.
+void ShadowQueue::flush() {
+    if (fresh_.count == 0) return;
+    const uint32_t all = fresh_.lanes();
+    uint32_t on_facets = 0;
+    for (int j = 0; of_surface_ && j < fresh_.count; ++j) {
+        const auto& Ng = fresh_.rays.Ng;
+        on_facets |= uint32_t((Ng[0][j] != 0) | (Ng[1][j] != 0) | (Ng[2][j] != 0)) << j;
+    }
+    const uint32_t lifted =
+        on_facets ? smooth_.ways_from(*hits_, fresh_.hit, on_facets, fresh_.rays) : 0;
+    aim(fresh_);
+    const uint32_t blocked = block(all, mask_);
+    uint32_t opaque = blocked;
+    if (mask_ != raytrace::kMaskOpaque) opaque = block(blocked & lifted, raytrace::kMaskOpaque);
+    const uint32_t waiting = lifted & ~opaque;
+    settle(fresh_, all & ~waiting, blocked);
+    for (uint32_t left = waiting; left; left &= left - 1) {
+        const int j = std::countr_zero(left);
+        met_ |= (blocked >> j & 1) << lifted_.count;
+        move(fresh_, j, lifted_);
+        if (lifted_.count == raytrace::kPacket) flush_lifted();
+    }
+    fresh_.count = 0;
+}
+
+// Where something stands on the way to the smooth surface, rays leave their facets after all.
+void ShadowQueue::flush_lifted() {
+    if (lifted_.count == 0) return;
+    Packet up;  // from P to the smooth surface
+    up.count = lifted_.count;
+    up.rays.endless[0] = 0;
+    for (int j = 0; j < lifted_.count; ++j)
+        for (int c = 0; c < 3; ++c) {
+            up.rays.P[c][j] = lifted_.rays.P[c][j];
+            up.rays.error[c][j] = lifted_.rays.error[c][j];
+            up.rays.Ng[c][j] = lifted_.rays.Ng[c][j];
+            up.rays.way[c][j] = lifted_.rays.up[c][j];
+            up.rays.short_of[c][j] = -0.0f;  // which changes nothing when added
+        }
+    aim(up);
+    uint32_t out = 0;  // beyond the error of P
+    for (int j = 0; j < up.count; ++j) {
+        const auto& w = up.rays.way;
+        out |= uint32_t(packet_.dir_x[j] * w[0][j] + packet_.dir_y[j] * w[1][j] +
+                            packet_.dir_z[j] * w[2][j] >
+                        0)
+               << j;
+    }
+    const uint32_t lowered = block(out, raytrace::kMaskAll);
+    const uint32_t met = std::exchange(met_, 0);
+    aim(lifted_);
+    settle(lifted_, lifted_.lanes() & ~lowered, met);
+    for (uint32_t left = lowered; left; left &= left - 1) {
+        move(lifted_, std::countr_zero(left), lowered_);
+        for (auto& row : lowered_.rays.up) row[lowered_.count - 1] = 0;
+        if (lowered_.count == raytrace::kPacket) flush_lowered();
+    }
+    lifted_.count = 0;
+}
+
+void ShadowQueue::flush_lowered() {
+    if (lowered_.count == 0) return;
+    aim(lowered_);
+    settle(lowered_, lowered_.lanes(), block(lowered_.lanes(), mask_));
+    lowered_.count = 0;
+}
+
+void ShadowQueue::flush_all() {
+    flush();
+    flush_lifted();
+    flush_lowered();
+}
+
+void ShadowQueue::keep(const Packet& packet, int lane) {
     raytrace::RayBatch& rest = rest_->rays;
     if (rest_targets_.empty()) {
         rest.reserve(kGridPoints);
         rest_targets_ = memory_.arena.allocate_span<Target>(kGridPoints);
     }
-    const Asked& ray = asked_[lane];
     vec3 org(packet_.org_x[lane], packet_.org_y[lane], packet_.org_z[lane]);
     vec3 dir(packet_.dir_x[lane], packet_.dir_y[lane], packet_.dir_z[lane]);
     size_t r = rest.count++;
-    set_nested_ray(rest, r, org, dir, packet_.tfar[lane], *ray.hits, ray.hit);
+    set_nested_ray(rest, r, org, dir, packet_.tfar[lane], *hits_, packet.hit[lane]);
     rest.slot[r] = uint32_t(r);
-    rest_targets_[r] = ray.target;
+    rest_targets_[r] = packet.target[lane];
 }
 
 void ShadowQueue::pass_rest() {

@@ -57,23 +57,28 @@ class ShadowQueue final : public LightShadows {
         float* Cl[3];
         uint32_t point;
     };
-    // What a ray was asked for, in accel space.
-    struct Asked {
-        Target target;
-        uint32_t hit;
-        const raytrace::HitBatch* hits;
-        vec3 P, error, Ng;
-        vec3 way;       // to the light
-        vec3 up;        // from the facet to where the ray leaves; 0: it leaves the facet
-        vec3 short_of;  // from the light's sample to where the ray ends
-        bool solar;
+    // Up to sixteen rays, in accel space.
+    struct Packet {
+        raytrace::LeavingRays rays{};
+        uint32_t hit[raytrace::kPacket];
+        Target target[raytrace::kPacket];
+        int count = 0;
+
+        uint32_t lanes() const { return count == raytrace::kPacket ? 0xffffu : (1u << count) - 1; }
     };
 
-    void aim(int lane);
+    size_t choose(const LightPoints& at, const SentLight& light);
+    void take(const Grid& grid, const LightPoints& at, const SentLight& light,
+              std::span<const uint32_t> points);
+    void aim(Packet& packet);
     uint32_t block(uint32_t lanes, uint32_t mask);
-    uint32_t lower(uint32_t lanes);
+    void move(const Packet& from, int lane, Packet& to);
+    void settle(const Packet& packet, uint32_t lanes, uint32_t blocked);
     void flush();
-    void keep(int lane);
+    void flush_lifted();
+    void flush_lowered();
+    void flush_all();
+    void keep(const Packet& packet, int lane);
     void pass_rest();
 
     const ShadingFrame& frame_;
@@ -82,12 +87,17 @@ class ShadowQueue final : public LightShadows {
     const RayTag tag_;
     const bool dims_;      // what is transparent may dim a ray
     const bool straight_;  // rays that meet nothing lose nothing
+    const uint32_t mask_;  // what a ray is first traced against
     mat3 accel_from_camera_;
     SmoothSurface smooth_;
+    const raytrace::HitBatch* hits_ = nullptr;  // of all rays that wait
+    bool of_surface_ = false;
     raytrace::RayPacket16 packet_{};  // Embree looks at lanes that are not active, too
-    Asked asked_[raytrace::kPacket];
-    uint32_t lifted_ = 0;  // bit j: ray j leaves a smooth surface, not its facet
-    int filled_ = 0;
+    Packet fresh_;
+    Packet lifted_;     // rays that leave a smooth surface, if the way there is free
+    uint32_t met_ = 0;  // bit j: something blocks lifted ray j
+    Packet lowered_;    // rays that leave their facets after all
+    uint32_t chosen_[kGridPoints];
     // Rays that what is transparent may dim, and the point of each.
     NestedWavefront rest_;
     std::span<Target> rest_targets_;

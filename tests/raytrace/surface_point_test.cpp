@@ -2,8 +2,14 @@
 // without meeting the surface again (docs/numerics.md#where-rays-leave).
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "raytrace/accel.h"
 #include "raytrace/brute_force.h"
+#include "raytrace/points/points.h"
 #include "tests/raytrace/meshes.h"
 
 namespace kinora::raytrace::test {
@@ -173,6 +179,50 @@ TEST(SurfacePoint, ManyAtOnceEqualOneAtATime) {
             EXPECT_EQ(s.p[int(c)], out[c * n + i]);
             EXPECT_EQ(s.p_error[int(c)], out[(3 + c) * n + i]);
             EXPECT_EQ(s.Ng[int(c)], out[(6 + c) * n + i]);
+        }
+    }
+}
+
+// The kernels' origins are those of offset_ray_origin(), bit for bit, also with parts of +-0.
+TEST(SurfacePoint, SixteenRaysLeaveAsEachAlone) {
+    RandomRays random(43);
+    auto any = [&] { return vec3(random.direction()); };
+    auto is_same = [](float a, float b) { return std::memcmp(&a, &b, 4) == 0; };
+    for (int round = 0; round < 200; ++round) {
+        LeavingRays from{};
+        for (size_t i = 0; i < kPoints; ++i) {
+            const vec3 rows[] = {any(),        glm::abs(any()) * 1e-6f, any(),
+                                 3.0f * any(), 0.01f * any(),           any()};
+            for (int c = 0; c < 3; ++c) {
+                from.P[c][i] = i == 3 ? 0 : rows[0][c];
+                from.error[c][i] = i == 4 ? 0 : rows[1][c];
+                from.Ng[c][i] = i == 5 ? 0 : i == 6 ? float(c == 1) : rows[2][c];
+                from.way[c][i] = rows[3][c];
+                from.up[c][i] = i % 2 ? rows[4][c] : 0;
+                from.short_of[c][i] = i % 3 ? rows[5][c] : -0.0f;
+            }
+            from.endless[i] = i % 4 == 0;
+        }
+        for (size_t k = 0; k < usable_point_kernels().count; ++k) {
+            float org[3][kPoints], dir[3][kPoints], tfar[kPoints];
+            float* const to_org[] = {org[0], org[1], org[2]};
+            float* const to_dir[] = {dir[0], dir[1], dir[2]};
+            usable_point_kernels().kernels[k]->leave(from, to_org, to_dir, tfar);
+            for (size_t i = 0; i < kPoints; ++i) {
+                auto at = [&](const float(&rows)[3][kPoints]) {
+                    return vec3(rows[0][i], rows[1][i], rows[2][i]);
+                };
+                const vec3 P = at(from.P), way = at(from.way), up = at(from.up);
+                const vec3 n = at(from.Ng) == vec3(0) ? glm::normalize(way) : at(from.Ng);
+                const vec3 begin = i % 2 ? offset_ray_origin(P + up, at(from.error), n, up)
+                                         : offset_ray_origin(P, at(from.error), n, way);
+                const vec3 along = i % 4 == 0 ? way : P + way - begin + at(from.short_of);
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_TRUE(is_same(org[c][i], begin[c])) << i;
+                    EXPECT_TRUE(is_same(dir[c][i], along[c])) << i;
+                }
+                EXPECT_EQ(std::isinf(tfar[i]), i % 4 == 0);
+            }
         }
     }
 }

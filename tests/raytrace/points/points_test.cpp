@@ -234,5 +234,65 @@ TEST(PointKernels, GiveTheSameBits) {
         }
 }
 
+// Where a kernel says that the facet surely sees the light, so do exact unit normals.
+TEST_P(EachKernel, SeesLightOnlyWhereItSurelyDoes) {
+    constexpr float kCosine = 0.1f;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    int seen = 0, flat = 0, other = 0;
+    for (int round = 0; round < 2000; ++round) {
+        TrianglePoints at = random_triangles(random, 0, 0);
+        LeavingRays from{};
+        for (size_t i = 0; i < kPoints; ++i) {
+            float g[3], length = 0;
+            for (int c = 0; c < 3; ++c) g[c] = unit(random);
+            for (int c = 0; c < 3; ++c) length += g[c] * g[c];
+            for (int c = 0; c < 3; ++c) {
+                from.Ng[c][i] = g[c] / std::sqrt(length);
+                from.way[c][i] = 5 * unit(random);
+            }
+            for (auto& corner : at.corner) {
+                float square = 0;
+                for (int c = 0; c < 3; ++c) {
+                    corner[i][c] = i == 0 ? float(c == 0) : from.Ng[c][i] + 0.5f * unit(random);
+                    square += corner[i][c] * corner[i][c];
+                }
+                const float off = 1 + 0.9e-3f * (i == 0 ? 0 : unit(random));
+                for (int c = 0; c < 3; ++c) corner[i][c] *= off / std::sqrt(square);
+            }
+        }
+        const uint32_t bits = kernels().sees_light(at, from, kCosine);
+        for (size_t i = 0; i < kPoints; ++i) {
+            const Real weight[] = {1 - Real(at.u[i]) - Real(at.v[i]), at.u[i], at.v[i]};
+            Real N[3] = {}, facet = 0, light = 0, cosine = 0, square = 0;
+            for (int k = 0; k < 3; ++k) {
+                Real length = 0;
+                for (int c = 0; c < 3; ++c) length += Real(at.corner[k][i][c]) * at.corner[k][i][c];
+                for (int c = 0; c < 3; ++c)
+                    N[c] += weight[k] * at.corner[k][i][c] / std::sqrt(length);
+            }
+            for (int c = 0; c < 3; ++c) {
+                facet += N[c] * from.Ng[c][i];
+                light += N[c] * from.way[c][i];
+                cosine += Real(from.Ng[c][i]) * from.way[c][i];
+                square += Real(from.way[c][i]) * from.way[c][i];
+            }
+            const Real facing = (facet < 0) != (light < 0) ? -1 : 1;
+            const bool truth = facing * cosine > kCosine * std::sqrt(square);
+            const bool said = bits >> i & 1;
+            if (i == 0) {
+                flat += said;
+                continue;
+            }
+            EXPECT_TRUE(truth || !said) << round << " " << i;
+            seen += said;
+            other += truth && !said;
+        }
+    }
+    EXPECT_EQ(flat, 2000);  // the same normal at all corners
+    EXPECT_GT(seen, 20 * other);
+    EXPECT_GT(seen, 5000);
+}
+
 }  // namespace
 }  // namespace kinora::raytrace::test
