@@ -1,0 +1,17 @@
+// runtime/trade/knob_tables.h: the table of knobs as pages and programs read it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinora {
+
+// What `kinora-render --knobs FORMAT` prints.
+std::vector<std::string_view> knob_formats();  // "text", "json", "schema", "markdown", "presets"
+std::string print_knobs(std::string_view format);
+
+// JSON schema (draft 2020-12) of tradeoff.json.
+std::string tradeoff_schema();
+
+}  // namespace kinora
