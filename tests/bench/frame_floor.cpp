@@ -29,9 +29,9 @@
 #include "runtime/build/build_scene.h"
 #include "runtime/description/play_range.h"
 #include "runtime/frame/frame.h"
-#include "runtime/frame/quality.h"
 #include "runtime/load/import_scene.h"
 #include "runtime/shading/kernels/kernel_probe.h"
+#include "runtime/trade/quality.h"
 
 namespace kinora {
 namespace {

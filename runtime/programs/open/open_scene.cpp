@@ -36,17 +36,18 @@ SceneOptions scene_options(const SceneRequest& request) {
     if (!o.view.at) o.view.at_node = request.look_at;
     o.math = request.quality.math;
     o.target = request.target;
-    o.shadows = request.shadows;
+    o.shadows = request.quality.shadows;
     o.lights = request.lights;
     o.ray_depth = request.quality.ray_depth;
     o.diffuse_depth = request.quality.diffuse_depth;
     o.split = request.quality.split;
-    o.ray_limit = request.ray_limit;
+    o.ray_limit = request.quality.ray_limit;
     o.accel.robust = request.quality.robust;
     o.accel.always_rebuild = request.quality.always_rebuild;
+    o.accel.refit_limit = float(request.quality.refit_limit);
     o.accel.background = false;  // a frame depends on its time alone
     o.decode_textures = request.color == ColorEncoding::Srgb;
-    o.light_samples = request.light_samples;
+    o.light_samples = request.quality.light_samples;
     o.aovs = request.aovs;
     o.displacement = request.quality.displacement;
     o.dice = request.quality.dice;
@@ -167,7 +168,7 @@ FrameSettings frame_settings(const SceneRequest& request, Scene& scene, Diagnost
     settings.width = scaled(request, width);
     settings.height = scaled(request, request.height ? request.height : width / aspect);
     settings.integrator.samples_per_pixel = request.quality.samples_per_pixel;
-    settings.integrator.filter = raytrace::find_pixel_filter(request.filter);
+    settings.integrator.filter = &raytrace::pixel_filters()[size_t(request.quality.filter)];
     settings.integrator.filter_width = request.filter_width;
     settings.integrator.background = request.background;
     settings.integrator.nan = request.nan;

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "runtime/description/import_options.h"
-#include "runtime/frame/quality.h"
 #include "runtime/images/image_io.h"
 #include "runtime/programs/common/finding_printer.h"
 #include "runtime/programs/common/frame_list.h"
 #include "runtime/scene/scene.h"
+#include "runtime/trade/quality.h"
 
 namespace kinora {
 
@@ -32,13 +32,10 @@ struct SceneRequest {
     int threads = 0;      // 0: all
     const jit::Target* target = nullptr;
     std::string target_missing;  // asked for, not on this CPU
-    Quality quality;             // the row with single options put over it
-    int ray_limit = 1000;        // SceneOptions::ray_limit
+    Quality quality;             // a preset with single options put over it
     size_t dice_limit = 0;       // 0: the scene's own
-    std::string filter = "gaussian";
     double filter_width = 0;
     uint32_t seed = 0;
-    ShadowMode shadows = ShadowMode::Auto;
     LightSet lights = LightSet::Auto;
     double exposure = 0;  // stops
     bool auto_exposure = false;
@@ -50,7 +47,6 @@ struct SceneRequest {
     std::vector<std::string> hide, only;                       // nodes
     std::string imager;             // one of ours by name, FILE.sl, "none"; "": the scene's own
     std::string atmosphere;         // likewise
-    uint32_t light_samples = 0;     // of area lights; 0: the file's
     std::vector<std::string> aovs;  // output parameters of surfaces
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;

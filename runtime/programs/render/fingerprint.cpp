@@ -11,6 +11,7 @@
 #include "runtime/base/display_path.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/description/texture_name.h"
+#include "runtime/trade/knobs.h"
 
 namespace kinora {
 
@@ -61,21 +62,18 @@ uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& descripti
 std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int height, double rate,
                         double time) {
     std::string text = fmt::format(
-        "kinora {} {:016x} {}x{} {} spp {} math {} robust {} rebuild {} rays {} {} filter {} {} "
-        "seed {} shadows {} nan {} color {} camera {} up {} unit {} displacement {} {} {} time "
-        "{:a}",
-        KINORA_VERSION, inputs, width, height, o.quality.name, o.quality.samples_per_pixel,
-        int(o.quality.math), o.quality.robust, o.quality.always_rebuild, o.quality.ray_depth,
-        o.quality.diffuse_depth, o.filter, o.filter_width, o.seed, int(o.shadows), int(o.nan),
-        int(o.color), o.camera, o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0),
-        int(o.quality.displacement), o.quality.dice, o.dice_limit, time);
+        "kinora {} {:016x} {}x{} {} {} filter width {} seed {} nan {} color {} camera {} up {} "
+        "unit {} dice limit {} time {:a}",
+        KINORA_VERSION, inputs, width, height, o.quality.name, knob_texts(o.quality),
+        o.filter_width, o.seed, int(o.nan), int(o.color), o.camera,
+        o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), o.dice_limit, time);
     text += fmt::format(" exposure {} {}", o.auto_exposure, o.exposure);
     if (o.background)
         text +=
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
     text +=
-        fmt::format(" imager {} atmosphere {} aovs {} light samples {} transparency {}", o.imager,
-                    o.atmosphere, fmt::join(o.aovs, ","), o.light_samples, int(o.transparency));
+        fmt::format(" imager {} atmosphere {} aovs {} transparency {}", o.imager, o.atmosphere,
+                    fmt::join(o.aovs, ","), int(o.transparency));
     text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
                         fmt::join(o.only, ","), o.clip);
     auto point = [](const std::optional<dvec3>& p) {
@@ -85,7 +83,6 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
                         o.turntable.value_or(0), o.turntable || o.follow ? rate : 0.0, o.yfov,
                         point(o.look_from), o.look_at);
     if (o.smooth) text += fmt::format(" smooth {}", *o.smooth);
-    text += fmt::format(" split {} ray limit {}", o.quality.split, o.ray_limit);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     if (o.session) text += session_text(*o.session);

@@ -9,6 +9,8 @@
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
+#include "runtime/trade/knob_tables.h"
+#include "runtime/trade/knobs.h"
 
 namespace kinora {
 
@@ -101,15 +103,17 @@ std::vector<std::string_view> quality_names() {
     return names;
 }
 
+// A knob on the command line, by its kind.
+struct GivenKnob {
+    std::optional<double> choice, real;
+    std::optional<int> whole;
+};
+
 // As they stand on the command line, where they are not yet what RenderOptions holds.
 struct Given {
     std::string frames, fps, size, scale, look_from, threads = "all", target, background, exposure;
     std::string quality{kDefaultQuality};
-    std::optional<int> spp, rays, bounces, split;
-    std::optional<jit::math::Tier> math;
-    std::optional<bool> robust, rebuild;
-    std::optional<DisplacementMode> displacement;
-    std::optional<double> dice;
+    std::vector<GivenKnob> knobs{kinora::knobs().size()};
     std::optional<size_t> dice_limit;
     std::vector<std::string> shaders, params;
     bool overwrite = false;
@@ -154,65 +158,65 @@ void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
                    "avx512, avx2, neon or interp (the best this CPU has)");
 }
 
-// The rows of a quality, one by one, and how pixels are sampled.
+// "samples per pixel (1, 4, 64, 1024)": what the presets have, unless the help says it.
+std::string help_of(const Knob& knob) {
+    if (knob.help.ends_with(')')) return std::string(knob.help);
+    auto rest = std::span(knob.presets).subspan(1);
+    bool same = std::ranges::all_of(rest, [&](auto& p) { return p == knob.presets[0]; });
+    return same ? fmt::format("{} ({})", knob.help, knob.presets[0])
+                : fmt::format("{} ({})", knob.help, fmt::join(knob.presets, ", "));
+}
+
+void declare_knob(CLI::App& app, const Knob& knob, GivenKnob& given) {
+    std::string option = fmt::format("--{}", knob.option), help = help_of(knob);
+    switch (knob.kind) {
+        case KnobKind::Choice: {
+            auto take = [&, option](const std::string& text) {
+                given.choice = knob_value(knob, text);
+                if (!given.choice) throw CLI::ValidationError(option, none_of(text, knob.words));
+            };
+            app.add_option_function<std::string>(option, take, help)->type_name("NAME");
+            break;
+        }
+        case KnobKind::Whole:
+            app.add_option(option, given.whole, help)
+                ->check(CLI::Range(int(knob.low), int(knob.high)));
+            break;
+        case KnobKind::Real:
+            app.add_option(option, given.real, help);
+            break;
+    }
+}
+
+// The preset, single knobs of it, and how pixels are sampled.
 void declare_quality(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--quality", given.quality,
                    fmt::format("{} ({})", fmt::join(quality_names(), ", "), kDefaultQuality));
-    app.add_option("--spp", given.spp, "samples per pixel (the quality's)")
-        ->check(CLI::Range(1, 1 << 20));
-    add_choice<jit::math::Tier>(
-        app, "--math", given.math,
-        {{"precise", jit::math::Tier::Precise}, {"fast", jit::math::Tier::Fast}},
-        "precise (1 ULP) or fast (4 ULP)");
-    add_choice<bool>(app, "--robust", given.robust, {{"on", true}, {"off", false}},
-                     "watertight traversal: on or off");
-    add_choice<bool>(app, "--bvh", given.rebuild, {{"refit", false}, {"rebuild", true}},
-                     "refit or rebuild each frame");
-    add_choice<DisplacementMode>(
-        app, "--displacement", given.displacement,
-        {{"true", DisplacementMode::True}, {"bump", DisplacementMode::Bump}},
-        "true (vertices move) or bump (N bends)");
-    app.add_option("--dice", given.dice, "edge length of displaced surfaces, pixels");
+    for (size_t k = 0; k < knobs().size(); ++k) declare_knob(app, knobs()[k], given.knobs[k]);
     app.add_option("--dice-limit", given.dice_limit,
                    "most triangles of displaced surfaces (4000000)")
         ->check(CLI::Range(size_t(1), size_t(1) << 31));
-    app.add_option("--filter", o.filter, "pixel filter: box, triangle or gaussian (gaussian)")
-        ->check(CLI::Validator(
-            [](std::string& name) {
-                return raytrace::find_pixel_filter(name)
-                           ? ""
-                           : none_of(name, {"box", "triangle", "gaussian"});
-            },
-            "NAME"));
     app.add_option("--filter-width", o.filter_width, "in pixels (the filter's own)");
     app.add_option("--seed", o.seed, "of all sampling (0)");
-    app.add_option("--rays", given.rays,
-                   "rays that shaders may send one from the hit of another (16)")
-        ->check(CLI::Range(0, 64));
-    app.add_option("--bounces", given.bounces, "of these, of indirect diffuse light (1)")
-        ->check(CLI::Range(0, 64));
-    app.add_option("--split", given.split,
-                   "hits of a path where both what is reflected and what passes is followed (1)")
-        ->check(CLI::Range(0, 64));
-    app.add_option("--ray-limit", o.ray_limit, "rays that shaders may send for one of the camera")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 30));
+    app.add_option_function<std::string>(
+           "--knobs",
+           [](const std::string& format) {
+               std::fputs(print_knobs(format).c_str(), stdout);
+               throw CLI::Success();
+           },
+           fmt::format("prints the table of these settings: {}", fmt::join(knob_formats(), ", ")))
+        ->check(one_of(knob_formats()))
+        ->trigger_on_parse();
 }
 
 // What the picture shows of the scene, and how.
 void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
-    add_choice<ShadowMode>(
-        app, "--shadows", o.shadows,
-        {{"auto", ShadowMode::Auto}, {"explicit", ShadowMode::Explicit}, {"off", ShadowMode::Off}},
-        "auto, explicit (where shaders ask) or off");
     add_choice<LightSet>(app, "--lights", o.lights,
                          {{"auto", LightSet::Auto},
                           {"scene", LightSet::Scene},
                           {"default", LightSet::Default},
                           {"both", LightSet::Both}},
                          "scene, default, both or auto (the scene's; default where it has none)");
-    app.add_option("--light-samples", o.light_samples, "of each area light (the file's, else 16)")
-        ->check(CLI::Range(1, 4096));
     app.add_option("--exposure", given.exposure,
                    "stops brighter (1 doubles) or darker, or auto: by the scene's whole range (0)");
     app.add_option("--background", given.background, "R,G,B instead of transparent");
@@ -289,17 +293,16 @@ void interpret_quality(const Given& given, RenderOptions& o) {
     const Quality* row = find_quality(given.quality);
     if (!row) throw CLI::ValidationError("--quality", none_of(given.quality, quality_names()));
     o.quality = *row;
-    if (given.spp) o.quality.samples_per_pixel = *given.spp;
-    if (given.math) o.quality.math = *given.math;
-    if (given.robust) o.quality.robust = *given.robust;
-    if (given.rebuild) o.quality.always_rebuild = *given.rebuild;
-    if (given.rays) o.quality.ray_depth = *given.rays;
-    if (given.bounces) o.quality.diffuse_depth = *given.bounces;
-    if (given.split) o.quality.split = *given.split;
-    if (given.displacement) o.quality.displacement = *given.displacement;
-    if (given.dice) {
-        check_range("--dice", *given.dice, 0.01, 1e6, "takes 0.01 to 1e6 pixels");
-        o.quality.dice = *given.dice;
+    for (size_t k = 0; k < knobs().size(); ++k) {
+        const Knob& knob = knobs()[k];
+        const GivenKnob& value = given.knobs[k];
+        if (value.choice) knob.set(o.quality, *value.choice);
+        if (value.whole) knob.set(o.quality, double(*value.whole));
+        if (!value.real) continue;
+        std::string takes = fmt::format("takes {} to {}", knob.low, knob.high);
+        check_range(fmt::format("--{}", knob.option).c_str(), *value.real, knob.low, knob.high,
+                    takes.c_str());
+        knob.set(o.quality, *value.real);
     }
     o.dice_limit = given.dice_limit.value_or(0);
 }
@@ -487,12 +490,13 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     std::vector<std::string> words = words_of(argc, argv);
     if (std::string error = read_session_of(words, o); !error.empty())
         return refuse_session(app.get_name(), error);
-    return parse_command_line(app, std::move(words), {{"--stats", "text"}, {"--list", "all"}}, [&] {
-        interpret(given, o);
-        interpret_scene(o);
-        if (o.scene.empty()) throw CLI::RequiredError("scene");
-        interpret_output(given, o);
-    });
+    return parse_command_line(app, std::move(words),
+                              {{"--stats", "text"}, {"--list", "all"}, {"--knobs", "text"}}, [&] {
+                                  interpret(given, o);
+                                  interpret_scene(o);
+                                  if (o.scene.empty()) throw CLI::RequiredError("scene");
+                                  interpret_output(given, o);
+                              });
 }
 
 std::optional<int> parse_scene_options(int argc, char** argv, const SceneProgram& program,

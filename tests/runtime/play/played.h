@@ -9,7 +9,7 @@
 #include <string>
 
 #include "runtime/base/parallel.h"
-#include "runtime/frame/quality.h"
+#include "runtime/trade/quality.h"
 #include "runtime/play/player.h"
 #include "runtime/play/script.h"
 
