@@ -15,8 +15,8 @@ namespace kinora {
 namespace {
 
 // Floats are written with the digits that they need.
-using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, int64_t,
-                                  uint64_t, float>;
+using OutputJson = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
+                                        int64_t, uint64_t, float>;
 
 PointsValues own_parameters(const ShadeOptions& options, const ShadeSource& source,
                             const PointsDocument& document, const rsl::Shader& shader) {
@@ -58,39 +58,39 @@ void want_outputs(const rsl::Shader& shader, Pass& pass) {
 }
 
 // Components of something at a point; lists where there are several.
-Json number_json(const PointsKernel& kernel, const std::vector<rsl::KernelKey>& keys, bool text,
-                 size_t point) {
-    Json list = Json::array();
+OutputJson number_json(const PointsKernel& kernel, const std::vector<rsl::KernelKey>& keys,
+                       bool text, size_t point) {
+    OutputJson list = OutputJson::array();
     for (const rsl::KernelKey& key : keys) {
         std::span<const float> row = kernel.output(key);
         float x = row.empty() ? 0.0f : row[point];
         if (text)
             list.push_back(rsl::interned(jit::bits_of(x)));
         else
-            list.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
+            list.push_back(std::isfinite(x) ? OutputJson(x) : OutputJson(nullptr));
     }
     return list.size() == 1 ? list[0] : list;
 }
 
-Json global_json(const PointsKernel& kernel, const PointSet& points, rsl::Global id) {
-    Json all = Json::array();
+OutputJson global_json(const PointsKernel& kernel, const PointSet& points, rsl::Global id) {
+    OutputJson all = OutputJson::array();
     std::vector<rsl::KernelKey> keys;
     for (int c = 0; c < 3; ++c) keys.push_back(rsl::global_key(id, c));
     bool left = !kernel.output(keys[0]).empty();
     for (size_t i = 0; i < points.count(); ++i)
-        all.push_back(left
-                          ? number_json(kernel, keys, false, i)
-                          : Json{points.row(id, 0)[i], points.row(id, 1)[i], points.row(id, 2)[i]});
+        all.push_back(
+            left ? number_json(kernel, keys, false, i)
+                 : OutputJson{points.row(id, 0)[i], points.row(id, 1)[i], points.row(id, 2)[i]});
     return all;
 }
 
-Json output_json(const Pass& pass, const rsl::ShaderParameter& parameter, size_t count) {
-    Json all = Json::array();
+OutputJson output_json(const Pass& pass, const rsl::ShaderParameter& parameter, size_t count) {
+    OutputJson all = OutputJson::array();
     rsl::BaseType base = parameter.type.base;
     bool text = base == rsl::BaseType::String;
     int elements = parameter.type.is_array() ? std::max(parameter.type.array_length, 1) : 1;
     for (size_t i = 0; i < count; ++i) {
-        Json value = Json::array();
+        OutputJson value = OutputJson::array();
         for (int e = 0; e < elements; ++e) {
             std::vector<rsl::KernelKey> keys;
             for (int c = 0; c < rsl::component_count(base); ++c)
@@ -105,8 +105,8 @@ Json output_json(const Pass& pass, const rsl::ShaderParameter& parameter, size_t
 
 // A light's L, from it to the point, and Cl; of a light of several statements the first that
 // shines.
-Json light_json(const Pass& pass, const PointSet& points, rsl::LightColumn column) {
-    Json all = Json::array();
+OutputJson light_json(const Pass& pass, const PointSet& points, rsl::LightColumn column) {
+    OutputJson all = OutputJson::array();
     for (size_t i = 0; i < points.count(); ++i) {
         size_t shining = 0, statements = pass.kernel.lowered().light_statements.size();
         for (size_t s = statements; s-- > 0;) {
@@ -115,9 +115,9 @@ Json light_json(const Pass& pass, const PointSet& points, rsl::LightColumn colum
         }
         std::vector<rsl::KernelKey> keys;
         for (int c = 0; c < 3; ++c) keys.push_back(rsl::light_key(shining, column, c));
-        Json value = number_json(pass.kernel, keys, false, i);
+        OutputJson value = number_json(pass.kernel, keys, false, i);
         if (column == rsl::kLightL)
-            for (Json& x : value)
+            for (OutputJson& x : value)
                 if (x.is_number()) x = 0.0f - x.get<float>();
         all.push_back(value);
     }
@@ -230,7 +230,7 @@ class PointsRun {
     }
 
     void print(const rsl::Shader& shader) {
-        std::vector<std::pair<std::string, Json>> rows;
+        std::vector<std::pair<std::string, OutputJson>> rows;
         auto add = [&](const char* name, rsl::Global id) {
             rows.emplace_back(name, global_json(main_.kernel, points_, id));
         };
@@ -254,8 +254,8 @@ class PointsRun {
         add_outputs(main_);
         std::string text = fmt::format("{{\n\"points\": {}", points_.count());
         for (const auto& [name, values] : rows)
-            text += fmt::format(",\n{}: {}", Json(name).dump(),
-                                values.dump(-1, ' ', false, Json::error_handler_t::replace));
+            text += fmt::format(",\n{}: {}", OutputJson(name).dump(),
+                                values.dump(-1, ' ', false, OutputJson::error_handler_t::replace));
         std::puts((text + "\n}").c_str());
     }
 
