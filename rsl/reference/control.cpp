@@ -153,8 +153,8 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
     loop_counters.push_back(0);
     std::span<const ReferenceLight> lights = in.lights;
     if (in.lights_at)
-        lights = in.lights_at({double(position.c[0].x), double(position.c[1].x),
-                               double(position.c[2].x)});
+        lights = in.lights_at(
+            {double(position.c[0].x), double(position.c[1].x), double(position.c[2].x)});
     for (size_t k = 0; k < lights.size() && !leave; ++k) {
         const ReferenceLight& l = lights[k];
         loop_counters.back() = int32_t(k);

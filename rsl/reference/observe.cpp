@@ -95,11 +95,11 @@ void Reference<Real>::tell_light(const Location& where) {
     in.observer(step);
 }
 
-#define KINORA_OBSERVE_METHODS(Real)                                     \
-    template auto Reference<Real>::observed(const Expr&)->Item;          \
-    template void Reference<Real>::note_change(const Symbol&);           \
-    template void Reference<Real>::tell_changes(const Location&);        \
-    template void Reference<Real>::tell_inputs();                        \
+#define KINORA_OBSERVE_METHODS(Real)                              \
+    template auto Reference<Real>::observed(const Expr&)->Item;   \
+    template void Reference<Real>::note_change(const Symbol&);    \
+    template void Reference<Real>::tell_changes(const Location&); \
+    template void Reference<Real>::tell_inputs();                 \
     template void Reference<Real>::tell_light(const Location&);
 KINORA_OBSERVE_METHODS(float)
 KINORA_OBSERVE_METHODS(double)

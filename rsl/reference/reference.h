@@ -27,7 +27,7 @@ struct ReferenceLight {
     bool lit = true;
     // What lightsource() finds: numbers by name; it asks for so many.
     std::vector<std::pair<std::string, std::vector<double>>> messages;
-    std::string name;                             // for observers
+    std::string name;                              // for observers
     std::map<std::string, bool> known_categories;  // whether it is of them; else by `categories`
 };
 

@@ -165,9 +165,8 @@ class Explanation {
         rsl::ReferenceResult exact = run<double>(inputs_);
         const auto& unanswered = point_.calls.unanswered();
         if (!unanswered.empty())
-            return fail(Agreement::Unexplained,
-                        fmt::format("the kernel made no such call of: {}",
-                                    fmt::join(unanswered, ", ")));
+            return fail(Agreement::Unexplained, fmt::format("the kernel made no such call of: {}",
+                                                            fmt::join(unanswered, ", ")));
         bool fast = scene_.options.math == jit::math::Tier::Fast;
         std::array<double, 3> moved{};
         bool decided = exact.decisions == single.decisions;
@@ -189,8 +188,8 @@ class Explanation {
         bool all = true;
         for (size_t k = 0; k < 3; ++k) {
             double wanted = number(exact, k), got = double(story_.Ci[k]);
-            double allowed = (fast ? kFastFloor : kFloor) * (1 + std::fabs(wanted)) +
-                             kFactor * moved[k];
+            double allowed =
+                (fast ? kFastFloor : kFloor) * (1 + std::fabs(wanted)) + kFactor * moved[k];
             story_.allowed[k] = float(allowed);
             bool same_kind = !std::isfinite(got) && !std::isfinite(number(single, k));
             all = all && (same_kind || std::fabs(got - wanted) <= allowed);

@@ -96,8 +96,8 @@ void add_varying(const ShaderInstance& look, const AllColumns& columns, Values& 
             if (p.name == param.name) type = p.type.base;
         for (uint32_t c = 0; c < param.components; ++c)
             for (rsl::Partial partial : kPartials) {
-                KernelKey key = rsl::parameter_key(param.layer, param.name, -1, rsl::form_of(type),
-                                                   int(c));
+                KernelKey key =
+                    rsl::parameter_key(param.layer, param.name, -1, rsl::form_of(type), int(c));
                 key.partial = partial;
                 float x = columns[param.column + uint32_t(partial) * param.components + c];
                 values[rsl::text(key)] = param.text ? double(jit::bits_of(x)) : double(x);
@@ -124,23 +124,21 @@ void add_parameters(const Scene& scene, const ShaderInstance& look,
                     const std::vector<rsl::Layer>& layers, Values& values) {
     for (uint32_t l = 0; l < layers.size(); ++l)
         for (const rsl::ShaderParameter& p : layers[l].shader->parameters) {
-            auto bound = std::ranges::find_if(layers[l].params,
-                                              [&](auto& b) { return b.name == p.name; });
+            auto bound =
+                std::ranges::find_if(layers[l].params, [&](auto& b) { return b.name == p.name; });
             if (bound == layers[l].params.end() || bound->kind != rsl::ParamBinding::Kind::Frame)
                 continue;
             bool array = p.type.is_array();
             for (int e = array ? 0 : -1; e < (array ? p.type.array_length : 0); ++e)
                 for (int c = 0; c < rsl::component_count(p.type.base); ++c) {
-                    KernelKey key =
-                        rsl::parameter_key(l, p.name, e, rsl::form_of(p.type.base), c);
+                    KernelKey key = rsl::parameter_key(l, p.name, e, rsl::form_of(p.type.base), c);
                     values[rsl::text(key)] = frame_number(scene, look, key);
                 }
         }
 }
 
 std::string light_name(const Scene& scene, size_t light) {
-    const LightDefinition& definition =
-        scene.description->lights[scene.lights[light].definition];
+    const LightDefinition& definition = scene.description->lights[scene.lights[light].definition];
     return definition.name.empty() ? definition.id : definition.name;
 }
 
