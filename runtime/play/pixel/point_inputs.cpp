@@ -137,11 +137,6 @@ void add_parameters(const Scene& scene, const ShaderInstance& look,
         }
 }
 
-std::string light_name(const Scene& scene, size_t light) {
-    const LightDefinition& definition = scene.description->lights[scene.lights[light].definition];
-    return definition.name.empty() ? definition.id : definition.name;
-}
-
 }  // namespace
 
 std::vector<std::string> space_names(const Scene& scene) {
@@ -163,10 +158,20 @@ rsl::ReferenceInputs point_inputs(const GridHost& host, const std::vector<rsl::L
     return inputs;
 }
 
+std::vector<std::string> record_names(const GridHost& host) {
+    const Scene& scene = host.grid().scene;
+    std::vector<std::string> names;
+    for (size_t light : host.services().lights.light_of_records()) {
+        const LightDefinition& definition =
+            scene.description->lights[scene.lights[light].definition];
+        names.push_back(definition.name.empty() ? definition.id : definition.name);
+    }
+    return names;
+}
+
 std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::RecordSet& set) {
     const Grid& grid = host.grid();
     const rsl::LoweredShader& lowered = grid.look->lowered;
-    std::vector<size_t> light_of = host.services().lights.light_of_records();
     std::vector<rsl::ReferenceLight> lights;
     for (int32_t r = 0; r < set.count; ++r) {
         const jit::Record& record = set.records[r];
@@ -175,7 +180,7 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
         light.kind = rsl::LightKind(jit::bits_of(record.uniforms[rsl::kLightKind]));
         int32_t categories = jit::bits_of(record.uniforms[rsl::kLightCategories]);
         for (size_t c = 0; c < lowered.categories.size(); ++c)
-            light.known_categories[lowered.categories[c]] = (categories >> c & 1) != 0;
+            light.known_categories.emplace_back(lowered.categories[c], (categories >> c & 1) != 0);
         light.nondiffuse = double(record.uniforms[rsl::kLightNondiffuse]);
         light.nonspecular = double(record.uniforms[rsl::kLightNonspecular]);
         for (size_t k = 0; k < 3; ++k) {
@@ -194,7 +199,7 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
                 light.messages.emplace_back(lowered.light_messages[m], numbers);
             next += count;
         }
-        if (size_t(r) < light_of.size()) light.name = light_name(grid.scene, light_of[size_t(r)]);
+        light.number = r;
     }
     return lights;
 }
