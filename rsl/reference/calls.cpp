@@ -51,6 +51,13 @@ const Symbol* Reference<Real>::lent(const CallExpr& e, size_t k) const {
     return symbol.type.base == parameter.type.base ? &symbol : nullptr;
 }
 
+template <class Real>
+[[gnu::noinline]] void Reference<Real>::set_array(const Expr& variable, const Storage& items) {
+    const Symbol& symbol = means(*as<VariableExpr>(variable).symbol);
+    storage(symbol) = items;
+    note(symbol);
+}
+
 // Arguments are copied in before the body runs and, if output, copied out after it.
 template <class Real>
 auto Reference<Real>::call_function(const CallExpr& e) -> Item {

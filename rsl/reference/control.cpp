@@ -124,8 +124,8 @@ static bool matches(const ReferenceLight& light, const std::string& category) {
         return parts;
     };
     if (category.empty()) return true;
-    if (auto known = light.known_categories.find(category); known != light.known_categories.end())
-        return known->second;
+    for (auto& [known, answer] : light.known_categories)
+        if (known == category) return answer;
     if (category.find_first_of("|&") == std::string::npos) {
         bool without = category[0] == '-';
         bool any = false;
@@ -153,8 +153,8 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
     loop_counters.push_back(0);
     std::span<const ReferenceLight> lights = in.lights;
     if (in.lights_at)
-        lights = in.lights_at({double(position.c[0].x), double(position.c[1].x),
-                               double(position.c[2].x)});
+        lights = (*in.lights_at)(
+            {double(position.c[0].x), double(position.c[1].x), double(position.c[2].x)});
     for (size_t k = 0; k < lights.size() && !leave; ++k) {
         const ReferenceLight& l = lights[k];
         loop_counters.back() = int32_t(k);
@@ -185,7 +185,8 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
             for (size_t i = 0; i < found.size(); ++i) value.c[i] = Real(found[i]);
             if (!found.empty()) store(*stmt.pairs[p], value);
         }
-        if (in.observer) tell_light(stmt.span.where);
+        if constexpr (kObserved)
+            if (in.observer) tell_light(stmt.span.where);
         flow = statement(*stmt.body);
         light = outer;
         for (size_t i = 0; i < 4; ++i) {

@@ -1,5 +1,4 @@
 // rsl/reference/observe.cpp: what an observer is told of a run.
-#include <algorithm>
 #include <cmath>
 
 #include "rsl/reference/reference_p.h"
@@ -10,14 +9,16 @@ namespace {
 
 template <class Real>
 bool has_nan(const RefValue<Real>& x) {
-    if (!is_numeric(x.type)) return false;
-    return std::any_of(x.c.begin(), x.c.begin() + std::ptrdiff_t(x.size()),
-                       [](const Dual<Real>& c) { return std::isnan(c.x); });
+    bool nan = false;
+    for (size_t k = 0; k < x.size(); ++k) nan = nan || std::isnan(x.c[k].x);
+    return nan;
 }
 
 template <class Real>
 void append(const RefValue<Real>& value, std::vector<double>& numbers) {
-    for (size_t k = 0; k < value.size(); ++k) numbers.push_back(double(value.c[k].x));
+    size_t first = numbers.size();
+    numbers.resize(first + value.size());
+    for (size_t k = 0; k < value.size(); ++k) numbers[first + k] = double(value.c[k].x);
 }
 
 }  // namespace
@@ -26,16 +27,19 @@ void append(const RefValue<Real>& value, std::vector<double>& numbers) {
 template <class Real>
 auto Reference<Real>::observed(const Expr& e) -> Item {
     Item value = evaluate(e);
-    bool computes = e.kind == ExprKind::Binary || e.kind == ExprKind::Call ||
-                    e.kind == ExprKind::Assign || e.kind == ExprKind::Cast;
+    if (!in.observer) [[likely]]
+        return value;
+    bool computes = e.kind == ExprKind::Binary || e.kind == ExprKind::Call;
     if (computes && result.nan.file == kNoFile && has_nan(value)) result.nan = e.span.where;
     return value;
 }
 
 template <class Real>
 void Reference<Real>::note_change(const Symbol& symbol) {
-    if (std::find(changed_.begin(), changed_.end(), &symbol) == changed_.end())
-        changed_.push_back(&symbol);
+    if (!in.observer) return;
+    for (const Symbol* known : changed_)
+        if (known == &symbol) return;
+    changed_.push_back(&symbol);
 }
 
 template <class Real>
@@ -56,52 +60,47 @@ ReferenceVariable Reference<Real>::variable(const Symbol& symbol) {
     return told;
 }
 
+// `changes` come before those of variables.
 template <class Real>
-ReferenceStep Reference<Real>::step_at(const Location& where) const {
-    return {layer->shader, function_, where, loop_counters, light, {}};
+void Reference<Real>::tell_step(const Location& where, std::vector<ReferenceVariable> changes) {
+    for (const Symbol* symbol : changed_) changes.push_back(variable(*symbol));
+    changed_.clear();
+    (*in.observer)({layer->shader, function_, where, loop_counters, light, std::move(changes)});
 }
 
 template <class Real>
 void Reference<Real>::tell_changes(const Location& where) {
-    ReferenceStep step = step_at(where);
-    for (const Symbol* symbol : changed_) step.changes.push_back(variable(*symbol));
-    changed_.clear();
-    in.observer(step);
+    if (!changed_.empty()) tell_step(where, {});
 }
 
 template <class Real>
 void Reference<Real>::tell_inputs() {
     changed_.clear();
     const Shader& shader = *layer->shader;
-    ReferenceStep step = step_at(shader.definition->span.where);
-    for (const ShaderParameter& p : shader.parameters) step.changes.push_back(variable(*p.symbol));
+    for (const ShaderParameter& p : shader.parameters) note_change(*p.symbol);
+    std::vector<ReferenceVariable> changes;
     for (const GlobalInfo* info : shader.globals_read) {
         Global id = info->id;
         bool of_light = id == Global::L || id == Global::Cl || id == Global::Ol;
         if (of_light || id == Global::PI) continue;
         auto set = globals_.find(id);
-        step.changes.push_back(variable(id, set == globals_.end() ? first_value(id) : set->second));
+        changes.push_back(variable(id, set == globals_.end() ? first_value(id) : set->second));
     }
-    in.observer(step);
+    tell_step(shader.definition->span.where, std::move(changes));
 }
 
 template <class Real>
 void Reference<Real>::tell_light(const Location& where) {
-    ReferenceStep step = step_at(where);
+    std::vector<ReferenceVariable> changes;
     for (Global id : {Global::L, Global::Cl, Global::Ol})
-        step.changes.push_back(variable(id, global(id)));
-    for (const Symbol* symbol : changed_) step.changes.push_back(variable(*symbol));
-    changed_.clear();
-    in.observer(step);
+        changes.push_back(variable(id, global(id)));
+    tell_step(where, std::move(changes));
 }
 
-#define KINORA_OBSERVE_METHODS(Real)                                     \
-    template auto Reference<Real>::observed(const Expr&)->Item;          \
-    template void Reference<Real>::note_change(const Symbol&);           \
-    template void Reference<Real>::tell_changes(const Location&);        \
-    template void Reference<Real>::tell_inputs();                        \
-    template void Reference<Real>::tell_light(const Location&);
-KINORA_OBSERVE_METHODS(float)
-KINORA_OBSERVE_METHODS(double)
+template auto Reference<float>::observed(const Expr&) -> Item;
+template void Reference<float>::note_change(const Symbol&);
+template void Reference<float>::tell_changes(const Location&);
+template void Reference<float>::tell_inputs();
+template void Reference<float>::tell_light(const Location&);
 
 }  // namespace kinora::rsl

@@ -347,7 +347,8 @@ void Reference<Real>::run_layer(const Layer& next) {
         smooth_P();
         given_P_ = global(Global::P);
     }
-    if (in.observer) tell_inputs();
+    if constexpr (kObserved)
+        if (in.observer) tell_inputs();
     block(shader.definition->body->body);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {

@@ -27,8 +27,9 @@ struct ReferenceLight {
     bool lit = true;
     // What lightsource() finds: numbers by name; it asks for so many.
     std::vector<std::pair<std::string, std::vector<double>>> messages;
-    std::string name;                             // for observers
-    std::map<std::string, bool> known_categories;  // whether it is of them; else by `categories`
+    int number = 0;  // for observers
+    // Whether it is of a category that illuminance names; else by `categories`.
+    std::vector<std::pair<std::string, bool>> known_categories;
 };
 
 // A variable's numbers, all elements counted; strings as intern ids.
@@ -45,7 +46,7 @@ struct ReferenceStep {
     const Shader* shader = nullptr;
     const Function* function = nullptr;  // null: the shader's body
     Location where;
-    std::vector<int32_t> turns;             // of the loops around it
+    std::span<const int32_t> turns;         // of the loops around it
     const ReferenceLight* light = nullptr;  // inside illuminance
     std::vector<ReferenceVariable> changes;
 };
@@ -56,13 +57,16 @@ using ReferenceObserver = std::function<void(const ReferenceStep&)>;
 using ReferenceService =
     std::function<std::vector<double>(Service service, std::span<const double> args)>;
 
+using ReferenceLightsAt =
+    std::function<std::span<const ReferenceLight>(std::array<double, 3> position)>;
+
 // The point, by the names of kernel inputs ("P.x", "dPdu.x", "param:0:Kd", "space:world:to_current:
 // 03"): what is missing is 0, a missing space is the identity.
 struct ReferenceInputs {
     std::map<std::string, double> values;
     std::vector<ReferenceLight> lights;  // at any position asked for, but for `lights_at`
     // Those of illuminance() at a position in "current". Null: `lights`.
-    std::function<std::span<const ReferenceLight>(std::array<double, 3> position)> lights_at;
+    const ReferenceLightsAt* lights_at = nullptr;
     ReferenceService service;
     // Coordinate systems beside the standard ones; any other name means "shader". Null: all exist.
     const std::vector<std::string>* spaces = nullptr;
@@ -73,7 +77,8 @@ struct ReferenceInputs {
     int loop_budget = 1'000'000;  // docs/numerics.md#loops
     // Statements run in all: loops inside recursion multiply. Beyond it the result is `too_long`.
     int64_t statement_budget = INT64_MAX;
-    ReferenceObserver observer;  // called after each statement that changes something
+    // Called after each statement that changes something, in the run in float alone.
+    const ReferenceObserver* observer = nullptr;
 };
 
 struct ReferenceResult {

@@ -201,9 +201,10 @@ class Reference {
 
     // reference.cpp
     Item expr(const Expr& e) {
-        if (!in.observer) [[likely]]
+        if constexpr (kObserved)
+            return observed(e);
+        else
             return evaluate(e);
-        return observed(e);
     }
     Item convert(const Item& x, BaseType to) const;
 
@@ -211,19 +212,20 @@ class Reference {
     using Storage = std::vector<Item>;
 
     Item evaluate(const Expr& e);
-    // observe.cpp: nothing of it without an observer.
+    // observe.cpp: of the run in float alone, and nothing of it without an observer.
+    static constexpr bool kObserved = std::is_same_v<Real, float>;
     Item observed(const Expr& e);
     void note(const Symbol& symbol) {
-        if (in.observer) note_change(symbol);
+        if constexpr (kObserved) note_change(symbol);
     }
     void note_change(const Symbol& symbol);
     void tell(const Location& where) {
-        if (in.observer && !changed_.empty()) tell_changes(where);
+        if constexpr (kObserved) tell_changes(where);
     }
     void tell_changes(const Location& where);
+    void tell_step(const Location& where, std::vector<ReferenceVariable> changes);
     void tell_inputs();
     void tell_light(const Location& where);
-    ReferenceStep step_at(const Location& where) const;
     ReferenceVariable variable(const Symbol& symbol);
     ReferenceVariable variable(Global id, const Item& value) const;
 
@@ -256,11 +258,7 @@ class Reference {
     bool may_call(const Function& f);
     void run_again(const Function& f);
     Item call_builtin(const CallExpr& e);
-    void set_array(const Expr& variable, const Storage& items) {
-        const Symbol& symbol = *as<VariableExpr>(variable).symbol;
-        storage(symbol) = items;
-        note(means(symbol));
-    }
+    void set_array(const Expr& variable, const Storage& items);
     void declare(const Symbol& symbol);
     void store(const LValue& to, const Item& value);
     void store(const Expr& target, const Item& value) { store(lvalue(target), value); }

@@ -148,8 +148,8 @@ CommandResult Script::expect(const Words& words) {
         }
     }
     return unknown("expect", words, 1,
-                   {"pixel", "variable", "time", "camera", "playback", "picture", "selection", "shader",
-                    "scene", "panels"});
+                   {"pixel", "variable", "time", "camera", "playback", "picture", "selection",
+                    "shader", "scene", "panels"});
 }
 
 CommandResult Script::expect_pixel(const Words& words) {

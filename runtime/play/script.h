@@ -10,7 +10,8 @@
 namespace kinora {
 
 // Besides the commands: wait SECONDS|loaded|picture|refined, key NAME, expect pixel X Y R G B
-// [TOLERANCE], expect variable NAME LINE VALUE..., expect time FRAME, expect state NAME TEXT, stats FILE, comments behind #.
+// [TOLERANCE], expect variable NAME LINE VALUE..., expect time FRAME, expect state NAME TEXT, stats
+// FILE, comments behind #.
 class Script {
   public:
     // `name` is the file's, for messages, which go to `report`.

@@ -219,7 +219,7 @@ std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
 }
 
 bool compile_instance(ShaderInstance& look, const SceneDescription& description,
-                  const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
+                      const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
     assign_columns(look);
     std::vector<rsl::Layer> layers = bound_layers(look, description);
     rsl::LowerOptions lower;

@@ -52,7 +52,8 @@ bool is_known(const Location& where, const SourceFiles& files) {
     return where.file != kNoFile && where.file < files.count();
 }
 
-StoryStep told(const rsl::ReferenceStep& from, const SourceFiles& files) {
+StoryStep told(const rsl::ReferenceStep& from, const SourceFiles& files,
+               const std::vector<std::string>& lights) {
     StoryStep out;
     out.inside = from.function ? fmt::format("function {}", from.function->name)
                                : fmt::format("{} {}", rsl::shader_kind_name(from.shader->kind),
@@ -62,8 +63,8 @@ StoryStep told(const rsl::ReferenceStep& from, const SourceFiles& files) {
         out.line = files.line_column(from.where.file, from.where.begin).line;
         out.source = std::string(trimmed(files.line_text(from.where.file, out.line)));
     }
-    out.turns = from.turns;
-    if (from.light) out.light = from.light->name;
+    out.turns.assign(from.turns.begin(), from.turns.end());
+    if (from.light) out.light = lights.at(size_t(from.light->number));
     for (const rsl::ReferenceVariable& variable : from.changes)
         out.changes.push_back(told(variable));
     return out;
@@ -86,6 +87,7 @@ class Explanation {
           scene_(point.host.grid().scene),
           look_(*point.host.grid().look),
           layers_(bound_layers(look_, *scene_.description)),
+          light_names_(record_names(point.host)),
           spaces_(space_names(scene_)),
           inputs_(point_inputs(point.host, layers_)) {
         const Grid& grid = point.host.grid();
@@ -94,8 +96,7 @@ class Explanation {
         inputs_.service = [&point](rsl::Service service, std::span<const double> arguments) {
             return point.calls.answer(service, arguments);
         };
-        if (!point.lights_at.empty())
-            inputs_.lights_at = [this](std::array<double, 3> P) { return lights_near(P); };
+        if (!point.lights_at.empty()) inputs_.lights_at = &lights_at_;
         inputs_.spaces = &spaces_;
         inputs_.loop_budget = kLoopBudget;
         inputs_.statement_budget = kMostStatements;
@@ -109,12 +110,13 @@ class Explanation {
         story_.Ci = color_of(point_.launch, rsl::Global::Ci, 0);
         story_.Oi = color_of(point_.launch, rsl::Global::Oi, 1);
         rsl::ReferenceInputs watched = inputs_;
-        watched.observer = [this](const rsl::ReferenceStep& step) {
+        rsl::ReferenceObserver observer = [this](const rsl::ReferenceStep& step) {
             if (story_.steps.size() < kMostSteps)
-                story_.steps.push_back(told(step, files_));
+                story_.steps.push_back(told(step, files_, light_names_));
             else
                 story_.cut = true;
         };
+        watched.observer = &observer;
         rsl::ReferenceResult single = run<float>(watched);
         for (size_t k = 0; k < 3; ++k) story_.reference_Ci[k] = float(number(single, k));
         if (is_known(single.nan, files_)) {
@@ -165,9 +167,8 @@ class Explanation {
         rsl::ReferenceResult exact = run<double>(inputs_);
         const auto& unanswered = point_.calls.unanswered();
         if (!unanswered.empty())
-            return fail(Agreement::Unexplained,
-                        fmt::format("the kernel made no such call of: {}",
-                                    fmt::join(unanswered, ", ")));
+            return fail(Agreement::Unexplained, fmt::format("the kernel made no such call of: {}",
+                                                            fmt::join(unanswered, ", ")));
         bool fast = scene_.options.math == jit::math::Tier::Fast;
         std::array<double, 3> moved{};
         bool decided = exact.decisions == single.decisions;
@@ -189,8 +190,8 @@ class Explanation {
         bool all = true;
         for (size_t k = 0; k < 3; ++k) {
             double wanted = number(exact, k), got = double(story_.Ci[k]);
-            double allowed = (fast ? kFastFloor : kFloor) * (1 + std::fabs(wanted)) +
-                             kFactor * moved[k];
+            double allowed =
+                (fast ? kFastFloor : kFloor) * (1 + std::fabs(wanted)) + kFactor * moved[k];
             story_.allowed[k] = float(allowed);
             bool same_kind = !std::isfinite(got) && !std::isfinite(number(single, k));
             all = all && (same_kind || std::fabs(got - wanted) <= allowed);
@@ -224,8 +225,11 @@ class Explanation {
     const Scene& scene_;
     const ShaderInstance& look_;
     std::vector<rsl::Layer> layers_;
-    std::vector<std::string> spaces_;
+    std::vector<std::string> light_names_, spaces_;
     rsl::ReferenceInputs inputs_;
+    const rsl::ReferenceLightsAt lights_at_ = [this](std::array<double, 3> P) {
+        return lights_near(P);
+    };
     PointStory story_;
 };
 

@@ -28,9 +28,8 @@ PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
             if (story.points.size() < kMostPoints)
                 story.points.push_back(explain_point(point, files));
         });
-        story.color =
-            raytrace::integrate_sample(scene.accel, scene.view, *scene.shading, film,
-                                       settings.integrator, scene.scratch, x, y, sample);
+        story.color = raytrace::integrate_sample(scene.accel, scene.view, *scene.shading, film,
+                                                 settings.integrator, scene.scratch, x, y, sample);
     }
     scene.shading->drop_frame(ignored);
     story.color = vec4(vec3(story.color) * float(settings.gain), story.color.w);

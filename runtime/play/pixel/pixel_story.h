@@ -48,7 +48,7 @@ enum class Agreement : uint8_t {
 
 struct PointStory {
     std::string material, shader;
-    std::array<float, 3> Ci{}, Oi{};               // of the kernel
+    std::array<float, 3> Ci{}, Oi{};                 // of the kernel
     std::array<float, 3> reference_Ci{}, allowed{};  // and how far they may be apart
     Agreement agreement = Agreement::Unexplained;
     std::string why;  // where it does not agree; one sentence

@@ -96,8 +96,8 @@ void add_varying(const ShaderInstance& look, const AllColumns& columns, Values& 
             if (p.name == param.name) type = p.type.base;
         for (uint32_t c = 0; c < param.components; ++c)
             for (rsl::Partial partial : kPartials) {
-                KernelKey key = rsl::parameter_key(param.layer, param.name, -1, rsl::form_of(type),
-                                                   int(c));
+                KernelKey key =
+                    rsl::parameter_key(param.layer, param.name, -1, rsl::form_of(type), int(c));
                 key.partial = partial;
                 float x = columns[param.column + uint32_t(partial) * param.components + c];
                 values[rsl::text(key)] = param.text ? double(jit::bits_of(x)) : double(x);
@@ -124,24 +124,17 @@ void add_parameters(const Scene& scene, const ShaderInstance& look,
                     const std::vector<rsl::Layer>& layers, Values& values) {
     for (uint32_t l = 0; l < layers.size(); ++l)
         for (const rsl::ShaderParameter& p : layers[l].shader->parameters) {
-            auto bound = std::ranges::find_if(layers[l].params,
-                                              [&](auto& b) { return b.name == p.name; });
+            auto bound =
+                std::ranges::find_if(layers[l].params, [&](auto& b) { return b.name == p.name; });
             if (bound == layers[l].params.end() || bound->kind != rsl::ParamBinding::Kind::Frame)
                 continue;
             bool array = p.type.is_array();
             for (int e = array ? 0 : -1; e < (array ? p.type.array_length : 0); ++e)
                 for (int c = 0; c < rsl::component_count(p.type.base); ++c) {
-                    KernelKey key =
-                        rsl::parameter_key(l, p.name, e, rsl::form_of(p.type.base), c);
+                    KernelKey key = rsl::parameter_key(l, p.name, e, rsl::form_of(p.type.base), c);
                     values[rsl::text(key)] = frame_number(scene, look, key);
                 }
         }
-}
-
-std::string light_name(const Scene& scene, size_t light) {
-    const LightDefinition& definition =
-        scene.description->lights[scene.lights[light].definition];
-    return definition.name.empty() ? definition.id : definition.name;
 }
 
 }  // namespace
@@ -165,10 +158,20 @@ rsl::ReferenceInputs point_inputs(const GridHost& host, const std::vector<rsl::L
     return inputs;
 }
 
+std::vector<std::string> record_names(const GridHost& host) {
+    const Scene& scene = host.grid().scene;
+    std::vector<std::string> names;
+    for (size_t light : host.services().lights.light_of_records()) {
+        const LightDefinition& definition =
+            scene.description->lights[scene.lights[light].definition];
+        names.push_back(definition.name.empty() ? definition.id : definition.name);
+    }
+    return names;
+}
+
 std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::RecordSet& set) {
     const Grid& grid = host.grid();
     const rsl::LoweredShader& lowered = grid.look->lowered;
-    std::vector<size_t> light_of = host.services().lights.light_of_records();
     std::vector<rsl::ReferenceLight> lights;
     for (int32_t r = 0; r < set.count; ++r) {
         const jit::Record& record = set.records[r];
@@ -177,7 +180,7 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
         light.kind = rsl::LightKind(jit::bits_of(record.uniforms[rsl::kLightKind]));
         int32_t categories = jit::bits_of(record.uniforms[rsl::kLightCategories]);
         for (size_t c = 0; c < lowered.categories.size(); ++c)
-            light.known_categories[lowered.categories[c]] = (categories >> c & 1) != 0;
+            light.known_categories.emplace_back(lowered.categories[c], (categories >> c & 1) != 0);
         light.nondiffuse = double(record.uniforms[rsl::kLightNondiffuse]);
         light.nonspecular = double(record.uniforms[rsl::kLightNonspecular]);
         for (size_t k = 0; k < 3; ++k) {
@@ -196,7 +199,7 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
                 light.messages.emplace_back(lowered.light_messages[m], numbers);
             next += count;
         }
-        if (size_t(r) < light_of.size()) light.name = light_name(grid.scene, light_of[size_t(r)]);
+        light.number = r;
     }
     return lights;
 }

@@ -82,8 +82,7 @@ std::vector<double> ask(KernelHost& host, Service service, std::span<const doubl
 
 }  // namespace
 
-PointRecorder::PointRecorder(std::function<void(RecordedPoint&)> found)
-    : found_(std::move(found)) {
+PointRecorder::PointRecorder(std::function<void(RecordedPoint&)> found) : found_(std::move(found)) {
     g_recorder = this;
     probe_kernels(this);
 }

@@ -49,8 +49,8 @@ std::string step_text(const StoryStep& s) {
         "\n   {{\"inside\": {}, \"file\": {}, \"line\": {}, \"source\": {}, \"turns\": {}, "
         "\"light\": {},\n    \"changes\": {}}}",
         quoted_text(s.inside), quoted_text(s.file), s.line, quoted_text(s.source),
-        list_text(s.turns, [](int32_t turn) { return std::to_string(turn); }),
-        quoted_text(s.light), list_text(s.changes, variable_text, ",\n     "));
+        list_text(s.turns, [](int32_t turn) { return std::to_string(turn); }), quoted_text(s.light),
+        list_text(s.changes, variable_text, ",\n     "));
 }
 
 std::string point_text(const PointStory& p) {

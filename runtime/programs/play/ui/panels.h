@@ -53,6 +53,8 @@ class EditorPanel {
 void draw_findings(Context& context);
 // Everything known of the pixel that was clicked.
 void draw_pixel(Context& context);
+// Of that, its shaders' variables statement by statement.
+void draw_story(Context& context, const PixelStory& story);
 // Stage times of the last frames, as stacked bars: `size` at the cursor.
 void draw_stage_times(Context& context, ImVec2 size);
 void draw_times(Context& context);

@@ -61,6 +61,8 @@ void draw_pixel(Context& context) {
         if (Context::has("edit")) context.run("edit");
         context.show("editor");
     }
+    if (const PixelStory* story = context.state().selection.story.get())
+        draw_story(context, *story);
 }
 
 }  // namespace kinora::play
