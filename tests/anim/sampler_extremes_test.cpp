@@ -1,6 +1,7 @@
 // tests/anim/sampler_extremes_test.cpp: the edge cases of docs/numerics.md#keys.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -115,6 +116,56 @@ TEST(SamplerExtremes, AMillionKeysAreReadyInLinearTimeAndFoundByHalving) {
     Sampler s = make_sampler({times, values});
     for (int i : {0, 1, 499999, 765432, 999999}) EXPECT_EQ(at(s, times[size_t(i)]), i);
     EXPECT_NEAR(at(s, (times[500] + times[501]) / 2), 500.5, 1e-9);
+}
+
+// A smooth curve over keys 10^-6 s apart, near 0 and near 10^6 s: the double reference, and one ULP
+// of the float that a channel writes.
+TEST(SamplerExtremes, KeysAMicrosecondApartAreWithinAnUlp) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (double from : {0.0, 1e3, 1e6}) {
+        Numbers times, values, out, in;
+        for (int i = 0; i < 1000; ++i) {
+            times.push_back(from + i * 1e-6);
+            values.push_back(100 + 50 * std::sin(i * 0.7));
+        }
+        for (size_t i = 0; i < times.size(); ++i) {
+            const double step = 1e-6 / 3;
+            out.insert(out.end(), {times[i] + step, values[i] + 5});
+            in.insert(in.end(), {times[i] - step, values[i] - 5});
+        }
+        Sampler s = make_sampler({times, values, 1, kBezier, in, out, 2, 2});
+        for (int n = 0; n < 3000; ++n) {
+            const size_t i = random() % (times.size() - 1);
+            // as far as a double tells times apart there
+            const double t = times[i] + (times[i + 1] - times[i]) * unit(random);
+            if (t <= times[i] || t >= times[i + 1]) continue;
+            const double truth = reference::bezier_at(
+                {times[i], values[i]}, {out[2 * i], out[2 * i + 1]}, {in[2 * i + 2], in[2 * i + 3]},
+                {times[i + 1], values[i + 1]}, t);
+            const float got = float(at(s, t)), want = float(truth);
+            ASSERT_LE(std::abs(got - want), std::nextafter(std::abs(want), 1e9f) - std::abs(want))
+                << i << " of keys from " << from;
+        }
+    }
+}
+
+TEST(SamplerExtremes, ACurveThatRisesIsMonotone) {
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int curve = 0; curve < 200; ++curve) {
+        double c[4] = {unit(random), unit(random), unit(random), unit(random)};
+        std::sort(c, c + 4);  // control values that rise make a curve that rises
+        Numbers times{0, 1}, values{c[0], c[3]}, out{unit(random), c[1], 0, 0};
+        Numbers in{0, 0, unit(random), c[2]};
+        Sampler s = make_sampler({times, values, 1, kBezier, in, out, 2, 2});
+        float before = float(c[0]);
+        for (int i = 0; i <= 2000; ++i) {
+            const float now = float(at(s, i / 2000.0));
+            ASSERT_GE(now, before) << "curve " << curve << " at " << i / 2000.0;
+            before = now;
+        }
+    }
 }
 
 TEST(SamplerExtremes, KeysThatAreNotFiniteAreDropped) {

@@ -1,9 +1,16 @@
 // tests/jit/math_test.cpp: jit/math against the C++ library in double precision.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
 #include <cstdio>
+#include <functional>
+#include <mutex>
+#include <string_view>
+#include <thread>
 
 #include "jit/target.h"
+#include "tests/fuzz_settings.h"
 #include "tests/jit/math_harness.h"
 
 namespace kinora::jit {
@@ -86,6 +93,60 @@ struct Worst {
     }
 };
 
+// The last of the targets that this CPU runs is the fastest.
+const char* fastest_target() {
+    const char* name = "interp";
+    for (const Target& target : targets())
+        if (target.supported() && std::string_view(target.name) != "interp") return target.name;
+    return name;
+}
+
+// Runs task(0) to task(count - 1) on all cores.
+void on_all_cores(uint64_t count, const std::function<void(uint64_t)>& task) {
+    std::atomic<uint64_t> next = 0;
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+        threads.emplace_back([&] {
+            for (uint64_t k = next++; k < count; k = next++) task(k);
+        });
+    for (std::thread& thread : threads) thread.join();
+}
+
+constexpr uint64_t kSweepChunk = 1 << 16;
+
+// Of all 2^32 floats each `step`th, in chunks on all cores; precise, fast.
+std::array<Worst, 2> sweep(const UnaryRow& row, uint64_t step) {
+    MathKernel kernel(
+        1,
+        [&](Builder& b, std::span<const Value> in) {
+            return std::vector<Value>{row.function(b, in[0], Tier::Precise),
+                                      row.function(b, in[0], Tier::Fast)};
+        },
+        fastest_target());
+    EXPECT_EQ(kernel.fault(), "");
+    std::array<Worst, 2> worst;
+    std::mutex mutex;
+    const uint64_t samples = ((uint64_t(1) << 32) + step - 1) / step;
+    on_all_cores((samples + kSweepChunk - 1) / kSweepChunk, [&](uint64_t chunk) {
+        std::vector<float> x;
+        for (uint64_t i = chunk * kSweepChunk; i < std::min(samples, (chunk + 1) * kSweepChunk);
+             ++i)
+            x.push_back(std::bit_cast<float>(uint32_t(i * step)));
+        auto y = kernel.run({x});
+        std::array<Worst, 2> here;
+        for (size_t i = 0; i < x.size(); ++i) {
+            const double exact = row.reference(x[i]);
+            here[0].see(ulp_error(y[0][i], exact), x[i], y[0][i], exact);
+            if (std::fabs(x[i]) < kSmallest || std::fabs(exact) < 0x1p-125) continue;
+            here[1].see(ulp_error(y[1][i], exact), x[i], y[1][i], exact);
+        }
+        std::lock_guard lock(mutex);
+        for (size_t t = 0; t < 2; ++t)
+            worst[t].see(here[t].ulp, here[t].at, here[t].got, here[t].exact);
+    });
+    return worst;
+}
+
 Worst worst_of(const UnaryRow& row, Tier tier, bool flush) {
     MathKernel kernel(1, [&](Builder& b, std::span<const Value> in) {
         return std::vector<Value>{row.function(b, in[0], tier)};
@@ -114,6 +175,16 @@ TEST_P(UnaryMath, PreciseIsWithinOneUlp) {
 
 TEST_P(UnaryMath, FastIsWithinFourUlp) {
     EXPECT_LE(worst_of(GetParam(), Tier::Fast, true).ulp, 4.0);
+}
+
+// scripts/nightly math sets KINORA_SWEEP_STEP to 1: every float.
+TEST_P(UnaryMath, HoldsOverAllFloats) {
+    auto [precise, fast] = sweep(GetParam(), fuzz_setting("KINORA_SWEEP_STEP", 8191));
+    for (const Worst& w : {precise, fast})
+        std::printf("%-12s max %.4f ULP at %.9g: %.9g, exactly %.17g\n", GetParam().name, w.ulp,
+                    double(w.at), double(w.got), w.exact);
+    EXPECT_LE(precise.ulp, 1.0);
+    EXPECT_LE(fast.ulp, 4.0);
 }
 
 // pow as jit/math/math.h has it: 0 to any power but 0 is 0
@@ -238,6 +309,57 @@ TEST(Atan2, PreciseIsWithinOneUlp) {
 TEST(Atan2, FastIsWithinFourUlp) {
     EXPECT_LE(worst_atan2(Tier::Fast).ulp, 4.0);
 }
+
+// Random pairs, half of them any floats; scripts/nightly math sets KINORA_SWEEP_PAIRS to 10^9.
+struct BinaryRow {
+    const char* name;
+    Value (*function)(Builder&, Value, Value, Tier);
+    double (*reference)(double, double);
+    float lo, hi, lo2, hi2;
+};
+const BinaryRow kBinary[] = {
+    {"pow", math::pow, ref_pow, 0, 10, -40, 40},
+    {"atan2", math::atan2, ref_atan2, -2, 2, -2, 2},
+};
+
+class BinaryMath : public ::testing::TestWithParam<BinaryRow> {};
+
+TEST_P(BinaryMath, HoldsOverRandomPairs) {
+    const BinaryRow& row = GetParam();
+    const bool is_pow = row.function == &math::pow;
+    MathKernel kernel(
+        2,
+        [&](Builder& b, std::span<const Value> in) {
+            return std::vector<Value>{row.function(b, in[0], in[1], Tier::Precise)};
+        },
+        fastest_target());
+    Worst worst;
+    std::mutex mutex;
+    on_all_cores(fuzz_setting("KINORA_SWEEP_PAIRS", 1000000) / kSweepChunk + 1,
+                 [&](uint64_t chunk) {
+                     Samples s{0x9e3779b97f4a7c15u * (2 * chunk + 1)};
+                     Pairs p;
+                     for (uint64_t i = 0; i < kSweepChunk; i += 2) {
+                         p.add(s.uniform(row.lo, row.hi), s.uniform(row.lo2, row.hi2));
+                         p.add(is_pow ? std::fabs(s.pattern()) : s.pattern(), s.pattern());
+                     }
+                     std::vector<float> z = kernel.run({p.x, p.y})[0];
+                     Worst here;
+                     for (size_t i = 0; i < z.size(); ++i) {
+                         if (is_pow && !(p.x[i] >= 0)) continue;  // x < 0 is lowered in rsl
+                         const double exact = row.reference(p.x[i], p.y[i]);
+                         here.see(ulp_error(z[i], exact), p.x[i], z[i], exact);
+                     }
+                     std::lock_guard lock(mutex);
+                     worst.see(here.ulp, here.at, here.got, here.exact);
+                 });
+    std::printf("%-12s max %.4f ULP at %.9g: %.9g, exactly %.17g\n", row.name, worst.ulp,
+                double(worst.at), double(worst.got), worst.exact);
+    EXPECT_LE(worst.ulp, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, BinaryMath, ::testing::ValuesIn(kBinary),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 bool same_bits(float a, float b) {
     return std::bit_cast<int32_t>(a) == std::bit_cast<int32_t>(b) ||

@@ -8,12 +8,12 @@ import sys
 from programs import BIN, SOURCE, ProgramTest, Result, main, shade
 
 SCRIPT = "scripts/docs"
-PAGES = ("docs/builtins.md", "docs/language.md", "docs/trade.md")
+PAGES = ("docs/builtins.md", "docs/language.md", "docs/trade.md", "docs/promises.md")
 
 
 def docs(root, *words):
     done = subprocess.run([sys.executable, root / SCRIPT, *words], capture_output=True, text=True, timeout=60,
-                          env={**os.environ, "KINORA_BIN_DIR": str(BIN)})
+                          env={**os.environ, "KINORA_BIN_DIR": str(BIN), "KINORA_SOURCE_DIR": str(SOURCE)})
     return Result(done.returncode, done.stdout, done.stderr)
 
 
@@ -34,7 +34,8 @@ class Pages(ProgramTest):
             self.copy()
             path = self.folder / page
             current = path.read_text()
-            changed = re.sub(r"\| color \|", "| colour |", current.replace("Absolute value", "Value").replace("| draft |", "| rough |"))
+            changed = re.sub(r"\| color \|", "| colour |", current.replace("Absolute value", "Value").replace("| draft |", "| rough |")
+                             .replace("fill color", "filling"))
             self.assertNotEqual(changed, current)
             path.write_text(changed)
             self.expect(docs(self.folder, "--check"), 1, f"{page} is not what the tables say; run scripts/docs")

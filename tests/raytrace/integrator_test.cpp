@@ -96,6 +96,27 @@ TEST(Integrator, AWhiteWallGivesExactlyWhiteCoveredPixelsAtAnyFilter) {
         }
 }
 
+// 1/3 has no float: a mean that drifts shows.
+TEST(Integrator, TheMeanOfManySamplesDoesNotDrift) {
+    TestMesh wall = square(100, 0);
+    Looks third(
+        [](const HitBatch&, size_t, vec3& Ci, vec3&) { Ci = vec3(1.0f / 3, 1e30f, 1e-30f); });
+    Picture p;
+    p.camera = front_camera(8, 8);
+    p.film.resize(8, 8);
+    p.rows = {wall.geometry(1)};
+    for (int spp : {1, 1000, 10007}) {
+        p.settings.samples_per_pixel = spp;
+        ASSERT_TRUE(p.take(third));
+        for (const vec4& pixel : p.film.rgba) {
+            ASSERT_NEAR(pixel.x, 1.0f / 3, 1.0 / 3 * 0x1p-20) << spp;
+            ASSERT_NEAR(pixel.y / 1e30f, 1, 0x1p-20);
+            ASSERT_NEAR(pixel.z / 1e-30f, 1, 0x1p-20);
+            ASSERT_EQ(pixel.w, 1);
+        }
+    }
+}
+
 TEST(Integrator, NothingThereIsTransparentOrTheBackground) {
     Picture p;
     p.film.add_aov("z");

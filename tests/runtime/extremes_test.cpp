@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "runtime/compare/errors.h"
 #include "scene_text.h"
 
 namespace kinora {
@@ -90,6 +91,88 @@ TEST(Extremes, TheUnitDoesNotShow) {
         Rendering other(scene.text());
         EXPECT_TRUE(same_bytes(home.film, other.frame(48, 36).film)) << meter;
     }
+}
+
+// ---- far and small, as a viewer sees it
+
+// Mean FLIP under 0.01, and at most 0.2 % of the pixels off by more than one step of 8 bits.
+void expect_looks_the_same(const raytrace::Film& picture, const raytrace::Film& home,
+                           const std::string& where) {
+    ASSERT_EQ(picture.rgba.size(), home.rgba.size());
+    auto view = [](const raytrace::Film& film) {
+        return PictureView{film.width, film.height, film.rgba};
+    };
+    EXPECT_LT(picture_errors(view(picture), view(home)).flip, 0.01) << where;
+    size_t off = 0;
+    auto step = [](float linear) { return std::lround(255 * encode_srgb(double(linear))); };
+    for (size_t i = 0; i < home.rgba.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (std::abs(step(picture.rgba[i][k]) - step(home.rgba[i][k])) > 1) {
+                ++off;
+                break;
+            }
+    EXPECT_LE(off, home.rgba.size() / 500) << where;
+}
+
+TEST(FarAndSmall, ThePictureStays) {
+    Rendering home(ball_scene("").text());
+    home.settings.integrator.samples_per_pixel = 4;
+    home.frame(160, 120);
+    std::vector<std::string> places;
+    for (const char* d : {"1e3", "1e5", "1e7"})
+        places.push_back(fmt::format("<translate>{0} -{0} {0}</translate>", d));
+    for (const char* s : {"1e-6", "1e6"})
+        places.push_back(fmt::format("<scale>{0} {0} {0}</scale>", s));
+    for (const std::string& place : places) {
+        Rendering other(ball_scene(place).text());
+        other.settings.integrator.samples_per_pixel = 4;
+        other.frame(160, 120);
+        expect_looks_the_same(other.film, home.film, place);
+    }
+}
+
+// The z of each pixel tells where the surface is: from frame to frame the scene far away must move
+// as the one at the origin does, within a thousandth of a pixel's size.
+TEST(FarAndSmall, AnimationDoesNotJitter) {
+    auto moving = [](double distance) {
+        SceneText scene;
+        scene.look("look",
+                   "surface s(output varying float depth = 0;) { Oi = 1;"
+                   " point p = transform(\"camera\", P); depth = zcomp(p);"
+                   " Ci = color(xcomp(p), ycomp(p), zcomp(p)); }");
+        scene.octahedron("ball");
+        scene.place("ball", "look", "<translate sid=\"t\">0 0 0</translate>", "mover");
+        scene.animate("mover/t.X", {0, 1}, {0, 0.25});
+        const std::string at = fmt::format("<translate>{0} {0} {0}</translate>", distance);
+        scene.nodes = fmt::format("<node>{}{}</node>", at, scene.nodes);
+        scene.camera_node = fmt::format("<node>{}{}</node>", at, scene.camera_node);
+        return scene.text();
+    };
+    Rendering home(moving(0)), far(moving(1e7));
+    const float pixel = 2.0f / 64;  // the camera shows two units
+    for (double time : {0.0, 0.1, 0.11, 0.12, 0.5, 0.9}) {
+        home.frame(64, 64, time);
+        far.frame(64, 64, time);
+        ASSERT_GT(home.film.at(32, 32).w, 0.99f) << home.findings();
+        EXPECT_LE(different_pixels(home.film, far.film, 1e-3f * pixel), 4u)
+            << time << ": " << difference(home.film, far.film);
+    }
+}
+
+// ---- normals as given
+
+TEST(Extremes, ANormalAgainstItsFaceIsKept) {
+    SceneText scene;
+    scene.look("look",
+               "surface s() { Oi = 1; normal n = ntransform(\"world\", N);"
+               " Ci = color(0.5 + 0.5 * xcomp(n), 0.5 + 0.5 * ycomp(n), 0.5 + 0.5 * zcomp(n)); }");
+    const dvec3 back(0, 0, -1);
+    scene.mesh("m", {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {0, 1, 2}, {back, back, back});
+    scene.place("m", "look");
+    Rendering r(scene.text());
+    r.frame();
+    EXPECT_NEAR(r.color(8, 8).z, 0, 1e-6) << r.findings();
+    EXPECT_NEAR(r.color(8, 8).x, 0.5, 1e-6);
 }
 
 // ---- matrices without inverse, and mirrors

@@ -302,6 +302,23 @@ TEST_P(EachKernel, SumsAddWhatSamplesShowAndCover) {
         }
 }
 
+TEST_P(EachKernel, TheMeanOfAMillionSamplesDoesNotDrift) {
+    constexpr size_t kPixels = 64;
+    constexpr int kSamples = 1000000;
+    const float value = 1.0f / 3;
+    std::vector<float> shown(kPixels, value), through(kPixels, 0.0f);
+    const float* color[3] = {shown.data(), shown.data(), shown.data()};
+    const float* behind[3] = {through.data(), through.data(), through.data()};
+    std::vector<double> sum[4];
+    for (auto& s : sum) s.assign(kPixels, 0.0);
+    const PixelSums sums{{sum[0].data(), sum[1].data(), sum[2].data()}, sum[3].data()};
+    for (int i = 0; i < kSamples; ++i) kernels().add(kPixels, color, behind, nullptr, sums);
+    for (size_t i = 0; i < kPixels; ++i) {
+        EXPECT_NEAR(sum[0][i] / kSamples, double(value), double(value) * 0x1p-20);
+        EXPECT_EQ(sum[3][i], kSamples);
+    }
+}
+
 TEST_P(EachKernel, SamplesThatStopAllOrNothingSumExactly) {
     std::vector<float> zero(16, 0.0f), one(16, 1.0f);
     std::vector<double> sum[4];

@@ -9,10 +9,12 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <random>
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/math.h"
+#include "runtime/images/image_io.h"
 #include "runtime/images/texture.h"
 #include "runtime/images/texture_store.h"
 
@@ -142,6 +144,22 @@ TEST(ShadowMap, HasItsTopWhereYIsUp) {
     EXPECT_EQ(shadow_at(map.name(), {0, -2, 0}), 0);
 }
 
+TEST(EnvironmentMap, ADirectionOfNoLengthGivesTheFillColour) {
+    Exr map("plain_environment.exr", OIIO::ImageSpec(8, 4, 3, OIIO::TypeDesc::FLOAT),
+            std::vector<float>(96, 0.75f));
+    auto service = [](const jit::ServiceCall& c) {
+        lookup_environment(c, TextureStore::process());
+    };
+    auto looked = [&](vec3 d) {
+        return call(service,
+                    {jit::float_of(map.name()), 0, d.x, d.y, d.z, 0, 0, 0, 0, 0, 0, 0, 0.25f}, 4);
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NEAR(looked({0, 1, 0})[0], 0.75f, 1e-3f);
+    for (vec3 d : {vec3(0.0f), vec3(nan, 0, 1), vec3(nan)})
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(looked(d)[size_t(k)], 0.25f);
+}
+
 TEST(EnvironmentCube, LooksWhereOpenExrWould) {
     constexpr int kSide = 16;
     OIIO::ImageSpec spec(kSide, 6 * kSide, 3, OIIO::TypeDesc::FLOAT);
@@ -169,6 +187,26 @@ TEST(EnvironmentCube, LooksWhereOpenExrWould) {
         EXPECT_NEAR(got[0], at.x / kSide, 2e-3f) << "face " << face;
         EXPECT_NEAR(got[1], (at.y - float(face) * kSide) / kSide, 2e-3f) << "face " << face;
     }
+}
+
+// What a film holds reaches the file: colours as halves, planes as floats.
+TEST(WriteImage, WhatIsFiniteStaysFiniteInAnExr) {
+    raytrace::Film film(1, 1);
+    film.add_aov("far", raytrace::AovFilter::FirstSample);
+    film.at(0, 0) = vec4(1e30f, 1e-30f, -1e30f, 1);
+    film.aovs[0].values[0] = 1e30f;
+    const std::string path = temp_path("extreme.exr");
+    ASSERT_EQ(write_image(path, film, {}, {}), "");
+    auto input = OIIO::ImageInput::open(path);
+    ASSERT_TRUE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    std::vector<float> pixel(size_t(spec.nchannels));
+    ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixel.data()));
+    const std::pair<const char*, float> expected[] = {
+        {"R", 65504}, {"G", 0}, {"B", -65504}, {"A", 1}, {"far", 1e30f}};
+    for (auto [name, value] : expected)
+        EXPECT_EQ(pixel.at(size_t(spec.channelindex(name))), value) << name;
+    std::filesystem::remove(path);
 }
 
 }  // namespace
