@@ -13,6 +13,7 @@
 #include <random>
 
 #include "runtime/base/parallel.h"
+#include "skin/dual_quaternion.h"
 #include "skin/morph.h"
 #include "skin/skin.h"
 
@@ -97,6 +98,18 @@ void skin_with(benchmark::State& state, const char* kernel, bool own_normal_inde
     count_bytes(state, kRead + kWritten);
 }
 
+void skin_dual(benchmark::State& state) {
+    set_thread_count(1);
+    Character c = make_character(false);
+    std::vector<DualJoint> palette;
+    for (const JointMatrix& m : c.palette) palette.push_back(dual_joint(m));
+    for (auto _ : state) {
+        deform_dual(c.skin, palette, c.rest, c.normals, c.out_positions, c.out_normals);
+        benchmark::ClobberMemory();
+    }
+    count_bytes(state, kRead + kWritten);
+}
+
 void copy(benchmark::State& state, size_t bytes, size_t counted) {
     Buffer<char> from(bytes, 1), to(bytes, 2);
     for (auto _ : state) {
@@ -127,6 +140,7 @@ void register_all() {
     };
     add("Copy/touching", copy, (kRead + kWritten) / 2, kRead + kWritten);
     add("Copy/of", copy, kRead + kWritten, 2 * (kRead + kWritten));
+    add("SkinDual", skin_dual);
     for (const char* kernel : deform_kernels()) {
         add(std::string("Skin/") + kernel, skin_with, kernel, false);
         add(std::string("SkinOwnNormalIndex/") + kernel, skin_with, kernel, true);

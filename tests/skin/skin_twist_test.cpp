@@ -2,26 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "character.h"
+#include "wrung.h"
 
 namespace kinora::skin {
 namespace {
-
-// A limb along x: joint j at x = j, turned about x by j steps of `step` radians. Vertices at radius
-// 1 between the joints, each with its share of the next joint's weight.
-Character wrung(int joints, double step, int between) {
-    Character c;
-    for (int j = 0; j < joints; ++j) {
-        const double a = j * step;
-        c.matrices.push_back({dvec4(1, 0, 0, 0), dvec4(0, std::cos(a), std::sin(a), 0),
-                              dvec4(0, -std::sin(a), std::cos(a), 0), dvec4(0, 0, 0, 1)});
-    }
-    for (int j = 0; j + 1 < joints; ++j)
-        for (int k = 0; k < between; ++k) {
-            const double w = double(k) / between;
-            c.add_vertex(dvec3(j + w, 1, 0), {{j, 1 - w}, {j + 1, w}});
-        }
-    return c;
-}
 
 // Two unit vectors an angle apart, mixed by 1 - w and w.
 double mixed_length(double w, double angle) {
