@@ -164,6 +164,7 @@ std::string read_by_module(const std::string& path, TextureImage& image) {
     image.width = source.width;
     image.height = source.height;
     image.encoded = source.encoded != 0;
+    image.by_module = true;
     image.facts = facts_of(source);
     ChannelMap map = channel_map(source.channels, source.alpha_channel);
     image.colors = std::max(map.colors, 1);

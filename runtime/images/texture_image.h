@@ -21,8 +21,9 @@ struct TextureFacts {
 // r = g = b; alpha is 1 where the file has none.
 struct TextureImage {
     int width = 0, height = 0;
-    int colors = 3;        // colour channels that mean something, 1 to 3
-    bool encoded = false;  // integers in the file: sRGB, unless they are data
+    int colors = 3;          // colour channels that mean something, 1 to 3
+    bool by_module = false;  // OpenImageIO decoded it
+    bool encoded = false;    // integers in the file: sRGB, unless they are data
     std::vector<uint8_t> bytes;
     std::vector<float> floats;  // integers of 16 bits are 0..1
     TextureFacts facts;

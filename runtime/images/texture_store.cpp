@@ -29,6 +29,7 @@ std::unique_ptr<StoredImage> read_image(const std::string& name, const std::stri
         try {
             image->pyramid = TexturePyramid(pixels, pixels.encoded && !data);
             image->facts = pixels.facts;
+            image->by_module = pixels.by_module;
             if (pixels.height == 6 * pixels.width)
                 for (int face = 0; face < 6; ++face)
                     image->faces.emplace_back(image_rows(pixels, face * pixels.width, pixels.width),
@@ -144,6 +145,11 @@ void TextureStore::report(Diagnostics& diagnostics) {
         if (!known && !known_missing(diagnostics, image->path))
             diagnostics.report(Code::IMAGE_UNREADABLE, Location{}, image->path, image->error);
     }
+}
+
+void TextureStore::each_image(const std::function<void(const StoredImage&)>& see) const {
+    std::lock_guard lock(mutex_);
+    for (const auto& [key, image] : images_) see(*image);
 }
 
 int TextureStore::images() const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -27,6 +28,7 @@ struct StoredImage {
     std::string error;                       // why it cannot be read, or ""; then it is checks
     mutable std::atomic<bool> asked{false};  // by a lookup; only kept where there is an error
     bool reported = false;
+    bool by_module = false;  // decoded by OpenImageIO
 };
 
 struct Texture {
@@ -59,6 +61,8 @@ class TextureStore {
     void report(Diagnostics& diagnostics);
 
     int images() const;
+    // Calls see(image) for each, by path; the store may not be asked meanwhile.
+    void each_image(const std::function<void(const StoredImage&)>& see) const;
 
   private:
     static constexpr int kChunkBits = 10, kChunks = 1 << 14;

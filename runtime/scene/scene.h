@@ -23,6 +23,7 @@
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
+#include "skin/dual_quaternion.h"
 #include "skin/morph.h"
 #include "skin/skin.h"
 
@@ -100,6 +101,7 @@ struct Shape {
     skin::SkinMesh skin_mesh;
     std::vector<dmat4> joint_world;  // world_from_joint, in joint order
     std::vector<skin::JointMatrix> palette;
+    std::vector<skin::DualJoint> dual_palette;  // of SkinMethod::Dual, else empty
     std::vector<vec4> morphed_positions, morphed_normals;
     std::vector<double> morph_weights;  // of morph_data's targets
 
@@ -151,6 +153,8 @@ enum class ShadowMode : uint8_t { Auto, Explicit, Off };
 // (Auto); only the scene's; only the default ones; both.
 enum class LightSet : uint8_t { Auto, Scene, Default, Both };
 enum class DisplacementMode : uint8_t { True, Bump };
+// How joints are blended: by their matrices, as COLLADA has it, or by dual quaternions.
+enum class SkinMethod : uint8_t { Linear, Dual };
 
 // How a camera is put up that no file brought, and what it is to see.
 struct ViewOptions {
@@ -186,6 +190,8 @@ struct SceneOptions {
     // Range played, seconds: what added cameras frame, and its views tell how fine to dice.
     double start_time = 0, end_time = 0;
     DisplacementMode displacement = DisplacementMode::True;  // Bump: only N is bent
+    SkinMethod skin_method = SkinMethod::Linear;
+    uint32_t influences = 0;        // the strongest that a vertex keeps; 0: all
     double dice = 2;                // length of a displaced surface's edges, pixels
     size_t dice_limit = 4'000'000;  // triangles of all displaced surfaces together
     int width = 640, height = 0;    // of the picture that dicing is for; 0: from the camera

@@ -91,8 +91,7 @@ void deform_shape(Scene& scene, Shape& shape, double& displace_ms) {
         positions = shape.displaced_positions;
         normals = shape.displaced_normals;
     }
-    skin::deform(shape.skin_mesh, shape.palette, positions, normals, shape.positions,
-                 shape.normals);
+    move_by_joints(shape, shape.skin_mesh, positions, normals, shape.positions, shape.normals);
     if (shape.vertex_work && skinned) displace_skin(scene, shape, displace_ms);
     ++shape.positions_version;
 }
@@ -124,7 +123,20 @@ void pose(Scene& scene) {
             shape.skeleton, shape.joint_world, anchors, shape.palette,
             shape.in_world ? path_conversion(scene, shape.node) * shape.conversion : shape.world);
         shape.mirrored = most_mirror(std::span(shape.palette).subspan(1));
+        std::ranges::transform(shape.palette.begin(),
+                               shape.palette.begin() + ptrdiff_t(shape.dual_palette.size()),
+                               shape.dual_palette.begin(), skin::dual_joint);
     }
+}
+
+void move_by_joints(const Shape& shape, const skin::SkinMesh& skin,
+                    std::span<const vec4> rest_positions, std::span<const vec4> rest_normals,
+                    std::span<vec4> positions, std::span<vec4> normals) {
+    if (shape.dual_palette.empty())
+        skin::deform(skin, shape.palette, rest_positions, rest_normals, positions, normals);
+    else
+        skin::deform_dual(skin, shape.dual_palette, rest_positions, rest_normals, positions,
+                          normals);
 }
 
 double deform(Scene& scene) {

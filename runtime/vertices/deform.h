@@ -1,6 +1,11 @@
 // runtime/vertices/deform.h: where the vertices of every shape stand at the current values.
 #pragma once
 
+#include <span>
+
+#include "runtime/base/math.h"
+#include "skin/skin.h"
+
 namespace kinora {
 
 struct Scene;
@@ -13,6 +18,12 @@ void pose(Scene& scene);
 // or whose shaders run at each frame. Also brings the ray tracer's rows up to date (versions,
 // instance matrices). Returns the ms that shaders took.
 double deform(Scene& scene);
+
+// The vertices of a skin (the shape's own, or one with its joints) where its joints are now, by the
+// scene's SkinMethod. Spans as for skin::deform.
+void move_by_joints(const Shape& shape, const skin::SkinMesh& skin,
+                    std::span<const vec4> rest_positions, std::span<const vec4> rest_normals,
+                    std::span<vec4> positions, std::span<vec4> normals);
 
 // Static shapes into accel space; once, when the scene's origin is known.
 void bake_static(Scene& scene);

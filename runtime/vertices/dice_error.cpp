@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/description/morph_weights.h"
+#include "runtime/vertices/deform.h"
 
 namespace kinora {
 
@@ -110,7 +111,7 @@ double longest_posed(const Scene& scene, WatchedEdges& watched, Shape& shape) {
         skin::deform(watched.morph, shape.morph_weights, watched.morphed, {});
         rest = watched.morphed;
     }
-    skin::deform(watched.skin, shape.palette, rest, {}, watched.posed, {});
+    move_by_joints(shape, watched.skin, rest, {}, watched.posed, {});
     double most = 0;
     for (size_t e = 0; e + 1 < watched.ends.size(); e += 2)
         most = std::max(most, edge_pixels(scene.view, combine(watched.ends[e], watched.posed),

@@ -159,6 +159,55 @@ TEST(FarAndSmall, AnimationDoesNotJitter) {
     }
 }
 
+// ---- skins
+
+// Pixels covered in the row that shows y.
+int width_at(const raytrace::Film& film, double y) {
+    const int row = std::min(film.height - 1, int((1 - y) / 2 * film.height));
+    int covered = 0;
+    for (int x = 0; x < film.width; ++x) covered += film.at(x, row).w > 0.5f;
+    return covered;
+}
+
+// A strip of half width 0.3 along y whose upper half is turned by a quarter about y. Where both
+// joints have half of a vertex, linear blending shows 0.3 / 2, and an eighth of a turn 0.3 cos 45.
+SceneText twisted_strip() {
+    SceneText scene;
+    scene.look("look", "surface s() { Oi = 1; Ci = 1; }");
+    scene.bending_strip("limb", "look", 64);
+    auto replace = [](std::string& text, std::string_view from, std::string_view to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace(scene.nodes, "<rotate sid=\"turn\">0 0 1 0</rotate>",
+            "<rotate sid=\"turn\">0 1 0 0</rotate>");
+    replace(scene.animations, "80", "90");
+    return scene;
+}
+
+TEST(SkinMethods, LinearBlendsMatricesAndDualTurns) {
+    for (SkinMethod method : {SkinMethod::Linear, SkinMethod::Dual}) {
+        SceneOptions options;
+        options.skin_method = method;
+        Rendering r(twisted_strip().text(), options);
+        r.frame(400, 400, 1);
+        const double half = method == SkinMethod::Linear ? 0.3 / 2 : 0.3 * std::cos(radians(45));
+        EXPECT_NEAR(width_at(r.film, 0), 400 * half, 4) << r.findings();
+        EXPECT_NEAR(width_at(r.film, -0.9), 400 * 0.3, 2);
+        r.frame(400, 400, 0);
+        EXPECT_NEAR(width_at(r.film, 0), 400 * 0.3, 2);
+    }
+}
+
+TEST(SkinMethods, FewerInfluencesAreTold) {
+    SceneOptions options;
+    options.influences = 1;
+    Rendering r(twisted_strip().text(), options);
+    r.frame(400, 400, 1);
+    EXPECT_EQ(r.count("SKIN_INFLUENCES_DROPPED"), 1) << r.findings();
+    EXPECT_NEAR(width_at(r.film, -0.1), 400 * 0.3, 2);  // of the lower joint alone
+    EXPECT_LE(width_at(r.film, 0.1), 4);                // of the upper one: edge on
+}
+
 // ---- normals as given
 
 TEST(Extremes, ANormalAgainstItsFaceIsKept) {

@@ -46,7 +46,7 @@ void deform_watched(const Scene& scene, const Shape& shape, const MeshUse& use,
     skin::SkinRepairs reported;
     if (shape.morph != kNone)
         watched.morph = dice_morph(scene.morphs[shape.morph_data], vertices, {});
-    watched.skin = skin_mesh_of(*scene.description, use, vertices.size(), {}, &vertices, reported);
+    watched.skin = skin_mesh_of(scene, use, vertices.size(), {}, &vertices, reported);
     watched.morphed.resize(vertices.size());
     watched.posed.resize(vertices.size());
 }
@@ -63,8 +63,8 @@ void make_deforming(Scene& scene, Shape& shape, const MeshUse& use, const DicedM
         shape.morphed_normals.resize(mesh.normals.size());
     }
     skin::SkinRepairs reported;  // when the mesh was read
-    shape.skin_mesh = skin_mesh_of(*scene.description, use, mesh.positions.size(),
-                                   mesh.normal_positions, &diced.position_stencils, reported);
+    shape.skin_mesh = skin_mesh_of(scene, use, mesh.positions.size(), mesh.normal_positions,
+                                   &diced.position_stencils, reported);
     if (shape.skin == kNone) {
         shape.palette.resize(2);  // joint -1, and the node's matrix
         shape.displaced_positions.resize(mesh.positions.size());

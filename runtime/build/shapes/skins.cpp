@@ -37,13 +37,18 @@ void SkinBinder::bind(const MeshUse& use, Shape& shape) const {
     }
     skin::SkinRepairs repairs;
     const Mesh& mesh = scene_.meshes[shape.mesh];
-    shape.skin_mesh = skin_mesh_of(description, use, mesh.positions.size(), mesh.normal_positions,
-                                   nullptr, repairs);
+    shape.skin_mesh =
+        skin_mesh_of(scene_, use, mesh.positions.size(), mesh.normal_positions, nullptr, repairs);
     size_t joints = use.skin == kNone ? 1 : shape.joint_nodes.size();
     shape.palette.resize(joints + 1);
+    if (use.skin != kNone && scene_.options.skin_method == SkinMethod::Dual)
+        shape.dual_palette.resize(joints + 1);
     if (repairs.weight_sum)
         diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
                             repairs.worst_sum);
+    if (repairs.dropped)
+        diagnostics_.report(Code::SKIN_INFLUENCES_DROPPED, where, id, repairs.dropped,
+                            repairs.largest_dropped);
     if (repairs.unweighted)
         diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
 }
@@ -138,8 +143,8 @@ void SkinBinder::choose_space(const SkinDefinition& skin, Shape& shape) const {
     if (space == SkinSpace::NodeBelow) shape.applies_below = shared;
 }
 
-skin::SkinMesh skin_mesh_of(const SceneDescription& description, const MeshUse& use,
-                            size_t vertices, std::span<const uint32_t> normal_positions,
+skin::SkinMesh skin_mesh_of(const Scene& scene, const MeshUse& use, size_t vertices,
+                            std::span<const uint32_t> normal_positions,
                             const std::vector<Stencil>* stencils, skin::SkinRepairs& repairs) {
     skin::InfluenceSource source;
     std::vector<uint32_t> first(vertices + 1, 0);
@@ -151,7 +156,7 @@ skin::SkinMesh skin_mesh_of(const SceneDescription& description, const MeshUse& 
         for (size_t i = 0; i < first.size(); ++i) first[i] = uint32_t(i);
         source.joint_count = 1;
     } else {
-        const SkinDefinition& skin = description.skins[use.skin];
+        const SkinDefinition& skin = scene.description->skins[use.skin];
         first.assign(skin.offsets.begin(), skin.offsets.end());
         joints = skin.joints;
         weights.assign(skin.weights.begin(), skin.weights.end());
@@ -161,6 +166,7 @@ skin::SkinMesh skin_mesh_of(const SceneDescription& description, const MeshUse& 
     source.first = first;
     source.joints = joints;
     source.weights = weights;
+    source.max_influences = scene.options.influences;
     return skin::build_skin(source, normal_positions, &repairs);
 }
 

@@ -40,9 +40,9 @@ class SkinBinder {
 };
 
 // The influences of a mesh: as the file has them, or between its vertices where the mesh was diced
-// (`stencils` are not null).
-skin::SkinMesh skin_mesh_of(const SceneDescription& description, const MeshUse& use,
-                            size_t vertices, std::span<const uint32_t> normal_positions,
+// (`stencils` are not null); only as many a vertex as the scene's options allow.
+skin::SkinMesh skin_mesh_of(const Scene& scene, const MeshUse& use, size_t vertices,
+                            std::span<const uint32_t> normal_positions,
                             const std::vector<Stencil>* stencils, skin::SkinRepairs& repairs);
 
 }  // namespace kinora

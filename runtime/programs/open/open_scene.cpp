@@ -50,6 +50,8 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.light_samples = request.quality.light_samples;
     o.aovs = request.aovs;
     o.displacement = request.quality.displacement;
+    o.skin_method = request.quality.skin_method;
+    o.influences = uint32_t(request.quality.influences);
     o.dice = request.quality.dice;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
     o.width = scaled(request, request.width ? request.width : 640);

@@ -9,6 +9,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/description/findings.h"
+#include "runtime/explain/explain.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
@@ -62,9 +63,11 @@ class Render {
             return kExitOk;
         }
         dump();
-        if (options_.output.empty() && options_.contact_sheet.empty() && !options_.discard)
-            return kExitOk;
-        int code = frames();
+        bool pictures =
+            !options_.output.empty() || !options_.contact_sheet.empty() || options_.discard;
+        int code = pictures ? frames() : int(kExitOk);
+        if (!options_.explain.empty()) print_explained();
+        if (!pictures) return code;
         if (options_.stats)
             print_stats(options_, {load_ms_, build_ms_, first_ray_ms_, built_.scene->dice},
                         records_);
@@ -74,6 +77,7 @@ class Render {
     int load();
     void flush_findings();
     void dump() const;
+    void print_explained() const;
     int frames();
     int report_unreadable() const;
     int report_unwritable(const std::string& file, const std::string& error, int number);
@@ -148,6 +152,12 @@ void Render::dump() const {
         for (const std::string& wanted : options_.dump)
             if (stage == wanted || stage.starts_with(wanted + ":"))
                 std::printf("; stage %s\n%s\n", stage.c_str(), text.c_str());
+}
+
+void Render::print_explained() const {
+    auto rows = explain(*built_.scene, options_.quality, options_.preset);
+    std::string text = options_.explain == "json" ? explained_json(rows) : explained_text(rows);
+    std::fputs(text.c_str(), stdout);
 }
 
 int Render::report_unwritable(const std::string& file, const std::string& error, int number) {

@@ -280,6 +280,9 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_flag("--keep-going", o.keep_going, "go on after a frame that failed");
     app.add_option("--stats", given.stats, "[=json]: what each stage took, per frame, on stdout")
         ->check(one_of({"text", "json", "none"}));
+    app.add_option("--explain", o.explain,
+                   "[=json]: what is modelled, what is left out and why, on stdout")
+        ->check(one_of({"text", "json"}));
     app.add_option("--progress", given.progress, "bar, lines or none (bar on a terminal)")
         ->check(one_of({"bar", "lines", "none"}));
     auto* list = app.add_option("--list", o.list, fmt::format("{}", fmt::join(list_kinds(), ", ")))
@@ -293,6 +296,7 @@ void interpret_quality(const Given& given, RenderOptions& o) {
     const Quality* row = find_quality(given.quality);
     if (!row) throw CLI::ValidationError("--quality", none_of(given.quality, quality_names()));
     o.quality = *row;
+    o.preset = row->name;
     for (size_t k = 0; k < knobs().size(); ++k) {
         const Knob& knob = knobs()[k];
         const GivenKnob& value = given.knobs[k];
@@ -320,8 +324,9 @@ void interpret_changes(const Given& given, RenderOptions& o) {
 }
 
 void interpret_output(const Given& given, RenderOptions& o) {
-    if (o.list.empty() && o.output.empty() && o.contact_sheet.empty() && o.dump.empty())
-        throw CLI::RequiredError("-o FILE (or --list, --dump)");
+    if (o.list.empty() && o.output.empty() && o.contact_sheet.empty() && o.dump.empty() &&
+        o.explain.empty())
+        throw CLI::RequiredError("-o FILE (or --list, --explain, --dump)");
     o.discard = o.output == "null";
     if (o.discard) o.output.clear();
     if (!o.output.empty() && !is_image_path(o.output))
@@ -490,13 +495,14 @@ std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o)
     std::vector<std::string> words = words_of(argc, argv);
     if (std::string error = read_session_of(words, o); !error.empty())
         return refuse_session(app.get_name(), error);
-    return parse_command_line(app, std::move(words),
-                              {{"--stats", "text"}, {"--list", "all"}, {"--knobs", "text"}}, [&] {
-                                  interpret(given, o);
-                                  interpret_scene(o);
-                                  if (o.scene.empty()) throw CLI::RequiredError("scene");
-                                  interpret_output(given, o);
-                              });
+    return parse_command_line(
+        app, std::move(words),
+        {{"--stats", "text"}, {"--list", "all"}, {"--knobs", "text"}, {"--explain", "text"}}, [&] {
+            interpret(given, o);
+            interpret_scene(o);
+            if (o.scene.empty()) throw CLI::RequiredError("scene");
+            interpret_output(given, o);
+        });
 }
 
 std::optional<int> parse_scene_options(int argc, char** argv, const SceneProgram& program,

@@ -22,6 +22,8 @@ struct RenderOptions : SceneRequest {
     bool skip_existing = false;
     bool keep_going = false;
     bool stats = false, stats_json = false;
+    std::string explain;  // "text" or "json": what is modelled and what is left out
+    std::string preset;   // the name that --quality gave, or the default
     ProgressStyle progress = ProgressStyle::Lines;
     std::string list;               // "cameras", ..., "all"; "" = render
     bool json = false;              // of the list

@@ -1,0 +1,91 @@
+// runtime/explain/explain.cpp: settings, the order of sections, text and JSON.
+#include "runtime/explain/explain.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/explain/explain_p.h"
+#include "runtime/trade/knobs.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kShownRows = 20;  // of a section, as text
+
+void explain_settings(const Quality& quality, std::string_view preset, ExplainedRows& rows) {
+    const Quality* base = find_quality(preset);
+    for (const Knob& knob : knobs()) {
+        std::string value = knob_text(knob, quality);
+        bool by_preset = base && value == knob_text(knob, *base);
+        rows.add(
+            std::string(knob.option), value,
+            by_preset ? fmt::format("--quality {}", preset) : fmt::format("--{}", knob.option));
+    }
+}
+
+void explain_added(const Scene& scene, ExplainedRows& rows) {
+    for (const std::string& name : scene.added) rows.add(name, "added", "the file has none in use");
+}
+
+constexpr struct {
+    std::string_view name;
+    void (*explain)(const Scene&, ExplainedRows&);
+} kSections[] = {
+    {"added", explain_added},     {"meshes", explain_meshes}, {"animation", explain_animation},
+    {"shaders", explain_shaders}, {"lights", explain_lights}, {"textures", explain_textures},
+};
+
+}  // namespace
+
+std::vector<Explained> explain(const Scene& scene, const Quality& quality,
+                               std::string_view preset) {
+    std::vector<Explained> found;
+    ExplainedRows rows(found);
+    rows.section("settings");
+    explain_settings(quality, preset, rows);
+    for (const auto& section : kSections) {
+        rows.section(section.name);
+        section.explain(scene, rows);
+    }
+    return found;
+}
+
+std::string explained_text(const std::vector<Explained>& rows) {
+    std::string text;
+    std::string_view section;
+    size_t shown = 0, more = 0;
+    auto end_section = [&] {
+        if (more) text += fmt::format("  and {} more: --explain=json has all\n", more);
+        shown = more = 0;
+    };
+    for (const Explained& row : rows) {
+        if (row.section != section) {
+            end_section();
+            section = row.section;
+            text += fmt::format("{}\n", section);
+        }
+        if (shown == kShownRows) {
+            ++more;
+            continue;
+        }
+        ++shown;
+        text += fmt::format("  {} {}: {}{}{}\n", row.modelled ? "+" : "-", row.subject, row.what,
+                            row.why.empty() ? "" : "; ", row.why);
+    }
+    end_section();
+    return text;
+}
+
+std::string explained_json(const std::vector<Explained>& rows) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const Explained& row : rows)
+        json[std::string(row.section)].push_back({{"subject", row.subject},
+                                                  {"modelled", row.modelled},
+                                                  {"what", row.what},
+                                                  {"why", row.why}});
+    return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace kinora

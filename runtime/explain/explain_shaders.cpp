@@ -1,0 +1,137 @@
+// runtime/explain/explain_shaders.cpp: what each kernel computes and reads, lights and textures.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+
+#include "jit/ir/kernel.h"
+#include "rsl/model/kernel_keys.h"
+#include "rsl/model/shader.h"
+#include "runtime/explain/explain_p.h"
+#include "runtime/images/texture_store.h"
+#include "runtime/shading/shader_instance.h"
+#include "runtime/shading/shading.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr const char* kKindNames[] = {"surface", "light",        "volume",
+                                      "imager",  "displacement", "transformation"};
+
+// What a kernel reads at each point, each once: "P", "N by u and v".
+struct PointInputs {
+    std::set<std::string> values, partials;
+
+    explicit PointInputs(const jit::Kernel& kernel) {
+        for (const jit::InputInfo& input : kernel.inputs) {
+            rsl::KernelKey key = rsl::key_of(input);
+            if (input.rate != jit::Rate::Point) continue;
+            if (key.kind == rsl::KeyKind::Global)
+                (key.partial == rsl::Partial::None ? values : partials)
+                    .insert(std::string(rsl::global_info(key.global()).name));
+            else if (key.kind == rsl::KeyKind::Parameter)
+                (key.partial == rsl::Partial::None ? values : partials).insert(rsl::name_of(key));
+            else if (key.is_space())
+                values.insert(fmt::format("space \"{}\"", rsl::name_of(key)));
+        }
+    }
+};
+
+std::string services_of(const jit::Kernel& kernel) {
+    std::set<std::string> names;
+    for (const jit::ServiceInfo& service : kernel.services) names.insert(service.name);
+    return fmt::format("{}", fmt::join(names, " "));
+}
+
+void explain_kernel(const ShaderInstance& look, ExplainedRows& rows) {
+    const jit::Kernel& kernel = look.full.kernel();
+    const std::string subject =
+        fmt::format("{} ({} {})", look.name, kKindNames[size_t(look.kind)], look.shader().name);
+    PointInputs inputs(kernel);
+    rows.add(subject, fmt::format("computed at each point: {}", fmt::join(inputs.values, " ")),
+             fmt::format("{} inputs, {} bytes of {} code", kernel.inputs.size(), kernel.code_bytes,
+                         kernel.target));
+    if (inputs.partials.empty())
+        rows.leave_out(subject, "no derivatives", "no value that needs one reaches a result");
+    else
+        rows.add(subject, fmt::format("derivatives of {}", fmt::join(inputs.partials, " ")),
+                 "Du, Dv, area, calculatednormal or a filter width reads them");
+    if (!kernel.services.empty())
+        rows.add(subject, fmt::format("asks for {}", services_of(kernel)), "calls that remain");
+    if (look.kind != ShaderInstanceKind::Surface) return;
+    if (look.opacity)
+        rows.add(subject, "a kernel of its own for shadow rays", "Oi is computed at each point");
+    else
+        rows.leave_out(subject, "no kernel for shadow rays", "opaque everywhere");
+}
+
+std::string image_name(const StoredImage& image) {
+    return image.path.substr(image.path.find_last_of('/') + 1);
+}
+
+}  // namespace
+
+void explain_shaders(const Scene& scene, ExplainedRows& rows) {
+    std::set<std::string> worn;
+    for (const auto& look : scene.shader_instances) {
+        worn.insert(look->name);
+        if (!look->full.empty()) explain_kernel(*look, rows);
+    }
+    for (const auto& look : scene.vertex_instances)
+        if (!look->full.empty()) explain_kernel(*look, rows);
+    size_t unworn = 0;
+    for (const MaterialDefinition& material : scene.description->materials)
+        unworn += !worn.contains(material.id.empty() ? material.name : material.id);
+    if (unworn)
+        rows.leave_out(fmt::format("{} materials", unworn), "never compiled",
+                       "no mesh that is shown wears them");
+}
+
+void explain_lights(const Scene& scene, ExplainedRows& rows) {
+    for (const LightSource& source : scene.lights) {
+        const LightDefinition& light = scene.description->lights[source.definition];
+        const std::string name = light.id.empty() ? light.name : light.id;
+        const std::string subject = fmt::format("{} on {}", name, shown_node(scene, source.node));
+        if (light.ambient) {
+            rows.add(subject, "ambient: added at each point", "");
+            rows.leave_out(subject, "no shadow rays", "ambient light has no direction");
+            continue;
+        }
+        rows.add(subject,
+                 source.surface != kNone ? "an area light, by samples" : "one direction a point",
+                 fmt::format("reaches all {} surfaces", scene.surfaces.size()));
+        bool shadows = scene.options.shadows == ShadowMode::Auto && light.shadows.value_or(true);
+        if (!shadows)
+            rows.leave_out(
+                subject, "no automatic shadow rays",
+                scene.options.shadows == ShadowMode::Auto ? "the light says so" : "--shadows");
+    }
+    size_t unplaced = 0;
+    std::set<uint32_t> placed;
+    for (const LightSource& source : scene.lights) placed.insert(source.definition);
+    unplaced = scene.description->lights.size() - placed.size();
+    if (unplaced)
+        rows.leave_out(fmt::format("{} lights", unplaced), "never run",
+                       "no node that is shown has them, or --lights left them out");
+}
+
+void explain_textures(const Scene& scene, ExplainedRows& rows) {
+    if (!scene.textures) return;
+    bool module = false;
+    scene.textures->each_image([&](const StoredImage& image) {
+        module |= image.by_module;
+        if (image.error.empty())
+            rows.add(image_name(image),
+                     fmt::format("read: {} x {}", image.facts.width, image.facts.height),
+                     "a shader that is worn names it");
+        else
+            rows.leave_out(image_name(image), "checks are shown", image.error);
+    });
+    if (scene.textures->images() == 0)
+        rows.leave_out("images", "none is opened", "no shader that is worn names one");
+    if (!module)
+        rows.leave_out("OpenImageIO", "not loaded", "no picture needs it: PNG is read without");
+}
+
+}  // namespace kinora
