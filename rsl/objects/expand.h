@@ -14,6 +14,25 @@
 
 namespace kinora::rsl {
 
+// ---- names of members, as "a->b->c" -------------------------------------------------------------
+
+constexpr std::string_view kArrow = "->";
+
+inline std::string_view first_name(std::string_view path) {
+    return path.substr(0, path.find(kArrow));
+}
+inline bool is_member(std::string_view path) {
+    return path.find(kArrow) != std::string_view::npos;
+}
+
+// Methods and functions of struct arguments have names that no source can have: the checker then
+// needs to know nothing of structs. The part that the user wrote comes first.
+inline std::string method_name(const StructDefinition& owner, std::string_view name) {
+    return std::string(owner.name) + "->" + std::string(name);
+}
+
+// -------------------------------------------------------------------------------------------------
+
 // Functions that nothing calls are left out, unread: headers hold many.
 class ObjectExpander {
   public:
@@ -34,7 +53,10 @@ class ObjectExpander {
     };
 
     template <class... Args>
-    Finding& report(const FindingInfo& info, const SourceSpan& span, const Args&... args);
+    Finding& report(const FindingInfo& info, const SourceSpan& span, const Args&... args) {
+        const Token& token = ast_.tokens.tokens[span.token];
+        return reporter_.report(info, span.where, token.macro, token.spelling, args...);
+    }
 
     // ---- names
     const Symbol* find(std::string_view name) const;

@@ -1,0 +1,178 @@
+// rsl/objects/expand_calls.cpp: expressions; calls of methods, and calls with structs.
+#include "rsl/objects/expand.h"
+
+#include <algorithm>
+
+#include "rsl/text/did_you_mean.h"
+
+namespace kinora::rsl {
+
+void ObjectExpander::exprs(std::span<Expr*> items) {
+    for (Expr*& item : items) expr(item);
+}
+
+void ObjectExpander::expr(Expr*& slot) {
+    switch (slot->kind) {
+        case ExprKind::Number:
+        case ExprKind::String:
+            return;
+        case ExprKind::Variable:
+            return variable(as<VariableExpr>(*slot));
+        case ExprKind::Index: {
+            auto& e = as<IndexExpr>(*slot);
+            expr(e.array);
+            return expr(e.index);
+        }
+        case ExprKind::Component:
+            expr(as<ComponentExpr>(*slot).operand);
+            return expr(as<ComponentExpr>(*slot).index);
+        case ExprKind::Unary:
+            return expr(as<UnaryExpr>(*slot).operand);
+        case ExprKind::Binary:
+            expr(as<BinaryExpr>(*slot).left);
+            return expr(as<BinaryExpr>(*slot).right);
+        case ExprKind::Select:
+            expr(as<SelectExpr>(*slot).condition);
+            expr(as<SelectExpr>(*slot).yes);
+            return expr(as<SelectExpr>(*slot).no);
+        case ExprKind::Assign:
+            if (StructValue target = struct_value(*as<AssignExpr>(*slot).target); target.structure)
+                return void(report(Code::RSL_STRUCT_AS_VALUE, slot->span));
+            expr(as<AssignExpr>(*slot).target);
+            return expr(as<AssignExpr>(*slot).value);
+        case ExprKind::Call:
+            if (function_giving_struct(*slot))
+                return void(report(Code::RSL_STRUCT_AS_VALUE, slot->span));
+            return call(as<CallExpr>(*slot));
+        case ExprKind::Cast:
+            if (as<CastExpr>(*slot).space) expr(as<CastExpr>(*slot).space);
+            return expr(as<CastExpr>(*slot).operand);
+        case ExprKind::Triple:
+            return exprs(as<TripleExpr>(*slot).items);
+        case ExprKind::Sixteen:
+            return exprs(as<SixteenExpr>(*slot).items);
+        case ExprKind::ArrayLiteral:
+            return exprs(as<ArrayLiteralExpr>(*slot).items);
+    }
+}
+
+// A member's name is that of the variable in its place; alone in a method it is the object's.
+void ObjectExpander::variable(VariableExpr& e) {
+    StructValue value;
+    if (is_member(e.name)) {
+        std::string_view first = first_name(e.name);
+        if (first == "this" && !owner_ && class_) {  // the class's own
+            e.name.remove_prefix(first.size() + kArrow.size());
+            return variable(e);
+        }
+        if (!resolve(e.name, e.span, &value)) return;
+        if (!find(first) && first != "this")
+            e.name = ast_.arena.copy("this->" + std::string(e.name));
+    } else if (const Symbol* symbol = find(e.name)) {
+        value.structure = symbol->structure;
+    } else if (const Symbol* member = member_of_object(e.name)) {
+        value.structure = member->structure;
+        e.name = ast_.arena.copy("this->" + std::string(e.name));
+    } else if (e.name == "this") {
+        report(Code::RSL_2, e.span, "'this' as a shader's handle");
+    } else if (e.name == "null") {
+        report(Code::RSL_2, e.span, "'null' (no co-shader)");
+    }
+    if (value.structure) report(Code::RSL_STRUCT_AS_VALUE, e.span);
+}
+
+// object->method(...): the object's members become the first arguments. False after a finding.
+bool ObjectExpander::object_call(CallExpr& e, std::vector<Expr*>& args) {
+    Expr* object = e.args[0];
+    e.args = e.args.subspan(1);
+    e.method = false;
+    const auto* named = as_if<VariableExpr>(object);
+    if (named && named->name == "this" && !owner_ && class_) return true;  // the class's own
+    StructValue value = struct_value(*object);
+    if (!value.structure) {
+        if (named && named->name == "this")
+            report(Code::RSL_2, object->span, "'this' as a shader's handle");
+        else if (named && !is_member(named->name) && !find(named->name) &&
+                 !member_of_object(named->name))
+            report(Code::RSL_UNKNOWN_VARIABLE, object->span, named->name);
+        else
+            report(Code::RSL_NOT_STRUCT, object->span,
+                   named ? named->name : std::string_view("an element"));
+        return false;
+    }
+    if (value.array) return report(Code::RSL_STRUCT_AS_VALUE, object->span), false;
+    std::vector<std::string_view> names;
+    for (const Function* method : value.structure->methods) names.push_back(method->name);
+    for (const Candidate& candidate : candidates_)
+        if (candidate.owner == value.structure && candidate.name == e.name) {
+            args = parts(value, object->span);
+            want(e.name, value.structure);
+            e.name = ast_.arena.copy(method_name(*value.structure, e.name));
+            return true;
+        }
+    report(Code::RSL_NO_METHOD, e.span, value.structure->name, e.name).help =
+        meant_help(e.name, names);
+    return false;
+}
+
+// Arguments of struct types become their members; `results` are behind them all.
+void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
+    std::vector<Expr*> args;
+    bool own =
+        owner_ && !e.method && !is_local_function(e.name) &&
+        std::any_of(owner_->methods.begin(), owner_->methods.end(), [&](const Function* method) {
+            return method_name(*owner_, e.name) == method->name || method->name == e.name ||
+                   method->name.starts_with(method_name(*owner_, e.name) + " ");
+        });
+    if (e.method) {
+        if (!object_call(e, args)) return;
+    } else if (own) {
+        args = parts({owner_, "this", nullptr, false}, e.span);
+        want(e.name, owner_);
+        e.name = ast_.arena.copy(method_name(*owner_, e.name));
+    } else {
+        want(e.name, nullptr);
+    }
+    std::string mangled;
+    for (Expr*& argument : e.args) {
+        StructValue value = struct_value(*argument);
+        if (!value.structure) {
+            expr(argument);
+            args.push_back(argument);
+            continue;
+        }
+        std::vector<Expr*> members = parts(value, argument->span);
+        if (value.array && (e.name == "arraylength" || e.name == "capacity")) {
+            args.push_back(members[0]);
+            continue;
+        }
+        mangled += " " + std::string(value.structure->name);
+        args.insert(args.end(), members.begin(), members.end());
+    }
+    if (e.channel) expr(e.channel);
+    if (!results.empty()) mangled += " return";
+    args.insert(args.end(), results.begin(), results.end());
+    e.args = ast_.arena.copy(args);
+    if (!mangled.empty()) e.name = ast_.arena.copy(std::string(e.name) + mangled);
+}
+
+// The function of struct result that an expression calls; null for everything else.
+const Function* ObjectExpander::function_giving_struct(const Expr& e) {
+    const auto* node = as_if<CallExpr>(&e);
+    if (!node) return nullptr;
+    const StructDefinition* owner = nullptr;
+    if (node->method) {
+        const auto* object = as_if<VariableExpr>(node->args[0]);
+        bool self = object && object->name == "this" && !owner_;
+        if (!self) owner = struct_value(*node->args[0]).structure;
+    }
+    for (const auto& [method, structure] : results_)
+        if (!owner && method->name.substr(0, method->name.find(' ')) == node->name) return method;
+    for (const Candidate& candidate : candidates_)
+        if (candidate.name == node->name && candidate.owner == owner &&
+            candidate.function->result_structure)
+            return candidate.function;
+    return nullptr;
+}
+
+}  // namespace kinora::rsl
