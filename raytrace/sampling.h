@@ -4,22 +4,10 @@
 
 #include <cstdint>
 
+#include "raytrace/random/bits.h"
 #include "runtime/base/math.h"
 
 namespace kinora::raytrace {
-
-// A well-mixed 32-bit hash (two multiply-xorshift rounds; constants by C. Wellons, "lowbias32").
-constexpr uint32_t hash(uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-constexpr uint32_t hash(uint32_t a, uint32_t b) {
-    return hash(a ^ (hash(b) + 0x9e3779b9u));
-}
-constexpr uint32_t hash(uint32_t a, uint32_t b, uint32_t c) {
-    return hash(hash(a, b), c);
-}
 
 constexpr double unit_interval(uint32_t bits) {
     return double(bits) * 0x1p-32;

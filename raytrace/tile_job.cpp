@@ -13,15 +13,14 @@ void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t
         rays.count = 0;
         rays.reserve(chunk);
         hits.reserve(chunk);
-        slot_pixel.resize(chunk);
-        slot_pixels = 0;
+        samples.reserve(chunk);
         for (auto& v : color) v.resize(chunk);
         for (auto& v : through) v.resize(chunk);
         for (auto& v : shaded) v.resize(chunk + kPacket);
         passages.resize(chunk);
     }
     order.reserve(tile_pixels);
-    for (auto& v : sum) v.resize(std::max(v.size(), tile_pixels));
+    sum.resize(std::max(sum.size(), 4 * tile_pixels));
     if (shaded_aov.size() != aovs) {
         shaded_aov.resize(aovs);
         sum_aov.resize(aovs);
@@ -46,9 +45,12 @@ void TileOrder::set_size(int w, int h) {
     size_t i = 0;
     for (int by = 0; by < h; by += kBlock)
         for (int bx = 0; bx < w; bx += kBlock)
-            for (int py = by; py < std::min(by + kBlock, h); ++py)
-                for (int px = bx; px < std::min(bx + kBlock, w); ++px, ++i)
-                    x[i] = uint32_t(px), y[i] = uint32_t(py);
+            for (uint32_t k = 0; k < kBlock * kBlock; ++k) {
+                const uint32_t px = uint32_t(bx) + ((k & 1) | (k >> 1 & 2));
+                const uint32_t py = uint32_t(by) + ((k >> 1 & 1) | (k >> 2 & 2));
+                if (px >= uint32_t(w) || py >= uint32_t(h)) continue;
+                x[i] = px, y[i++] = py;
+            }
 }
 
 PixelSet TileOrder::pixels(const Tile& tile) {
@@ -83,9 +85,8 @@ void TileJob::run(const Tile& tile) {
     for (int first = 0; first < settings_.samples_per_pixel && !shading_.stopped();
          first += per_chunk) {
         make_rays(first, std::min(settings_.samples_per_pixel, first + per_chunk));
-        const size_t slots = m_.rays.count;
         follow_layers();
-        finish_samples(slots);
+        finish_samples();
     }
     write_tile();
     shading_.end_tile(thread_);
@@ -103,27 +104,11 @@ vec4 TileJob::run_sample(const Tile& tile, int sample) {
 }
 
 void TileJob::begin_tile() {
-    for (auto& v : m_.sum) std::fill_n(v.begin(), tile_.pixels(), 0.0);
+    std::fill_n(m_.sum.begin(), 4 * tile_.pixels(), 0.0);
     for (auto& v : m_.sum_aov) std::fill_n(v.begin(), tile_.pixels(), 0.0);
     m_.order.set_size(tile_.x1 - tile_.x0, tile_.y1 - tile_.y0);
-    if (std::exchange(m_.slot_pixels, tile_.pixels()) != tile_.pixels())
-        for (size_t slot = 0; slot < m_.slot_pixel.size(); ++slot)
-            m_.slot_pixel[slot] = uint32_t(slot % tile_.pixels());
     if (settings_.samples_per_pixel > 1) kernels_.scrambles(m_.order.pixels(tile_), settings_.seed);
 }
-
-namespace {
-
-// The columns `first` rays further on.
-PixelRays rays_from(PixelRays rays, size_t first) {
-    for (auto* columns : {&rays.org, &rays.first_org, &rays.dir, &rays.ddir_dx, &rays.ddir_dy})
-        for (float*& column : *columns) column += first;
-    rays.tnear += first, rays.tfar += first;
-    rays.pixel_x += first, rays.pixel_y += first;
-    return rays;
-}
-
-}  // namespace
 
 // What all rays of the camera share, in the rays [begin, end).
 void TileJob::begin_rays(size_t begin, size_t end) {
@@ -158,6 +143,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
     out.tfar = r.tfar;
     out.pixel_x = r.pixel_x;
     out.pixel_y = r.pixel_y;
+    out.sample = r.sample;
     for (int c = 0; c < 3; ++c) {
         out.org[c] = r.org[c];
         out.first_org[c] = r.first_org[c];
@@ -166,11 +152,10 @@ void TileJob::make_rays(int first_sample, int end_sample) {
         out.ddir_dy[c] = r.dDdy[c];
     }
     const FilterTable* filter = settings_.samples_per_pixel > 1 ? &filter_ : nullptr;
-    for (int sample = first_sample; sample < end_sample; ++sample) {
-        const size_t first = pixels.count * size_t(sample - first_sample);
-        kernels_.rays(view_, pixels, sample_bits(uint32_t(sample)), filter, rays_from(out, first));
-        std::fill_n(r.sample + first, pixels.count, uint32_t(sample));
-    }
+    m_.samples.clear();
+    for (int sample = first_sample; sample < end_sample; ++sample)
+        m_.samples.push_back(sample_bits(uint32_t(sample)));
+    kernels_.rays(view_, pixels, m_.samples.data(), m_.samples.size(), filter, out);
     for (int c = 0; c < 3; ++c) {
         std::fill_n(m_.color[c].begin(), r.count, 0.0f);
         std::fill_n(m_.through[c].begin(), r.count, 1.0f);
@@ -284,7 +269,7 @@ void TileJob::keep_aovs(const HitBatch& hits) {
         const double weight = first_only ? 1.0 : 1.0 / settings_.samples_per_pixel;
         for (size_t k = 0; k < hits.count; ++k) {
             if ((first_only && hits.sample[k] != 0) || !shows_first(hits, k)) continue;
-            m_.sum_aov[plane][m_.slot_pixel[m_.rays.slot[hits.ray[k]]]] +=
+            m_.sum_aov[plane][pixel_of(m_.rays.slot[hits.ray[k]])] +=
                 weight * double(m_.shaded_aov[plane][k]);
         }
     }
@@ -326,18 +311,14 @@ bool TileJob::passes(size_t slot) const {
     return largest_through(slot) > 1.0f - settings_.opaque_above;
 }
 
-void TileJob::finish_samples(size_t slots) {
-    const size_t pixels = tile_.pixels();
-    const PixelSums sums{{m_.sum[0].data(), m_.sum[1].data(), m_.sum[2].data()}, m_.sum[3].data()};
-    for (size_t first = 0; first < slots; first += pixels) {
-        const float *color[3], *through[3];
-        for (int c = 0; c < 3; ++c) {
-            color[c] = m_.color[c].data() + first;
-            through[c] = m_.through[c].data() + first;
-        }
-        kernels_.add(pixels, color, through,
-                     settings_.background ? &settings_.background->x : nullptr, sums);
+void TileJob::finish_samples() {
+    const float *color[3], *through[3];
+    for (int c = 0; c < 3; ++c) {
+        color[c] = m_.color[c].data();
+        through[c] = m_.through[c].data();
     }
+    kernels_.add(tile_.pixels(), m_.samples.size(), color, through,
+                 settings_.background ? &settings_.background->x : nullptr, m_.sum.data());
 }
 
 void TileJob::write_tile() const {
@@ -345,7 +326,7 @@ void TileJob::write_tile() const {
     for (size_t pixel = 0; pixel < tile_.pixels(); ++pixel) {
         const int x = tile_.x0 + int(m_.order.x[pixel]), y = tile_.y0 + int(m_.order.y[pixel]);
         vec4& out = film_.at(x, y);
-        for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[c][pixel]);
+        for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[4 * pixel + size_t(c)]);
         const size_t at = size_t(y) * size_t(film_.width) + size_t(x);
         for (size_t k = 0; k < m_.sum_aov.size(); ++k)
             film_.aovs[k].values[at] = float(m_.sum_aov[k][pixel]);

@@ -15,10 +15,11 @@ struct Tile {
     size_t pixels() const { return size_t(x1 - x0) * size_t(y1 - y0); }
 };
 
-inline constexpr int kBlock = 4;  // a packet is 4x4 pixels of one sample
+inline constexpr int kBlock = 4;  // a packet of one sample is 4x4 pixels
 
-// The pixels of a tile in the order of their rays: in blocks, so that packets hold neighbours. The
-// same for all tiles of a size.
+// The pixels of a tile in the order of their rays: in blocks of four by four, of two by two, so
+// that packets hold neighbours whatever number of samples a pixel has. The same for all tiles of a
+// size.
 struct TileOrder {
     int width = 0, height = 0;
     std::vector<uint32_t> x, y;         // within the tile
@@ -40,11 +41,10 @@ struct IntegratorScratch::Thread {
     std::vector<std::vector<float>> shaded_aov;
     std::vector<float*> aov_pointers;
     TileOrder order;
-    std::vector<uint32_t> slot_pixel;  // of a tile of slot_pixels, in its order
-    size_t slot_pixels = 0;
-    size_t begun = 0;   // rays from the first that hold what all rays of the camera share ...
-    size_t passed = 0;  // but for so many, which went on behind hits
-    std::vector<double> sum[4];  // by pixel of the tile, in its order
+    std::vector<SampleBits> samples;  // of the chunk, which all pixels share
+    size_t begun = 0;         // rays from the first that hold what all rays of the camera share ...
+    size_t passed = 0;        // but for so many, which went on behind hits
+    std::vector<double> sum;  // colour and coverage, by pixel of the tile, in its order
     std::vector<std::vector<double>> sum_aov;
 
     void reserve(size_t chunk, size_t tile_pixels, size_t aovs);
@@ -88,7 +88,9 @@ class TileJob {
     void lay_behind(const HitBatch& hits, size_t k);
     float largest_through(size_t slot) const;
     bool passes(size_t slot) const;
-    void finish_samples(size_t slots);
+    void finish_samples();
+    // Slots lie pixel by pixel, the samples of a pixel one behind the other.
+    size_t pixel_of(size_t slot) const { return slot / m_.samples.size(); }
     void write_tile() const;
 
     const Accel& accel_;

@@ -1,6 +1,8 @@
 // raytrace/pixels/pixels.cpp: chooses the kernels, and what all pixels share of a sample.
 #include "raytrace/pixels/pixels.h"
 
+#include "raytrace/random/bits.h"
+
 namespace kinora::raytrace {
 
 const UsablePixelKernels& usable_pixel_kernels() {
@@ -22,15 +24,8 @@ const PixelKernels& pixel_kernels() {
     return *usable_pixel_kernels().kernels[0];
 }
 
-// Sobol's second column by the Pascal matrix modulo 2 (raytrace/sampling.cpp), its bits reversed:
-// column k is then what (1 + x)^k leaves of x^0, x^1, ..., so each is the one before xor its
-// double.
 SampleBits sample_bits(uint32_t sample) {
-    SampleBits bits{sample, 0};
-    uint32_t column = 1;
-    for (uint32_t left = sample; left != 0; left >>= 1, column ^= column << 1)
-        if (left & 1) bits.sobol_reversed ^= column;
-    return bits;
+    return {sample, sobol_second_reversed(sample)};
 }
 
 }  // namespace kinora::raytrace

@@ -48,7 +48,7 @@ struct SampleBits {
 };
 SampleBits sample_bits(uint32_t sample);
 
-// Columns of RayBatch, at the ray of the set's first pixel.
+// Columns of RayBatch, at the first sample of the set's first pixel.
 struct PixelRays {
     float* org[3];  // orthographic: written; perspective: not, nor first_org
     float* first_org[3];
@@ -59,24 +59,22 @@ struct PixelRays {
     float* tfar;
     uint32_t* pixel_x;
     uint32_t* pixel_y;
-};
-
-// The sums of a tile's pixels, in the order of the set.
-struct PixelSums {
-    double* color[3];
-    double* coverage;
+    uint32_t* sample;  // SampleBits::index
 };
 
 struct PixelKernels {
     const char* name;
     // PixelSet::scramble from the pixels and the frame's seed.
     void (*scrambles)(const PixelSet& pixels, uint32_t seed);
-    // Rays of one sample of all pixels. `filter` null: through the pixels' centres.
-    void (*rays)(const PixelView& view, const PixelSet& pixels, const SampleBits& sample,
+    // Rays of n samples of all pixels, those of a pixel one behind the other. `filter` null:
+    // through the pixels' centres.
+    void (*rays)(const PixelView& view, const PixelSet& pixels, const SampleBits* samples, size_t n,
                  const FilterTable* filter, const PixelRays& out);
-    // Adds one sample of `count` pixels: what it shows, before `background` where that is not null.
-    void (*add)(size_t count, const float* const color[3], const float* const through[3],
-                const float* background, const PixelSums& sums);
+    // Adds n samples of each of `pixels` pixels, in the order of their rays, to the pixels' sums:
+    // colour and coverage, four a pixel. What a sample shows lies before `background` where that is
+    // not null.
+    void (*add)(size_t pixels, size_t n, const float* const color[3], const float* const through[3],
+                const float* background, double* sums);
 };
 extern const PixelKernels kPortablePixels;
 extern const PixelKernels kAvx2Pixels;

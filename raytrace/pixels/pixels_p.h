@@ -7,55 +7,28 @@
 #pragma once
 
 #include "raytrace/pixels/pixels.h"
+#include "raytrace/random/bits.h"
 
 #define KINORA_INLINE __attribute__((always_inline)) inline
 
 namespace kinora::raytrace {
 namespace {
 
-// raytrace/sampling.h has the originals.
-constexpr uint32_t mix(uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-constexpr uint32_t with(uint32_t b) {  // hash(a, b) = mix(a ^ with(b))
-    return mix(b) + 0x9e3779b9u;
-}
-
-KINORA_INLINE uint32_t reverse_bits(uint32_t x) {
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
-    x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
-    x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
-    return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
-}
-
-// owen_scramble() of a number whose bits are reversed already.
-KINORA_INLINE uint32_t scramble_reversed(uint32_t x, uint32_t seed) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return reverse_bits(x);
-}
-
 void scrambles(const PixelSet& pixels, uint32_t seed) {
-    constexpr uint32_t kFirst = with(0x68bc21ebu), kSecond = with(0x02e5be93u);
-    const uint32_t of_frame = with(seed), x0 = pixels.x0, y0 = pixels.y0;
+    const uint32_t x0 = pixels.x0, y0 = pixels.y0;
     const uint32_t *x = pixels.x, *y = pixels.y;
     uint32_t *first = pixels.scramble[0], *second = pixels.scramble[1];
 #pragma GCC ivdep
     for (size_t i = 0; i < pixels.count; ++i) {
-        const uint32_t own = mix(mix((x0 + x[i]) ^ with(y0 + y[i])) ^ of_frame);
-        first[i] = mix(own ^ kFirst);
-        second[i] = mix(own ^ kSecond);
+        const uint32_t own = hash(x0 + x[i], y0 + y[i], seed);
+        first[i] = first_scramble(own);
+        second[i] = second_scramble(own);
     }
 }
 
-// A block of pixels: so many that what is between the loops below stays in the nearest cache.
+// A block of rays: so many that what is between the loops below stays in the nearest cache.
 constexpr size_t kBlock = 64;
+constexpr size_t kWidest = 16;  // what is stored at once, even behind a block's end
 
 // Where a sample of the pixels lies from the picture's centre along one axis, without a filter.
 void centres(const uint32_t* pixel, uint32_t first, double centre, size_t count, double* at) {
@@ -65,7 +38,7 @@ void centres(const uint32_t* pixel, uint32_t first, double centre, size_t count,
 
 // The same with a filter's offsets for 32 bits of a number in [0, 1). Conversions are of signed
 // numbers: those of unsigned ones are slow before AVX-512.
-void filtered(const FilterTable& filter, uint32_t bits, const uint32_t* scramble,
+void filtered(const FilterTable& filter, const uint32_t* bits, const uint32_t* scramble,
               const uint32_t* pixel, uint32_t first, double centre, size_t count, double* at) {
     constexpr uint32_t kShift = 22;
     static_assert(kFilterCells == 1u << (32 - kShift));
@@ -73,7 +46,7 @@ void filtered(const FilterTable& filter, uint32_t bits, const uint32_t* scramble
         const FilterTable::Cell cell = filter.cells[0];
 #pragma GCC ivdep
         for (size_t i = 0; i < count; ++i) {
-            const uint32_t u = scramble_reversed(bits, scramble[i]) ^ 0x80000000u;
+            const uint32_t u = owen_scramble_reversed(bits[i], scramble[i]) ^ 0x80000000u;
             const double cells = (double(int32_t(u)) + 0x1p31) * (1.0 / (1u << kShift));
             const double middle = double(int32_t(first + pixel[i])) + 0.5;
             at[i] = (middle + (cell.value + cell.step * cells)) - centre;
@@ -83,7 +56,7 @@ void filtered(const FilterTable& filter, uint32_t bits, const uint32_t* scramble
     uint32_t u[kBlock];
     double value[kBlock], step[kBlock];
 #pragma GCC ivdep
-    for (size_t i = 0; i < count; ++i) u[i] = scramble_reversed(bits, scramble[i]);
+    for (size_t i = 0; i < count; ++i) u[i] = owen_scramble_reversed(bits[i], scramble[i]);
     for (size_t i = 0; i < count; ++i) {
         const FilterTable::Cell cell = filter.cells[u[i] >> kShift];
         value[i] = cell.value;
@@ -144,68 +117,143 @@ void orthographic(const PixelView& view, size_t count, const double* across, con
     }
 }
 
-KINORA_INLINE void advance(PixelRays& rays) {
+KINORA_INLINE PixelRays rays_from(const PixelRays& all, size_t first) {
+    PixelRays rays = all;
     for (int k = 0; k < 3; ++k) {
-        rays.org[k] += kBlock, rays.first_org[k] += kBlock, rays.dir[k] += kBlock;
-        rays.ddir_dx[k] += kBlock, rays.ddir_dy[k] += kBlock;
+        rays.org[k] += first, rays.first_org[k] += first, rays.dir[k] += first;
+        rays.ddir_dx[k] += first, rays.ddir_dy[k] += first;
     }
-    rays.tnear += kBlock, rays.tfar += kBlock;
-    rays.pixel_x += kBlock, rays.pixel_y += kBlock;
+    rays.tnear += first, rays.tfar += first;
+    rays.pixel_x += first, rays.pixel_y += first, rays.sample += first;
+    return rays;
 }
 
-void rays(const PixelView& view, const PixelSet& pixels, const SampleBits& sample,
-          const FilterTable* filter, const PixelRays& to) {
+// Numbers of pixels, each n times; at `to` there is room for kWidest more.
+KINORA_INLINE const uint32_t* repeated(const uint32_t* of_pixel, size_t pixels, size_t n,
+                                       uint32_t* to) {
+    if (n == 1) return of_pixel;
+    for (size_t p = 0; p < pixels; ++p)
+        for (size_t s = 0; s < n; s += kWidest)
+            for (size_t i = 0; i < kWidest; ++i) to[p * n + s + i] = of_pixel[p];
+    return to;
+}
+
+// Rays of up to kBlock samples of each pixel: as many pixels a block as fit.
+void rays_of(const PixelView& view, const PixelSet& pixels, const SampleBits* samples, size_t n,
+             const FilterTable* filter, const PixelRays& to, size_t rays_a_pixel) {
     const auto fill = view.orthographic ? (view.clip ? orthographic<true> : orthographic<false>)
                                         : (view.clip ? perspective<true> : perspective<false>);
-    PixelRays out = to;
-    for (size_t first = 0; first < pixels.count; first += kBlock) {
-        const size_t left = pixels.count - first, count = left < kBlock ? left : kBlock;
-        const uint32_t *x = pixels.x + first, *y = pixels.y + first;
-        double across[kBlock], down[kBlock];
+    const size_t whole = n == rays_a_pixel ? kBlock / n : 1;  // pixels
+    uint32_t index[kBlock], sobol_reversed[kBlock];
+    for (size_t i = 0; i < whole * n; ++i) {
+        index[i] = samples[i % n].index;
+        sobol_reversed[i] = samples[i % n].sobol_reversed;
+    }
+    uint32_t columns[4][kBlock + kWidest];
+    double across[kBlock], down[kBlock];
+    for (size_t first = 0; first < pixels.count; first += whole) {
+        const size_t left = pixels.count - first, some = left < whole ? left : whole;
+        const size_t count = some * n;
+        const uint32_t* x = repeated(pixels.x + first, some, n, columns[0]);
+        const uint32_t* y = repeated(pixels.y + first, some, n, columns[1]);
         if (filter) {
-            filtered(*filter, sample.index, pixels.scramble[0] + first, x, pixels.x0, view.centre_x,
-                     count, across);
-            filtered(*filter, sample.sobol_reversed, pixels.scramble[1] + first, y, pixels.y0,
+            filtered(*filter, index, repeated(pixels.scramble[0] + first, some, n, columns[2]), x,
+                     pixels.x0, view.centre_x, count, across);
+            filtered(*filter, sobol_reversed,
+                     repeated(pixels.scramble[1] + first, some, n, columns[3]), y, pixels.y0,
                      view.centre_y, count, down);
         } else {
             centres(x, pixels.x0, view.centre_x, count, across);
             centres(y, pixels.y0, view.centre_y, count, down);
         }
+        const PixelRays out = rays_from(to, first * rays_a_pixel);
         fill(view, count, across, down, out);
         for (size_t i = 0; i < count; ++i) {
             out.pixel_x[i] = pixels.x0 + x[i];
             out.pixel_y[i] = pixels.y0 + y[i];
+            out.sample[i] = index[i];
         }
-        advance(out);
     }
 }
 
+void rays(const PixelView& view, const PixelSet& pixels, const SampleBits* samples, size_t n,
+          const FilterTable* filter, const PixelRays& to) {
+    for (size_t first = 0; first < n; first += kBlock) {
+        const size_t some = n - first < kBlock ? n - first : kBlock;
+        rays_of(view, pixels, samples + first, some, filter, rays_from(to, first), n);
+    }
+}
+
+using FourFloats = float __attribute__((vector_size(16)));
+using FourDoubles = double __attribute__((vector_size(32)));
+
+KINORA_INLINE void load(const float* from, size_t count, FourDoubles& to) {
+    FourFloats floats{};
+    if (count == 4)
+        __builtin_memcpy(&floats, from, sizeof(floats));
+    else
+        for (size_t i = 0; i < count; ++i) floats[i] = from[i];
+    to = __builtin_convertvector(floats, FourDoubles);
+}
+
+// What each of up to four samples adds: colour and coverage.
 template <bool kBackground>
-void add_samples(size_t count, const float* const color[3], const float* const through[3],
-                 const float* background, const PixelSums& to) {
-    const PixelSums sums = to;
-    const float *r = color[0], *g = color[1], *b = color[2];
-    const float *tr = through[0], *tg = through[1], *tb = through[2];
-    const double back[3] = {kBackground ? double(background[0]) : 0.0,
-                            kBackground ? double(background[1]) : 0.0,
-                            kBackground ? double(background[2]) : 0.0};
-#pragma GCC ivdep
-    for (size_t i = 0; i < count; ++i) {
-        const double t[3] = {double(tr[i]), double(tg[i]), double(tb[i])};
-        double shown[3] = {double(r[i]), double(g[i]), double(b[i])};
-        for (int k = 0; k < 3; ++k) {
-            if constexpr (kBackground) shown[k] += t[k] * back[k];
-            sums.color[k][i] += shown[k];
+KINORA_INLINE void shown(const float* const color[3], const float* const through[3],
+                         const float* background, size_t first, size_t count,
+                         FourDoubles (&of)[4]) {
+    FourDoubles part[4], t[3];
+    for (int k = 0; k < 3; ++k) {
+        load(color[k] + first, count, part[k]);
+        load(through[k] + first, count, t[k]);
+        if constexpr (kBackground) part[k] += t[k] * double(background[k]);
+    }
+    if constexpr (kBackground)
+        part[3] = FourDoubles{1, 1, 1, 1};
+    else
+        part[3] = ((1.0 - t[0]) * (1.0 / 3) + (1.0 - t[1]) * (1.0 / 3)) + (1.0 - t[2]) * (1.0 / 3);
+    const FourDoubles a = __builtin_shufflevector(part[0], part[1], 0, 4, 2, 6),
+                      b = __builtin_shufflevector(part[0], part[1], 1, 5, 3, 7),
+                      c = __builtin_shufflevector(part[2], part[3], 0, 4, 2, 6),
+                      d = __builtin_shufflevector(part[2], part[3], 1, 5, 3, 7);
+    of[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+    of[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+    of[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+    of[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+// Samples in fours, and the sums of a pixel in one register where each four are of one pixel.
+template <bool kBackground>
+void add_samples(size_t pixels, size_t n, const float* const color[3],
+                 const float* const through[3], const float* background, double* sums) {
+    const bool one_pixel = n % 4 == 0;
+    size_t pixel = 0, sample = 0;
+    FourDoubles sum, of[4];
+    __builtin_memcpy(&sum, sums, sizeof(sum));
+    for (size_t first = 0; first < pixels * n; first += 4) {
+        const size_t left = pixels * n - first, count = left < 4 ? left : 4;
+        if (count == 4)
+            shown<kBackground>(color, through, background, first, 4, of);
+        else
+            shown<kBackground>(color, through, background, first, count, of);
+        if (one_pixel && sample + 4 < n) {
+            for (int j = 0; j < 4; ++j) sum += of[j];
+            sample += 4;
+            continue;
         }
-        sums.coverage[i] += kBackground ? 1.0
-                                        : ((1.0 - t[0]) * (1.0 / 3) + (1.0 - t[1]) * (1.0 / 3)) +
-                                              (1.0 - t[2]) * (1.0 / 3);
+        for (size_t j = 0; j < count; ++j) {
+            sum += of[j];
+            if (++sample < n) continue;
+            sample = 0;
+            __builtin_memcpy(sums + 4 * pixel, &sum, sizeof(sum));
+            if (++pixel < pixels) __builtin_memcpy(&sum, sums + 4 * pixel, sizeof(sum));
+        }
     }
 }
 
-void add(size_t count, const float* const color[3], const float* const through[3],
-         const float* background, const PixelSums& sums) {
-    (background ? add_samples<true> : add_samples<false>)(count, color, through, background, sums);
+void add(size_t pixels, size_t n, const float* const color[3], const float* const through[3],
+         const float* background, double* sums) {
+    (background ? add_samples<true> : add_samples<false>)(pixels, n, color, through, background,
+                                                          sums);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Included by one file for each instruction set; all names are the file's own.
 #pragma once
 
+#include "raytrace/random/bits.h"
 #include "runtime/rays/ray_kernels.h"
 
 namespace kinora {
@@ -17,45 +18,6 @@ inline Three three(const vec3& a) {
 }
 
 #define KINORA_SIXTEEN _Pragma("GCC ivdep") for (int i = 0; i < kSixteen; ++i)
-
-// ---- random numbers: raytrace/sampling.h, sixteen samples side by side --------------------------
-
-inline uint32_t mixed(uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-inline uint32_t mixed(uint32_t a, uint32_t b) {
-    return mixed(a ^ (mixed(b) + 0x9e3779b9u));
-}
-
-inline uint32_t reversed(uint32_t x) {
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
-    x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
-    x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
-    return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
-}
-
-// Of a number whose bits are reversed already.
-inline uint32_t scrambled(uint32_t x, uint32_t seed) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return reversed(x);
-}
-
-// The second dimension of Sobol's sequence, bits reversed: the Pascal matrix modulo 2 is a product
-// of five sparse ones, each adding to bit b the bit b + 2^k where b lacks 2^k.
-inline uint32_t sobol_reversed(uint32_t x) {
-    x ^= (x >> 1) & 0x55555555u;
-    x ^= (x >> 2) & 0x33333333u;
-    x ^= (x >> 4) & 0x0f0f0f0fu;
-    x ^= (x >> 8) & 0x00ff00ffu;
-    return x ^ ((x >> 16) & 0x0000ffffu);
-}
 
 // ---- sine and cosine of 2 pi turn, turn in [0, 1) -----------------------------------------------
 
@@ -85,15 +47,17 @@ inline double cosine(double x) {
 
 // By cosine: a disc's uniform points lifted to the sphere (Malley); else uniform in solid angle.
 void directions(const Cone& cone, uint32_t first, uint32_t seed, SixteenRays& rays) {
-    const uint32_t seed_x = mixed(seed, 0x68bc21ebu), seed_y = mixed(seed, 0x02e5be93u);
+    const uint32_t seed_x = raytrace::first_scramble(seed);
+    const uint32_t seed_y = raytrace::second_scramble(seed);
     const double c = double(cone.cosine), square = c * c;
     const bool by_cosine = cone.by_cosine;
     double up[kSixteen], out[kSixteen], along_x[kSixteen], along_y[kSixteen];
     double u[kSixteen], turn[kSixteen];
     KINORA_SIXTEEN {
         uint32_t k = first + uint32_t(i);
-        u[i] = double(scrambled(k, seed_x)) * 0x1p-32;
-        turn[i] = double(scrambled(sobol_reversed(k), seed_y)) * 0x1p-32;
+        u[i] = double(raytrace::owen_scramble_reversed(k, seed_x)) * 0x1p-32;
+        const uint32_t y = raytrace::sobol_second_reversed(k);
+        turn[i] = double(raytrace::owen_scramble_reversed(y, seed_y)) * 0x1p-32;
     }
     KINORA_SIXTEEN {
         double disc = __builtin_sqrt(1 - u[i] * (1 - square)), cap = 1 - u[i] * (1 - c);

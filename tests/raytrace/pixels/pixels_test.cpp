@@ -128,10 +128,14 @@ constexpr float kUntouched = -77;
 struct Rays {
     size_t count;
     std::vector<std::vector<float>> columns;
-    std::vector<uint32_t> x, y;
+    std::vector<uint32_t> x, y, sample;
     PixelRays to{};
     explicit Rays(size_t n)
-        : count(n), columns(17, std::vector<float>(n + 16, kUntouched)), x(n + 16), y(n + 16) {
+        : count(n),
+          columns(17, std::vector<float>(n + 16, kUntouched)),
+          x(n + 16),
+          y(n + 16),
+          sample(n + 16) {
         size_t next = 0;
         for (auto* triple : {&to.org, &to.first_org, &to.dir, &to.ddir_dx, &to.ddir_dy})
             for (float*& column : *triple) column = columns[next++].data();
@@ -139,6 +143,7 @@ struct Rays {
         to.tfar = columns[next++].data();
         to.pixel_x = x.data();
         to.pixel_y = y.data();
+        to.sample = sample.data();
     }
 };
 
@@ -177,15 +182,20 @@ TEST_P(EachKernel, SamplesLieWhereTheSequenceAndTheFilterPutThem) {
     view.dx[0] = view.dy[1] = view.forward[2] = view.dx_square = view.dy_square = 1;
     for (bool linear : {true, false}) {
         const FilterTable filter = make_filter(linear);
-        for (uint32_t index : {0u, 1u, 2u, 3u, 7u, 16u, 12345u}) {
-            Pixels pixels(150, 9);
-            Rays rays(150);
-            const uint32_t seed = 0xabcdef01u + index;
+        for (uint32_t n : {1u, 2u, 3u, 4u, 16u, 31u, 64u, 65u, 150u}) {
+            const uint32_t begin = n == 1 ? 12345u : 3 * n;
+            Pixels pixels(50, 9);
+            Rays rays(50 * n);
+            const uint32_t seed = 0xabcdef01u + n;
+            std::vector<SampleBits> samples;
+            for (uint32_t s = 0; s < n; ++s) samples.push_back(sample_bits(begin + s));
             kernels().scrambles(pixels.set, seed);
-            kernels().rays(view, pixels.set, sample_bits(index), &filter, rays.to);
-            for (size_t i = 0; i < 150; ++i) {
-                const uint32_t x = 128 + pixels.x[i], y = 64 + pixels.y[i];
+            kernels().rays(view, pixels.set, samples.data(), n, &filter, rays.to);
+            for (size_t i = 0; i < 50 * n; ++i) {
+                const uint32_t x = 128 + pixels.x[i / n], y = 64 + pixels.y[i / n];
+                const uint32_t index = begin + uint32_t(i % n);
                 const Sample s = sample_of(x, y, seed, index);
+                EXPECT_EQ(rays.sample[i], index);
                 expect_nearest(rays.to.org[0][i], x + 0.5L + offset_of(filter, s.u), 128, "x");
                 expect_nearest(rays.to.org[1][i], y + 0.5L + offset_of(filter, s.v), 128, "y");
                 EXPECT_EQ(rays.to.first_org[0][i], rays.to.org[0][i]);
@@ -202,7 +212,8 @@ TEST_P(EachKernel, WithoutAFilterRaysGoThroughThePixelsCentres) {
     view.dx[0] = view.dy[1] = view.forward[2] = view.dx_square = view.dy_square = 1;
     Pixels pixels(5, 5);
     Rays rays(5);
-    kernels().rays(view, pixels.set, sample_bits(3), nullptr, rays.to);
+    const SampleBits sample = sample_bits(3);
+    kernels().rays(view, pixels.set, &sample, 1, nullptr, rays.to);
     for (size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(rays.to.org[0][i], 128.5f + float(i));
         EXPECT_EQ(rays.to.org[1][i], 64.5f);
@@ -216,7 +227,8 @@ TEST_P(EachKernel, DirectionsAndDifferentialsAreTheNearestFloats) {
             Pixels pixels(61, 31);
             pixels.set.x0 = 300;
             Rays rays(61);
-            kernels().rays(view, pixels.set, sample_bits(0), nullptr, rays.to);
+            const SampleBits sample = sample_bits(0);
+            kernels().rays(view, pixels.set, &sample, 1, nullptr, rays.to);
             for (size_t i = 0; i < 61; ++i) {
                 Real v[3], square = 0;
                 const Real across = Real(300 + pixels.x[i]) + 0.5L - view.centre_x;
@@ -255,7 +267,8 @@ TEST_P(EachKernel, ClipPlanesLieAtDepthsAlongTheAxis) {
         Pixels pixels(33, 8);
         pixels.set.x0 = pixels.set.y0 = 0;
         Rays rays(33);
-        kernels().rays(view, pixels.set, sample_bits(0), nullptr, rays.to);
+        const SampleBits sample = sample_bits(0);
+        kernels().rays(view, pixels.set, &sample, 1, nullptr, rays.to);
         for (size_t i = 0; i < 33; ++i) {
             Real cosine = 0;
             for (int k = 0; k < 3; ++k) cosine += Real(rays.to.dir[k][i]) * Real(view.forward[k]);
@@ -269,37 +282,49 @@ TEST_P(EachKernel, SumsAddWhatSamplesShowAndCover) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 1);
     const float background[3] = {0.25f, 0.5f, 3.0f};
-    for (size_t count : {1u, 3u, 16u, 37u})
-        for (const float* back : {static_cast<const float*>(nullptr), background}) {
-            std::vector<float> in[6];
-            std::vector<double> sum[4];
-            for (auto& s : sum) s.assign(count + 8, 2.5);
-            const PixelSums sums{{sum[0].data(), sum[1].data(), sum[2].data()}, sum[3].data()};
-            std::vector<Real> truth(4 * count, 2.5L);
-            for (int sample = 0; sample < 5; ++sample) {
-                for (auto& column : in) {
-                    column.resize(count);
-                    for (float& f : column) f = unit(random);
-                }
-                const float* color[3] = {in[0].data(), in[1].data(), in[2].data()};
-                const float* through[3] = {in[3].data(), in[4].data(), in[5].data()};
-                kernels().add(count, color, through, back, sums);
-                for (size_t i = 0; i < count; ++i) {
-                    Real through_all = 0;
-                    for (size_t k = 0; k < 3; ++k) {
-                        truth[4 * i + k] += Real(in[k][i]);
-                        if (back) truth[4 * i + k] += Real(in[3 + k][i]) * Real(back[k]);
-                        through_all += Real(in[3 + k][i]);
+    for (size_t pixels : {1u, 3u, 16u, 37u})
+        for (size_t n : {1u, 2u, 3u, 4u, 5u, 8u, 16u, 31u})
+            for (const float* back : {static_cast<const float*>(nullptr), background}) {
+                std::vector<float> in[6];
+                std::vector<double> sums(4 * pixels + 8, 2.5);
+                std::vector<Real> truth(4 * pixels, 2.5L);
+                for (int chunk = 0; chunk < 3; ++chunk) {
+                    for (auto& column : in) {
+                        column.resize(pixels * n);
+                        for (float& f : column) f = unit(random);
                     }
-                    truth[4 * i + 3] += back ? 1 : 1 - through_all / 3;
+                    const float* color[3] = {in[0].data(), in[1].data(), in[2].data()};
+                    const float* through[3] = {in[3].data(), in[4].data(), in[5].data()};
+                    kernels().add(pixels, n, color, through, back, sums.data());
+                    for (size_t i = 0; i < pixels * n; ++i) {
+                        Real through_all = 0;
+                        for (size_t k = 0; k < 3; ++k) {
+                            truth[4 * (i / n) + k] += Real(in[k][i]);
+                            if (back) truth[4 * (i / n) + k] += Real(in[3 + k][i]) * Real(back[k]);
+                            through_all += Real(in[3 + k][i]);
+                        }
+                        truth[4 * (i / n) + 3] += back ? 1 : 1 - through_all / 3;
+                    }
                 }
+                for (size_t i = 0; i < truth.size(); ++i)
+                    EXPECT_NEAR(sums[i], double(truth[i]), 1e-14 * 300);
+                for (size_t i = truth.size(); i < sums.size(); ++i) EXPECT_EQ(sums[i], 2.5);
             }
-            for (size_t i = 0; i < count; ++i)
-                for (size_t k = 0; k < 4; ++k)
-                    EXPECT_NEAR(sum[k][i], double(truth[4 * i + k]), 1e-14 * 20);
-            for (const auto& s : sum)
-                for (size_t i = count; i < s.size(); ++i) EXPECT_EQ(s[i], 2.5);
-        }
+}
+
+// In the order of the samples, each sum rounded: what no tile and no chunk changes.
+TEST_P(EachKernel, SumsAreRoundedSampleBySample) {
+    const float big = 0x1p60f, one = 1;
+    for (size_t n : {3u, 4u, 8u}) {
+        std::vector<float> color(n, one), clear(n, one);
+        color[0] = big, color[2] = -big;  // 2^60 + 1 is 2^60 in double
+        const float *red[3] = {color.data(), color.data(), color.data()},
+                    *through[3] = {clear.data(), clear.data(), clear.data()};
+        double sums[4] = {};
+        kernels().add(1, n, red, through, nullptr, sums);
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(sums[k], double(n - 3));
+        EXPECT_EQ(sums[3], 0);
+    }
 }
 
 TEST_P(EachKernel, TheMeanOfAMillionSamplesDoesNotDrift) {
@@ -321,15 +346,12 @@ TEST_P(EachKernel, TheMeanOfAMillionSamplesDoesNotDrift) {
 
 TEST_P(EachKernel, SamplesThatStopAllOrNothingSumExactly) {
     std::vector<float> zero(16, 0.0f), one(16, 1.0f);
-    std::vector<double> sum[4];
-    for (auto& s : sum) s.assign(16, 0.0);
-    const PixelSums sums{{sum[0].data(), sum[1].data(), sum[2].data()}, sum[3].data()};
+    std::vector<double> sums(64, 0.0);
     const float *black[3] = {zero.data(), zero.data(), zero.data()},
                 *white[3] = {one.data(), one.data(), one.data()};
-    for (int i = 0; i < 7; ++i) kernels().add(16, white, black, nullptr, sums);
-    for (int i = 0; i < 5; ++i) kernels().add(16, black, white, nullptr, sums);
-    for (const auto& s : sum)
-        for (double total : s) EXPECT_EQ(total, 7);
+    for (int i = 0; i < 7; ++i) kernels().add(16, 1, white, black, nullptr, sums.data());
+    for (int i = 0; i < 5; ++i) kernels().add(16, 1, black, white, nullptr, sums.data());
+    for (double total : sums) EXPECT_EQ(total, 7);
 }
 
 // Every instruction set, every count, and nothing behind the end.
@@ -345,24 +367,28 @@ TEST(PixelKernels, GiveTheSameBits) {
             view.clip = count % 3 == 0;
             const FilterTable* filter = count % 4 ? &tables[count % 2] : nullptr;
             const uint32_t seed = uint32_t(random());
-            const SampleBits sample = sample_bits(uint32_t(random() % 4096));
+            const size_t n = size_t(random() % (count % 2 ? 5 : 90) + 1);
+            std::vector<SampleBits> samples;
+            for (size_t i = 0; i < n; ++i)
+                samples.push_back(sample_bits(uint32_t(random() % 4096)));
             Pixels a(count, 13), b(count, 13);
             a.set.x0 = b.set.x0 = uint32_t(random() % 60000);
             plain.scrambles(a.set, seed);
             usable.kernels[k]->scrambles(b.set, seed);
             EXPECT_EQ(a.scramble[0], b.scramble[0]);
             EXPECT_EQ(a.scramble[1], b.scramble[1]);
-            Rays one(count), other(count);
-            plain.rays(view, a.set, sample, filter, one.to);
-            usable.kernels[k]->rays(view, b.set, sample, filter, other.to);
+            Rays one(count * n), other(count * n);
+            plain.rays(view, a.set, samples.data(), n, filter, one.to);
+            usable.kernels[k]->rays(view, b.set, samples.data(), n, filter, other.to);
             EXPECT_EQ(one.x, other.x);
             EXPECT_EQ(one.y, other.y);
+            EXPECT_EQ(one.sample, other.sample);
             for (size_t c = 0; c < one.columns.size(); ++c) {
                 ASSERT_EQ(std::memcmp(one.columns[c].data(), other.columns[c].data(),
                                       one.columns[c].size() * sizeof(float)),
                           0)
                     << usable.kernels[k]->name << " column " << c << " of " << count;
-                for (size_t i = count; i < count + 16; ++i)
+                for (size_t i = count * n; i < count * n + 16; ++i)
                     ASSERT_EQ(other.columns[c][i], kUntouched);
             }
         }
@@ -382,13 +408,13 @@ TEST(PixelKernels, OfSumsGiveTheSameBits) {
         const float background[3] = {0.1f, 0.7f, 1e-3f};
         std::vector<double> first;
         for (size_t k = 0; k < usable.count; ++k) {
-            std::vector<double> all(8 * count, 0.3);
+            std::vector<double> all(16 * count, 0.3);
             double* at = all.data();
-            for (const float* back : {static_cast<const float*>(nullptr), background}) {
-                usable.kernels[k]->add(count, color, through, back,
-                                       {{at, at + count, at + 2 * count}, at + 3 * count});
-                at += 4 * count;
-            }
+            for (const float* back : {static_cast<const float*>(nullptr), background})
+                for (auto [pixels, n] : {std::pair(count, size_t(1)), {size_t(1), count}}) {
+                    usable.kernels[k]->add(pixels, n, color, through, back, at);
+                    at += 4 * count;
+                }
             if (k == 0) first = all;
             ASSERT_EQ(std::memcmp(first.data(), all.data(), all.size() * sizeof(double)), 0);
         }
