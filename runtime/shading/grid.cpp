@@ -2,11 +2,14 @@
 #include "runtime/shading/grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "raytrace/hits.h"
+#include "runtime/columns/kernels.h"
 #include "runtime/description/affine_map.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
@@ -148,6 +151,34 @@ struct Triple {
     }
 };
 
+// Up to sixteen points of a grid, whose hits often lie one behind the other.
+class SixteenPoints {
+  public:
+    SixteenPoints(std::span<const uint32_t> points, size_t first, size_t end)
+        : hit_(points.data() + first),
+          count_(std::min(kColumnPoints, end - first)),
+          dense_(count_ == kColumnPoints &&
+                 hit_[kColumnPoints - 1] - hit_[0] == kColumnPoints - 1 &&
+                 std::is_sorted(hit_, hit_ + kColumnPoints)) {}
+
+    size_t count() const { return count_; }
+    uint32_t hit(size_t i) const { return hit_[i < count_ ? i : 0]; }
+    // A column of hits at these points, in `room` where it is not there in one piece.
+    const float* at(const float* column, float (&room)[kColumnPoints]) const {
+        if (dense_) return column + hit_[0];
+        for (size_t i = 0; i < kColumnPoints; ++i) room[i] = column[hit(i)];
+        return room;
+    }
+    TripleColumns at(const float* const columns[3], float (&room)[3][kColumnPoints]) const {
+        return {{at(columns[0], room[0]), at(columns[1], room[1]), at(columns[2], room[2])}};
+    }
+
+  private:
+    const uint32_t* hit_;
+    size_t count_;
+    bool dense_;
+};
+
 // A grid's columns filled run by run: hits of one row share all but their point on the triangle.
 class HitSource : public PointSource {
   public:
@@ -172,6 +203,9 @@ class HitSource : public PointSource {
     }
 
     void fill(const PointColumns&) override {
+        if (P_) positions();
+        if (I_ && !volume_) directions();
+        if (Ng_) geometric_normals();
         for (size_t begin = 0; begin < grid_.count();) {
             uint32_t row = hits_.instance[grid_.points[begin]];
             size_t end = begin + 1;
@@ -182,9 +216,7 @@ class HitSource : public PointSource {
                 continue;
             }
             enter(row);
-            if (P_) positions(begin, end);
-            if (I_) volume_ ? segments(begin, end) : directions(begin, end);
-            if (Ng_) geometric_normals(begin, end);
+            if (I_ && volume_) segments(begin, end);
             if (N_) normals(begin, end);
             if (parameters_)
                 for (size_t i = begin; i < end; ++i) parameters_at(i);
@@ -229,15 +261,26 @@ class HitSource : public PointSource {
             hits_.u[hit], hits_.v[hit]};
     }
 
-    void positions(size_t begin, size_t end) const {
-        for (size_t i = begin; i < end; ++i)
-            P_.set(i, rotation_ * (triple(hits_.P, grid_.points[i]) - eye_));
-    }
-    void directions(size_t begin, size_t end) const {
-        for (size_t i = begin; i < end; ++i) {
-            uint32_t hit = grid_.points[i];
-            I_.set(i, rotation_ * (triple(hits_.P, hit) - triple(hits_.org, hit)));
+    // Calls f(points, to): a block of the grid's points and the block's rows of `triple`.
+    template <class F>
+    void for_each_block(const Triple& triple, F&& f) const {
+        for (size_t i = 0; i < grid_.count(); i += kColumnPoints) {
+            float* const to[3] = {triple.c[0] + i, triple.c[1] + i, triple.c[2] + i};
+            f(SixteenPoints(grid_.points, i, grid_.count()), to);
         }
+    }
+    void positions() const {
+        for_each_block(P_, [&](const SixteenPoints& points, float* const to[3]) {
+            float room[3][kColumnPoints];
+            kernels_.turn_from(&rotation_[0][0], points.at(hits_.P, room), &eye_.x, to);
+        });
+    }
+    void directions() const {
+        for_each_block(I_, [&](const SixteenPoints& points, float* const to[3]) {
+            float room[3][kColumnPoints], more[3][kColumnPoints];
+            kernels_.turn_between(&rotation_[0][0], points.at(hits_.P, room),
+                                  points.at(hits_.org, more), to);
+        });
     }
     // Volumes see the way through themselves: from the last surface (or the eye) to P.
     void segments(size_t begin, size_t end) const {
@@ -250,47 +293,66 @@ class HitSource : public PointSource {
     void open_ends(size_t begin, size_t end) {
         for (float* rows : grid_.columns)
             if (rows) std::fill(rows + begin, rows + end, 0.0f);
-        if (P_) positions(begin, end);
-        if (I_) segments(begin, end);
         for (size_t i = begin; i < end; ++i) {
+            if (P_) P_.set(i, rotation_ * (triple(hits_.P, grid_.points[i]) - eye_));
             vec3 back = rotation_ * -glm::normalize(triple(hits_.dir, grid_.points[i]));
             if (N_) N_.set(i, back);
             if (Ng_) Ng_.set(i, back);
         }
+        if (I_) segments(begin, end);
         if (matrices_) matrices(begin, end);
     }
-    void geometric_normals(size_t begin, size_t end) const {
-        for (size_t i = begin; i < end; ++i)
-            Ng_.set(i, rotation_ * triple(hits_.Ng, grid_.points[i]));
+    void geometric_normals() const {
+        for_each_block(Ng_, [&](const SixteenPoints& points, float* const to[3]) {
+            float room[3][kColumnPoints];
+            kernels_.turn(&rotation_[0][0], points.at(hits_.Ng, room), to);
+        });
     }
+    vec3 geometric_normal(size_t i) const { return rotation_ * triple(hits_.Ng, grid_.points[i]); }
     // Unit where the mixture would not come out as between the normals of a still, baked mesh.
     vec3 current_normal(vec3 entry) const {
         vec3 n = normals_ * entry;
         return unit_corners_ ? unit_or_zero(n) : n;
     }
-    vec3 current_normal(const vec4& entry) const { return current_normal(vec3(entry)); }
     void normals(size_t begin, size_t end) const {
         if (mesh_->groups[surface_->group].flat()) {
-            for (size_t i = begin; i < end; ++i)
-                N_.set(i, rotation_ * triple(hits_.Ng, grid_.points[i]));
+            for (size_t i = begin; i < end; ++i) N_.set(i, geometric_normal(i));
             return;
         }
+        if (unit_corners_)
+            for (size_t i = begin; i < end; ++i) stretched_normal(i);
+        else
+            for (size_t i = begin; i < end; i += kColumnPoints) sixteen_normals(i, end);
+    }
+    // A normal that vanishes gives way to the geometric one (docs/numerics.md#geometry).
+    void sixteen_normals(size_t first, size_t end) const {
         const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
         const vec4* entries = shape_->rest_normals.data();
-        for (size_t i = begin; i < end; ++i) {
-            uint32_t hit = grid_.points[i];
+        const SixteenPoints points(grid_.points, first, end);
+        CornerNormals at;
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            const uint32_t hit = points.hit(i);
             const uint32_t* c = corners + 3 * size_t(hits_.primitive[hit]);
-            float u = hits_.u[hit], v = hits_.v[hit];
-            vec3 N = unit_corners_
-                         ? (1 - u - v) * current_normal(entries[c[0]]) +
-                               u * current_normal(entries[c[1]]) + v * current_normal(entries[c[2]])
-                         : normals_ * vec3((1 - u - v) * entries[c[0]] + u * entries[c[1]] +
-                                           v * entries[c[2]]);
-            float square = glm::dot(N, N);
-            // A normal that vanishes gives way to the geometric one (docs/numerics.md#geometry).
-            bool sound = square > 0 && square < std::numeric_limits<float>::infinity();
-            N_.set(i, sound ? N / std::sqrt(square) : rotation_ * triple(hits_.Ng, hit));
+            for (int k = 0; k < 3; ++k) std::memcpy(at.corner[k][i], &entries[c[k]], sizeof(vec4));
+            at.u[i] = hits_.u[hit];
+            at.v[i] = hits_.v[hit];
         }
+        float found[3][kColumnPoints];
+        float* const to[3] = {found[0], found[1], found[2]};
+        uint32_t unsound = kernels_.mix_normals(&normals_[0][0], at, to);
+        for (size_t k = 0; k < 3; ++k) std::copy_n(found[k], points.count(), N_.c[k] + first);
+        for (unsound &= (1u << points.count()) - 1; unsound; unsound &= unsound - 1) {
+            const size_t i = first + size_t(std::countr_zero(unsound));
+            N_.set(i, geometric_normal(i));
+        }
+    }
+    void stretched_normal(size_t i) const {
+        const Corner c = corner(i);
+        const vec3 N = (1 - c.u - c.v) * current_normal(c.normal(0)) +
+                       c.u * current_normal(c.normal(1)) + c.v * current_normal(c.normal(2));
+        const float square = glm::dot(N, N);
+        const bool sound = square > 0 && square < std::numeric_limits<float>::infinity();
+        N_.set(i, sound ? N / std::sqrt(square) : geometric_normal(i));
     }
 
     void parameters_at(size_t i) const {
@@ -379,6 +441,7 @@ class HitSource : public PointSource {
     Grid& grid_;
     const raytrace::HitBatch& hits_;
     const Scene& scene_;
+    const ColumnKernels& kernels_ = column_kernels();
     mat3 rotation_;
     vec3 eye_;
     Triple P_, I_, N_, Ng_, dPdu_, dPdv_, dIdu_, dIdv_, dNdu_, dNdv_;

@@ -123,13 +123,54 @@ void sort_by_counting(const uint32_t* look, size_t looks, std::span<uint32_t> or
 
 }  // namespace
 
+namespace {
+
+// Bits of a number below 8, two places apart.
+constexpr uint32_t kSpread[] = {0, 1, 8, 9, 64, 65, 72, 73};
+
+// The cell of each hit among 8 x 8 x 8 of the hits' box, such that cells of near numbers are near.
+void find_cells(const raytrace::HitBatch& hits, std::span<uint32_t> cell) {
+    std::fill(cell.begin(), cell.end(), 0u);
+    for (int k = 0; k < 3; ++k) {
+        const float* P = hits.P[k];
+        const auto [low, high] = std::minmax_element(P, P + hits.count);
+        const float scale = 7.99f / (*high - *low);
+        if (!(scale > 0 && scale < 1e30f)) continue;
+        for (size_t i = 0; i < hits.count; ++i)
+            cell[i] |= kSpread[uint32_t(std::min(std::max(0.0f, (P[i] - *low) * scale), 7.0f))]
+                       << k;
+    }
+}
+
+// Hits of rays that scatter lie anywhere: in the order of place, those that are shaded together
+// read the same triangles, and what they send leaves from near places. What a hit shows does not
+// depend on its neighbours.
+void sort_by_place(const raytrace::HitBatch& hits, std::span<const uint32_t> look, size_t looks,
+                   std::span<uint32_t> order, Arena& arena) {
+    constexpr size_t kCells = 512;
+    std::span<uint32_t> cell = arena.allocate_span<uint32_t>(hits.count);
+    std::span<uint32_t> by_cell = arena.allocate_span<uint32_t>(hits.count);
+    std::span<uint32_t> next = arena.allocate_span<uint32_t>(looks + 1);
+    find_cells(hits, cell);
+    sort_by_counting(cell.data(), kCells, by_cell, arena);
+    std::fill(next.begin(), next.end(), 0u);
+    for (uint32_t l : look) ++next[l + 1];
+    for (size_t l = 0; l < looks; ++l) next[l + 1] += next[l];
+    for (uint32_t i : by_cell) order[next[look[i]]++] = i;
+}
+
+}  // namespace
+
 std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
                                       Arena& arena) {
     std::span<uint32_t> look = arena.allocate_span<uint32_t>(hits.count);
     for (size_t i = 0; i < hits.count; ++i) look[i] = scene.surfaces[hits.instance[i]].look;
     std::span<uint32_t> order = arena.allocate_span<uint32_t>(hits.count);
+    constexpr size_t kScattered = 64;  // hits from which their places are worth an order
     if (hits.count < scene.shader_instances.size())
         sort_few(look.data(), order);
+    else if (hits.depth > 0 && hits.count >= kScattered)
+        sort_by_place(hits, look, scene.shader_instances.size(), order, arena);
     else
         sort_by_counting(look.data(), scene.shader_instances.size(), order, arena);
     std::span<LookRun> runs =

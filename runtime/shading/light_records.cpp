@@ -48,6 +48,15 @@ const float* ones_column(Arena& arena, size_t count) {
     return column.data();
 }
 
+// Whether the points are hits one behind the other, from the first of a vector on: then columns of
+// hits are columns of the points.
+bool lie_in_order(std::span<const uint32_t> points) {
+    if (points.front() % jit::kMaxLanes != 0) return false;
+    for (size_t i = 1; i < points.size(); ++i)
+        if (points[i] != points[0] + i) return false;
+    return true;
+}
+
 uint32_t bits(float x) {
     return uint32_t(jit::bits_of(x));
 }
@@ -86,25 +95,22 @@ void LightRecords::run(Grid& grid) {
     size_t count = grid.count();
     LightPoints at;
     at.count = count;
+    const bool dense = lie_in_order(grid.points);
+    auto of_points = [&](const auto* column) {
+        if (dense) return column + grid.points[0];
+        auto* found = arena.allocate_span<std::decay_t<decltype(*column)>>(padded(count)).data();
+        for (size_t i = 0; i < count; ++i) found[i] = column[grid.points[i]];
+        return static_cast<decltype(column)>(found);
+    };
     for (size_t k = 0; k < 3; ++k) {
         at.P[k] = grid.columns[kColP + k];
         at.N[k] = grid.columns[kColN + k];
-        float* accel = arena.allocate_span<float>(padded(count)).data();
-        float* error = arena.allocate_span<float>(padded(count)).data();
-        float* Ng = arena.allocate_span<float>(padded(count)).data();
-        for (size_t i = 0; i < count; ++i) {
-            accel[i] = grid.hits.P[k][grid.points[i]];
-            error[i] = grid.hits.P_error[k][grid.points[i]];
-            Ng[i] = grid.hits.Ng[k][grid.points[i]];
-        }
-        at.accel[k] = accel;
-        at.error[k] = error;
-        at.Ng[k] = Ng;
+        at.accel[k] = of_points(grid.hits.P[k]);
+        at.error[k] = of_points(grid.hits.P_error[k]);
+        at.Ng[k] = of_points(grid.hits.Ng[k]);
     }
     at.rng = grid.columns[kColRng];
-    std::span<uint32_t> surface = arena.allocate_span<uint32_t>(count);
-    for (size_t i = 0; i < count; ++i) surface[i] = grid.hits.instance[grid.points[i]];
-    at.surface = surface.data();
+    at.surface = of_points(grid.hits.instance);
     grid.record_sets[0] = make_records(grid, at);
 }
 
