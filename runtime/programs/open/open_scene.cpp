@@ -28,31 +28,18 @@ int scaled(const SceneRequest& request, double pixels) {
 
 SceneOptions scene_options(const SceneRequest& request) {
     SceneOptions o;
+    set_quality(o, request.quality);
     o.camera = request.camera;
     o.view.follow = request.follow;
     o.view.yfov = request.yfov;
     o.view.from = request.look_from;
     o.view.at = parse_point(request.look_at);
     if (!o.view.at) o.view.at_node = request.look_at;
-    o.math = request.quality.math;
     o.target = request.target;
-    o.shadows = request.quality.shadows;
     o.lights = request.lights;
-    o.ray_depth = request.quality.ray_depth;
-    o.diffuse_depth = request.quality.diffuse_depth;
-    o.split = request.quality.split;
-    o.ray_limit = request.quality.ray_limit;
-    o.accel.robust = request.quality.robust;
-    o.accel.always_rebuild = request.quality.always_rebuild;
-    o.accel.refit_limit = float(request.quality.refit_limit);
     o.accel.background = false;  // a frame depends on its time alone
     o.decode_textures = request.color == ColorEncoding::Srgb;
-    o.light_samples = request.quality.light_samples;
     o.aovs = request.aovs;
-    o.displacement = request.quality.displacement;
-    o.skin_method = request.quality.skin_method;
-    o.influences = uint32_t(request.quality.influences);
-    o.dice = request.quality.dice;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
     o.width = scaled(request, request.width ? request.width : 640);
     o.height = request.height ? scaled(request, request.height) : 0;
@@ -117,6 +104,23 @@ void set_range(ImportedScene& imported, const SceneRequest& request) {
 }
 
 }  // namespace
+
+void set_quality(SceneOptions& o, const Quality& quality) {
+    o.math = quality.math;
+    o.shadows = quality.shadows;
+    o.ray_depth = quality.ray_depth;
+    o.diffuse_depth = quality.diffuse_depth;
+    o.split = quality.split;
+    o.ray_limit = quality.ray_limit;
+    o.accel.robust = quality.robust;
+    o.accel.always_rebuild = quality.always_rebuild;
+    o.accel.refit_limit = float(quality.refit_limit);
+    o.light_samples = quality.light_samples;
+    o.displacement = quality.displacement;
+    o.skin_method = quality.skin_method;
+    o.influences = uint32_t(quality.influences);
+    o.dice = quality.dice;
+}
 
 std::optional<dvec3> parse_point(const std::string& text) {
     dvec3 p;

@@ -28,6 +28,9 @@ std::optional<dvec3> parse_point(const std::string& text);
 std::optional<ImportedScene> import_requested(const SceneRequest& request,
                                               Diagnostics& diagnostics);
 
+// The settings of knobs that a scene is built with.
+void set_quality(SceneOptions& options, const Quality& quality);
+
 struct BuiltScene {
     std::unique_ptr<Scene> scene;      // null: findings say why
     std::unique_ptr<Redicer> redicer;  // null where nothing is diced

@@ -19,6 +19,7 @@
 #include "runtime/programs/render/frames_to_render.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/programs/render/stats.h"
+#include "runtime/programs/tradeoff/tradeoff.h"
 
 namespace kinora {
 
@@ -63,6 +64,7 @@ class Render {
             return kExitOk;
         }
         dump();
+        if (!options_.tradeoff.empty()) return tradeoff();
         bool pictures =
             !options_.output.empty() || !options_.contact_sheet.empty() || options_.discard;
         int code = pictures ? frames() : int(kExitOk);
@@ -79,6 +81,7 @@ class Render {
     void dump() const;
     void print_explained() const;
     int frames();
+    int tradeoff();
     int report_unreadable() const;
     int report_unwritable(const std::string& file, const std::string& error, int number);
     ptrdiff_t unwritable() const;
@@ -92,6 +95,7 @@ class Render {
     Diagnostics diagnostics_;
     FindingPrinter printer_;
     BuiltScene built_;
+    std::optional<ImportedScene> unbuilt_;  // for --tradeoff
     FrameSettings settings_;
     PlacedCamera placed_;
     raytrace::Film film_;
@@ -129,6 +133,7 @@ int Render::load() {
     imported->options.want_dumps = !options_.dump.empty();
     bool good = !options_.session ||
                 apply_edits(*imported, options_.session->edits, options_, diagnostics_);
+    if (!options_.tradeoff.empty()) unbuilt_ = *imported;
     if (good) built_ = build_imported(std::move(*imported), diagnostics_);
     build_ms_ = watch.ms();
     flush_findings();
@@ -318,6 +323,34 @@ int Render::frames() {
         }
     }
     return result;
+}
+
+int Render::tradeoff() {
+    if (int code = try_tradeoff_folder(options_.tradeoff)) return code;
+    catch_signals();
+    const SceneOptions& played = built_.scene->options;
+    auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
+    if (!list) return kExitUsage;
+    RenderOptions plain = options_;
+    plain.quality = *find_quality(kDefaultQuality);
+    std::string print =
+        fingerprint(plain, hash_inputs(diagnostics_.files, *built_.scene->description),
+                    options_.width, options_.height, rate_.value(), 0);
+    built_ = {};  // its memory is for the scenes to come
+    TradeResults results;
+    bool measured = measure_tradeoff({.scene = options_,
+                                      .imported = *unbuilt_,
+                                      .frames = std::move(*list),
+                                      .fingerprint = std::move(print),
+                                      .budget_s = options_.budget,
+                                      .tell = !options_.findings.quiet,
+                                      .stop = &g_signal},
+                                     diagnostics_, results);
+    flush_findings();
+    if (g_signal) return 128 + g_signal;
+    if (!measured) return kExitSomeFailed;
+    std::fputs(tradeoff_text(results).c_str(), stdout);
+    return write_tradeoff(results, options_.tradeoff);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ struct Given {
     std::optional<size_t> dice_limit;
     std::vector<std::string> shaders, params;
     bool overwrite = false;
-    std::string stats, progress, session;
+    std::string stats, progress, session, budget;
 };
 
 // Which pictures are written.
@@ -290,6 +290,11 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_flag("--json", o.json, "the list as JSON")->needs(list);
     add_list(app, "--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm", ',');
     app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
+    auto* trade = app.add_option("--tradeoff", o.tradeoff,
+                                 "FOLDER: renders no frames, but measures what each setting of "
+                                 "--knobs costs and gets wrong: tradeoff.html, .json and .csv");
+    app.add_option("--budget", given.budget, "wall time of --tradeoff: 120s, 5m (120s)")
+        ->needs(trade);
 }
 
 void interpret_quality(const Given& given, RenderOptions& o) {
@@ -323,9 +328,36 @@ void interpret_changes(const Given& given, RenderOptions& o) {
     }
 }
 
+// "120s", "2m", "1h" or seconds.
+double parse_budget(const std::string& text) {
+    constexpr double kLeastSeconds = 1, kMostBudget = 1e6;
+    double seconds = 0;
+    const char* last = text.data() + text.size();
+    auto [end, error] = std::from_chars(text.data(), last, seconds);
+    std::string_view unit(end, size_t(last - end));
+    if (unit == "m") seconds *= 60;
+    if (unit == "h") seconds *= 3600;
+    bool known = unit.empty() || unit == "s" || unit == "m" || unit == "h";
+    if (error != std::errc() || !known || !(seconds >= kLeastSeconds && seconds <= kMostBudget))
+        throw CLI::ValidationError("--budget",
+                                   "takes seconds or 120s, 5m, 1h, from 1s on; not '" + text + "'");
+    return seconds;
+}
+
+void interpret_tradeoff(const Given& given, RenderOptions& o) {
+    if (!given.budget.empty()) o.budget = parse_budget(given.budget);
+    if (o.tradeoff.empty()) return;
+    if (!o.output.empty() || !o.contact_sheet.empty())
+        throw CLI::ValidationError("--tradeoff",
+                                   "writes its own files: leave -o and "
+                                   "--contact-sheet out");
+    if (o.session) throw CLI::ValidationError("--tradeoff", "takes a scene, not a session");
+}
+
 void interpret_output(const Given& given, RenderOptions& o) {
+    interpret_tradeoff(given, o);
     if (o.list.empty() && o.output.empty() && o.contact_sheet.empty() && o.dump.empty() &&
-        o.explain.empty())
+        o.explain.empty() && o.tradeoff.empty())
         throw CLI::RequiredError("-o FILE (or --list, --explain, --dump)");
     o.discard = o.output == "null";
     if (o.discard) o.output.clear();

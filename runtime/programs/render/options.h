@@ -17,6 +17,8 @@ struct RenderOptions : SceneRequest {
     std::string output;
     bool discard = false;  // -o null: pictures are rendered and not written
     std::string contact_sheet;
+    std::string tradeoff;  // folder
+    double budget = 120;   // seconds
     std::optional<std::vector<int64_t>> frames;
     std::optional<double> time;  // seconds: one frame at that time
     bool skip_existing = false;

@@ -1,0 +1,84 @@
+// runtime/programs/tradeoff/renders.cpp: builds, poses, renders and reads the CPU's clock.
+#include "runtime/programs/tradeoff/renders.h"
+
+#include <ctime>
+
+#include "runtime/base/stats.h"
+#include "runtime/trade/knobs.h"
+
+namespace kinora {
+
+double process_cpu_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
+}
+
+std::unique_ptr<Scene> TradeRenders::build(const Quality& quality) {
+    ImportedScene imported = request_.imported;
+    set_quality(imported.options, quality);
+    const size_t known = diagnostics_.findings().size();
+    BuiltScene built = build_imported(std::move(imported), diagnostics_);
+    diagnostics_.drop_repeats(known);
+    return std::move(built.scene);
+}
+
+FrameSettings TradeRenders::settings_of(Scene& scene) {
+    return frame_settings(request_.scene, scene, diagnostics_, request_.stop);
+}
+
+void TradeRenders::set_size(int width, int height) {
+    settings_.width = width;
+    settings_.height = height;
+}
+
+bool TradeRenders::pose(Scene& scene, double time) {
+    FrameStats stats;
+    const size_t known = diagnostics_.findings().size();
+    bool posed = pose_frame(scene, time, settings_, stats, diagnostics_);
+    diagnostics_.drop_repeats(known);
+    return posed;
+}
+
+bool TradeRenders::render(Scene& scene, const Quality& quality, const TradeFrame& frame,
+                          uint32_t seed, raytrace::Film& film, FrameStats& stats) {
+    FrameSettings settings = settings_;
+    settings.integrator.samples_per_pixel = quality.samples_per_pixel;
+    settings.integrator.filter = &raytrace::pixel_filters()[size_t(quality.filter)];
+    SceneRequest seeded;
+    seeded.seed = request_.scene.seed + seed;
+    settings.integrator.seed = frame_seed(seeded, frame.number);
+    const size_t known = diagnostics_.findings().size();
+    bool whole = render_frame(scene, frame.time, settings, film, stats, diagnostics_);
+    diagnostics_.drop_repeats(known);
+    return whole;
+}
+
+TimedFrame TradeRenders::frame(Scene& scene, const Quality& quality, const TradeFrame& frame,
+                               uint32_t seed, raytrace::Film& film) {
+    TimedFrame timed;
+    if (!pose(scene, frame.before)) return timed;
+    FrameStats stats;
+    const double cpu = process_cpu_ms();
+    Stopwatch wall;
+    timed.whole = render(scene, quality, frame, seed, film, stats);
+    timed.wall_ms = wall.ms();
+    timed.cpu_ms = process_cpu_ms() - cpu;
+    double busy = 0;  // threads that wait take no CPU time
+    for (size_t s = 0; s < kStageCount; ++s)
+        if (Stage(s) != Stage::Idle) busy += stats.stages[s];
+    for (size_t s = 0; s < kStageCount; ++s)
+        if (Stage(s) != Stage::Idle && busy > 0)
+            timed.stages[s] = timed.cpu_ms * stats.stages[s] / busy;
+    return timed;
+}
+
+bool TradeRenders::centres(Scene& scene, const Quality& quality, const TradeFrame& frame,
+                           raytrace::Film& film) {
+    Quality one = quality;
+    one.samples_per_pixel = 1;
+    FrameStats stats;
+    return render(scene, one, frame, 0, film, stats);
+}
+
+}  // namespace kinora

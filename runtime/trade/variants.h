@@ -1,0 +1,34 @@
+// runtime/trade/variants.h: the settings of all knobs that a trade-off measures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/trade/knobs.h"
+
+namespace kinora {
+
+enum class VariantKind : uint8_t { Preset, Knob, Combination };
+const char* variant_kind_name(VariantKind kind);  // "preset"
+
+struct Variant {
+    VariantKind kind = VariantKind::Preset;
+    std::string name{};  // "final", "final math=fast", "combination 3"
+    size_t base = 0;     // the variant whose time its own is compared with: preview or final
+    const Knob* knob = nullptr;  // of a knob: the one that differs from the base
+    std::string setting{};       // and to what
+    Quality quality{};
+};
+
+// The presets in their order, each knob alone at each setting around `preview` and `final`, and as
+// many combinations: a Latin hypercube over the knobs, with at most final's samples. The same list
+// each time, without two of the same settings.
+std::vector<Variant> trade_variants(size_t combinations);
+
+// Whether a scene must be built again for another setting of the knob; else it says only how
+// samples are made.
+bool is_built_in(const Knob& knob);
+// Qualities with the same text have one scene.
+std::string scene_key(const Quality& quality);
+
+}  // namespace kinora
