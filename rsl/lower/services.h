@@ -15,8 +15,7 @@
 
 namespace kinora::rsl {
 
-// One number of a kernel's inputs, with or without inputs for its changes along u and v.
-enum class Slopes : uint8_t { None, Given };
+// One number of a kernel's inputs.
 jit::InputInfo input_info(const KernelKey& key, jit::Type type, jit::Rate rate, Slopes slopes);
 Value scalar_input(jit::Builder& b, const KernelKey& key, jit::Type type, jit::Rate rate);
 // All components of the input that a global is.

@@ -63,6 +63,9 @@ enum class KeyKind : uint8_t {
 // The number itself, or its change along u or v.
 enum class Partial : uint8_t { None, Du, Dv };
 
+// An input of a kernel, with or without inputs for its changes along u and v.
+enum class Slopes : uint8_t { None, Given };
+
 // What a number is a component of.
 enum class ComponentForm : uint8_t { Single, Triple, Color, Matrix };
 constexpr ComponentForm form_of(BaseType type) {

@@ -168,7 +168,6 @@ class Reference {
     void no_promise() { decide(int(sizeof(Real))); }
     // inputs.cpp
     // Of the input whose component 0 is `first`; with slopes, those that the kernel's inputs have.
-    enum class Slopes { None, Given };
     Item input(const KernelKey& first, BaseType type, Slopes slopes = Slopes::None) const;
     Real number(const KernelKey& key, Real otherwise) const;
     Item first_value(Global id);   // in the layer's "current"
