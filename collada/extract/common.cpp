@@ -149,9 +149,8 @@ void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& ef
             common.model = row.model;
         }
     if (!model) {
-        x.diag.report(Code::SCHEMA_MISSING_ELEMENT,
-                      x.where({profile.doc, technique ? technique : profile.element}), "technique",
-                      "constant> or <lambert> or <phong> or <blinn");
+        x.diag.report(Code::FX_NO_SHADING,
+                      x.where({profile.doc, technique ? technique : profile.element}));
         return;
     }
     read_params(x, {profile.doc, technique}, ParamScope::Technique, effect_number, effect);

@@ -176,6 +176,8 @@ using Kinds = std::initializer_list<std::string_view>;
 // The element that `url` of attribute `attribute` (or of the text, when that is "") names: "#id",
 // "other.dae#id", or a bare id with a warning. Reported, and null, unless its name is in `kinds`.
 Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds);
+// LINK_AMBIGUOUS where `first`, which `id` led to, is not the only one of these kinds.
+void report_ambiguous(Extraction& x, Link first, std::string_view id, Kinds kinds, Location where);
 // Of elements that share an id, so many are looked at; else links and ids multiply.
 inline constexpr size_t kMostSameId = 256;
 // The element with this id in one document whose name is in `kinds`, or null; reports nothing.

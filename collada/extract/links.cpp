@@ -28,6 +28,17 @@ const Element* find_kind(const Document& document, std::string_view id, Kinds ki
     return nullptr;
 }
 
+void report_ambiguous(Extraction& x, Link first, std::string_view id, Kinds kinds, Location where) {
+    const Element* other = first.element->next_same_id;
+    for (size_t i = 0; other && i < kMostSameId; ++i, other = other->next_same_id) {
+        if (!is_kind(other->name, kinds)) continue;
+        Finding& finding = x.diag.report(Code::LINK_AMBIGUOUS, where, id, kinds_text(kinds));
+        finding.notes.push_back({x.where(first, "id"), "this one"});
+        finding.notes.push_back({x.where({first.doc, other}, "id"), "and this one"});
+        return;
+    }
+}
+
 Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) {
     const Element& element = *from.element;
     std::string_view url = trim(attribute.empty() ? element.text : element.value(attribute));
@@ -37,8 +48,8 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
         return {};
     }
     if (url.empty()) {
-        x.diag.report(Code::SCHEMA_MISSING_ATTRIBUTE, where, element.name,
-                      attribute.empty() ? std::string_view("link") : attribute);
+        x.diag.report(Code::LINK_EMPTY, where, element.name,
+                      attribute.empty() ? std::string_view("text") : attribute);
         return {};
     }
     uint32_t doc = from.doc;
@@ -57,7 +68,10 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
         id = url.substr(hash + 1);
         if (!x.document(doc).find(id)) id = percent_decode(id);
     }
-    if (const Element* found = find_kind(x.document(doc), id, kinds)) return {doc, found};
+    if (const Element* found = find_kind(x.document(doc), id, kinds)) {
+        report_ambiguous(x, {doc, found}, url, kinds, where);
+        return {doc, found};
+    }
     if (const Element* other = x.document(doc).find(id))
         x.diag.report(Code::LINK_WRONG_TYPE, where, url, other->name, kinds_text(kinds));
     else

@@ -8,10 +8,12 @@ namespace kinora::collada {
 
 namespace {
 
-Link morph_source(Extraction& x, Link morph, std::string_view semantic) {
-    const Element* targets = morph.element->child("targets");
+Link morph_source(Extraction& x, Link link, std::string_view semantic, const Morph& morph) {
+    const Element* targets = link.element->child("targets");
     const Element* input = targets ? find_input(*targets, semantic) : nullptr;
-    return input ? resolve(x, {morph.doc, input}, "source", {"source"}) : Link{};
+    if (input) return resolve(x, {link.doc, input}, "source", {"source"});
+    x.diag.report(Code::MORPH_INPUT, morph.where, morph.id, semantic);
+    return {};
 }
 
 MorphMethod read_method(Extraction& x, Link link) {
@@ -65,6 +67,7 @@ uint32_t read_target(Extraction& x, Link source, std::string_view name, uint32_t
     std::string_view id = name;
     if (id.starts_with('#')) id.remove_prefix(1);
     const Element* element = find_kind(x.document(source.doc), id, {"geometry"});
+    if (element) report_ambiguous(x, {source.doc, element}, id, {"geometry"}, x.where(source));
     uint32_t geometry = element ? geometry_index(x, {source.doc, element}) : kNone;
     if (geometry == kNone) {
         x.diag.report(Code::MORPH_TARGET_MISSING, x.where(source), name);
@@ -78,7 +81,7 @@ uint32_t read_target(Extraction& x, Link source, std::string_view name, uint32_t
 }
 
 void read_targets(Extraction& x, Link link, Morph& morph, std::vector<uint32_t>& remap) {
-    Link source = morph_source(x, link, "MORPH_TARGET");
+    Link source = morph_source(x, link, "MORPH_TARGET", morph);
     if (!source) return;
     NameSource names = read_name_source(x, source);
     if (!x.budget.reserve(names.names.size() * 16, x.where(source))) return;
@@ -93,11 +96,8 @@ void read_weights(Extraction& x, Link link, Morph& morph, uint32_t number,
                   const std::vector<uint32_t>& remap) {
     morph.weights.assign(morph.targets.size(), 0.0);
     morph.weights_where = morph.where;
-    Link source = morph_source(x, link, "MORPH_WEIGHT");
-    if (!source) {
-        x.diag.report(Code::MORPH_WEIGHT_COUNT, morph.where, 0, remap.size());
-        return;
-    }
+    Link source = morph_source(x, link, "MORPH_WEIGHT", morph);
+    if (!source) return;
     std::vector<double> weights = read_double_source(x, source).values;
     if (weights.size() != remap.size())
         x.diag.report(Code::MORPH_WEIGHT_COUNT, x.where(source), weights.size(), remap.size());

@@ -194,8 +194,8 @@ void TriangleList::add_polygon(uint32_t first, std::span<const uint32_t> loops) 
 void TriangleList::read_polylist() {
     const Element* vcount = primitive_.element->child("vcount");
     if (!vcount) {
-        mesh_.x.diag.report(Code::SCHEMA_MISSING_ELEMENT, mesh_.x.where(primitive_), "polylist",
-                            "vcount");
+        mesh_.x.diag.report(Code::PRIM_VCOUNT, mesh_.x.where(primitive_),
+                            "<polylist> has no <vcount>");
         return;
     }
     std::vector<int32_t> counts = read_ints(mesh_.x.document(primitive_.doc), *vcount, mesh_.x.diag,

@@ -118,7 +118,11 @@ void SkinReader::read_bind_shape(const Element& element) {
     const Element* matrix = element.child("bind_shape_matrix");
     if (!matrix) return;
     std::vector<double> rows = read_doubles(x.document(doc), *matrix, x.diag);
-    if (rows.size() != 16 || !all_finite(rows.data(), 16)) return;  // reported
+    if (rows.size() < 16 || !all_finite(rows.data(), 16)) {
+        auto finite = std::ranges::count_if(rows, [](double n) { return std::isfinite(n); });
+        x.diag.report(Code::SKIN_BIND_SHAPE, x.where({doc, matrix}), finite);
+        return;
+    }
     skin.has_bind_shape_matrix = true;
     skin.bind_shape_matrix = matrix_of_rows(rows.data());
 }

@@ -117,6 +117,7 @@ bool read_accessor(Extraction& x, Link source, size_t array_length, SourceView& 
     // Blender gives the single numbers of a camera's key three <param>s: the array tells.
     std::optional<uint64_t> said = read_count(x, accessor, "count");
     report_missing(x, accessor, "count");
+    report_missing(x, accessor, "source");
     bool array_fits =
         stride > 0 && said && *said > 0 && *said == room / stride && room % stride == 0;
     if (stride < needed && !element->attribute("stride"))

@@ -79,6 +79,8 @@ Transform read_transform(Extraction& x, Link link) {
     if (usable)
         std::copy_n(numbers.begin(), std::min<size_t>(numbers.size(), row.count), v.begin());
     if (!finite) x.diag.report(Code::NODE_VALUE, x.where(link), row.name, "has a value not finite");
+    if (finite && numbers.size() < row.count)
+        x.diag.report(Code::NODE_NUMBERS, x.where(link), row.name, numbers.size(), row.count);
     if (const char* what = fault(row.kind, v)) {
         x.diag.report(Code::NODE_VALUE, x.where(link), row.name, what);
         v = row.identity;
