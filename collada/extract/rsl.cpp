@@ -1,7 +1,10 @@
 // collada/extract/rsl.cpp: profile_RSL: shader source, and which shaders a pass runs with what.
+#include <algorithm>
+
 #include "collada/document/uri.h"
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 
@@ -23,16 +26,15 @@ constexpr StageRow kStages[] = {
 constexpr std::string_view kCompiled[] = {".slo", ".slx", ".sdl", ".sdr", ".slb", ".so", ".oso"};
 
 bool is_compiled(std::string_view path, std::string_view text) {
-    for (std::string_view extension : kCompiled)
-        if (path.ends_with(extension)) return true;
+    if (std::ranges::find(kCompiled, lower_extension(path)) != std::end(kCompiled)) return true;
     return text.substr(0, 4096).find('\0') != text.npos;
 }
 
 void read_code(Extraction& x, Link link, RslShading& rsl) {
     const Document& document = x.document(link.doc);
     if (trim(link.element->text).empty()) return;
-    rsl.codes.push_back(
-        {std::string(link.element->text), document.source_map(*link.element), document.path()});
+    rsl.codes.push_back({std::string(link.element->text), document.source_map(*link.element),
+                         document.path(), false});
 }
 
 void read_include(Extraction& x, Link link, RslShading& rsl) {
@@ -52,7 +54,7 @@ void read_include(Extraction& x, Link link, RslShading& rsl) {
         x.diag.report(Code::RSL_INCLUDE_MISSING, where, url);
         return;
     }
-    RslCode code{utf8_text(std::move(*text)), {}, path};
+    RslCode code{utf8_text(std::move(*text)), {}, path, true};
     if (is_compiled(path, code.text)) {
         x.diag.report(Code::RSL_INCLUDE_COMPILED, where, url);
         return;

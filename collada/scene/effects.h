@@ -126,6 +126,7 @@ struct RslCode {
     std::string text;
     SourceMap map;     // text offset -> location in the .dae or the .sl
     std::string path;  // of the included file; the document's for <code>
+    bool included = false;
 };
 
 struct RslBind {

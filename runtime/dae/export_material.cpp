@@ -282,8 +282,8 @@ std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
     std::set<std::string> written;  // import_gltf reads each stage's code by itself
     for (const ShaderUse* use : uses) {
         if (!use->shader) continue;
-        std::string code =
-            relinked_code(rsl::print_ast(*use->shader->ast), description_.pictures, path_);
+        std::string code = relinked_code(rsl::print_ast(*use->shader->ast), description_.pictures,
+                                         link_from(path_));
         if (written.insert(code).second)
             codes +=
                 xml("code", "", collada::cdata(told(code, fmt::format("effect '{}'", effect))));

@@ -30,7 +30,7 @@ std::optional<SceneDescription> import_collada(const std::string& path,
         collada::extract(*document, diagnostics, extract_options);
     if (!data) return std::nullopt;
     bool archive = !file->folder.empty();
-    std::string folder = archive ? file->folder : document->directory();
+    std::string folder = document->directory();
     document.reset();  // the scene's data stand alone
     SceneDescription description;
     description.path = path;
@@ -38,9 +38,10 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     files->push_back(file->keep);
     description.files = std::move(files);
     limit_files(description, folder, options);
-    // An archive's pictures are in it. It is not written to: its folder is ours and dies with the
+    // An archive's files are in it. It is not written to: its folder is ours and dies with the
     // scene.
     if (archive) {
+        description.readable.add(file->folder);
         description.pictures = description.readable;
         description.writable = AllowedPaths(options.allow_external);
     }

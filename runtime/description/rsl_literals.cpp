@@ -47,21 +47,30 @@ bool may_name_file(std::string_view name) {
            !name.starts_with('/');
 }
 
-std::string relinked_code(const std::string& code, const AllowedPaths& files,
-                          const std::string& document) {
-    std::error_code error;
-    auto folder_of = [&](const fs::path& path) {
+FileLink link_from(const std::string& document) {
+    auto folder_of = [](const fs::path& path) {
+        std::error_code error;
         return fs::weakly_canonical(fs::absolute(path, error).parent_path(), error);
     };
+    return [=](const std::string& name) {
+        fs::path file = name;
+        return (folder_of(file) / file.filename())
+            .lexically_relative(folder_of(document))
+            .generic_string();
+    };
+}
+
+std::string relinked_code(const std::string& code, const AllowedPaths& files,
+                          const FileLink& link) {
+    std::error_code error;
     std::string result;
     size_t done = 0;
     for (LiteralRange range : string_literals(code)) {
         std::string_view name = std::string_view(code).substr(range.begin, range.end - range.begin);
         if (!may_name_file(name)) continue;
-        fs::path file = files.find(name).path;
+        std::string file = files.find(name).path;
         if (!fs::is_regular_file(file, error)) continue;
-        fs::path link = (folder_of(file) / file.filename()).lexically_relative(folder_of(document));
-        result += code.substr(done, range.begin - done) + link.generic_string();
+        result += code.substr(done, range.begin - done) + link(file);
         done = range.end;
     }
     return result + code.substr(done);

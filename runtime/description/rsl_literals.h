@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,13 @@ std::vector<LiteralRange> string_literals(std::string_view code);
 // A relative path, as opposed to a word such as "world".
 bool may_name_file(std::string_view name);
 
-// The code with literals that name files as they are seen from the folder of `document`. `files`
-// are what the names meant so far.
-std::string relinked_code(const std::string& code, const AllowedPaths& files,
-                          const std::string& document);
+// How code shall name a file that is there.
+using FileLink = std::function<std::string(const std::string& file)>;
+// As seen from the folder of `document`.
+FileLink link_from(const std::string& document);
+
+// The code with literals that name files as `link` gives them. `files` are what the names meant so
+// far.
+std::string relinked_code(const std::string& code, const AllowedPaths& files, const FileLink& link);
 
 }  // namespace kinora

@@ -59,7 +59,7 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
 
     GltfLooks looks(description, diagnostics);
     TextureWriter textures(description.pictures, document, buffer, losses);
-    RslWriter rsl(description, textures, losses, options.path);
+    RslWriter rsl(description, textures, losses, options.link);
     SurfaceWriter surfaces(description, textures, document, losses);
     MaterialWriter materials(description, looks, surfaces, rsl, document, losses);
     MeshWriter meshes(description, looks, materials, document, buffer, losses);

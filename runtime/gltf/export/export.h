@@ -4,13 +4,13 @@
 #include <string>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/description/rsl_literals.h"
 #include "runtime/description/scene_description.h"
 
 namespace kinora {
 
 struct GltfExportOptions {
-    // Where the file will stand, as which code names files; "" leaves the names as they are.
-    std::string path;
+    FileLink link;  // how code names files; none leaves the names as they are
     // Where a curve is none that glTF knows, it is sampled until straight pieces (slerp for
     // rotations) stay this near: translations and weights relative to the range they move over,
     // scales to their size, rotations in radians.

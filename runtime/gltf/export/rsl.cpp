@@ -42,7 +42,7 @@ Json RslWriter::shader(const ShaderUse& use) {
         result["library"] = use.shader->name;
     } else {
         std::string code = rsl::print_ast(*use.shader->ast);
-        if (!path_.empty()) code = relinked_code(code, description_.pictures, path_);
+        if (link_) code = relinked_code(code, description_.pictures, link_);
         result["code"] = collada::utf8_text(code);
         result["shader"] = use.shader->name;
     }

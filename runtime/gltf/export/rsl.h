@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "runtime/description/rsl_literals.h"
 #include "runtime/gltf/export/looks.h"
 #include "runtime/gltf/export/textures.h"
 
@@ -10,10 +11,10 @@ namespace kinora {
 
 class RslWriter {
   public:
-    // `path`: GltfExportOptions.
+    // `link`: GltfExportOptions.
     RslWriter(const SceneDescription& description, TextureWriter& textures, LossReport& losses,
-              const std::string& path)
-        : description_(description), textures_(textures), losses_(losses), path_(path) {}
+              const FileLink& link)
+        : description_(description), textures_(textures), losses_(losses), link_(link) {}
 
     // {"library": name} or {"code", "shader"}, and "params".
     Json shader(const ShaderUse& use);
@@ -32,7 +33,7 @@ class RslWriter {
     const SceneDescription& description_;
     TextureWriter& textures_;
     LossReport& losses_;
-    std::string path_;
+    FileLink link_;
 };
 
 }  // namespace kinora

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/shader_library.h"
@@ -22,7 +23,7 @@ namespace {
 
 // A string is a file's name unless it holds code.
 bool is_file_name(const std::string& text) {
-    return text.ends_with(".sl") && text.find('\n') == std::string::npos;
+    return text.find('\n') == std::string::npos && has_extension(text, {".sl"});
 }
 
 std::optional<bool> bool_member(const tinygltf::Value& object, const char* name) {

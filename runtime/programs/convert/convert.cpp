@@ -8,12 +8,16 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 
 #include "collada/document/write.h"
+#include "runtime/base/display_path.h"
+#include "runtime/base/file_extension.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/base/stats.h"
 #include "runtime/dae/export.h"
 #include "runtime/description/findings.h"
@@ -28,12 +32,6 @@ namespace kinora {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string extension(const std::string& path) {
-    std::string e = fs::path(path).extension().string();
-    for (char& c : e) c = char(std::tolower(c));
-    return e;
-}
 
 // To a temporary name beside the output, then renamed: a file that has its name is whole.
 int write_whole(const std::string& path, std::string_view bytes) {
@@ -75,7 +73,7 @@ class Conversion {
     int run() {
         Stopwatch watch;
         if (options_.threads) set_thread_count(options_.threads);
-        bool to_dae = extension(options_.output) == ".dae";
+        bool to_dae = has_extension(options_.output, {".dae"});
         if (to_dae && !is_gltf(options_.input)) {
             std::optional<std::string> text = convert_document(options_, diag_);
             if (int code = tell(text.has_value())) return code;
@@ -97,7 +95,8 @@ class Conversion {
             bytes = export_glb(scene_, gltf_options(), diag_);
         if (int code = tell(true)) return code;
         if (to_dae) return finish_collada(watch, std::move(document));
-        if (extension(options_.output) != ".gltf") return finish(bytes, watch);
+        if (int failed = write_unpacked()) return failed;
+        if (!has_extension(options_.output, {".gltf"})) return finish(bytes, watch);
         return finish_gltf(bytes, watch);
     }
 
@@ -131,12 +130,31 @@ class Conversion {
         return scene.has_value();
     }
 
-    GltfExportOptions gltf_options() const {
+    GltfExportOptions gltf_options() {
         GltfExportOptions o;
-        std::string from = extension(options_.input);
-        if (from != ".zae" && from != ".kmz") o.path = options_.output;  // whose files go
+        o.link = [this, beside = link_from(options_.output)](const std::string& file) {
+            std::string archived = unpacked_name(file);
+            return archived.empty() ? beside(file) : archived;
+        };
         o.animation_error = options_.animation_error;
         return o;
+    }
+
+    // Where a file of an archive goes, beside the output; "" for other files.
+    std::string unpacked_name(const std::string& file) {
+        std::string shown = display_path(file), archive = options_.input + "!";
+        if (shown == file || !shown.starts_with(archive)) return "";
+        std::string folder = fs::path(options_.output).stem().string() + "_files";
+        fs::path name = (folder / fs::path(shown.substr(archive.size()))).lexically_normal();
+        return unpacked_.emplace(name.generic_string(), file).first->first;
+    }
+
+    int write_unpacked() {
+        fs::path folder = fs::path(options_.output).parent_path();
+        for (const auto& [name, file] : unpacked_)
+            if (std::optional<std::string> bytes = read_regular_file(file))
+                if (int failed = write_whole((folder / name).string(), *bytes)) return failed;
+        return kExitOk;
     }
 
     int finish_collada(const Stopwatch& watch, ColladaExport result) {
@@ -222,6 +240,7 @@ class Conversion {
     Diagnostics diag_;
     FindingPrinter printer_;
     SceneDescription scene_;
+    std::map<std::string, std::string> unpacked_;  // where it goes, from the output; the file
 };
 
 }  // namespace

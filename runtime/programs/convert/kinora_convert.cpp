@@ -1,4 +1,5 @@
 // runtime/programs/convert/kinora_convert.cpp: kinora-convert's command line.
+#include "runtime/base/file_extension.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/finish.h"
 #include "runtime/programs/convert/convert.h"
@@ -21,7 +22,8 @@ void declare(CLI::App& app, Given& given, ConvertOptions& o) {
         "written; 75 retry may help.");
     app.set_version_flag("--version", "kinora-convert " KINORA_VERSION);
     app.add_option("input", o.input, "the scene: .dae, .zae, .kmz, .gltf or .glb")->required();
-    app.add_option("output", o.output, "the file to write: .glb, .gltf or .dae")->required();
+    app.add_option("-o,--output,output", o.output, "the file to write: .glb, .gltf or .dae")
+        ->required();
     add_list(app, "--shader", given.shaders,
              "NAME=SHADER: put RSL on a material or light; NAME is an id, a name or a glob, SHADER "
              "FILE.sl or one of ours; again for further stages");
@@ -56,8 +58,8 @@ void interpret(const Given& given, ConvertOptions& o) {
         throw CLI::ValidationError("--unit", "takes metres, more than 0");
     if (!(o.animation_error > 0 && o.animation_error <= 1))
         throw CLI::ValidationError("--animation-error", "takes a number from 0 to 1");
-    bool to_dae = o.output.ends_with(".dae");
-    if (!to_dae && !o.output.ends_with(".glb") && !o.output.ends_with(".gltf"))
+    bool to_dae = has_extension(o.output, {".dae"});
+    if (!has_extension(o.output, {".dae", ".glb", ".gltf"}))
         throw CLI::ValidationError("output", "takes a name that ends in .glb, .gltf or .dae");
     if (!to_dae && (o.up_axis.value_or(UpAxis::Y) != UpAxis::Y || o.meter.value_or(1) != 1))
         throw CLI::ValidationError("--up, --unit", "glTF is always y up and in metres");

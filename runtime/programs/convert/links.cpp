@@ -61,7 +61,8 @@ class LinkMove {
     LinkMove(const Document& document, std::string_view text) : document_(document), text_(text) {}
 
     // Documents that share a folder keep their links.
-    void between(const std::string& path, const std::string& new_path, const std::string& archive) {
+    void between(const std::string& path, const std::string& new_path, const std::string& archive,
+                 Diagnostics& diag) {
         std::error_code code;
         from_ = fs::weakly_canonical(fs::absolute(path), code).parent_path();
         to_ = fs::weakly_canonical(fs::absolute(new_path), code).parent_path();
@@ -70,8 +71,11 @@ class LinkMove {
         // Out of an archive everything comes along, into a folder beside the new document.
         archive_ = fs::weakly_canonical(archive, code);
         unpacked_ = fs::path(new_path).stem().string() + "_files";
+        fs::create_directories(to_, code);
         fs::copy(archive, to_ / unpacked_,
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing, code);
+        if (code)
+            diag.report(Code::CONVERT_LOST, Location{}, "what the archive holds", code.message());
     }
 
     std::string run(Diagnostics& diag) {
@@ -144,8 +148,12 @@ class LinkMove {
 
     // Textures, maps and points that shaders name.
     void move_name(const RslFileName& name) {
-        fs::path file = (from_ / name.name).lexically_normal();
-        if (is_file(file)) edits_.push_back(set_name(name, moved(file, true)));
+        for (const fs::path& folder : {from_, archive_}) {
+            fs::path file = (folder / name.name).lexically_normal();
+            if (folder.empty() || !is_file(file)) continue;
+            edits_.push_back(set_name(name, moved(file, true)));
+            return;
+        }
     }
 
     void move_include(const Element& code, collada::ByteRange range) {
@@ -207,7 +215,7 @@ std::string move_links(const std::string& path, const std::string& text,
     std::optional<Document> document = collada::read_document_text(path, text, quiet);
     if (!document || !document->whole()) return text;
     LinkMove move(*document, quiet.files.text(document->file()));
-    move.between(path, new_path, archive);
+    move.between(path, new_path, archive, diag);
     return move.run(diag);
 }
 
