@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "runtime/base/parallel.h"
+#include "runtime/base/raise_findings.h"
 #include "runtime/description/findings.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
@@ -111,6 +112,7 @@ int Render::load() {
     Stopwatch watch;
     std::optional<ImportedScene> imported = import_requested(options_, diagnostics_);
     if (!imported) {
+        raise_findings(diagnostics_, "XML_");
         flush_findings();
         return report_unreadable();
     }
