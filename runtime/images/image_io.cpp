@@ -23,6 +23,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 
 namespace kinora {
@@ -186,12 +187,6 @@ std::string write_exr_file(const std::string& path, const raytrace::Film& film,
     return sync_file(stream.get(), number);
 }
 
-std::string extension(const std::string& path) {
-    std::string text = std::filesystem::path(path).extension().string();
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return char(tolower(c)); });
-    return text;
-}
-
 namespace fs = std::filesystem;
 
 // Where a picture is until it is whole: ".NAME.PID.tmp" beside it.
@@ -257,8 +252,7 @@ Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding) {
 }
 
 bool is_image_path(const std::string& path) {
-    std::string e = extension(path);
-    return e == ".png" || e == ".exr";
+    return has_extension(path, {".png", ".exr"});
 }
 
 std::string try_image_path(const std::string& path, int* errno_out) {
@@ -305,7 +299,7 @@ std::string write_png(const std::string& path, const Image8& image, const ImageT
 
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
                         const ImageTexts& texts, int* errno_out) {
-    if (extension(path) == ".exr")
+    if (has_extension(path, {".exr"}))
         return write_whole(path, errno_out, [&](const std::string& temporary, int& number) {
             return write_exr_file(temporary, film, texts, number);
         });
@@ -362,7 +356,7 @@ bool with_png(const std::string& path, Image8* rows, Use use) {
 }  // namespace
 
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
-    if (extension(path) == ".exr") {
+    if (has_extension(path, {".exr"})) {
         try {
             Imf::RgbaInputFile file(path.c_str());
             if (!file.isComplete()) return std::nullopt;
@@ -395,7 +389,7 @@ std::optional<Image8> read_png(const std::string& path) {
 }
 
 std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding) {
-    if (extension(path) != ".exr") return read_png(path);
+    if (!has_extension(path, {".exr"})) return read_png(path);
     try {
         Imf::RgbaInputFile file(path.c_str());
         Imath::Box2i window = file.dataWindow();

@@ -1,30 +1,18 @@
 // runtime/load/import_scene.cpp: chooses the reader of a scene file.
 #include "runtime/load/import_scene.h"
 
-#include <cctype>
 #include <cstdio>
 #include <cstring>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/dae/import.h"
 #include "runtime/gltf/import/import.h"
 
 namespace kinora {
 
-namespace {
-
-bool has_extension(const std::string& path, std::string_view extension) {
-    if (path.size() < extension.size()) return false;
-    for (size_t i = 0; i < extension.size(); ++i)
-        if (std::tolower(uint8_t(path[path.size() - extension.size() + i])) != extension[i])
-            return false;
-    return true;
-}
-
-}  // namespace
-
 bool is_gltf(const std::string& path) {
-    if (has_extension(path, ".gltf") || has_extension(path, ".glb")) return true;
+    if (has_extension(path, {".gltf", ".glb"})) return true;
     OpenFile file = open_regular_file(path);
     char magic[4] = {};
     return file && std::fread(magic, 1, 4, file.get()) == 4 && std::memcmp(magic, "glTF", 4) == 0;

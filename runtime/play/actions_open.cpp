@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/play/core_p.h"
 
 namespace kinora {
@@ -10,7 +11,7 @@ namespace kinora {
 namespace {
 
 bool is_session(const std::string& file) {
-    return file.ends_with(".kinora");
+    return has_extension(file, {".kinora"});
 }
 
 // Names of the scene before.

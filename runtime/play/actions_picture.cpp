@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/play/core_p.h"
 
 namespace kinora {
@@ -137,8 +138,9 @@ CommandResult action_screenshot(PlayerCore& core, const Arguments& a) {
     std::shared_ptr<const Picture> picture = picture_now(core);
     if (!picture) return refused("there is no picture yet");
     return written(core, file,
-                   file.ends_with(".exr") ? write_image(file, picture->film, core.request.color, {})
-                                          : save_shown(*picture, file));
+                   has_extension(file, {".exr"})
+                       ? write_image(file, picture->film, core.request.color, {})
+                       : save_shown(*picture, file));
 }
 
 }  // namespace kinora

@@ -10,6 +10,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/play/session/session.h"
 
 namespace kinora {
@@ -33,7 +34,7 @@ void map_paths(Session& session, const PathMap& map) {
     for (SceneEdits::Text& text : session.edits.texts)
         if (!text.file.empty()) text.file = map(text.file);
     auto map_shader = [&](const std::string& shader) {
-        return shader.ends_with(".sl") ? map(shader) : shader;
+        return has_extension(shader, {".sl"}) ? map(shader) : shader;
     };
     for (auto& [material, shader] : session.edits.shaders) shader = map_shader(shader);
     for (std::string& word : session.options) {

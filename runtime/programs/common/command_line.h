@@ -138,11 +138,27 @@ inline std::string unexpected_word(const CLI::App& app) {
                        near.empty() ? "" : fmt::format("; did you mean {}?", near));
 }
 
+// `--size --spp 4`: no value of an option is the name of another.
+inline void refuse_options_as_values(const CLI::App& app, const std::vector<std::string>& words) {
+    for (size_t i = 0; i + 1 < words.size() && words[i] != "--"; ++i) {
+        const CLI::Option* option = app.get_option_no_throw(words[i]);
+        bool takes_value = option && words[i].starts_with("-") && option->get_items_expected_min();
+        if (takes_value && words[i + 1].starts_with("--") && app.get_option_no_throw(words[i + 1]))
+            throw CLI::ValidationError(
+                words[i], fmt::format("needs a value; '{}' is an option", words[i + 1]));
+    }
+}
+
 inline std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
     std::string text = error.what();
     constexpr std::string_view kUnconverted = "Could not convert: ";  // "... --unit = inch"
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
         text = unexpected_word(app);
+    } else if (text == "A subcommand is required") {
+        std::vector<std::string> names;
+        for (const CLI::App* command : app.get_subcommands({}))
+            names.push_back(command->get_name());
+        text = fmt::format("needs a command: {}", fmt::join(names, ", "));
     } else if (size_t equals = text.find(" = ");
                text.starts_with(kUnconverted) && equals != std::string::npos) {
         text = fmt::format("{}: '{}' is no number",
@@ -166,6 +182,7 @@ inline std::optional<int> parse_command_line(CLI::App& app, std::vector<std::str
     try {
         if (before) before();
         words = with_values(std::move(words), optional);
+        refuse_options_as_values(app, words);
         std::reverse(words.begin(), words.end());
         app.parse(std::move(words));
         interpret();

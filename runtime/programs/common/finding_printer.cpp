@@ -3,9 +3,9 @@
 #include "runtime/programs/common/finding_printer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
 
@@ -14,13 +14,6 @@ namespace kinora {
 namespace {
 
 constexpr size_t kMostOfACode = 20;
-
-bool is_collada(std::string_view scene) {
-    std::string ending(scene.substr(scene.size() - std::min(scene.size(), size_t(4))));
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return ending == ".dae" || ending == ".zae" || ending == ".kmz";
-}
 
 }  // namespace
 
@@ -47,9 +40,11 @@ bool FindingPrinter::admit(const Finding& finding) {
 void FindingPrinter::print(const Diagnostics& diagnostics) {
     const auto& findings = diagnostics.findings();
     for (; seen_ < findings.size(); ++seen_) {
-        const Finding& finding = findings[seen_];
+        Finding finding = findings[seen_];
+        bool missing = is_missing_asset(*finding.info) && finding.severity != Severity::Off;
+        missing_ |= missing;
+        if (missing && options_.strict) finding.severity = Severity::Error;
         ++counts_[size_t(finding.severity)];
-        missing_ |= is_missing_asset(*finding.info);
         if (admit(finding)) std::fputs(format_finding(finding, diagnostics.files).c_str(), stderr);
     }
 }
@@ -59,7 +54,7 @@ void FindingPrinter::summarize() {
         for (const auto& [code, count] : hidden_of_)
             std::fprintf(stderr, "kinora: %zu more of %s; -v shows all\n", count,
                          std::string(code).c_str());
-        if (for_validator_ > 0 && is_collada(scene_))
+        if (for_validator_ > 0 && has_extension(scene_, {".dae", ".zae", ".kmz"}))
             std::fprintf(stderr, "%zu more: kinora-validate %s\n", for_validator_, scene_.c_str());
         else if (for_validator_ > 0)
             std::fprintf(stderr, "%zu more: -v shows them\n", for_validator_);

@@ -314,6 +314,7 @@ std::string list_scene(const Scene& scene, const std::string& kind) {
     for (const Kind& row : kKinds)
         if (is_wanted(row.name, kind))
             for (const Json& thing : row.rows(scene)) lines += row.line(thing);
+    if (lines.empty()) lines = fmt::format("no {}\n", kind);
     for (const std::string& added : scene.added)
         lines += fmt::format("added: {} ({})\n", added, meaning_of(added));
     return lines;

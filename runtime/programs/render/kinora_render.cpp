@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "runtime/base/parallel.h"
+#include "runtime/base/raise_findings.h"
 #include "runtime/description/findings.h"
 #include "runtime/explain/explain.h"
 #include "runtime/programs/common/contact_sheet.h"
@@ -119,6 +120,7 @@ int Render::load() {
     Stopwatch watch;
     std::optional<ImportedScene> imported = import_requested(options_, diagnostics_);
     if (!imported) {
+        raise_findings(diagnostics_, "XML_");
         flush_findings();
         return report_unreadable();
     }

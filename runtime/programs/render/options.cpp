@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "runtime/base/file_extension.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/build/views.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
@@ -356,15 +358,18 @@ void interpret_tradeoff(const Given& given, RenderOptions& o) {
 
 void interpret_output(const Given& given, RenderOptions& o) {
     interpret_tradeoff(given, o);
-    if (o.list.empty() && o.output.empty() && o.contact_sheet.empty() && o.dump.empty() &&
-        o.explain.empty() && o.tradeoff.empty())
+    bool nothing = o.list.empty() && o.output.empty() && o.contact_sheet.empty() &&
+                   o.dump.empty() && o.explain.empty() && o.tradeoff.empty();
+    if (nothing && is_regular_file(o.scene))  // else what is wrong with the scene is told
         throw CLI::RequiredError("-o FILE (or --list, --explain, --dump)");
     o.discard = o.output == "null";
     if (o.discard) o.output.clear();
     if (!o.output.empty() && !is_image_path(o.output))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
+    if (!o.contact_sheet.empty() && !has_extension(o.contact_sheet, {".png"}))
+        throw CLI::ValidationError("--contact-sheet", "takes a name that ends in .png");
     bool pictures = !o.output.empty() || !o.contact_sheet.empty();
-    if (!o.aovs.empty() && pictures && !o.output.ends_with(".exr"))
+    if (!o.aovs.empty() && pictures && !has_extension(o.output, {".exr"}))
         throw CLI::ValidationError("--aov", "needs -o FILE.exr: only EXR holds further channels");
     o.stats = !given.stats.empty() && given.stats != "none";
     o.stats_json = given.stats == "json";
@@ -478,7 +483,7 @@ void override_session(const std::vector<std::string>& given, Session& session) {
 }
 
 bool is_session(const std::string& word) {
-    return word.ends_with(".kinora") && !word.starts_with("-");
+    return has_extension(word, {".kinora"}) && !word.starts_with("-");
 }
 
 // The file of `--session FILE`, or a word that ends so, which is taken out; "" none.

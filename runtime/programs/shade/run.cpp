@@ -116,7 +116,7 @@ int shade_run(const ShadeOptions& options) {
     patch.textures->report(source.diagnostics);
     source.print_findings(options);
     for (const std::string& space : kernel.unknown_spaces())
-        if (!options.quiet)
+        if (options.verbose)
             std::fprintf(stderr,
                          "kinora-shade: there is no scene that has a coordinate system '%s': here "
                          "it is the world\n",

@@ -14,6 +14,7 @@
 #include "collada/document/document.h"
 #include "collada/extract/extract.h"
 #include "collada/scene/scene.h"
+#include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 #include "runtime/profile_rsl/joined_code.h"
@@ -65,7 +66,7 @@ void take_binds(const collada::SceneData& data, const collada::Effect& effect,
 // The path of SCENE.dae or SCENE.dae#EFFECT; "" for other sources.
 std::string scene_of_source(const std::string& source) {
     std::string path = source.substr(0, source.rfind('#'));
-    return path.ends_with(".dae") || path.ends_with(".DAE") ? path : "";
+    return has_extension(path, {".dae"}) ? path : "";
 }
 
 // Where only one effect has RSL it need not be named.

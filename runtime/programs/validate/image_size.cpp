@@ -2,6 +2,7 @@
 // stand.
 #include "runtime/programs/validate/image_size.h"
 
+#include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 
 namespace kinora {
@@ -110,17 +111,13 @@ constexpr Format kFormats[] = {
     {"\x76\x2f\x31\x01", exr},
 };
 
-bool ends_with_tga(std::string_view name) {
-    return name.size() > 4 && (name.ends_with(".tga") || name.ends_with(".TGA"));
-}
-
 }  // namespace
 
 std::optional<ImageSize> image_size_of_bytes(std::string_view head, std::string_view name) {
     for (const Format& format : kFormats)
         if (head.starts_with(format.mark)) return format.size({head});
     Head h{head};
-    if (ends_with_tga(name) && head.size() >= 18)  // TGA has no mark
+    if (has_extension(name, {".tga"}) && head.size() >= 18)  // TGA has no mark
         return ImageSize{h.u16(12), h.u16(14), "tga"};
     return std::nullopt;
 }

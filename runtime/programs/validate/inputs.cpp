@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "runtime/base/file_extension.h"
 #include "runtime/programs/validate/kinora_validate.h"
 
 namespace kinora {
@@ -9,13 +10,6 @@ namespace kinora {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_scene_name(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return extension == ".dae" || extension == ".zae" || extension == ".kmz";
-}
 
 // Links to directories are not followed: they may lead back. What cannot be opened is passed over.
 void add_directory(const std::string& directory, std::vector<std::string>& files) {
@@ -28,7 +22,8 @@ void add_directory(const std::string& directory, std::vector<std::string>& files
         // Pipes and devices may never end; a link that leads nowhere is reported.
         fs::file_type type = at->status(ignored).type();
         bool file = type == fs::file_type::regular || type == fs::file_type::not_found;
-        if (is_scene_name(at->path()) && file) found.push_back(at->path().string());
+        if (file && has_extension(at->path().string(), {".dae", ".zae", ".kmz"}))
+            found.push_back(at->path().string());
     }
     std::sort(found.begin(), found.end());
     files.insert(files.end(), found.begin(), found.end());
