@@ -47,7 +47,8 @@ class Tradeoff(unittest.TestCase):
             self.assertEqual(set(row["settings"]), {knob["name"] for knob in knobs})
             self.assertEqual("errors" in row, "not_measured" not in row)
             if "knob" in row and row["settings"][row["knob"]] is not None:
-                self.assertEqual(str(row["settings"][row["knob"]]), row["setting"])
+                value = row["settings"][row["knob"]]
+                self.assertEqual(value, row["setting"] if isinstance(value, str) else float(row["setting"]))
         for row in self.rows:
             times = row["times"]
             self.assertLessEqual(times["low"], times["cpu_ms"])
@@ -120,11 +121,18 @@ class Tradeoff(unittest.TestCase):
 
 
 class Usage(ProgramTest):
+    def test_assertions_decide_the_exit_code(self):
+        words = (MATTE, "--tradeoff", self.folder, "--size", "16x12", "--budget", "20s", "-q")
+        self.expect(render(*words, "--assert", "preset=final:flip<0.5", "--assert", "preset=draft:ssim>2"),
+                    1, "error: --assert preset=draft:ssim>2: ssim is 0.")
+
     def test_mistakes_are_told(self):
         rows = [
             (("--tradeoff", self.folder, "-o", "a.png"), 2, "leave -o"),
             (("--tradeoff", self.folder, "--budget", "soon"), 2, "takes seconds"),
             (("--budget", "5s", "-o", "null"), 2, "--tradeoff"),
+            (("--assert", "preset=final:flip<1", "-o", "null"), 2, "--tradeoff"),
+            (("--tradeoff", self.folder, "--assert", "preset=final:floop<1"), 2, "'floop' is none of ms"),
             (("--tradeoff", "/proc/none/out"), 6, "cannot write '/proc/none/out'"),
         ]
         for words, code, text in rows:

@@ -20,6 +20,7 @@
 #include "runtime/programs/render/frames_to_render.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/programs/render/stats.h"
+#include "runtime/programs/tradeoff/asserts.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
 
 namespace kinora {
@@ -328,6 +329,16 @@ int Render::frames() {
 }
 
 int Render::tradeoff() {
+    std::vector<TradeAssert> asserts;
+    for (const std::string& text : options_.asserts) {
+        std::string error;
+        std::optional<TradeAssert> parsed = parse_trade_assert(text, error);
+        if (!parsed) {
+            std::fprintf(stderr, "kinora-render: --assert: %s\n", error.c_str());
+            return kExitUsage;
+        }
+        asserts.push_back(std::move(*parsed));
+    }
     if (int code = try_tradeoff_folder(options_.tradeoff)) return code;
     catch_signals();
     const SceneOptions& played = built_.scene->options;
@@ -352,7 +363,11 @@ int Render::tradeoff() {
     if (g_signal) return 128 + g_signal;
     if (!measured) return kExitSomeFailed;
     std::fputs(tradeoff_text(results).c_str(), stdout);
-    return write_tradeoff(results, options_.tradeoff);
+    if (int code = write_tradeoff(results, options_.tradeoff)) return code;
+    std::vector<std::string> broken = broken_asserts(results, asserts);
+    for (const std::string& text : broken)
+        std::fprintf(stderr, "kinora-render: error: --assert %s\n", text.c_str());
+    return broken.empty() ? kExitOk : kExitSomeFailed;
 }
 
 }  // namespace

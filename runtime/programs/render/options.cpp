@@ -297,6 +297,9 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
                                  "--knobs costs and gets wrong: tradeoff.html, .json and .csv");
     app.add_option("--budget", given.budget, "wall time of --tradeoff: 120s, 5m (120s)")
         ->needs(trade);
+    add_list(app, "--assert", o.asserts,
+             "preset=final:flip<0.01: exit 1 where --tradeoff measures otherwise (repeatable)")
+        ->needs(trade);
 }
 
 void interpret_quality(const Given& given, RenderOptions& o) {

@@ -19,6 +19,7 @@ struct RenderOptions : SceneRequest {
     std::string contact_sheet;
     std::string tradeoff;  // folder
     double budget = 120;   // seconds
+    std::vector<std::string> asserts;
     std::optional<std::vector<int64_t>> frames;
     std::optional<double> time;  // seconds: one frame at that time
     bool skip_existing = false;

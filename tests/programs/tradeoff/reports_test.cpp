@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "runtime/programs/tradeoff/asserts.h"
 #include "runtime/programs/tradeoff/plot.h"
 #include "runtime/programs/tradeoff/png_memory.h"
 #include "runtime/programs/tradeoff/thumbnails.h"
@@ -93,6 +94,34 @@ TEST(Reports, ArePagesThatEscapeAndNeedNothingElse) {
     EXPECT_NE(page.find("a&lt;b&gt;"), std::string::npos);
     for (const char* outside : {"http://", "https://", "@import", "<link"})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+}
+
+TEST(Asserts, HoldOrSayWhatIs) {
+    TradeResults results = small_results();
+    auto broken = [&](const char* text) {
+        std::string error;
+        std::optional<TradeAssert> parsed = parse_trade_assert(text, error);
+        EXPECT_TRUE(parsed) << error;
+        std::vector<std::string> lines = broken_asserts(results, {*parsed});
+        return lines.empty() ? std::string() : lines[0];
+    };
+    EXPECT_EQ(broken("preset=final:flip<0.03"), "");
+    EXPECT_EQ(broken("preset=final:psnr>39"), "");
+    EXPECT_EQ(broken("preset=final:ms<9"), "");
+    EXPECT_EQ(broken("preset=final:flip<0.02"), "preset=final:flip<0.02: flip is 0.02");
+    EXPECT_NE(broken("preset=reference:flip<0.001").find("within the noise"), std::string::npos);
+    results.rows[2].not_measured = "the budget was used up";
+    EXPECT_EQ(broken("preset=final:flip<1"), "preset=final:flip<1: final was not measured");
+}
+
+TEST(Asserts, ThatAreNoneSayWhatTheyTake) {
+    for (const char* text : {"", "final", "preset=final", "preset=final:flip", "preset=final:flip<",
+                             "preset=final:flip<1x", "preset=best:flip<1", "preset=final:floop<1",
+                             "final:flip<1", "preset=final<1:flip"}) {
+        std::string error;
+        EXPECT_FALSE(parse_trade_assert(text, error)) << text;
+        EXPECT_FALSE(error.empty()) << text;
+    }
 }
 
 TEST(Means, AverageThePowerOfNoiseAndCountPixels) {
