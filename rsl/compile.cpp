@@ -5,6 +5,7 @@
 
 #include "rsl/check/check.h"
 #include "rsl/check/usage.h"
+#include "rsl/objects/integrators.h"
 #include "rsl/objects/objects.h"
 #include "rsl/syntax/parser.h"
 #include "rsl/text/preprocess.h"
@@ -87,6 +88,7 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     Parser parser(*ast, reporter);
     if (lacks_text(diagnostics, before)) parser.recovery().lose_everything();
     parser.run();
+    bind_integrators(*ast, reporter);
     if (!expand_objects(*ast, reporter)) return {};
     Checker(*ast, reporter, options, parser.recovery()).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {

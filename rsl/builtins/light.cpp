@@ -114,6 +114,12 @@ void specularbrdf(LowerCall& c) {
     c.set(V3{term, term, term});
 }
 
+// The light itself comes from functions that the call becomes (rsl/objects/integrators.h).
+void hints_only(LowerCall& c) {
+    c.report_unknown_pairs();
+    c.set(V3{c.e.f(0), c.e.f(0), c.e.f(0)});
+}
+
 }  // namespace lower_light
 
 namespace ref {
@@ -185,6 +191,10 @@ void specularbrdf(RefCall<Real>& c) {
     Dual<Real> k = highlight(rsl::normalize(c.v(0)), c.v(1), c.v(2), c.f(3));
     c.set({k, k, k});
 }
+template <class Real>
+void hints_only(RefCall<Real>& c) {
+    c.set(Vec<Real>{});
+}
 
 }  // namespace
 }  // namespace ref
@@ -207,6 +217,16 @@ const Builtin kRows[] = {
     {"specularbrdf", "c=vnvf", lower::specularbrdf, KINORA_RSL_REF(ref::specularbrdf), kPure, 16,
      "The term of specular() for one light: specularbrdf(L, N, V, roughness), with exponent "
      "8 / roughness."},
+    {"directlighting", "c=~", lower::hints_only, KINORA_RSL_REF(ref::hints_only), kPure, 0,
+     "RSL 2.0, in a class: directlighting(this, getlights(), ...), the light of one sample of each "
+     "light, by the class's evaluateSamples(). Results are \"diffuseresult\", \"specularresult\" "
+     "and \"irradianceresult\"; \"materialsamples\" receives the class's own samples.",
+     kSurface},
+    {"indirectspecular", "c=~", lower::hints_only, KINORA_RSL_REF(ref::hints_only), kPure, 0,
+     "RSL 2.0, in a class: indirectspecular(this, ...), the mean of response / pdf times traced "
+     "light over the class's generateSamples(), or over \"materialsamples\"; rays go as far as "
+     "\"maxdist\".",
+     kSurface},
 };
 
 }  // namespace

@@ -141,6 +141,10 @@ void isindirectray(LowerCall& c) {
                                    b.i(-1), b.i(1), rng_input(b)});
     c.set(c.e.flag(b.op(jit::Op::IEq, b.bits(answer[1]), b.i(intern("diffuse")))));
 }
+// A grid of one point.
+void itself(LowerCall& c) {
+    c.set(c.f(0));
+}
 void raylabel(LowerCall& c) {
     ray_fact(c, "label");
 }
@@ -224,6 +228,11 @@ void isindirectray(RefCall<Real>& c) {
 }
 
 template <class Real>
+void itself(RefCall<Real>& c) {
+    c.set(c.f(0));
+}
+
+template <class Real>
 void lightsource(RefCall<Real>& c) {
     const Type type = c.call.args[1]->type;
     size_t each = size_t(component_count(type.base)),
@@ -300,6 +309,10 @@ const Builtin kRows[] = {
      kMessage | kVaryingResult, 0, "Its direction, of length 1."},
     {"raylength", "f=", lower::raylength, KINORA_RSL_REF(ref::raylength), kMessage | kVaryingResult,
      0, "The distance it went."},
+    {"gridmin", "f=f", lower::itself, KINORA_RSL_REF(ref::itself), kVaryingResult, 0,
+     "The smallest value of a grid. No result depends on grids here: it is the point's own."},
+    {"gridmax", "f=f", lower::itself, KINORA_RSL_REF(ref::itself), kVaryingResult, 0,
+     "The largest value of a grid. No result depends on grids here: it is the point's own."},
     {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername),
      kMessage | kVaryingResult, 0, "Name of this shader, or of the one of a kind."},
 };

@@ -115,11 +115,11 @@ struct ForeignRow {
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
     {" fulltrace rayserver ", "BMRT"},
-    {" wnoise hash randomgrid gridmin gridmax textureatlas ptexture subtexture "
+    {" wnoise hash randomgrid textureatlas ptexture subtexture "
      "rayhittest irradiance ",
      "other renderers"},
     {" getvar getshader getshaders getlights hasmethod "
-     "directlighting indirectspecular evaluateSamples generateSamples ",
+     "evaluateSamples generateSamples ",
      "RSL 2.0"},
 };
 

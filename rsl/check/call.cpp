@@ -96,8 +96,8 @@ void CallBinder::bind_argument(CallExpr& e, size_t index) {
 // The callee writes to the argument.
 void CallBinder::bind_output(Expr& argument, size_t index, Type type, std::string_view callee) {
     if (overloads_.argument_cost(argument, type, true) < 0)
-        reporter_.report(Code::RSL_OUTPUT_TYPE, argument.span, index + 1, callee, type_name(type),
-                         type_name(argument.type));
+        reporter_.report(Code::RSL_OUTPUT_TYPE, argument.span, index + 1, written_name(callee),
+                         type_name(type), type_name(argument.type));
     else if (Symbol* symbol = lvalue_symbol(argument))
         assignments_.mark(*symbol, argument.span);
     else

@@ -1,6 +1,7 @@
 // rsl/check/statement.cpp: functions, declarations, control flow.
 #include "rsl/check/statement.h"
 
+#include "rsl/check/overloads.h"
 #include "rsl/check/shader_space.h"
 #include "rsl/syntax/ast_visit.h"
 
@@ -166,7 +167,7 @@ void StatementChecker::check(ReturnStmt& s) {
     else if (returns)
         reporter_.report(Code::RSL_RETURN_NOTHING, s.span, type_name(f->result));
     else if (s.value)
-        reporter_.report(Code::RSL_RETURN_VALUE, s.span, f->name);
+        reporter_.report(Code::RSL_RETURN_VALUE, s.span, written_name(f->name));
 }
 
 }  // namespace kinora::rsl

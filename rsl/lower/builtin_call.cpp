@@ -39,7 +39,9 @@ Lowered lower_builtin(const BuiltinTools& tools, const CallExpr& e) {
         const std::string* name = tools.e.constant_text(tree.value(*e.args[k]));
         if (name && is_output_pair(e, k + 1))
             call.output_pairs.push_back({*name, variables.target(*e.args[k + 1])});
-        else if (name && !e.args[k + 1]->type.is_array()) {
+        else if (name && e.args[k + 1]->type.is_array()) {
+            report_idle_pair(tools.e, tools.context, e.name, *name, {}, e.args[k]->span.where);
+        } else if (name) {
             call.pairs.push_back({*name, tree.expr(*e.args[k + 1])});
             report_idle_pair(tools.e, tools.context, e.name, *name, call.pairs.back().second,
                              e.args[k]->span.where);

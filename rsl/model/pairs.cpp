@@ -53,6 +53,20 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"source", kAny, "shadow"},  // four points
     {"source", kAny, "areashadow", false, kHint},
     {"gapbias", kNumber, "areashadow", false, ""},
+    // Integrators: one sample of each light leaves nothing to weigh.
+    {"mis", kNumber, "directlighting", false, kHint},
+    {"diffusemis", kNumber, "directlighting", false, kHint},
+    {"heuristic", kText, "directlighting", false, kHint},
+    {"integrationdomain", kText, "directlighting indirectspecular", false, kHint},
+    {"lightgroups", kAny, "directlighting", false, ""},
+    {"groupeddiffuseresults", kAny, "directlighting", false, ""},
+    {"groupedspecularresults", kAny, "directlighting", false, ""},
+    {"groupedunshadoweddiffuseresults", kAny, "directlighting", false, ""},
+    {"groupedunshadowedspecularresults", kAny, "directlighting", false, ""},
+    {"samplebase", kNumber, "indirectspecular", false, kHint},
+    {"subset", kText, "indirectspecular", false, ""},
+    {"position", kAny, "indirectspecular", false, ""},
+    {"usemotionbias", kNumber, "indirectspecular", false, kHint},
     // Hints.
     {"samplebase", kNumber, RAYS " gather", false, kHint},
     {"label", kText, "trace gather"},

@@ -90,6 +90,7 @@ class ObjectExpander {
     // ---- expressions
     void expr(Expr*& slot);
     void exprs(std::span<Expr*> items);
+    void judge_constant(const Expr& target);
     void variable(VariableExpr& e);
     void call(CallExpr& e, std::vector<Expr*> results = {});
     bool object_call(CallExpr& e, std::vector<Expr*>& args);

@@ -11,6 +11,15 @@ void ObjectExpander::exprs(std::span<Expr*> items) {
     for (Expr*& item : items) expr(item);
 }
 
+// A constant member is set by its first value and in construct().
+void ObjectExpander::judge_constant(const Expr& target) {
+    const auto* element = as_if<IndexExpr>(&target);
+    const auto* named = as_if<VariableExpr>(element ? element->array : &target);
+    const Symbol* symbol = named ? find(named->name) : nullptr;
+    if (symbol && symbol->constant && class_ && function_ && function_->name != "construct")
+        report(Code::RSL_CONSTANT_CHANGED, target.span, symbol->name);
+}
+
 void ObjectExpander::expr(Expr*& slot) {
     switch (slot->kind) {
         case ExprKind::Number:
@@ -29,6 +38,12 @@ void ObjectExpander::expr(Expr*& slot) {
         case ExprKind::Unary:
             return expr(as<UnaryExpr>(*slot).operand);
         case ExprKind::Binary:
+            if (as<BinaryExpr>(*slot).op == Op::Dot &&
+                struct_value(*as<BinaryExpr>(*slot).left).structure) {
+                report(Code::RSL_STRUCT_AS_VALUE, slot->span).help =
+                    "members and methods of a struct follow '->'";
+                return;
+            }
             expr(as<BinaryExpr>(*slot).left);
             return expr(as<BinaryExpr>(*slot).right);
         case ExprKind::Select:
@@ -38,6 +53,7 @@ void ObjectExpander::expr(Expr*& slot) {
         case ExprKind::Assign:
             if (StructValue target = struct_value(*as<AssignExpr>(*slot).target); target.structure)
                 return void(report(Code::RSL_STRUCT_AS_VALUE, slot->span));
+            judge_constant(*as<AssignExpr>(*slot).target);
             expr(as<AssignExpr>(*slot).target);
             return expr(as<AssignExpr>(*slot).value);
         case ExprKind::Call:

@@ -65,7 +65,11 @@ const Symbol* ObjectExpander::resolve(std::string_view path, const SourceSpan& s
         if (!symbol && structure) {
             std::vector<std::string_view> names;
             for (const Symbol* member : structure->members) names.push_back(member->name);
-            report(Code::RSL_NO_MEMBER, span, structure->name, next).help = meant_help(next, names);
+            Finding& finding = report(Code::RSL_NO_MEMBER, span, structure->name, next);
+            finding.help = meant_help(next, names);
+            for (const Function* method : structure->methods)
+                if (method->name == next || method->name.starts_with(method_name(*structure, next)))
+                    finding.help = fmt::format("it is a method, which is called as '{}()'", path);
             return nullptr;
         }
         if (!symbol) {

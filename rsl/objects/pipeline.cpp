@@ -22,6 +22,7 @@ class Pipeline {
             return;
         }
         shader_.kind = *kind;
+        for (const Function* method : shader_.shader_class->methods) judge(*method);
         const ClassDefinition& c = *shader_.shader_class;
         out_.assign(c.members.begin(), c.members.end());
         for (Function* method : c.methods) {
@@ -41,23 +42,40 @@ class Pipeline {
     }
     bool has(std::string_view name) const { return find(name) != nullptr; }
 
+    template <class... Args>
+    void report(const FindingInfo& info, const SourceSpan& span, const Args&... args) {
+        const Token& token = ast_.tokens.tokens[span.token];
+        reporter_.report(info, span.where, token.macro, token.spelling, args...);
+    }
+
+    // Methods that nobody calls although their names say who should.
+    void judge(const Function& method) {
+        if (method.name == shader_.name)
+            report(Code::RSL_CLASS_NAME_METHOD, method.span, method.name);
+        bool bends = shader_.kind == ShaderKind::Surface && method.name == "displacement";
+        for (const auto& row : kKinds)
+            if (row.method == method.name && row.kind != shader_.kind && !bends)
+                report(Code::RSL_METHOD_NOT_CALLED, method.span, method.name, shader_.name,
+                       shader_kind_name(shader_.kind));
+    }
+
     // What the class is bound as: the first of these stages that it has.
+    static constexpr struct {
+        std::string_view method;
+        ShaderKind kind;
+    } kKinds[] = {{"light", ShaderKind::Light},
+                  {"surface", ShaderKind::Surface},
+                  {"lighting", ShaderKind::Surface},
+                  {"diffuselighting", ShaderKind::Surface},
+                  {"specularlighting", ShaderKind::Surface},
+                  {"prelighting", ShaderKind::Surface},
+                  {"postlighting", ShaderKind::Surface},
+                  {"opacity", ShaderKind::Surface},
+                  {"volume", ShaderKind::Volume},
+                  {"imager", ShaderKind::Imager},
+                  {"transformation", ShaderKind::Transformation},
+                  {"displacement", ShaderKind::Displacement}};
     std::optional<ShaderKind> kind_of() const {
-        constexpr struct {
-            std::string_view method;
-            ShaderKind kind;
-        } kKinds[] = {{"light", ShaderKind::Light},
-                      {"surface", ShaderKind::Surface},
-                      {"lighting", ShaderKind::Surface},
-                      {"diffuselighting", ShaderKind::Surface},
-                      {"specularlighting", ShaderKind::Surface},
-                      {"prelighting", ShaderKind::Surface},
-                      {"postlighting", ShaderKind::Surface},
-                      {"opacity", ShaderKind::Surface},
-                      {"volume", ShaderKind::Volume},
-                      {"imager", ShaderKind::Imager},
-                      {"transformation", ShaderKind::Transformation},
-                      {"displacement", ShaderKind::Displacement}};
         for (const auto& row : kKinds)
             if (has(row.method)) return row.kind;
         return {};
@@ -131,9 +149,45 @@ class Pipeline {
         }
     }
 
+    // The first method of the name that takes the globals, or as many of them as it likes.
+    const Function* fitting(std::string_view name,
+                            std::initializer_list<std::string_view> globals) {
+        const Function* first = find(name);
+        if (!first) return nullptr;
+        for (const Function* method : shader_.shader_class->methods)
+            if (method->name == name && fits(*method, globals)) return method;
+        report(Code::RSL_METHOD_PARAMETERS, first->span, name, text_of(globals));
+        return nullptr;
+    }
+
+    static bool fits(const Function& method, std::initializer_list<std::string_view> globals) {
+        if (method.parameters.size() > globals.size()) return false;
+        const std::string_view* global = globals.begin();
+        for (const Symbol* formal : method.parameters) {
+            bool number = *global++ == "alpha";
+            if (number ? formal->type != Type{BaseType::Float, -1} : !is_triple(formal->type))
+                return false;
+        }
+        return true;
+    }
+
+    static std::string text_of(std::initializer_list<std::string_view> globals) {
+        std::string text;
+        for (std::string_view global : globals) {
+            std::string_view name = global.substr(global.rfind('>') + 1);  // "pipeline->L"
+            std::string_view type = name == "P"       ? "point"
+                                    : name == "N"     ? "normal"
+                                    : name == "L"     ? "vector"
+                                    : name == "alpha" ? "float"
+                                                      : "color";
+            text += fmt::format("{}output {} {}", text.empty() ? "" : "; ", type, name);
+        }
+        return text;
+    }
+
     // The method with as many of the globals as it takes; they are what it calls P, Ci and so on.
     void call(std::string_view name, std::initializer_list<std::string_view> globals) {
-        const Function* method = find(name);
+        const Function* method = fitting(name, globals);
         if (!method) return;
         std::vector<Expr*> args;
         for (std::string_view global : globals)
@@ -170,7 +224,7 @@ class Pipeline {
             guarded->behind_opacity = true;
             return guarded;
         }
-        return made[0];
+        return made.empty() ? make_.block({}) : made[0];
     }
 
     void shading() {

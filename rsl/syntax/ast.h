@@ -45,6 +45,7 @@ struct Symbol {
     Type type;
     Detail detail = Detail::Unspecified;  // as declared
     bool output = false;                  // declared `output`
+    bool constant = false;                // declared `constant`: set at first or in construct()
     bool assigned = false;                // written anywhere (checker)
     bool varying = false;                 // inferred: point rate (checker)
     uint32_t id = 0;  // dense in the Ast, 0 .. symbol_count-1: index of side tables

@@ -95,6 +95,7 @@ bool DeclarationParser::read_head(DeclarationHead& head) {
     head = DeclarationHead{};
     while (true) {
         if (cursor_.is(Word::Output)) head.output = true;
+        head.constant = head.constant || cursor_.is_constant();
         if (cursor_.is(Word::Uniform) || cursor_.is_constant()) head.detail = Detail::Uniform;
         if (cursor_.is(Word::Varying)) head.detail = Detail::Varying;
         if (const StructDefinition* structure = struct_type()) {
@@ -132,6 +133,7 @@ Symbol* DeclarationParser::declarator(const DeclarationHead& head, SymbolKind ki
     symbol->type = head.type;
     symbol->structure = head.structure;
     symbol->detail = head.detail;
+    symbol->constant = head.constant;
     symbol->output = head.output;
     definition_.declare(*symbol);
     symbol->id = ast_.symbol_count++;

@@ -18,6 +18,7 @@ struct DeclarationHead {
     const StructDefinition* structure = nullptr;
     Detail detail = Detail::Unspecified;
     bool output = false;
+    bool constant = false;
 };
 
 class DeclarationParser {

@@ -34,8 +34,25 @@ void ObjectParser::item(std::vector<Stmt*>& members, std::vector<Function*>& met
     } else if (declarations_.at_declaration()) {
         if (Stmt* member = statements_.declaration_statement()) members.push_back(member);
     } else {
-        errors_.syntax_error("a member or method");
+        no_item();
     }
+}
+
+void ObjectParser::no_item() {
+    const Token& first = cursor_.token();
+    bool named = cursor_.token(1).kind == TokenKind::Identifier;
+    if (cursor_.is_type() && named && cursor_.is(Punct::LeftParen, 2)) {
+        cursor_.move_to(cursor_.after_parens(cursor_.position() + 2));
+        return errors_.syntax_error("the method's body, '{ ... }',");
+    }
+    for (uint32_t k = cursor_.position(); named && k + 1 < cursor_.all().size(); ++k) {
+        if (cursor_.at(k).text != "struct" || cursor_.at(k + 1).text != first.text) continue;
+        errors_.report(Code::RSL_STRUCT_LATER, first, first.text)
+            .notes.push_back({cursor_.at(k + 1).where, "defined here"});
+        while (!cursor_.is(Punct::Semicolon) && !cursor_.at_end()) cursor_.advance();
+        return errors_.mark_broken();
+    }
+    errors_.syntax_error("a member or method");
 }
 
 // "{ items }".

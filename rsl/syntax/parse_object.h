@@ -31,6 +31,7 @@ class ObjectParser {
     bool accept_access();
     void items(std::vector<Stmt*>& members, std::vector<Function*>& methods);
     void item(std::vector<Stmt*>& members, std::vector<Function*>& methods);
+    void no_item();
     bool same_struct_again(uint32_t begin);
 
     Ast& ast_;

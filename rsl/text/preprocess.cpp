@@ -10,6 +10,20 @@
 
 namespace kinora::rsl {
 
+namespace {
+
+// A word anywhere in a source, and the header that defines what it says. The struct's name has
+// misprints, which end as it does.
+constexpr std::pair<std::string_view, std::string_view> kHeadersByWord[] = {
+    {"_radiancesample", "stdrsl/RadianceSample.h"},
+    {"__radiositysample", "stdrsl/RadianceSample.h"},
+    {"filterregion", "filterregion.h"},
+    {"directlighting", "integrators.h"},
+    {"indirectspecular", "integrators.h"},
+};
+
+}  // namespace
+
 Preprocessor::Preprocessor(const CompileOptions& options, Diagnostics& diagnostics,
                            TokenStream& out, Reporter& reporter)
     : options_(options),
@@ -54,15 +68,21 @@ void Preprocessor::run(const ShaderSource& source) {
     std::string path;
     if (source.map.file != kNoFile) path = source_files_.name(source.map.file);
     files_.enter({texts_.keep(std::string(source.text)), &texts_.keep(source.map), path});
-    // The struct is known without its header, as if the source began with that.
-    if (source.text.find("__radiancesample") != source.text.npos)
-        if (auto header = includes_.find("stdrsl/RadianceSample.h", false, "", Token()))
-            files_.enter(*header);
+    // What is known without its header, as if the source began with that.
+    for (const auto& [word, name] : kHeadersByWord)
+        if (source.text.find(word) != source.text.npos)
+            if (auto header = includes_.find(std::string(name), false, "", Token()))
+                files_.enter(*header);
     out_.tokens.reserve(source.text.size() / 4 + 16);
     read();
 }
 
 void Preprocessor::emit(Token token) {
+    if (token.text == "_radiancesample" || token.text == "__radiositysample") {
+        if (misprints_.insert(token.text).second)
+            reporter_.report(Code::RSL_MISPRINTED_TYPE, token, token.text);
+        token.text = "__radiancesample";
+    }
     if (token.kind == TokenKind::Identifier) token.word = find_word(token.text);
     out_.tokens.push_back(token);
 }

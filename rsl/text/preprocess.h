@@ -1,6 +1,7 @@
 // rsl/text/preprocess.h: directives and macros, keeping for each token where it came from.
 #pragma once
 
+#include <set>
 #include <string_view>
 
 #include "rsl/text/budget.h"
@@ -37,6 +38,7 @@ class Preprocessor {
     Includes includes_;
     MacroExpander expander_;
     Directives directives_;
+    std::set<std::string_view> misprints_;  // of built-in types, that are reported
 };
 
 }  // namespace kinora::rsl

@@ -72,7 +72,9 @@ class Stdrsl(Points):
 
     def test_generated_samples_have_the_pdf_that_evaluating_gives(self):
         for header, struct, call in (("SpecularAS.h", "SpecularAS", "Cs, 0.3, 0.4, 1, 64, 64"),
-                                     ("SpecularBlinn.h", "SpecularBlinn", "Cs, 0.3, 64, 64")):
+                                     ("SpecularBlinn.h", "SpecularBlinn", "Cs, 0.3, 64, 64"),
+                                     ("SpecularDBRDF.h", "SpecularDBRDF",
+                                      "\"beckmann\", Cs, 0.4, 64, 64")):
             text = HEAD.format(header, f"stdrsl_{struct} d; d->init(c, {call}); resize(a, 0);"
                                "d->genSpecularSamps(c, f, \"specular\", a); float i, sum = 0;"
                                "n = arraylength(a); for (i = 0; i < n; i += 1)"
@@ -97,6 +99,27 @@ class Stdrsl(Points):
                 {"points": len(rows), "variables": FRONT | {"w": rows}})
             total = sum(c[0] for c in even["Ci"]) / len(rows) * 2 * math.pi
             self.assertLess(abs(mean - total), 0.01 * total, struct)
+
+    def test_specular_dbrdf(self):
+        body = "stdrsl_SpecularDBRDF d; d->init(c, \"{}\", color(1, 0.5, 0.25), 0.5, 1, 1);" \
+               "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse;" \
+               "pdf = a[0]->materialPdf;"
+        beckmann = 1 / (math.pi * 0.25)  # all cosines 1: p / 4 of both
+        self.lobe("SpecularDBRDF.h", body.format("beckmann"), {},
+                  {"Ci": [[beckmann / 4 * k for k in (1, 0.5, 0.25)]], "pdf": [beckmann / 4]})
+        blinn = 5 / (2 * math.pi)  # the exponent is 4
+        self.lobe("SpecularDBRDF.h", body.format("blinn"), {},
+                  {"Ci": [[blinn / 4 * k for k in (1, 0.5, 0.25)]], "pdf": [blinn / 4]})
+        # 60 degrees off: h at 30, p / (4 (0.5 + 1 - 0.5)) x 0.5, pdf p / (4 cos 30).
+        c = math.cos(math.pi / 6)
+        p = math.exp(-(1 / c ** 2 - 1) / 0.25) / (math.pi * 0.25 * c ** 3)
+        self.lobe("SpecularDBRDF.h", body.format("beckmann"), {"w": [0, math.sqrt(0.75), 0.5]},
+                  {"Ci": [[p / 8 * k for k in (1, 0.5, 0.25)]], "pdf": [p / (4 * c)]})
+
+    def test_isotropic_volume(self):
+        self.lobe("IsotropicVolume.h", "stdrsl_IsotropicVolume d; d->init(color(1, 0.5, 0.25));"
+                  "d->evalDiffuseSamps(c, f, a); Ci = a[0]->materialResponse;", {"w": [0, 1, -1]},
+                  {"Ci": [[k / (4 * math.pi) for k in (1, 0.5, 0.25)]]})
 
     def test_area_sampler(self):
         body = "stdrsl_AreaSampler l; a[0]->radiance = 7; l->evaluateSamples(P, \"{}\", a);" \

@@ -123,13 +123,23 @@ const HeaderRow kHeaders[] = {
      "stdrsl_SpecularAS d; d->init(c, Cs, 0.2, 0.5, 1, 1, 4); __radiancesample a[];"
      "d->initWithDownstreamRoughness(0.3, c, Cs, 0.2, 0.5, 1, 4, below);"
      "d->genSpecularSamps(c, f, \"specular\", a); resize(a, 1); a[0]->direction = c->m_Vn;"
-     "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf + d->m_roughValueU;"
+     "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf + "
+     "d->m_roughValueU;"
      "Ci += below;"},
     {"stdrsl/specularblinn.h", "",
      "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
      "stdrsl_SpecularBlinn d; d->init(c, Cs, 0.2, 1, 4); __radiancesample a[];"
      "d->genSpecularSamps(c, f, \"specular\", a); resize(a, 1); a[0]->direction = c->m_Vn;"
      "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf;"},
+    {"stdrsl/speculardbrdf.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
+     "stdrsl_SpecularDBRDF d; d->init(c, \"beckmann\", Cs, 0.2, 1, 4); __radiancesample a[];"
+     "d->genSpecularSamps(c, f, \"specular\", a); resize(a, 1); a[0]->direction = c->m_Vn;"
+     "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf;"},
+    {"stdrsl/isotropicvolume.h", "",
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
+     "stdrsl_IsotropicVolume d; d->init(Cs); __radiancesample a[]; resize(a, 1);"
+     "d->evalDiffuseSamps(c, f, a); Ci = a[0]->materialResponse;"},
     {"stdrsl/areasampler.h", "",
      "stdrsl_AreaSampler a; __radiancesample x[]; a->generateSamples(P, \"disc\", 4, x);"
      "a->evaluateSamples(P, \"sphere\", x); point o; vector d; float ss, tt, size;"
@@ -140,6 +150,11 @@ const HeaderRow kHeaders[] = {
      "h->initSpecular(c, 4, 0, 0.1, 0.2, 1, 1.55); __radiancesample a[];"
      "h->genDiffuseSamps(c, a); h->genSpecularSamps(c, a); h->evalDiffuseSamps(c, a);"
      "h->evalSpecularSamps(c, a); Ci = a[0]->materialResponse;"},
+    {"filterregion.h", "string map = \"\";",
+     "filterregion r; r->calculate2d(s, t); r->scale(2); r->blur(0.1); r->calculate3d(P);"
+     "r->calculate2d(s, t, 0.1, 0, 0, 0.1); r->calculate3d(P, dPdu, dPdv);"
+     "Ci = color texture(map, r) + float texture(map, r) + r->radius;"},
+    {"integrators.h", "", "Ci = 1;"},  // its functions are of classes: tests/rsl/classes
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"
      "Ci = blend(Cs, Os, s) + lerp(0, 1, s) + boxstep(0.2, 0.4, s) + union(s, t) + complement(s);"
