@@ -5,6 +5,8 @@
 
 #include "rsl/check/check.h"
 #include "rsl/check/usage.h"
+#include "rsl/link.h"
+#include "rsl/objects/handle_sets.h"
 #include "rsl/objects/integrators.h"
 #include "rsl/objects/objects.h"
 #include "rsl/syntax/parser.h"
@@ -77,6 +79,38 @@ std::shared_ptr<Ast> parse(const ShaderSource& source, const CompileOptions& opt
     return reporter.errors() == 0 ? ast : nullptr;
 }
 
+namespace {
+
+// What is left to do for a tree, whose parts have been read.
+std::vector<std::unique_ptr<Shader>> finish(const std::shared_ptr<Ast>& ast, Reporter& reporter,
+                                            const CompileOptions& options,
+                                            const ParseRecovery& recovery,
+                                            std::vector<Unit> units) {
+    bind_integrators(*ast, reporter);
+    if (!expand_objects(*ast, reporter, std::move(units))) return {};
+    Checker(*ast, reporter, options, recovery).run();
+    if (ast->shaders.empty() && reporter.errors() == 0) {
+        Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
+        if (!ast->functions.empty()) finding.help = "write its kind, as 'surface', before its name";
+    }
+    auto shaders = make_shaders(ast, reporter, recovery);
+    infer_rates(*ast, reporter);
+    if (reporter.errors() > 0) return {};
+    return shaders;
+}
+
+// Of the shaders that stand in the tree from `first` on; null after a finding.
+ShaderDefinition* choose(const Ast& ast, Reporter& reporter, size_t first,
+                         const LinkedSource& wanted, uint32_t first_token) {
+    for (size_t k = first; k < ast.shaders.size(); ++k)
+        if (wanted.shader.empty() || ast.shaders[k]->name == wanted.shader) return ast.shaders[k];
+    if (reporter.errors() == 0)
+        reporter.report(Code::RSL_NO_SHADER, ast.tokens.tokens[first_token]);
+    return nullptr;
+}
+
+}  // namespace
+
 std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
                                              const CompileOptions& options,
                                              Diagnostics& diagnostics) {
@@ -88,17 +122,35 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     Parser parser(*ast, reporter);
     if (lacks_text(diagnostics, before)) parser.recovery().lose_everything();
     parser.run();
-    bind_integrators(*ast, reporter);
-    if (!expand_objects(*ast, reporter)) return {};
-    Checker(*ast, reporter, options, parser.recovery()).run();
-    if (ast->shaders.empty() && reporter.errors() == 0) {
-        Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
-        if (!ast->functions.empty()) finding.help = "write its kind, as 'surface', before its name";
+    return finish(ast, reporter, options, parser.recovery(), {});
+}
+
+std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
+                                       const CompileOptions& options, Diagnostics& diagnostics) {
+    auto ast = std::make_shared<Ast>();
+    Reporter reporter(diagnostics, ast->tokens, options.max_errors);
+    std::vector<Unit> units;
+    std::vector<ShaderDefinition*> chosen;
+    for (const LinkedSource& one : sources) {
+        auto first = uint32_t(ast->tokens.tokens.size());
+        size_t shaders = ast->shaders.size();
+        ast->functions.clear();
+        Preprocessor(options, diagnostics, ast->tokens, reporter).run(one.source);
+        if (ast->tokens.truncated) return nullptr;
+        Parser(*ast, reporter, first).run();
+        ShaderDefinition* shader = choose(*ast, reporter, shaders, one, first);
+        if (!shader || reporter.errors() > 0) return nullptr;
+        units.push_back({one.handle, shader, ast->functions, first, one.texts, {}, {}});
     }
-    auto shaders = make_shaders(ast, reporter, parser.recovery());
-    infer_rates(*ast, reporter);
-    if (reporter.errors() > 0) return {};
-    return shaders;
+    if (units.size() > kMostUnits) {
+        reporter.report(Code::RSL_TOO_MANY_CO_SHADERS, ast->tokens.tokens[0], units.size() - 1,
+                        kMostUnits - 1);
+        return nullptr;
+    }
+    ast->shaders = {units[0].shader};
+    ast->functions = units[0].functions;
+    auto linked = finish(ast, reporter, options, ParseRecovery(), std::move(units));
+    return linked.empty() ? nullptr : std::move(linked[0]);
 }
 
 std::vector<std::unique_ptr<Shader>> compile_file(const std::string& path,

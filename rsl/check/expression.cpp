@@ -269,8 +269,8 @@ void ExpressionChecker::no_struct_form(CallExpr& e) {
     std::string types;
     for (size_t at = 1; at < structs.size();) {
         size_t end = std::min(structs.find(' ', at), structs.size());
-        types +=
-            (types.empty() ? "struct " : ", struct ") + std::string(structs.substr(at, end - at));
+        std::string type(structs.substr(at, end - at));
+        types += (types.empty() ? "" : ", ") + (type == "shader" ? type : "struct " + type);
         at = end + 1;
     }
     reporter_.report(Code::RSL_NO_OVERLOAD, e.span, name, types);

@@ -8,22 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "rsl/objects/handle_calls.h"
+#include "rsl/objects/handle_sets.h"
+#include "rsl/objects/paths.h"
 #include "rsl/objects/structs.h"
+#include "rsl/objects/units.h"
 #include "rsl/syntax/ast.h"
 #include "rsl/text/reporter.h"
 
 namespace kinora::rsl {
-
-// ---- names of members, as "a->b->c" -------------------------------------------------------------
-
-constexpr std::string_view kArrow = "->";
-
-inline std::string_view first_name(std::string_view path) {
-    return path.substr(0, path.find(kArrow));
-}
-inline bool is_member(std::string_view path) {
-    return path.find(kArrow) != std::string_view::npos;
-}
 
 // Methods and functions of struct arguments have names that no source can have: the checker then
 // needs to know nothing of structs. The part that the user wrote comes first.
@@ -31,25 +24,38 @@ inline std::string method_name(const StructDefinition& owner, std::string_view n
     return std::string(owner.name) + "->" + std::string(name);
 }
 
-// -------------------------------------------------------------------------------------------------
+// Behind the name of a function for each argument that is a shader, as " name" for a struct.
+constexpr std::string_view kHandleArgument = " shader";
 
 // Functions that nothing calls are left out, unread: headers hold many.
 class ObjectExpander {
   public:
-    ObjectExpander(Ast& ast, Reporter& reporter) : ast_(ast), reporter_(reporter) {}
-    void run();
+    ObjectExpander(Ast& ast, Reporter& reporter, std::vector<Unit>& units, const HandleSets& sets)
+        : ast_(ast),
+          reporter_(reporter),
+          units_(units),
+          sets_(sets),
+          handles_(ast, units, sets, *this) {}
+    // Rewrites these units.
+    void run(const std::vector<size_t>& used);
+    // Functions that name what stands in the shader's body, to be defined there.
+    const std::vector<Function*>& nested() const { return nested_; }
 
   private:
+    friend class HandleCalls;
+
     // A function at file level, or a method of a struct, which becomes one.
     struct Candidate {
         Function* function;
         std::string_view name;          // as written
         const StructDefinition* owner;  // null: no method
+        size_t unit;
         bool wanted = false, done = false;
     };
     struct Scope {
         std::vector<const Symbol*> symbols;
         std::vector<std::string_view> functions;
+        std::string prefix = {};  // of what it declares: that of its unit
     };
 
     template <class... Args>
@@ -59,7 +65,8 @@ class ObjectExpander {
     }
 
     // ---- names
-    const Symbol* find(std::string_view name) const;
+    // The prefix, if wanted, is what the name gets in front.
+    const Symbol* find(std::string_view name, std::string* prefix = nullptr) const;
     const Symbol* member_of_object(std::string_view name) const;
     bool is_local_function(std::string_view name) const;
     void declare(const Symbol& symbol) { scopes_.back().symbols.push_back(&symbol); }
@@ -68,10 +75,16 @@ class ObjectExpander {
     StructValue struct_value(Expr& e);
     std::vector<Expr*> parts(const StructValue& value, const SourceSpan& span);
     void want(std::string_view name, const StructDefinition* owner);
+    std::string_view placed(std::string_view name) const;
 
     // ---- definitions
     void function(Function& f, const StructDefinition* owner);
-    void shader(ShaderDefinition& shader);
+    void wanted_functions();
+    void list_functions();
+    void divide_functions();
+    void place_names(const Unit& unit);
+    void shader(ShaderDefinition& shader, size_t unit);
+    Stmt* handle_parameters(ShaderDefinition& shader);
     void formals(Function& f, const StructDefinition* owner);
 
     // ---- statements; what they become is appended
@@ -93,6 +106,7 @@ class ObjectExpander {
     void judge_constant(const Expr& target);
     void variable(VariableExpr& e);
     void call(CallExpr& e, std::vector<Expr*> results = {});
+    std::string_view function_name(std::string_view name);
     bool object_call(CallExpr& e, std::vector<Expr*>& args);
     const Function* function_giving_struct(const Expr& e);
 
@@ -104,6 +118,14 @@ class ObjectExpander {
     const StructDefinition* owner_ = nullptr;   // of the method being rewritten
     const StructDefinition* result_ = nullptr;  // of the function being rewritten
     const ShaderDefinition* class_ = nullptr;   // the class being rewritten
+    std::vector<Unit>& units_;
+    const HandleSets& sets_;
+    HandleCalls handles_;
+    size_t unit_ = 0;                    // that of what is being rewritten
+    Function* top_ = nullptr;            // the candidate being rewritten
+    std::set<const Function*> in_body_;  // candidates that name what stands in the shader's body
+    std::map<const Function*, std::set<std::string_view>> called_;  // by candidates
+    std::vector<Function*> nested_;
     std::map<const Function*, const StructDefinition*> results_;
     int temporaries_ = 0;
     size_t copied_ = 0;  // nodes of indices

@@ -21,6 +21,8 @@ void ObjectExpander::judge_constant(const Expr& target) {
 }
 
 void ObjectExpander::expr(Expr*& slot) {
+    handles_.check(*slot);
+    if (handles_.rewrite(slot)) return;
     switch (slot->kind) {
         case ExprKind::Number:
         case ExprKind::String:
@@ -84,15 +86,14 @@ void ObjectExpander::variable(VariableExpr& e) {
         if (!resolve(e.name, e.span, &value)) return;
         if (!find(first) && first != "this")
             e.name = ast_.arena.copy("this->" + std::string(e.name));
+        else
+            e.name = placed(e.name);
     } else if (const Symbol* symbol = find(e.name)) {
         value.structure = symbol->structure;
+        e.name = placed(e.name);
     } else if (const Symbol* member = member_of_object(e.name)) {
         value.structure = member->structure;
         e.name = ast_.arena.copy("this->" + std::string(e.name));
-    } else if (e.name == "this") {
-        report(Code::RSL_2, e.span, "'this' as a shader's handle");
-    } else if (e.name == "null") {
-        report(Code::RSL_2, e.span, "'null' (no co-shader)");
     }
     if (value.structure) report(Code::RSL_STRUCT_AS_VALUE, e.span);
 }
@@ -106,10 +107,8 @@ bool ObjectExpander::object_call(CallExpr& e, std::vector<Expr*>& args) {
     if (named && named->name == "this" && !owner_ && class_) return true;  // the class's own
     StructValue value = struct_value(*object);
     if (!value.structure) {
-        if (named && named->name == "this")
-            report(Code::RSL_2, object->span, "'this' as a shader's handle");
-        else if (named && !is_member(named->name) && !find(named->name) &&
-                 !member_of_object(named->name))
+        if (named && !is_member(named->name) && !find(named->name) &&
+            !member_of_object(named->name))
             report(Code::RSL_UNKNOWN_VARIABLE, object->span, named->name);
         else
             report(Code::RSL_NOT_STRUCT, object->span,
@@ -131,6 +130,10 @@ bool ObjectExpander::object_call(CallExpr& e, std::vector<Expr*>& args) {
     return false;
 }
 
+// They take arrays of handles as they take others.
+constexpr std::string_view kArrayFunctions[] = {"arraylength", "capacity", "resize",
+                                                "reserve",     "push",     "pop"};
+
 // Arguments of struct types become their members; `results` are behind them all.
 void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
     std::vector<Expr*> args;
@@ -147,12 +150,15 @@ void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
         want(e.name, owner_);
         e.name = ast_.arena.copy(method_name(*owner_, e.name));
     } else {
-        want(e.name, nullptr);
+        e.name = function_name(e.name);
     }
+    bool of_array = std::find(std::begin(kArrayFunctions), std::end(kArrayFunctions), e.name) !=
+                    std::end(kArrayFunctions);
     std::string mangled;
     for (Expr*& argument : e.args) {
         StructValue value = struct_value(*argument);
         if (!value.structure) {
+            if (!of_array && handles_.is_handle(*argument)) mangled += kHandleArgument;
             expr(argument);
             args.push_back(argument);
             continue;
@@ -170,6 +176,19 @@ void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
     args.insert(args.end(), results.begin(), results.end());
     e.args = ast_.arena.copy(args);
     if (!mangled.empty()) e.name = ast_.arena.copy(std::string(e.name) + mangled);
+    if (top_) called_[top_].insert(e.name);
+}
+
+// A function of the unit that is called by its name.
+std::string_view ObjectExpander::function_name(std::string_view name) {
+    if (is_local_function(name)) return name;
+    std::string_view with_prefix = ast_.arena.copy(units_[unit_].prefix() + std::string(name));
+    if (is_local_function(with_prefix)) return with_prefix;
+    bool own = std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& c) {
+        return c.name == name && !c.owner && c.unit == unit_;
+    });
+    want(name, nullptr);
+    return own ? with_prefix : name;
 }
 
 // The function of struct result that an expression calls; null for everything else.

@@ -7,11 +7,25 @@
 
 namespace kinora::rsl {
 
-const Symbol* ObjectExpander::find(std::string_view name) const {
-    for (size_t i = scopes_.size(); i-- > 0;)
-        for (size_t k = scopes_[i].symbols.size(); k-- > 0;)
-            if (scopes_[i].symbols[k]->name == name) return scopes_[i].symbols[k];
+const Symbol* ObjectExpander::find(std::string_view name, std::string* prefix) const {
+    for (size_t i = scopes_.size(); i-- > 0;) {
+        const Scope& scope = scopes_[i];
+        bool placed = !scope.prefix.empty() && name.starts_with(scope.prefix);
+        std::string_view written = placed ? name.substr(scope.prefix.size()) : name;
+        for (size_t k = scope.symbols.size(); k-- > 0;) {
+            if (scope.symbols[k]->name != written) continue;
+            if (prefix && !placed) *prefix = scope.prefix;
+            return scope.symbols[k];
+        }
+    }
     return nullptr;
+}
+
+// With the prefix of what declares it.
+std::string_view ObjectExpander::placed(std::string_view name) const {
+    std::string prefix;
+    find(first_name(name), &prefix);
+    return prefix.empty() ? name : ast_.arena.copy(prefix + std::string(name));
 }
 
 // A member named alone in a method; null where something nearer has the name.
@@ -29,7 +43,9 @@ bool ObjectExpander::is_local_function(std::string_view name) const {
 
 void ObjectExpander::want(std::string_view name, const StructDefinition* owner) {
     for (Candidate& candidate : candidates_)
-        if (candidate.name == name && candidate.owner == owner) candidate.wanted = true;
+        if (candidate.name == name && candidate.owner == owner &&
+            (owner || candidate.unit == unit_))
+            candidate.wanted = true;
 }
 
 // The last member of the path; *value is set where that is of struct type.
@@ -38,7 +54,7 @@ const Symbol* ObjectExpander::resolve(std::string_view path, const SourceSpan& s
     std::string_view first = first_name(path);
     const Symbol* symbol = first == "this" ? nullptr : find(first);
     const StructDefinition* structure = symbol ? symbol->structure : nullptr;
-    std::string name(path);
+    std::string name(placed(path));
     bool array = symbol && symbol->type.is_array();
     if (const Symbol* member = symbol ? nullptr : member_of_object(first)) {
         symbol = member;
@@ -49,9 +65,7 @@ const Symbol* ObjectExpander::resolve(std::string_view path, const SourceSpan& s
         structure = owner_;
     }
     if (!structure) {
-        if (first == "this" && !find("this"))
-            report(Code::RSL_2, span, "'this' as a shader's handle");
-        else if (!symbol)
+        if (!symbol)
             report(Code::RSL_UNKNOWN_VARIABLE, span, first);
         else
             report(Code::RSL_NOT_STRUCT, span, first);

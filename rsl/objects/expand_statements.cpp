@@ -91,8 +91,11 @@ void ObjectExpander::statement(Stmt* stmt, Stmts& out) {
             break;
         }
         case StmtKind::Extern:
-            for (Symbol* symbol : as<ExternStmt>(*stmt).symbols)
-                if (symbol->structure) return;  // the name means the variable outside anyway
+            for (Symbol* symbol : as<ExternStmt>(*stmt).symbols) {
+                if (symbol->structure || symbol->handle)
+                    return;  // the name means the variable outside anyway
+                symbol->name = placed(symbol->name);
+            }
             break;
         case StmtKind::Break:
         case StmtKind::Continue:
@@ -113,6 +116,7 @@ void ObjectExpander::declaration(DeclareStmt& s, Stmts& out) {
     TreeBuilder make(ast_, s.span);
     for (Symbol* symbol : s.symbols) {
         if (!symbol->structure) {
+            handles_.declaration(*symbol);
             if (symbol->initial) expr(symbol->initial);
             if (symbol->length) expr(symbol->length);
             declare(*symbol);
@@ -125,7 +129,10 @@ void ObjectExpander::declaration(DeclareStmt& s, Stmts& out) {
                 if (leaf.member->type.is_array())
                     return void(
                         report(Code::RSL_STRUCT_ARRAYS, symbol->span, symbol->structure->name));
-        out.push_back(make.declare(expanded(ast_, *symbol)));
+        std::vector<Symbol*> members = expanded(ast_, *symbol);
+        for (Symbol* member : members)
+            if (member->initial) expr(member->initial);
+        out.push_back(make.declare(members));
         declare(*symbol);
         if (!symbol->initial) continue;
         auto* assign = ast_.make<AssignExpr>(symbol->span);
@@ -141,13 +148,19 @@ void ObjectExpander::effect(ExpressionStmt& s, Stmts& out) {
     if (auto* assign = as_if<AssignExpr>(s.expression); assign && assign_struct(*assign, out))
         return;
     if (auto* call = as_if<CallExpr>(s.expression); call && array_call(*call, out)) return;
+    handles_.list_to_variable(s, out);
+    bool call = s.expression->kind == ExprKind::Call;
     expr(s.expression);
+    if (call && s.expression->kind == ExprKind::Number) return;  // a call of null
     out.push_back(&s);
 }
 // a = b of structs: member by member.
 bool ObjectExpander::assign_struct(AssignExpr& e, Stmts& out) {
     StructValue target = struct_value(*e.target);
     if (!target.structure) return false;
+    if (auto* node = as_if<CallExpr>(e.value);
+        node && handles_.is_call(*node) && !handles_.resolve(*node))
+        return true;
     std::vector<Expr*> targets = parts(target, e.target->span);
     if (const Function* giver = function_giving_struct(*e.value);
         giver && e.op == Op::None && giver->result_structure == target.structure) {

@@ -15,14 +15,16 @@ class Pipeline {
         : ast_(ast), reporter_(reporter), shader_(shader), make_(ast, shader.span) {}
 
     void run() {
-        std::optional<ShaderKind> kind = kind_of();
-        if (!kind) {
+        if (shader_.shader_class->methods.empty()) {
             const Token& at = ast_.tokens.tokens[shader_.span.token];
             reporter_.report(Code::RSL_CLASS_WITHOUT_METHODS, at, shader_.name);
             return;
         }
-        shader_.kind = *kind;
-        for (const Function* method : shader_.shader_class->methods) judge(*method);
+        std::optional<ShaderKind> kind = kind_of();
+        shader_.kind = kind.value_or(ShaderKind::Surface);
+        shader_.co_shader = !kind;
+        if (kind)
+            for (const Function* method : shader_.shader_class->methods) judge(*method);
         const ClassDefinition& c = *shader_.shader_class;
         out_.assign(c.members.begin(), c.members.end());
         for (Function* method : c.methods) {
@@ -84,6 +86,7 @@ class Pipeline {
     void stages() {
         call("construct", {});
         call("begin", {});
+        if (shader_.co_shader) return;
         switch (shader_.kind) {
             case ShaderKind::Surface:
                 return surface();

@@ -51,6 +51,8 @@ struct Symbol {
     uint32_t id = 0;  // dense in the Ast, 0 .. symbol_count-1: index of side tables
     SourceSpan span;
     bool resizable = false;   // an array whose length changes: RSL 2.0's "float a[];"
+    bool handle = false;      // of type shader: a float that names a linked shader, 0 for null
+    bool accessible = false;  // a class's member: declared public
     Expr* initial = nullptr;  // initialiser, or a parameter's default; may be null
     Expr* length = nullptr;   // of a resizable array, at first; null: 0, or that of `initial`
     // The struct that it is of, whose members stand in its place after expand_objects().
@@ -356,6 +358,7 @@ struct Function {
     std::string_view name;
     Type result;                                         // Void: none
     const StructDefinition* result_structure = nullptr;  // as Symbol::structure
+    bool result_handle = false;                          // as Symbol::handle
     std::span<Symbol*> parameters;
     BlockStmt* body = nullptr;
     SourceSpan span;
@@ -389,6 +392,9 @@ struct ShaderDefinition {
     std::span<Symbol*> parameters;
     BlockStmt* body = nullptr;
     SourceSpan span;
+    std::span<Symbol*> handles =
+        {};                  // parameters of type shader: variables, after expand_objects()
+    bool co_shader = false;  // the renderer calls nothing of it: only other shaders do
 };
 
 // Memory of the nodes: blocks that live as long as the Ast.

@@ -25,7 +25,7 @@ std::span<Symbol*> DeclarationParser::parameters(SymbolKind kind) {
         }
         if (((cursor_.is_type() || cursor_.is_detail()) &&
              !(have_type && cursor_.word_as_name())) ||
-            struct_type() || foreign_.at_type() || foreign_.shader_handle()) {
+            struct_type() || foreign_.at_type() || cursor_.is_handle()) {
             if (!read_head(head)) {
                 if (errors_.stopped() || !resume_parameters(begin)) break;
                 continue;
@@ -104,6 +104,12 @@ bool DeclarationParser::read_head(DeclarationHead& head) {
             cursor_.advance();
             return true;
         }
+        if (cursor_.is_handle()) {
+            head.handle = true;
+            head.type.base = BaseType::Float;
+            cursor_.advance();
+            return true;
+        }
         if (cursor_.is_detail())
             cursor_.advance();
         else if (!foreign_.accept_type(head.type.base))
@@ -112,7 +118,7 @@ bool DeclarationParser::read_head(DeclarationHead& head) {
             return true;
     }
     if (!cursor_.is_type()) {
-        if (!foreign_.shader_handle()) errors_.syntax_error("a type");
+        errors_.syntax_error("a type");
         return false;
     }
     head.type.base = type_from_name(cursor_.token().text);
@@ -132,6 +138,7 @@ Symbol* DeclarationParser::declarator(const DeclarationHead& head, SymbolKind ki
     symbol->kind = kind;
     symbol->type = head.type;
     symbol->structure = head.structure;
+    symbol->handle = head.handle;
     symbol->detail = head.detail;
     symbol->constant = head.constant;
     symbol->output = head.output;
@@ -224,11 +231,12 @@ const StructDefinition* DeclarationParser::struct_type(int ahead) const {
 }
 
 bool DeclarationParser::at_declaration() const {
-    if (struct_type()) return !cursor_.is(Punct::LeftParen, 2);
+    if (struct_type() || cursor_.is_handle()) return !cursor_.is(Punct::LeftParen, 2);
     if (cursor_.is(Word::Uniform) || cursor_.is(Word::Varying)) return !cursor_.word_as_name();
     if (cursor_.is_constant()) return true;
     if (cursor_.is(Word::Output))
-        return cursor_.is_type(1) || cursor_.is_detail(1) || struct_type(1);
+        return cursor_.is_type(1) || cursor_.is_detail(1) || struct_type(1) ||
+               cursor_.is_handle(1);
     bool space = cursor_.is_type() && cursor_.token(1).kind == TokenKind::String &&
                  cursor_.token(2).kind == TokenKind::Identifier;
     if (space) {  // written before the name instead of the value

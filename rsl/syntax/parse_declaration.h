@@ -19,6 +19,7 @@ struct DeclarationHead {
     Detail detail = Detail::Unspecified;
     bool output = false;
     bool constant = false;
+    bool handle = false;  // "shader": the type is Float
 };
 
 class DeclarationParser {

@@ -86,12 +86,6 @@ bool ForeignSyntax::accept_type(BaseType& base) {
     return true;
 }
 
-bool ForeignSyntax::shader_handle() {
-    bool two = cursor_.token(1).kind == TokenKind::Identifier && !cursor_.is_reserved(1);
-    return two && cursor_.token().text == "shader" &&
-           errors_.newer_language(cursor_.token(), "'shader' (handles of co-shaders)");
-}
-
 bool ForeignSyntax::accept_cast() {
     const Token& type = cursor_.token(1);
     bool operand =

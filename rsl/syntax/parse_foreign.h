@@ -20,8 +20,6 @@ class ForeignSyntax {
     bool accept_type(BaseType& base);
     // "(int) x", as in C: reported, and the value taken as it is.
     bool accept_cast();
-    // "shader lights[]" of RSL 2.0.
-    bool shader_handle();
 
     // ---- statements
     // Words of C before a function that say nothing here.

@@ -15,24 +15,29 @@ bool ObjectParser::at_struct() const {
            (cursor_.is(Punct::LeftBrace, 2) || cursor_.is(Punct::Colon, 2));
 }
 
-// "public" or "private" before a member or method.
+// "public" or "private" before a member or method. Whether it was public.
 bool ObjectParser::accept_access() {
-    std::string_view word = cursor_.token().text;
-    if ((word != "public" && word != "private") || cursor_.token(1).kind != TokenKind::Identifier)
-        return false;
-    cursor_.advance();
-    return true;
+    bool accessible = false;
+    for (std::string_view word = cursor_.token().text;
+         (word == "public" || word == "private") && cursor_.token(1).kind == TokenKind::Identifier;
+         word = cursor_.token().text) {
+        accessible = word == "public";
+        cursor_.advance();
+    }
+    return accessible;
 }
 
 void ObjectParser::item(std::vector<Stmt*>& members, std::vector<Function*>& methods) {
-    while (accept_access()) {
-    }
+    bool accessible = accept_access();
     if (at_struct()) return struct_definition();
     if (cursor_.is_detail() && statements_.at_function(1)) cursor_.advance();
     if (statements_.at_function()) {
         if (Function* method = statements_.function()) methods.push_back(method);
     } else if (declarations_.at_declaration()) {
-        if (Stmt* member = statements_.declaration_statement()) members.push_back(member);
+        Stmt* member = statements_.declaration_statement();
+        if (!member) return;
+        for (Symbol* symbol : as<DeclareStmt>(*member).symbols) symbol->accessible = accessible;
+        members.push_back(member);
     } else {
         no_item();
     }

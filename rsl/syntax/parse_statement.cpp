@@ -90,7 +90,7 @@ Stmt* StatementParser::statement_unguarded() {
         cursor_.advance();  // the detail of a result is inferred
     if (at_function()) return function_statement();
     if (declarations_.at_declaration()) return declaration_statement();
-    return foreign_.shader_handle() ? nullptr : expression_statement();
+    return expression_statement();
 }
 
 // The statement that another one governs; empty where it is broken.
@@ -131,10 +131,13 @@ Function* StatementParser::function() {
     f->result = {BaseType::Float, -1};
     const StructDefinition* structure = declarations_.struct_type();
     bool foreign = !structure && foreign_.at_type();
-    f->typed = foreign || structure || (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
+    f->result_handle = cursor_.is_handle() && cursor_.is(Punct::LeftParen, 2);
+    f->typed = foreign || structure || f->result_handle || (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
     if (structure) {
         f->result = {BaseType::Void, -1};
         f->result_structure = structure;
+        cursor_.advance();
+    } else if (f->result_handle) {
         cursor_.advance();
     } else if (foreign) {
         foreign_.accept_type(f->result.base);
@@ -158,7 +161,7 @@ Function* StatementParser::function() {
 bool StatementParser::at_function(uint32_t ahead) const {
     int at = int(ahead);
     bool typed = (cursor_.is_type(at) && !cursor_.is(Punct::LeftParen, at + 1)) ||
-                 declarations_.struct_type(at) || foreign_.at_type(at);
+                 declarations_.struct_type(at) || foreign_.at_type(at) || cursor_.is_handle(at);
     uint32_t name = cursor_.position() + ahead + typed;
     const auto& tokens = cursor_.all();
     if (name + 1 >= tokens.size() || tokens[name].kind != TokenKind::Identifier) return false;

@@ -15,9 +15,9 @@ bool is_shader_word(Word word) {
 
 }  // namespace
 
-Parser::Parser(Ast& ast, Reporter& reporter)
+Parser::Parser(Ast& ast, Reporter& reporter, uint32_t first)
     : ast_(ast),
-      cursor_(ast.tokens.tokens),
+      cursor_(ast.tokens.tokens, first),
       errors_(cursor_, reporter),
       foreign_(cursor_, errors_),
       expressions_(ast, cursor_, errors_, foreign_, nesting_),
@@ -69,10 +69,6 @@ bool Parser::newer_definition() {
         objects_.at_class() ? objects_.class_definition() : objects_.struct_definition();
         return true;
     }
-    if (cursor_.token().text == "shader" && cursor_.is(Punct::LeftParen, 2)) {
-        errors_.error(Code::RSL_NOT_RSL, cursor_.token(), "'shader' (Open Shading Language)");
-        return true;
-    }
     if (cursor_.token().text == "public")
         return errors_.newer_language(cursor_.token(), "'public' (shader objects)");
     return false;
@@ -94,16 +90,31 @@ bool Parser::file_variable() {
     return true;
 }
 
+// "shader name(...) {...}" that returns nothing; else it is a function that gives a handle.
+bool Parser::at_co_shader() const {
+    if (!cursor_.is_handle() || !cursor_.is(Punct::LeftParen, 2)) return false;
+    const auto& tokens = cursor_.all();
+    uint32_t i = cursor_.after_parens(cursor_.position() + 2);
+    if (tokens[i].punct != Punct::LeftBrace) return false;
+    for (int depth = 0; i + 1 < tokens.size(); ++i) {
+        depth += (tokens[i].punct == Punct::LeftBrace) - (tokens[i].punct == Punct::RightBrace);
+        if (depth == 0) return true;
+        if (tokens[i].word == Word::Return && tokens[i + 1].punct != Punct::Semicolon) return false;
+    }
+    return true;
+}
+
 // "surface name(...) {...}".
 bool Parser::shader_definition() {
-    if (!is_shader_word(cursor_.token().word)) return false;
+    bool co_shader = at_co_shader();
+    if (!is_shader_word(cursor_.token().word) && !co_shader) return false;
     uint32_t at = cursor_.position();
     // "deformation" is another name of transformation.
-    auto kind = ShaderKind(std::min(int(cursor_.token().word), int(Word::Transformation)) -
-                           int(Word::Surface));
+    Word word = std::min(cursor_.token().word, Word::Transformation);
     cursor_.advance();
     auto* shader = ast_.arena.make<ShaderDefinition>();
-    shader->kind = kind;
+    if (!co_shader) shader->kind = ShaderKind(int(word) - int(Word::Surface));
+    shader->co_shader = co_shader;
     shader->span = SourceSpan{cursor_.token().where, cursor_.position()};
     if (cursor_.token().kind == TokenKind::Identifier &&
         (cursor_.is(Punct::LeftParen, 1) || cursor_.is_reserved())) {
@@ -205,7 +216,7 @@ void Parser::function_definition() {
     }
     if (name_is_macro()) return;
     int name = (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1)) ||
-               declarations_.struct_type() || foreign_.at_type();
+               declarations_.struct_type() || foreign_.at_type() || cursor_.is_handle();
     bool named =
         cursor_.token(name).kind == TokenKind::Identifier && cursor_.is(Punct::LeftParen, name + 1);
     if (!named) {

@@ -20,7 +20,8 @@ namespace kinora::rsl {
 
 class Parser {
   public:
-    Parser(Ast& ast, Reporter& reporter);
+    // Reads the tokens from `first` on; its definitions are added to the tree's.
+    Parser(Ast& ast, Reporter& reporter, uint32_t first = 0);
     void run();
     // What of the source is not in the tree.
     ParseRecovery& recovery() { return errors_.recovery(); }
@@ -30,6 +31,7 @@ class Parser {
     bool newer_definition();
     bool file_variable();
     bool shader_definition();
+    bool at_co_shader() const;
     BlockStmt* shader_body(ShaderDefinition& shader);
     BlockStmt* body_as_function(BlockStmt* body);
     void function_definition();

@@ -13,7 +13,8 @@ namespace kinora::rsl {
 class TokenCursor {
   public:
     // The tokens end with an End token, which is never left.
-    explicit TokenCursor(std::vector<Token>& tokens) : tokens_(tokens) {}
+    explicit TokenCursor(std::vector<Token>& tokens, uint32_t first = 0)
+        : tokens_(tokens), position_(first) {}
 
     const Token& token(int ahead = 0) const {
         return tokens_[std::min(size_t(position_) + size_t(ahead), tokens_.size() - 1)];
@@ -30,8 +31,14 @@ class TokenCursor {
     }
     // RSL 2.0's "constant float": elsewhere the word is a name.
     bool is_constant(int ahead = 0) const {
-        return token(ahead).text == "constant" && (is_type(ahead + 1) || is_storage(ahead + 1)) &&
+        bool type = is_type(ahead + 1) || token(ahead + 1).text == "shader";
+        return token(ahead).text == "constant" && (type || is_storage(ahead + 1)) &&
                token(ahead + 2).kind == TokenKind::Identifier;
+    }
+    // RSL 2.0's "shader" before a name: a handle.
+    bool is_handle(int ahead = 0) const {
+        return token(ahead).text == "shader" && token(ahead + 1).kind == TokenKind::Identifier &&
+               !is_reserved(ahead + 1);
     }
     bool is_storage(int ahead = 0) const {
         return token(ahead).word >= Word::Uniform && token(ahead).word <= Word::Output;
@@ -71,7 +78,7 @@ class TokenCursor {
 
   private:
     std::vector<Token>& tokens_;
-    uint32_t position_ = 0;
+    uint32_t position_;
 };
 
 }  // namespace kinora::rsl

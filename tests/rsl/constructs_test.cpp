@@ -75,7 +75,7 @@ constexpr struct {
     {"class", "classes/class_members"},
     {"class light() volume() displacement()", "classes/class_light"},
     {"struct", "structs/struct_members"},
-    {"shader handles", "rejected/newer_shader_handles"},
+    {"shader handles", "classes/shader_handles"},
     {"->", "structs/struct_methods"},
     {"writeaov readaov stof strlen sprintf constant", "builtins/named_outputs"},
     {"default arguments", "functions/function_defaults"},

@@ -13,6 +13,7 @@
 #include "jit/compiler.h"
 #include "jit/ir/kernel_call.h"
 #include "rsl/compile.h"
+#include "rsl/link.h"
 #include "rsl/lower/lower.h"
 #include "rsl/model/kernel_keys.h"
 #include "rsl/model/service_table.h"
@@ -49,16 +50,20 @@ class RunShader {
         text.map.file = diagnostics.files.add("test.sl", source);
         text.map.segments = {{0, 0}};
         shaders = compile(text, {}, diagnostics);
-        if (shaders.empty()) return;
-        std::vector<Layer> layers;
-        for (auto& shader : shaders)
-            if (stack || &shader == &shaders.back()) layers.push_back({shader.get(), params});
-        std::optional<LoweredShader> result = lower(layers, options, diagnostics);
-        if (!result) return;
-        lowered = std::move(*result);
-        verdict = jit::verify(lowered.module);
-        if (!verdict.empty()) return;
-        kernels = jit::compile(lowered.module, {jit::find_target(target), nullptr});
+        build(options, params, stack, target);
+    }
+    // A shader and its co-shaders as one shader.
+    explicit RunShader(const std::vector<LinkedSource>& sources, LowerOptions options = {},
+                       std::vector<ParamBinding> params = {}, const char* target = "interp") {
+        std::vector<LinkedSource> located = sources;
+        for (LinkedSource& one : located) {
+            one.source.map.file =
+                diagnostics.files.add(one.handle + ".sl", std::string(one.source.text));
+            one.source.map.segments = {{0, 0}};
+        }
+        if (auto linked = compile_linked(located, {}, diagnostics))
+            shaders.push_back(std::move(linked));
+        build(options, params, false, target);
     }
 
     bool ok() const { return kernels.point != nullptr; }
@@ -115,6 +120,20 @@ class RunShader {
     uint64_t told = 0;
 
   private:
+    void build(const LowerOptions& options, const std::vector<ParamBinding>& params, bool stack,
+               const char* target) {
+        if (shaders.empty()) return;
+        std::vector<Layer> layers;
+        for (auto& shader : shaders)
+            if (stack || &shader == &shaders.back()) layers.push_back({shader.get(), params});
+        std::optional<LoweredShader> result = lower(layers, options, diagnostics);
+        if (!result) return;
+        lowered = std::move(*result);
+        verdict = jit::verify(lowered.module);
+        if (!verdict.empty()) return;
+        kernels = jit::compile(lowered.module, {jit::find_target(target), nullptr});
+    }
+
     static constexpr size_t kMessages = 64;  // numbers that lightsource() may ask for
 
     float* column(float value, int count) {

@@ -1,2 +1,2 @@
-// built-ins of RSL 2.0 for co-shaders
-surface newer_functions() { float a = getshader("base"); Ci = undefined; }
+// lists of lights, of RSL 2.0
+surface newer_functions() { shader a[] = getlights("diffuse"); Ci = undefined; }

@@ -1,4 +1,4 @@
-class x(shader base = null;) {
+class x(shader base = "base";) {
     public void surface(output color Ci, Oi) { Ci = 1; }
 }
-//! 1:9 error RSL_2 'shader'
+//! 1:23 error RSL_HANDLE_WANTED this is no shader

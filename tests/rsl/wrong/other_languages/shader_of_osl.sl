@@ -1,2 +1,2 @@
-shader x(float Kd = 1) { Ci = Kd; }
-//! 1:1 error RSL_NOT_RSL Open Shading Language
+shader x(int n = 1) { Ci = n; }
+//! 1:10 error RSL_UNKNOWN_TYPE

@@ -1,0 +1,2 @@
+// shader handles and '->'
+surface shader_handles(uniform shader layers[] = {}) { Ci = layers[0]->tint(P); }

@@ -1,2 +1,0 @@
-// shader handles and '->'
-surface newer_shader_handles(uniform shader layers[] = {}) { Ci = layers[0]->tint(P); }
