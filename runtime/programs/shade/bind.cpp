@@ -135,6 +135,10 @@ int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl
     for (const ShadeParam& param : source.params)
         if (find_parameter(shader, param.name)) params.push_back(param);
     for (const auto& [name, text] : options.params) {
+        auto handles = shader.definition->handles;
+        if (std::any_of(handles.begin(), handles.end(),
+                        [&](const rsl::Symbol* handle) { return handle->name == name; }))
+            continue;  // compiled in
         const rsl::ShaderParameter* parameter = find_parameter(shader, name);
         if (!parameter) return unknown_parameter(shader, name);
         std::erase_if(params, [&](const ShadeParam& p) { return p.name == name; });

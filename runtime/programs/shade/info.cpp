@@ -46,7 +46,8 @@ std::vector<const rsl::Symbol*> members_of(const rsl::Shader& shader) {
     const rsl::ClassDefinition* c = shader.definition->shader_class;
     for (size_t k = 0; c && k < c->members.size(); ++k)
         if (auto* declared = rsl::as_if<rsl::DeclareStmt>(c->members[k]))
-            members.insert(members.end(), declared->symbols.begin(), declared->symbols.end());
+            for (const rsl::Symbol* symbol : declared->symbols)
+                if (!symbol->handle) members.push_back(symbol);
     return members;
 }
 
@@ -78,12 +79,17 @@ void print_class(const rsl::Shader& shader) {
 }
 
 void print_text(const rsl::Shader& shader, const ShadeSource& source) {
-    std::printf("%s%s \"%s\"\n", shader.definition->shader_class ? "class, as " : "",
-                rsl::shader_kind_name(shader.kind), shader.name.c_str());
+    const char* kind =
+        shader.definition->co_shader ? "co-shader" : rsl::shader_kind_name(shader.kind);
+    std::printf("%s%s \"%s\"\n", shader.definition->shader_class ? "class, as " : "", kind,
+                shader.name.c_str());
     for (const rsl::ShaderParameter& parameter : shader.parameters)
         std::printf("    %s %s %.*s = %s\n", detail_of(parameter).c_str(),
                     rsl::type_name(parameter.type).c_str(), int(parameter.name.size()),
                     parameter.name.data(), default_of(parameter).c_str());
+    for (const rsl::Symbol* handle : shader.definition->handles)
+        std::printf("    shader%s %.*s\n", handle->type.is_array() ? "[]" : "",
+                    int(handle->name.size()), handle->name.data());
     print_class(shader);
     for (const std::string& line : annotations_of(shader))
         std::printf("    annotation %s\n", line.c_str());
@@ -121,6 +127,9 @@ nlohmann::ordered_json json_of(const rsl::Shader& shader) {
             row["value"] = parameter.constant->numbers;
         json["parameters"].push_back(std::move(row));
     }
+    for (const rsl::Symbol* handle : shader.definition->handles)
+        json["shaders"].push_back(
+            {{"name", std::string(handle->name)}, {"array", handle->type.is_array()}});
     if (shader.definition->shader_class) {
         json["methods"] = methods_of(shader);
         json["members"] = nlohmann::ordered_json::array();

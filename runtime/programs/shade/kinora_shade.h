@@ -27,6 +27,7 @@ struct ShadeOptions {
     bool quiet = false, verbose = false;
     bool silent = false;                                      // findings are told otherwise
     std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE
+    std::vector<std::pair<std::string, std::string>> co_shaders;  // HANDLE, FILE
     int width = 256, height = 256;                            // of the grid of points
     bool sphere = false;
     bool flip = false;  // a light shines along -z of its space

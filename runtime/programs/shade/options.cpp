@@ -44,7 +44,7 @@ std::pair<std::string, std::string> name_and_value(const std::string& text, cons
 // What the options' texts hold until all are known.
 struct Texts {
     std::string size, target;
-    std::vector<std::string> params, defines, unwarned;
+    std::vector<std::string> params, defines, unwarned, co_shaders;
     bool list = false;
 };
 
@@ -68,6 +68,8 @@ void add_compile(CLI::App& command, ShadeOptions& o, Texts& texts) {
     add_list(command, "-I", o.compile.include_directories, "DIR: where #include files are sought");
     add_list(command, "-D", texts.defines, "NAME, NAME=VALUE or NAME(X)=VALUE: define a macro");
     add_list(command, "-U", o.compile.undefines, "NAME: undefine a macro");
+    add_list(command, "--coshader", texts.co_shaders,
+             "HANDLE=FILE.sl: a co-shader, whose parameters are HANDLE.NAME");
     add_list(command, "--allow-external", o.allow_external,
              "DIR: a scene's shader may read files there too, outside its folder");
     command.add_flag("-E", o.preprocess_only, "print the preprocessed text only");
@@ -167,6 +169,8 @@ void interpret(const CLI::App& app, const Texts& texts, ShadeOptions& o) {
     if (!texts.target.empty()) choose_target(texts.target, o);
     for (const std::string& text : texts.params)
         o.params.push_back(name_and_value(text, "--param"));
+    for (const std::string& text : texts.co_shaders)
+        o.co_shaders.push_back(name_and_value(text, "--coshader"));
     for (const std::string& text : texts.defines)
         o.compile.defines.push_back(text.find('=') == std::string::npos
                                         ? std::pair(text, std::string("1"))

@@ -20,6 +20,7 @@
 #include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
+#include "runtime/programs/shade/co_shaders.h"
 
 namespace kinora {
 
@@ -168,7 +169,10 @@ std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource
         std::fputs(rsl::print_preprocessed(tokens).c_str(), stdout);
         return source.failed(options) ? kExitShader : kExitOk;
     }
-    source.shaders = rsl::compile(source.view(), options.compile, source.diagnostics);
+    if (options.co_shaders.empty())
+        source.shaders = rsl::compile(source.view(), options.compile, source.diagnostics);
+    else if (auto linked = compile_with_co_shaders(options, source))
+        source.shaders.push_back(std::move(linked));
     source.diagnostics.sort_unique();  // by location: they came by stage
     source.print_findings(options);
     if (source.shaders.empty() || source.failed(options)) return kExitShader;
