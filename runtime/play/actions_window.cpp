@@ -1,5 +1,7 @@
 // runtime/play/actions_window.cpp: what is open in the window. The state names it; the window shows
 // it.
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "runtime/play/core_p.h"
@@ -34,5 +36,13 @@ PANEL(full_screen, "full_screen")
 PANEL(keys, "keys")
 PANEL(commands, "commands")
 #undef PANEL
+
+CommandResult action_state(PlayerCore& core, const Arguments& a) {
+    std::ofstream out(a.text(0), std::ios::binary);
+    out << core.state_json();
+    if (!out.flush()) return refused(fmt::format("'{}' cannot be written", a.text(0)), 1);
+    ++core.state.files_written;
+    return {true, a.text(0), 0};
+}
 
 }  // namespace kinora

@@ -15,6 +15,14 @@ constexpr Command kCommands[] = {
 #undef COMMAND
 };
 
+constexpr ObservableRow kObservables[] = {
+    {"camera", Observable::Camera},       {"time", Observable::Time},
+    {"playback", Observable::Playback},   {"picture", Observable::Picture},
+    {"selection", Observable::Selection}, {"shader", Observable::Shader},
+    {"scene", Observable::Scene},         {"panels", Observable::Panels},
+    {"files", Observable::File},          {"quit", Observable::Quit},
+};
+
 bool has_key(std::string_view keys, std::string_view key) {
     while (!keys.empty()) {
         size_t end = std::min(keys.find(' '), keys.size());
@@ -33,6 +41,10 @@ char escaped(char c) {
 
 std::span<const Command> commands() {
     return kCommands;
+}
+
+std::span<const ObservableRow> observables() {
+    return kObservables;
 }
 
 const Command* find_command(std::string_view word) {

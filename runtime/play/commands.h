@@ -24,12 +24,18 @@ enum class Observable : uint8_t {
     Quit,       // the player ends
 };
 
+struct ObservableRow {
+    std::string_view name;  // in scripts and in the file that `state` writes
+    Observable what;
+};
+std::span<const ObservableRow> observables();
+
 struct Command {
     const char* word;       // "orbit"
     const char* key;        // "Shift+Left"; several parted by spaces; "" none
     const char* menu;       // "View/Orbit"; "" in no menu
     const char* arguments;  // "degrees:number degrees:number"; "[...]" may be left out
-    const char* example;    // arguments that change the observable in tests/play/commands_test.cpp
+    const char* example;    // arguments that change the observable; $TMP is the tests' folder
     const char* setup;      // script lines before the example, parted by ';'
     Observable changes;
     const char* help;  // one sentence

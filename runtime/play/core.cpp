@@ -81,7 +81,7 @@ void PlayerCore::take_news() {
         std::lock_guard lock(wake_mutex);
         std::swap(reload, files_changed);
     }
-    if (reload && setup.watch_files) maker.open(request, edits, false);
+    if (reload && setup.watch_files && !maker.opening()) maker.open(request, edits, false);
     merge_findings();
 }
 
@@ -137,6 +137,10 @@ void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with) {
     redo.clear();
     session = std::move(with);
     maker.open(scene, edits, true);
+}
+
+bool PlayerCore::picture_ready() const {
+    return maker.idle() && loop.caught_up() && (loop.picture() || loop.idle());
 }
 
 // What a new scene begins with instead of its own beginning.

@@ -54,6 +54,9 @@ struct PlayerCore {
     ViewOrder view_order() const;
     DisplaySettings display_settings() const;
     bool idle() const { return maker.idle() && loop.idle(); }
+    bool picture_ready() const;  // of the state as it is, or none can be made
+    std::string observe(Observable what) const;
+    std::string state_json() const;  // all observables and the edits, as texts
 
     // The answer is run before this returns where no clock runs; else when it comes.
     void ask(Question question);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "runtime/play/core_p.h"
+#include "runtime/play/pixel/pixel_story.h"
 #include "runtime/play/player.h"
 
 namespace kinora {
@@ -50,10 +51,21 @@ std::string text_of(const Selection& selection) {
     return text;
 }
 
+std::string text_of(const SceneEdits& edits) {
+    std::string text;
+    for (const auto& [material, shader] : edits.shaders)
+        text += fmt::format("shader {} {}\n", material, shader);
+    for (const SceneEdits::Text& edit : edits.texts)
+        text += fmt::format("text {} {}\n", edit.material, edit.text);
+    for (const auto& [target, value] : edits.params)
+        text += fmt::format("param {} {}\n", target, value);
+    for (const std::string& node : edits.hidden) text += fmt::format("hidden {}\n", node);
+    return text;
+}
+
 }  // namespace
 
-std::string Player::observe(Observable what) const {
-    const PlayerState& state = core_->state;
+std::string PlayerCore::observe(Observable what) const {
     switch (what) {
         case Observable::Camera:
             return text_of(state.camera);
@@ -66,13 +78,11 @@ std::string Player::observe(Observable what) const {
         case Observable::Selection:
             return text_of(state.selection);
         case Observable::Shader:
-            return fmt::format("material '{}', caret {}, {}dirty: {}", core_->document.material,
-                               core_->document.caret, core_->document.dirty ? "" : "not ",
-                               core_->document.text);
+            return fmt::format("material '{}', caret {}, {}dirty: {}", document.material,
+                               document.caret, document.dirty ? "" : "not ", document.text);
         case Observable::Scene:
-            return core_->info
-                       ? fmt::format("scene {} of {}", core_->info->serial, core_->info->path)
-                       : std::string("none");
+            return info ? fmt::format("scene {} of {}", info->serial, info->path)
+                        : std::string("none");
         case Observable::Panels:
             return fmt::format("{}", fmt::join(state.panels, " "));
         case Observable::File:
@@ -81,6 +91,17 @@ std::string Player::observe(Observable what) const {
             return state.quit ? "ends" : "goes on";
     }
     return "";
+}
+
+std::string Player::observe(Observable what) const {
+    return core_->observe(what);
+}
+
+std::string PlayerCore::state_json() const {
+    std::string out = "{";
+    for (const ObservableRow& row : observables())
+        out += fmt::format("\n  \"{}\": {},", row.name, json_text(observe(row.what)));
+    return out + fmt::format("\n  \"edits\": {}\n}}\n", json_text(text_of(edits)));
 }
 
 }  // namespace kinora

@@ -146,6 +146,9 @@ std::vector<StageTimes> Player::stage_times() const {
 bool Player::idle() const {
     return core_->idle();
 }
+bool Player::picture_ready() const {
+    return core_->picture_ready();
+}
 bool Player::real_time() const {
     return core_->setup.real_time;
 }
@@ -167,12 +170,7 @@ bool Player::wait_idle(double seconds) {
 
 bool Player::wait_picture(double seconds) {
     core_->send_order();
-    return core_->wait_for(
-        [&] {
-            return core_->maker.idle() && core_->loop.caught_up() &&
-                   (core_->loop.picture() || core_->loop.idle());
-        },
-        seconds);
+    return core_->wait_for([&] { return core_->picture_ready(); }, seconds);
 }
 
 }  // namespace kinora

@@ -73,6 +73,7 @@ class Player {
 
     // Nothing is left to do: the picture is refined, or cannot be made.
     bool idle() const;
+    bool picture_ready() const;  // of the state as it is, refined or not
     bool real_time() const;
     uint64_t frames_rendered() const;  // begun, so far
 
@@ -80,7 +81,7 @@ class Player {
     // seconds.
     bool wait_loaded(double seconds);
     bool wait_idle(double seconds);
-    bool wait_picture(double seconds);  // of the state as it is, refined or not
+    bool wait_picture(double seconds);  // until picture_ready()
 
     // Each command that was done, as lines of a script, with the time that went by between them.
     // False where the file cannot be written.

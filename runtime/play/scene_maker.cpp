@@ -55,6 +55,12 @@ bool SceneMaker::idle() const {
     return !order_ && !working_ && !made_;
 }
 
+bool SceneMaker::opening() const {
+    std::lock_guard lock(mutex_);
+    return (order_ && order_->replaces_camera) || (working_ && replaces_camera_) ||
+           (made_ && made_->replaces_camera);
+}
+
 void SceneMaker::run() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -63,6 +69,7 @@ void SceneMaker::run() {
         Order order = std::move(*order_);
         order_.reset();
         working_ = true;
+        replaces_camera_ = order.replaces_camera;
         lock.unlock();
         std::unique_ptr<ShownScene> made = make(order);
         lock.lock();

@@ -26,7 +26,8 @@ class SceneMaker {
 
     // What has become of the last order: a scene, or findings without one. Null: nothing new.
     std::unique_ptr<ShownScene> take();
-    bool idle() const;  // no order, and nothing to take
+    bool idle() const;     // no order, and nothing to take
+    bool opening() const;  // another scene, which is not taken yet
 
   private:
     struct Order {
@@ -45,6 +46,7 @@ class SceneMaker {
     std::optional<Order> order_;
     std::unique_ptr<ShownScene> made_;
     bool working_ = false, quit_ = false;
+    bool replaces_camera_ = false;  // the order in work
 
     // Of the thread.
     std::optional<ImportedScene> base_;  // as read

@@ -40,33 +40,56 @@ CommandResult unknown(const std::string& kind, const Words& words, size_t k,
                k);
 }
 
-constexpr std::pair<std::string_view, Observable> kStates[] = {
-    {"camera", Observable::Camera},   {"playback", Observable::Playback},
-    {"picture", Observable::Picture}, {"selection", Observable::Selection},
-    {"shader", Observable::Shader},   {"scene", Observable::Scene},
-    {"panels", Observable::Panels},
-};
-
 }  // namespace
 
 Script::Script(Player& player, std::string name, std::function<void(const std::string&)> report)
     : player_(player), name_(std::move(name)), report_(std::move(report)) {}
 
 bool Script::run(std::string_view text) {
-    for (int number = 1; !text.empty(); ++number) {
+    for (number_ = 1; !text.empty(); ++number_) {
         size_t end = std::min(text.find('\n'), text.size());
         Words words = split_words(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
         if (words.texts.empty()) continue;
-        CommandResult result =
-            words.error.empty() ? line(words) : bad(words.error, words.texts.size() - 1);
-        if (result.done) continue;
-        size_t word = std::min(result.argument, words.columns.size() - 1);
-        report_(
-            fmt::format("{}:{}:{}: error: {}", name_, number, words.columns[word], result.message));
-        return false;
+        if (!finish(words, words.error.empty() ? line(words) : CommandResult{})) return false;
     }
     return true;
+}
+
+// False after a report.
+bool Script::finish(const Words& words, const CommandResult& result) {
+    CommandResult shown = words.error.empty() ? result : bad(words.error, words.texts.size() - 1);
+    if (shown.done) return true;
+    size_t word = std::min(shown.argument, words.columns.size() - 1);
+    report_(fmt::format("{}:{}:{}: error: {}", name_, number_, words.columns[word], shown.message));
+    return false;
+}
+
+Script::Progress Script::step(std::string_view text) {
+    if (!since_) {
+        ++number_;
+        since_.emplace();
+    }
+    Words words = split_words(text);
+    if (words.error.empty() && !words.texts.empty() && has_to_wait(words)) return Progress::Waits;
+    since_.reset();
+    bool done = words.texts.empty() || !words.error.empty();
+    std::optional<double> seconds;
+    if (words.texts.size() == 2 && words.texts[0] == "wait") seconds = one_number(words.texts[1]);
+    if (seconds && *seconds >= 0) done = true;  // they are over
+    return finish(words, done ? CommandResult{} : line(words)) ? Progress::Done : Progress::Failed;
+}
+
+// What line() would wait for is not there yet.
+bool Script::has_to_wait(const Words& words) const {
+    const std::string& word = words.texts.front();
+    bool loading = player_.load_state() == LoadState::Loading;
+    if (word != "wait") return loading && word != "quit";
+    std::string what = words.texts.size() == 2 ? words.texts[1] : "";
+    if (std::optional<double> seconds = one_number(what)) return since_->ms() < 1000 * *seconds;
+    if (what == "picture") return loading || !player_.picture_ready();
+    if (what == "refined") return loading || !player_.idle();
+    return what == "loaded" && loading;
 }
 
 CommandResult Script::line(const Words& words) {
@@ -140,7 +163,7 @@ CommandResult Script::expect(const Words& words) {
         return {};
     }
     if (texts.size() == 3) {
-        for (const auto& [name, observable] : kStates) {
+        for (const auto& [name, observable] : observables()) {
             if (texts[1] != name) continue;
             std::string state = player_.observe(observable);
             if (state.find(texts[2]) != std::string::npos) return {};
@@ -149,7 +172,7 @@ CommandResult Script::expect(const Words& words) {
     }
     return unknown("expect", words, 1,
                    {"pixel", "variable", "time", "camera", "playback", "picture", "selection",
-                    "shader", "scene", "panels"});
+                    "shader", "scene", "panels", "files", "quit"});
 }
 
 CommandResult Script::expect_pixel(const Words& words) {

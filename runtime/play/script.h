@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "runtime/base/stats.h"
 #include "runtime/play/player.h"
 
 namespace kinora {
@@ -20,7 +22,14 @@ class Script {
     // Runs all lines; stops at the first that cannot be done. False then.
     bool run(std::string_view text);
 
+    enum class Progress : uint8_t { Done, Waits, Failed };
+    // The next line, for a window, whose turns do not wait. Waits: to be called again with the same
+    // line in the next turn.
+    Progress step(std::string_view line);
+
   private:
+    bool finish(const Words& words, const CommandResult& result);
+    bool has_to_wait(const Words& words) const;
     CommandResult line(const Words& words);
     CommandResult wait(const Words& words);
     CommandResult expect(const Words& words);
@@ -32,6 +41,8 @@ class Script {
     Player& player_;
     std::string name_;
     std::function<void(const std::string&)> report_;
+    int number_ = 0;                  // of the line
+    std::optional<Stopwatch> since_;  // the line that waits
 };
 
 }  // namespace kinora

@@ -73,6 +73,8 @@ PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
                        const SourceFiles& files, int x, int y, int sample);
 
 std::string to_json(const PixelStory& story);
+// A text in quotation marks, as JSON has it.
+std::string json_text(std::string_view text);
 
 // The variable after the last step at that line that changed it; null: none.
 const StoryVariable* find_variable(const PixelStory& story, std::string_view name, int line);

@@ -8,9 +8,7 @@
 
 namespace kinora {
 
-namespace {
-
-std::string quoted_text(std::string_view text) {
+std::string json_text(std::string_view text) {
     std::string out = "\"";
     for (char c : text)
         if (c == '"' || c == '\\')
@@ -21,6 +19,8 @@ std::string quoted_text(std::string_view text) {
             out += c;
     return out + '"';
 }
+
+namespace {
 
 std::string number_text(float x) {
     return std::isfinite(x) ? fmt::format("{}", x) : fmt::format("\"{}\"", x);
@@ -40,16 +40,16 @@ std::string numbers_text(std::span<const float> numbers) {
 
 std::string variable_text(const StoryVariable& v) {
     return fmt::format(R"({{"name": {}, "type": "{}", "rate": "{}", "nan": {}, "value": {}}})",
-                       quoted_text(v.name), v.type, v.varying ? "varying" : "uniform", v.nan,
-                       v.text ? list_text(v.texts, quoted_text) : numbers_text(v.values));
+                       json_text(v.name), v.type, v.varying ? "varying" : "uniform", v.nan,
+                       v.text ? list_text(v.texts, json_text) : numbers_text(v.values));
 }
 
 std::string step_text(const StoryStep& s) {
     return fmt::format(
         "\n   {{\"inside\": {}, \"file\": {}, \"line\": {}, \"source\": {}, \"turns\": {}, "
         "\"light\": {},\n    \"changes\": {}}}",
-        quoted_text(s.inside), quoted_text(s.file), s.line, quoted_text(s.source),
-        list_text(s.turns, [](int32_t turn) { return std::to_string(turn); }), quoted_text(s.light),
+        json_text(s.inside), json_text(s.file), s.line, json_text(s.source),
+        list_text(s.turns, [](int32_t turn) { return std::to_string(turn); }), json_text(s.light),
         list_text(s.changes, variable_text, ",\n     "));
 }
 
@@ -58,9 +58,9 @@ std::string point_text(const PointStory& p) {
         "\n  {{\"material\": {}, \"shader\": {}, \"agreement\": \"{}\", \"why\": {},\n"
         "   \"Ci\": {}, \"Oi\": {}, \"reference_Ci\": {}, \"allowed\": {},\n"
         "   \"nan\": {{\"file\": {}, \"line\": {}, \"column\": {}}}, \"cut\": {}, \"steps\": {}}}",
-        quoted_text(p.material), quoted_text(p.shader), agreement_text(p.agreement),
-        quoted_text(p.why), numbers_text(p.Ci), numbers_text(p.Oi), numbers_text(p.reference_Ci),
-        numbers_text(p.allowed), quoted_text(p.nan_file), p.nan_line, p.nan_column, p.cut,
+        json_text(p.material), json_text(p.shader), agreement_text(p.agreement), json_text(p.why),
+        numbers_text(p.Ci), numbers_text(p.Oi), numbers_text(p.reference_Ci),
+        numbers_text(p.allowed), json_text(p.nan_file), p.nan_line, p.nan_column, p.cut,
         list_text(p.steps, step_text, ","));
 }
 

@@ -24,7 +24,8 @@ void say(const std::string& line) {
 }
 
 int run_script(const PlayOptions& options, Player& player) {
-    std::ifstream in(options.script);
+    const bool piped = options.script == "-";
+    std::ifstream in(piped ? "/dev/stdin" : options.script);
     std::stringstream text;
     text << in.rdbuf();
     if (!in) {

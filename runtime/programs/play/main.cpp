@@ -37,8 +37,10 @@ int play_scene(const PlayOptions& options) {
     if (options.headless) return run_headless(options, player);
     std::string error;
     const play::WindowOptions window{options.scene.width > 0 || options.scene.scale != 1, false,
-                                     play::layout_file()};
-    if (play::run_window(player, window, error)) return kExitOk;
+                                     play::layout_file(), options.script};
+    const play::WindowEnd end = play::run_window(player, window, error);
+    if (end == play::WindowEnd::Closed) return kExitOk;
+    if (end == play::WindowEnd::ScriptFailed) return kExitSomeFailed;
     std::fprintf(stderr,
                  "kinora-play: error: there is no display (%s); "
                  "kinora-play --headless --script FILE works without one\n",

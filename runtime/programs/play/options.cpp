@@ -13,7 +13,8 @@ std::optional<int> parse_play_options(int argc, char** argv, PlayOptions& o) {
     program.own = {
         {"--headless", nullptr, &o.headless,
          "no window: --script or --screenshot say what is done"},
-        {"--script", &o.script, nullptr, "FILE: one command a line (docs/play.md)"},
+        {"--script", &o.script, nullptr,
+         "FILE: one command a line (docs/play.md); - is standard input"},
         {"--screenshot", &o.screenshot, nullptr,
          "FILE: the refined picture as .png or .exr, with a frame token (####) of each frame"},
         {"--record", &o.record, nullptr, "FILE: writes a script of what is done"},

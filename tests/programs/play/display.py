@@ -1,5 +1,6 @@
 """tests/programs/play/display.py: a display without a screen (Xvfb), real keys and mouse (xdotool)."""
 import os
+import re
 import shutil
 import signal
 import struct
@@ -102,6 +103,19 @@ class Window:
                 return time.monotonic() - self.started
             time.sleep(0.02)
         raise AssertionError("no window: " + (self.process.communicate(timeout=5)[1] if self.process.poll() is not None else "it still runs"))
+
+    def recorded(self, record, pattern, count=1, seconds=60):
+        """Waits until --record's file has so many lines that match; its text."""
+        end = time.monotonic() + seconds
+        while True:
+            text = Path(record).read_text() if Path(record).exists() else ""
+            if len(re.findall(pattern, text, re.M)) >= count:
+                return text
+            if self.process.poll() is not None:
+                raise AssertionError(f"the window is gone: {self.process.stderr.read()}")
+            if time.monotonic() > end:
+                raise AssertionError(f"no line {pattern} in {seconds} s: {text[-2000:]}")
+            time.sleep(0.01)
 
     def key(self, *names):
         self.display.xdotool("key", "--delay", 20, *names)

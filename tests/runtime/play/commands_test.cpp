@@ -19,9 +19,12 @@ TEST_P(EveryCommand, ChangesWhatItsRowSays) {
     bool clips = std::string_view(row.word) == "clip";  // of all scenes one has some
     Played played(clips ? "gltf/bender.glb" : "scenes/walker.dae");
     ASSERT_EQ(played.script(row.setup), "");
+    std::string example = row.example;
+    if (size_t at = example.find("$TMP/"); at != example.npos)
+        example.replace(at, 5, testing::TempDir());
     ASSERT_TRUE(played.player.wait_idle(kLong));
     std::string before = played.player.observe(row.changes);
-    CommandResult result = played.player.run_line(std::string(row.word) + " " + row.example);
+    CommandResult result = played.player.run_line(std::string(row.word) + " " + example);
     ASSERT_TRUE(result.done) << result.message;
     ASSERT_TRUE(played.player.wait_idle(kLong));
     EXPECT_NE(played.player.observe(row.changes), before);
@@ -114,6 +117,46 @@ TEST(Script, RecordsWhatItCanRunAgain) {
     EXPECT_EQ(again.script(text + "\nexpect time 7"), "");
     EXPECT_EQ(again.player.observe(Observable::Camera), camera);
     EXPECT_EQ(again.player.observe(Observable::Panels), "A \"b\"");
+}
+
+// As a window runs them: each step returns at once, and says whether the line is done.
+TEST(Script, StepsDoNotWait) {
+    Played played(small_request(scene_path("scenes/walker.dae")), {true, false, nullptr});
+    std::string said;
+    Script script(played.player, "steps", [&](const std::string& line) { said += line; });
+    using enum Script::Progress;
+    EXPECT_EQ(script.step("seek 5  # a frame"), Done);
+    EXPECT_EQ(script.step(""), Done);
+    int turns = 0;
+    for (; script.step("wait refined") == Waits; ++turns) {
+        played.player.advance(0);
+        usleep(1000);
+    }
+    EXPECT_GT(turns, 0);
+    EXPECT_TRUE(played.player.picture()->refined);
+    EXPECT_EQ(script.step("wait 1000"), Waits);
+    EXPECT_EQ(script.step("wait 1000"), Waits);
+    Script other(played.player, "steps", [&](const std::string& line) { said += line; });
+    EXPECT_EQ(other.step("wait 0"), Done);
+    EXPECT_EQ(other.step("expect time 5"), Done);
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(other.step("wait forever"), Failed);
+    EXPECT_EQ(said.substr(0, 29), "steps:3:6: error: wait takes ");
+    EXPECT_EQ(other.step("orbit \"3"), Failed);
+}
+
+TEST(Script, StateIsWrittenAsItIsObserved) {
+    Played played("scenes/walker.dae");
+    std::string file = testing::TempDir() + "kinora_play_state.json";
+    EXPECT_EQ(played.script("seek 7; select_material wall-material; param Kd 0.5; state " + file),
+              "");
+    std::string text = text_of(file);
+    EXPECT_NE(text.find("\"time\": \"frame 7\""), std::string::npos) << text.substr(0, 600);
+    EXPECT_NE(text.find("\"edits\": \"param wall-material.Kd 0.5\\u000a\""), std::string::npos);
+    for (const ObservableRow& row : observables())
+        EXPECT_NE(text.find("\"" + std::string(row.name) + "\": "), std::string::npos) << row.name;
+    EXPECT_NE(played.script("state /proc/none/a.json").find("cannot be written"),
+              std::string::npos);
 }
 
 TEST(Pick, NamesWhatIsThere) {

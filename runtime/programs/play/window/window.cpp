@@ -9,12 +9,15 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <optional>
 
+#include "runtime/play/script.h"
 #include "runtime/programs/play/ui/ui.h"
 #include "runtime/programs/play/window/input.h"
 #include "runtime/programs/play/window/keys.h"
+#include "runtime/programs/play/window/script_lines.h"
 #include "runtime/programs/play/window/surface.h"
 
 namespace kinora::play {
@@ -80,7 +83,10 @@ class WindowLoop {
         show_first();
         ui_.emplace(player, layout_, scale_ * surface_.pixels_per_unit(), !options.fixed_size);
         connect_input();
+        begin_script();
     }
+
+    bool script_failed() const { return script_failed_; }
 
     void run() {
         last_ = Clock::now();
@@ -110,6 +116,7 @@ class WindowLoop {
     // Seconds that may pass without an event; < 0: any time.
     double patience() const {
         if (turns_ > 0) return 0;
+        if (line_) return kPlayTurn;
         if (player_.state().time.playing || player_.state().camera.turntable)
             return surface_.hidden() ? 0.1 : kPlayTurn;
         return ui_->next_turn();
@@ -178,6 +185,7 @@ class WindowLoop {
         const double seconds = std::chrono::duration<double>(now - last_).count();
         last_ = now;
         player_.advance(seconds);
+        follow_script();
         if (turns_ > 0) --turns_;
         follow_title();
         follow_full_screen();
@@ -190,6 +198,39 @@ class WindowLoop {
         ui_->render(target, static_cast<float>(seconds));
         show_pointer();
         surface_.present();
+    }
+
+    void begin_script() {
+        if (options_.script.empty()) return;
+        lines_.emplace(options_.script, wake_window);
+        const auto say = [this](const std::string& text) {
+            std::fprintf(stderr, "%s\n", text.c_str());
+            ui_->context().say(text, true);
+        };
+        script_.emplace(player_, options_.script, say);
+        if (lines_->error().empty()) return;
+        say("kinora-play: error: the script '" + options_.script +
+            "' cannot be read: " + lines_->error());
+        end_script();
+    }
+
+    void end_script() {
+        script_.reset();
+        line_.reset();
+        script_failed_ = true;
+    }
+
+    // Its lines, up to one that has to wait.
+    void follow_script() {
+        while (script_ && !player_.state().quit) {
+            if (!line_) line_ = lines_->next();
+            if (!line_) return;
+            const Script::Progress progress = script_->step(*line_);
+            if (progress == Script::Progress::Waits) return;
+            line_.reset();
+            if (progress == Script::Progress::Failed) return end_script();
+            turns_ = kTurnsAfterEvent;
+        }
     }
 
     void follow_title() {
@@ -212,11 +253,14 @@ class WindowLoop {
     Surface surface_;
     ImGuiScope imgui_;
     std::optional<Ui> ui_;
+    std::optional<ScriptLines> lines_;
+    std::optional<Script> script_;
+    std::optional<std::string> line_;  // the script's, which is not done yet
     std::optional<SDL_Event> held_;
     Clock::time_point last_;
     float scale_ = 1;
     int turns_ = kTurnsAfterEvent;
-    bool closed_ = false, swallow_text_ = false, full_screen_ = false;
+    bool closed_ = false, swallow_text_ = false, full_screen_ = false, script_failed_ = false;
     uint64_t titled_ = 0;
 };
 
@@ -230,19 +274,19 @@ void wake_window() {
     SDL_PushEvent(&event);
 }
 
-bool run_window(Player& player, const WindowOptions& options, std::string& error) {
+WindowEnd run_window(Player& player, const WindowOptions& options, std::string& error) {
     std::optional<WindowLoop> loop;
     try {
         loop.emplace(player, options);
     } catch (const std::exception& reason) {
         error = reason.what();
-        return false;
+        return WindowEnd::NoWindow;
     }
     static const uint32_t type = SDL_RegisterEvents(1);
     g_wake_event = type;
     loop->run();
     g_wake_event = 0;
-    return true;
+    return loop->script_failed() ? WindowEnd::ScriptFailed : WindowEnd::Closed;
 }
 
 }  // namespace kinora::play
