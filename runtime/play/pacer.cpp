@@ -1,7 +1,9 @@
 // runtime/play/pacer.cpp: fewer pixels at once where frames are late, more after a calm while.
 //
-// One late frame changes nothing: the median of three decides. Where a larger picture turned out
-// too slow, the next one is tried only after twice as many calm frames, so sizes do not swing.
+// One late frame changes nothing: the median of three decides, and that of fifteen where the time
+// is nearly met. Between the size that is too slow and the one that has room lies more than a step,
+// so jitter has no pair of sizes to swing between. Where a larger picture turned out too slow, the
+// next one is tried only after twice as many calm frames.
 #include "runtime/play/pacer.h"
 
 #include <algorithm>
@@ -10,7 +12,7 @@
 namespace kinora {
 
 double Pacer::scale_of(size_t step) {
-    return std::exp2(-0.25 * double(step));
+    return std::exp2(-0.125 * double(step));
 }
 
 double Pacer::scale() const {
@@ -23,41 +25,46 @@ void Pacer::forget() {
     patience_ = since_larger_ = kFirstPatience;
 }
 
-double Pacer::median() const {
-    std::array<double, 3> sorted = recent_;
-    if (known_ < 3) return *std::min_element(sorted.begin(), sorted.begin() + ptrdiff_t(known_));
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[1];
+// The median of what the last frames would have taken at that size; of fewer than three the least.
+double Pacer::time_at(size_t step, size_t frames) const {
+    const size_t count = std::min(frames, known_);
+    const double pixels = scale_of(step) * scale_of(step);
+    std::array<double, kWindow> times{};
+    for (size_t k = 0; k < count; ++k) times[k] = recent_[k].fixed + recent_[k].whole * pixels;
+    std::sort(times.begin(), times.begin() + ptrdiff_t(count));
+    return times[count < kFew ? 0 : count / 2];
 }
 
-// The largest picture that takes no longer than the target.
-size_t Pacer::fitting(double ms_of_all_pixels) const {
+// The largest picture that takes no longer.
+size_t Pacer::fitting(double ms, size_t frames) const {
     size_t step = 0;
-    while (step + 1 < kSteps && ms_of_all_pixels * scale_of(step) * scale_of(step) > target_)
-        ++step;
+    while (step + 1 < kSteps && time_at(step, frames) > ms) ++step;
     return step;
 }
 
-void Pacer::add(double ms) {
-    for (size_t k = recent_.size() - 1; k > 0; --k) recent_[k] = recent_[k - 1];
-    recent_[0] = ms / (scale() * scale());
-    known_ = std::min(known_ + 1, recent_.size());
+void Pacer::shrink(size_t step) {
+    if (since_larger_ < patience_) patience_ = std::min(2 * patience_, kMostPatience);
+    step_ = step;
+    calm_ = 0;
+}
+
+void Pacer::add(double ms, double fixed_ms) {
+    std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());
+    const double fixed = std::clamp(fixed_ms, 0.0, ms);
+    recent_[0] = {(ms - fixed) / (scale() * scale()), fixed};
+    known_ = std::min(known_ + 1, kWindow);
     since_larger_ = std::min(since_larger_ + 1, kMostPatience);
 
-    double now = median();
-    size_t wanted = fitting(now);
-    if (wanted > step_) {
-        if (since_larger_ < patience_) patience_ = std::min(2 * patience_, kMostPatience);
-        step_ = wanted;
-        calm_ = 0;
-        return;
+    if (time_at(step_, kFew) > kMuch * target_ && step_ + 1 < kSteps) {
+        known_ = std::min(known_, kFew);  // what was before says nothing
+        return shrink(fitting(target_, kFew));
     }
-    if (step_ == 0) return;
-    double larger = scale_of(step_ - 1);
-    bool fits = now * larger * larger <= kRoom * target_;
+    if (known_ < kWindow) return;
+    if (const size_t wanted = fitting(target_, kWindow); wanted > step_) return shrink(wanted);
+    const bool fits = step_ > 0 && time_at(step_ - 1, kWindow) <= kRoom * target_;
     calm_ = fits ? calm_ + 1 : 0;
     if (calm_ < patience_) return;
-    --step_;
+    step_ = std::min(step_ - 1, fitting(kRoom * target_, kWindow));
     calm_ = 0;
     since_larger_ = 0;
 }

@@ -11,31 +11,38 @@ class Pacer {
   public:
     // Frames are to take that many ms. The next sizes follow; what is known of times is kept.
     void aim_at(double frame_ms) { target_ = frame_ms; }
-    // Share of the picture's width and height that the next frame is to have: 1 .. kLeastScale.
+    // Share of the picture's width and height that the next frame is to have: 1 .. the last step's.
     double scale() const;
-    // The last frame, of that scale, took so many ms.
-    void add(double ms);
+    // The last frame, of that scale, took so many ms; so many of these whatever its size.
+    void add(double ms, double fixed_ms = 0);
     // Another scene: nothing is known.
     void forget();
 
-    // Sizes differ by 2^(1/4) in width: pixels by about 0.7.
-    static constexpr size_t kSteps = 9;
+    // Sizes differ by 2^(1/8) in width: pixels by about 0.84.
+    static constexpr size_t kSteps = 17;
     static double scale_of(size_t step);
 
   private:
-    double median() const;
-    size_t fitting(double ms_of_all_pixels) const;
-
-    double target_ = 1000.0 / 30;
-    size_t step_ = 0;                    // 0: all pixels
-    std::array<double, 3> recent_{};     // ms that all pixels would have taken
-    size_t known_ = 0;                   // of them
-    int calm_ = 0;                       // frames for which a larger picture would have fitted
-    int patience_ = kFirstPatience;      // so many of them make it larger
-    int since_larger_ = kFirstPatience;  // frames since it last became larger
-
+    static constexpr size_t kFew = 3;      // frames that say that it is too slow by much
+    static constexpr size_t kWindow = 15;  // frames that say that it is a little off
     static constexpr int kFirstPatience = 15, kMostPatience = 480;
-    static constexpr double kRoom = 0.8;  // a larger picture is tried where it would take this much
+    static constexpr double kMuch = 1.15;  // times the target
+    static constexpr double kRoom = 0.95;  // a larger picture is tried where it would take this much
+
+    double time_at(size_t step, size_t frames) const;
+    size_t fitting(double ms, size_t frames) const;
+    void shrink(size_t step);
+
+    struct Cost {
+        double whole = 0, fixed = 0;  // ms: of all pixels, and whatever their number
+    };
+    double target_ = 1000.0 / 30;
+    size_t step_ = 0;                     // 0: all pixels
+    std::array<Cost, kWindow> recent_{};  // the newest first
+    size_t known_ = 0;                    // of them
+    int calm_ = 0;                        // frames for which a larger picture would have fitted
+    int patience_ = kFirstPatience;       // so many of them make it larger
+    int since_larger_ = kFirstPatience;   // frames since it last became larger
 };
 
 }  // namespace kinora

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace kinora {
@@ -82,6 +83,23 @@ TEST(Pacer, NeverSwingsUnderJitter) {
         ms.push_back(60 * (0.875 + 0.25 * (state >> 8) / double(1 << 24)));
     }
     EXPECT_LE(changes(scales(pacer, ms), 40), 8);
+}
+
+// A part of each frame costs the same whatever its size: what is left of the time goes to pixels.
+TEST(Pacer, SpendsTheTimeThatItHas) {
+    for (double fixed : {0.0, 8.0, 20.0})
+        for (double whole : {40.0, 60.0, 75.0, 95.0, 140.0}) {
+            Pacer pacer = pacer_at_target();
+            double ms = 0;
+            for (int k = 0; k < 600; ++k) {
+                ms = fixed + whole * pacer.scale() * pacer.scale();
+                pacer.add(ms, fixed);
+            }
+            EXPECT_LE(ms, kTarget) << fixed << " " << whole;
+            // The next size has 2^(1/4) times the pixels.
+            double larger = fixed + (ms - fixed) * std::exp2(0.25);
+            EXPECT_GT(larger, 0.95 * kTarget) << fixed << " " << whole;
+        }
 }
 
 TEST(Pacer, StopsAtItsSmallestSize) {
