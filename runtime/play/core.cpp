@@ -73,7 +73,7 @@ bool PlayerCore::wait_for(const std::function<bool()>& reached, double seconds) 
 }
 
 void PlayerCore::take_news() {
-    if (auto shown = maker.take()) take_scene(std::move(shown));
+    while (auto shown = maker.take()) take_scene(std::move(shown));
     for (const Answer& answer : loop.take_answers()) answer();
     add_new(frame_findings, loop.take_findings());
     bool reload = false;
@@ -90,6 +90,7 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
     take_text(*shown);
     exit_code = shown->exit_code;
     if (!shown->files.empty()) watch.watch(shown->files);
+    if (shown->swapped) return take_swap(*shown);
     if (!shown->scene) {
         if (!info) load = LoadState::Failed;
         return;  // the last good scene stays
@@ -126,6 +127,16 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
         time.frame = std::clamp(time.frame, time.first, time.last);
     }
     loop.show(std::shared_ptr<ShownScene>(std::move(shown)));
+    send_order();
+}
+
+// The scene stays; its shaders are others.
+void PlayerCore::take_swap(ShownScene& shown) {
+    info = shown.info;
+    for (const MaterialInfo& material : info->materials)
+        if (material.id == document.material) document.params = material.params;
+    frame_findings.clear();
+    loop.swap(std::move(*shown.swapped));
     send_order();
 }
 
@@ -176,7 +187,7 @@ void PlayerCore::take_text(const ShownScene& shown) {
         if (text.material != document.material || text.version == 0) continue;
         document.compiling = text.version != document.version;
         document.compile_ms = shown.build_ms;
-        if (shown.scene) document.shown = text.version;
+        if (shown.scene || shown.swapped) document.shown = text.version;
         document.findings.clear();
         for (const FindingText& finding : shown.findings)
             if (finding.file == document.name) document.findings.push_back(finding);

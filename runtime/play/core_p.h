@@ -73,6 +73,7 @@ struct PlayerCore {
   private:
     void take_text(const ShownScene& shown);
     void take_scene(std::unique_ptr<ShownScene> shown);
+    void take_swap(ShownScene& shown);
     void merge_findings();
     void take_session(const Session& taken, const ShownScene& shown);
 };

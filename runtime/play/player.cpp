@@ -155,6 +155,9 @@ bool Player::real_time() const {
 uint64_t Player::frames_rendered() const {
     return core_->loop.frames();
 }
+MakerCounts Player::made() const {
+    return core_->maker.counts();
+}
 int Player::exit_code() const {
     return core_->exit_code;
 }

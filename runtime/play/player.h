@@ -41,7 +41,8 @@ struct PlayerSetup {
 
 enum class LoadState : uint8_t { Nothing, Loading, Ready, Failed };
 
-struct PlayerCore;  // core_p.h
+struct PlayerCore;   // core_p.h
+struct MakerCounts;  // scene_maker.h
 
 class Player {
   public:
@@ -76,6 +77,7 @@ class Player {
     bool picture_ready() const;  // of the state as it is, refined or not
     bool real_time() const;
     uint64_t frames_rendered() const;  // begun, so far
+    MakerCounts made() const;
 
     // For scripts and tests: until the scene is there or failed; until idle(). False after so many
     // seconds.

@@ -104,6 +104,17 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
     {
         std::lock_guard lock(mutex_);
         scene_ = std::move(scene);
+        swaps_.clear();
+        next_ = Pass::Quick;
+        stop_ = 1;
+    }
+    wanted_.notify_one();
+}
+
+void RenderLoop::swap(SwappedShaders shaders) {
+    {
+        std::lock_guard lock(mutex_);
+        swaps_.push_back(std::move(shaders));
         next_ = Pass::Quick;
         stop_ = 1;
     }
@@ -208,7 +219,12 @@ void RenderLoop::run() {
             in_work_ = *step;
             work_began_.restart();
         }
+        std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
+        for (SwappedShaders& shaders : swaps) {
+            apply_swap(*step->scene->scene, std::move(shaders.swap));
+            step->scene->diagnostics->files = std::move(shaders.files);
+        }
         Outcome outcome;
         if (renders) plan(*step);
         if (step->question) {
@@ -359,7 +375,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     // A frame that was ended early says nothing, unless it was late already.
     if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
         memory_->pacer.aim_at(target);
-        memory_->pacer.add(times.total);
+        memory_->pacer.add(times.total, times.animate + times.skin + times.refit + times.present);
     }
     return outcome;
 }

@@ -67,6 +67,8 @@ class RenderLoop {
 
     // The scene from now on; its pictures follow the next order.
     void show(std::shared_ptr<ShownScene> scene);
+    // Other kernels in that scene, between two frames.
+    void swap(SwappedShaders shaders);
     void order(const ViewOrder& order, const DisplaySettings& display);
     void ask(Question question);
 
@@ -121,6 +123,7 @@ class RenderLoop {
     std::shared_ptr<ShownScene> scene_;
     ViewOrder order_;
     DisplaySettings display_;
+    std::vector<SwappedShaders> swaps_;
     std::deque<Question> questions_;
     std::vector<Answer> answers_;
     std::shared_ptr<Picture> shown_;

@@ -47,18 +47,26 @@ void SceneMaker::edit(SceneEdits edits) {
 
 std::unique_ptr<ShownScene> SceneMaker::take() {
     std::lock_guard lock(mutex_);
-    return std::move(made_);
+    if (made_.empty()) return nullptr;
+    std::unique_ptr<ShownScene> first = std::move(made_.front());
+    made_.pop_front();
+    return first;
+}
+
+MakerCounts SceneMaker::counts() const {
+    std::lock_guard lock(mutex_);
+    return counts_;
 }
 
 bool SceneMaker::idle() const {
     std::lock_guard lock(mutex_);
-    return !order_ && !working_ && !made_;
+    return !order_ && !working_ && made_.empty();
 }
 
 bool SceneMaker::opening() const {
     std::lock_guard lock(mutex_);
     return (order_ && order_->replaces_camera) || (working_ && replaces_camera_) ||
-           (made_ && made_->replaces_camera);
+           std::ranges::any_of(made_, [](const auto& made) { return made->replaces_camera; });
 }
 
 void SceneMaker::run() {
@@ -73,14 +81,25 @@ void SceneMaker::run() {
         lock.unlock();
         std::unique_ptr<ShownScene> made = make(order);
         lock.lock();
-        // A scene opened and not taken yet must not lose its place to the same one edited.
-        if (made_ && made_->replaces_camera && made_->scene) made->replaces_camera = true;
-        made_ = std::move(made);
+        put(std::move(made));
         working_ = false;
         lock.unlock();
         done_();
         lock.lock();
     }
+}
+
+// With the lock.
+void SceneMaker::put(std::unique_ptr<ShownScene> made) {
+    if (made->swapped) counts_.kernels += made->swapped->swap.instances.size();
+    if (made->scene) {
+        ++counts_.scenes;
+        // A scene opened and not taken yet must not lose its place to the same one edited.
+        for (const auto& before : made_)
+            if (before->scene && before->replaces_camera) made->replaces_camera = true;
+        made_.clear();
+    }
+    made_.push_back(std::move(made));
 }
 
 std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
@@ -91,7 +110,8 @@ std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
     std::optional<SerialScope> serial;
     if (serial_ > 0) serial.emplace();  // the frames of the scene shown go first
     try {
-        if (!order.open || read(*order.open, *shown)) build(order, *shown);
+        bool done = order.open ? !read(*order.open, *shown) : swap(order, *shown);
+        if (!done) build(order, *shown);
     } catch (const std::bad_alloc&) {
         shown->scene.reset();
         shown->exit_code = kExitRetry;
@@ -99,7 +119,11 @@ std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
     }
     auto found = take_findings(*shown->diagnostics);
     shown->findings.insert(shown->findings.end(), found.begin(), found.end());
-    if (shown->scene) ++serial_;
+    if (shown->scene || shown->swapped) {
+        ++serial_;
+        info_ = shown->info;
+        built_with_ = order.edits;
+    }
     return shown;
 }
 
@@ -129,22 +153,79 @@ bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
     return true;
 }
 
-void SceneMaker::build(const Order& order, ShownScene& shown) {
-    if (!base_) return;
-    Diagnostics& diagnostics = *shown.diagnostics;
+namespace {
+
+// Without what no edit of a shader touches.
+ImportedScene copy_without_geometry(ImportedScene& from) {
+    SceneDescription& description = from.description;
+    auto meshes = std::exchange(description.meshes, {});
+    auto skins = std::exchange(description.skins, {});
+    auto morphs = std::exchange(description.morphs, {});
+    auto animation = std::exchange(description.animation, {});
+    ImportedScene copy = from;
+    description.meshes = std::move(meshes);
+    description.skins = std::move(skins);
+    description.morphs = std::move(morphs);
+    description.animation = std::move(animation);
+    return copy;
+}
+
+}  // namespace
+
+void SceneMaker::begin(ShownScene& shown) const {
     shown.request = request_;
     shown.files = files_;
-    diagnostics.judge(request_.findings.judgement());
-    diagnostics.files = texts_;
+    shown.rate = base_->rate;
+    shown.exit_code = kExitShader;
+    shown.diagnostics->judge(request_.findings.judgement());
+    shown.diagnostics->files = texts_;
+}
+
+// False: the scene is to be built.
+bool SceneMaker::swap(const Order& order, ShownScene& shown) {
+    if (!base_ || !swapper_ || order.edits.hidden != built_with_.hidden) return false;
+    begin(shown);
+    Diagnostics& diagnostics = *shown.diagnostics;
+    Stopwatch watch;
+    ImportedScene imported = copy_without_geometry(*base_);
+    EditedShaders shaders = shaders_;
+    if (!apply_edits(imported, order.edits, request_, diagnostics, &shaders)) return true;
+    ShaderSwap swap;
+    switch (swapper_->swap(imported.description, diagnostics, swap)) {
+        case ShaderSwapper::Outcome::Swapped:
+            break;
+        case ShaderSwapper::Outcome::Failed:
+            return true;
+        case ShaderSwapper::Outcome::Build:
+            diagnostics.clear();
+            return false;
+    }
+    shaders_ = std::move(shaders);
+    shown.exit_code = kExitOk;
+    shown.info = swapped_info(*info_, imported.description);
+    shown.swapped = {std::move(swap), diagnostics.files};
+    shown.build_ms = watch.ms();
+    return true;
+}
+
+void SceneMaker::build(const Order& order, ShownScene& shown) {
+    if (!base_) return;
+    begin(shown);
+    Diagnostics& diagnostics = *shown.diagnostics;
     Stopwatch watch;
     ImportedScene imported = *base_;
-    shown.rate = imported.rate;
-    shown.exit_code = kExitShader;
-    if (!apply_edits(imported, order.edits, request_, diagnostics)) return;
+    EditedShaders shaders;
+    if (!apply_edits(imported, order.edits, request_, diagnostics, &shaders)) return;
+    SceneDescription edited = copy_without_geometry(imported).description;
     BuiltScene built = build_imported(std::move(imported), diagnostics);
     shown.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
     if (!built.scene) return;
     shown.exit_code = kExitOk;
+    // What is diced or exposed by itself depends on its shaders.
+    swapper_.reset();
+    if (!built.redicer && !request_.auto_exposure)
+        swapper_.emplace(*built.scene, std::move(edited), base_->description.values.size());
+    shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
     shown.redicer = std::move(built.redicer);
     shown.settings = frame_settings(request_, *shown.scene, diagnostics);

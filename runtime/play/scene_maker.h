@@ -2,6 +2,8 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -12,6 +14,12 @@
 
 namespace kinora {
 
+// What was made so far.
+struct MakerCounts {
+    uint64_t scenes = 0;   // built
+    uint64_t kernels = 0;  // compiled for a scene that stood
+};
+
 class SceneMaker {
   public:
     // `done` is called from the thread when a scene can be taken, or was tried in vain.
@@ -21,11 +29,13 @@ class SceneMaker {
 
     // Reads the file, then builds. Of several orders the last one counts.
     void open(const SceneRequest& request, SceneEdits edits, bool replaces_camera);
-    // Builds the scene read last anew, with these edits.
+    // Puts these edits on the scene read last: where they change surface shaders and parameters
+    // alone, by new kernels in the scene that stands; else it is built anew.
     void edit(SceneEdits edits);
 
     // What has become of the last order: a scene, or findings without one. Null: nothing new.
     std::unique_ptr<ShownScene> take();
+    MakerCounts counts() const;
     bool idle() const;     // no order, and nothing to take
     bool opening() const;  // another scene, which is not taken yet
 
@@ -38,18 +48,26 @@ class SceneMaker {
     void run();
     std::unique_ptr<ShownScene> make(const Order& order);
     bool read(const SceneRequest& request, ShownScene& shown);
+    bool swap(const Order& order, ShownScene& shown);
     void build(const Order& order, ShownScene& shown);
+    void begin(ShownScene& shown) const;
+    void put(std::unique_ptr<ShownScene> made);
 
     std::function<void()> done_;
     mutable std::mutex mutex_;
     std::condition_variable wanted_;
     std::optional<Order> order_;
-    std::unique_ptr<ShownScene> made_;
+    std::deque<std::unique_ptr<ShownScene>> made_;  // a swap needs those before it
+    MakerCounts counts_;
     bool working_ = false, quit_ = false;
     bool replaces_camera_ = false;  // the order in work
 
     // Of the thread.
-    std::optional<ImportedScene> base_;  // as read
+    std::optional<ImportedScene> base_;     // as read
+    std::optional<ShaderSwapper> swapper_;  // of the scene built last
+    SceneEdits built_with_;                 // it, and what it was swapped to since
+    EditedShaders shaders_;
+    std::shared_ptr<const SceneInfo> info_;
     SceneRequest request_;
     std::vector<std::string> files_;
     SourceFiles texts_;  // that `base_` was read from

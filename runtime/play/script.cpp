@@ -13,6 +13,7 @@
 #include "runtime/base/stats.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/play/pixel/pixel_story.h"
+#include "runtime/play/scene_maker.h"
 
 namespace kinora {
 
@@ -226,7 +227,9 @@ CommandResult Script::expect_variable(const Words& words) const {
 
 CommandResult Script::stats(const std::string& file) const {
     std::ofstream out(file);
-    out << fmt::format("{{\"frames\": {}, \"ms\": [", player_.frames_rendered());
+    MakerCounts made = player_.made();
+    out << fmt::format("{{\"frames\": {}, \"scenes\": {}, \"kernels\": {}, \"ms\": [",
+                       player_.frames_rendered(), made.scenes, made.kernels);
     bool first = true;
     for (const StageTimes& t : player_.stage_times()) {
         out << fmt::format(

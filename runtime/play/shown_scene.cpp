@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "anim/animation.h"
 #include "runtime/description/shader_library.h"
@@ -36,8 +37,9 @@ ParamKind kind_of(rsl::BaseType type) {
     return ParamKind::Float;
 }
 
-ShaderParamInfo param_info(const Scene& scene, const ShaderUse& use,
-                           const rsl::ShaderParameter& parameter) {
+// `values`: those of the scene by now, or the description's own.
+ShaderParamInfo param_info(const SceneDescription& description, std::span<const double> values,
+                           const ShaderUse& use, const rsl::ShaderParameter& parameter) {
     ShaderParamInfo info;
     info.name = parameter.name;
     info.kind = kind_of(parameter.type.base);
@@ -52,9 +54,9 @@ ShaderParamInfo param_info(const Scene& scene, const ShaderUse& use,
         if (source.name != parameter.name) continue;
         if (!source.strings.empty()) info.text = source.strings.front();
         if (!source.value.present()) continue;
-        auto first = scene.values.begin() + ptrdiff_t(source.value.offset);
-        info.numbers.assign(first, first + ptrdiff_t(source.value.count));
-        info.animated = scene.description->animated[source.value.offset];
+        auto numbers = values.subspan(source.value.offset, source.value.count);
+        info.numbers.assign(numbers.begin(), numbers.end());
+        info.animated = description.animated[source.value.offset];
     }
     return info;
 }
@@ -98,7 +100,8 @@ std::vector<MaterialInfo> material_infos(const Scene& scene, const SceneRead& re
         if (!shader) continue;
         info.shader = shader->name;
         for (const rsl::ShaderParameter& parameter : shader->parameters)
-            info.params.push_back(param_info(scene, material.surfaces.back(), parameter));
+            info.params.push_back(
+                param_info(*scene.description, scene.values, material.surfaces.back(), parameter));
         size_t at = infos.size() - 1;
         if (at >= read.description.materials.size()) continue;
         if (const rsl::Shader* as_read = shown_surface(read.description.materials[at]))
@@ -142,6 +145,28 @@ std::vector<FindingText> take_findings(Diagnostics& diagnostics) {
             texts.push_back(finding_text(finding, diagnostics.files));
     diagnostics.clear();
     return texts;
+}
+
+std::shared_ptr<SceneInfo> swapped_info(const SceneInfo& before, const SceneDescription& edited) {
+    auto info = std::make_shared<SceneInfo>(before);
+    ++info->serial;
+    for (size_t m = 0; m < info->materials.size(); ++m) {
+        const MaterialDefinition& material = edited.materials[m];
+        const rsl::Shader* shader = shown_surface(material);
+        if (!shader) continue;
+        MaterialInfo& changed = info->materials[m];
+        std::vector<ShaderParamInfo> params;
+        for (const rsl::ShaderParameter& parameter : shader->parameters) {
+            params.push_back(
+                param_info(edited, edited.values, material.surfaces.back(), parameter));
+            auto old =
+                std::ranges::find(changed.params, params.back().name, &ShaderParamInfo::name);
+            if (params.back().animated && old != changed.params.end()) params.back() = *old;
+        }
+        changed.shader = shader->name;
+        changed.params = std::move(params);
+    }
+    return info;
 }
 
 std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "runtime/build/instances/shader_swap.h"
 #include "runtime/play/scene_info.h"
 #include "runtime/play/session/places.h"
 #include "runtime/play/session/scene_edits.h"
@@ -14,18 +16,25 @@
 
 namespace kinora {
 
+// Where only shaders and their parameters have changed: what brings the scene that is shown there.
+struct SwappedShaders {
+    ShaderSwap swap;
+    SourceFiles files;  // that findings of later pictures are in
+};
+
 struct ShownScene {
     SceneRequest request;
     SceneEdits edits;
     FrameRate rate;
-    std::unique_ptr<Scene> scene;      // null: it could not be made; `findings` say why
-    std::unique_ptr<Redicer> redicer;  // null where nothing is diced
-    FrameSettings settings;            // as kinora-render has them for the request
+    std::unique_ptr<Scene> scene;           // null: it could not be made; `findings` say why
+    std::optional<SwappedShaders> swapped;  // in place of a scene
+    std::unique_ptr<Redicer> redicer;       // null where nothing is diced
+    FrameSettings settings;                 // as kinora-render has them for the request
     std::shared_ptr<const SceneInfo> info;
     std::unique_ptr<Diagnostics> diagnostics;  // findings to come
     std::vector<FindingText> findings;         // of reading and building
     std::vector<std::string> files;            // read: of the scene, its shaders and textures
-    double build_ms = 0;                       // of edits and build
+    double build_ms = 0;                       // of edits and build, or swap
     int exit_code = 0;                         // kinora-render's, where it could not be made
     bool replaces_camera = true;               // another scene, not the same one changed
 };
@@ -43,4 +52,7 @@ struct SceneRead {
 };
 std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
                                       const SceneRequest& request, FrameRate rate);
+// The same scene with other surfaces and parameters.
+std::shared_ptr<SceneInfo> swapped_info(const SceneInfo& before, const SceneDescription& edited);
+
 }  // namespace kinora

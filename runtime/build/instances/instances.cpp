@@ -37,7 +37,7 @@ bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompil
         bool surface = instance->kind == ShaderInstanceKind::Surface;
         bool compiled =
             compiler.compile(*instance, surface ? of_surfaces : ShaderInstanceOptions());
-        if (compiled) outputs.bind(*instance);
+        if (compiled) bind_planes(scene.outputs, *instance);
         ok &= compiled;
         for (const std::string& message : instance->lowered.light_messages)
             add_once(messages, message);

@@ -70,9 +70,9 @@ bool OutputPlanes::add(const std::string& name, bool in_file) {
     return true;
 }
 
-void OutputPlanes::bind(ShaderInstance& instance) const {
+void bind_planes(std::span<const OutputPlane> planes, ShaderInstance& instance) {
     if (instance.kind != ShaderInstanceKind::Surface) return;
-    for (const OutputPlane& plane : scene_.outputs) {
+    for (const OutputPlane& plane : planes) {
         int& output = instance.aovs.emplace_back(-1);
         const auto& outputs = instance.full.kernel().outputs;
         for (size_t o = 0; o < outputs.size(); ++o)

@@ -20,14 +20,14 @@ class OutputPlanes {
     // The output parameters behind the planes.
     const std::vector<std::string>& parameters() const { return parameters_; }
 
-    // Where a compiled instance of a surface has the planes among its outputs.
-    void bind(ShaderInstance& instance) const;
-
   private:
     bool add(const std::string& parameter, bool in_file);
 
     Scene& scene_;
     std::vector<std::string> parameters_;
 };
+
+// Where a compiled instance of a surface has the planes among its outputs.
+void bind_planes(std::span<const OutputPlane> planes, ShaderInstance& instance);
 
 }  // namespace kinora

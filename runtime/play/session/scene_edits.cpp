@@ -13,18 +13,27 @@ namespace kinora {
 
 namespace {
 
-// The first shader of the text that can stand for the material's surface.
+// The first shader of the text that can stand for the material's surface. It is compiled in any
+// case, for its findings.
 std::shared_ptr<const rsl::Shader> surface_of(const SceneEdits::Text& edit,
-                                              const SceneRequest& request,
-                                              Diagnostics& diagnostics) {
+                                              const SceneRequest& request, Diagnostics& diagnostics,
+                                              const EditedShaders* known, EditedShaders& now) {
     rsl::CompileOptions options;
     options.include_directories = request.include_directories;
     rsl::ShaderSource source;
     source.map.file = diagnostics.files.add(edit.file, edit.text);
     source.text = edit.text;
+    std::shared_ptr<const rsl::Shader> surface;
     for (auto& shader : rsl::compile(source, options, diagnostics))
-        if (shader->kind == rsl::ShaderKind::Surface) return std::move(shader);
-    return nullptr;
+        if (!surface && shader->kind == rsl::ShaderKind::Surface) surface = std::move(shader);
+    if (!surface) return nullptr;
+    if (known)
+        for (const EditedShaders::Row& row : known->rows)
+            if (row.file == source.map.file && row.text.material == edit.material &&
+                row.text.file == edit.file && row.text.text == edit.text)
+                surface = row.shader;
+    now.rows.push_back({edit, source.map.file, surface});
+    return surface;
 }
 
 bool has_parameter(const rsl::Shader& shader, const std::string& name) {
@@ -50,8 +59,9 @@ bool shares_text(const rsl::Shader* a, const rsl::Shader* b) {
 }
 
 bool apply_text(SceneDescription& description, const SceneEdits::Text& edit,
-                const SceneRequest& request, Diagnostics& diagnostics) {
-    auto shader = surface_of(edit, request, diagnostics);
+                const SceneRequest& request, Diagnostics& diagnostics, const EditedShaders* known,
+                EditedShaders& now) {
+    auto shader = surface_of(edit, request, diagnostics, known, now);
     if (!shader) return false;
     std::shared_ptr<const rsl::Shader> before;
     for (const MaterialDefinition& material : description.materials)
@@ -70,13 +80,15 @@ const rsl::Shader* shown_surface(const MaterialDefinition& material) {
 }
 
 bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
-                 Diagnostics& diagnostics) {
+                 Diagnostics& diagnostics, EditedShaders* known) {
     bool good = true;
+    EditedShaders now;
     for (const auto& [material, shader] : edits.shaders)
         good &= override_shader(imported.description, material,
                                 {shader, request.include_directories}, diagnostics);
     for (const SceneEdits::Text& text : edits.texts)
-        good &= apply_text(imported.description, text, request, diagnostics);
+        good &= apply_text(imported.description, text, request, diagnostics, known, now);
+    if (known && good) *known = std::move(now);
     for (const auto& [target, value] : edits.params)
         good &= override_param(imported.description, target, value, diagnostics);
     if (!edits.hidden.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,9 +26,19 @@ struct SceneEdits {
     bool operator==(const SceneEdits&) const = default;
 };
 
-// The edits on a scene as read. Findings; false after an error.
+// Shaders of edited texts, so that a text which has not changed is the same shader again.
+struct EditedShaders {
+    struct Row {
+        SceneEdits::Text text;
+        FileId file = kNoFile;
+        std::shared_ptr<const rsl::Shader> shader;
+    };
+    std::vector<Row> rows;
+};
+
+// The edits on a scene as read. Findings; false after an error. `known` has the last call's.
 bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
-                 Diagnostics& diagnostics);
+                 Diagnostics& diagnostics, EditedShaders* known = nullptr);
 
 // The shader of a material's last layer, which is seen; null: none.
 const rsl::Shader* shown_surface(const MaterialDefinition& material);

@@ -1,0 +1,69 @@
+// runtime/build/instances/shader_swap.h: surface shaders and parameters of a scene that stands are
+// changed: only the kernels that this concerns are compiled.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shader_instance.h"
+
+namespace kinora {
+
+// What a change of materials asks of the scene.
+struct ShaderSwap {
+    struct Numbers {
+        uint32_t offset;  // into Scene::values, which become longer where need be
+        std::vector<double> values;
+    };
+    struct Shaders {
+        uint32_t material;  // of the description: what its surfaces are by now
+        std::vector<std::shared_ptr<const rsl::Shader>> surfaces;
+    };
+    std::vector<std::unique_ptr<ShaderInstance>> instances;  // compiled, by ShaderInstance::index
+    std::vector<Shaders> materials;
+    std::vector<Numbers> numbers;
+};
+
+// Between two frames, and in the order in which the swaps were made.
+void apply_swap(Scene& scene, ShaderSwap swap);
+
+// Makes swaps. After its constructor it does not look at the scene, which may be rendered
+// meanwhile.
+class ShaderSwapper {
+  public:
+    // A scene that has just been built. `description`: what it was built from; of its values the
+    // first `values_as_read` are no edit's. Meshes and animation may be missing.
+    ShaderSwapper(const Scene& scene, SceneDescription description, size_t values_as_read);
+
+    enum class Outcome : uint8_t {
+        Swapped,
+        Failed,  // a shader cannot be compiled; findings say why
+        Build    // more has changed than kernels and their numbers: the scene is to be built anew
+    };
+    // From the description of the last swap to this one.
+    Outcome swap(const SceneDescription& edited, Diagnostics& diagnostics, ShaderSwap& result);
+
+  private:
+    struct Draft;  // of one swap
+    Outcome change_instance(size_t index, const SceneDescription& edited, Draft& draft,
+                            Diagnostics& diagnostics) const;
+    Outcome compile(ShaderInstance& instance, const Draft& draft, Diagnostics& diagnostics) const;
+
+    struct Known {
+        std::unique_ptr<ShaderInstance> instance;  // without kernels; null: no material's surface
+        uint32_t material = kNone;
+        bool opaque = true;
+    };
+    std::vector<Known> instances_;  // by index
+    SceneDescription last_;
+    SceneDescription numbers_;  // the scene's values, and which are animated
+    size_t values_as_read_;
+    ShaderInstanceOptions options_;
+    std::vector<std::string> space_names_, light_messages_;
+    std::vector<OutputPlane> outputs_;
+};
+
+}  // namespace kinora
