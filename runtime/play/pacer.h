@@ -27,7 +27,8 @@ class Pacer {
     static constexpr size_t kWindow = 15;  // frames that say that it is a little off
     static constexpr int kFirstPatience = 15, kMostPatience = 480;
     static constexpr double kMuch = 1.15;  // times the target
-    static constexpr double kRoom = 0.95;  // a larger picture is tried where it would take this much
+    static constexpr double kRoom =
+        0.95;  // a larger picture is tried where it would take this much
 
     double time_at(size_t step, size_t frames) const;
     size_t fitting(double ms, size_t frames) const;

@@ -67,6 +67,16 @@ class WindowTest(unittest.TestCase):
             time.sleep(0.1)
         self.fail(what)
 
+    def command(self, window, line):
+        """A line in the palette; it is done when this returns."""
+        opened = len(re.findall("^commands$", self.record.read_text(), re.M))
+        window.key("ctrl+p")
+        window.recorded(self.record, "^commands$", opened + 1)
+        window.wait_still(10, 0.3)  # laid out, with the caret in it
+        window.type(line)
+        window.key("Return")
+        window.recorded(self.record, "^panel commands$", opened + 1)
+
     def drawn(self, box, seconds=30):
         """Until something is in the picture's box beside the empty stage."""
         def some():
@@ -86,8 +96,9 @@ class WindowTest(unittest.TestCase):
         window.key("Right", "Right", "f", "bracketright")
         window.drag(300, 755, 600, 755)
         window.key("space")
-        time.sleep(0.5)
+        window.recorded(self.record, "^play$")
         window.key("space")
+        window.recorded(self.record, "^play$", 2)
         text = self.words(window)
         for pattern in (r"^orbit -?\d", r"^pan -?0?\.?\d", r"^click \d+ \d+$", r"^dolly 1\.12", r"^next$", r"^frame_all$",
                         r"^brighter$", r"^seek \d+$", r"^play$"):
@@ -105,15 +116,8 @@ class WindowTest(unittest.TestCase):
         window.key("h")
         self.eventually(lambda: changed(before, self.display.rgb(), PICTURE, 1280) > 100000, "no cheat sheet")
         window.key("h")
-        window.key("ctrl+p")
-        time.sleep(0.3)
-        window.type("seek 7")
-        window.key("Return")
-        window.key("ctrl+p")
-        time.sleep(0.3)
-        window.type("false col")
-        window.key("Return")
-        time.sleep(0.3)
+        self.command(window, "seek 7")
+        self.command(window, "false col")
         text = self.words(window)
         self.assertRegex(text, re.compile(r"^seek 7$", re.M))
         self.assertRegex(text, re.compile(r"^false_color$", re.M))
@@ -123,7 +127,7 @@ class WindowTest(unittest.TestCase):
         window = self.open(MATTE)
         self.drawn(PICTURE)
         window.key("ctrl+shift+3", "ctrl+shift+4")  # shader and pixel: the right area goes
-        time.sleep(0.5)
+        window.recorded(self.record, "^show_pixel$")
         self.words(window)
         conf = (self.display.folder / "config/kinora/play.conf").read_text()
         self.assertNotRegex(conf, r"panels.*\b(editor|pixel)\b")
@@ -173,7 +177,15 @@ class WindowTest(unittest.TestCase):
             self.display.xdotool("windowsize", window.id, width, height)
             time.sleep(0.2)
         self.display.xdotool("windowminimize", window.id)
-        self.assertIn("seek 3", (window.key("ctrl+p"), time.sleep(0.3), window.type("seek 3"), window.key("Return"), self.words(window))[-1])
+        self.display.xdotool("windowmap", window.id)
+        self.display.xdotool("windowfocus", window.id)
+        self.display.xdotool("windowsize", window.id, 1, 1)
+        window.key("Right")
+        window.recorded(self.record, "^next$")
+        self.display.xdotool("windowsize", window.id, 1279, 799)
+        self.drawn(PICTURE)
+        self.command(window, "seek 3")
+        self.assertIn("seek 3", self.words(window))
 
     def test_a_shader_is_edited(self):
         scene = self.folder / "scene.dae"
@@ -182,17 +194,17 @@ class WindowTest(unittest.TestCase):
         window = self.open(scene)
         self.drawn(PICTURE)
         window.click(420, 330)  # the walker: marble
-        time.sleep(1)
+        window.recorded(self.record, "^click ")
+        self.eventually(lambda: window.key("ctrl+e") or re.search("^edit$", self.record.read_text(), re.M), "nothing to edit")
         window.click(1000, 300)
         window.key("ctrl+End")
         window.type("float broken(")
-        time.sleep(1.5)
+        window.recorded(self.record, r"^set_text .*float broken\(")
         window.key("ctrl+a")
         self.display.xdotool("key", "Delete")
         window.type("surface plain() { Ci = color(0, 1, 0); Oi = 1; }")
-        time.sleep(2)
-        window.key("ctrl+s")
-        time.sleep(1)
+        window.recorded(self.record, r"^set_text .*Oi = 1; }")
+        self.eventually(lambda: window.key("ctrl+s") or re.search("^save$", self.record.read_text(), re.M), "it is not saved")
         text = self.words(window)
         self.assertIn("edit", text)
         self.assertIn("set_text", text)
@@ -206,12 +218,48 @@ class WindowTest(unittest.TestCase):
         for scene in (broken, self.folder / "missing.dae"):
             with self.subTest(scene.name):
                 window = self.open(scene)
-                time.sleep(2)
+                self.eventually(lambda: self.reds() > 20, "nothing red on the screen")
                 self.assertIsNone(window.process.poll())
-                rgb = self.display.rgb()
-                reds = sum(1 for i in range(0, len(rgb), 3) if rgb[i] == 255 and rgb[i + 1] == 0x6b and rgb[i + 2] == 0x5e)
-                self.assertGreater(reds, 20, "nothing red on the screen")
                 window.close()
+
+    def reds(self):
+        """Pixels of the color that errors have."""
+        rgb = self.display.rgb()
+        return sum(1 for i in range(0, len(rgb), 3) if rgb[i] == 255 and rgb[i + 1] == 0x6b and rgb[i + 2] == 0x5e)
+
+    def test_scenes_without_meshes_and_without_camera(self):
+        text = MATTE.read_text()
+        empty, blind = self.folder / "empty.dae", self.folder / "blind.dae"
+        empty.write_text(re.sub(r"<instance_geometry.*?</instance_geometry>", "", text, flags=re.S))
+        self.assertNotIn("<instance_camera", text)
+        blind.write_text(text)
+        window = self.open(empty)
+        self.eventually(lambda: self.reds() > 20, "an empty scene says nothing")
+        # Another one takes its place, as one that is dropped on the window does.
+        self.command(window, f"open {blind}")
+        self.drawn(PICTURE)
+        self.assertRegex(self.words(window), r"\nopen ")
+
+    def test_a_shader_that_loops_for_ever_leaves_the_window_alive(self):
+        script = self.folder / "script.txt"
+        script.write_text('select_material bright\nedit\nplay on\n'
+                          'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0; while (1) k += 1; Ci = k; Oi = 1; }"\n')
+        window = self.open(MATTE, "--script", script)
+        window.recorded(self.record, "^set_text ")
+        window.key("Tab", "Tab")
+        window.recorded(self.record, "^hud$", 2)
+        self.words(window)
+
+    def test_a_script_that_fails_says_where(self):
+        script = self.folder / "script.txt"
+        script.write_text("seek 1\norbitt 3 4\nseek 2\n")
+        window = self.open(MATTE, "--script", script)
+        window.recorded(self.record, "^seek 1$")
+        self.drawn(PICTURE)
+        window.key("ctrl+q")
+        self.assertEqual(window.process.wait(20), 1)
+        self.assertIn("script.txt:2:1: error: there is no command 'orbitt'", window.process.stderr.read())
+        self.assertNotIn("seek 2", self.record.read_text())
 
 
 class WithoutDisplayTest(unittest.TestCase):
