@@ -2,6 +2,7 @@
 #include "rsl/check/scopes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace kinora::rsl {
 

@@ -50,7 +50,7 @@ PlayerCore::PlayerCore(PlayerSetup player_setup)
           wake();
       }),
       loop(setup.real_time, [this] { wake(); }),
-      maker([this] { wake(); }) {}
+      maker([this] { wake(); }, setup.shows_broken) {}
 
 void PlayerCore::wake() {
     {

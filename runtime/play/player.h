@@ -37,6 +37,9 @@ struct PlayerSetup {
     // Reads a .kinora file and its options; nothing and a message where it cannot.
     std::function<std::optional<OpenedSession>(const std::string& file, std::string& error)>
         read_session = nullptr;
+    // A scene whose embedded shaders have errors is shown without these, to be mended in the
+    // editor.
+    bool shows_broken = false;
 };
 
 enum class LoadState : uint8_t { Nothing, Loading, Ready, Failed };

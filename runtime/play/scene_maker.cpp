@@ -12,8 +12,8 @@
 
 namespace kinora {
 
-SceneMaker::SceneMaker(std::function<void()> done)
-    : done_(std::move(done)), thread_([this] { run(); }) {}
+SceneMaker::SceneMaker(std::function<void()> done, bool shows_broken)
+    : done_(std::move(done)), shows_broken_(shows_broken), thread_([this] { run(); }) {}
 
 SceneMaker::~SceneMaker() {
     {
@@ -146,7 +146,16 @@ bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
         return false;
     }
     shown.exit_code = exit_code_of_findings(diagnostics, kExitOk);
-    if (shown.exit_code != kExitOk) return false;
+    broken_.clear();
+    broken_findings_.clear();
+    if (shows_broken_ && shown.exit_code == kExitShader) {
+        for (const Finding& finding : diagnostics.findings())
+            if (finding.severity == Severity::Error && finding.where.file != kNoFile)
+                add_broken_shaders(diagnostics.files, finding.where, broken_);
+        broken_findings_ = take_findings(diagnostics);
+    } else if (shown.exit_code != kExitOk) {
+        return false;
+    }
     base_ = std::move(imported);
     texts_ = diagnostics.files;
     request_ = request;
@@ -154,6 +163,11 @@ bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
 }
 
 namespace {
+
+bool has_text(const SceneEdits& edits, const std::string& material) {
+    return std::ranges::find(edits.texts, material, &SceneEdits::Text::material) !=
+           edits.texts.end();
+}
 
 // Without what no edit of a shader touches.
 ImportedScene copy_without_geometry(ImportedScene& from) {
@@ -181,6 +195,21 @@ void SceneMaker::begin(ShownScene& shown) const {
     shown.diagnostics->files = texts_;
 }
 
+// A broken text is that of all materials that wear its effect, and so is what it becomes.
+SceneEdits SceneMaker::with_shared_texts(SceneEdits edits) const {
+    for (const BrokenShader& one : broken_)
+        for (const BrokenShader& other : broken_) {
+            auto text = std::ranges::find(edits.texts, one.material, &SceneEdits::Text::material);
+            if (text == edits.texts.end() || has_text(edits, other.material)) continue;
+            if (one.source.file != other.source.file || one.source.begin != other.source.begin)
+                continue;
+            SceneEdits::Text shared = *text;
+            shared.material = other.material;
+            edits.texts.push_back(std::move(shared));
+        }
+    return edits;
+}
+
 // False: the scene is to be built.
 bool SceneMaker::swap(const Order& order, ShownScene& shown) {
     if (!base_ || !swapper_ || order.edits.hidden != built_with_.hidden) return false;
@@ -189,7 +218,8 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
     Stopwatch watch;
     ImportedScene imported = copy_without_geometry(*base_);
     EditedShaders shaders = shaders_;
-    if (!apply_edits(imported, order.edits, request_, diagnostics, &shaders)) return true;
+    if (!apply_edits(imported, with_shared_texts(order.edits), request_, diagnostics, &shaders))
+        return true;
     ShaderSwap swap;
     switch (swapper_->swap(imported.description, diagnostics, swap)) {
         case ShaderSwapper::Outcome::Swapped:
@@ -213,9 +243,13 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     begin(shown);
     Diagnostics& diagnostics = *shown.diagnostics;
     Stopwatch watch;
+    SceneEdits edits = with_shared_texts(order.edits);
+    bool mended = std::ranges::all_of(
+        broken_, [&](const BrokenShader& broken) { return has_text(edits, broken.material); });
+    if (!mended || broken_.empty()) shown.findings = broken_findings_;
     ImportedScene imported = *base_;
     EditedShaders shaders;
-    if (!apply_edits(imported, order.edits, request_, diagnostics, &shaders)) return;
+    if (!apply_edits(imported, edits, request_, diagnostics, &shaders)) return;
     SceneDescription edited = copy_without_geometry(imported).description;
     BuiltScene built = build_imported(std::move(imported), diagnostics);
     shown.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
@@ -230,6 +264,10 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     shown.redicer = std::move(built.redicer);
     shown.settings = frame_settings(request_, *shown.scene, diagnostics);
     auto info = scene_info(*shown.scene, {base_->description, texts_}, request_, shown.rate);
+    for (MaterialInfo& material : info->materials)
+        for (const BrokenShader& broken : broken_)
+            if (broken.material == material.id && !material.source)
+                material.source = std::make_shared<const ShaderSourceText>(broken.source);
     info->serial = serial_ + 1;
     shown.info = std::move(info);
     shown.build_ms = watch.ms();

@@ -23,7 +23,8 @@ struct MakerCounts {
 class SceneMaker {
   public:
     // `done` is called from the thread when a scene can be taken, or was tried in vain.
-    explicit SceneMaker(std::function<void()> done);
+    // `shows_broken`: PlayerSetup's.
+    SceneMaker(std::function<void()> done, bool shows_broken);
     ~SceneMaker();  // waits for the scene under way
     SceneMaker(const SceneMaker&) = delete;
 
@@ -51,9 +52,11 @@ class SceneMaker {
     bool swap(const Order& order, ShownScene& shown);
     void build(const Order& order, ShownScene& shown);
     void begin(ShownScene& shown) const;
+    SceneEdits with_shared_texts(SceneEdits edits) const;
     void put(std::unique_ptr<ShownScene> made);
 
     std::function<void()> done_;
+    const bool shows_broken_;
     mutable std::mutex mutex_;
     std::condition_variable wanted_;
     std::optional<Order> order_;
@@ -67,6 +70,8 @@ class SceneMaker {
     std::optional<ShaderSwapper> swapper_;  // of the scene built last
     SceneEdits built_with_;                 // it, and what it was swapped to since
     EditedShaders shaders_;
+    std::vector<BrokenShader> broken_;  // of the scene as read
+    std::vector<FindingText> broken_findings_;
     std::shared_ptr<const SceneInfo> info_;
     SceneRequest request_;
     std::vector<std::string> files_;

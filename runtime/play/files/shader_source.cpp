@@ -66,6 +66,22 @@ void take_embedded(std::string_view xml, size_t at, ShaderSourceText& source) {
         source.why_fixed = "its effect has several texts";
 }
 
+// Of the tag that begins there; "" if it has none of that name.
+std::string attribute(std::string_view xml, size_t tag, std::string_view name) {
+    if (tag >= xml.size()) return "";
+    std::string_view inside = xml.substr(tag, xml.find('>', tag) - tag);
+    const std::string wanted = std::string(name) + "=";
+    for (size_t at = inside.find(wanted); at != inside.npos; at = inside.find(wanted, at + 1)) {
+        const size_t begin = at + wanted.size();
+        const bool whole =
+            at > 0 && std::string_view(" \t\r\n").find(inside[at - 1]) != inside.npos;
+        if (!whole || begin >= inside.size()) continue;
+        const size_t end = inside.find(inside[begin], begin + 1);
+        if (end != inside.npos) return std::string(inside.substr(begin + 1, end - begin - 1));
+    }
+    return "";
+}
+
 bool is_same(const std::string& file, std::string_view bytes) {
     std::ifstream in(file, std::ios::binary);
     std::string now((std::istreambuf_iterator<char>(in)), {});
@@ -138,6 +154,30 @@ ShaderSourceText source_of(const rsl::Shader& shader, const SourceFiles& files) 
     source.text = text;
     source.end = uint32_t(text.size());
     return source;
+}
+
+void add_broken_shaders(const SourceFiles& files, Location error, std::vector<BrokenShader>& to) {
+    std::string_view xml = files.text(error.file);
+    if (xml.substr(0, 4096).find("<COLLADA") == xml.npos) return;
+    auto code = element_around(xml, error.begin, "code");
+    auto effect = element_around(xml, error.begin, "effect");
+    if (!code || !effect) return;
+    const std::string wanted = "#" + attribute(xml, xml.rfind('<', effect->first - 1), "id");
+    for (size_t at = xml.find("<material "); at != xml.npos; at = xml.find("<material ", at + 1)) {
+        const std::string id = attribute(xml, at, "id");
+        std::string_view body = xml.substr(at, xml.find("</material", at) - at);
+        const size_t instance = body.find("<instance_effect");
+        if (instance == body.npos || attribute(body, instance, "url") != wanted) continue;
+        if (std::ranges::any_of(to, [&](const BrokenShader& b) { return b.material == id; }))
+            continue;
+        BrokenShader& broken = to.emplace_back();
+        broken.material = id;
+        broken.source.file = files.name(error.file);
+        broken.source.name = broken.source.file + ":" + id + ".sl";
+        take_embedded(xml, error.begin, broken.source);
+        if (!is_same(broken.source.file, xml))
+            broken.source.why_fixed = "its file is not there, or is packed in another";
+    }
 }
 
 std::string save_source(const ShaderSourceText& source, const std::string& text) {

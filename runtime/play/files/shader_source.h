@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rsl/model/shader.h"
 #include "runtime/base/diagnostic.h"
@@ -22,6 +23,14 @@ struct ShaderSourceText {
 
 // Of a checked shader, from the texts that it was compiled from.
 ShaderSourceText source_of(const rsl::Shader& shader, const SourceFiles& files);
+
+// A material whose effect's embedded text has an error, so that there is no shader.
+struct BrokenShader {
+    std::string material;  // its id
+    ShaderSourceText source;
+};
+// Adds the materials of a document that wear the effect in which the error stands, each once.
+void add_broken_shaders(const SourceFiles& files, Location error, std::vector<BrokenShader>& to);
 
 // The text as XML has it: in one or several CDATA sections, or with its < and & written out.
 std::string xml_text(const std::string& text, bool cdata);

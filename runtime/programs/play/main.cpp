@@ -27,6 +27,7 @@ int play_scene(const PlayOptions& options) {
     setup.watch_files = setup.real_time;
     if (!options.headless) setup.wake = play::wake_window;
     setup.read_session = read_session_file;
+    setup.shows_broken = !options.headless;
     Player player(setup);
     if (!options.record.empty() && !player.record_to(options.record)) {
         std::fprintf(stderr, "kinora-play: error: '%s' cannot be written\n",

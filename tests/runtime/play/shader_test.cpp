@@ -133,6 +133,34 @@ TEST_F(WalkerCopy, ParametersAreListedAsDeclared) {
     EXPECT_EQ(params[3].numbers.size(), 3u);
 }
 
+// A document whose embedded shader has an error is shown without it, and mended.
+TEST_F(WalkerCopy, OneThatIsBrokenAtLoadIsMended) {
+    write(file, replaced(original, "surface plaster(", "surface plaster(("));
+    PlayerSetup setup{true, false, nullptr};
+    {
+        Played refused(small_request(file), setup);
+        EXPECT_EQ(refused.player.load_state(), LoadState::Failed);
+    }
+    setup.shows_broken = true;
+    Played played(small_request(file), setup);
+    Player& player = played.player;
+    ASSERT_EQ(player.load_state(), LoadState::Ready);
+    auto errors = [&] {
+        return std::ranges::count(player.findings(), std::string("error"), &FindingText::severity);
+    };
+    EXPECT_GE(errors(), 1);
+    EXPECT_EQ(played.script("select_material wall-material; edit"), "");
+    EXPECT_NE(player.shader().text.find("surface plaster(("), std::string::npos);
+    EXPECT_EQ(played.script("find \"((\"; erase 1; wait refined"), "");
+    EXPECT_EQ(player.shader().shown, player.shader().version);
+    EXPECT_EQ(errors(), 0);
+    EXPECT_EQ(played.script("save; wait refined"), "");
+    EXPECT_EQ(text_of(file), original);
+    EXPECT_EQ(errors(), 0);
+    Played again(small_request(file));
+    EXPECT_EQ(pixels(player), pixels(again.player));
+}
+
 TEST(Shader, OneOfOursIsSavedElsewhere) {
     Played played("gltf/bender.glb");
     std::string to = testing::TempDir() + "kinora_play_ours.sl";
