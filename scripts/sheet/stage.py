@@ -19,7 +19,7 @@ KINDS = ("surface", "displacement", "light", "volume", "imager", "transformation
 KEY = ("lookat", "aim", (-3.4, -3.9, 5.4, 0, 0, 0.8, 0, 0, 1))
 # Looks of flat things are shown on the floor and on a block; thin ones on a sheet.
 ON_FLOOR = {"parquet", "tiles", "stonewall", "checks", "water", "planks", "cobbles", "grid",
-            "brick", "roofing", "ocean", "ripples", "pebbles", "wornfloor", "asphalt"}
+            "brick", "roofing", "inlaidfloor", "ocean", "ripples", "pebbles", "wornfloor", "asphalt"}
 WATERS = {"water"}
 INTERIORS = {"tintedinterior"}
 
@@ -44,6 +44,10 @@ def kind_of(code):
     """The stage of a shader file, and the shader's name: the last shader of the file."""
     bare = re.sub(r"/\*.*?\*/|//[^\n]*", " ", code, flags=re.S)
     found = re.findall(rf"\b({'|'.join(KINDS)})\s+(\w+)\s*\([^;]*", bare)
+    if name := re.search(r"\bclass\s+(\w+)\s*\(", bare):
+        kinds = [k for k in ("light", "volume", "displacement") if f"void {k}(" in bare]
+        surface = re.search(r"void (surface|\w*lighting)\(", bare)
+        return "surface" if surface or not kinds else kinds[0], name[1]
     kind, name = found[-1] if found else (None, None)
     return "transformation" if kind == "deformation" else kind, name
 
@@ -184,6 +188,22 @@ def surface(name, code):
     return stage
 
 
+def leaf(name, code):
+    """A heap of cards that fell on the floor, of which the shader leaves the leaves."""
+    stage = Stage()
+    stage.material("shown", "SURFACE", name, code, {})
+    stage.studio()
+    for k in range(70):
+        angle, out = 2.399963 * k, 1.35 * math.sqrt((k + 0.5) / 70)
+        place = (out * math.cos(angle), out * math.sin(angle) - 0.1, 0.1 + 0.9 * math.exp(-1.6 * out * out) + 0.012 * k)
+        stage.put(f"card{k}", grid_of(lambda s, t: (0.8 * s - 0.4, t - 0.5, 0.10 * math.sin(3 * t + k)), 8, 8),
+                  "shown", [("translate", "place", place),
+                            ("rotate", "turn", (0, 0, 1, math.degrees(angle) + 31 * (k % 7))),
+                            ("rotate", "lean", (1, 0.3 * (k % 3 - 1), 0, 18 + 9 * (k % 5)))])
+    stage.camera()
+    return stage
+
+
 def displacement(name, code):
     stage = Stage()
     plain = stage.shader("scenes/porcelain")
@@ -297,4 +317,4 @@ def scene_for(path):
     kind, name = kind_of(code)
     if kind is None:
         raise ValueError(f"{path}: no shader found")
-    return globals()[kind](name, code)
+    return globals()["leaf" if path.parent.name == "leaf" else kind](name, code)
