@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Prints how the time of a frame grows with the number of lights, materials and nodes of a scene: a
-row a size, and the exponent between the last two. It asserts nothing.
+"""Prints how the time of a frame grows with pixels, samples, triangles, nodes, lights and materials: a
+row a size, and the exponent between the last two sizes. It asserts nothing.
 
-    scripts/bench/growth.py [KINORA_RENDER [FOLDER]]
+    scripts/bench/growth.py [--large] [KINORA_RENDER [WORD...]]
 
-The scenes are a field of squares seen from above. Times are the CPU time of a run less that of a
-run that only loads (`--list lights`), the least of three.
+The scenes are a field of squares seen from above. Times are the CPU time of a run on one thread less
+that of a run that only loads (`--list lights`), the least of three. WORD: rows whose names hold it.
+--large adds ten million triangles, whose file has 600 MB.
 """
 import math
 import pathlib
@@ -14,13 +15,27 @@ import subprocess
 import sys
 import tempfile
 
-SIZES = (1, 10, 100, 1000)
 RUNS = 3
 
 
-def field(lights=1, materials=1, nodes=1, reach=None):
+def sheet(triangles):
+    """Two sources and the corners of a wavy square of so many triangles, 1 by 1."""
+    n = max(1, round(math.sqrt(triangles / 2)))
+    points = " ".join(f"{x / n:.6g} {y / n:.6g} {0.02 * math.sin(9 * x / n + 7 * y / n):.4g}"
+                      for y in range(n + 1) for x in range(n + 1))
+    corners = " ".join(f"{a} {a + 1} {a + n + 1} {a + n + 1} {a + 1} {a + n + 2}"
+                       for y in range(n) for a in range(y * (n + 1), y * (n + 1) + n))
+    return (n + 1) ** 2, points, 2 * n * n, corners
+
+
+def field(lights=1, materials=1, nodes=1, reach=None, spot=None, triangles=2):
     """A COLLADA text: `nodes` squares in a grid that all together measure 10 by 10. Lights have
-    half their strength at `reach`."""
+    half their strength at `reach`; spots light circles of the radius `spot`."""
+    vertices, points, faces, corners = sheet(triangles)
+    kind, cone = "point", ""
+    if spot is not None:
+        kind = "spot"
+        cone = f"<falloff_angle>{2 * math.degrees(math.atan(spot)):.6g}</falloff_angle>"
     side = math.ceil(math.sqrt(nodes))
     step = 10 / side
     spread = math.ceil(math.sqrt(lights))
@@ -32,8 +47,8 @@ def field(lights=1, materials=1, nodes=1, reach=None):
             '<library_cameras><camera id="eye"><optics><technique_common><perspective>'
             '<yfov>50</yfov><znear>0.1</znear><zfar>100</zfar></perspective></technique_common>'
             '</optics></camera></library_cameras>'
-            f'<library_lights><light id="lamp"><technique_common><point><color>'
-            f'{1 / lights:.6g} {1 / lights:.6g} {1 / lights:.6g}</color>{fade}</point>'
+            f'<library_lights><light id="lamp"><technique_common><{kind}><color>'
+            f'{1 / lights:.6g} {1 / lights:.6g} {1 / lights:.6g}</color>{fade}{cone}</{kind}>'
             '</technique_common></light></library_lights><library_effects>']
     for m in range(materials):
         text.append(f'<effect id="fx{m}"><profile_COMMON><technique sid="t"><lambert><diffuse>'
@@ -43,12 +58,13 @@ def field(lights=1, materials=1, nodes=1, reach=None):
     text += [f'<material id="m{m}"><instance_effect url="#fx{m}"/></material>'
              for m in range(materials)]
     text.append('</library_materials><library_geometries><geometry id="g"><mesh><source id="p">'
-                '<float_array id="pa" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array>'
-                '<technique_common><accessor source="#pa" count="4" stride="3"><param name="X" '
-                'type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>'
-                '</accessor></technique_common></source><vertices id="v"><input '
-                'semantic="POSITION" source="#p"/></vertices><triangles count="2" material="s">'
-                '<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2 0 2 3</p></triangles>'
+                f'<float_array id="pa" count="{3 * vertices}">{points}</float_array>'
+                f'<technique_common><accessor source="#pa" count="{vertices}" stride="3">'
+                '<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" '
+                'type="float"/></accessor></technique_common></source><vertices id="v"><input '
+                f'semantic="POSITION" source="#p"/></vertices><triangles count="{faces}" '
+                'material="s"><input semantic="VERTEX" source="#v" offset="0"/>'
+                f'<p>{corners}</p></triangles>'
                 '</mesh></geometry></library_geometries><library_visual_scenes>'
                 '<visual_scene id="w"><node><translate>5 5 12</translate>'
                 '<instance_camera url="#eye"/></node>')
@@ -74,33 +90,47 @@ def cpu_seconds(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def frame_seconds(program, scene, picture):
-    frame = [program, scene, "--size", "160x120", "--spp", "1", "--threads", "1", "-q",
-             "--overwrite", "-o", picture]
+def frame_seconds(program, scene, size="160x120", samples=1):
+    frame = [program, scene, "--size", size, "--spp", str(samples), "--threads", "1", "-q", "-o",
+             "null"]
     load = [program, scene, "--list", "lights"]
     return (min(cpu_seconds(frame) for _ in range(RUNS)) -
             min(cpu_seconds(load) for _ in range(RUNS)))
 
 
+# A row: sizes, the scene of a size, what the program is told of it.
+THOUSAND = (1, 10, 100, 1000)
 GROWS = {
-    "lights, a point each": lambda n: field(lights=n),
-    "lights that fade": lambda n: field(lights=n, reach=10 / math.sqrt(n)),
-    "materials, 1000 nodes": lambda n: field(materials=n, nodes=1000),
-    "nodes": lambda n: field(nodes=n),
+    "pixels": ((1, 10, 100, 1000), lambda n: field(nodes=100),
+               lambda n: {"size": f"{round(40 * math.sqrt(n))}x{round(30 * math.sqrt(n))}"}),
+    "samples": ((1, 4, 16, 64), lambda n: field(nodes=100), lambda n: {"samples": n}),
+    "triangles": ((10 ** 3, 10 ** 4, 10 ** 5, 10 ** 6), lambda n: field(triangles=n), None),
+    "nodes": (THOUSAND + (10000,), lambda n: field(nodes=n), None),
+    "lights, a point each": (THOUSAND, lambda n: field(lights=n), None),
+    "lights that fade": (THOUSAND, lambda n: field(lights=n, reach=10 / math.sqrt(n)), None),
+    "lights with cones": (THOUSAND, lambda n: field(lights=n, spot=5 / math.sqrt(n)), None),
+    "materials, 1000 nodes": (THOUSAND, lambda n: field(materials=n, nodes=1000), None),
 }
 
 
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else "kinora-render"
-    with tempfile.TemporaryDirectory(dir=sys.argv[2] if len(sys.argv) > 2 else None) as folder:
-        scene, picture = (str(pathlib.Path(folder) / name) for name in ("s.dae", "s.exr"))
-        for name, make in GROWS.items():
+    words = [a for a in sys.argv[1:] if a != "--large"]
+    program = words[0] if words else "kinora-render"
+    if "--large" in sys.argv:
+        sizes, *rest = GROWS["triangles"]
+        GROWS["triangles"] = (sizes + (10 ** 7,), *rest)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = str(pathlib.Path(folder) / "s.dae")
+        for name, (sizes, make, told) in GROWS.items():
+            if words[1:] and not any(word in name for word in words[1:]):
+                continue
             times = []
-            for size in SIZES:
+            for size in sizes:
                 pathlib.Path(scene).write_text(make(size))
-                times.append(max(frame_seconds(program, scene, picture), 1e-4))
-            exponent = math.log(times[-1] / times[-2]) / math.log(SIZES[-1] / SIZES[-2])
-            print(f"{name:24}", *(f"{n}: {1000 * t:.1f} ms" for n, t in zip(SIZES, times)),
+                options = told(size) if told else {}
+                times.append(max(frame_seconds(program, scene, **options), 1e-4))
+            exponent = math.log(times[-1] / times[-2]) / math.log(sizes[-1] / sizes[-2])
+            print(f"{name:24}", *(f"{n}: {1000 * t:.1f} ms" for n, t in zip(sizes, times)),
                   f"exponent {exponent:.2f}", sep="  ", flush=True)
 
 
