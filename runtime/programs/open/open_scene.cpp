@@ -47,6 +47,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.accel.refit_limit = float(request.quality.refit_limit);
     o.accel.background = false;  // a frame depends on its time alone
     o.decode_textures = request.color == ColorEncoding::Srgb;
+    o.weak_lights = float(request.quality.weak_lights);
     o.light_samples = request.quality.light_samples;
     o.aovs = request.aovs;
     o.displacement = request.quality.displacement;
