@@ -94,6 +94,7 @@ struct AccelUpdate {
     int background_started = 0;
     int background_finished = 0;  // a tree built in the background is in use from now on
     int matrices = 0;             // instance matrices that changed
+    size_t compared = 0;          // rows, with those of the last update
     float largest_growth = 1;     // largest ratio of summed box areas to those at build
     struct Issue {
         GeometryIssue issue;
@@ -124,6 +125,10 @@ class Accel {
     // Brings the structures up to date with the rows. Rows are known by their index and compared
     // with the last update: nothing changed costs some nanoseconds a row and commits nothing.
     const AccelUpdate& update(std::span<const Geometry> geometry);
+    // The same where the rows with these indices, in order, are all that can have changed; all
+    // rows of a shape whose vertices changed are among them. What it costs depends on them alone,
+    // but for Embree's own commit of the top scene.
+    const AccelUpdate& update(std::span<const Geometry> geometry, std::span<const uint32_t> rows);
 
     // Closest hits; returns the bit mask of lanes that hit.
     uint32_t intersect16(const RayPacket16& rays, HitPacket16& hits, TraceCounters& counters) const;

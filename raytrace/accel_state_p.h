@@ -74,6 +74,7 @@ struct Accel::State {
     AccelUpdate report;
     std::vector<BoxAreas> partial;  // memory of box_areas
     std::vector<uint8_t> shape_changed;
+    std::vector<uint32_t> all_rows;  // 0, 1, 2 ...
     bool any_hidden_backfaces = false;
     float largest_origin = kLargest;  // rays from farther off are filtered, for an instance's sake
     // Last, so that it is joined before what it reads goes.

@@ -35,9 +35,10 @@ bool Updater::sound(const Geometry& g) {
     return bad == 0;
 }
 
-bool Updater::must_start_anew(std::span<const Geometry> geometry) const {
+bool Updater::must_start_anew(std::span<const Geometry> geometry,
+                              std::span<const uint32_t> rows) const {
     if (!s.top || geometry.size() != s.rows.size()) return true;
-    for (size_t i = 0; i < geometry.size(); ++i) {
+    for (uint32_t i : rows) {
         const Geometry& seen = s.rows[i].seen;
         if (!same_role(seen, geometry[i])) return true;
         if (seen.kind == GeometryKind::Static &&
@@ -195,23 +196,30 @@ void Updater::rebuild_low(GeometryState& row, double area) {
     ++s.report.low_rebuilds;
 }
 
-void Updater::run(std::span<const Geometry> geometry) {
-    if (must_start_anew(geometry)) return start_anew(geometry);
-    take_up_background();
+void Updater::update_rows(std::span<const Geometry> geometry, std::span<const uint32_t> rows) {
     bool changed = s.report.background_finished > 0;
-    for (uint32_t i = 0; i < geometry.size(); ++i)
+    const float least = least_limit(rows);
+    for (uint32_t i : rows)
         if (geometry[i].kind == GeometryKind::Deforming)
             changed |= update_deforming(i, geometry[i]);
-    s.shape_changed.assign(s.shapes.size(), 0);
-    for (uint32_t i = 0; i < geometry.size(); ++i)
+    s.shape_changed.resize(s.shapes.size());
+    for (uint32_t i : rows)
+        if (uint32_t shape = s.rows[i].shape; shape != kNone) s.shape_changed[shape] = 0;
+    for (uint32_t i : rows)
         if (update_shape(i, geometry[i])) s.shape_changed[s.rows[i].shape] = 1;
-    for (uint32_t i = 0; i < geometry.size(); ++i)
+    for (uint32_t i : rows)
         if (geometry[i].kind == GeometryKind::Instanced && s.rows[i].shape != kNone)
             changed |= update_instance(i, geometry[i], s.shape_changed[s.rows[i].shape] != 0);
-    if (changed) {
-        limit_origins();
-        s.top.commit();
-    }
+    if (!changed) return;
+    limit_origins(rows, least);
+    s.top.commit();
+}
+
+void Updater::run(std::span<const Geometry> geometry, std::span<const uint32_t> rows) {
+    s.report.compared = rows.size();
+    if (must_start_anew(geometry, rows)) return start_anew(geometry);
+    take_up_background();
+    update_rows(geometry, rows);
     if (want_background_) start_background();
 }
 
@@ -223,11 +231,18 @@ Accel::Accel(Accel&&) noexcept = default;
 Accel& Accel::operator=(Accel&&) noexcept = default;
 
 const AccelUpdate& Accel::update(std::span<const Geometry> geometry) {
+    std::vector<uint32_t>& all = state_->all_rows;
+    for (uint32_t i = uint32_t(all.size()); i < geometry.size(); ++i) all.push_back(i);
+    return update(geometry, std::span(all).first(geometry.size()));
+}
+
+const AccelUpdate& Accel::update(std::span<const Geometry> geometry,
+                                 std::span<const uint32_t> rows) {
     std::vector<AccelUpdate::Issue> issues = std::move(state_->report.issues);
     issues.clear();
     state_->report = {};
     state_->report.issues = std::move(issues);
-    Updater(*state_).run(geometry);
+    Updater(*state_).run(geometry, rows);
     return state_->report;
 }
 

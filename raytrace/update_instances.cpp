@@ -87,11 +87,29 @@ bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_ch
     return true;
 }
 
+float Updater::least_limit(std::span<const uint32_t> rows) const {
+    float least = kLargest;
+    for (uint32_t i : rows) {
+        const GeometryState& row = s.rows[i];
+        if (row.seen.kind == GeometryKind::Instanced && row.attached)
+            least = std::min(least, row.placement.largest_origin);
+    }
+    return least;
+}
+
 void Updater::limit_origins() {
     s.largest_origin = kLargest;
     for (const GeometryState& row : s.rows)
         if (row.seen.kind == GeometryKind::Instanced && row.attached)
             s.largest_origin = std::min(s.largest_origin, row.placement.largest_origin);
+}
+
+// After these rows alone have changed. All are looked at only where one of them had the least and
+// has more now.
+void Updater::limit_origins(std::span<const uint32_t> rows, float least_before) {
+    const float least = least_limit(rows);
+    if (least > s.largest_origin && least_before <= s.largest_origin) return limit_origins();
+    s.largest_origin = std::min(s.largest_origin, least);
 }
 
 }  // namespace kinora::raytrace

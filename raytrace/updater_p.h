@@ -21,10 +21,11 @@ inline bool same_buffers(const Geometry& a, const Geometry& b) {
 class Updater {
   public:
     explicit Updater(Accel::State& state) : s(state) {}
-    void run(std::span<const Geometry> geometry);
+    void run(std::span<const Geometry> geometry, std::span<const uint32_t> rows);
 
   private:
-    bool must_start_anew(std::span<const Geometry> geometry) const;
+    bool must_start_anew(std::span<const Geometry> geometry, std::span<const uint32_t> rows) const;
+    void update_rows(std::span<const Geometry> geometry, std::span<const uint32_t> rows);
     void start_anew(std::span<const Geometry> geometry);
     void add_static_groups();
     void add_deforming(uint32_t row);
@@ -43,6 +44,8 @@ class Updater {
     bool update_instance(uint32_t row, const Geometry& now, bool shape_changed);
 
     void limit_origins();
+    void limit_origins(std::span<const uint32_t> rows, float least_before);
+    float least_limit(std::span<const uint32_t> rows) const;
     void start_background();
     void take_up_background();
     bool filtered(const Geometry& g) const { return s.policy.fixed_winner || g.hide_backfaces; }

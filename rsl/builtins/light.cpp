@@ -8,11 +8,14 @@ namespace kinora::rsl {
 namespace lower_light {
 
 // The sum over the records of one set of what `term` makes of each: it gets the record and the sum
-// so far. Ambient records are visited only if `ambient`, and then alone.
+// so far. Lights more than 90 degrees from the axis add nothing. No axis: ambient records are
+// visited, and they alone; else all others.
 template <class Term>
-V3 sum_of_lights(LowerCall& c, const V3& position, bool ambient, Term&& term) {
+V3 sum_of_lights(LowerCall& c, const V3& position, const V3* axis, Term&& term) {
     auto& e = c.e;
     Value set = c.lights.set_at(position);
+    const bool ambient = axis == nullptr;
+    if (axis) c.lights.look_about(set, axis);
     std::array<Value, 3> sum = {e.f(0), e.f(0), e.f(0)};
     for_each_record(c.b, set, sum, c.where(), [&](Value record) {
         Value kind = record_uniform(c.b, set, record, kLightKind, jit::Type::I);
@@ -28,7 +31,7 @@ V3 sum_of_lights(LowerCall& c, const V3& position, bool ambient, Term&& term) {
 
 // A dark record has Cl = 0, so no formula needs to ask whether it is lit.
 void ambient(LowerCall& c) {
-    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), true,
+    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), nullptr,
                         [&](Value set, Value record, const V3& sum) {
                             return c.e.add(sum, record_triple(c.b, set, record, kLightCl));
                         }));
@@ -51,7 +54,7 @@ void diffuse(LowerCall& c) {
         Value cosine = c.b.select(all, e.f(-2), jit::math::cos(c.b, c.f(2), e.tier));
         limit = e.mul(cosine, e.length(N));
     }
-    c.set(sum_of_lights(c, P, false, [&](Value set, Value record, const V3& sum) {
+    c.set(sum_of_lights(c, P, &N, [&](Value set, Value record, const V3& sum) {
         V3 L = e.normalize(record_triple(c.b, set, record, kLightL));
         Value cosine = e.dot(L, N);
         Value amount = c.b.max(cosine, e.f(0));
@@ -77,7 +80,7 @@ void specular(LowerCall& c) {
     auto& e = c.e;
     V3 N = c.v3(0), V = c.v3(1);
     Value exponent = exponent_of(c, c.f(2));
-    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), false,
+    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), &N,
                         [&](Value set, Value record, const V3& sum) {
                             V3 L = e.normalize(record_triple(c.b, set, record, kLightL));
                             Value front = c.b.lt(e.f(0), e.dot(L, N));
@@ -95,7 +98,7 @@ void phong(LowerCall& c) {
     V3 unit_N = e.normalize(N), unit_V = e.normalize(V);
     V3 R = e.fma(unit_N, e.mul(e.f(2), e.dot(unit_V, unit_N)), e.neg(unit_V));
     Value size = c.f(2);
-    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), false,
+    c.set(sum_of_lights(c, c.globals.read(Global::P).v3(), &N,
                         [&](Value set, Value record, const V3& sum) {
                             V3 L = e.normalize(record_triple(c.b, set, record, kLightL));
                             Value front = c.b.lt(e.f(0), e.dot(L, N));

@@ -2,6 +2,7 @@
 #include "rsl/lower/lights.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "jit/math/math.h"
 #include "rsl/lower/values.h"
@@ -16,9 +17,12 @@ struct LightCone {
     bool all = true;
     V3 axis{};
     Value cosine = jit::kNone;  // times the length of the axis
+    bool half = false;          // known to be 90 degrees at most
 };
 
 namespace {
+
+constexpr float kRightAngle = 1.57081f;  // PI / 2 in as many digits as people write
 
 LightCone cone_of(Emitter& e, TreeWalk& tree, const Expr* axis, const Expr* angle) {
     if (!axis) return {};
@@ -30,7 +34,7 @@ LightCone cone_of(Emitter& e, TreeWalk& tree, const Expr* axis, const Expr* angl
     Value cosine = jit::math::cos(e.b, half, e.tier);
     if (!constant)  // nothing lies outside a cone of half a turn or more
         cosine = e.b.select(e.b.le(e.f(3.14159f), half), e.f(-2), cosine);
-    return {false, a, e.b.mul(cosine, e.length(a))};
+    return {false, a, e.b.mul(cosine, e.length(a)), constant && std::abs(known) <= kRightAngle};
 }
 
 Value inside(Emitter& e, const LightCone& cone, const V3& L) {
@@ -44,6 +48,7 @@ void Illuminance::lower(const IlluminanceStmt& stmt) {
     Lowered position = tree_.expr(*stmt.position);
     Value set = records_.set_at(position.v3());
     LightCone around = cone_of(e_, tree_, stmt.axis, stmt.angle);
+    records_.look_about(set, around.half ? &around.axis : nullptr);
     loops_.replay(stmt, set,
                   [&](Value record) { light_body(stmt, set, record, around, position); });
 }

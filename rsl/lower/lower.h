@@ -37,6 +37,17 @@ struct LightStatement {
     bool casts_shadow = true;  // false: the shader itself calls shadow, transmission or trace
 };
 
+// The lights at P that a kernel's loops look at: those within 90 degrees of ... (bits).
+enum LitSide : uint8_t {
+    kLitAround = 1,       // anything else: some loop sees all lights
+    kLitN = 2,            // N
+    kLitBehindN = 4,      // -N
+    kLitFacing = 8,       // faceforward(N, I), which goes by Ng
+    kLitAverted = 16,     // its opposite
+    kLitFacingByN = 32,   // faceforward(N, I, N)
+    kLitAvertedByN = 64,  // its opposite
+};
+
 struct LoweredShader {
     jit::Module module;
     std::vector<LightStatement> light_statements;  // light shaders; outputs light:k:*
@@ -52,6 +63,7 @@ struct LoweredShader {
     };
     std::vector<std::vector<GatherResult>> gathers;
     bool uses_lights = false;  // reads record set 0
+    uint8_t lit_sides = 0;     // LitSide of all its loops that see lights with a direction
     bool uses_rng = false;
     // Displacements and transformations: whether P, N as they leave them can differ from the input.
     bool moves_P = false, bends_N = false;

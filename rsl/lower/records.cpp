@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rsl/directions/direction.h"
+
 namespace kinora::rsl {
 
 Value record_field(jit::Builder& b, Value set, Value record, int column, jit::Type type) {
@@ -23,6 +25,24 @@ Value LightRecords::set_at(const V3& position) {
         return b_.i(0);
     }
     return services_.call(Service::lights, position)[0];
+}
+
+namespace {
+
+LitSide side_about(jit::Builder& b, const V3& axis) {
+    const Direction d = direction_of(b, axis);
+    if (d.base != Base::N) return kLitAround;
+    if (d.faced == Base::None) return d.opposite ? kLitBehindN : kLitN;
+    if (d.faced == Base::N) return d.opposite ? kLitAvertedByN : kLitFacingByN;
+    return d.opposite ? kLitAverted : kLitFacing;
+}
+
+}  // namespace
+
+void LightRecords::look_about(Value set, const V3* axis) {
+    int32_t known;
+    if (!b_.constant_i(set, &known) || known != 0) return;  // lights at other points
+    context_.out.lit_sides |= axis ? side_about(b_, *axis) : kLitAround;
 }
 
 // The column of a light's parameter, and its number among the messages. The type that the first

@@ -41,6 +41,9 @@ class LightRecords {
         : e_(emitter), b_(emitter.b), context_(context), services_(services) {}
 
     Value set_at(const V3& position);
+    // Notes that a loop over the set looks at lights within 90 degrees of the axis alone; null: at
+    // all lights.
+    void look_about(Value set, const V3* axis);
     // Whether the record is of the category, a string expression's value.
     Value category_matches(Value set, Value record, Value category, Location where);
     // The current light's parameter where it has one, else `before`; *known says where.

@@ -93,13 +93,18 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
         // What changed stays marked, so that the next frame moves it.
         if (stats.too_coarse) return false;
         stats.displace = deform(scene);
-        for (Shape& shape : scene.shapes)
-            if (shape.vertex_work) shape.vertex_work->report(mesh_id(scene, shape), diagnostics);
+        if (scene.first_frame) find_moving_parts(scene);
+        for (uint32_t s : scene.moving.shapes)
+            if (Shape& shape = scene.shapes[s]; shape.vertex_work)
+                shape.vertex_work->report(mesh_id(scene, shape), diagnostics);
     }
     {
         StageTimer timer(stats.refit);
         StageScope stage(Stage::Refit);
-        const raytrace::AccelUpdate& update = scene.accel.update(scene.geometry);
+        const raytrace::AccelUpdate& update =
+            scene.first_frame ? scene.accel.update(scene.geometry)
+                              : scene.accel.update(scene.geometry, scene.moving.surfaces);
+        stats.rows_compared = update.compared;
         stats.refits = update.refits;
         stats.rebuilds = update.rebuilds + update.low_rebuilds;
         if (scene.first_frame || !scene.all_finite || !update.issues.empty())

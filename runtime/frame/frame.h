@@ -23,10 +23,12 @@ struct FrameStats {
     raytrace::TraceCounters camera_rays;       // of those, the camera's and their continuations
     raytrace::TraceCounters shader_rays;       // and those of lights and shaders
     uint64_t shading_points = 0;
+    uint64_t light_points = 0;  // of the kernels of lights
     uint64_t non_finite = 0;
     int refits = 0, rebuilds = 0;
-    double dice_error = 0;    // runtime/vertices/dice_error.h
-    bool too_coarse = false;  // the frame was let go for that
+    size_t rows_compared = 0;  // of the ray tracer, with those of the frame before
+    double dice_error = 0;     // runtime/vertices/dice_error.h
+    bool too_coarse = false;   // the frame was let go for that
 };
 
 struct PlacedCamera;  // runtime/scene/camera.h

@@ -142,6 +142,12 @@ struct LightSource {
     uint32_t surface = kNone;  // whose triangles shine; kNone: no area light
 };
 
+// What an animation can move; all else stays as the first frame left it.
+struct MovingParts {
+    std::vector<uint32_t> nodes, shapes, surfaces;  // indices, in order
+    bool rest_finite = true;                        // the matrices of all other nodes
+};
+
 struct CameraSource {
     uint32_t definition = kNone;  // kNone: the default camera
     uint32_t node = kNone;
@@ -183,8 +189,11 @@ struct SceneOptions {
     int split = 1;  // hits of a path where both what is reflected and what passes is followed
     int ray_limit = 1000;  // rays that a camera ray's points may shoot (docs/rays.md#budgets)
     raytrace::AccelPolicy accel;
-    bool decode_textures = true;    // 8-bit colours from sRGB; false: --color legacy
-    uint32_t light_samples = 0;     // of area lights; 0: the file's, else 16
+    bool decode_textures = true;  // 8-bit colours from sRGB; false: --color legacy
+    uint32_t light_samples = 0;   // of area lights; 0: the file's, else 16
+    // The weakest lights of a point cast no shadow rays and count as shadowed, up to this share of
+    // what all lights send there.
+    float weak_lights = 0;
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
     double frame_rate = 0;          // frames a second that option("Frame") counts; 0: the file's
     // Range played, seconds: what added cameras frame, and its views tell how fine to dice.
@@ -232,6 +241,7 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Surface> surfaces;
     std::vector<LightSource> lights;
+    MovingParts moving;  // known from the first frame on
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<ShaderInstance>> shader_instances;
     // Displacements and transformations.

@@ -21,6 +21,9 @@ dmat4 node_matrix(const NodeDefinition& node, std::span<const double> values);
 // A matrix that is not finite becomes all zero.
 void update_transforms(Scene& scene);
 
+// Fills Scene::moving, and lets all nodes rest; at the end of the first frame.
+void find_moving_parts(Scene& scene);
+
 // The product of the conversions on the way to the node: from the document it is written in into
 // the scene's units and axes.
 dmat4 path_conversion(const Scene& scene, uint32_t node);

@@ -23,6 +23,7 @@ struct LightPoints {
     const uint32_t* surface = nullptr;  // the surface that is lit, kNone: none
     const float* zeros = nullptr;       // a row of them
     size_t first = 0;  // grid point of element 0: what record columns are relative to
+    bool own = false;  // the grid's points themselves
 };
 
 // One sample of an area light for each of a number of lit points.

@@ -2,10 +2,13 @@
 #include "runtime/shading/light_bindings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 #include <string_view>
 
 #include "rsl/model/kernel_keys.h"
+#include "runtime/description/shader_library.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/kernels/light_categories.h"
 
@@ -107,7 +110,40 @@ LightBinding binding_of(const ShaderInstance& surface, const ShaderInstance& lig
     return binding;
 }
 
+// Shaders of the library whose light ends: the parameters that say where; "" for none.
+struct BoundedShader {
+    const char* name;
+    const char* angle;
+    double half_radians;  // that one unit of the angle is
+    const char* range;    // in the light's units, of which `unit` is the length
+};
+constexpr BoundedShader kBounded[] = {
+    {"collada_spot", "falloff_angle", 0.5 * kPi / 180, ""},
+    {"gltf_spot", "outer_angle", 1, "range"},
+    {"gltf_point", "", 0, "range"},
+};
+
 }  // namespace
+
+LightReach LightBindings::reach(const Scene& scene, size_t light) const {
+    const ShaderInstance& look = *scene.shader_instances[scene.lights[light].look];
+    LightReach reach;
+    if (look.area_light) return reach;  // its light does not come from its node
+    for (const BoundedShader& row : kBounded) {
+        if (look.shader().name != row.name || &look.shader() != library_shader(row.name).get())
+            continue;
+        auto number = [&](const char* name) {
+            return double(number_of(look, name).at_present(scene));
+        };
+        const dmat4 current = kinora::current_from_space(scene, "shader", look.space_owner());
+        reach.apex = dvec3(current[3]);
+        reach.axis = glm::normalize(dvec3(current[2]));
+        if (*row.angle) reach.half_angle = std::abs(number(row.angle)) * row.half_radians;
+        if (const double range = *row.range ? number(row.range) : 0; range > 0)
+            reach.range = range * number("unit");
+    }
+    return reach;
+}
 
 float LightNumber::at_present(const Scene& scene) const {
     return value == kNone ? fixed : float(scene.values[value]);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rsl/model/renderer_services.h"
+#include "runtime/lights/reach.h"
 #include "runtime/shading/shader_instance.h"
 
 namespace kinora {
@@ -39,6 +40,9 @@ class LightBindings {
     std::span<const LightOutputs> statements(size_t light) const { return statements_[light]; }
     // What look `look` among Scene::looks, no light's, reads of it.
     const LightBinding& binding(size_t look, size_t light) const { return bindings_[look][light]; }
+    // Where light `light` can send light at the scene's present time, in current space; of other
+    // shaders than the library's that is everywhere.
+    LightReach reach(const Scene& scene, size_t light) const;
     // Whether some statement sends light from somewhere.
     bool directed(size_t light) const;
 

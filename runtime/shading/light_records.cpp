@@ -57,6 +57,35 @@ bool lie_in_order(std::span<const uint32_t> points) {
     return true;
 }
 
+// The grid's points as its kernel looks for lights. While LIGHTS_DARK counts what arrives on the
+// side that the eye sees, that side is not dropped.
+SeenPoints seen_points(const Grid& grid) {
+    constexpr uint8_t kSeen = rsl::kLitFacing | rsl::kLitFacingByN;
+    SeenPoints points;
+    points.count = grid.count();
+    points.sides = grid.look->lowered.lit_sides;
+    const bool counts = grid.scene.watch_dark > 0 && grid.depth == 0;
+    if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
+    for (size_t k = 0; k < 3; ++k) {
+        points.N[k] = grid.columns[kColN + k];
+        points.Ng[k] = grid.columns[kColNg + k];
+        points.I[k] = grid.columns[kColI + k];
+    }
+    return points;
+}
+
+const float* record_uniforms(const Scene& scene, Arena& arena, const LightOutputs& statement,
+                             const LightBinding& binding) {
+    float* uniforms = arena.allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
+    uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
+    uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
+    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.at_present(scene);
+    uniforms[rsl::kLightNonspecular] = binding.nonspecular.at_present(scene);
+    for (size_t m = 0; m < binding.known.size(); ++m)
+        uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
+    return uniforms;
+}
+
 uint32_t bits(float x) {
     return uint32_t(jit::bits_of(x));
 }
@@ -71,6 +100,12 @@ LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
         need_rng_ |=
             area || frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
     }
+}
+
+void LightRecords::begin_frame() {
+    area_lights_.begin_frame();
+    reaches_.resize(frame_.scene.lights.size());
+    for (size_t l = 0; l < reaches_.size(); ++l) reaches_[l] = bindings_.reach(frame_.scene, l);
 }
 
 std::vector<size_t> LightRecords::light_of_records() const {
@@ -111,6 +146,7 @@ void LightRecords::run(Grid& grid) {
     }
     at.rng = grid.columns[kColRng];
     at.surface = of_points(grid.hits.instance);
+    at.own = true;
     grid.record_sets[0] = make_records(grid, at);
 }
 
@@ -119,16 +155,44 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
     std::span<float> zeros = arena.allocate_span<float>(padded(at.count));
     std::fill(zeros.begin(), zeros.end(), 0.0f);
     at.zeros = zeros.data();
-    std::span<jit::Record> records = arena.allocate_span<jit::Record>(record_count_);
-    jit::Record* next = records.data();
-    for (size_t l = 0; l < frame_.scene.lights.size(); ++l)
-        next = area_lights_.find(l) ? area_records(grid, at, l, next)
-                                    : plain_records(grid, at, l, next);
-    return {int32_t(record_count_), records.data()};
+    Making making{grid, at, arena.allocate_span<jit::Record>(record_count_),
+                  arena.allocate_span<SentLight>(record_count_)};
+    const Sphere lit = sphere_about(at.P, at.count);
+    for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
+        if (!reaches(reaches_[l], lit))
+            dark_records(making, l);
+        else
+            area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
+    }
+    shadow(making);
+    return {int32_t(record_count_), making.records.data()};
 }
 
-jit::Record* LightRecords::plain_records(Grid& grid, const LightPoints& at, size_t l,
-                                         jit::Record* next) {
+void LightRecords::dark_records(Making& making, size_t l) const {
+    Arena& arena = making.grid.memory.arena;
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    std::span<const float*> columns =
+        arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
+    std::fill(columns.begin(), columns.end(), making.at.zeros - making.at.first);
+    for (const LightOutputs& statement : bindings_.statements(l))
+        making.records[making.record_count++] = {
+            columns.data(), record_uniforms(frame_.scene, arena, statement, binding)};
+}
+
+void LightRecords::shadow(const Making& making) const {
+    Grid& grid = making.grid;
+    if (!grid.shadows) return;
+    std::span<const SentLight> sent = making.sent.first(making.sent_count);
+    Arena& arena = grid.memory.arena;
+    if (making.at.own) drop_behind(seen_points(grid), arena, sent);
+    drop_weak(frame_.scene.options.weak_lights, making.at.count, arena, sent);
+    for (const SentLight& light : sent)
+        if (light.casts) grid.shadows->cast(grid, making.at, light);
+}
+
+void LightRecords::plain_records(Making& making, size_t l) {
+    Grid& grid = making.grid;
+    const LightPoints& at = making.at;
     const LightSource& light = frame_.scene.lights[l];
     const ShaderInstance& look = *frame_.scene.shader_instances[light.look];
     Arena& arena = grid.memory.arena;
@@ -150,12 +214,12 @@ jit::Record* LightRecords::plain_records(Grid& grid, const LightPoints& at, size
     grid.memory.counters.light_points += at.count;
     const LightBinding& binding = bindings_.binding(grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))
-        *next++ = make_record(grid, at, statement, binding, out, nullptr);
-    return next;
+        make_record(making, statement, binding, out, nullptr);
 }
 
-jit::Record* LightRecords::area_records(Grid& grid, const LightPoints& at, size_t l,
-                                        jit::Record* next) {
+void LightRecords::area_records(Making& making, size_t l) {
+    Grid& grid = making.grid;
+    const LightPoints& at = making.at;
     const AreaLight& light = *area_lights_.find(l);
     const ShaderInstance& look = *frame_.scene.shader_instances[frame_.scene.lights[l].look];
     Arena& arena = grid.memory.arena;
@@ -198,17 +262,16 @@ jit::Record* LightRecords::area_records(Grid& grid, const LightPoints& at, size_
                     float& Cl = out[size_t(output)][i];
                     Cl = own || !light.has_area() ? 0.0f : Cl / float(light.samples);
                 }
-            *next++ = make_record(grid, at, statement, binding, out, &samples);
+            make_record(making, statement, binding, out, &samples);
         }
     }
-    return next;
 }
 
-jit::Record LightRecords::make_record(Grid& grid, const LightPoints& at,
-                                      const LightOutputs& statement, const LightBinding& binding,
-                                      std::span<float* const> out,
-                                      const LightSamples* samples) const {
-    Arena& arena = grid.memory.arena;
+void LightRecords::make_record(Making& making, const LightOutputs& statement,
+                               const LightBinding& binding, std::span<float* const> out,
+                               const LightSamples* samples) const {
+    const LightPoints& at = making.at;
+    Arena& arena = making.grid.memory.arena;
     std::span<const float*> columns =
         arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), at.zeros);
@@ -224,8 +287,10 @@ jit::Record LightRecords::make_record(Grid& grid, const LightPoints& at,
     set(rsl::kLightLit, statement.lit);
     for (size_t m = 0; m < binding.messages.size(); ++m)
         set(rsl::kLightMessages + m, binding.messages[m]);
-    if (statement.casts_shadow && grid.shadows && statement.L[0] >= 0) {
-        SentLight sent;
+    if (statement.kind != rsl::kLightAmbient && statement.L[0] >= 0) {
+        SentLight& sent = making.sent[making.sent_count];
+        sent = {};
+        sent.casts = statement.casts_shadow;
         sent.solar = statement.kind == rsl::kLightSolar;
         sent.lit = statement.lit < 0 ? nullptr : out[size_t(statement.lit)];
         sent.samples = samples;
@@ -233,18 +298,12 @@ jit::Record LightRecords::make_record(Grid& grid, const LightPoints& at,
             sent.L[k] = out[size_t(statement.L[k])];
             sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
         }
-        if (sent.Cl[0] && sent.Cl[1] && sent.Cl[2]) grid.shadows->cast(grid, at, sent);
+        making.sent_count += sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
     }
-    float* uniforms = arena.allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
-    uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
-    uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
-    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.at_present(frame_.scene);
-    uniforms[rsl::kLightNonspecular] = binding.nonspecular.at_present(frame_.scene);
-    for (size_t m = 0; m < binding.known.size(); ++m)
-        uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
     // Columns are read at the grid's point, so those of a part of it start before it.
     for (const float*& column : columns) column -= at.first;
-    return {columns.data(), uniforms};
+    making.records[making.record_count++] = {
+        columns.data(), record_uniforms(frame_.scene, arena, statement, binding)};
 }
 
 int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {

@@ -2,19 +2,11 @@
 // surface kernels replay (docs/decisions.md#lights-run-once).
 #pragma once
 
+#include "runtime/lights/unseen_light.h"
 #include "runtime/shading/area_light.h"
 #include "runtime/shading/kernel_runner.h"
 
 namespace kinora {
-
-// What one statement of a light sends to each of the points.
-struct SentLight {
-    bool solar = false;
-    const float* L[3];           // to the light
-    const float* lit = nullptr;  // null: everywhere
-    float* Cl[3];
-    const LightSamples* samples = nullptr;  // that send it, of a light on geometry
-};
 
 // What takes light away on its way.
 class LightShadows {
@@ -27,7 +19,7 @@ class LightShadows {
 class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
-    void begin_frame() { area_lights_.begin_frame(); }
+    void begin_frame();
     // Names the lights that shine only against where they look (light_aim.cpp).
     void report_aims(Diagnostics& diagnostics) const;
 
@@ -42,19 +34,31 @@ class LightRecords {
     int32_t at(Grid& grid, const jit::ServiceCall& call);
 
   private:
+    // Records of a grid's points, and what of them comes from somewhere.
+    struct Making {
+        Grid& grid;
+        const LightPoints& at;
+        std::span<jit::Record> records;
+        std::span<SentLight> sent;
+        size_t record_count = 0, sent_count = 0;
+    };
     jit::RecordSet make_records(Grid& grid, LightPoints at);
-    // Run a light's kernel; the slot behind its last record.
-    jit::Record* plain_records(Grid& grid, const LightPoints& at, size_t light, jit::Record* next);
-    jit::Record* area_records(Grid& grid, const LightPoints& at, size_t light, jit::Record* next);
-    jit::Record make_record(Grid& grid, const LightPoints& at, const LightOutputs& statement,
-                            const LightBinding& binding, std::span<float* const> out,
-                            const LightSamples* samples) const;
+    // Run a light's kernel.
+    void plain_records(Making& making, size_t light);
+    void area_records(Making& making, size_t light);
+    // Of a light that reaches none of the points.
+    void dark_records(Making& making, size_t light) const;
+    void make_record(Making& making, const LightOutputs& statement, const LightBinding& binding,
+                     std::span<float* const> out, const LightSamples* samples) const;
+    // Leaves in the colours what arrives.
+    void shadow(const Making& making) const;
 
     const ShadingFrame& frame_;
     KernelRunner& kernels_;
     LightBindings bindings_;
     AreaLights area_lights_;
-    size_t record_count_ = 0;  // of one run
+    std::vector<LightReach> reaches_;  // of each light, in this frame
+    size_t record_count_ = 0;          // of one run
     bool need_rng_ = false;
 };
 

@@ -20,6 +20,15 @@ bool changed_bit(const Scene& scene, uint32_t owner) {
     return scene.first_frame || (scene.changed[owner / 64] >> (owner % 64) & 1);
 }
 
+// Calls f(index) for what a frame may have to bring up to date: in the first frame for all.
+template <class F>
+void for_each_moving(const Scene& scene, size_t count, std::span<const uint32_t> moving, F&& f) {
+    if (scene.first_frame)
+        for (uint32_t k = 0; k < count; ++k) f(k);
+    else
+        for (uint32_t k : moving) f(k);
+}
+
 bool joints_moved(const Scene& scene, const Shape& shape) {
     if (scene.nodes[shape.node].moved) return true;
     return std::any_of(shape.joint_nodes.begin(), shape.joint_nodes.end(),
@@ -33,7 +42,7 @@ bool morph_changed(const Scene& scene, const Shape& shape) {
     return false;
 }
 
-void update_world(Scene& scene, Shape& shape) {
+void update_world(const Scene& scene, Shape& shape) {
     shape.world = scene.nodes[shape.node].world * shape.conversion;
     shape.mirrored = glm::determinant(dmat3(shape.world)) < 0;
 }
@@ -98,35 +107,57 @@ void deform_shape(Scene& scene, Shape& shape, double& displace_ms) {
 
 }  // namespace
 
-void pose(Scene& scene) {
-    for (Shape& shape : scene.shapes) {
-        if (shape.kind != raytrace::GeometryKind::Deforming) continue;
-        if (!scene.first_frame && !joints_moved(scene, shape)) continue;
-        update_world(scene, shape);
-        skin::Anchors anchors{scene.meshes[shape.mesh].anchor, scene.origin};
-        if (shape.skin == kNone) {
-            shape.palette.assign(shape.palette.size(), skin::joint_matrix(shape.world, anchors));
-            continue;
-        }
-        dmat4 to_world(1.0);
-        if (!shape.in_world) to_world = scene.nodes[shape.node].world;
-        if (shape.applies_below != kNone)
-            to_world = to_world * glm::inverse(scene.nodes[shape.applies_below].world);
-        // The palette reads matrices by joint; unresolved joints stay with the bind shape.
-        for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
-            uint32_t node = shape.joint_nodes[j];
-            dmat4& world = shape.joint_world[j];
-            world = node == kNone ? dmat4(1.0) : scene.nodes[node].world;
-            if (!shape.in_world) world = to_world * world;
-        }
-        skin::pose(
-            shape.skeleton, shape.joint_world, anchors, shape.palette,
-            shape.in_world ? path_conversion(scene, shape.node) * shape.conversion : shape.world);
-        shape.mirrored = most_mirror(std::span(shape.palette).subspan(1));
-        std::ranges::transform(shape.palette.begin(),
-                               shape.palette.begin() + ptrdiff_t(shape.dual_palette.size()),
-                               shape.dual_palette.begin(), skin::dual_joint);
+namespace {
+
+void pose_shape(const Scene& scene, Shape& shape) {
+    update_world(scene, shape);
+    skin::Anchors anchors{scene.meshes[shape.mesh].anchor, scene.origin};
+    if (shape.skin == kNone) {
+        shape.palette.assign(shape.palette.size(), skin::joint_matrix(shape.world, anchors));
+        return;
     }
+    dmat4 to_world(1.0);
+    if (!shape.in_world) to_world = scene.nodes[shape.node].world;
+    if (shape.applies_below != kNone)
+        to_world = to_world * glm::inverse(scene.nodes[shape.applies_below].world);
+    // The palette reads matrices by joint; unresolved joints stay with the bind shape.
+    for (size_t j = 0; j < shape.joint_nodes.size(); ++j) {
+        uint32_t node = shape.joint_nodes[j];
+        dmat4& world = shape.joint_world[j];
+        world = node == kNone ? dmat4(1.0) : scene.nodes[node].world;
+        if (!shape.in_world) world = to_world * world;
+    }
+    skin::pose(
+        shape.skeleton, shape.joint_world, anchors, shape.palette,
+        shape.in_world ? path_conversion(scene, shape.node) * shape.conversion : shape.world);
+    shape.mirrored = most_mirror(std::span(shape.palette).subspan(1));
+    std::ranges::transform(shape.palette.begin(),
+                           shape.palette.begin() + ptrdiff_t(shape.dual_palette.size()),
+                           shape.dual_palette.begin(), skin::dual_joint);
+}
+
+// The ray tracer's row of a surface.
+void update_row(Scene& scene, uint32_t surface) {
+    const Shape& shape = scene.shapes[scene.surfaces[surface].shape];
+    raytrace::Geometry& row = scene.geometry[surface];
+    row.positions_version = shape.positions_version;
+    row.mirrored = shape.mirrored;
+    if (shape.kind != raytrace::GeometryKind::Instanced) return;
+    dmat4 to_accel(1.0), from_anchor(1.0);
+    to_accel[3] = dvec4(-scene.origin, 1.0);
+    from_anchor[3] = dvec4(scene.meshes[shape.mesh].anchor, 1.0);
+    row.accel_from_local = to_accel * shape.world * from_anchor;
+    row.mirrored = false;
+}
+
+}  // namespace
+
+void pose(Scene& scene) {
+    for_each_moving(scene, scene.shapes.size(), scene.moving.shapes, [&](uint32_t s) {
+        Shape& shape = scene.shapes[s];
+        if (shape.kind != raytrace::GeometryKind::Deforming) return;
+        if (scene.first_frame || joints_moved(scene, shape)) pose_shape(scene, shape);
+    });
 }
 
 void move_by_joints(const Shape& shape, const skin::SkinMesh& skin,
@@ -141,24 +172,15 @@ void move_by_joints(const Shape& shape, const skin::SkinMesh& skin,
 
 double deform(Scene& scene) {
     double displace_ms = 0;
-    for (Shape& shape : scene.shapes) {
+    for_each_moving(scene, scene.shapes.size(), scene.moving.shapes, [&](uint32_t s) {
+        Shape& shape = scene.shapes[s];
         if (shape.kind == raytrace::GeometryKind::Deforming)
             deform_shape(scene, shape, displace_ms);
         if (shape.kind == raytrace::GeometryKind::Instanced && scene.nodes[shape.node].moved)
             update_world(scene, shape);
-    }
-    for (size_t s = 0; s < scene.surfaces.size(); ++s) {
-        const Shape& shape = scene.shapes[scene.surfaces[s].shape];
-        raytrace::Geometry& row = scene.geometry[s];
-        row.positions_version = shape.positions_version;
-        row.mirrored = shape.mirrored;
-        if (shape.kind != raytrace::GeometryKind::Instanced) continue;
-        dmat4 to_accel(1.0), from_anchor(1.0);
-        to_accel[3] = dvec4(-scene.origin, 1.0);
-        from_anchor[3] = dvec4(scene.meshes[shape.mesh].anchor, 1.0);
-        row.accel_from_local = to_accel * shape.world * from_anchor;
-        row.mirrored = false;
-    }
+    });
+    for_each_moving(scene, scene.surfaces.size(), scene.moving.surfaces,
+                    [&](uint32_t s) { update_row(scene, s); });
     return displace_ms;
 }
 

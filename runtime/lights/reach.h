@@ -1,0 +1,32 @@
+// runtime/lights/reach.h: how far a light's kernel can send light at all.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "runtime/base/math.h"
+
+namespace kinora {
+
+// No light arrives outside the cone about the axis, nor farther than the range.
+struct LightReach {
+    dvec3 apex{0.0}, axis{0.0, 0.0, 1.0};  // axis of length 1, from the light
+    double half_angle = kPi;               // radians; kPi: all around
+    double range = std::numeric_limits<double>::infinity();
+    bool bounded() const { return half_angle < kPi || range < kEndless; }
+
+    static constexpr double kEndless = std::numeric_limits<double>::infinity();
+};
+
+struct Sphere {
+    dvec3 center{0.0};
+    double radius = 0;
+};
+
+// About the box of these points.
+Sphere sphere_about(const float* const P[3], size_t count);
+
+// Whether light may arrive anywhere in the sphere; true in doubt.
+bool reaches(const LightReach& light, const Sphere& sphere);
+
+}  // namespace kinora

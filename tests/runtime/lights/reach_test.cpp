@@ -1,0 +1,67 @@
+// tests/runtime/lights/reach_test.cpp: cones and ranges against points in spheres.
+#include "runtime/lights/reach.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+namespace kinora {
+namespace {
+
+dvec3 random_direction(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    return glm::normalize(dvec3(normal(random), normal(random), normal(random)));
+}
+
+bool lights(const LightReach& light, dvec3 p) {
+    const dvec3 way = p - light.apex;
+    const double distance = glm::length(way);
+    return distance <= light.range &&
+           std::acos(glm::dot(way, light.axis) / distance) <= light.half_angle;
+}
+
+// Never false where some point of the sphere is lit, and false for most that are not.
+TEST(LightReach, IsNeverTooShortAndSeldomTooLong) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int unlit = 0, told = 0;
+    for (int round = 0; round < 900; ++round) {
+        LightReach light;
+        light.apex = 5.0 * random_direction(random);
+        light.axis = random_direction(random);
+        if (round % 3 != 0) light.half_angle = kPi * uniform(random);
+        if (round % 3 != 1) light.range = 8 * uniform(random);
+        const Sphere sphere{6.0 * uniform(random) * random_direction(random), uniform(random)};
+        bool lit = false;
+        for (int k = 0; k < 1000 && !lit; ++k)
+            lit = lights(light, sphere.center + sphere.radius * std::cbrt(uniform(random)) *
+                                                    random_direction(random));
+        EXPECT_TRUE(!lit || reaches(light, sphere)) << round;
+        unlit += !lit;
+        told += !reaches(light, sphere);
+    }
+    EXPECT_GT(unlit, 300);
+    EXPECT_GT(told, 0.97 * unlit);
+}
+
+TEST(LightReach, IsBoundedByAConeOrARange) {
+    LightReach light;
+    EXPECT_FALSE(light.bounded());
+    EXPECT_TRUE(reaches(light, {dvec3(1e30), 0}));
+    light.half_angle = 3;
+    EXPECT_TRUE(light.bounded());
+}
+
+TEST(LightReach, ASphereHoldsItsPoints) {
+    const float x[] = {1, 3, 2}, y[] = {-1, 0, 0}, z[] = {0, 0, 4};
+    const float* P[] = {x, y, z};
+    const Sphere s = sphere_about(P, 3);
+    for (size_t i = 0; i < 3; ++i)
+        EXPECT_LE(glm::length(dvec3(x[i], y[i], z[i]) - s.center), s.radius);
+    EXPECT_DOUBLE_EQ(s.radius, 0.5 * std::sqrt(4.0 + 1 + 16));
+}
+
+}  // namespace
+}  // namespace kinora
