@@ -20,6 +20,6 @@ surface collada_constant(
     color C = COLOR_OF(emission);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
-    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi);
+    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi, color(1));
     Ci = Oi * C;
 }

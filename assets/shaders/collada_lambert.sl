@@ -23,6 +23,6 @@ surface collada_lambert(
     color C = COLOR_OF(emission) + AMBIENT_COLOR * ambient() + COLOR_OF(diffuse) * diffuse(Nf);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
-    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi);
+    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi, COLOR_OF(diffuse));
     Ci = Oi * C;
 }

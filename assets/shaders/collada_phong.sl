@@ -26,6 +26,6 @@ surface collada_phong(
         C += COLOR_OF(specular) * phong(Nf, -In, shininess);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
-    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi);
+    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi, COLOR_OF(diffuse));
     Ci = Oi * C;
 }

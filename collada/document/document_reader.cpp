@@ -113,6 +113,16 @@ constexpr VersionRow kVersions[] = {{"1.4.0", Version::V1_4_0, kSchema14},
                                     {"1.4.1", Version::V1_4_1, kSchema14},
                                     {"1.5.0", Version::V1_5_0, kSchema15}};
 
+// Documents of versions before 1.4 have <library type="GEOMETRY">. A wrong number alone is no harm.
+bool DocumentReader::is_too_old(const Document& document, const Element& root) {
+    const Element* library = root.child("library");
+    if (!library || library->value("type").empty()) return false;
+    std::string_view version = root.value("version");
+    diag_.report(Code::DOC_TOO_OLD, document.location(root, "version"),
+                 version.empty() ? std::string_view("1.3") : version);
+    return true;
+}
+
 void DocumentReader::check_root(Document& document, const Element& root) {
     std::string_view text = root.value("version");
     const VersionRow* row = nullptr;
@@ -140,6 +150,7 @@ std::optional<Document> DocumentReader::finish() {
         return std::nullopt;
     }
     Document document = builder_->finish();
+    if (is_too_old(document, *root)) return std::nullopt;
     check_root(document, *root);
     return document;
 }

@@ -37,6 +37,7 @@ class DocumentReader {
     void report_syntax();
     bool check_token(size_t fed);
     std::optional<Document> finish();
+    bool is_too_old(const Document& document, const Element& root);
     void check_root(Document& document, const Element& root);
 
     template <class... Args>

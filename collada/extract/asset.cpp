@@ -22,7 +22,10 @@ void read_unit(const Document& document, const Element& unit, Asset& asset, Diag
     asset.unit_name = unit.value("name");
     if (const Attribute* meter = unit.attribute("meter")) {
         double value = 0;
-        if (parse_double(meter->value, value) && value > 0)
+        bool comma = comma_decimal(trim(meter->value), value);
+        if (comma)
+            diag.report(Code::SRC_COMMA_DECIMAL, document.location(unit, "meter"), meter->value);
+        if ((comma || parse_double(meter->value, value)) && value > 0)
             asset.meter = value;
         else
             diag.report(Code::UNIT_RANGE, document.location(unit, "meter"), meter->value);

@@ -128,6 +128,8 @@ bool extract_into(Extraction& x, const Document& document) {
     check_node_graph(x);
     resolve_joints(x);
     read_animations(x);
+    settle_visibility(x);
+    mend_black_effects(x);
     check_transparency(x);
     return true;
 }

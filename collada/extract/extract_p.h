@@ -50,6 +50,18 @@ class NewParams {
     std::unordered_map<const Element*, Table> inside_;  // an effect's profiles
 };
 
+// The <image>s of documents, by the names that exporters use in place of their ids.
+class ImageNames {
+  public:
+    explicit ImageNames(const LinkedDocuments& documents) : documents_(documents) {}
+    const Element* find(uint32_t doc, const std::string& name);  // null: there is none
+
+  private:
+    using Table = std::unordered_map<std::string, const Element*>;
+    const LinkedDocuments& documents_;
+    std::unordered_map<uint32_t, Table> of_;  // by document
+};
+
 // Nodes whose index is given out and whose content is still to be read.
 class NodeQueue {
   public:
@@ -125,6 +137,8 @@ struct Extraction {
     MemoryBudget budget{diag};
     LinkedDocuments documents{diag, options, budget, scene};
     PictureSearch pictures;
+    ImageNames image_names{documents};
+    std::unordered_map<std::string, uint32_t> file_images;  // by path: images without an <image>
     AssetFrames frames{documents, diag, scene};
     std::vector<uint32_t> geometry_frames, skin_frames;  // of SceneData's lists
     // Copies of targets of morphs, by geometry and frame.
@@ -143,6 +157,8 @@ struct Extraction {
     uint32_t reached_nodes = kNone;  // those behind are read by read_everything
     std::vector<PendingBinding> pending_bindings;
     std::vector<PendingSkin> pending_skins;
+    std::vector<std::pair<uint32_t, Link>> hidden_nodes;   // and the <visibility> of each
+    std::unordered_set<const Element*> moving_visibility;  // that channels name
     int controller_depth = 0;  // of <controller>s whose sources are being read
     // Where targets of a morph were left out: weight as written -> weight kept, or kNone.
     std::unordered_map<uint32_t, std::vector<uint32_t>> morph_remap;
@@ -193,6 +209,10 @@ void read_time_range(Extraction& x, Link visual_scene);
 // Reports what is unportable about the spelling of a file's URI.
 void check_file_uri(Extraction& x, std::string_view uri, Location where);
 
+// black_effects.cpp: gives colors to effects that would be black where the file says otherwise;
+// reports it.
+void mend_black_effects(Extraction& x);
+
 // transparency.cpp: marks materials that the formula makes invisible; reports them.
 void check_transparency(Extraction& x);
 
@@ -206,11 +226,18 @@ std::string unpack_image(Extraction& x, Link data, std::string_view format, std:
 
 // images.cpp: index into scene.images, or kNone.
 uint32_t image_index(Extraction& x, Link image);
+// Of what exporters write in place of an image's id: "#id", its name, its file's name. kNone: there
+// is no such image.
+uint32_t image_called(Extraction& x, uint32_t doc, std::string_view name);
+// Of the file itself, if there is one; no <image> has it.
+uint32_t file_image(Extraction& x, Link user, std::string_view uri);
 
 // nodes.cpp -------------------------------------------------------------------------------
 
 uint32_t node_index(Extraction& x, Link node);  // may add to pending_nodes
 void read_pending_nodes(Extraction& x);
+// Hides nodes by the <visibility> of their extras that nothing moves, unless that hides every mesh.
+void settle_visibility(Extraction& x);
 // Removes node instances that close a cycle or pass the limit of unrolled nodes.
 void check_node_graph(Extraction& x);
 

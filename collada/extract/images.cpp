@@ -44,7 +44,60 @@ bool is_created(const Element& image) {
     return false;
 }
 
+std::string base_name(std::string_view path) {
+    size_t slash = path.find_last_of("/\\");
+    return std::string(slash == path.npos ? path : path.substr(slash + 1));
+}
+
+// <init_from>file</init_from>, in 1.5 <init_from><ref>file</ref></init_from>.
+std::string_view file_of(const Element& image) {
+    const Element* from = image.child("init_from");
+    if (from && from->child("ref")) from = from->child("ref");
+    return from ? trim(from->text) : std::string_view{};
+}
+
 }  // namespace
+
+const Element* ImageNames::find(uint32_t doc, const std::string& name) {
+    auto [at, fresh] = of_.try_emplace(doc);
+    Table& table = at->second;
+    for (const Element* library = fresh ? documents_[doc].root().first_child : nullptr; library;
+         library = library->next) {
+        if (library->name != "library_images") continue;
+        for (const Element& image : library->children()) {
+            if (image.name != "image") continue;
+            for (const char* attribute : {"name", "sid"})
+                if (image.attribute(attribute))
+                    table.try_emplace(std::string(image.value(attribute)), &image);
+            if (std::string file = base_name(file_of(image)); !file.empty())
+                table.try_emplace(std::move(file), &image);
+        }
+    }
+    auto found = table.find(name);
+    return found == table.end() ? nullptr : found->second;
+}
+
+uint32_t image_called(Extraction& x, uint32_t doc, std::string_view name) {
+    std::string_view id = name.starts_with('#') ? name.substr(1) : name;
+    const Element* image = find_kind(x.document(doc), id, {"image"});
+    if (!image) image = x.image_names.find(doc, base_name(id));
+    return image ? image_index(x, {doc, image}) : kNone;
+}
+
+uint32_t file_image(Extraction& x, Link user, std::string_view uri) {
+    const Document& document = x.document(user.doc);
+    if (uri.find('.') == uri.npos) return kNone;  // no name of a file
+    FoundPicture found = x.pictures.find(path_of_uri(document, uri), document.directory(),
+                                         x.documents.allowed_pictures());
+    if (found.match == PictureMatch::Missing || found.match == PictureMatch::Outside) return kNone;
+    auto [at, fresh] = x.file_images.emplace(found.path, kNone);
+    if (!fresh || !x.budget.reserve(sizeof(Image) + kBookBytes, x.where(user))) return at->second;
+    Image image;
+    image.name = image.uri = uri;
+    image.path = found.path;
+    image.where = x.where(user);
+    return at->second = append(x.scene.images, std::move(image));
+}
 
 void check_file_uri(Extraction& x, std::string_view uri, Location where) {
     if (uri.find('\\') != uri.npos) x.diag.report(Code::FILE_BACKSLASH, where, uri);

@@ -1,4 +1,5 @@
-// collada/extract/nodes.cpp: the node tree, its definitions and the instances between them.
+// collada/extract/nodes.cpp: the node tree, its definitions, the instances between them, what is
+// hidden.
 #include <algorithm>
 
 #include "collada/extract/extract_p.h"
@@ -15,6 +16,19 @@ uint32_t node_index(Extraction& x, Link link) {
 }
 
 namespace {
+
+// Maya's and Max's exporters write into an extra what was hidden there.
+void note_visibility(Extraction& x, Link node, uint32_t number) {
+    for (const Element& extra : node.element->children()) {
+        if (extra.name != "extra") continue;
+        for (const Element& technique : extra.children()) {
+            const Element* flag = technique.child("visibility");
+            double value = 1;
+            if (flag && parse_double(flag->text, value) && value == 0)
+                x.hidden_nodes.push_back({number, {node.doc, flag}});
+        }
+    }
+}
 
 void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
     x.nodes.set_filled(number);
@@ -34,6 +48,7 @@ void read_node(Extraction& x, uint32_t number, Link link, uint32_t parent) {
         for (const Element& item : technique->children())
             if (item.name == "attribute")
                 node.attributes.emplace_back(item.value("name"), trim(item.text));
+    note_visibility(x, link, number);
     size_t transforms = 0;
     for (const Element& child : e.children()) transforms += is_transform(child.name);
     if (x.budget.reserve(transforms * (sizeof(Transform) + kBookBytes), node.where))
@@ -77,6 +92,40 @@ void read_pending_nodes(Extraction& x) {
     // A node read through an instance before the node it is written in has no parent yet.
     for (uint32_t i = 0; i < x.scene.nodes.size(); ++i)
         for (uint32_t child : x.scene.nodes[i].children) x.scene.nodes[child].parent = i;
+}
+
+namespace {
+
+// Whether the visual scene shows a mesh through nodes that are not hidden.
+bool shows_a_mesh(const SceneData& scene) {
+    std::vector<bool> seen(scene.nodes.size(), false);
+    std::vector<uint32_t> waiting = scene.roots;
+    while (!waiting.empty()) {
+        uint32_t n = waiting.back();
+        waiting.pop_back();
+        const Node& node = scene.nodes[n];
+        if (seen[n] || node.hidden) continue;
+        seen[n] = true;
+        if (!node.meshes.empty()) return true;
+        waiting.insert(waiting.end(), node.children.begin(), node.children.end());
+        for (const NodeInstance& instance : node.instances) waiting.push_back(instance.node);
+    }
+    return false;
+}
+
+}  // namespace
+
+void settle_visibility(Extraction& x) {
+    for (const auto& [number, flag] : x.hidden_nodes)
+        if (!x.moving_visibility.contains(flag.element)) x.scene.nodes[number].hidden = true;
+    bool any = shows_a_mesh(x.scene);
+    for (const auto& [number, flag] : x.hidden_nodes) {
+        Node& node = x.scene.nodes[number];
+        node.hidden &= any;  // a file in which all is hidden is looked at nevertheless
+        if (node.hidden)
+            x.diag.report(Code::NODE_HIDDEN, x.text_where(flag),
+                          node.id.empty() ? node.name : node.id);
+    }
 }
 
 namespace {

@@ -180,9 +180,13 @@ uint32_t texture_sampler(Extraction& x, Link texture, Effect& effect) {
     if (const Element* param = x.newparams.find(*texture.element, name)) {
         sampler.image = image_of_param(x, {texture.doc, param}, sampler);
     } else {
-        sampler.image = image_by_id(x, texture.doc, name);
-        if (sampler.image != kNone)
-            x.diag.report(Code::TEX_DIRECT_IMAGE, x.where(texture, "texture"), name);
+        sampler.image = image_called(x, texture.doc, name);
+        const FindingInfo* code = &Code::TEX_DIRECT_IMAGE;
+        if (sampler.image == kNone) {
+            sampler.image = file_image(x, texture, name);
+            code = &Code::TEX_DIRECT_FILE;
+        }
+        if (sampler.image != kNone) x.diag.report(*code, x.where(texture, "texture"), name);
     }
     if (sampler.image == kNone) {
         x.diag.report(Code::TEX_UNRESOLVED, x.where(texture, "texture"), name);

@@ -307,6 +307,7 @@ TargetRef TargetResolver::resolve(uint32_t doc, std::string_view target, Locatio
     const Slot* slot = ref.kind == Owner::None ? nullptr : slot_of(ref);
     bool nothing = ref.kind == Owner::None || ref.count == 0 || (slot && slot->count < ref.count);
     if (nothing) {
+        if (found.element->name == "visibility") x_.moving_visibility.insert(found.element);
         if (is_reached(found.element)) x_.diag.report(Code::ANIM_TARGET_UNSUPPORTED, where, target);
         return {};
     }

@@ -99,6 +99,7 @@ struct NodeInstance {
 struct Node {
     std::string id, sid, name;
     bool joint = false;
+    bool hidden = false;                // by an extra: nothing of it and below is shown
     std::vector<Transform> transforms;  // in order: the node's matrix is their product
     std::vector<CameraInstance> cameras;
     std::vector<MeshInstance> meshes;  // in document order

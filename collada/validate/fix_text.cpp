@@ -77,6 +77,11 @@ std::string_view written(const FixContext& context, Location where) {
 void fix_comma_decimals(FixContext& context) {
     for (const Finding* finding : context.findings) {
         const Element& list = context.elements.at(finding->where.begin);
+        if (finding->where.begin < list.start_tag.end) {  // an attribute's value
+            std::string_view word = trim(written(context, finding->where));
+            fix_commas_of_word(word, uint32_t(word.data() - context.text.data()), context.edits);
+            continue;
+        }
         uint32_t begin = list.start_tag.end;
         std::string_view bytes = context.text.substr(begin, list.bytes.end - begin);
         bytes = bytes.substr(0, bytes.find('<'));  // lists of numbers hold no markup

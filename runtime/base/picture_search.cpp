@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/base/regular_file.h"
+#include "runtime/base/text_encoding.h"
 
 namespace kinora {
 
@@ -65,12 +66,30 @@ std::string written_folder(const std::string& folder) {
     return written.string();
 }
 
-std::vector<std::string> places(std::string_view own, const std::string& folder) {
+// "Macintosh HD:Textures:skin.png": how an old Mac wrote paths.
+std::string with_slashes(std::string path) {
+    size_t name = path.find_last_of('/') + 1;
+    if (std::count(path.begin() + ptrdiff_t(name), path.end(), ':') > 1)
+        std::replace(path.begin() + ptrdiff_t(name), path.end(), ':', '/');
+    return path;
+}
+
+// The name of the folder that the file of a path lies in; "" if the path does not say.
+std::string last_folder(const std::string& path) {
+    std::string name = fs::path(path).parent_path().filename().string();
+    return name == ".." || name == "." || name == "/" ? "" : name;
+}
+
+std::vector<std::string> places(std::string_view own, const std::string& folder,
+                                const std::string& path) {
     std::vector<std::string> list{std::string(own)};
-    for (std::string_view below : kFolders) {
-        std::string place = fs::path(folder + std::string(below)).lexically_normal().string();
+    auto add = [&](const std::string& place) {
         if (std::find(list.begin(), list.end(), place) == list.end()) list.push_back(place);
-    }
+    };
+    for (std::string_view below : kFolders)
+        add(fs::path(folder + std::string(below)).lexically_normal().string());
+    if (std::string last = last_folder(path); !last.empty())
+        add(written_folder(fs::path(folder + last + "/").lexically_normal().string()));
     return list;
 }
 
@@ -123,12 +142,14 @@ FoundPicture PictureSearch::find(const std::string& path, const std::string& fol
                                  const AllowedPaths& allowed) {
     bool inside = allowed.contains(path), there = is_regular_file(path);
     if (inside && there) return {PictureMatch::Exact, allowed.name_of(path)};
-    std::string_view base = std::string_view(path).substr(path.find_last_of('/') + 1);
-    std::string name = lower(base);
+    std::string slashed = with_slashes(path);
+    std::string_view base = std::string_view(slashed).substr(slashed.find_last_of('/') + 1);
+    std::string name = lower(utf8_or_latin1(base));
     // A folder that may not be read is not listed either.
-    std::string own = inside ? written_folder(path.substr(0, path.size() - base.size())) : folder;
+    std::string own =
+        inside ? written_folder(slashed.substr(0, slashed.size() - base.size())) : folder;
     for (bool by_stem : {false, true})
-        for (const std::string& place : places(own, folder)) {
+        for (const std::string& place : places(own, folder, slashed)) {
             if (name.empty() || !allowed.contains(place)) continue;
             std::string found = find_in(place, name, by_stem);
             if (found.empty() || !allowed.contains(found)) continue;  // a link may lead out

@@ -1,4 +1,4 @@
-// runtime/base/text_encoding.cpp: UTF-16 to UTF-8 (RFC 2781, RFC 3629).
+// runtime/base/text_encoding.cpp: UTF-16 and Latin-1 to UTF-8 (RFC 2781, RFC 3629).
 #include "runtime/base/text_encoding.h"
 
 #include <utf8.h>
@@ -23,6 +23,13 @@ bool is_trail(char32_t unit) {
 
 void append_utf8(std::string& out, char32_t character) {
     utf8::unchecked::append(character, std::back_inserter(out));
+}
+
+std::string utf8_or_latin1(std::string_view text) {
+    if (utf8::is_valid(text.begin(), text.end())) return std::string(text);
+    std::string out;
+    for (char c : text) append_utf8(out, uint8_t(c));
+    return out;
 }
 
 std::string utf8_from_utf16(std::string_view bytes, bool big_endian) {

@@ -56,7 +56,7 @@ bool has_picture_shaders(const SceneDescription& description) {
 bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
     const SceneDescription& description = *scene.description;
     if (anything_to_draw(scene) || has_picture_shaders(description)) return true;
-    bool hidden = description.only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
+    bool hidden = takes_parts(description);
     if (!hidden && raise_findings(diagnostics, "XML_")) return false;
     diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});
     return hidden;

@@ -73,8 +73,7 @@ bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
 
 // What has to be seen at least: of a scene that the user took parts of, anything.
 double little_of(const Scene& scene) {
-    bool parts = scene.description->only_chosen || std::ranges::any_of(scene.nodes, &Node::hidden);
-    return parts ? 1e-6 : kLittle;
+    return takes_parts(*scene.description) ? 1e-6 : kLittle;
 }
 
 // The largest share of the camera's picture that the scene takes over the range played, as far as

@@ -35,7 +35,7 @@ std::vector<LightDefinition> default_lights(std::vector<double>& values) {
     static constexpr Row kRows[] = {{"default key light", "collada_directional", 0.85, true},
                                     {"default fill light", "default_fill", 0.22, false},
                                     {"default rim light", "default_rim", 0.35, false},
-                                    {kGreyWorld, "grey_world", kGreyWorldLight, false}};
+                                    {kGreyWorld, kGreyWorldShader, kGreyWorldLight, false}};
     std::vector<LightDefinition> lights;
     for (const Row& row : kRows) {
         LightDefinition& light = lights.emplace_back();

@@ -10,6 +10,7 @@ namespace kinora {
 // shadows; a fill light that reaches all the camera sees, and a rim light from behind, both without
 // shadows and highlights. Behind them kGreyWorld, for what Blender's lamps leave dark.
 inline constexpr const char* kGreyWorld = "grey world";
+inline constexpr const char* kGreyWorldShader = "grey_world";
 inline constexpr float kGreyWorldLight = 0.05f;  // the color of Blender's world, if nobody sets it
 NodeDefinition default_light_node(std::vector<double>& values);
 std::vector<LightDefinition> default_lights(std::vector<double>& values);

@@ -5,6 +5,7 @@
 
 #include "runtime/build/area_lights.h"
 #include "runtime/build/defaults.h"
+#include "runtime/build/instances/instances.h"
 #include "runtime/build/light_watts.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/values.h"
@@ -82,6 +83,22 @@ void add_grey_world(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics&
 }
 
 }  // namespace
+
+bool add_default_lights(Scene& scene, Diagnostics& diagnostics) {
+    std::erase_if(scene.lights, [&](const LightSource& light) {
+        return scene.description->lights[light.definition].name == kGreyWorld;
+    });
+    std::erase(scene.added, kGreyWorld);
+    scene.world_light = 0;
+    scene.watch_dark = 0;
+    scene.options.lights = LightSet::Both;
+    std::vector<LightDefinition> lights = lights_to_add(scene);
+    NodeDefinition carrier = default_light_node(scene.description->values);
+    uint32_t node = add_node(scene, std::move(carrier), scene.cameras[scene.camera].node);
+    for (LightDefinition& light : lights)
+        if (light.name != kGreyWorld) add_default_light(scene, std::move(light), node);
+    return add_light_instances(scene, diagnostics);
+}
 
 void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
                 Diagnostics& diagnostics) {

@@ -235,6 +235,7 @@ void ColladaImport::import_nodes() {
         to.id = from.id;
         to.sid = from.sid;
         to.name = from.name;
+        to.invisible = from.hidden;
         for (const auto& [name, text] : from.attributes)
             to.attributes.push_back(user_attribute(name, text));
         for (size_t t = 0; t < from.transforms.size(); ++t)

@@ -84,6 +84,7 @@ struct NodeDefinition {
     std::vector<MeshUse> meshes;
     std::vector<uint32_t> lights;
     std::vector<uint32_t> cameras;
+    bool invisible = false;  // the file hides it and what is below
     bool hidden = false;     // --hide: nothing of it and below is there
     bool chosen = false;     // --only: its meshes and those below are there
     bool reference = false;  // stands for what brings in the light or camera of another file

@@ -135,12 +135,13 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
 }
 
 bool render_trial(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
-                  Diagnostics& diagnostics) {
+                  Diagnostics& diagnostics, ShadingCounters* shading) {
     FrameStats stats;
     if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
     raytrace::IntegratorCounters counters;
     bool whole = trace_frame(scene, settings, film, counters, nullptr);
-    scene.shading->drop_frame(diagnostics);
+    ShadingCounters counted = scene.shading->drop_frame(diagnostics);
+    if (shading) *shading = counted;
     return whole;
 }
 

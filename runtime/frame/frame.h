@@ -52,9 +52,10 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
                   const raytrace::Progress* progress = nullptr);
 
 // The same picture for its brightness alone, before any of the scene's imager: what shaders print
-// and bake is dropped, and so is what they do wrong, which the frames tell.
+// and bake is dropped, and so is what they do wrong, which the frames tell. `shading`: what was
+// counted.
 bool render_trial(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
-                  Diagnostics& diagnostics);
+                  Diagnostics& diagnostics, ShadingCounters* shading = nullptr);
 
 // What render_frame does before the first ray: brings all that moves to the time. False when the
 // camera makes no picture or displaced meshes are too coarse for it.

@@ -31,6 +31,7 @@ void Redicer::share(const Scene& first, const SourceFiles& texts) {
     textures_ = first.textures;
     points_ = first.points;
     texts_ = texts;
+    options_.lights = first.options.lights;
 }
 
 std::unique_ptr<Scene> Redicer::build(const CloserView& view, Diagnostics& diagnostics,

@@ -50,6 +50,12 @@ struct Shading::Objects {
     Bakes bakes{frame.scene};
     GridServices services{lights, rays, gathers, prints, bakes};
     bool aims_reported = false;
+
+    ShadingCounters counted() const {  // by all threads, in this frame
+        ShadingCounters total;
+        for (const auto& thread : threads) total += thread->counters;
+        return total;
+    }
 };
 
 Shading::Shading(const Scene& scene) {
@@ -122,18 +128,17 @@ bool Shading::stopped() const {
 }
 
 ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
-    ShadingCounters total;
-    for (const auto& thread : objects_->threads) total += thread->counters;
     objects_->prints.flush(objects_->frame.scene, diagnostics);
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
     if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
-    return total;
+    return objects_->counted();
 }
 
-void Shading::drop_frame(Diagnostics& diagnostics) {
+ShadingCounters Shading::drop_frame(Diagnostics& diagnostics) {
     objects_->prints.drop();
     objects_->bakes.flush(false, diagnostics);
+    return objects_->counted();
 }
 
 void Shading::shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) {

@@ -27,7 +27,7 @@ class Shading : public raytrace::SurfaceShading {
     // `whole`: the picture was finished, so what it baked is written.
     ShadingCounters end_frame(Diagnostics& diagnostics, bool whole = true);
     // Instead of it, where nobody sees the picture: shaders printed and baked in vain.
-    void drop_frame(Diagnostics& diagnostics);
+    ShadingCounters drop_frame(Diagnostics& diagnostics);
 
     void shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) override;
     float miss_distance() const override;

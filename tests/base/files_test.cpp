@@ -126,6 +126,11 @@ TEST_F(Files, APictureIsFoundWhereExportersLeaveIt) {
         {"C:/art/x.png", "a/textures/X.Png", PictureMatch::Elsewhere},
         {"/art/x.tga", "a/materials/textures/x.jpg", PictureMatch::Elsewhere},
         {"a/meshes/sub/x.png", "a/meshes/sub/x.tif", PictureMatch::Elsewhere},
+        {"C:/art/skins/x.png", "a/meshes/skins/x.png", PictureMatch::Elsewhere},
+        {"a/skins/x.png", "a/meshes/Skins/x.png", PictureMatch::Elsewhere},
+        {"a/meshes/Disk 1:Poser:Skins:x.png", "a/meshes/x.png", PictureMatch::Elsewhere},
+        {"a/meshes/Disk 1:Poser:Skins:x.png", "a/meshes/skins/x.png", PictureMatch::Elsewhere},
+        {"a/meshes/gr\xfcn.png", "a/meshes/gr\xc3\xbcn.png", PictureMatch::Elsewhere},
         {"a/meshes/x.png", "b/x.png", PictureMatch::Missing},
         {"a/meshes/x.png", "a/meshes/textures/x.txt", PictureMatch::Missing},
     };

@@ -244,6 +244,19 @@ TEST(Document, VersionsNamespacesAndDoubleIdsAreChecked) {
     EXPECT_EQ(v.pointed("DOC_VERSION"), "1.3");
 }
 
+TEST(Document, OfAVersionBefore14IsRefusedAtItsNumber) {
+    Reading old;
+    old.document =
+        read_document_text("t.dae",
+                           "<COLLADA\n version=\"1.3.1\"><library type=\"GEOMETRY\"/>"
+                           "<scene><node><instance url=\"#g\"/></node></scene></COLLADA>",
+                           old.diag);
+    EXPECT_FALSE(old.document);
+    EXPECT_EQ(old.place("DOC_TOO_OLD"), "2:11");
+    EXPECT_NE(old.all().find("error: COLLADA 1.3.1 is not read"), std::string::npos) << old.all();
+    EXPECT_EQ(old.count("DOC_VERSION"), 0u);
+}
+
 TEST(Document, TheElementTableIsClosedUnderItsOwnNames) {
     // Every file of ours uses only what the table knows.
     for (const char* name : {"matte.dae", "skinned.dae", "common.dae"}) {

@@ -1,6 +1,7 @@
 // tests/collada/effects_test.cpp: profile_RSL, profile_COMMON, lights, cameras and images.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "tests/collada/reading.h"
@@ -169,8 +170,128 @@ TEST(Common, ColorsAndTextures15AndDirectImages) {
     Reading lost;
     read_text(lost, bound(document("", "<texture texture=\"zzz\" texcoord=\"T\"/>")));
     EXPECT_EQ(lost.pointed("TEX_UNRESOLVED"), "zzz");
-    EXPECT_EQ(lost.scene->effects.at(0).common->slots[size_t(CommonSlot::Diffuse)].source,
-              SlotSource::Absent);
+    EXPECT_TRUE(lost.scene->effects.at(0).samplers.empty());
+    EXPECT_EQ(lost.count("FX_NO_COLOR"), 1u);
+}
+
+// Two materials on one mesh: what is inside their <lambert>s.
+std::string with_lamberts(const std::string& first, const std::string& second,
+                          const std::string& light = "<point/>") {
+    auto effect = [](const std::string& id, const std::string& lambert) {
+        return "<effect id=\"" + id + "-fx\"><profile_COMMON><technique sid=\"c\"><lambert>" +
+               lambert + "</lambert></technique></profile_COMMON></effect>";
+    };
+    auto material = [](const std::string& id) {
+        return "<material id=\"" + id + "\"><instance_effect url=\"#" + id + "-fx\"/></material>";
+    };
+    auto bound = [](const std::string& id) {
+        return "<instance_material symbol=\"" + id + "\" target=\"#" + id + "\"/>";
+    };
+    return with_scene(
+        "<library_images><image id=\"1\" name=\"wall\"><init_from>maps/Wall.png"
+        "</init_from></image></library_images><library_effects>" +
+            effect("a", first) + effect("b", second) + "</library_effects><library_materials>" +
+            material("a") + material("b") +
+            "</library_materials><library_lights><light id=\"l\"><technique_common>" + light +
+            "</technique_common></light></library_lights><library_geometries>"
+            "<geometry id=\"g\"><mesh/></geometry></library_geometries>",
+        "<node id=\"n\"><instance_geometry url=\"#g\"><bind_material>"
+        "<technique_common>" +
+            bound("a") + bound("b") +
+            "</technique_common></bind_material></instance_geometry><instance_light "
+            "url=\"#l\"/></node>");
+}
+
+std::string colored(const std::string& slot, const std::string& color) {
+    return "<" + slot + "><color>" + color + " 1</color></" + slot + ">";
+}
+
+double red_of(const Reading& r, size_t effect) {
+    return r.scene->effects.at(effect).common->slots[size_t(CommonSlot::Diffuse)].slot.values[0];
+}
+
+TEST(Common, AColorInAmbientAloneIsTheDiffuseOne) {
+    const std::string kRed = colored("ambient", "0.7 0.1 0.1"), kNo = colored("diffuse", "0 0 0");
+    Reading missing;
+    read_text(missing, with_lamberts(kRed, colored("diffuse", "0 1 0")));
+    ASSERT_TRUE(missing.scene) << missing.all();
+    EXPECT_EQ(red_of(missing, 0), 0.7);
+    EXPECT_EQ(missing.count("FX_AMBIENT_ONLY"), 1u);
+    Reading black;
+    read_text(black, with_lamberts(kRed + kNo, colored("ambient", "0.2 0 0") + kNo));
+    EXPECT_EQ(red_of(black, 0), 0.7);
+    EXPECT_EQ(red_of(black, 1), 0.2);
+    EXPECT_EQ(black.count("FX_AMBIENT_ONLY"), 2u);
+}
+
+TEST(Common, BlackThatMayBeMeantStaysBlack) {
+    const std::string kRed = colored("ambient", "0.7 0.1 0.1"), kNo = colored("diffuse", "0 0 0");
+    const std::string kTexture = "<diffuse><texture texture=\"1\" texcoord=\"T\"/></diffuse>";
+    for (const std::string& other :
+         {colored("diffuse", "0 1 0"), kTexture, colored("emission", "1 1 1"),
+          colored("reflective", "1 1 1") + "<reflectivity><float>1</float></reflectivity>"}) {
+        Reading r;
+        read_text(r, with_lamberts(kRed + kNo, other));
+        ASSERT_TRUE(r.scene) << r.all();
+        EXPECT_EQ(red_of(r, 0), 0) << other;
+        EXPECT_EQ(r.count("FX_AMBIENT_ONLY"), 0u);
+    }
+    Reading lit;
+    read_text(lit,
+              with_lamberts(kRed + kNo, kRed + kNo, "<ambient><color>1 1 1</color></ambient>"));
+    EXPECT_EQ(red_of(lit, 0), 0) << "ambient light shows it";
+}
+
+// 0.8 in linear light, which sRGB writes as 1.055 * 0.8 ^ (1 / 2.4) - 0.055 (IEC 61966-2-1).
+TEST(Common, AModelWithoutAnyColorIsGrey) {
+    Reading r;
+    read_text(
+        r, with_lamberts("<shininess><float>3</float></shininess>", colored("emission", "0 0 0")));
+    ASSERT_TRUE(r.scene) << r.all();
+    EXPECT_NEAR(red_of(r, 0), 1.055 * std::pow(0.8, 1 / 2.4) - 0.055, 1e-4);
+    EXPECT_EQ(red_of(r, 1), 0) << "black is written";
+    EXPECT_EQ(r.count("FX_NO_COLOR"), 1u);
+}
+
+TEST(Common, AConstantShowsItsDiffuseColorWhereItHasNoOther) {
+    auto emission = [](const std::string& slots) {
+        std::string text = with_lamberts(slots, colored("diffuse", "0 1 0"));
+        for (const char* tag : {"<lambert>", "</lambert>"})
+            text.replace(text.find(tag), std::string(tag).size(),
+                         tag[1] == '/' ? "</constant>" : "<constant>");
+        Reading r;
+        read_text(r, text);
+        EXPECT_EQ(r.count("FX_AMBIENT_ONLY"), 0u);
+        const CommonShading& common = *r.scene->effects.at(0).common;
+        return common[CommonSlot::Emission].slot.values[0];
+    };
+    EXPECT_EQ(emission(colored("diffuse", "0.7 0 0")), 0.7);
+    EXPECT_EQ(emission(colored("emission", "0 0 0") + colored("diffuse", "0.7 0 0")), 0.7);
+    EXPECT_EQ(emission(colored("emission", "0.1 0 0") + colored("diffuse", "0.7 0 0")), 0.1);
+}
+
+TEST(Common, ATextureMayNameAnImageByOtherNamesOrAFile) {
+    auto texture = [](const std::string& name) {
+        return "<diffuse><texture texture=\"" + name + "\" texcoord=\"T\"/></diffuse>";
+    };
+    std::string folder = testing::TempDir() + "kinora_direct_texture/";
+    std::filesystem::create_directories(folder + "maps");
+    std::ofstream(folder + "maps/Wall.png") << "x";
+    std::ofstream(folder + "bricks.png") << "x";
+    auto path_of = [&](const std::string& name, const char* code) {
+        Reading r;
+        read_text(r, with_lamberts(texture(name), ""), folder + "scene.dae");
+        EXPECT_EQ(r.count(code), 1u) << r.all();
+        EXPECT_EQ(r.pointed(code), name);
+        if (r.scene->effects.at(0).samplers.empty()) return std::string("none");
+        return r.scene->images.at(r.scene->effects[0].samplers[0].image).path;
+    };
+    for (const char* name : {"1", "#1", "wall", "Wall.png", "C:\\art\\Wall.png"})
+        EXPECT_EQ(path_of(name, "TEX_DIRECT_IMAGE"), folder + "maps/Wall.png");
+    EXPECT_EQ(path_of("bricks.png", "TEX_DIRECT_FILE"), folder + "bricks.png");
+    EXPECT_EQ(path_of("./bricks.png", "TEX_DIRECT_FILE"), folder + "bricks.png");
+    EXPECT_EQ(path_of("tiles.png", "TEX_UNRESOLVED"), "none");
+    EXPECT_EQ(path_of("bricks", "TEX_UNRESOLVED"), "none");
 }
 
 TEST(Images, AreFoundWhereExportersMeant) {

@@ -161,6 +161,52 @@ TEST(Asset, ReadsUnitsAxesAndRanges) {
     EXPECT_EQ(odd.scene->frame_rate, 30.0);
 }
 
+TEST(Asset, AUnitWithADecimalCommaIsUnderstood) {
+    Reading r;
+    read_text(r, with_scene("<asset><unit meter=\"0,010000\" name=\"centimeter\"/></asset>",
+                            "<node id=\"n\"/>"));
+    EXPECT_EQ(r.scene->asset.meter, 0.01);
+    EXPECT_EQ(r.pointed("SRC_COMMA_DECIMAL"), "0,010000");
+    EXPECT_EQ(r.count("UNIT_RANGE") + r.count("UNIT_CONFLICT"), 0u);
+}
+
+std::string hidden_by(const std::string& flag) {
+    return "<extra><technique profile=\"FCOLLADA\">" + flag + "</technique></extra>";
+}
+
+TEST(Nodes, AnExtraHidesThemUnlessAChannelNamesItOrNothingWouldBeLeft) {
+    const std::string kShape = "<instance_geometry url=\"#g\"/>";
+    auto document = [&](const std::string& nodes) {
+        return with_scene("<library_animations><animation>" + float_source("t", "0 1", 2, "T") +
+                              float_source("v", "0 1", 2, "V") +
+                              "<sampler id=\"s\"><input semantic=\"INPUT\" source=\"#t\"/><input "
+                              "semantic=\"OUTPUT\" source=\"#v\"/></sampler><channel source=\"#s\" "
+                              "target=\"blinks/visibility\"/></animation></library_animations>"
+                              "<library_geometries><geometry id=\"g\"><mesh/></geometry>"
+                              "</library_geometries>",
+                          nodes);
+    };
+    Reading r;
+    read_text(
+        r,
+        document("<node id=\"box\">" + kShape + hidden_by("<visibility>0</visibility>") +
+                 "</node><node id=\"zero\">" + kShape +
+                 hidden_by("<visibility>\n0.000</visibility>") + "</node><node id=\"seen\">" +
+                 kShape + hidden_by("<visibility>1</visibility>") + "</node><node id=\"blinks\">" +
+                 kShape + hidden_by("<visibility sid=\"visibility\">0</visibility>") + "</node>"));
+    ASSERT_TRUE(r.scene) << r.all();
+    EXPECT_TRUE(r.node("box").hidden);
+    EXPECT_TRUE(r.node("zero").hidden);
+    EXPECT_FALSE(r.node("seen").hidden);
+    EXPECT_FALSE(r.node("blinks").hidden);
+    EXPECT_EQ(r.count("NODE_HIDDEN"), 2u) << r.all();
+    Reading all;
+    read_text(all, document("<node id=\"box\">" + hidden_by("<visibility>0</visibility>") +
+                            "<node id=\"inner\">" + kShape + "</node></node><node id=\"empty\"/>"));
+    EXPECT_FALSE(all.node("box").hidden);
+    EXPECT_EQ(all.count("NODE_HIDDEN"), 0u);
+}
+
 // Blender's decomposed transforms: what the picture needs is location * rotation * scale, and what
 // channels name moves along.
 TEST(Nodes, BlendersOrderOfTransformsIsMended) {

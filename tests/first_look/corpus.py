@@ -503,7 +503,7 @@ def mirrored_leg(root):
     return d
 
 
-@document("urdf/laser/hokuyo.dae", told="--lights both")
+@document("urdf/laser/hokuyo.dae", told="--lights scene")
 def hokuyo(root):
     mesh = (
         shapes.block(0, 0, 0.02, 0.05, 0.05, 0.04, "rubber")
@@ -1203,7 +1203,7 @@ def blender_lamp(root):
     return blender(shapes.chair(), energy=1, scale=2)
 
 
-@document("blender/lamp_below.dae", told="--lights both")
+@document("blender/lamp_below.dae", told="--lights scene")
 def blender_lamp_below(root):
     ground = shapes.land(40, 16, lambda x, y: 0.5 * math.sin(x * 0.4) * math.cos(y * 0.3), "grass", 4)
     return blender(ground, energy=1, camera=False, lamp_at=(0, 0, -30), normals="smooth")
@@ -1870,7 +1870,7 @@ def max_attenuation(root):
     return d
 
 
-@document("max/black_lights.dae", told="--lights both")
+@document("max/black_lights.dae", told="--lights scene")
 def max_black_lights(root):
     # The lights' colour is 0, their strength in an <extra> of another program.
     mesh = shapes.table()

@@ -11,7 +11,7 @@ it says what is expected). Without a part: corpus, blind, stranger and shared. O
 --out keeps pictures, first_look.json and sheets: the picture by default, and beside it a 50 % grey matte on everything. The exit
 code is 1 where fewer than --least per cent of the files of all parts together are right, 77 where all parts are missing.
 
-Faults: exit (not 0, or not 3 where there is nothing to draw), time (over 60 s), blank (under 0.2 % of the picture is covered), speck
+Faults: exit (not 0, or not 3 where there is nothing to draw or the version is not read), time (over 60 s), blank (under 0.2 % of the picture is covered), speck
 (under 3 %), holes (less is covered than corpus.json says), white (over 60 % of what is covered is clipped), checks (over 2 % magenta
 although the named image exists), black (under the grey matte over 30 % of what is covered is darker than sRGB 43, or over 95 % of the
 picture itself than 8), colour (its red over its blue is less than corpus.json says: the wrong
@@ -156,6 +156,8 @@ def look(job):
         fault = "" if code == 3 else "exit"
         if not fault and "SCENE_EMPTY" not in said:
             fault = "silent"
+    elif expected.get("refused"):
+        fault = "exit" if code != 3 else "" if expected["refused"] in said else "silent"
     elif code != 0:
         fault = "exit"
     else:
@@ -197,7 +199,7 @@ def pictures_of(file):
         return True
     text = file.read_text(encoding="utf-8", errors="replace")
     references = re.findall(r"<init_from>\s*(?:<ref>)?([^<]*\.\w+)\s*<", text)
-    wanted = {re.split(r"[/\\\\]", unquote(r).strip())[-1].lower() for r in references}
+    wanted = {re.split(r"[/\\\\:]", unquote(r).strip())[-1].lower() for r in references}
     around = (
         [file.parent, file.parent.parent]
         if file.parent.parent.name not in ("corpus", "scenes", "blind", "stranger")

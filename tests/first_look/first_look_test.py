@@ -125,6 +125,11 @@ class Faults(ProgramTest):
         self.assertEqual(self.fault(code=3, nothing=True), "silent")
         self.assertEqual(self.fault(self.covered(1600), nothing=True), "exit")
 
+    def test_what_is_refused(self):
+        self.assertEqual(self.fault(code=3, said="COLLADA 1.3 is not read", refused="1.3 is not read"), "")
+        self.assertEqual(self.fault(code=3, said="nothing to see", refused="1.3 is not read"), "silent")
+        self.assertEqual(self.fault(self.covered(1600), said="1.3 is not read", refused="1.3 is not read"), "exit")
+
     def test_a_picture_is_read(self):
         shapes.png(self.folder / "a.png", 3, 2, lambda x, y: (x, y, 7, 100 + x), 4)
         self.assertEqual(

@@ -3,6 +3,8 @@
 #ifndef COLLADA_SLOTS_H
 #define COLLADA_SLOTS_H
 
+#include "broadlights.h"
+
 /* A slot is a color, or a texture ("" for none) at coordinates that may be another set's. */
 #define SLOT(X, value)                                                                             \
     color X = value;                                                                               \
@@ -48,13 +50,19 @@ color slot_opacity(color plain; string map; float ss, tt; float alpha, transpare
     return clamp(Ot, color(0), color(1));
 }
 
-/* Where rays are deep, either what is reflected or what lies behind the surface is followed. */
-color mirrored(color reflective; float reflectivity; normal Nf; vector In; color opacity;) {
+/* Where rays are deep, either what is reflected or what lies behind the surface is followed. What
+   only mirrors would be black in an empty scene: it mirrors broad lights too. */
+color mirrored(color reflective; float reflectivity; normal Nf; vector In; color opacity, body;) {
     color c = 0;
     if (reflectivity > 0) {
         c = reflectivity * reflective;
-        if (c != color(0))
-            c *= color trace(P, reflect(In, Nf), "weight", c * opacity, "opacity", opacity);
+        if (c != color(0)) {
+            vector R = reflect(In, Nf);
+            color seen = color trace(P, R, "weight", c * opacity, "opacity", opacity);
+            if (body == color(0))
+                seen += broad_glow(P, Nf, R);
+            c *= seen;
+        }
     }
     return c;
 }

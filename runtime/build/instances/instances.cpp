@@ -26,9 +26,17 @@ std::vector<std::string> gathered_outputs(const Scene& scene) {
     return result;
 }
 
-// Those that are not lights. `messages` gets the light parameters that they read.
-bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompiler& compiler,
-                       std::vector<std::string>& messages) {
+// Light parameters that surfaces read.
+std::vector<std::string> light_messages(const Scene& scene) {
+    std::vector<std::string> messages;
+    for (const auto& instance : scene.shader_instances)
+        for (const std::string& message : instance->lowered.light_messages)
+            add_once(messages, message);
+    return messages;
+}
+
+// Those that are not lights.
+bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompiler& compiler) {
     ShaderInstanceOptions of_surfaces;
     of_surfaces.aovs = outputs.parameters();
     of_surfaces.gathered = gathered_outputs(scene);
@@ -39,8 +47,6 @@ bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompil
             compiler.compile(*instance, surface ? of_surfaces : ShaderInstanceOptions());
         if (compiled) bind_planes(scene.outputs, *instance);
         ok &= compiled;
-        for (const std::string& message : instance->lowered.light_messages)
-            add_once(messages, message);
     }
     return ok;
 }
@@ -56,10 +62,14 @@ bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& 
     add_atmosphere(scene);
     OutputPlanes outputs(scene, diagnostics);
     add_imager(scene, outputs.parameters());
-    std::vector<std::string> messages;
-    bool compiled = compile_instances(scene, outputs, compiler, messages);
-    bool lit = add_light_instances(scene, compiler, messages);
+    bool compiled = compile_instances(scene, outputs, compiler);
+    bool lit = add_light_instances(scene, compiler, light_messages(scene));
     return vertices.all_compiled() && compiled && lit;
+}
+
+bool add_light_instances(Scene& scene, Diagnostics& diagnostics) {
+    InstanceCompiler compiler(scene, diagnostics);
+    return add_light_instances(scene, compiler, light_messages(scene));
 }
 
 }  // namespace kinora

@@ -14,4 +14,7 @@ namespace kinora {
 // such have been reported.
 bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& diagnostics);
 
+// The same for lights that came later. Scene::shading is to be made anew.
+bool add_light_instances(Scene& scene, Diagnostics& diagnostics);
+
 }  // namespace kinora

@@ -44,6 +44,7 @@ bool add_light_instances(Scene& scene, InstanceCompiler& compiler,
     wanted.light_messages = messages;
     bool ok = true;
     for (LightSource& light : scene.lights) {
+        if (light.look != kNone) continue;
         auto instance = light_instance(scene, light);
         ok &= compiler.compile(*instance, wanted);
         light.look = uint32_t(scene.shader_instances.size());

@@ -8,9 +8,9 @@
 
 namespace kinora {
 
-// One for each of Scene::lights, compiled; lights without a shader go. Writes Scene::looks and the
-// lights' own. `messages`: light parameters that some surface reads. False when a shader cannot be
-// compiled.
+// One for each of Scene::lights that has none yet, compiled; lights without a shader go. Writes
+// Scene::looks and the lights' own. `messages`: light parameters that some surface reads. False when
+// a shader cannot be compiled.
 bool add_light_instances(Scene& scene, InstanceCompiler& compiler,
                          const std::vector<std::string>& messages);
 

@@ -95,6 +95,11 @@ bool anything_to_draw(const Scene& scene) {
     });
 }
 
+bool takes_parts(const SceneDescription& description) {
+    return description.only_chosen ||
+           std::ranges::any_of(description.nodes, &NodeDefinition::hidden);
+}
+
 std::vector<double> played_times(const Scene& scene, int most) {
     const SceneOptions& options = scene.options;
     double length = options.end_time - options.start_time;

@@ -20,6 +20,8 @@ void set_bounds(Scene& scene);
 // Whether a shape has a triangle with an area, as the document has it, on a node that leaves it
 // one.
 bool anything_to_draw(const Scene& scene);
+// Whether the user takes parts of the scene away (--hide, --only).
+bool takes_parts(const SceneDescription& description);
 
 // Times that stand for the range played (which no choice of frames changes), seconds: so many from
 // its start to its end; one where nothing moves.

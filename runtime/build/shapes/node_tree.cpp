@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
@@ -23,6 +24,32 @@ std::vector<bool> find_moving(const SceneDescription& description) {
 
 }  // namespace
 
+uint32_t add_node(Scene& scene, NodeDefinition definition, uint32_t parent) {
+    SceneDescription& description = *scene.description;
+    take_added_values(scene);
+    uint32_t index = uint32_t(description.nodes.size());
+    // Node bits come first among the owners: those behind move up by one word-safe step.
+    for (anim::Channel& channel : description.animation.channels)
+        if (channel.owner >= index) ++channel.owner;
+    ++description.animation.owner_count;
+    scene.changed.resize(anim::changed_words(description.animation.owner_count), 0);
+    Node node;
+    node.definition = index;
+    node.parent = parent;
+    node.chosen = !description.only_chosen;
+    node.world = node_matrix(definition, scene.values);
+    if (parent != kNone) {
+        const Node& above = scene.nodes[parent];
+        node.can_move = above.can_move;
+        node.hidden = above.hidden;
+        node.chosen = above.chosen;
+        node.world = above.world * node.world;
+    }
+    description.nodes.push_back(std::move(definition));
+    scene.nodes.push_back(node);
+    return uint32_t(scene.nodes.size() - 1);
+}
+
 NodeTree::NodeTree(Scene& scene)
     : scene_(scene), definition_moves_(find_moving(*scene.description)) {
     for (const ChildUse& root : scene.description->roots) unroll(root.node, kNone, root.conversion);
@@ -41,7 +68,7 @@ void NodeTree::unroll(uint32_t definition, uint32_t parent, const dmat4& convers
     node.parent = parent;
     node.conversion = conversion;
     node.can_move = definition_moves_[definition] || (above && above->can_move);
-    node.hidden = from.hidden || (above && above->hidden);
+    node.hidden = from.hidden || from.invisible || (above && above->hidden);
     node.chosen = from.chosen || (above ? above->chosen : !description.only_chosen);
     uint32_t index = uint32_t(scene_.nodes.size());
     scene_.nodes.push_back(node);
@@ -50,18 +77,11 @@ void NodeTree::unroll(uint32_t definition, uint32_t parent, const dmat4& convers
 }
 
 uint32_t NodeTree::add(NodeDefinition definition, uint32_t parent) {
-    SceneDescription& description = *scene_.description;
-    take_added_values(scene_);
-    uint32_t index = uint32_t(description.nodes.size());
-    // Node bits come first among the owners: those behind move up by one word-safe step.
-    description.nodes.push_back(std::move(definition));
+    uint32_t node = add_node(scene_, std::move(definition), parent);
     definition_moves_.push_back(false);
-    for (anim::Channel& channel : description.animation.channels)
-        if (channel.owner >= index) ++channel.owner;
-    ++description.animation.owner_count;
-    unroll(index, parent, dmat4(1.0));
+    first_occurrence_.try_emplace(scene_.nodes[node].definition, node);
     evaluate_anew(scene_, scene_.options.start_time);
-    return uint32_t(scene_.nodes.size() - 1);
+    return node;
 }
 
 uint32_t NodeTree::nearest_occurrence(uint32_t definition, uint32_t from) const {

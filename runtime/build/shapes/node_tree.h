@@ -9,6 +9,10 @@
 
 namespace kinora {
 
+// Adds a node that no file wrote and that nothing moves but what is above it. It stands as its
+// parent does.
+uint32_t add_node(Scene& scene, NodeDefinition definition, uint32_t parent);
+
 // Writes Scene::nodes. A definition that several nodes refer to occurs several times.
 class NodeTree {
   public:

@@ -11,6 +11,7 @@
 #include "runtime/description/findings.h"
 #include "runtime/description/play_range.h"
 #include "runtime/frame/exposure.h"
+#include "runtime/frame/own_lights.h"
 #include "runtime/load/import_scene.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/load/override_shader.h"
@@ -162,6 +163,7 @@ BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics) {
         built.scene =
             build_scene(std::make_shared<SceneDescription>(std::move(imported.description)),
                         imported.options, diagnostics);
+    if (built.scene && !light_black_scene(*built.scene, diagnostics)) built.scene.reset();
     if (!built.scene || !built.scene->dice.triangles) built.redicer.reset();
     if (built.redicer) built.redicer->share(*built.scene, diagnostics.files);
     return built;

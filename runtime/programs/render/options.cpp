@@ -218,7 +218,7 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
                           {"scene", LightSet::Scene},
                           {"default", LightSet::Default},
                           {"both", LightSet::Both}},
-                         "scene, default, both or auto (the scene's; default where it has none)");
+                         "scene, default, both or auto (the scene's; default where these show nothing)");
     app.add_option("--exposure", given.exposure,
                    "stops brighter (1 doubles) or darker, or auto: by the scene's whole range (0)");
     app.add_option("--background", given.background, "R,G,B instead of transparent");
