@@ -12,7 +12,6 @@
 namespace kinora::skin {
 namespace {
 
-constexpr size_t kBlock = InfluenceBlocks::kBlock;
 constexpr size_t kDualChunk = 64;      // blocks
 constexpr float kHalfTurn = 1e-6f;     // cosine of half the angle below which it is a half turn
 constexpr double kLeastVolume = 1e-9;  // determinant over the cube of the norm: no inverse below
@@ -155,17 +154,19 @@ vec4 turned(const VertexMatrix& m, const vec4& n) {
 template <class Move>
 void each_vertex(const InfluenceBlocks& blocks, std::span<const DualJoint> palette,
                  const Move& move) {
-    const size_t count = (blocks.count + kBlock - 1) / kBlock;
+    const size_t count = (blocks.count + InfluenceBlocks::kBlock - 1) / InfluenceBlocks::kBlock;
     const float* joints = palette.empty() ? nullptr : palette[0].rotation;
     parallel_for(0, count, kDualChunk, [&](size_t begin, size_t end) {
         for (size_t block = begin; block < end; ++block) {
             const uint32_t first = blocks.first[block];
             const uint32_t rounds = blocks.first[block + 1] - first;
-            const size_t from = block * kBlock, to = std::min(blocks.count, from + kBlock);
+            const size_t from = block * InfluenceBlocks::kBlock,
+                         to = std::min(blocks.count, from + InfluenceBlocks::kBlock);
             for (size_t v = from; v < to; ++v)
-                move(v, blended(joints, blocks.weights.data() + size_t(first) * kBlock,
-                                blocks.offsets.data() + size_t(first) * kBlock, rounds,
-                                uint32_t(v - from)));
+                move(v, blended(joints,
+                                blocks.weights.data() + size_t(first) * InfluenceBlocks::kBlock,
+                                blocks.offsets.data() + size_t(first) * InfluenceBlocks::kBlock,
+                                rounds, uint32_t(v - from)));
         }
     });
 }

@@ -127,7 +127,7 @@ TEST_F(Files, APictureIsFoundWhereExportersLeaveIt) {
         {"/art/x.tga", "a/materials/textures/x.jpg", PictureMatch::Elsewhere},
         {"a/meshes/sub/x.png", "a/meshes/sub/x.tif", PictureMatch::Elsewhere},
         {"C:/art/skins/x.png", "a/meshes/skins/x.png", PictureMatch::Elsewhere},
-        {"a/skins/x.png", "a/meshes/Skins/x.png", PictureMatch::Elsewhere},
+        {"a/hides/x.png", "a/meshes/Hides/x.png", PictureMatch::Elsewhere},
         {"a/meshes/Disk 1:Poser:Skins:x.png", "a/meshes/x.png", PictureMatch::Elsewhere},
         {"a/meshes/Disk 1:Poser:Skins:x.png", "a/meshes/skins/x.png", PictureMatch::Elsewhere},
         {"a/meshes/gr\xfcn.png", "a/meshes/gr\xc3\xbcn.png", PictureMatch::Elsewhere},

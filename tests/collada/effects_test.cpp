@@ -193,8 +193,8 @@ std::string with_lamberts(const std::string& first, const std::string& second,
             effect("a", first) + effect("b", second) + "</library_effects><library_materials>" +
             material("a") + material("b") +
             "</library_materials><library_lights><light id=\"l\"><technique_common>" + light +
-            "</technique_common></light></library_lights><library_geometries>"
-            "<geometry id=\"g\"><mesh/></geometry></library_geometries>",
+            "</technique_common></light></library_lights><library_geometries>" +
+            triangle_geometry("g", {"a", "b"}) + "</library_geometries>",
         "<node id=\"n\"><instance_geometry url=\"#g\"><bind_material>"
         "<technique_common>" +
             bound("a") + bound("b") +

@@ -182,8 +182,8 @@ TEST(Nodes, AnExtraHidesThemUnlessAChannelNamesItOrNothingWouldBeLeft) {
                               "<sampler id=\"s\"><input semantic=\"INPUT\" source=\"#t\"/><input "
                               "semantic=\"OUTPUT\" source=\"#v\"/></sampler><channel source=\"#s\" "
                               "target=\"blinks/visibility\"/></animation></library_animations>"
-                              "<library_geometries><geometry id=\"g\"><mesh/></geometry>"
-                              "</library_geometries>",
+                              "<library_geometries>" +
+                              triangle_geometry("g", {"m"}) + "</library_geometries>",
                           nodes);
     };
     Reading r;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "collada/extract/extract.h"
 #include "collada/scene/scene.h"
@@ -85,6 +86,20 @@ inline std::string float_source(const std::string& id, const std::string& values
                       std::to_string(params.size()) + "\">";
     for (char p : params) out += std::string("<param name=\"") + p + "\" type=\"float\"/>";
     return out + "</accessor></technique_common></source>";
+}
+
+// A geometry of one triangle, once for each of the materials named.
+inline std::string triangle_geometry(const std::string& id,
+                                     const std::vector<std::string>& materials) {
+    std::string out = "<geometry id=\"" + id + "\"><mesh>" +
+                      float_source(id + "-pos", "0 0 0 1 0 0 0 1 0", 3, "XYZ") + "<vertices id=\"" +
+                      id + "-v\"><input semantic=\"POSITION\" source=\"#" + id +
+                      "-pos\"/></vertices>";
+    for (const std::string& material : materials)
+        out += "<triangles count=\"1\" material=\"" + material +
+               "\"><input semantic=\"VERTEX\" source=\"#" + id +
+               "-v\" offset=\"0\"/><p>0 1 2</p></triangles>";
+    return out + "</mesh></geometry>";
 }
 
 // A mesh over some positions, with the primitives given.
