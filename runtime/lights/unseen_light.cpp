@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 // Sine of the angle about 90 degrees within which a kernel's rounding may decide.
-constexpr float kMargin = 1e-4f, kMargin2 = kMargin * kMargin;
+constexpr float kUnseenMargin = 1e-4f, kMargin2 = kUnseenMargin * kUnseenMargin;
 constexpr float kLeastSquare = 1e-30f;  // of a vector whose direction kernels see as we do
 
 float square(const float* const v[3], size_t i) {
