@@ -47,7 +47,10 @@ bool HandleCalls::resolve(CallExpr& e) {
             if (takes(method, count)) able |= handle_of(k);
         }
     if (!named) {
-        if (set & ~kNullHandle) expander_.report(Code::RSL_CO_SHADER_METHOD, e.span, e.name);
+        if (set == handle_of(expander_.unit_))  // this->
+            expander_.report(Code::RSL_UNKNOWN_FUNCTION, e.span, e.name);
+        else if (set & ~kNullHandle)
+            expander_.report(Code::RSL_CO_SHADER_METHOD, e.span, e.name);
         return false;
     }
     e.method = false;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "runtime/explain/explain_p.h"
@@ -47,7 +48,10 @@ std::vector<Explained> explain(const Scene& scene, const Quality& quality,
     explain_settings(quality, preset, rows);
     for (const auto& section : kSections) {
         rows.section(section.name);
+        const size_t first = found.size();
         section.explain(scene, rows);
+        std::stable_partition(found.begin() + ptrdiff_t(first), found.end(),
+                              [](const Explained& row) { return row.modelled; });
     }
     return found;
 }

@@ -18,7 +18,7 @@ struct Explained {
     std::string why;
 };
 
-// Read off what the builder made and the frames so far used: kernels by their inputs, textures by
+// What is modelled comes first in a section. Read off what the builder made and the frames so far used: kernels by their inputs, textures by
 // what was opened. `quality` is what the scene was built for, `preset` the name it began with.
 std::vector<Explained> explain(const Scene& scene, const Quality& quality, std::string_view preset);
 

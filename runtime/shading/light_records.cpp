@@ -190,6 +190,13 @@ void LightRecords::shadow(const Making& making) const {
         if (light.casts) grid.shadows->cast(grid, making.at, light);
 }
 
+void LightRecords::shadow_sample(const Making& making, const SentLight& sent) const {
+    Grid& grid = making.grid;
+    if (!grid.shadows) return;
+    if (making.at.own) drop_behind(seen_points(grid), grid.memory.arena, {&sent, 1});
+    if (sent.casts) grid.shadows->cast(grid, making.at, sent);
+}
+
 void LightRecords::plain_records(Making& making, size_t l) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
@@ -298,7 +305,11 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
             sent.L[k] = out[size_t(statement.L[k])];
             sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
         }
-        making.sent_count += sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
+        const bool shines = sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
+        if (shines && samples)
+            shadow_sample(making, sent);
+        else
+            making.sent_count += shines;
     }
     // Columns are read at the grid's point, so those of a part of it start before it.
     for (const float*& column : columns) column -= at.first;

@@ -50,8 +50,9 @@ class LightRecords {
     void dark_records(Making& making, size_t light) const;
     void make_record(Making& making, const LightOutputs& statement, const LightBinding& binding,
                      std::span<float* const> out, const LightSamples* samples) const;
-    // Leaves in the colours what arrives.
+    // Leaves in the colours what arrives. Of a light on geometry at once: its sample goes with it.
     void shadow(const Making& making) const;
+    void shadow_sample(const Making& making, const SentLight& sent) const;
 
     const ShadingFrame& frame_;
     KernelRunner& kernels_;

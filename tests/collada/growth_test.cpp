@@ -274,7 +274,7 @@ TEST(MissingImages, ListTheirFolderOnce) {
     options.everything = true;
     Extraction x(r.diag, options);
     ASSERT_TRUE(extract_into(x, *r.document));
-    EXPECT_EQ(x.pictures.folder_count(), 5u);  // the other four are not there
+    EXPECT_EQ(x.pictures.folder_count(), 6u);  // the other five are not there
     EXPECT_EQ(x.pictures.listed_files(), 21u);
     EXPECT_EQ(r.count("FILE_FALLBACK"), 20u);
     EXPECT_EQ(r.count("FILE_MISSING"), 480u);

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from programs import BIN, main
 
-MOST = 2 << 20  # bytes of jit and rsl
+MOST = 9 << 18  # bytes of jit and rsl: two MiB, and a quarter for the classes and co-shaders of RSL 2.0
 LOADED = (".text", ".rodata", ".data", ".eh_frame", ".gcc_except_table", ".init_array", ".bss", ".tbss")
 
 

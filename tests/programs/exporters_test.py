@@ -2,12 +2,11 @@
 writes in glTF; loader and validator say the same of skins."""
 import os
 import re
-import shutil
 import subprocess
 import unittest
 
 from convert_test import outline
-from programs import SOURCE, TEST_DATA, ProgramTest, main, render, run
+from programs import SOURCE, TEST_DATA, ProgramTest, blender_writes_gltf, main, render, run
 
 RULES = TEST_DATA / "rules"
 SKINS = re.compile(r"\[(SKIN_NODE_TRANSFORM|SKIN_MIXED_MIRROR)\]")
@@ -25,7 +24,7 @@ class Exporters(ProgramTest):
                            "--progress", "none"), 0)
         return outline(picture)
 
-    @unittest.skipUnless(shutil.which("blender"), "no blender")
+    @unittest.skipUnless(blender_writes_gltf(), "no blender with numpy")
     def test_blenders_collada_looks_as_its_gltf(self):
         done = subprocess.run(["blender", "-b", "--factory-startup", "-P",
                                SOURCE / "tests/programs/blender_dae.py", "--", self.folder],

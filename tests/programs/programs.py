@@ -43,6 +43,13 @@ def shade(*words, **options):
     return run("kinora-shade", *words, **options)
 
 
+def blender_writes_gltf():
+    """Whether Debian's Blender is there, with the numpy that its glTF exporter needs."""
+    if not shutil.which("blender"):
+        return False
+    return subprocess.run(["/usr/bin/python3", "-c", "import numpy"], capture_output=True).returncode == 0
+
+
 def supported_targets():
     """Those that this CPU runs: the others are reported as not usable."""
     text = shade("bench", SHADERS / "constant.sl", "--size", "16x1", "--iterations", "1").out

@@ -206,7 +206,7 @@ class Run(ProgramTest):
 
     def test_a_coordinate_system_of_no_scene_is_the_world_and_said_so(self):
         source = 'surface x() { Ci = color transform("hand", P) + color transform("world", P); }'
-        words = ("run", "-", "--size", "4x4", "--compare", "reference")
+        words = ("run", "-", "-v", "--size", "4x4", "--compare", "reference")
         result = self.expect(shade(*words, stdin=source), 0, "16 points compared", "no difference")
         self.assertEqual(result.err.count("'hand'"), 1, result.err)
         self.assertNotIn("'world'", result.err)

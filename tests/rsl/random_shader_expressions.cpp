@@ -186,6 +186,9 @@ std::string ShaderWriter::row_call(BaseType type, int depth) {
     if (list.empty()) return "";
     const Callable& callable = list[size_t(below(int(list.size())))];
     const Builtin& row = *callable.row;
+    if (row.name == std::string_view("directlighting") ||
+        row.name == std::string_view("indirectspecular"))
+        return "";  // of the methods of a class, which it gives to its own evaluateSamples
     if (uniform_ && (row.effects != kPure || *row.globals != 0)) return "";
     const auto& signatures = callable.signatures;
     const Signature& signature = signatures[size_t(below(int(signatures.size())))];

@@ -81,7 +81,7 @@ const HeaderRow kHeaders[] = {
     {"broadlights.h", "", "Ci = broad_glow(P, N, reflect(I, N));"},
     {"collada_slots.h", "SLOT(ambient_color, 0); SLOT(diffuse, 0); float x = 0;",
      "Oi = slot_opacity(diffuse, diffuse_map, diffuse_s, diffuse_t, x, x, \"A_ONE\");"
-     "Ci = mirrored(AMBIENT_COLOR, x, N, I, Oi) * color(bumped(ambient_color_map, \"\", s, t, "
+     "Ci = mirrored(AMBIENT_COLOR, x, N, I, Oi, Cs) * color(bumped(ambient_color_map, \"\", s, t, "
      "x));"},
     {"project.h", "string how = \"spherical\";",
      "float ss, tt, ds, dt; ProjectTo2D(how, P, \"shader\", matrix 1, ss, tt, ds, dt);"

@@ -85,12 +85,14 @@ TEST(Presets, AreTheKnownOnes) {
     const Quality& draft = *find_quality("draft");
     EXPECT_EQ(knob_texts(draft),
               "spp=1 filter=gaussian math=fast robust=off bvh=refit refit-limit=1.3 "
-              "displacement=bump dice=8 rays=4 bounces=1 split=1 ray-limit=1000 light-samples=0 "
+              "skin=linear influences=0 displacement=bump dice=8 rays=4 bounces=1 split=1 "
+              "ray-limit=1000 light-samples=0 "
               "weak-lights=0.00195 shadows=auto");
     const Quality& final_ = *find_quality("final");
     EXPECT_EQ(knob_texts(final_),
               "spp=64 filter=gaussian math=precise robust=on bvh=refit refit-limit=1.3 "
-              "displacement=true dice=2 rays=16 bounces=1 split=1 ray-limit=1000 light-samples=0 "
+              "skin=linear influences=0 displacement=true dice=2 rays=16 bounces=1 split=1 "
+              "ray-limit=1000 light-samples=0 "
               "weak-lights=0.00024 shadows=auto");
     EXPECT_EQ(find_quality("best"), nullptr);
 }

@@ -32,6 +32,12 @@ class starrynight(uniform float whirls = 9; float strokes = 34; color night = co
         }
         float lane = strokes * (Q[1] + 0.12 * turn);
         stroke = abs(2 * mod(lane, 1) - 1);
+        /* Strokes finer than a grid's points blur to their mean. */
+        float footprint = strokes * (abs(Du(Q[1]) * du) + abs(Dv(Q[1]) * dv));
+        if (gridmin(footprint) > 0.5)
+            stroke = 0.5;
+        else if (gridmax(footprint) > 0.25)
+            stroke = mix(stroke, 0.5, smoothstep(0.25, 0.5, footprint));
         tone = float cellnoise(floor(lane), floor(9 * Q[0] + 3 * float cellnoise(lane)));
     }
     public void displacement(output point P; output normal N) {
