@@ -32,8 +32,8 @@ stage "release tests" tests release
 if ((all)); then
     stage "ASan+UBSan build" scripts/build asan:gtests
     stage "ASan+UBSan tests" tests asan
-    stage "fuzzing of code" scripts/fuzz build/release code 2
-    stage "fuzzing of shaders" scripts/fuzz build/release shaders
+    stage "fuzzing of code" scripts/fuzz build/release code 4
+    stage "fuzzing of shaders" scripts/fuzz build/release shaders 2
     stage "fuzzing of sources" scripts/fuzz build/asan text
     stage "libFuzzer build" scripts/build fuzzers
     stage "fuzzing of readers" scripts/fuzz_readers 30
