@@ -125,7 +125,8 @@ template <class Real>
 Dual<Real> pow(const Dual<Real>& a, const Dual<Real>& b) {
     if (a.x == 0 && b.x < 0) return {};
     if (a.x < 0 && std::floor(b.x) != b.x) return {};
-    Real p = std::pow(a.x, b.x);
+    // docs/numerics.md#powers-roots-logarithms: a NaN power gives NaN; the C library gives 1 for 1.
+    Real p = std::isnan(b.x) ? b.x : std::pow(a.x, b.x);
     Real by_a = b.x == 0 ? 0 : b.x * std::pow(a.x, b.x - 1);
     Real by_b = a.x > 0 ? p * std::log(a.x) : 0;
     auto along = [&](Real da, Real db) {
