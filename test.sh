@@ -34,7 +34,7 @@ if ((all)); then
     stage "ASan+UBSan tests" tests asan
     stage "fuzzing of code" scripts/fuzz build/release code 4
     stage "fuzzing of shaders" scripts/fuzz build/release shaders 2
-    stage "fuzzing of sources" scripts/fuzz build/asan text 2
+    stage "fuzzing of sources" scripts/fuzz build/asan text
     stage "libFuzzer build" scripts/build fuzzers
     stage "fuzzing of readers" scripts/fuzz_readers 30
     stage "AArch64 build" scripts/cross-arm64

@@ -224,15 +224,19 @@ void ExpressionChecker::check(Expr*& slot, CallExpr& e, BaseType wanted) {
     if (functions.empty() && !builtin) return unknown_.function(e);
     Callee callee = overloads_.choose(e, functions, wanted);
     if (!callee) return no_form(e, functions);
+    size_t written = e.args.size();
     if (callee.function && !add_defaults(e, *callee.function)) {
         e.type = callee.function->result;
         return;
     }
     calls_.begin(e, callee);
+    bool defaults = e.args.size() > written;
+    defaults_ += defaults;
     for (size_t i = 0; i < e.args.size(); ++i) {
         if (types_.is_open(*e.args[i])) expression(e.args[i], calls_.parameter(e, i).type.base);
         calls_.bind_argument(e, i);
     }
+    defaults_ -= defaults;
     calls_.end(e);
 }
 
@@ -241,7 +245,9 @@ void ExpressionChecker::check(Expr*& slot, CallExpr& e, BaseType wanted) {
 bool ExpressionChecker::add_defaults(CallExpr& e, const Function& f) {
     if (e.args.size() >= f.parameters.size()) return true;
     constexpr int kMostDefaults = 4;
+    if (endless_defaults_) return false;
     if (defaults_ == kMostDefaults) {
+        endless_defaults_ = true;
         reporter_.report(Code::RSL_TOO_DEEP, e.span);
         return false;
     }

@@ -88,7 +88,8 @@ class ExpressionChecker {
     TypeInference types_;
     OverloadResolution overloads_;
     CallBinder calls_;
-    int defaults_ = 0;  // defaults of arguments within one another
+    int defaults_ = 0;               // defaults of arguments within one another
+    bool endless_defaults_ = false;  // was told; each call would tell it again, exponentially often
 };
 
 }  // namespace kinora::rsl
