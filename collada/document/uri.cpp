@@ -26,17 +26,24 @@ bool takes_file_scheme(std::string& path) {
 
 namespace {
 
+constexpr std::string_view kLocalHost = "localhost";
+
+// Whether the name of this computer stands before an absolute path.
+bool is_local_host(std::string_view path) {
+    return path.starts_with(kLocalHost) && path.substr(kLocalHost.size()).starts_with('/');
+}
+
 // A URI without its host as a path, '/' between its parts; relative unless it says otherwise.
 std::string written_path(std::string_view uri) {
     std::string path = percent_decode(trim(uri));
     for (char& c : path)
         if (c == '\\') c = '/';
     if (takes_file_scheme(path)) {
-        // file:///abs and file:/abs are absolute; file://NAME is an exporter's relative name.
-        if (path.starts_with("///"))
-            path.erase(0, 2);
-        else if (path.starts_with("//"))
-            path.erase(0, 2);
+        // file:///abs and file:/abs are absolute, file://localhost/abs too (RFC 8089, 2);
+        // file://NAME is an exporter's relative name.
+        bool host = path.starts_with("//");
+        if (host) path.erase(0, 2);
+        if (host && is_local_host(path)) path.erase(0, kLocalHost.size());
         if (starts_with_drive(std::string_view(path).substr(path.starts_with('/') ? 1 : 0)) &&
             path.starts_with('/'))
             path.erase(0, 1);

@@ -83,7 +83,8 @@ Transform read_transform(Extraction& x, Link link) {
         x.diag.report(Code::NODE_NUMBERS, x.where(link), row.name, numbers.size(), row.count);
     if (const char* what = fault(row.kind, v)) {
         x.diag.report(Code::NODE_VALUE, x.where(link), row.name, what);
-        v = row.identity;
+        // A lookat without an up still has its place and its view: lookat_matrix picks the axis.
+        if (row.kind != TransformKind::Lookat) v = row.identity;
     }
     if (row.kind == TransformKind::Matrix) {
         if (v[12] != 0 || v[13] != 0 || v[14] != 0 || v[15] != 1) {

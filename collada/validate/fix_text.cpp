@@ -43,8 +43,8 @@ std::string tidy_uri(std::string_view uri) {
         else
             out += c;
     }
-    bool host = out.starts_with("file://") && !out.starts_with("file:///");
-    return host ? out.substr(7) : out;
+    bool absolute = out.starts_with("file:///") || out.starts_with("file://localhost/");
+    return out.starts_with("file://") && !absolute ? out.substr(7) : out;
 }
 
 // The file that reading found for this image, relative to the document, as a URI; "" if it found

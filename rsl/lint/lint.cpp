@@ -45,7 +45,8 @@ std::string warning_name(const FindingInfo& info) {
 
 const FindingInfo* find_warning(std::string_view name) {
     for (const FindingInfo* row : finding_rows())
-        if (row->severity == Severity::Warning && warning_name(*row) == name) return row;
+        if (row->severity == Severity::Warning && (warning_name(*row) == name || row->code == name))
+            return row;
     return nullptr;
 }
 

@@ -23,7 +23,7 @@ void lint(std::span<const std::unique_ptr<Shader>> shaders, const LintOptions& o
 
 // The name that switches a warning off, as in -Wno-unused-variable for RSL_UNUSED_VARIABLE.
 std::string warning_name(const FindingInfo& info);
-// The finding that -Wno-NAME means; null where no warning has that name.
+// The finding that -Wno-NAME means, by that name or its code; null where no warning has that name.
 const FindingInfo* find_warning(std::string_view name);
 std::vector<std::string> warning_names();
 

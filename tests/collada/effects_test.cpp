@@ -307,6 +307,8 @@ TEST(Images, AreFoundWhereExportersMeant) {
                  {"file:///C:/Users/me/Wood.tga", "Wood.PNG"},
                  {"C:\\art\\wood.png", "Wood.PNG"},
                  {"file://Wood.PNG", "Wood.PNG"},
+                 {"file://localhost" + folder + "Wood.PNG", "Wood.PNG"},
+                 {"file://localhost/no/such/stone wall.jpg", ""},
                  {"tex\\stone%20wall.jpg", "tex/stone wall.jpg"},
                  {"tex/stone wall.tga", "tex/stone wall.jpg"},
                  {"<![CDATA[\n  Wood.PNG  \n]]>", "Wood.PNG"},

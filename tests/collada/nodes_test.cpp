@@ -43,6 +43,22 @@ TEST(Nodes, BadTransformsAreTheIdentity) {
     EXPECT_EQ(r.count("NODE_MATRIX_ROW"), 1u);
 }
 
+// Its place and view are known; runtime/base picks the axis that is not (transforms_test.cpp).
+TEST(Nodes, ALookatWithUpAlongItsViewKeepsItsPlaceAndView) {
+    Reading r;
+    read_text(r, with_scene("",
+                            "<node id=\"n\"><lookat>1 2 7 1 2 3 0 0 1</lookat>"
+                            "<lookat>4 5 6 4 5 6 0 1 0</lookat></node>"));
+    const Node& n = r.node("n");
+    ASSERT_EQ(n.transforms.size(), 2u);
+    const double view[] = {1, 2, 7, 1, 2, 3, 0, 0, 1}, place[] = {4, 5, 6, 4, 5, 6, 0, 1, 0};
+    for (int i = 0; i < 9; ++i) {
+        EXPECT_EQ(n.transforms[0].slot.values[i], view[i]) << i;
+        EXPECT_EQ(n.transforms[1].slot.values[i], place[i]) << i;
+    }
+    EXPECT_EQ(r.count("NODE_VALUE"), 2u);
+}
+
 TEST(Nodes, CyclesAreRefusedByName) {
     Reading r;
     read_file(r, test_file("common.dae"));

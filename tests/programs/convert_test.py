@@ -501,6 +501,28 @@ surface s(string map = "tex/wood.png"; string other = "";) {
             self.assertIn("../../../in/tex/moss.png", str(glb_json(binary)))
             self.assertLess(self.difference(self.picture(self.converted(binary, "back.dae")), before), SAME)
 
+    def test_a_file_of_code_that_names_pictures_comes_in(self):
+        """Its names are looked for beside the document. Code that names no file stays where it is."""
+        (self.folder / "in/tex").mkdir(parents=True)
+        (self.folder / "in/sl").mkdir()
+        png.write(self.folder / "in/tex/wood.png", 1, 1, [bytes((200, 90, 30))])
+        self.write("in/sl/half.h", "float half(float x) { float a[1]; a[0] = x; return a[0]>0 ? 0.5 * x : 0; }\n")
+        used = 'surface s() { float a[2], b[1]; b[0] = 1; if (a[b[0]]>1) Ci = 0; Ci = half(1) * color texture("tex/wood.png"); }'
+        self.write("in/sl/names.sl", '#include "half.h"\n' + used)
+        self.write("in/sl/plain.sl", '#include "half.h"\nsurface s() { Ci = half(1); }')
+        for name in ("names", "plain"):
+            effect = ('<effect id="red-fx"><profile_RSL><technique sid="t">'
+                      f'<include sid="i" url="sl/{name}.sl"/><pass><shader stage="SURFACE"/></pass></technique></profile_RSL></effect>')
+            scene = self.write(f"in/{name}.dae", re.sub(r'(?s)<effect id="red-fx">.*?</effect>', effect, mesh_scene()))
+            before = self.picture(scene)
+            self.assertGreater(sum(map(sum, before[2])), 1000)
+            above = self.converted(scene, f"{name}.dae")
+            self.assertEqual(self.picture(above), before)
+            self.assertEqual("<include" in above.read_text(), name == "plain")
+            self.assertIn("<include", self.converted(scene, f"in/again_{name}.dae").read_text())
+        self.assertIn('texture("in/tex/wood.png")', (self.folder / "names.dae").read_text())
+        self.assertIn('#include "in/sl/half.h"', (self.folder / "names.dae").read_text())
+
     def test_links_to_documents_outside_the_new_folder_are_told(self):
         self.write("parts/p.dae", mesh_scene())
         scene = self.write("a.dae", mesh_scene("<library_nodes><node id=\"o\">"

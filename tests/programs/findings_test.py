@@ -128,6 +128,11 @@ class Exits(FindingsTest):
         self.expect(self.render(scene, "--fail-on", "error"), 0)
         self.expect(self.render(scene, "--fail-on", "warning"), 1, "FILE_MISSING")
         self.assertTrue(self.out.exists())
+        shot = self.folder / "shot.png"
+        headless = ("kinora-play", scene, "--headless", "--size", "8x8", "--screenshot", shot, "--fail-on")
+        self.expect(run(*headless, "error"), 0)
+        self.expect(run(*headless, "warning"), 1, "FILE_MISSING")
+        self.assertTrue(shot.exists())
         (self.folder / "map.png").write_bytes(dae.png(dae.picture()))
         self.expect(self.render(scene, "--fail-on", "warning"), 0)
         out = self.folder / "o.dae"

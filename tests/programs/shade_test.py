@@ -281,11 +281,21 @@ class DumpBenchManual(ProgramTest):
                            "0 errors, 2 warnings")
         self.assertNotIn("RSL_UNUSED_VARIABLE", left.err)
         self.assertIn("RSL_UNUSED_FUNCTION", left.err)
+        by_code = self.expect(shade("check", "-", "-Wno-RSL_UNUSED_VARIABLE", stdin=source), 0, "3 warnings")
+        self.assertNotIn("RSL_UNUSED_VARIABLE", by_code.err)  # the code as `check` prints it
         self.expect(shade("check", "-", "-Werror", stdin=source), 4)
         self.expect(shade("check", "-", "-Wno-unused-varable", stdin=source), 2, "did you mean 'unused-variable'")
         codes = [f["code"] for f in json.loads(shade("check", "-", "--json", "-Wno-unused-function",
                                                      stdin=source).out)[0]["findings"]]
         self.assertEqual(sorted(codes), ["RSL_TEXTURE_MISSING", "RSL_UNUSED_PARAMETER", "RSL_UNUSED_VARIABLE"])
+
+    def test_run_shows_no_more_prints_than_a_frame(self):
+        chatty = self.write("chatty.sl", 'surface chatty() { printf("%f\\n", s); Ci = 1; }')
+        many = self.expect(shade("run", chatty, "--size", "128x128"), 0, "PRINT_LIMIT", "16384 lines")
+        self.assertEqual(sum(re.fullmatch(r"[0-9.]+", line) is not None for line in many.out.splitlines()), 10000)
+        few = self.expect(shade("run", chatty, "--size", "64x64"), 0)
+        self.assertNotIn("PRINT_LIMIT", few.err)
+        self.assertEqual(sum(re.fullmatch(r"[0-9.]+", line) is not None for line in few.out.splitlines()), 4096)
 
     def test_a_light_looks_along_z(self):
         light = self.write("beam.sl", 'light beam() { solar(vector "shader" (0, 0, 1), 0) Cl = 1; }')

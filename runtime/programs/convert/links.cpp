@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "collada/document/edit.h"
@@ -11,7 +12,9 @@
 #include "collada/document/uri.h"
 #include "collada/schema/links.h"
 #include "runtime/base/picture_search.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
+#include "runtime/description/rsl_literals.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/programs/convert/links_p.h"
 #include "runtime/programs/convert/rsl_files_p.h"
@@ -117,6 +120,7 @@ class LinkMove {
         fs::path file = found(collada::path_of_uri(document_, link.substr(0, hash)));
         // A fragment without its '#' is no file.
         if (hash == link.size() && !names_file(*uri.element) && !is_file(file)) return;
+        if (take_in(*uri.element, file)) return;
         bool picture = links_picture(*uri.element);
         edits_.push_back(set_link(
             text_, uri, encoded_link(moved(file, picture)) + std::string(link.substr(hash))));
@@ -136,6 +140,33 @@ class LinkMove {
         fs::path file = fs::absolute(picture.path, code);
         file = fs::weakly_canonical(file.parent_path(), code) / file.filename();
         edits_.push_back(set_link(text_, uri, encoded_link(moved(file, true))));
+        return true;
+    }
+
+    // What code in a file names lies beside the document, wherever the file is. An <include> of
+    // code that names files is therefore written out as <code> with their new names. True if so.
+    bool take_in(const Element& include, const fs::path& file) {
+        const Element* owner = include.parent ? include.parent->parent : nullptr;
+        if (include.name != "include" || !owner || owner->name != "profile_RSL") return false;
+        if (*file.lexically_relative(from_).begin() == "..") return false;  // no one reads that
+        std::optional<std::string> code = read_regular_file(file.string());
+        if (!code) return false;
+        std::map<size_t, std::pair<size_t, std::string>> names;  // begin -> end, new name
+        for (LiteralRange name : string_literals(*code)) {
+            std::string text = code->substr(name.begin, name.end - name.begin);
+            fs::path named = (from_ / text).lexically_normal();
+            if (may_name_file(text) && is_file(named))
+                names[name.begin] = {name.end, moved(named, true)};
+        }
+        if (names.empty()) return false;
+        for (collada::ByteRange name : included_names(*code)) {
+            fs::path header =
+                (file.parent_path() / code->substr(name.begin, name.end - name.begin));
+            if (is_file(header)) names[name.begin] = {name.end, moved(header.lexically_normal())};
+        }
+        for (auto at = names.rbegin(); at != names.rend(); ++at)
+            code->replace(at->first, at->second.first - at->first, at->second.second);
+        edits_.push_back({include.bytes, "<code>" + collada::cdata(*code) + "</code>"});
         return true;
     }
 

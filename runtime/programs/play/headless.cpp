@@ -67,11 +67,10 @@ int take_screenshots(const PlayOptions& options, Player& player) {
 void FindingLines::print(const Player& player) {
     for (const FindingText& finding : player.findings()) {
         if (!seen_.insert(finding.printed).second) continue;
-        bool error = finding.severity == "error";
-        error_ |= error;
+        bool error = finding.severity == "error", warning = finding.severity == "warning";
+        fails_ |= error || (warning && options_.fail_on == Severity::Warning);
         missing_ |= is_missing_asset(finding.code);
-        bool wanted =
-            error || (!options_.quiet && (options_.verbose || finding.severity == "warning"));
+        bool wanted = error || (!options_.quiet && (options_.verbose || warning));
         if (!wanted) continue;
         if (++counts_[finding.code] <= kMostOfACode || options_.verbose)
             std::fputs(finding.printed.c_str(), stderr);
@@ -99,7 +98,7 @@ int run_headless(const PlayOptions& options, Player& player) {
     lines.print(player);
     lines.summarize();
     if (code == kExitOk && lines.lacks_assets()) return kExitMissingAsset;
-    return code == kExitOk && lines.any_error() ? int(kExitSomeFailed) : code;
+    return code == kExitOk && lines.fails() ? int(kExitSomeFailed) : code;
 }
 
 }  // namespace kinora

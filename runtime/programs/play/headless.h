@@ -17,14 +17,15 @@ class FindingLines {
     void print(const Player& player);
     // How many there were beyond these.
     void summarize() const;
-    bool any_error() const { return error_; }
+    // There were errors, or what --fail-on names.
+    bool fails() const { return fails_; }
     bool lacks_assets() const { return options_.strict && missing_; }
 
   private:
     FindingOptions options_;
     std::set<std::string> seen_;
     std::map<std::string, size_t> counts_;  // by code, of those to be printed
-    bool error_ = false, missing_ = false;
+    bool fails_ = false, missing_ = false;
 };
 
 // The script, then the screenshots. The program's exit code.

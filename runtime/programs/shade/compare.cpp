@@ -67,9 +67,11 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
             in[a * jit::kMaxLanes] =
                 is_int ? jit::float_of(int32_t(arguments[a])) : float(arguments[a]);
         }
-        PatchHost host(patch);
+        PrintedLines printed;
+        PatchHost host(patch, printed);
         find_service(rsl::service_name(service))(
             {static_cast<KernelHost*>(&host), in.data(), out.data(), 1, 0, 1});
+        printed.show();
         std::vector<double> answer;
         for (size_t r = 0; r < results.size(); ++r) {
             float value = out[r * jit::kMaxLanes];

@@ -128,7 +128,8 @@ void ShadeKernel::fill_records() {
 void ShadeKernel::run() {
     std::optional<raytrace::DenormalGuard> flush;  // the fast tier's mode
     if (stack_->lower.math == jit::math::Tier::Fast) flush.emplace();
-    PatchHost host(*patch_);
+    prints_.clear();
+    PatchHost host(*patch_, prints_);
     bound_.run_frame(StackNumbers(*stack_, *patch_, bound_.pair), host, record_sets_);
     for (size_t at = 0; at < patch_->count(); at += kSlice) {
         Arena::Mark mark = arena_.mark();
@@ -142,6 +143,7 @@ void ShadeKernel::run() {
                    arena_);
         arena_.release(mark);
     }
+    prints_.show();
 }
 
 ShadeOutputs ShadeKernel::outputs() const {
@@ -187,6 +189,7 @@ void ShadeKernel::report_faults(Diagnostics& diagnostics) const {
     };
     report(bound_.kernel(), faults_);
     if (bound_.pair.frame) report(*bound_.pair.frame, bound_.frame_faults);
+    if (stack_) prints_.report(stack_->layers.front().shader->name, diagnostics);
 }
 
 }  // namespace kinora

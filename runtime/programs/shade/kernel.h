@@ -52,7 +52,8 @@ class ShadeKernel {
     ShadeOutputs illumination() const;
     // Coordinate systems that the shader names and no scene gives: here they are the world.
     std::vector<std::string> unknown_spaces() const;
-    // One finding for each location in the shader that reported a fault while running.
+    // Of the last run: a finding for each location in the shader that reported a fault, and one
+    // where it printed more than a shader may.
     void report_faults(Diagnostics& diagnostics) const;
 
     const rsl::LoweredShader& lowered() const { return lowered_; }
@@ -70,6 +71,7 @@ class ShadeKernel {
     Arena arena_;
     std::span<float*> columns_, out_;
     std::vector<uint8_t> faults_;
+    PrintedLines prints_;
     std::vector<jit::Record> records_;
     jit::RecordSet record_sets_[kPatchRecordSets];
 };

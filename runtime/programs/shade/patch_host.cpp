@@ -2,11 +2,8 @@
 #include "runtime/programs/shade/patch_host.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-
-#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -28,7 +25,7 @@ dmat4 PatchHost::world_from_current() const {
 }
 void PatchHost::print(const jit::ServiceCall& call) {
     for (int lane = 0; lane < call.lanes; ++lane)
-        if (call.mask >> lane & 1) std::fputs(print_text(call, lane).c_str(), stdout);
+        if (call.mask >> lane & 1) prints_.add(call, lane);
 }
 // The lights are the same everywhere.
 void PatchHost::lights(const jit::ServiceCall& call) {

@@ -7,6 +7,7 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/programs/shade/grid.h"
 #include "runtime/shading/kernels/kernel_host.h"
+#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -15,7 +16,8 @@ enum PatchRecordSet : int32_t { kPatchLights, kNoRays, kPatchRecordSets };
 
 class PatchHost : public KernelHost {
   public:
-    explicit PatchHost(const Patch& patch) : patch_(patch) {}
+    // `prints` takes what the shader prints.
+    PatchHost(const Patch& patch, PrintedLines& prints) : patch_(patch), prints_(prints) {}
 
     TextureStore& textures() const override { return *patch_.textures; }
     dmat4 current_from_space(std::string_view name, size_t point) const override;
@@ -28,6 +30,7 @@ class PatchHost : public KernelHost {
 
   private:
     const Patch& patch_;
+    PrintedLines& prints_;
 };
 
 // The light that shines on the patch: what kinora-shade's surfaces see.
