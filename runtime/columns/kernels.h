@@ -48,6 +48,11 @@ struct alignas(64) TripleRows {
     float at[3][kColumnPoints];
 };
 
+// By what sixteen hits are told apart.
+struct HitNumbers {
+    const uint32_t *pixel_x, *pixel_y, *sample, *layer;
+};
+
 // Matrices are nine floats, column by column. `to` may be `a`.
 struct ColumnKernels {
     const char* name;
@@ -75,6 +80,8 @@ struct ColumnKernels {
     // kilometres or micrometres.
     void (*extents)(const TripleRows& dPdu, const TripleRows& dPdv, const TripleRows& dPdx,
                     const TripleRows& dPdy, TwoRows& extents);
+    // The hits' random numbers (docs/decisions.md#random-numbers-without-state).
+    void (*random)(const HitNumbers& hits, uint32_t depth, uint32_t* to);
 };
 extern const ColumnKernels kPortableColumns;
 extern const ColumnKernels kAvx2Columns;

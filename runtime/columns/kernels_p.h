@@ -3,6 +3,7 @@
 // (no contraction) and in the order that glm has, so all widths give the same bits.
 #pragma once
 
+#include "raytrace/random/bits.h"
 #include "runtime/columns/kernels.h"
 
 namespace kinora {
@@ -188,6 +189,17 @@ void extents(const TripleRows& dPdu, const TripleRows& dPdv, const TripleRows& d
                                   float((a * vy - b * uy) * inverse)};
         for (int k = 0; k < 2; ++k)
             found.at[k][i] = larger(__builtin_fabsf(along_x[k]), __builtin_fabsf(along_y[k]));
+    }
+}
+
+// As random_of() of raytrace/hits.h.
+void random(const HitNumbers& hits, uint32_t depth, uint32_t* to) {
+    const HitNumbers h = hits;  // copies, which no store below can change
+#pragma GCC ivdep
+    for (size_t i = 0; i < kAll; ++i) {
+        const uint32_t pixel = raytrace::hash(h.pixel_x[i], h.pixel_y[i]);
+        const uint32_t layer = h.layer[i] % 64 + 64 * depth + (h.layer[i] / 64 << 16);
+        to[i] = raytrace::hash(pixel, h.sample[i], layer);
     }
 }
 

@@ -35,7 +35,8 @@ class SixteenPoints {
     size_t count() const { return count_; }
     uint32_t hit(size_t i) const { return hit_[i < count_ ? i : 0]; }
     // A column of hits at these points, in `room` where it is not there in one piece.
-    const float* at(const float* column, float (&room)[kColumnPoints]) const {
+    template <class T>
+    const T* at(const T* column, T (&room)[kColumnPoints]) const {
         if (dense_) return column + hit_[0];
         for (size_t i = 0; i < kColumnPoints; ++i) room[i] = column[hit(i)];
         return room;

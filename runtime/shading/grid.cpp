@@ -141,9 +141,7 @@ class HitSource : public PointSource {
             if (matrices_) matrices(begin, end);
             begin = end;
         }
-        if (float* rng = column(kColRng))
-            for (size_t i = 0; i < grid_.count(); ++i)
-                rng[i] = jit::float_of(int32_t(random_of(hits_, grid_.points[i])));
+        if (float* rng = column(kColRng)) random_numbers(rng);
     }
 
   private:
@@ -155,6 +153,17 @@ class HitSource : public PointSource {
         want_triple(grid_, first);
         for (size_t k = 0; k < 3; ++k) t.c[k] = column(first + k);
         return t;
+    }
+
+    void random_numbers(float* to) const {
+        for (size_t first = 0; first < grid_.count(); first += kColumnPoints) {
+            const SixteenPoints points(grid_.points, first, grid_.count());
+            uint32_t room[4][kColumnPoints], numbers[kColumnPoints];
+            kernels_.random({points.at(hits_.pixel_x, room[0]), points.at(hits_.pixel_y, room[1]),
+                             points.at(hits_.sample, room[2]), points.at(hits_.layer, room[3])},
+                            hits_.depth, numbers);
+            std::memcpy(to + first, numbers, points.count() * sizeof(float));
+        }
     }
 
     // What all hits of one row share.
@@ -390,8 +399,7 @@ class HitSource : public PointSource {
             for (uint32_t j = 0; j < param.components; ++j) {
                 const size_t which = param.column + j, n = param.components;
                 if (!column(which) && !column(which + n) && !column(which + 2 * n)) continue;
-                const CornerNumbers x =
-                    corner_numbers(block, first, count, param, surface_->varying[k], j);
+                const CornerNumbers x = corner_numbers(block, param, surface_->varying[k], j);
                 float value[kColumnPoints];
                 TwoRows along;
                 kernels_.mix(block.on, x, value, along);
@@ -402,19 +410,20 @@ class HitSource : public PointSource {
             }
         }
     }
-    CornerNumbers corner_numbers(const Block& block, size_t first, size_t count,
-                                 const VaryingParam& param, const VertexAttribute* attribute,
-                                 uint32_t component) const {
+    CornerNumbers corner_numbers(const Block& block, const VaryingParam& param,
+                                 const VertexAttribute* attribute, uint32_t component) const {
         if (attribute)
             return of_attribute(block, *attribute,
                                 std::min(param.component + component, attribute->stride - 1));
-        CornerNumbers numbers{};
-        for (size_t i = 0; i < count; ++i) {
-            float x[3];
-            corner_values(corner(first + i), param, attribute, component, x);
-            for (size_t k = 0; k < 3; ++k) numbers.at[k][i] = x[k];
-        }
-        return numbers;
+        if (param.semantic != "Pref") return {};
+        const uint32_t* corners = mesh_->groups[surface_->group].triangles.data();
+        const int axis = int(component);
+        const float anchor = float(mesh_->anchor[axis]);
+        CornerNumbers x;
+        for (size_t i = 0; i < kColumnPoints; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                x.at[k][i] = mesh_->positions[corners[block.corner[i] + k]][axis] + anchor;
+        return x;
     }
     void nearest(size_t first, size_t count, const VaryingParam& param,
                  const CornerNumbers& numbers, float* value) const {

@@ -146,6 +146,31 @@ TEST_P(EachColumnKernel, MixesTwoAxesByHand) {
     }
 }
 
+// The definition, a number at a time; layers from 64 on lie in the upper half.
+TEST_P(EachColumnKernel, HashesAsTheDefinitionSays) {
+    std::mt19937 engine(11);
+    for (uint32_t depth : {0u, 1u, 7u}) {
+        uint32_t x[kColumnPoints], y[kColumnPoints], sample[kColumnPoints], layer[kColumnPoints];
+        uint32_t found[kColumnPoints];
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            x[i] = engine() % 4096, y[i] = engine() % 4096;
+            sample[i] = uint32_t(engine()), layer[i] = engine() % 256;
+        }
+        kernels().random({x, y, sample, layer}, depth, found);
+        auto mixed = [](uint32_t n) {
+            n = (n ^ n >> 16) * 0x7feb352du;
+            n = (n ^ n >> 15) * 0x846ca68bu;
+            return n ^ n >> 16;
+        };
+        auto both = [&](uint32_t a, uint32_t b) { return mixed(a ^ (mixed(b) + 0x9e3779b9u)); };
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            const uint32_t low = layer[i] & 63, high = layer[i] >> 6;
+            const uint32_t passed = low + 64 * depth + 65536 * high;
+            EXPECT_EQ(found[i], both(both(both(x[i], y[i]), sample[i]), passed)) << depth;
+        }
+    }
+}
+
 // ---- places on triangles ------------------------------------------------------------------------
 
 // Random points; every third triangle has no area in s, t.
