@@ -25,6 +25,34 @@ struct alignas(64) CornerNormals {
     float u[kColumnPoints], v[kColumnPoints];  // barycentrics of corners 1 and 2
 };
 
+// Sixteen points on triangles: the barycentrics of corners 1 and 2, and what takes changes along
+// the triangle's edges to changes along u and v (runtime/description/affine_map.h).
+struct alignas(64) OnTriangles {
+    float u[kColumnPoints], v[kColumnPoints];
+    float inv[2][2][kColumnPoints];
+};
+
+// A number at the three corners of sixteen triangles, and four numbers there.
+struct alignas(64) CornerNumbers {
+    float at[3][kColumnPoints];
+};
+struct alignas(64) CornerPlaces {
+    float at[3][kColumnPoints][4];
+};
+
+// Sixteen numbers of each of two columns, and of three.
+struct alignas(64) TwoRows {
+    float at[2][kColumnPoints];
+};
+struct alignas(64) TripleRows {
+    float at[3][kColumnPoints];
+};
+
+// By what sixteen hits are told apart.
+struct HitNumbers {
+    const uint32_t *pixel_x, *pixel_y, *sample, *layer;
+};
+
 // Matrices are nine floats, column by column. `to` may be `a`.
 struct ColumnKernels {
     const char* name;
@@ -38,6 +66,22 @@ struct ColumnKernels {
     // The unit vectors of M times the mixtures of the corners' normals. Returns a bit for each
     // whose squared length is 0, infinite or NaN: its caller puts another in its place.
     uint32_t (*mix_normals)(const float* M, const CornerNormals& at, float* const to[3]);
+    // Finds `inv` and s, t from s, t at the corners. u, v are s, t where the triangle has an area
+    // there, else the barycentrics, which `inv` then leaves as they are.
+    void (*find_parameters)(OnTriangles& on, const CornerNumbers& s, const CornerNumbers& t,
+                            TwoRows& st, TwoRows& uv);
+    // The number between the corners, and its changes along u and v.
+    void (*mix)(const OnTriangles& on, const CornerNumbers& x, float* value, TwoRows& along);
+    // Changes along u and v of M times the place.
+    void (*tangents)(const float* M, const OnTriangles& on, const CornerPlaces& places,
+                     TripleRows& along_u, TripleRows& along_v);
+    // The larger change of u, and of v, along two displacements on the surface: least squares on
+    // the tangents, in double, since the fourth power of a length is no float in scenes of
+    // kilometres or micrometres.
+    void (*extents)(const TripleRows& dPdu, const TripleRows& dPdv, const TripleRows& dPdx,
+                    const TripleRows& dPdy, TwoRows& extents);
+    // The hits' random numbers (docs/decisions.md#random-numbers-without-state).
+    void (*random)(const HitNumbers& hits, uint32_t depth, uint32_t* to);
 };
 extern const ColumnKernels kPortableColumns;
 extern const ColumnKernels kAvx2Columns;

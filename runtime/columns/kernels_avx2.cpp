@@ -4,6 +4,7 @@
 namespace kinora {
 
 extern const ColumnKernels kAvx2Columns;
-const ColumnKernels kAvx2Columns = {"avx2", turn, turn_from, turn_between, mix_normals};
+const ColumnKernels kAvx2Columns = {"avx2",          turn, turn_from, turn_between, mix_normals,
+                                    find_parameters, mix,  tangents,  extents,      random};
 
 }  // namespace kinora

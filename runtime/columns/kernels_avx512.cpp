@@ -4,6 +4,7 @@
 namespace kinora {
 
 extern const ColumnKernels kAvx512Columns;
-const ColumnKernels kAvx512Columns = {"avx512", turn, turn_from, turn_between, mix_normals};
+const ColumnKernels kAvx512Columns = {"avx512",        turn, turn_from, turn_between, mix_normals,
+                                      find_parameters, mix,  tangents,  extents,      random};
 
 }  // namespace kinora

@@ -4,6 +4,7 @@
 namespace kinora {
 
 extern const ColumnKernels kPortableColumns;
-const ColumnKernels kPortableColumns = {"portable", turn, turn_from, turn_between, mix_normals};
+const ColumnKernels kPortableColumns = {"portable",      turn, turn_from, turn_between, mix_normals,
+                                        find_parameters, mix,  tangents,  extents,      random};
 
 }  // namespace kinora

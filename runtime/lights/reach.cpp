@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/lights/kernels.h"
+
 namespace kinora {
 
 namespace {
@@ -14,12 +16,13 @@ constexpr double kMargin = 1e-4;  // of angles and lengths: kernels compute in f
 }  // namespace
 
 Sphere sphere_about(const float* const P[3], size_t count) {
-    dvec3 low(LightReach::kEndless), high(-LightReach::kEndless);
-    for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < count; ++i) {
-            low[k] = std::min(low[k], double(P[k][i]));
-            high[k] = std::max(high[k], double(P[k][i]));
-        }
+    dvec3 low, high;
+    for (int k = 0; k < 3; ++k) {
+        float least, most;
+        light_kernels().bounds(P[k], count, least, most);
+        low[k] = least;
+        high[k] = most;
+    }
     return {0.5 * (low + high), 0.5 * glm::length(high - low)};
 }
 

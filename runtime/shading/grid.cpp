@@ -10,6 +10,7 @@
 
 #include "raytrace/hits.h"
 #include "runtime/columns/kernels.h"
+#include "runtime/columns/sixteen_points.h"
 #include "runtime/description/affine_map.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
@@ -59,27 +60,6 @@ struct Corner {
     }
 };
 
-struct Parameters {
-    float s, t, u, v;
-    AffineMap map;
-};
-
-Parameters parameters(const Corner& c) {
-    Parameters p{c.u, c.v, c.u, c.v, {}};
-    const VertexAttribute* st = c.surface.st;
-    if (!st || st->stride < 2) return p;
-    const float* a = c.attribute(*st, 0);
-    const float* b = c.attribute(*st, 1);
-    const float* d = c.attribute(*st, 2);
-    float du1 = b[0] - a[0], dv1 = b[1] - a[1], du2 = d[0] - a[0], dv2 = d[1] - a[1];
-    p.s = a[0] + c.u * du1 + c.v * du2;
-    p.t = a[1] + c.u * dv1 + c.v * dv2;
-    if (!solve(p.map, du1, dv1, du2, dv2)) return p;
-    p.u = p.s;
-    p.v = p.t;
-    return p;
-}
-
 // A number of a varying parameter at the three corners.
 void corner_values(const Corner& c, const VaryingParam& param, const VertexAttribute* attribute,
                    uint32_t component, float x[3]) {
@@ -102,29 +82,6 @@ float between(const Corner& c, const VaryingParam& param, const float x[3]) {
     return w >= c.u && w >= c.v ? x[0] : c.u >= c.v ? x[1] : x[2];
 }
 
-// The footprint in u, v of displacements on the surface: least squares on dPdu, dPdv. In double:
-// the fourth power of a length is no float in scenes of kilometres or micrometres.
-class Footprint {
-  public:
-    Footprint(dvec3 dPdu, dvec3 dPdv)
-        : dPdu_(dPdu),
-          dPdv_(dPdv),
-          a_(glm::dot(dPdu, dPdu)),
-          b_(glm::dot(dPdu, dPdv)),
-          c_(glm::dot(dPdv, dPdv)) {
-        double det = a_ * c_ - b_ * b_;
-        inverse_ = det > 0 ? 1 / det : 0;
-    }
-    vec2 of(dvec3 dP) const {
-        double x = glm::dot(dPdu_, dP), y = glm::dot(dPdv_, dP);
-        return vec2(float((c_ * x - b_ * y) * inverse_), float((a_ * y - b_ * x) * inverse_));
-    }
-
-  private:
-    dvec3 dPdu_, dPdv_;
-    double a_, b_, c_, inverse_;
-};
-
 // Whether it keeps angles, so that mixed normals need not be made unit first.
 bool keeps_angles(const mat3& m) {
     float x = glm::dot(m[0], m[0]), y = glm::dot(m[1], m[1]), z = glm::dot(m[2], m[2]);
@@ -139,45 +96,6 @@ vec3 unit_or_zero(vec3 v) {
     return square > 0 && square < std::numeric_limits<float>::infinity() ? v / std::sqrt(square)
                                                                          : vec3(0);
 }
-
-// Rows of one triple; a triple that is wanted in part has all three rows.
-struct Triple {
-    float* c[3] = {};
-    explicit operator bool() const { return c[0]; }
-    void set(size_t i, vec3 value) const {
-        c[0][i] = value.x;
-        c[1][i] = value.y;
-        c[2][i] = value.z;
-    }
-};
-
-// Up to sixteen points of a grid, whose hits often lie one behind the other.
-class SixteenPoints {
-  public:
-    SixteenPoints(std::span<const uint32_t> points, size_t first, size_t end)
-        : hit_(points.data() + first),
-          count_(std::min(kColumnPoints, end - first)),
-          dense_(count_ == kColumnPoints &&
-                 hit_[kColumnPoints - 1] - hit_[0] == kColumnPoints - 1 &&
-                 std::is_sorted(hit_, hit_ + kColumnPoints)) {}
-
-    size_t count() const { return count_; }
-    uint32_t hit(size_t i) const { return hit_[i < count_ ? i : 0]; }
-    // A column of hits at these points, in `room` where it is not there in one piece.
-    const float* at(const float* column, float (&room)[kColumnPoints]) const {
-        if (dense_) return column + hit_[0];
-        for (size_t i = 0; i < kColumnPoints; ++i) room[i] = column[hit(i)];
-        return room;
-    }
-    TripleColumns at(const float* const columns[3], float (&room)[3][kColumnPoints]) const {
-        return {{at(columns[0], room[0]), at(columns[1], room[1]), at(columns[2], room[2])}};
-    }
-
-  private:
-    const uint32_t* hit_;
-    size_t count_;
-    bool dense_;
-};
 
 // A grid's columns filled run by run: hits of one row share all but their point on the triangle.
 class HitSource : public PointSource {
@@ -219,13 +137,11 @@ class HitSource : public PointSource {
             if (I_ && volume_) segments(begin, end);
             if (N_) normals(begin, end);
             if (parameters_)
-                for (size_t i = begin; i < end; ++i) parameters_at(i);
+                for (size_t i = begin; i < end; i += kColumnPoints) sixteen_parameters(i, end);
             if (matrices_) matrices(begin, end);
             begin = end;
         }
-        if (float* rng = column(kColRng))
-            for (size_t i = 0; i < grid_.count(); ++i)
-                rng[i] = jit::float_of(int32_t(random_of(hits_, grid_.points[i])));
+        if (float* rng = column(kColRng)) random_numbers(rng);
     }
 
   private:
@@ -237,6 +153,17 @@ class HitSource : public PointSource {
         want_triple(grid_, first);
         for (size_t k = 0; k < 3; ++k) t.c[k] = column(first + k);
         return t;
+    }
+
+    void random_numbers(float* to) const {
+        for (size_t first = 0; first < grid_.count(); first += kColumnPoints) {
+            const SixteenPoints points(grid_.points, first, grid_.count());
+            uint32_t room[4][kColumnPoints], numbers[kColumnPoints];
+            kernels_.random({points.at(hits_.pixel_x, room[0]), points.at(hits_.pixel_y, room[1]),
+                             points.at(hits_.sample, room[2]), points.at(hits_.layer, room[3])},
+                            hits_.depth, numbers);
+            std::memcpy(to + first, numbers, points.count() * sizeof(float));
+        }
     }
 
     // What all hits of one row share.
@@ -355,34 +282,95 @@ class HitSource : public PointSource {
         N_.set(i, sound ? N / std::sqrt(square) : geometric_normal(i));
     }
 
-    void parameters_at(size_t i) const {
-        Corner c = corner(i);
-        Parameters p = parameters(c);
-        auto put = [&](size_t which, float value) {
-            if (float* row = column(which)) row[i] = value;
-        };
-        put(kColU, p.u);
-        put(kColV, p.v);
-        put(kColS, p.s);
-        put(kColT, p.t);
-        varying(i, c, p.map);
-        if (dNdu_ || dNdv_) normal_partials(i, c, p.map);
-        if (!partials_) return;
-        std::span<const vec4> x = shape_->rest_positions;
-        vec3 p0(x[c.position(0)]), p1(x[c.position(1)]), p2(x[c.position(2)]);
-        vec3 e1 = linear_ * (p1 - p0), e2 = linear_ * (p2 - p0);
-        vec3 dPdu = p.map.along_u(e1, e2), dPdv = p.map.along_v(e1, e2);
-        if (dPdu_) dPdu_.set(i, dPdu);
-        if (dPdv_) dPdv_.set(i, dPdv);
-        if (dIdu_) dIdu_.set(i, dPdu);
-        if (dIdv_) dIdv_.set(i, dPdv);
+    // Numbers of a block to the rows from `first` on, where somebody asked for them.
+    void put(size_t which, size_t first, size_t count, const float* numbers) const {
+        if (float* row = column(which)) std::copy_n(numbers, count, row + first);
+    }
+    void put(const Triple& triple, size_t first, size_t count, const TripleRows& numbers) const {
+        for (size_t k = 0; triple && k < 3; ++k)
+            std::copy_n(numbers.at[k], count, triple.c[k] + first);
+    }
+
+    void sixteen_parameters(size_t first, size_t end) const {
+        const SixteenPoints points(grid_.points, first, end);
+        const size_t count = points.count();
+        Block block;
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            const uint32_t hit = points.hit(i);
+            block.corner[i] = 3 * size_t(hits_.primitive[hit]);
+            block.on.u[i] = hits_.u[hit];
+            block.on.v[i] = hits_.v[hit];
+        }
+        TwoRows st, uv;
+        find_parameters(block, st, uv);
+        put(kColU, first, count, uv.at[0]);
+        put(kColV, first, count, uv.at[1]);
+        put(kColS, first, count, st.at[0]);
+        put(kColT, first, count, st.at[1]);
+        varying(block, first, count);
+        for (size_t i = 0; (dNdu_ || dNdv_) && i < count; ++i)
+            normal_partials(first + i, corner(first + i), block.map(i));
+        if (partials_) tangents(block, points, first);
+    }
+
+    // Sixteen points on triangles, and where the triangles' corners begin.
+    struct Block {
+        OnTriangles on;
+        size_t corner[kColumnPoints];
+        AffineMap map(size_t i) const {
+            return {{{on.inv[0][0][i], on.inv[0][1][i]}, {on.inv[1][0][i], on.inv[1][1][i]}}};
+        }
+    };
+
+    // Number `component` of an attribute at the corners.
+    static CornerNumbers of_attribute(const Block& block, const VertexAttribute& a,
+                                      uint32_t component) {
+        CornerNumbers x;
+        for (size_t i = 0; i < kColumnPoints; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                x.at[k][i] =
+                    a.values[size_t(a.corners[block.corner[i] + k]) * a.stride + component];
+        return x;
+    }
+    void find_parameters(Block& block, TwoRows& st, TwoRows& uv) const {
+        const VertexAttribute* a = surface_->st;
+        if (a && a->stride >= 2)
+            return kernels_.find_parameters(block.on, of_attribute(block, *a, 0),
+                                            of_attribute(block, *a, 1), st, uv);
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            st.at[0][i] = uv.at[0][i] = block.on.u[i];
+            st.at[1][i] = uv.at[1][i] = block.on.v[i];
+            block.on.inv[0][0][i] = block.on.inv[1][1][i] = 1;
+            block.on.inv[0][1][i] = block.on.inv[1][0][i] = 0;
+        }
+    }
+
+    void tangents(const Block& block, const SixteenPoints& points, size_t first) const {
+        const uint32_t* corners = mesh_->groups[surface_->group].triangles.data();
+        const vec4* places = shape_->rest_positions.data();
+        CornerPlaces at;
+        for (size_t i = 0; i < kColumnPoints; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                std::memcpy(at.at[k][i], &places[corners[block.corner[i] + k]], sizeof(vec4));
+        TripleRows dPdu, dPdv;
+        kernels_.tangents(&linear_[0][0], block.on, at, dPdu, dPdv);
+        put(dPdu_, first, points.count(), dPdu);
+        put(dPdv_, first, points.count(), dPdv);
+        put(dIdu_, first, points.count(), dPdu);
+        put(dIdv_, first, points.count(), dPdv);
         if (!footprint_) return;
-        uint32_t hit = grid_.points[i];
-        Footprint footprint{dvec3(dPdu), dvec3(dPdv)};
-        vec2 along_x = footprint.of(dvec3(rotation_ * triple(hits_.dPdx, hit)));
-        vec2 along_y = footprint.of(dvec3(rotation_ * triple(hits_.dPdy, hit)));
-        put(kColDu, std::max(std::abs(along_x.x), std::abs(along_y.x)));
-        put(kColDv, std::max(std::abs(along_x.y), std::abs(along_y.y)));
+        TwoRows extents;
+        kernels_.extents(dPdu, dPdv, turned(points, hits_.dPdx), turned(points, hits_.dPdy),
+                         extents);
+        put(kColDu, first, points.count(), extents.at[0]);
+        put(kColDv, first, points.count(), extents.at[1]);
+    }
+    TripleRows turned(const SixteenPoints& points, const float* const columns[3]) const {
+        float room[3][kColumnPoints];
+        TripleRows out;
+        float* const to[3] = {out.at[0], out.at[1], out.at[2]};
+        kernels_.turn(&rotation_[0][0], points.at(columns, room), to);
+        return out;
     }
 
     // Of the unit normal n = m / |m|: n_u = (m_u - n (n . m_u)) / |m|. On flat faces it is 0.
@@ -404,21 +392,44 @@ class HitSource : public PointSource {
         if (dNdv_) dNdv_.set(i, partial(map.along_v(n1 - n0, n2 - n0)));
     }
 
-    void varying(size_t i, const Corner& c, const AffineMap& map) const {
+    void varying(const Block& block, size_t first, size_t count) const {
         for (size_t k = 0; k < grid_.look->varying.size(); ++k) {
             const VaryingParam& param = grid_.look->varying[k];
             if (param.column == kNoColumn) continue;  // no kernel reads it
             for (uint32_t j = 0; j < param.components; ++j) {
-                float x[3];
-                corner_values(c, param, surface_->varying[k], j, x);
-                float d1 = x[1] - x[0], d2 = x[2] - x[0];
-                auto put = [&](uint32_t which, float value) {
-                    if (float* row = column(param.column + which)) row[i] = value;
-                };
-                put(j, between(c, param, x));
-                put(param.components + j, map.along_u(d1, d2));
-                put(2 * param.components + j, map.along_v(d1, d2));
+                const size_t which = param.column + j, n = param.components;
+                if (!column(which) && !column(which + n) && !column(which + 2 * n)) continue;
+                const CornerNumbers x = corner_numbers(block, param, surface_->varying[k], j);
+                float value[kColumnPoints];
+                TwoRows along;
+                kernels_.mix(block.on, x, value, along);
+                if (param.text) nearest(first, count, param, x, value);
+                put(which, first, count, value);
+                put(which + n, first, count, along.at[0]);
+                put(which + 2 * n, first, count, along.at[1]);
             }
+        }
+    }
+    CornerNumbers corner_numbers(const Block& block, const VaryingParam& param,
+                                 const VertexAttribute* attribute, uint32_t component) const {
+        if (attribute)
+            return of_attribute(block, *attribute,
+                                std::min(param.component + component, attribute->stride - 1));
+        if (param.semantic != "Pref") return {};
+        const uint32_t* corners = mesh_->groups[surface_->group].triangles.data();
+        const int axis = int(component);
+        const float anchor = float(mesh_->anchor[axis]);
+        CornerNumbers x;
+        for (size_t i = 0; i < kColumnPoints; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                x.at[k][i] = mesh_->positions[corners[block.corner[i] + k]][axis] + anchor;
+        return x;
+    }
+    void nearest(size_t first, size_t count, const VaryingParam& param,
+                 const CornerNumbers& numbers, float* value) const {
+        for (size_t i = 0; i < count; ++i) {
+            const float x[3] = {numbers.at[0][i], numbers.at[1][i], numbers.at[2][i]};
+            value[i] = between(corner(first + i), param, x);
         }
     }
 

@@ -68,6 +68,22 @@ class CodeTools(ProgramTest):
             self.skipTest("this CPU runs the interpreter only")
         return targets[0]
 
+    def test_a_broken_capstone_is_told_and_other_stages_need_none(self):
+        target = self.compiled_target()
+        listing = subprocess.run(["ldconfig", "-p"], capture_output=True, text=True,
+                                 env={**os.environ, "PATH": os.environ["PATH"] + ":/sbin"})
+        names = re.findall(r"^\s*(libcapstone\.so\.\d+) ", listing.stdout, re.M)
+        self.assertTrue(names, listing)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in names:
+                Path(folder, name).write_text("this is no library\n" * 100)
+            broken = {**os.environ, "LD_LIBRARY_PATH": folder}
+            result = shade("dump", "--stage", "asm", "--target", target, MATTE, env=broken)
+            self.expect(result, 5)
+            self.assertRegex(result.err, r"libcapstone\.so\.\d+, which cannot be loaded \(.+\)")
+            self.expect(shade("dump", "--stage", "ir", "--target", target, MATTE, env=broken), 0,
+                        "; stage ir")
+
     def test_assembly_stands_beside_source_lines(self):
         """Each line that is in the listing is a line of the file, as it stands there."""
         lines = MATTE.read_text().splitlines()

@@ -32,6 +32,11 @@ class Linkage(unittest.TestCase):
         for wanted in ("libembree", "libtbb", "libOpenEXR"):
             self.assertIn(wanted, names)
 
+    def test_capstone_is_loaded_on_demand(self):  # its tables cost more than the rest of a start
+        for file in PROGRAMS:
+            with self.subTest(file.name):
+                self.assertEqual([n for n in libraries(file) if n.startswith("libcapstone")], [])
+
     def test_nothing_links_llvm(self):
         self.assertTrue(MODULES)
         for file in (*PROGRAMS, *MODULES):

@@ -3,9 +3,12 @@
 #include "runtime/programs/shade/disassembly.h"
 
 #include <capstone/capstone.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace kinora {
 
@@ -20,26 +23,66 @@ constexpr Machine kMachines[] = {{"avx2", CS_ARCH_X86, CS_MODE_64},
                                  {"avx512", CS_ARCH_X86, CS_MODE_64},
                                  {"neon", CS_ARCH_ARM64, CS_MODE_LITTLE_ENDIAN}};
 
+// Capstone's functions, or why there are none. It is loaded on demand: its tables are two thirds of
+// what the dynamic linker relocates at a start of this program.
+struct Capstone {
+    decltype(&cs_open) open = nullptr;
+    decltype(&cs_option) option = nullptr;
+    decltype(&cs_disasm) disassemble = nullptr;
+    decltype(&cs_free) free = nullptr;
+    decltype(&cs_close) close = nullptr;
+    std::string error;
+};
+
+Capstone load_capstone() {
+    Capstone capstone;
+    const std::string name = fmt::format("libcapstone.so.{}", CS_API_MAJOR);
+    void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+    bool found = library != nullptr;
+    auto find = [&](auto& function, const char* symbol) {
+        if (!found) return;
+        function = reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, symbol));
+        found = function != nullptr;
+    };
+    find(capstone.open, "cs_open");
+    find(capstone.option, "cs_option");
+    find(capstone.disassemble, "cs_disasm");
+    find(capstone.free, "cs_free");
+    find(capstone.close, "cs_close");
+    if (found) return capstone;
+    const char* why = dlerror();
+    capstone.error = fmt::format(
+        "machine code is listed by {}, which cannot be loaded ({}); install "
+        "it, or dump another stage",
+        name, why ? why : "it lacks a function");
+    return capstone;
+}
+
+const Capstone& capstone() {
+    static const Capstone loaded = load_capstone();
+    return loaded;
+}
+
 class Disassembler {
   public:
     explicit Disassembler(const Machine& machine) {
-        open_ = cs_open(machine.arch, machine.mode, &handle_) == CS_ERR_OK;
-        if (open_) cs_option(handle_, CS_OPT_SKIPDATA, CS_OPT_ON);  // what it does not know
+        open_ = capstone().open(machine.arch, machine.mode, &handle_) == CS_ERR_OK;
+        if (open_) capstone().option(handle_, CS_OPT_SKIPDATA, CS_OPT_ON);  // what it does not know
     }
     ~Disassembler() {
-        if (open_) cs_close(&handle_);
+        if (open_) capstone().close(&handle_);
     }
     Disassembler(const Disassembler&) = delete;
     Disassembler& operator=(const Disassembler&) = delete;
 
     void append(std::span<const std::byte> code, size_t offset, std::string& text) const {
         cs_insn* list = nullptr;
-        size_t count = cs_disasm(handle_, reinterpret_cast<const uint8_t*>(code.data()),
-                                 code.size(), offset, 0, &list);
+        size_t count = capstone().disassemble(
+            handle_, reinterpret_cast<const uint8_t*>(code.data()), code.size(), offset, 0, &list);
         for (size_t k = 0; k < count; ++k)
             fmt::format_to(std::back_inserter(text), "  {:04x}  {} {}\n", list[k].address,
                            list[k].mnemonic, list[k].op_str);
-        if (count > 0) cs_free(list, count);
+        if (count > 0) capstone().free(list, count);
     }
     bool is_open() const { return open_; }
 
@@ -62,11 +105,13 @@ std::string heading(const Location& where, const SourceFiles& files) {
 
 }  // namespace
 
-std::string disassembly(const jit::Kernel& kernel, const SourceFiles& files) {
+std::string disassembly(const jit::Kernel& kernel, const SourceFiles& files, std::string& error) {
     const Machine* machine = nullptr;
     for (const Machine& row : kMachines)
         if (row.target == kernel.target) machine = &row;
     if (machine == nullptr || kernel.lines.empty()) return "";
+    error = capstone().error;
+    if (!error.empty()) return "";
     Disassembler disassembler(*machine);
     if (!disassembler.is_open()) return "";
     std::string text, last;

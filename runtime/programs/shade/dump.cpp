@@ -1,4 +1,5 @@
 // runtime/programs/shade/dump.cpp: what each stage of the compiler makes of a source.
+#include <algorithm>
 #include <cstdio>
 #include <string_view>
 
@@ -32,26 +33,49 @@ constexpr FrontStage kFrontStages[] = {{"tokens", tokens}, {"ast", ast}, {"types
 constexpr const char* kStageHelp =
     "kinora-shade: no stage '%s'; stages are tokens, ast, types, ir, ir:PASS and asm";
 
+using Dumps = std::vector<std::pair<std::string, std::string>>;  // a stage and its text
+
+bool is_of(const std::string& name, const std::string& stage) {
+    return name == stage || (stage == "asm" && name.starts_with("asm"));
+}
+
+// Puts listings of machine code where they are wanted; the interpreter's is its IR. False, with a
+// message, where there can be none.
+bool list_machine_code(const jit::KernelPair& pair, const std::vector<std::string>& wanted,
+                       const SourceFiles& files, Dumps& dumps) {
+    for (auto& [name, text] : dumps) {
+        const auto& kernel = name == "asm:frame" ? pair.frame : pair.point;
+        const bool has_code = name.starts_with("asm") && !kernel->machine_code.empty();
+        const std::string& stage = name;
+        if (!has_code || std::none_of(wanted.begin(), wanted.end(),
+                                      [&](const std::string& w) { return is_of(stage, w); }))
+            continue;
+        std::string error;
+        text = disassembly(*kernel, files, error);
+        if (error.empty()) continue;
+        std::fprintf(stderr, "kinora-shade: %s\n", error.c_str());
+        return false;
+    }
+    return true;
+}
+
 // IR and machine code: `wanted` is "asm", "ir" (as lowered) or "ir:PASS".
 int dump_code(const ShadeOptions& options, const std::vector<std::string>& wanted) {
     ShadeSource source;
     Patch patch(1, 1, false);
     ShadeStack stack;
     if (std::optional<int> code = open_stack(options, source, patch, stack)) return *code;
-    std::vector<std::pair<std::string, std::string>> dumps;
+    Dumps dumps;
     ShadeKernel code;
     bool compiled = code.compile(stack, options.target, source.diagnostics, &dumps);
     source.print_findings(options);
     if (!compiled) return kExitShader;
-    for (auto& [name, text] : dumps) {  // the interpreter's listing is its IR
-        const auto& kernel = name == "asm:frame" ? code.pair().frame : code.pair().point;
-        if (name.starts_with("asm") && !kernel->machine_code.empty())
-            text = disassembly(*kernel, source.diagnostics.files);
-    }
+    if (!list_machine_code(code.pair(), wanted, source.diagnostics.files, dumps))
+        return kExitMissingAsset;
     for (const std::string& stage : wanted) {
         bool any = false;
         for (const auto& [name, text] : dumps)
-            if (name == stage || (stage == "asm" && name.starts_with("asm"))) {
+            if (is_of(name, stage)) {
                 std::printf("; stage %s\n%s\n", name.c_str(), text.c_str());
                 any = true;
             }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <random>
 
 #include "runtime/base/math.h"
+#include "runtime/description/affine_map.h"
 
 namespace kinora::test {
 namespace {
@@ -142,6 +144,118 @@ TEST_P(EachColumnKernel, MixesTwoAxesByHand) {
         EXPECT_EQ(out[i].y, 0);
         EXPECT_FLOAT_EQ(out[i].z, 0.70710678f);
     }
+}
+
+// The definition, a number at a time; layers from 64 on lie in the upper half.
+TEST_P(EachColumnKernel, HashesAsTheDefinitionSays) {
+    std::mt19937 engine(11);
+    for (uint32_t depth : {0u, 1u, 7u}) {
+        uint32_t x[kColumnPoints], y[kColumnPoints], sample[kColumnPoints], layer[kColumnPoints];
+        uint32_t found[kColumnPoints];
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            x[i] = engine() % 4096, y[i] = engine() % 4096;
+            sample[i] = uint32_t(engine()), layer[i] = engine() % 256;
+        }
+        kernels().random({x, y, sample, layer}, depth, found);
+        auto mixed = [](uint32_t n) {
+            n = (n ^ n >> 16) * 0x7feb352du;
+            n = (n ^ n >> 15) * 0x846ca68bu;
+            return n ^ n >> 16;
+        };
+        auto both = [&](uint32_t a, uint32_t b) { return mixed(a ^ (mixed(b) + 0x9e3779b9u)); };
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            const uint32_t low = layer[i] & 63, high = layer[i] >> 6;
+            const uint32_t passed = low + 64 * depth + 65536 * high;
+            EXPECT_EQ(found[i], both(both(both(x[i], y[i]), sample[i]), passed)) << depth;
+        }
+    }
+}
+
+// ---- places on triangles ------------------------------------------------------------------------
+
+// Random points; every third triangle has no area in s, t.
+struct Triangles {
+    OnTriangles on{};
+    CornerNumbers s{}, t{}, x{};
+    CornerPlaces places{};
+    explicit Triangles(Random& random) {
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            on.u[i] = random.share(), on.v[i] = random.share();
+            for (int k = 0; k < 3; ++k) {
+                s.at[k][i] = random.number(), t.at[k][i] = random.number();
+                x.at[k][i] = random.number();
+                for (float& p : places.at[k][i]) p = random.number();
+                if (i % 3 == 0) t.at[k][i] = 0.5f * s.at[k][i];
+            }
+        }
+    }
+    vec3 place(int k, size_t i) const {
+        return {places.at[k][i][0], places.at[k][i][1], places.at[k][i][2]};
+    }
+};
+
+TEST_P(EachColumnKernel, SolvesAsTheAffineMapDoes) {
+    Random random;
+    size_t flat = 0;
+    for (int run = 0; run < 500; ++run) {
+        Triangles at(random);
+        TwoRows st, uv, along;
+        float value[kColumnPoints];
+        const mat3 m = random.matrix();
+        TripleRows dPdu, dPdv;
+        kernels().find_parameters(at.on, at.s, at.t, st, uv);
+        kernels().mix(at.on, at.x, value, along);
+        kernels().tangents(&m[0][0], at.on, at.places, dPdu, dPdv);
+        for (size_t i = 0; i < kColumnPoints; ++i) {
+            const float u = at.on.u[i], v = at.on.v[i];
+            auto change = [&](const CornerNumbers& c, int k) { return c.at[k][i] - c.at[0][i]; };
+            auto between = [&](const CornerNumbers& c) {
+                return c.at[0][i] + u * change(c, 1) + v * change(c, 2);
+            };
+            AffineMap map;
+            const bool area =
+                solve(map, change(at.s, 1), change(at.t, 1), change(at.s, 2), change(at.t, 2));
+            flat += !area;
+            EXPECT_TRUE(same(st.at[0][i], between(at.s)) && same(st.at[1][i], between(at.t)));
+            EXPECT_TRUE(same(uv.at[0][i], area ? between(at.s) : u));
+            EXPECT_TRUE(same(uv.at[1][i], area ? between(at.t) : v));
+            EXPECT_TRUE(same(value[i], between(at.x)));
+            const float d1 = change(at.x, 1), d2 = change(at.x, 2);
+            EXPECT_TRUE(same(along.at[0][i], map.along_u(d1, d2)));
+            EXPECT_TRUE(same(along.at[1][i], map.along_v(d1, d2)));
+            const vec3 e1 = m * (at.place(1, i) - at.place(0, i)),
+                       e2 = m * (at.place(2, i) - at.place(0, i));
+            expect_same({dPdu.at[0][i], dPdu.at[1][i], dPdu.at[2][i]}, map.along_u(e1, e2), i);
+            expect_same({dPdv.at[0][i], dPdv.at[1][i], dPdv.at[2][i]}, map.along_v(e1, e2), i);
+        }
+    }
+    EXPECT_GT(flat, 2000u);
+}
+
+// A step of a dPdu + b dPdv changes u by a and v by b; the larger of two steps counts.
+TEST_P(EachColumnKernel, FindsHowFarStepsGo) {
+    Random random;
+    TripleRows dPdu, dPdv, dPdx, dPdy;
+    float steps[2][2][kColumnPoints];
+    for (size_t i = 0; i < kColumnPoints; ++i) {
+        const vec3 du(2, random.share(), 0), dv(random.share(), 3, 1);
+        for (auto& step : steps)
+            for (auto& amount : step) amount[i] = 4 * random.share() - 2;
+        for (int c = 0; c < 3; ++c) {
+            dPdu.at[c][i] = du[c];
+            dPdv.at[c][i] = dv[c];
+            dPdx.at[c][i] = steps[0][0][i] * du[c] + steps[0][1][i] * dv[c];
+            dPdy.at[c][i] = steps[1][0][i] * du[c] + steps[1][1][i] * dv[c];
+        }
+    }
+    for (int c = 0; c < 3; ++c) dPdv.at[c][5] = dPdu.at[c][5];  // no area: no answer but 0
+    TwoRows extents;
+    kernels().extents(dPdu, dPdv, dPdx, dPdy, extents);
+    for (size_t i = 0; i < kColumnPoints; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const float most = std::max(std::abs(steps[0][k][i]), std::abs(steps[1][k][i]));
+            EXPECT_NEAR(extents.at[k][i], i == 5 ? 0 : most, 1e-5f);
+        }
 }
 
 }  // namespace
