@@ -95,6 +95,12 @@ int samples_for_error(std::span<const NoiseLevel> levels, double error, TargetMe
                          kFewestSamples);
 }
 
+double error_of_samples(std::span<const NoiseLevel> levels, int samples, TargetMetric metric) {
+    if (levels.empty()) return 0;
+    const NoiseLevel& last = levels.back();
+    return noise_error(last, metric) * std::pow(double(last.samples) / samples, fall_of(levels));
+}
+
 int next_noise_level(std::span<const NoiseLevel> levels, double error, TargetMetric metric) {
     if (levels.empty()) return kFewestSamples;
     const int wanted = samples_for_error(levels, error, metric), last = levels.back().samples;
