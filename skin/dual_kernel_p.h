@@ -66,9 +66,6 @@ class DualKernel {
     using Ints = typename V::Ints;
     using Quats = Quat<Floats>;
 
-    // One number of each joint: of kLanes vertices.
-    using JointRows = float[kJointFloats][kLanes];
-
     struct Matrix {
         Floats column[3][3];  // of the linear part
         Floats translation[3];
@@ -80,13 +77,70 @@ class DualKernel {
         return v;
     }
 
+    typedef float Float4 __attribute__((vector_size(16)));
+
+    static KINORA_DUAL_INLINE Float4 load4(const float* p) {
+        Float4 v;
+        std::memcpy(&v, p, sizeof v);
+        return v;
+    }
+
+    // Four floats each of vertices first, first + 4, first + 8 ...
+    template <class At>
+    static KINORA_DUAL_INLINE Floats quads(const At& at, int first) {
+        if constexpr (kLanes == 4) {
+            return load4(at(first));
+        } else if constexpr (kLanes == 8) {
+            return __builtin_shufflevector(load4(at(first)), load4(at(first + 4)), 0, 1, 2, 3, 4, 5,
+                                           6, 7);
+        } else {
+            const auto low = __builtin_shufflevector(load4(at(first)), load4(at(first + 4)), 0, 1,
+                                                     2, 3, 4, 5, 6, 7);
+            const auto high = __builtin_shufflevector(load4(at(first + 8)), load4(at(first + 12)),
+                                                      0, 1, 2, 3, 4, 5, 6, 7);
+            return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
+                                           14, 15);
+        }
+    }
+
+    // Of each four floats of a and of b: those of the indices, 4 and more of b.
+    template <int i, int j, int k, int l>
+    static KINORA_DUAL_INLINE Floats pick(const Floats& a, const Floats& b) {
+        constexpr int kFirstOfB = kLanes - 4;
+#define KINORA_OF(part, index) (4 * (part) + ((index) < 4 ? (index) : (index) + kFirstOfB))
+#define KINORA_PART(part) \
+    KINORA_OF(part, i), KINORA_OF(part, j), KINORA_OF(part, k), KINORA_OF(part, l)
+        if constexpr (kLanes == 4) {
+            return __builtin_shufflevector(a, b, KINORA_PART(0));
+        } else if constexpr (kLanes == 8) {
+            return __builtin_shufflevector(a, b, KINORA_PART(0), KINORA_PART(1));
+        } else {
+            return __builtin_shufflevector(a, b, KINORA_PART(0), KINORA_PART(1), KINORA_PART(2),
+                                           KINORA_PART(3));
+        }
+#undef KINORA_PART
+#undef KINORA_OF
+    }
+
+    // Rows of four floats a vertex to a row for each of the four; and back, as it is its own
+    // inverse.
+    static KINORA_DUAL_INLINE void transpose(Floats r[4]) {
+        const Floats low01 = pick<0, 4, 1, 5>(r[0], r[1]), high01 = pick<2, 6, 3, 7>(r[0], r[1]);
+        const Floats low23 = pick<0, 4, 1, 5>(r[2], r[3]), high23 = pick<2, 6, 3, 7>(r[2], r[3]);
+        r[0] = pick<0, 1, 4, 5>(low01, low23);
+        r[1] = pick<2, 3, 6, 7>(low01, low23);
+        r[2] = pick<0, 1, 4, 5>(high01, high23);
+        r[3] = pick<2, 3, 6, 7>(high01, high23);
+    }
+
     static KINORA_DUAL_INLINE Floats sides(const Quats& first, const Quats& q) {
         const Floats cosine = dot4(first, q);
         const Ints clear = (cosine > kHalfTurn) | (cosine < -kHalfTurn);
         Floats side = cosine < 0.0f ? -1.0f - Floats{} : 1.0f - Floats{};
-        int32_t all = -1;
-        for (int l = 0; l < kLanes; ++l) all &= clear[l];
-        if (all) [[likely]]
+        uint64_t pairs[kLanes / 2], all = ~uint64_t(0);
+        std::memcpy(pairs, &clear, sizeof clear);
+        for (uint64_t pair : pairs) all &= pair;
+        if (all == ~uint64_t(0)) [[likely]]
             return side;
         for (int l = 0; l < kLanes; ++l)
             if (!clear[l])
@@ -120,20 +174,30 @@ class DualKernel {
         return m;
     }
 
-    // The joints of influence `round` of vertices vertex, vertex + 1, ...; their weights.
+    // The 16 numbers of the joints of influence `round` of vertices vertex, vertex + 1, ...; their
+    // weights.
     static KINORA_DUAL_INLINE Floats gather(const float* palette, const float* weights,
                                             const uint32_t* offsets, uint32_t rounds,
-                                            uint32_t round, uint32_t vertex, JointRows& rows) {
+                                            uint32_t round, uint32_t vertex,
+                                            Floats (&rows)[kJointFloats]) {
         const uint32_t set = round / 4 * 4;
         const uint32_t width = rounds - set < 4 ? rounds - set : 4;
-        Floats weight;
+        const uint32_t first = set * kDualBlock + vertex * width + (round - set);
+        float weight[kLanes];
+        const float* joints[kLanes];
+#pragma GCC unroll 16
         for (uint32_t l = 0; l < uint32_t(kLanes); ++l) {
-            const uint32_t entry = set * kDualBlock + (vertex + l) * width + (round - set);
-            const float* joint = palette + offsets[entry];
-            weight[int(l)] = weights[entry];
-            for (uint32_t k = 0; k < kJointFloats; ++k) rows[k][l] = joint[k];
+            weight[l] = weights[first + l * width];
+            joints[l] = palette + offsets[first + l * width];
         }
-        return weight;
+#pragma GCC unroll 4
+        for (int quad = 0; quad < 4; ++quad) {
+#pragma GCC unroll 4
+            for (int l = 0; l < 4; ++l)
+                rows[4 * quad + l] = quads([&](int v) { return joints[v] + 4 * quad; }, l);
+            transpose(rows + 4 * quad);
+        }
+        return load(weight);
     }
 
     static KINORA_DUAL_INLINE Matrix blended(const float* palette, const float* weights,
@@ -142,9 +206,9 @@ class DualKernel {
         Quats q{}, dual{}, first{};
         Floats stretch[9] = {};
         for (uint32_t r = 0; r < rounds; ++r) {
-            alignas(64) JointRows rows;
+            Floats rows[kJointFloats];
             const Floats weight = gather(palette, weights, offsets, rounds, r, vertex, rows);
-            const Quats rotation{load(rows[0]), load(rows[1]), load(rows[2]), load(rows[3])};
+            const Quats rotation{rows[0], rows[1], rows[2], rows[3]};
             if (r == 0) first = rotation;
             const Ints counts = weight != 0.0f;  // others are padding
             const Floats signed_weight = weight * sides(first, rotation);
@@ -152,14 +216,14 @@ class DualKernel {
             add(q.x, counts, signed_weight * rotation.x);
             add(q.y, counts, signed_weight * rotation.y);
             add(q.z, counts, signed_weight * rotation.z);
-            const Quats t =
-                times(Quats{Floats{}, load(rows[4]), load(rows[5]), load(rows[6])}, rotation);
+            const Quats t = times(Quats{Floats{}, rows[4], rows[5], rows[6]}, rotation);
             const Floats half = 0.5f * signed_weight;
             add(dual.w, counts, half * t.w);
             add(dual.x, counts, half * t.x);
             add(dual.y, counts, half * t.y);
             add(dual.z, counts, half * t.z);
-            for (int i = 0; i < 9; ++i) add(stretch[i], counts, weight * load(rows[7 + i]));
+#pragma GCC unroll 9
+            for (int i = 0; i < 9; ++i) add(stretch[i], counts, weight * rows[7 + i]);
         }
         const Ints good = dot4(q, q) > 1e-12f;  // not so: negative weights that cancel
         q.w = good ? q.w : first.w;
@@ -169,27 +233,30 @@ class DualKernel {
         return matrix_of(q, dual, stretch);
     }
 
-    // kLanes vertices of four floats to three rows, and back with w 0.
-    static KINORA_DUAL_INLINE void read_rows(const float* from, float (&rows)[3][kLanes]) {
-        for (int l = 0; l < kLanes; ++l)
-            for (int k = 0; k < 3; ++k) rows[k][l] = from[4 * l + k];
+    // kLanes vertices of four floats as four rows, and back.
+    static KINORA_DUAL_INLINE void read_rows(const float* from, Floats (&rows)[4]) {
+#pragma GCC unroll 4
+        for (int l = 0; l < 4; ++l) rows[l] = quads([&](int v) { return from + 4 * v; }, l);
+        transpose(rows);
     }
-    static KINORA_DUAL_INLINE void write_rows(const float (&rows)[3][kLanes], float* to) {
-        for (int l = 0; l < kLanes; ++l) {
-            for (int k = 0; k < 3; ++k) to[4 * l + k] = rows[k][l];
-            to[4 * l + 3] = 0;
-        }
+    static KINORA_DUAL_INLINE void write_rows(Floats (&rows)[4], float* to) {
+        transpose(rows);
+#pragma GCC unroll 4
+        for (int l = 0; l < 4; ++l)
+#pragma GCC unroll 4
+            for (int part = 0; part < kLanes / 4; ++part)
+                std::memcpy(to + 4 * (l + 4 * part),
+                            reinterpret_cast<const char*>(&rows[l]) + 16 * part, 16);
     }
 
     static KINORA_DUAL_INLINE void move(const Matrix& m, const float* rest, float* out) {
-        alignas(64) float rows[3][kLanes], moved[3][kLanes];
-        read_rows(rest, rows);
-        const Floats x = load(rows[0]), y = load(rows[1]), z = load(rows[2]);
-        for (int k = 0; k < 3; ++k) {
-            const Floats p =
-                m.column[0][k] * x + m.column[1][k] * y + m.column[2][k] * z + m.translation[k];
-            std::memcpy(moved[k], &p, sizeof p);
-        }
+        Floats p[4], moved[4];
+        read_rows(rest, p);
+#pragma GCC unroll 3
+        for (int k = 0; k < 3; ++k)
+            moved[k] = m.column[0][k] * p[0] + m.column[1][k] * p[1] + m.column[2][k] * p[2] +
+                       m.translation[k];
+        moved[3] = Floats{};
         write_rows(moved, out);
     }
 
@@ -210,8 +277,8 @@ class DualKernel {
     // sign(det) cofactor(M) n, unit; 0 where it vanishes. In double: cofactors leave float's range
     // before their direction is lost.
     static KINORA_DUAL_INLINE void turn_half(const float (&columns)[9][kLanes],
-                                             const float (&rest)[3][kLanes], int at,
-                                             float (&turned)[3][kLanes]) {
+                                             const float (&rest)[4][kLanes], int at,
+                                             float (&turned)[4][kLanes]) {
         Doubles a[3], b[3], c[3], bc[3], ca[3], ab[3], sum[3];
         for (int k = 0; k < 3; ++k) {
             a[k] = widened(columns[k] + at);
@@ -225,7 +292,10 @@ class DualKernel {
                       z = widened(rest[2] + at);
         for (int k = 0; k < 3; ++k) sum[k] = bc[k] * x + ca[k] * y + ab[k] * z;
         Doubles length = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
-        for (int l = 0; l < V::kHalf; ++l) length[l] = __builtin_sqrt(length[l]);
+        double roots[V::kHalf];
+        std::memcpy(roots, &length, sizeof length);
+        for (double& root : roots) root = __builtin_sqrt(root);
+        std::memcpy(&length, roots, sizeof length);
         const Doubles det = bc[0] * a[0] + bc[1] * a[1] + bc[2] * a[2];
         const Longs sign = Longs{} + INT64_MIN;
         const Doubles scale = (Doubles)(((Longs)(1.0 / length) & ~sign) | ((Longs)det & sign));
@@ -238,14 +308,18 @@ class DualKernel {
     }
 
     static KINORA_DUAL_INLINE void turn(const Matrix& m, const float* rest, float* out) {
-        alignas(64) float rows[3][kLanes], columns[9][kLanes], turned[3][kLanes];
-        read_rows(rest, rows);
+        alignas(64) float rows[4][kLanes], columns[9][kLanes], turned[4][kLanes] = {};
+        Floats n[4];
+        read_rows(rest, n);
+        std::memcpy(rows, n, sizeof rows);
         for (int c = 0; c < 3; ++c)
             for (int k = 0; k < 3; ++k)
                 std::memcpy(columns[3 * c + k], &m.column[c][k], sizeof(Floats));
         turn_half(columns, rows, 0, turned);
         turn_half(columns, rows, V::kHalf, turned);
-        write_rows(turned, out);
+        std::memcpy(n, turned, sizeof n);
+        n[3] = Floats{};
+        write_rows(n, out);
     }
 
   public:
