@@ -1,6 +1,8 @@
 // runtime/programs/shade/tradeoff.cpp: what each target, math tier and use of derivatives of a
 // shader costs, and how far its outputs are from the reference evaluator in double precision.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -9,7 +11,6 @@
 #include "runtime/base/stats.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/compare.h"
-#include "runtime/programs/shade/ulp_errors.h"
 #include "runtime/trade/front.h"
 
 namespace kinora {
@@ -17,6 +18,51 @@ namespace kinora {
 namespace {
 
 constexpr int kTimes = 11;  // of each setting, one after the other, so that ratios hold
+
+constexpr int kFractionBits = 23, kLeastExponent = -149;
+constexpr double kBeyondFloats = 0x1.ffffffp127;  // halfway from the largest float to 2^128
+
+// The distance of the floats around `exact`; of those below the smallest normal one, 2^-149.
+double ulp_of(double exact) {
+    if (exact == 0) return std::ldexp(1.0, kLeastExponent);
+    return std::ldexp(1.0, std::max(std::ilogb(exact) - kFractionBits, kLeastExponent));
+}
+
+// How far floats are from exact values, in units of the last place.
+class OutputErrors {
+  public:
+    // The bins of the histogram hold errors up to these; the last holds the rest.
+    static constexpr std::array<double, 7> kEdges = {0, 0.5, 1, 2, 4, 16, 256};
+
+    void add(float got, double exact);
+
+    size_t count() const { return count_; }  // of values that are finite where they should be
+    double max() const { return max_; }
+    double mean() const { return count_ ? sum_ / double(count_) : 0; }
+    size_t special() const { return special_; }  // NaN or infinity on one side alone
+    const std::array<size_t, kEdges.size() + 1>& histogram() const { return histogram_; }
+
+  private:
+    size_t count_ = 0, special_ = 0;
+    double max_ = 0, sum_ = 0;
+    std::array<size_t, kEdges.size() + 1> histogram_{};
+};
+
+void OutputErrors::add(float got, double exact) {
+    const bool is_nan = std::isnan(exact), is_inf = std::fabs(exact) >= kBeyondFloats;
+    if (is_nan || is_inf || !std::isfinite(got)) {
+        const bool same = is_nan   ? std::isnan(got)
+                          : is_inf ? std::isinf(got) && std::signbit(got) == std::signbit(exact)
+                                   : false;
+        if (!same) ++special_;
+        return;
+    }
+    const double error = std::fabs(double(got) - exact) / ulp_of(exact);
+    ++count_;
+    sum_ += error;
+    max_ = std::max(max_, error);
+    ++histogram_[size_t(std::ranges::lower_bound(kEdges, error) - kEdges.begin())];
+}
 
 struct Setting {
     const jit::Target* target;
