@@ -15,8 +15,11 @@ constexpr double kMostSamples = 1 << 20;  // as --spp
 constexpr double kKept = 0.9;             // of the debt, from frame to frame
 constexpr double kPaidBack = 0.3;         // of the debt, by the next frame
 constexpr int kSecondLevel = 4 * kFewestSamples;
-constexpr double kSlowestFall = 0.25, kUsualFall = 0.5, kFastestFall = 1;
-constexpr int kLevelsPerFrame = 8;  // a level has an eighth of a frame's samples
+// Of errors with samples. Few well-spread samples fall faster than the many that follow.
+constexpr double kSlowestFall = 0.25, kFastestFall = 0.5;
+constexpr int kFurthest = 6;        // times the samples of the last level: an estimate still holds
+constexpr int kLevelsPerFrame = 5;  // a level has a fifth of a frame's samples
+constexpr int kLongestStep = 16;    // from one level to the next
 constexpr const char* kMetricNames[] = {"flip", "rmse"};
 
 int whole_samples(double samples, double least) {
@@ -25,9 +28,9 @@ int whole_samples(double samples, double least) {
 
 // The exponent s of error ~ samples^-s.
 double fall_of(std::span<const NoiseLevel> levels) {
-    if (levels.size() < 2) return kUsualFall;
+    if (levels.size() < 2) return kFastestFall;
     const NoiseLevel &a = levels[levels.size() - 2], &b = levels.back();
-    if (!(a.difference > 0 && b.difference > 0)) return kUsualFall;
+    if (!(a.difference > 0 && b.difference > 0)) return kFastestFall;
     double fall = std::log(a.difference / b.difference) / std::log(double(b.samples) / a.samples);
     return std::clamp(fall, kSlowestFall, kFastestFall);
 }
@@ -106,8 +109,8 @@ int next_noise_level(std::span<const NoiseLevel> levels, double error, TargetMet
     const int wanted = samples_for_error(levels, error, metric), last = levels.back().samples;
     if (wanted <= last) return 0;
     if (levels.size() == 1) return kSecondLevel;
-    const int level = wanted / kLevelsPerFrame;
-    return level >= 2 * last ? std::min(level, 8 * last) : 0;
+    if (wanted <= kFurthest * last) return 0;
+    return std::min(wanted / kLevelsPerFrame, kLongestStep * last);
 }
 
 }  // namespace kinora

@@ -59,15 +59,15 @@ double noise_error(const NoiseLevel& level, TargetMetric metric);
 
 inline constexpr double kErrorMargin = 1.5;  // of estimated errors
 // The samples at which kErrorMargin times the noise is no larger than `error`. The errors of the
-// last two levels say how it falls with samples; one level is taken to fall with their root.
+// last two levels say how it falls with samples, at most with their root.
 int samples_for_error(std::span<const NoiseLevel> levels, double error, TargetMetric metric);
 
 // The error of a picture with so many samples, by the same law; without the margin.
 double error_of_samples(std::span<const NoiseLevel> levels, int samples, TargetMetric metric);
 
 inline constexpr int kFewestSamples = 4;  // with fewer, edges hide in the noise
-// The samples of the next pair of pictures that estimates the noise; 0: the estimate is good, as
-// the last pair has an eighth of the samples that it asks for, or nearly.
+// The samples of the next pair of pictures that estimates the noise; 0: the last pair has a
+// sixth of the samples that it asks for, or more. From an eighth, walker.dae missed its error.
 int next_noise_level(std::span<const NoiseLevel> levels, double error, TargetMetric metric);
 
 }  // namespace kinora

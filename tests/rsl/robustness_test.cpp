@@ -117,10 +117,5 @@ TEST(Growth, OfLocalsIsInProportion) {
         [](int i) { return fmt::format(" float v{} = v{} * 1.5 + u;\n", i, i - 1); });
 }
 
-TEST(Growth, OfConstantsIsInProportion) {
-    expect_growth_in_proportion(
-        [](int i) { return fmt::format(" float v{0} = v{1} + {0}.5;\n", i, i - 1); });
-}
-
 }  // namespace
 }  // namespace kinora::rsl
