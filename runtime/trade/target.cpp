@@ -16,7 +16,7 @@ constexpr double kKept = 0.9;             // of the debt, from frame to frame
 constexpr double kPaidBack = 0.3;         // of the debt, by the next frame
 constexpr int kSecondLevel = 4 * kFewestSamples;
 // Of errors with samples. Few well-spread samples fall faster than the many that follow.
-constexpr double kSlowestFall = 0.25, kFastestFall = 0.5;
+constexpr double kSlowestFall = 0.25, kUsualFall = 0.5, kFastestFall = 1;
 constexpr int kFurthest = 6;        // times the samples of the last level: an estimate still holds
 constexpr int kLevelsPerFrame = 5;  // a level has a fifth of a frame's samples
 constexpr int kLongestStep = 16;    // from one level to the next
@@ -28,11 +28,17 @@ int whole_samples(double samples, double least) {
 
 // The exponent s of error ~ samples^-s.
 double fall_of(std::span<const NoiseLevel> levels) {
-    if (levels.size() < 2) return kFastestFall;
+    if (levels.size() < 2) return kUsualFall;
     const NoiseLevel &a = levels[levels.size() - 2], &b = levels.back();
-    if (!(a.difference > 0 && b.difference > 0)) return kFastestFall;
+    if (!(a.difference > 0 && b.difference > 0)) return kUsualFall;
     double fall = std::log(a.difference / b.difference) / std::log(double(b.samples) / a.samples);
     return std::clamp(fall, kSlowestFall, kFastestFall);
+}
+
+// The fall from the last level to more samples, which is not trusted beyond the usual, or to fewer.
+double fall_from(std::span<const NoiseLevel> levels, bool to_more) {
+    const double fall = fall_of(levels);
+    return to_more ? std::min(fall, kUsualFall) : fall;
 }
 
 }  // namespace
@@ -94,14 +100,15 @@ int samples_for_error(std::span<const NoiseLevel> levels, double error, TargetMe
     if (levels.empty()) return kFewestSamples;
     const double wrong = kErrorMargin * noise_error(levels.back(), metric) / error;
     if (wrong <= 1 && levels.size() == 1) return levels.back().samples;
-    return whole_samples(levels.back().samples * std::pow(wrong, 1 / fall_of(levels)),
+    return whole_samples(levels.back().samples * std::pow(wrong, 1 / fall_from(levels, wrong > 1)),
                          kFewestSamples);
 }
 
 double error_of_samples(std::span<const NoiseLevel> levels, int samples, TargetMetric metric) {
     if (levels.empty()) return 0;
     const NoiseLevel& last = levels.back();
-    return noise_error(last, metric) * std::pow(double(last.samples) / samples, fall_of(levels));
+    return noise_error(last, metric) *
+           std::pow(double(last.samples) / samples, fall_from(levels, samples > last.samples));
 }
 
 int next_noise_level(std::span<const NoiseLevel> levels, double error, TargetMetric metric) {
