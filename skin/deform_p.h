@@ -33,6 +33,10 @@ struct DeformKernel {
 extern const DeformKernel kPortableKernel;
 extern const DeformKernel kAvx2Kernel;
 extern const DeformKernel kAvx512Kernel;
+// Those of deform_dual: the palette holds DualJoints.
+extern const DeformKernel kDualPortableKernel;
+extern const DeformKernel kDualAvx2Kernel;
+extern const DeformKernel kDualAvx512Kernel;
 
 // Squared lengths and determinants between these bounds are safe in float; the kernels hand other
 // normals to exact_normal (scales like 1e20 or 1e-20, and normals that vanish).

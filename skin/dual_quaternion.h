@@ -32,5 +32,10 @@ DualJoint dual_joint(const JointMatrix& matrix);
 void deform_dual(const SkinMesh& skin, std::span<const DualJoint> palette,
                  std::span<const vec4> rest_positions, std::span<const vec4> rest_normals,
                  std::span<vec4> positions, std::span<vec4> normals);
+// As deform_dual, by a named kernel that the CPU supports (see deform_kernels); for tests,
+// benchmarks.
+void deform_dual_with(const char* kernel, const SkinMesh& skin, std::span<const DualJoint> palette,
+                      std::span<const vec4> rest_positions, std::span<const vec4> rest_normals,
+                      std::span<vec4> positions, std::span<vec4> normals);
 
 }  // namespace kinora::skin

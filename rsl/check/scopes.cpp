@@ -8,11 +8,17 @@ namespace kinora::rsl {
 
 const Symbol* Scopes::declare(Symbol& symbol) {
     Scope& scope = scopes_.back();
-    auto same_name = [&](const Symbol* other) { return other->name == symbol.name; };
-    auto found = std::find_if(scope.variables.begin(), scope.variables.end(), same_name);
-    const Symbol* earlier = found == scope.variables.end() ? nullptr : *found;
-    scope.variables.push_back(&symbol);
+    auto found = scope.by_name.find(symbol.name);
+    const Symbol* earlier = found == scope.by_name.end() ? nullptr : found->second.first;
+    refer_to(symbol);
     return earlier;
+}
+
+void Scopes::refer_to(Symbol& symbol) {
+    Scope& scope = scopes_.back();
+    scope.variables.push_back(&symbol);
+    scope.by_name.try_emplace(symbol.name, Scope::Named{&symbol, &symbol}).first->second.last =
+        &symbol;
 }
 
 const Function* Scopes::declare(Function& f) {
@@ -29,9 +35,8 @@ const Function* Scopes::declare(Function& f) {
 }
 
 Symbol* Scopes::find_in(const Scope& scope, std::string_view name) {
-    for (size_t k = scope.variables.size(); k-- > 0;)
-        if (scope.variables[k]->name == name) return scope.variables[k];
-    return nullptr;
+    auto found = scope.by_name.find(name);
+    return found == scope.by_name.end() ? nullptr : found->second.last;
 }
 
 Symbol* Scopes::find_variable(std::string_view name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "rsl/model/globals.h"
@@ -37,7 +38,7 @@ class Scopes {
     const Symbol* declare(Symbol& symbol);
     const Function* declare(Function& function);
     // The name means this variable, which is declared further out.
-    void refer_to(Symbol& symbol) { scopes_.back().variables.push_back(&symbol); }
+    void refer_to(Symbol& symbol);
 
     // Innermost first, the globals last; null when there is none.
     Symbol* find_variable(std::string_view name);
@@ -51,9 +52,13 @@ class Scopes {
 
   private:
     struct Scope {
-        std::vector<Symbol*> variables;
+        struct Named {
+            Symbol *first, *last;  // declared by the name
+        };
+        std::vector<Symbol*> variables;  // as declared
         std::vector<Function*> functions;
         const Function* function = nullptr;
+        std::unordered_map<std::string_view, Named> by_name{};  // of the variables
     };
     static Symbol* find_in(const Scope& scope, std::string_view name);
     Symbol* find_global_symbol(std::string_view name);

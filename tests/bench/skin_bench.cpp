@@ -98,13 +98,14 @@ void skin_with(benchmark::State& state, const char* kernel, bool own_normal_inde
     count_bytes(state, kRead + kWritten);
 }
 
-void skin_dual(benchmark::State& state) {
+void skin_dual(benchmark::State& state, const char* kernel) {
     set_thread_count(1);
     Character c = make_character(false);
     std::vector<DualJoint> palette;
     for (const JointMatrix& m : c.palette) palette.push_back(dual_joint(m));
     for (auto _ : state) {
-        deform_dual(c.skin, palette, c.rest, c.normals, c.out_positions, c.out_normals);
+        deform_dual_with(kernel, c.skin, palette, c.rest, c.normals, c.out_positions,
+                         c.out_normals);
         benchmark::ClobberMemory();
     }
     count_bytes(state, kRead + kWritten);
@@ -140,9 +141,9 @@ void register_all() {
     };
     add("Copy/touching", copy, (kRead + kWritten) / 2, kRead + kWritten);
     add("Copy/of", copy, kRead + kWritten, 2 * (kRead + kWritten));
-    add("SkinDual", skin_dual);
     for (const char* kernel : deform_kernels()) {
         add(std::string("Skin/") + kernel, skin_with, kernel, false);
+        add(std::string("SkinDual/") + kernel, skin_dual, kernel);
         add(std::string("SkinOwnNormalIndex/") + kernel, skin_with, kernel, true);
     }
 }

@@ -337,7 +337,7 @@ class DumpBenchManual(ProgramTest):
     def test_help_and_wrong_commands(self):
         self.expect(shade("--help"), 0, "check", "bench", "Exit codes")
         self.expect(shade("--version"), 0, "kinora-shade ")
-        for name in ("check", "info", "run", "dump", "bench", "manual"):
+        for name in ("check", "info", "run", "dump", "bench", "tradeoff", "manual"):
             self.expect(shade(name, "--help"), 0)
         self.expect(shade(), 2)
         self.expect(shade("chek", "x.sl"), 2, "did you mean 'check'")
@@ -377,6 +377,66 @@ class Limits(ProgramTest):
             with self.subTest(target=target):
                 self.expect(shade("run", file, "--size", "128x128", "--target", target,
                                   preexec_fn=little_memory), 75, "kinora-shade: out of memory")
+
+
+class Tradeoff(ProgramTest):
+    def table(self, source, *words):
+        result = shade("tradeoff", "-", "--size", "16x4", "--iterations", "2", "--json", *words, stdin=source)
+        self.assertEqual(result.code, 0, result.err)
+        return json.loads(result.out)
+
+    def test_what_floats_hold_is_off_by_nothing(self):
+        table = self.table("surface x() { Ci = 0.5 * u; }")
+        self.assertEqual((table["points"], table["compared"], table["undecided"]), (64, 64, 0))
+        self.assertEqual(table["rows"][0]["time"], 1)
+        for row in table["rows"]:
+            red = next(out for out in row["outputs"] if out["name"] == "Ci.r")
+            self.assertEqual((red["max_ulp"], red["mean_ulp"], red["special"]), (0, 0, 0), row)
+            self.assertEqual(red["histogram"], [64] + 7 * [0])
+            self.assertEqual(row["points_changed"], 0)
+            self.assertGreater(row["points_per_second"], 0)
+
+    def test_rows_are_the_targets_and_tiers_that_run_here(self):
+        rows = self.table("surface x() { Ci = sin(9 * u); }")["rows"]
+        self.assertEqual({(row["target"], row["math"], row["derivatives"]) for row in rows},
+                         {(target, math, True) for target in supported_targets()
+                          for math in ("precise", "fast")})
+        # One rounding of 9 u, times the slope of sin there, and those of sin itself; each output has
+        # all of its values in some bin.
+        for row in rows:
+            red = next(out for out in row["outputs"] if out["name"] == "Ci.r")
+            self.assertGreater(red["max_ulp"], 0)
+            self.assertLessEqual(red["mean_ulp"], red["max_ulp"])
+            self.assertEqual(sum(red["histogram"]), red["values"])
+        worst = {row["math"]: max(out["mean_ulp"] for out in row["outputs"]) for row in rows}
+        self.assertGreater(worst["fast"], worst["precise"])
+
+    def test_derivatives_left_out_are_a_row_where_they_are_used(self):
+        rows = self.table("surface x() { Ci = Du(3 * u * u); }", "--target", "interp")["rows"]
+        self.assertEqual([row["derivatives"] for row in rows], [True, False, True, False])
+        for row in rows:  # 6 u; or 0 instead, which is off by all of it: 2^23 to 2^24 ULP
+            red = next(out for out in row["outputs"] if out["name"] == "Ci.r")
+            self.assertEqual(red["max_ulp"] > 2 ** 22, not row["derivatives"], row)
+            self.assertEqual(row["points_changed"], 0 if row["derivatives"] else 64)
+
+    def test_points_that_branch_otherwise_are_counted_apart(self):
+        # As floats u + 10^-9 is u from 1/32 on; as doubles it is more.
+        table = self.table("surface x() { if (u + 1e-9 > u) Ci = 1; else Ci = 2; }")
+        self.assertEqual((table["compared"], table["undecided"]), (0, 64))
+
+    def test_infinities_and_NaN_are_no_ulps(self):
+        # 10^60 and more is infinite as a float, as it should be; what is left of infinity is not.
+        table = self.table("surface x() { float a = 1e20 * (1 + u); Ci = a * a * a; Oi = a * a * a - a * a * a; }")
+        special = {"C": 0, "O": 64}
+        for row in table["rows"]:
+            for out in row["outputs"]:
+                if out["name"][0] in special:
+                    self.assertEqual((out["values"], out["special"]), (0, special[out["name"][0]]), out)
+
+    def test_a_terminal_shows_errors_and_histograms(self):
+        result = shade("tradeoff", SHADERS / "wood.sl", "--size", "16x16", "--iterations", "2")
+        self.expect(result, 0, "branch or floor differently", "max ULP", "at most so many ULP", "interp")
+        self.expect(shade("tradeoff", "-", stdin=BROKEN), 4, "did you mean 'diffuse'")
 
 
 if __name__ == "__main__":

@@ -115,6 +115,39 @@ TEST(DualQuaternion, HalfATurnTakesThePositiveSide) {
     }
 }
 
+// Joints of all kinds, half turns, weights of 0 and below, and a last block that is not whole.
+TEST(DualQuaternion, AllKernelsGiveTheSameBits) {
+    for (uint32_t influences : {1u, 3u, 4u, 9u}) {
+        Character c = random_character(1003, 12, influences, 7 + influences);
+        c.matrices[1] = dmat4(1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1);    // flat
+        c.matrices[2] = dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1);   // mirrors
+        c.matrices[3] = dmat4(-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);  // half a turn
+        c.matrices[4] = dmat4(1);
+        c.matrices[5] = dmat4(1e20, 0, 0, 0, 0, 1e20, 0, 0, 0, 0, 1e20, 0, 0, 0, 0, 1);
+        SkinMesh skin = build_skin(c.source(), c.normal_positions);
+        std::vector<DualJoint> palette;
+        for (const JointMatrix& m : c.palette()) palette.push_back(dual_joint(m));
+        auto by = [&](const char* kernel) {
+            Skinned out{std::vector<vec4>(c.rest.size()), std::vector<vec4>(c.normals.size())};
+            deform_dual_with(kernel, skin, palette, padded_floats(c.rest), padded_floats(c.normals),
+                             out.positions, out.normals);
+            return out;
+        };
+        Skinned portable = by("portable");
+        for (const char* kernel : deform_kernels()) {
+            Skinned other = by(kernel);
+            EXPECT_EQ(std::memcmp(portable.positions.data(), other.positions.data(),
+                                  portable.positions.size() * 16),
+                      0)
+                << kernel;
+            EXPECT_EQ(std::memcmp(portable.normals.data(), other.normals.data(),
+                                  portable.normals.size() * 16),
+                      0)
+                << kernel;
+        }
+    }
+}
+
 TEST(DualQuaternion, ThreadsGiveTheSameBits) {
     Character c = random_character(20000, 12, 5, 4);
     Skinned one, two;

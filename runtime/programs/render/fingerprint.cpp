@@ -84,6 +84,8 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
     if (o.smooth) text += fmt::format(" smooth {}", *o.smooth);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
+    if (o.frame_target.any())
+        text += fmt::format(" {} {}", target_text(o.frame_target), o.fixed_settings);
     if (o.session) text += session_text(*o.session);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }

@@ -20,8 +20,10 @@
 #include "runtime/programs/render/frames_to_render.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/programs/render/stats.h"
+#include "runtime/programs/render/targeted.h"
 #include "runtime/programs/tradeoff/asserts.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
+#include "runtime/trade/variants.h"
 
 namespace kinora {
 
@@ -43,6 +45,7 @@ class Render {
   public:
     explicit Render(const RenderOptions& options)
         : options_(options),
+          asked_(options),
           printer_(options.findings, options.scene),
           progress_(options.progress, 1) {
         diagnostics_.judge(options.findings.judgement());
@@ -84,6 +87,10 @@ class Render {
     void print_explained() const;
     int frames();
     int tradeoff();
+    std::string scene_fingerprint() const;
+    void tell_target(const std::string& text) const;
+    int choose_settings_for_target(const std::vector<std::pair<int64_t, double>>& frames);
+    bool choose_samples(int64_t frame, double time, const raytrace::Progress& progress);
     int report_unreadable() const;
     int report_unwritable(const std::string& file, const std::string& error, int number);
     ptrdiff_t unwritable() const;
@@ -93,11 +100,13 @@ class Render {
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
     void place_session_camera(double time);
 
-    const RenderOptions& options_;
+    RenderOptions options_;      // with the settings that --target-ms and --target-error choose
+    const RenderOptions asked_;  // without
     Diagnostics diagnostics_;
     FindingPrinter printer_;
     BuiltScene built_;
-    std::optional<ImportedScene> unbuilt_;  // for --tradeoff
+    std::optional<ImportedScene> unbuilt_;  // for --tradeoff and targets
+    std::optional<TargetedFrames> targeted_;
     FrameSettings settings_;
     PlacedCamera placed_;
     raytrace::Film film_;
@@ -136,7 +145,7 @@ int Render::load() {
     imported->options.want_dumps = !options_.dump.empty();
     bool good = !options_.session ||
                 apply_edits(*imported, options_.session->edits, options_, diagnostics_);
-    if (!options_.tradeoff.empty()) unbuilt_ = *imported;
+    if (!options_.tradeoff.empty() || options_.frame_target.any()) unbuilt_ = *imported;
     if (good) built_ = build_imported(std::move(*imported), diagnostics_);
     build_ms_ = watch.ms();
     flush_findings();
@@ -205,7 +214,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     record.pixels = size_t(settings_.width) * size_t(settings_.height);
     if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
     std::string print =
-        fingerprint(options_, scene_hash_, settings_.width, settings_.height, rate_.value(), time);
+        fingerprint(asked_, scene_hash_, settings_.width, settings_.height, rate_.value(), time);
     bool wants_file = !record.file.empty();
     if (wants_file && options_.skip_existing && keep_existing(record.file, print)) {
         record.skipped = true;
@@ -222,11 +231,14 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     raytrace::Progress progress(on_tile);
     if (first_ray_ms_ == 0) first_ray_ms_ = since_start_.ms();
     ptrdiff_t unwritten = unwritable();
-    bool whole = picture(record, time, progress);
+    bool whole =
+        (!targeted_ || choose_samples(frame, time, progress)) && picture(record, time, progress);
     bool baked = unwritable() == unwritten;  // point files
     if (g_signal) return 128 + g_signal;
     flush_findings();
     if (!whole) return kExitSomeFailed;
+    record.samples = settings_.integrator.samples_per_pixel;
+    if (targeted_) targeted_->took(record.samples, record.stats.total);
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
     Stopwatch watch;
     if (wants_file) {
@@ -296,6 +308,8 @@ int Render::frames() {
         if (int code = refuse_unwritable(options_.contact_sheet)) return code;
     if (!options_.output.empty()) remove_stale_images(options_.output);
     scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
+    if (options_.frame_target.any())
+        if (int code = choose_settings_for_target(*list)) return code;
     settings_ = frame_settings(options_, *built_.scene, diagnostics_, &g_signal);
     if (const auto& session = options_.session) {
         choose_camera(*built_.scene, session->camera);
@@ -317,6 +331,7 @@ int Render::frames() {
         if (result != kExitRetry) result = code == kExitRetry ? code : int(kExitSomeFailed);
     }
     progress_.clear();
+    tell_target(targeted_ ? targeted_->end_text() : "");
     if (!options_.contact_sheet.empty()) {
         int number = 0;
         std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
@@ -326,6 +341,68 @@ int Render::frames() {
         }
     }
     return result;
+}
+
+void Render::tell_target(const std::string& text) const {
+    if (!text.empty() && !options_.findings.quiet)
+        std::fprintf(stderr, "kinora-render: %s\n", text.c_str());
+}
+
+// Chooses settings and builds the scene with them, where it was built with others.
+int Render::choose_settings_for_target(const std::vector<std::pair<int64_t, double>>& frames) {
+    std::string why_not;
+    auto chosen = choose_settings({.scene = options_,
+                                   .imported = *unbuilt_,
+                                   .frames = frames,
+                                   .target = options_.frame_target,
+                                   .fixed = options_.fixed_settings,
+                                   .measured = options_.measured,
+                                   .fingerprint = scene_fingerprint(),
+                                   .stop = &g_signal},
+                                  diagnostics_, why_not);
+    flush_findings();
+    if (g_signal) return 128 + g_signal;
+    if (!chosen) {
+        std::fprintf(stderr, "kinora-render: error: %s: %s\n",
+                     target_text(options_.frame_target).c_str(), why_not.c_str());
+        return kExitSomeFailed;
+    }
+    targeted_.emplace(options_.frame_target, *chosen);
+    tell_target(targeted_->begin_text());
+    options_.quality = chosen->quality;
+    if (scene_key(asked_.quality) == scene_key(options_.quality)) return kExitOk;
+    set_quality(unbuilt_->options, options_.quality);
+    const size_t known = diagnostics_.findings().size();
+    built_ = build_imported(std::move(*unbuilt_), diagnostics_);
+    diagnostics_.drop_repeats(known);
+    return built_.scene ? int(kExitOk) : report_unreadable();
+}
+
+bool Render::choose_samples(int64_t frame, double time, const raytrace::Progress& progress) {
+    SceneRequest seeded = options_;
+    auto pass = [&](int samples, uint32_t seed, raytrace::Film& film) {
+        FrameSettings settings = settings_;
+        settings.integrator.samples_per_pixel = samples;
+        seeded.seed = options_.seed + seed;
+        settings.integrator.seed = frame_seed(seeded, frame);
+        settings.most_dice_error = 0;
+        FrameStats stats;
+        const size_t known = diagnostics_.findings().size();
+        bool whole =
+            render_frame(*built_.scene, time, settings, film, stats, diagnostics_, &progress);
+        diagnostics_.drop_repeats(known);
+        return whole;
+    };
+    settings_.integrator.samples_per_pixel = targeted_->samples(pass);
+    return settings_.integrator.samples_per_pixel > 0;
+}
+
+// Of the scene and what its pictures depend on besides knobs and frames.
+std::string Render::scene_fingerprint() const {
+    RenderOptions plain = asked_;
+    plain.quality = *find_quality(kDefaultQuality);
+    plain.frame_target = {};
+    return fingerprint(plain, scene_hash_, options_.width, options_.height, rate_.value(), 0);
 }
 
 int Render::tradeoff() {
@@ -344,11 +421,8 @@ int Render::tradeoff() {
     const SceneOptions& played = built_.scene->options;
     auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
     if (!list) return kExitUsage;
-    RenderOptions plain = options_;
-    plain.quality = *find_quality(kDefaultQuality);
-    std::string print =
-        fingerprint(plain, hash_inputs(diagnostics_.files, *built_.scene->description),
-                    options_.width, options_.height, rate_.value(), 0);
+    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
+    std::string print = scene_fingerprint();
     built_ = {};  // its memory is for the scenes to come
     TradeResults results;
     bool measured = measure_tradeoff({.scene = options_,

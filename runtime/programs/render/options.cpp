@@ -11,6 +11,7 @@
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
+#include "runtime/programs/render/trade_options.h"
 #include "runtime/trade/knob_tables.h"
 #include "runtime/trade/knobs.h"
 
@@ -114,12 +115,13 @@ struct GivenKnob {
 // As they stand on the command line, where they are not yet what RenderOptions holds.
 struct Given {
     std::string frames, fps, size, scale, look_from, threads = "all", target, background, exposure;
-    std::string quality{kDefaultQuality};
+    std::string quality;
     std::vector<GivenKnob> knobs{kinora::knobs().size()};
     std::optional<size_t> dice_limit;
     std::vector<std::string> shaders, params;
     bool overwrite = false;
-    std::string stats, progress, session, budget;
+    std::string stats, progress, session;
+    TradeGiven trade;
 };
 
 // Which pictures are written.
@@ -213,12 +215,13 @@ void declare_quality(CLI::App& app, Given& given, RenderOptions& o) {
 
 // What the picture shows of the scene, and how.
 void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
-    add_choice<LightSet>(app, "--lights", o.lights,
-                         {{"auto", LightSet::Auto},
-                          {"scene", LightSet::Scene},
-                          {"default", LightSet::Default},
-                          {"both", LightSet::Both}},
-                         "scene, default, both or auto (the scene's; default where these show nothing)");
+    add_choice<LightSet>(
+        app, "--lights", o.lights,
+        {{"auto", LightSet::Auto},
+         {"scene", LightSet::Scene},
+         {"default", LightSet::Default},
+         {"both", LightSet::Both}},
+        "scene, default, both or auto (the scene's; default where these show nothing)");
     app.add_option("--exposure", given.exposure,
                    "stops brighter (1 doubles) or darker, or auto: by the scene's whole range (0)");
     app.add_option("--background", given.background, "R,G,B instead of transparent");
@@ -292,24 +295,20 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_flag("--json", o.json, "the list as JSON")->needs(list);
     add_list(app, "--dump", o.dump, "stages of each kernel: ir, ir:PASS, asm", ',');
     app.add_option("--contact-sheet", o.contact_sheet, "all frames on one PNG");
-    auto* trade = app.add_option("--tradeoff", o.tradeoff,
-                                 "FOLDER: renders no frames, but measures what each setting of "
-                                 "--knobs costs and gets wrong: tradeoff.html, .json and .csv");
-    app.add_option("--budget", given.budget, "wall time of --tradeoff: 120s, 5m (120s)")
-        ->needs(trade);
-    add_list(app, "--assert", o.asserts,
-             "preset=final:flip<0.01: exit 1 where --tradeoff measures otherwise (repeatable)")
-        ->needs(trade);
+    declare_trade(app, given.trade, o);
 }
 
 void interpret_quality(const Given& given, RenderOptions& o) {
-    const Quality* row = find_quality(given.quality);
+    const bool chosen = !given.quality.empty();
+    const Quality* row = find_quality(chosen ? given.quality : kDefaultQuality);
+    o.fixed_settings = chosen;
     if (!row) throw CLI::ValidationError("--quality", none_of(given.quality, quality_names()));
     o.quality = *row;
     o.preset = row->name;
     for (size_t k = 0; k < knobs().size(); ++k) {
         const Knob& knob = knobs()[k];
         const GivenKnob& value = given.knobs[k];
+        o.fixed_settings |= value.choice || value.whole || value.real;
         if (value.choice) knob.set(o.quality, *value.choice);
         if (value.whole) knob.set(o.quality, double(*value.whole));
         if (!value.real) continue;
@@ -333,34 +332,8 @@ void interpret_changes(const Given& given, RenderOptions& o) {
     }
 }
 
-// "120s", "2m", "1h" or seconds.
-double parse_budget(const std::string& text) {
-    constexpr double kLeastSeconds = 1, kMostBudget = 1e6;
-    double seconds = 0;
-    const char* last = text.data() + text.size();
-    auto [end, error] = std::from_chars(text.data(), last, seconds);
-    std::string_view unit(end, size_t(last - end));
-    if (unit == "m") seconds *= 60;
-    if (unit == "h") seconds *= 3600;
-    bool known = unit.empty() || unit == "s" || unit == "m" || unit == "h";
-    if (error != std::errc() || !known || !(seconds >= kLeastSeconds && seconds <= kMostBudget))
-        throw CLI::ValidationError("--budget",
-                                   "takes seconds or 120s, 5m, 1h, from 1s on; not '" + text + "'");
-    return seconds;
-}
-
-void interpret_tradeoff(const Given& given, RenderOptions& o) {
-    if (!given.budget.empty()) o.budget = parse_budget(given.budget);
-    if (o.tradeoff.empty()) return;
-    if (!o.output.empty() || !o.contact_sheet.empty())
-        throw CLI::ValidationError("--tradeoff",
-                                   "writes its own files: leave -o and "
-                                   "--contact-sheet out");
-    if (o.session) throw CLI::ValidationError("--tradeoff", "takes a scene, not a session");
-}
-
 void interpret_output(const Given& given, RenderOptions& o) {
-    interpret_tradeoff(given, o);
+    interpret_trade(given.trade, o);
     bool nothing = o.list.empty() && o.output.empty() && o.contact_sheet.empty() &&
                    o.dump.empty() && o.explain.empty() && o.tradeoff.empty();
     if (nothing && is_regular_file(o.scene))  // else what is wrong with the scene is told

@@ -117,6 +117,7 @@ void print_json(const RenderOptions& options, const RunRecord& run,
         } else {
             const Occupancy full = occupancy(s);
             frame["total_ms"] = s.total;
+            frame["samples"] = r.samples;
             for_each_stage(
                 r, [&](const char* name, double ms) { frame[std::string(name) + "_ms"] = ms; });
             frame.update({{"displace_ms", s.displace},

@@ -15,6 +15,7 @@ struct FrameRecord {
     std::string file;
     FrameStats stats;
     size_t pixels = 0;
+    int samples = 0;  // per pixel
     double write_ms = 0;
     double dice_error = 0;  // with the scene as loaded
     double redice_ms = 0;   // 0: that one was fine enough

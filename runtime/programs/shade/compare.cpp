@@ -172,43 +172,52 @@ void compare_with_interpreter(const ShadeStack& stack, const Patch& patch,
     worst.print(patch);
 }
 
-void compare_with_reference(const ShadeStack& stack, const Patch& patch,
-                            const ShadeKernel& kernel) {
+ReferenceRun run_over_reference(const ShadeStack& stack, const Patch& patch,
+                                const ShadeKernel& kernel) {
     rsl::ReferenceInputs inputs = frame_inputs(stack, patch, kernel);
     inputs.service = reference_service(patch, kernel);
     const std::vector<rsl::KernelKey> keys = point_keys();
     auto row = std::make_unique<PointRow>();
-    ShadeOutputs outputs = kernel.outputs();
-    Worst worst;
-    size_t compared = 0, undecided = 0;
-    size_t step = std::max<size_t>(1, patch.count() / kReferencePoints);
+    ReferenceRun result;
+    size_t step = std::max<size_t>(1, (patch.count() + kReferencePoints - 1) / kReferencePoints);
     for (size_t i = 0; i < patch.count(); i += step) {
         row->fill(patch, i);
         for (const rsl::KernelKey& key : keys) inputs.values[rsl::text(key)] = row->number(key);
         rsl::ReferenceResult exact = rsl::run_reference<double>(stack.layers, inputs);
         rsl::ReferenceResult single = rsl::run_reference<float>(stack.layers, inputs);
-        if (!exact.missing.empty()) {
-            std::printf("reference: has no meaning for '%s' yet\n", exact.missing.c_str());
-            return;
-        }
-        if (exact.decisions != single.decisions) {
-            ++undecided;
-            continue;
-        }
-        ++compared;
-        for (const auto& [name, values] : outputs)
-            if (auto found = exact.values.find(name); found != exact.values.end())
-                worst.meet(double(values[i]), found->second, name, i);
+        result.missing = exact.missing;
+        if (!exact.missing.empty()) return result;
+        if (exact.decisions != single.decisions)
+            ++result.undecided;
+        else
+            result.points.push_back({i, std::move(exact.values)});
     }
     for (const jit::ServiceInfo& service : kernel.pair().point->services)
         if (service.name == rsl::service_name(rsl::Service::texture) ||
             service.name == rsl::service_name(rsl::Service::environment))
-            std::printf("reference: reads %s unfiltered, so large pixels differ\n",
-                        service.name.c_str());
-    std::printf("reference: %zu points compared, %zu near a decision left out\n", compared,
-                undecided);
+            result.unfiltered.push_back(service.name);
+    return result;
+}
+
+void compare_with_reference(const ShadeStack& stack, const Patch& patch,
+                            const ShadeKernel& kernel) {
+    const ReferenceRun run = run_over_reference(stack, patch, kernel);
+    if (!run.missing.empty()) {
+        std::printf("reference: has no meaning for '%s' yet\n", run.missing.c_str());
+        return;
+    }
+    ShadeOutputs outputs = kernel.outputs();
+    Worst worst;
+    for (const ReferencePoint& point : run.points)
+        for (const auto& [name, values] : outputs)
+            if (auto found = point.values.find(name); found != point.values.end())
+                worst.meet(double(values[point.index]), found->second, name, point.index);
+    for (const std::string& service : run.unfiltered)
+        std::printf("reference: reads %s unfiltered, so large pixels differ\n", service.c_str());
+    std::printf("reference: %zu points compared, %zu near a decision left out\n", run.points.size(),
+                run.undecided);
     worst.print(patch);
-    if (compared > 0 && worst.difference == 0) std::printf("no difference\n");
+    if (!run.points.empty() && worst.difference == 0) std::printf("no difference\n");
 }
 
 }  // namespace kinora

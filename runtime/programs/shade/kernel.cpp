@@ -79,6 +79,8 @@ bool ShadeKernel::compile(const ShadeStack& stack, const jit::Target* target,
     if (!lowered) return false;
     lower_ms = watch.ms();
     lowered_ = std::move(*lowered);
+    if (!stack.derivatives)  // inputs without any have none to hand on
+        for (jit::InputInfo& input : lowered_.module.inputs) input.du = input.dv = "";
     jit::KernelPair pair =
         jit::compile(std::move(lowered_.module), {target, dumps, &diagnostics.files});
     if (!pair.point) return false;

@@ -22,6 +22,7 @@ struct ShadeStack {
     std::map<rsl::KernelKey, float> values;  // parameters
     rsl::LowerOptions lower;
     bool light = false;
+    bool derivatives = true;  // false: all that Du, Dv and filters' widths rest on is 0
     std::vector<std::shared_ptr<const rsl::Shader>> library;  // keeps the matte
 };
 

@@ -18,8 +18,9 @@ struct Command {
     int (*run)(const ShadeOptions&);
 };
 constexpr Command kCommands[] = {
-    {"check", shade_check}, {"info", shade_info},   {"run", shade_run},
-    {"dump", shade_dump},   {"bench", shade_bench}, {"manual", shade_manual},
+    {"check", shade_check},   {"info", shade_info},   {"run", shade_run},
+    {"dump", shade_dump},     {"bench", shade_bench}, {"tradeoff", shade_tradeoff},
+    {"manual", shade_manual},
 };
 
 }  // namespace

@@ -25,10 +25,10 @@ struct ShadeOptions {
     bool strict = false;                      // what a scene leaves out is an error
     bool json = false;                        // check, info, bench
     bool quiet = false, verbose = false;
-    bool silent = false;                                      // findings are told otherwise
-    std::vector<std::pair<std::string, std::string>> params;  // NAME, VALUE
+    bool silent = false;                                          // findings are told otherwise
+    std::vector<std::pair<std::string, std::string>> params;      // NAME, VALUE
     std::vector<std::pair<std::string, std::string>> co_shaders;  // HANDLE, FILE
-    int width = 256, height = 256;                            // of the grid of points
+    int width = 256, height = 256;                                // of the grid of points
     bool sphere = false;
     bool flip = false;  // a light shines along -z of its space
     std::string output = "Ci";
@@ -48,12 +48,13 @@ struct ShadeOptions {
 std::optional<int> parse_shade_options(int argc, char** argv, ShadeOptions& options);
 
 // The commands; each returns an exit code.
-int shade_check(const ShadeOptions& options);   // check.cpp
-int shade_info(const ShadeOptions& options);    // info.cpp
-int shade_run(const ShadeOptions& options);     // run.cpp
-int shade_points(const ShadeOptions& options);  // points_run.cpp: run --points
-int shade_dump(const ShadeOptions& options);    // dump.cpp
-int shade_bench(const ShadeOptions& options);   // bench.cpp
-int shade_manual(const ShadeOptions& options);  // manual.cpp
+int shade_check(const ShadeOptions& options);     // check.cpp
+int shade_info(const ShadeOptions& options);      // info.cpp
+int shade_run(const ShadeOptions& options);       // run.cpp
+int shade_points(const ShadeOptions& options);    // points_run.cpp: run --points
+int shade_dump(const ShadeOptions& options);      // dump.cpp
+int shade_bench(const ShadeOptions& options);     // bench.cpp
+int shade_tradeoff(const ShadeOptions& options);  // tradeoff.cpp
+int shade_manual(const ShadeOptions& options);    // manual.cpp
 
 }  // namespace kinora

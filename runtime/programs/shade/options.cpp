@@ -132,6 +132,11 @@ void add_commands(CLI::App& app, ShadeOptions& o, Texts& texts) {
     add_source(*bench, o, texts);
     add_grid(*bench, o, texts);
     bench->add_flag("--json", o.json, "as JSON");
+    CLI::App* tradeoff = app.add_subcommand(
+        "tradeoff", "speed and error of each target, math tier and use of derivatives");
+    add_source(*tradeoff, o, texts);
+    add_grid(*tradeoff, o, texts);
+    tradeoff->add_flag("--json", o.json, "as JSON, with histograms");
     CLI::App* manual = app.add_subcommand(
         "manual", "the language: functions, globals, statements, kinds of shader");
     manual->add_option(

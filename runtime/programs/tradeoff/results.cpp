@@ -26,6 +26,11 @@ constexpr TradeMetric kMetrics[] = {
 };
 #undef ERROR_OF
 
+// Few times have an interval that holds less than it should.
+bool is_sure(const MedianInterval& interval) {
+    return interval.cover >= kSureCover;
+}
+
 }  // namespace
 
 std::span<const TradeMetric> trade_metrics() {
@@ -72,14 +77,14 @@ void mark_front(TradeResults& results) {
         if (!row.measured()) continue;
         rows.push_back(&row);
         points.push_back({row.times.ms.median, row.errors.picture.flip});
-        slowest.push_back({row.times.ms.high, row.errors.picture.flip});
+        if (is_sure(row.times.ms)) slowest.push_back({row.times.ms.high, row.errors.picture.flip});
     }
     const double floor = results.floor.picture.flip;
     std::vector<bool> front = pareto_front(points, floor);
     for (size_t i = 0; i < rows.size(); ++i) {
         rows[i]->on_front = front[i];
         TradePoint surely{rows[i]->times.ms.low, points[i].error};
-        rows[i]->off_front = off_front(surely, slowest, floor);
+        rows[i]->off_front = is_sure(rows[i]->times.ms) ? off_front(surely, slowest, floor) : 0;
     }
 }
 

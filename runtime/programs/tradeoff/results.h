@@ -85,9 +85,12 @@ struct TradeResults {
 
 // A preset that is further off the front is worth changing.
 inline constexpr double kMostOffFront = 0.05;
+// What the intervals must hold before they decide that: six times or more have it.
+inline constexpr double kSureCover = 0.95;
 
 // Fills on_front and off_front: time against FLIP. The former by medians; the latter by what the
-// intervals are sure of, from this one's lower end to the upper ends of others.
+// intervals are sure of, from this one's lower end to the upper ends of others. It is 0 for a row
+// whose interval holds less than kSureCover, and such rows are compared with none.
 void mark_front(TradeResults& results);
 
 // "0.0123", or "<= floor".

@@ -50,6 +50,18 @@ TEST(Reports, MarkTheFront) {
     EXPECT_EQ(results.rows[2].off_front, 0);
 }
 
+// By five times an interval holds 1 - 2 / 32 = 94 %: nothing is called slow for it or by it.
+TEST(Reports, CallNothingSlowWithoutSureIntervals) {
+    TradeResults results = small_results();
+    results.rows[4].times.ms.cover = 1 - 2.0 / 32;
+    mark_front(results);
+    EXPECT_EQ(results.rows[4].off_front, 0);
+    results = small_results();
+    results.rows[1].times.ms.cover = 1 - 2.0 / 32;
+    mark_front(results);
+    EXPECT_EQ(results.rows[4].off_front, 0);  // 2.7 ms of its own interval are its only rival
+}
+
 TEST(Reports, HideWhatTheNoiseHides) {
     TradeResults results = small_results();
     const TradeMetric &flip = *find_trade_metric("flip"), &psnr = *find_trade_metric("psnr");
