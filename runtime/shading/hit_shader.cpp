@@ -86,13 +86,17 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
         arena.release(part);
         grids = points = 0;
     };
-    for (const LookRun& run : runs)
+    PixelCosts* costs = hits.depth == 0 ? frame_.insight.costs : nullptr;
+    for (const LookRun& run : runs) {
+        CostScope cost(costs, memory, hits, run.hits);
         for (size_t at = 0, n; at < run.hits.size(); at += n) {
             n = std::min(kGridPoints, run.hits.size() - at);
             if (points + n > kGridPoints) shade_lit();
             lit[grids++] = &light_grid(call, run.hits.subspan(at, n), *run.look, shadows);
             points += n;
         }
+        if (costs) shade_lit();
+    }
     shade_lit();
     volumes_.apply(hits, ray, shadows_, memory, result);
     arena.release(mark);
@@ -213,7 +217,8 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         uint32_t turns = hits.rays->turns[hits.ray[points[i]]];
         result.passages[points[i]] = {rays.onward, turns + rays.reflects, rays.shot};
     }
-    if (frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
+    const bool whole = frame_.insight.only_light == kNone;
+    if (whole && frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];

@@ -159,7 +159,8 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
                   arena.allocate_span<SentLight>(record_count_)};
     const Sphere lit = sphere_about(at.P, at.count);
     for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
-        if (!reaches(reaches_[l], lit))
+        const uint32_t only = frame_.insight.only_light;
+        if ((only != kNone && l != only) || !reaches(reaches_[l], lit))
             dark_records(making, l);
         else
             area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
