@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/play/core_p.h"
-#include "runtime/play/pick.h"
+#include "runtime/play/pixel_insight.h"
 
 namespace kinora {
 

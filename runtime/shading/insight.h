@@ -1,4 +1,5 @@
-// runtime/shading/insight.h: what a frame may be asked to show of its own making.
+// runtime/shading/insight.h: what a frame may be asked to show of its own making. Measured by
+// HitShader.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,9 @@ std::shared_ptr<const Picture> picture_of(Player& player) {
 // Light is a sum: where nothing shines by itself, what the lights send alone adds up to the
 // picture.
 TEST(Lights, AloneAddUpToThePicture) {
-    Played played("scenes/matte.dae");
+    SceneRequest request = small_request(scene_path("scenes/matte.dae"));
+    request.quality.weak_lights = 0;  // no light is weak alone
+    Played played(request);
     Player& player = played.player;
     const raytrace::Film whole = picture_of(player)->film;
     const std::vector<std::string> lights = player.scene()->lights;
