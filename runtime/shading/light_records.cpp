@@ -377,6 +377,8 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
     return int32_t(handle);
 }
 
+// Lights whose shaders send all of their light against where the light looks: most often shaders
+// that were written for a "shader" space that looks along -z.
 namespace {
 
 // Rings around the axis, before the light and behind it; cones may be narrow.
