@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cfloat>
 #include <cstdio>
 #include <cstring>
@@ -165,6 +166,15 @@ void load_rays(const RayPacket16& in, RTCRay16& out) {
     std::memset(out.time, 0, bytes);
     std::memset(out.flags, 0, bytes);
     for (int i = 0; i < kPacket; ++i) out.id[i] = uint32_t(i);
+    // Debian's Embree has its assertions, and rtcOccluded16 may look at lanes that nobody asks for.
+    for (uint32_t off = ~in.active & 0xffffu; off; off &= off - 1) {
+        const int i = std::countr_zero(off);
+        out.org_x[i] = out.org_y[i] = out.org_z[i] = 0;
+        out.dir_x[i] = out.dir_y[i] = 0;
+        out.dir_z[i] = 1;
+        out.tnear[i] = FLT_MIN;
+        out.tfar[i] = -1;
+    }
 }
 
 struct alignas(64) LaneMask {

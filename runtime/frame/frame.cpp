@@ -53,6 +53,8 @@ bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& fi
                  raytrace::IntegratorCounters& counters, const raytrace::Progress* progress) {
     prepare_planes(scene, film);
     scene.shading->stop_by(settings.stop);
+    scene.shading->show(settings.insight);
+    if (settings.insight.costs) settings.insight.costs->start(scene.view.width, scene.view.height);
     {
         StageScope stage(Stage::Kernels);
         scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);

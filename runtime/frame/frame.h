@@ -7,6 +7,7 @@
 #include "raytrace/film.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/insight.h"
 #include "runtime/shading/shading.h"
 
 namespace kinora {
@@ -40,6 +41,7 @@ struct FrameSettings {
     double gain = 1;                         // of the picture's colours: 2 ^ exposure
     const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
     const PlacedCamera* camera = nullptr;    // instead of the scene's
+    ShadingInsight insight = {};             // its costs are started by the frame
     raytrace::IntegratorSettings integrator;
 };
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/play/core_p.h"
-#include "runtime/play/pick.h"
+#include "runtime/play/pixel_insight.h"
 
 namespace kinora {
 
@@ -32,25 +32,6 @@ double aspect_of(const PlayerCore& core) {
 CommandResult view_along(PlayerCore& core, AxisView view) {
     return move(core,
                 [&](FreeCamera& camera, dvec3) { look_along(camera, view, core.info->up_axis); });
-}
-
-// The box around what is on the node and below it, as it stands; nothing: low > high.
-std::pair<dvec3, dvec3> box_of(const Scene& scene, uint32_t node) {
-    dvec3 low(1e300), high(-1e300);
-    for (const Shape& shape : scene.shapes) {
-        uint32_t n = shape.node;
-        while (n != node && n != kNone) n = scene.nodes[n].parent;
-        if (n != node) continue;
-        bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-        dvec3 anchor = scene.meshes[shape.mesh].anchor;
-        for (const vec4& position : shape.rest_positions) {
-            dvec3 p = dvec3(vec3(position));
-            p = instanced ? dvec3(shape.world * dvec4(p + anchor, 1.0)) : p + scene.origin;
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    }
-    return {low, high};
 }
 
 }  // namespace

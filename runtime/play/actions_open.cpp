@@ -66,6 +66,7 @@ std::vector<std::string> lines_of(const PlayerState& state, const ShaderDocument
     line(picture.tone == ToneCurve::Filmic, "tone", "filmic");
     line(!picture.aov.empty(), "aov", picture.aov);
     line(picture.false_color, "false_color");
+    line(!picture.light.empty(), "light", picture.light);
     line(picture.hold_rate != plain.hold_rate, "hold_rate", fmt::format("{}", picture.hold_rate));
     line(!picture.adapt, "adapt");
     line(!picture.refine, "refine");

@@ -6,6 +6,7 @@
 
 #include "runtime/base/file_extension.h"
 #include "runtime/play/core_p.h"
+#include "runtime/trade/knobs.h"
 
 namespace kinora {
 
@@ -83,8 +84,44 @@ CommandResult action_aov(PlayerCore& core, const Arguments& a) {
     return {};
 }
 
+CommandResult action_light(PlayerCore& core, const Arguments& a) {
+    if (!core.info) return refused("there is no scene yet");
+    const std::vector<std::string>& lights = core.info->lights;
+    std::string& light = core.state.picture.light;
+    if (a.has(0)) {
+        const bool all = a.text(0) == "all";
+        if (!all && std::ranges::find(lights, a.text(0)) == lights.end())
+            return refused(unknown_name("light", a.text(0), lights), 1);
+        light = all ? "" : a.text(0);
+        return {};
+    }
+    if (lights.empty()) return refused("the scene has no lights");
+    auto at = light.empty() ? lights.begin() : std::ranges::find(lights, light);
+    if (!light.empty() && at != lights.end()) ++at;
+    light = at == lights.end() ? "" : *at;
+    return {};
+}
+
 CommandResult action_false_color(PlayerCore& core, const Arguments&) {
     core.state.picture.false_color = !core.state.picture.false_color;
+    return {};
+}
+
+CommandResult action_quality(PlayerCore& core, const Arguments& a) {
+    if (!core.info) return refused("there is no scene yet");
+    const std::vector<std::string> names(std::begin(kPresetNames), std::end(kPresetNames));
+    auto at = std::ranges::find(names, a.text_or(0, core.state.picture.quality));
+    if (a.has(0) && at == names.end()) return refused(unknown_name("quality", a.text(0), names), 1);
+    if (!a.has(0) && (at == names.end() || ++at == names.end())) at = names.begin();
+    core.request.quality = *find_quality(*at);
+    // A session's options are the words, which say the same.
+    std::erase_if(core.request.words, [](const std::string& word) {
+        std::string_view option = std::string_view(word).substr(0, word.find('='));
+        return option == "--quality" || (option.starts_with("--") && find_knob(option.substr(2)));
+    });
+    core.request.words.push_back("--quality=" + *at);
+    core.state.picture.quality = *at;
+    core.maker.open(core.request, core.edits, false);
     return {};
 }
 

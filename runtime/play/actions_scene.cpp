@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "runtime/play/core_p.h"
-#include "runtime/play/pick.h"
 #include "runtime/play/pixel_insight.h"
 
 namespace kinora {

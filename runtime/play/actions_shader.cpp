@@ -5,11 +5,14 @@
 #include <cstring>
 #include <fstream>
 
+#include "runtime/description/shader_library.h"
 #include "runtime/play/core_p.h"
 
 namespace kinora {
 
 namespace {
+
+const std::vector<std::string> kNoWords;
 
 CommandResult no_text() {
     return refused("no shader is being edited; select a material and say edit");
@@ -89,6 +92,25 @@ CommandResult action_edit(PlayerCore& core, const Arguments& a) {
     std::string text((std::istreambuf_iterator<char>(in)), {});
     if (!in) return refused(fmt::format("'{}': {}", a.text(0), std::strerror(errno)), 1);
     show_text(core, std::move(text), false);
+    return {};
+}
+
+CommandResult action_bind(PlayerCore& core, const Arguments& a) {
+    if (core.state.selection.material.empty()) return refused("no material is selected");
+    const std::vector<std::string> ours = shaders_to_choose();
+    const std::string name = a.text(0);
+    if (std::ranges::find(ours, name) == ours.end())
+        return refused(unknown_name("shader of ours", name, ours), 1);
+    if (CommandResult opened = action_edit(core, Arguments(kNoWords)); !opened.done) return opened;
+    ShaderDocument& document = core.document;
+    document.text = library_shader_text(name);
+    document.caret = 0;
+    document.dirty = true;
+    document.compiling = true;
+    ++document.version;
+    core.typing = false;
+    core.change_scene(edits_with_text(
+        core.edits, {document.material, document.name, document.text, document.version}));
     return {};
 }
 

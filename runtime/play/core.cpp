@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/play/clock.h"
+#include "runtime/trade/knobs.h"
 
 namespace kinora {
 
@@ -50,7 +51,8 @@ PlayerCore::PlayerCore(PlayerSetup player_setup)
           wake();
       }),
       loop(setup.real_time, [this] { wake(); }),
-      maker([this] { wake(); }, setup.shows_broken) {}
+      maker([this] { wake(); }, setup.shows_broken),
+      thumbnails([this] { wake(); }) {}
 
 void PlayerCore::wake() {
     {
@@ -76,6 +78,7 @@ void PlayerCore::take_news() {
     while (auto shown = maker.take()) take_scene(std::move(shown));
     for (const Answer& answer : loop.take_answers()) answer();
     add_new(frame_findings, loop.take_findings());
+    note_price();
     bool reload = false;
     {
         std::lock_guard lock(wake_mutex);
@@ -83,6 +86,19 @@ void PlayerCore::take_news() {
     }
     if (reload && setup.watch_files && !maker.opening()) maker.open(request, edits, false);
     merge_findings();
+}
+
+// Of the preset that the picture shown was refined by.
+void PlayerCore::note_price() {
+    const auto picture = loop.picture();
+    const std::string& quality = state.picture.quality;
+    if (quality.empty() || !picture || !picture->refined || !loop.idle() || !maker.idle()) return;
+    const std::vector<StageTimes> times = loop.times();
+    if (times.empty() || times.back().cancelled) return;
+    auto& prices = state.picture.prices;
+    auto row = std::ranges::find(prices, quality, &std::pair<std::string, double>::first);
+    if (row == prices.end()) row = prices.insert(row, {quality, 0});
+    row->second = times.back().total;
 }
 
 void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
@@ -103,6 +119,11 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
         if (material.id == document.material) document.params = material.params;
     load = LoadState::Ready;
     frame_findings.clear();
+    if (std::ranges::find(info->lights, state.picture.light) == info->lights.end())
+        state.picture.light.clear();
+    state.picture.quality.clear();
+    for (const Quality& preset : qualities())
+        if (knob_texts(preset) == knob_texts(request.quality)) state.picture.quality = preset.name;
     TimeState& time = state.time;
     time.first = info->first;
     time.last = info->last;
@@ -231,6 +252,10 @@ ViewOrder PlayerCore::view_order() const {
         if (!state.camera.follow.empty()) order.follow = {state.camera.follow, follow_from};
     }
     order.camera_index = state.camera.index;
+    if (info)
+        if (auto at = std::ranges::find(info->lights, state.picture.light);
+            at != info->lights.end())
+            order.only_light = uint32_t(at - info->lights.begin());
     order.width = state.picture.width;
     order.height = state.picture.height;
     order.exposure = state.picture.exposure;
@@ -253,7 +278,26 @@ DisplaySettings PlayerCore::display_settings() const {
 }
 
 void PlayerCore::send_order() {
-    if (info) loop.order(view_order(), display_settings());
+    if (!info) return;
+    loop.order(view_order(), display_settings());
+    order_thumbnails();
+}
+
+// While the panel is open: our shaders on the selected object, or on the first that wears the
+// material.
+void PlayerCore::order_thumbnails() {
+    const Selection& selection = state.selection;
+    const bool open = std::ranges::find(state.panels, "library") != state.panels.end();
+    if (!open || selection.material.empty()) return thumbnails.forget();
+    auto wears = [&](const NodeInfo& node) {
+        return std::ranges::find(node.materials, selection.material) != node.materials.end();
+    };
+    auto object = std::ranges::find_if(info->nodes, [&](const NodeInfo& node) {
+        return node.path == selection.node && wears(node);
+    });
+    if (object == info->nodes.end()) object = std::ranges::find_if(info->nodes, wears);
+    if (object == info->nodes.end()) return thumbnails.forget();
+    thumbnails.order({request, edits, selection.material, object->path, view_order()});
 }
 
 void PlayerCore::ask(Question question) {

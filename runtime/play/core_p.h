@@ -11,6 +11,7 @@
 #include "runtime/play/player.h"
 #include "runtime/play/render_loop.h"
 #include "runtime/play/scene_maker.h"
+#include "runtime/play/thumbnails.h"
 
 namespace kinora {
 
@@ -45,6 +46,7 @@ struct PlayerCore {
     FileWatch watch;
     RenderLoop loop;
     SceneMaker maker;
+    Thumbnails thumbnails;
 
     void wake();
     // Until it is so, or for so many seconds. Takes up what comes in between.
@@ -53,7 +55,7 @@ struct PlayerCore {
     void send_order();
     ViewOrder view_order() const;
     DisplaySettings display_settings() const;
-    bool idle() const { return maker.idle() && loop.idle(); }
+    bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle(); }
     bool picture_ready() const;  // of the state as it is, or none can be made
     std::string observe(Observable what) const;
     std::string state_json() const;  // all observables and the edits, as texts
@@ -72,6 +74,8 @@ struct PlayerCore {
 
   private:
     void take_text(const ShownScene& shown);
+    void note_price();
+    void order_thumbnails();
     void take_scene(std::unique_ptr<ShownScene> shown);
     void take_swap(ShownScene& shown);
     void merge_findings();

@@ -79,6 +79,23 @@ raytrace::Film of_guide(const raytrace::Film& film, const PictureGuide& guide,
     });
 }
 
+// Heat: false colors from 0 to what only one pixel in fifty exceeds, which an interrupted thread
+// may. Costs of a smaller film are enlarged as they are.
+raytrace::Film of_costs(const raytrace::Film& film, const PixelCosts& costs,
+                        const std::string& aov) {
+    if (costs.empty()) return raytrace::Film(film.width, film.height);
+    std::vector<float> numbers = cost_numbers(costs, aov), sorted = numbers;
+    auto most = sorted.begin() + std::ptrdiff_t(sorted.size() - 1 - sorted.size() / 50);
+    std::nth_element(sorted.begin(), most, sorted.end());
+    const float scale = *most > 0 ? 1 / *most : 1.0f;
+    return film_of(film.width, film.height, [&](size_t k) {
+        const size_t x = k % size_t(film.width) * size_t(costs.width) / size_t(film.width);
+        const size_t y = k / size_t(film.width) * size_t(costs.height) / size_t(film.height);
+        const float heat = numbers[y * size_t(costs.width) + x] * scale;
+        return vec4(false_color(std::min(heat, 1.0f)), 1.0f);
+    });
+}
+
 raytrace::Film of_aov(const raytrace::Film& film, const DisplaySettings& settings) {
     auto planes = planes_of(film, settings.aov);
     if (planes.empty()) return raytrace::Film(film.width, film.height);
@@ -180,6 +197,40 @@ bool shows_guide(const std::string& aov) {
     return aov == "depth" || aov == "Ng" || aov == "surface";
 }
 
+namespace {
+
+struct CostRow {
+    const char* name;
+    std::vector<float> PixelCosts::*plane;
+};
+constexpr CostRow kCosts[] = {
+    {"shading_ns", &PixelCosts::ns},
+    {"rays", &PixelCosts::rays},
+    {"lanes", &PixelCosts::filled},
+    {"samples", &PixelCosts::points},
+};
+
+const CostRow* find_cost(const std::string& aov) {
+    auto found = std::ranges::find_if(kCosts, [&](const CostRow& row) { return aov == row.name; });
+    return found == std::end(kCosts) ? nullptr : found;
+}
+
+}  // namespace
+
+bool shows_costs(const std::string& aov) {
+    return find_cost(aov);
+}
+
+std::vector<float> cost_numbers(const PixelCosts& costs, const std::string& aov) {
+    const CostRow* row = find_cost(aov);
+    if (!row) return {};
+    std::vector<float> numbers = costs.*row->plane;
+    if (row->plane == &PixelCosts::filled)
+        for (size_t k = 0; k < numbers.size(); ++k)
+            numbers[k] = costs.lanes[k] > 0 ? numbers[k] / costs.lanes[k] : 0.0f;
+    return numbers;
+}
+
 std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& planes) {
     std::vector<std::string> names{""};
     for (const raytrace::AovPlane& plane : planes) {
@@ -188,6 +239,7 @@ std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& plan
             names.push_back(name);
     }
     names.insert(names.end(), {"depth", "Ng", "surface"});
+    for (const CostRow& row : kCosts) names.emplace_back(row.name);
     return names;
 }
 
@@ -202,11 +254,13 @@ vec3 false_color(float value) {
     return kStops[k] * (1 - share) + kStops[k + 1] * share;
 }
 
-void display(const raytrace::Film& film, const PictureGuide& guide, const DisplaySettings& settings,
-             std::vector<uint8_t>& out) {
+void display(const raytrace::Film& film, const PictureGuide& guide, const PixelCosts& costs,
+             const DisplaySettings& settings, std::vector<uint8_t>& out) {
     bool plain = settings.aov.empty() && settings.tone == ToneCurve::Plain && !settings.false_color;
     if (plain)
         fast_8_bit(film, settings.encoding, out);
+    else if (shows_costs(settings.aov))
+        fast_8_bit(of_costs(film, costs, settings.aov), ColorEncoding::Srgb, out);
     else if (shows_guide(settings.aov))
         fast_8_bit(of_guide(film, guide, settings), settings.encoding, out);
     else

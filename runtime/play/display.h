@@ -13,7 +13,7 @@ namespace kinora {
 
 struct DisplaySettings {
     ToneCurve tone = ToneCurve::Plain;
-    std::string aov;  // a parameter of surfaces, or "depth", "Ng", "surface"; "" the picture
+    std::string aov;  // a parameter of surfaces, or a name of below; "" the picture
     bool false_color = false;
     ColorEncoding encoding = ColorEncoding::Srgb;
     std::shared_ptr<const Picture> kept;  // shown left of `wipe_at`, if of the same size
@@ -22,14 +22,18 @@ struct DisplaySettings {
     bool operator==(const DisplaySettings&) const = default;
 };
 
-// Whether what is to be shown is made of the guide.
+// Whether what is to be shown is made of the guide: "depth", "Ng", "surface".
 bool shows_guide(const std::string& aov);
-// All that `aov` takes: "" first, the film's own, then those of the guide.
+// Or of the costs: "shading_ns", "rays", "lanes", "samples".
+bool shows_costs(const std::string& aov);
+// A number for each of the film's pixels: ns, rays or points a pixel, or the share of the lanes.
+std::vector<float> cost_numbers(const PixelCosts& costs, const std::string& aov);
+// All that `aov` takes: "" first, the film's own, then those of guide and costs.
 std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& planes);
 
 // Fills `out`, RGBA of the film's size. Plain and without AOV: to_8_bit, the bytes of a PNG.
-void display(const raytrace::Film& film, const PictureGuide& guide, const DisplaySettings& settings,
-             std::vector<uint8_t>& out);
+void display(const raytrace::Film& film, const PictureGuide& guide, const PixelCosts& costs,
+             const DisplaySettings& settings, std::vector<uint8_t>& out);
 
 // The bytes of to_8_bit, sooner and on all threads.
 void fast_8_bit(const raytrace::Film& film, ColorEncoding encoding, std::vector<uint8_t>& out);

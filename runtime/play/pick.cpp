@@ -1,5 +1,5 @@
 // runtime/play/pick.cpp: a ray through a pixel, and the names of what it meets.
-#include "runtime/play/pick.h"
+#include "runtime/play/pixel_insight.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -9,6 +9,7 @@
 #include "raytrace/camera.h"
 #include "raytrace/film.h"
 #include "runtime/base/math.h"
+#include "runtime/shading/insight.h"
 
 namespace kinora {
 
@@ -26,6 +27,7 @@ struct Picture {
     // As rendered: `film` is smaller than the picture where `scale` < 1. Linear, associated.
     raytrace::Film film;
     PictureGuide guide;     // of the picture's size; empty where nothing was asked of it
+    PixelCosts costs;       // of the film's size; empty where nobody asked
     raytrace::Camera view;  // that made it
     dvec3 origin{0.0};      // of the view's space, in the world
     double frame = 0;       // of the scene's time

@@ -1,12 +1,20 @@
-// runtime/play/pixel_insight.h: the clicked pixel of an order, looked into.
+// runtime/play/pixel_insight.h: what lies under a pixel, and the clicked pixel looked into.
 #pragma once
 
 #include <memory>
 
+#include "runtime/play/picture.h"
 #include "runtime/play/pixel/pixel_story.h"
 #include "runtime/play/render_loop.h"
+#include "runtime/play/state.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+// By a ray through the pixel's center, of the scene as the last frame has left it; the pixel is one
+// of a picture of that width and height, of which `picture` (if it is there) gives the color.
+PickedPixel pick_pixel(const Scene& scene, int x, int y, int width, int height,
+                       const Picture* picture);
 
 // How the first sample of the pixel in the refined picture came by its color. On the thread of the
 // pictures.

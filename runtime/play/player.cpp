@@ -143,6 +143,9 @@ const std::vector<FindingText>& Player::findings() const {
 std::vector<StageTimes> Player::stage_times() const {
     return core_->loop.times();
 }
+std::vector<std::shared_ptr<const Thumbnail>> Player::thumbnails() const {
+    return core_->thumbnails.made();
+}
 bool Player::idle() const {
     return core_->idle();
 }

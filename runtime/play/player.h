@@ -45,6 +45,7 @@ struct PlayerSetup {
 enum class LoadState : uint8_t { Nothing, Loading, Ready, Failed };
 
 struct PlayerCore;   // core_p.h
+struct Thumbnail;    // thumbnails.h
 struct MakerCounts;  // scene_maker.h
 
 class Player {
@@ -72,8 +73,10 @@ class Player {
     std::shared_ptr<const SceneInfo> scene() const;  // null before the first
     const ShaderDocument& shader() const;
     const std::vector<FindingText>& findings() const;  // of the scene and of the last pictures
-    std::vector<StageTimes> stage_times() const;       // of the last 120 frames, the newest last
-    std::string observe(Observable what) const;        // changes when what is observed does
+    // Our shaders on the selected object, while the panel `library` is open; those made so far.
+    std::vector<std::shared_ptr<const Thumbnail>> thumbnails() const;
+    std::vector<StageTimes> stage_times() const;  // of the last 120 frames, the newest last
+    std::string observe(Observable what) const;   // changes when what is observed does
 
     // Nothing is left to do: the picture is refined, or cannot be made.
     bool idle() const;

@@ -27,7 +27,15 @@ double sum_of(const FrameStats& stats, std::initializer_list<Stage> stages) {
 constexpr size_t kTimes = 120;
 constexpr int kSomeShare = 8;     // a pass of a share of the samples comes before the whole
 constexpr int kManySamples = 16;  // where there are at least so many
+constexpr int kCostTile = 8;      // pixels a side, that costs are measured in
 constexpr double kLate = 1.5;     // a quick frame this many times too late is let go for a newer
+
+// Small tiles say where the costs are.
+void measure_costs(FrameSettings& settings, PixelCosts& costs) {
+    settings.insight.costs = &costs;
+    settings.integrator.tile = kCostTile;
+    settings.integrator.chunk_rays = size_t(kCostTile) * kCostTile;
+}
 
 }  // namespace
 
@@ -53,6 +61,8 @@ FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, Placed
     settings.width = order.width;
     settings.height = order.height;
     settings.gain *= std::exp2(order.exposure);
+    if (order.only_light < shown.scene->lights.size())
+        settings.insight.only_light = order.only_light;
     settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
     if (order.camera) {
         placed = placed_camera(*shown.scene, *order.camera, order.follow, time_of(shown, order));
@@ -81,7 +91,7 @@ bool ViewOrder::same_picture(const ViewOrder& o) const {
         camera.has_value() == o.camera.has_value() &&
         (camera ? camera_key(*camera) == camera_key(*o.camera) : camera_index == o.camera_index);
     return same_camera && follow == o.follow && frame == o.frame && width == o.width &&
-           height == o.height && exposure == o.exposure;
+           height == o.height && exposure == o.exposure && only_light == o.only_light;
 }
 
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
@@ -129,8 +139,9 @@ void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
         bool quality_changed = order_.refine != order.refine;
         order_ = order;
         if (!(display == display_)) {
-            // The guide may be missing.
+            // The guide or the costs may be missing.
             if (shows_guide(display.aov) && !shows_guide(display_.aov)) same = false;
+            if (shows_costs(display.aov) != shows_costs(display_.aov)) same = false;
             display_ = display;
             display_changed_ = true;
         }
@@ -338,6 +349,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     settings.height = std::max(1, int(std::lround(step.order.height * step.scale)));
     settings.integrator.samples_per_pixel = step.samples;
     settings.stop = &stop_;
+    to->costs = {};
+    if (shows_costs(step.display.aov)) measure_costs(settings, to->costs);
     FrameStats stats;
     try {
         outcome.whole = step.pass == Pass::Refined
@@ -441,8 +454,9 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
         film = &memory_->enlarged;
     }
     DisplaySettings display = step.display;
-    if (small && !shows_guide(display.aov)) display.aov.clear();  // planes come with all pixels
-    kinora::display(*film, to.guide, display, to.rgba);
+    if (small && !shows_guide(display.aov) && !shows_costs(display.aov))
+        display.aov.clear();  // planes come with all pixels
+    kinora::display(*film, to.guide, to.costs, display, to.rgba);
 }
 
 void RenderLoop::answer(const Step& step) {
@@ -464,7 +478,8 @@ void RenderLoop::redisplay(const Step& step) {
     to->serial = serial;
     bool small = to->film.width != to->width || to->film.height != to->height;
     if (small) enlarge(to->film, to->guide, to->width, to->height, memory_->enlarged);
-    kinora::display(small ? memory_->enlarged : to->film, to->guide, step.display, to->rgba);
+    kinora::display(small ? memory_->enlarged : to->film, to->guide, to->costs, step.display,
+                    to->rgba);
     publish(std::move(to));
 }
 

@@ -28,6 +28,7 @@ struct ViewOrder {
     // The free camera moves with a node that was there when it began to.
     std::optional<std::pair<std::string, dvec3>> follow;
     uint32_t camera_index = 0;
+    uint32_t only_light = kNone;  // of Scene::lights
     int width = 640, height = 360;
     double exposure = 0;   // stops above the request's
     bool playing = false;  // the next one comes soon: not refined, and not cancelled for it

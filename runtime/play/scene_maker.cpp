@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "jit/compiler.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/description/findings.h"
@@ -210,6 +211,9 @@ SceneEdits SceneMaker::with_shared_texts(SceneEdits edits) const {
     return edits;
 }
 
+// Undo finds the kernels of so many edits; those of older ones, which nobody runs, are freed.
+constexpr int kSwapsKept = 32;
+
 // False: the scene is to be built.
 bool SceneMaker::swap(const Order& order, ShownScene& shown) {
     if (!base_ || !swapper_ || order.edits.hidden != built_with_.hidden) return false;
@@ -231,6 +235,8 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
             return false;
     }
     shaders_ = std::move(shaders);
+    // Each text leaves its kernels in the cache.
+    if (++swaps_ % kSwapsKept == 0) jit::clear_cache();
     shown.exit_code = kExitOk;
     shown.info = swapped_info(*info_, imported.description);
     shown.swapped = {std::move(swap), diagnostics.files};

@@ -77,6 +77,7 @@ class SceneMaker {
     std::vector<std::string> files_;
     SourceFiles texts_;  // that `base_` was read from
     uint64_t serial_ = 0;
+    int swaps_ = 0;  // so far
     std::thread thread_;
 };
 

@@ -18,6 +18,8 @@ struct FindingText {
 
 enum class ParamKind : uint8_t { Float, Color, Point, Vector, Normal, Matrix, Text };
 
+inline constexpr size_t kCurvePoints = 129;
+
 // A parameter of the edited shader, from its declaration.
 struct ShaderParamInfo {
     std::string name;
@@ -27,6 +29,9 @@ struct ShaderParamInfo {
     std::vector<double> numbers;  // what it is now; empty where it varies
     std::string text;
     bool animated = false;
+    // Where it is: what the file's keys make of it over the scene's range, in kCurvePoints equal
+    // steps of time; all numbers of a step together. Colors as the file has them.
+    std::vector<float> curve;
     bool changed = false;  // by hand
 };
 

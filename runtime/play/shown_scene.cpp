@@ -90,6 +90,54 @@ std::vector<NodeInfo> node_infos(const Scene& scene) {
     return infos;
 }
 
+std::vector<std::string> light_names(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const LightSource& source : scene.lights) {
+        const LightDefinition& light = scene.description->lights[source.definition];
+        std::string name = light.name.empty() ? light.id : light.name;
+        if (name.empty()) name = "light";
+        const std::string base = name;
+        for (int k = 2; std::ranges::find(names, name) != names.end(); ++k)
+            name = base + " " + std::to_string(k);
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+// A parameter whose value keys move.
+struct Animated {
+    ShaderParamInfo* info;
+    ValueSlot slot;
+};
+
+// Their curves from one time to another, in seconds. The animation is asked itself: the scene
+// stays at its time.
+void add_curves(const SceneDescription& description, double begin, double end,
+                std::span<const Animated> params) {
+    if (params.empty()) return;
+    std::vector<double> values = description.values;
+    values.resize(std::max(values.size(), size_t(description.animation.slot_count)));
+    std::vector<uint64_t> changed(anim::changed_words(description.animation.owner_count));
+    for (size_t k = 0; k < kCurvePoints; ++k) {
+        const double share = double(k) / double(kCurvePoints - 1);
+        anim::evaluate(description.animation, begin + share * (end - begin), values, changed);
+        for (const Animated& param : params)
+            for (uint32_t c = 0; c < param.slot.count; ++c)
+                param.info->curve.push_back(float(values[param.slot.offset + c]));
+    }
+}
+
+void add_curves(const Scene& scene, std::vector<MaterialInfo>& materials) {
+    std::vector<Animated> params;
+    for (size_t m = 0; m < materials.size(); ++m)
+        for (ShaderParamInfo& info : materials[m].params) {
+            if (!info.animated) continue;
+            for (const ParamSource& source : scene.description->materials[m].surfaces.back().params)
+                if (source.name == info.name) params.push_back({&info, source.value});
+        }
+    add_curves(*scene.description, scene.options.start_time, scene.options.end_time, params);
+}
+
 std::vector<MaterialInfo> material_infos(const Scene& scene, const SceneRead& read) {
     std::vector<MaterialInfo> infos;
     for (const MaterialDefinition& material : scene.description->materials) {
@@ -181,10 +229,12 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
     info->low = scene.low;
     info->high = scene.high;
     for (const CameraSource& camera : scene.cameras) info->cameras.push_back(camera.name);
+    info->lights = light_names(scene);
     for (const ClipDefinition& clip : description.clips)
         info->clips.push_back({clip.name, clip.start * rate.value(), clip.end * rate.value()});
     info->nodes = node_infos(scene);
     info->materials = material_infos(scene, read);
+    add_curves(scene, info->materials);
     std::vector<raytrace::AovPlane> planes;
     for (const OutputPlane& plane : scene.outputs)
         planes.push_back({plane.name, raytrace::AovFilter::Mean, {}, plane.in_file});

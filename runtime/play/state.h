@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -46,8 +47,11 @@ struct PictureState {
     double hold_rate = 30;     // pictures a second while something moves
     bool adapt = true;         // fewer pixels where that rate is not reached
     bool refine = true;        // to the quality of kinora-render when nothing moves
-    std::string wipe;          // the picture kept by `keep`, left of `wipe_at`; "" none
-    double wipe_at = 0.5;      // share of the width
+    std::string quality;       // the preset; "" single options were put over one
+    std::vector<std::pair<std::string, double>> prices;  // ms of the last refined picture of each
+    std::string light;     // the one that shines alone, as the scene lists it; "" all
+    std::string wipe;      // the picture kept by `keep`, left of `wipe_at`; "" none
+    double wipe_at = 0.5;  // share of the width
 };
 
 // What lies under a pixel.

@@ -1,6 +1,7 @@
 // runtime/shading/hit_shader.cpp: hits through the kernels of their looks.
 #include "runtime/shading/hit_shader.h"
 
+#include <time.h>
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -9,7 +10,9 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/insight.h"
 #include "runtime/shading/nested_rays.h"
+#include "runtime/shading/shading_frame.h"
 
 namespace kinora {
 
@@ -86,13 +89,17 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
         arena.release(part);
         grids = points = 0;
     };
-    for (const LookRun& run : runs)
+    PixelCosts* costs = hits.depth == 0 ? frame_.insight.costs : nullptr;
+    for (const LookRun& run : runs) {
+        CostScope cost(costs, memory, hits, run.hits);
         for (size_t at = 0, n; at < run.hits.size(); at += n) {
             n = std::min(kGridPoints, run.hits.size() - at);
             if (points + n > kGridPoints) shade_lit();
             lit[grids++] = &light_grid(call, run.hits.subspan(at, n), *run.look, shadows);
             points += n;
         }
+        if (costs) shade_lit();
+    }
     shade_lit();
     volumes_.apply(hits, ray, shadows_, memory, result);
     arena.release(mark);
@@ -213,7 +220,8 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         uint32_t turns = hits.rays->turns[hits.ray[points[i]]];
         result.passages[points[i]] = {rays.onward, turns + rays.reflects, rays.shot};
     }
-    if (frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
+    const bool whole = frame_.insight.only_light == kNone;
+    if (whole && frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];
@@ -228,6 +236,43 @@ void HitShader::shade_misses(const raytrace::HitBatch& ends, const RayTag& ray,
         std::fill_n(result.Oi[k], ends.count, 0.0f);
     }
     volumes_.apply(ends, ray, shadows_, memory, result);
+}
+
+void PixelCosts::start(int picture_width, int picture_height) {
+    width = picture_width;
+    height = picture_height;
+    for (std::vector<float>* plane : {&ns, &rays, &points, &filled, &lanes})
+        plane->assign(size_t(width) * size_t(height), 0.0f);
+}
+
+CostScope::CostScope(PixelCosts* costs, const ThreadMemory& memory, const raytrace::HitBatch& hits,
+                     std::span<const uint32_t> which)
+    : costs_(costs), memory_(memory), hits_(hits), which_(which) {
+    if (costs_) begin_ = read();
+}
+
+CostScope::Reading CostScope::read() const {
+    const ShadingCounters& counters = memory_.counters;
+    timespec now{};  // of this thread alone: what else the machine does is no cost of the pixel
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return {int64_t(now.tv_sec) * 1'000'000'000 + now.tv_nsec,
+            counters.trace.rays + counters.trace.shadow_rays, counters.kernel_points,
+            counters.kernel_lanes};
+}
+
+CostScope::~CostScope() {
+    if (!costs_ || which_.empty()) return;
+    const Reading end = read();
+    const auto share = 1.0f / float(which_.size());
+    for (uint32_t hit : which_) {
+        const size_t pixel =
+            size_t(hits_.pixel_y[hit]) * size_t(costs_->width) + hits_.pixel_x[hit];
+        costs_->ns[pixel] += share * float(end.ns - begin_.ns);
+        costs_->rays[pixel] += share * float(end.rays - begin_.rays);
+        costs_->points[pixel] += 1;
+        costs_->filled[pixel] += share * float(end.filled - begin_.filled);
+        costs_->lanes[pixel] += share * float(end.lanes - begin_.lanes);
+    }
 }
 
 }  // namespace kinora

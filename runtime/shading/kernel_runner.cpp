@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "jit/target.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
@@ -94,6 +95,10 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
     Arena& arena = grid.memory.arena;
     std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
     GridHost host(grid, services_);
+    const jit::Target* target = scene_.options.target;
+    const auto lanes = size_t((target ? *target : jit::best_target()).lanes);
+    grid.memory.counters.kernel_points += grid.count();
+    grid.memory.counters.kernel_lanes += (grid.count() + lanes - 1) / lanes * lanes;
     bound.run({.count = grid.count(),
                .columns = grid.columns,
                .out = out,

@@ -20,7 +20,7 @@ class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
     void begin_frame();
-    // Names the lights that shine only against where they look (light_aim.cpp).
+    // Names the lights that shine only against where they look.
     void report_aims(Diagnostics& diagnostics) const;
 
     // Which of Scene::lights each record of a set is of.

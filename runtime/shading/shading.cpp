@@ -27,6 +27,8 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     too_deep += o.too_deep;
     unlit += o.unlit;
     out_of_rays += o.out_of_rays;
+    kernel_points += o.kernel_points;
+    kernel_lanes += o.kernel_lanes;
     seen += o.seen;
     dark += o.dark;
 }
@@ -122,6 +124,9 @@ void Shading::begin_frame(uint32_t seed, int max_layers) {
 
 void Shading::stop_by(const std::atomic<int>* flag) {
     objects_->frame.stop = flag;
+}
+void Shading::show(const ShadingInsight& insight) {
+    objects_->frame.insight = insight;
 }
 bool Shading::stopped() const {
     return objects_->frame.stopped();

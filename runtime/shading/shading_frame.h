@@ -7,6 +7,7 @@
 
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
+#include "runtime/shading/insight.h"
 
 namespace kinora {
 
@@ -24,6 +25,7 @@ struct ShadingCounters {
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
     uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
     uint64_t out_of_rays = 0;       // points that asked for more rays than they may shoot
+    uint64_t kernel_points = 0, kernel_lanes = 0;  // of all launches; lanes in whole registers
     uint64_t seen = 0, dark = 0;    // hits of the camera that show anything; of those, unlit ones
     void operator+=(const ShadingCounters& o);
 };
@@ -45,6 +47,7 @@ struct ShadingFrame {
     float far_distance = 0;
     float miss_distance = 0;  // the same where some volume lies on the way, else 0
     const std::atomic<int>* stop = nullptr;
+    ShadingInsight insight = {};
 
     bool stopped() const { return stop && stop->load(std::memory_order_relaxed) != 0; }
 };

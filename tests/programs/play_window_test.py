@@ -139,11 +139,26 @@ class WindowTest(unittest.TestCase):
     def test_a_splitter_is_dragged(self):
         window = self.open(MATTE)
         self.drawn(PICTURE)
-        window.drag(230, 400, 330, 400)
-        time.sleep(0.3)
-        self.words(window)
+        # From afar and at once, so that one turn of the loop may see the way there and the press.
+        self.display.xdotool("mousemove", 700, 300)
+        window.wait_still(10, 0.3)
+        self.display.xdotool("mousemove", 230, 400, "mousedown", 1, "mousemove", 280, 400, "mousemove", 330, 400,
+                             "mouseup", 1)
+        self.words(window)  # what it does comes before the window's end
         conf = (self.display.folder / "config/kinora/play.conf").read_text()
         self.assertRegex(conf, r"left 3(2|3)\d")
+
+    def test_a_small_window_is_the_picture(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        self.display.xdotool("windowsize", window.id, 320, 240)
+        window.wait_still(20, 1)
+        window.drag(30, 100, 90, 100)  # where the tree of nodes was, and where the editor
+        window.recorded(self.record, "^orbit ")
+        window.drag(230, 100, 290, 100)
+        text = self.words(window)
+        turned = sum(float(right) for right in re.findall(r"^orbit (\S+) ", text, re.M))
+        self.assertAlmostEqual(turned, -0.4 * 120, delta=0.01)
 
     def test_no_opengl_is_mapped(self):
         window = self.open(MATTE)

@@ -100,6 +100,12 @@ TEST_F(RayFilter, InactiveLanesMayHoldAnything) {
     EXPECT_EQ(accel.intersect16(packet, hits, counters), 1u << 3);
     EXPECT_EQ(counters.filtered, 0u);
     EXPECT_EQ(counters.rays, 1u);
+    // Whatever random shaders left there made Embree's shadow rays abort.
+    for (int i = 0; i < kPacket; ++i) set_lane(packet, i, {0, 0, 5}, {0, 0, -1});
+    set_lane(packet, 2, {kNaN, kNaN, kNaN}, {0, 0, 0}, 0, 1);
+    packet.active = 0x7b;
+    EXPECT_EQ(accel.occluded16(packet, counters), 0x7bu);
+    EXPECT_EQ(accel.intersect16(packet, hits, counters), 0x7bu);
 }
 
 TEST(DenormalGuard, FlushesInItsScopeOnly) {

@@ -1,6 +1,8 @@
 // runtime/play/session/places.cpp: paths of nodes.
 #include "runtime/play/session/places.h"
 
+#include <glm/common.hpp>
+
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
@@ -23,6 +25,24 @@ uint32_t find_node(const Scene& scene, const std::string& wanted) {
         if (wanted == node.id || wanted == node.name || wanted == node_path(scene, n)) return n;
     }
     return kNone;
+}
+
+std::pair<dvec3, dvec3> box_of(const Scene& scene, uint32_t node) {
+    dvec3 low(1e300), high(-1e300);
+    for (const Shape& shape : scene.shapes) {
+        uint32_t n = shape.node;
+        while (n != node && n != kNone) n = scene.nodes[n].parent;
+        if (n != node) continue;
+        bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
+        dvec3 anchor = scene.meshes[shape.mesh].anchor;
+        for (const vec4& position : shape.rest_positions) {
+            dvec3 p = dvec3(vec3(position));
+            p = instanced ? dvec3(shape.world * dvec4(p + anchor, 1.0)) : p + scene.origin;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    return {low, high};
 }
 
 std::optional<dvec3> place_at(Scene& scene, const std::string& name, double seconds) {

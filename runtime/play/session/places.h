@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "runtime/base/math.h"
 #include "runtime/scene/scene.h"
@@ -12,6 +13,9 @@ namespace kinora {
 // "torso/head/eye", by ids.
 std::string node_path(const Scene& scene, uint32_t node);
 uint32_t find_node(const Scene& scene, const std::string& path_id_or_name);  // kNone: none
+
+// The box around what is on the node and below it, as it stands; nothing: low > high.
+std::pair<dvec3, dvec3> box_of(const Scene& scene, uint32_t node);
 
 // Where a node stands at a time, in seconds; the scene is evaluated there. Nothing where there is
 // none of that name.

@@ -35,7 +35,7 @@ TEST(Display, IsThePngOfTheFilm) {
         std::vector<uint8_t> shown;
         DisplaySettings settings;
         settings.encoding = encoding;
-        display(film, {}, settings, shown);
+        display(film, {}, {}, settings, shown);
         EXPECT_EQ(shown, to_8_bit(film, encoding).rgba);
     }
 }
@@ -78,7 +78,7 @@ TEST(Display, AKeptPictureStandsLeftOfTheWipe) {
     settings.kept = kept;
     settings.wipe_at = 0.25;
     std::vector<uint8_t> shown;
-    display(film, {}, settings, shown);
+    display(film, {}, {}, settings, shown);
     EXPECT_EQ(shown[3], 7);
     EXPECT_EQ(shown[4], 255);
 }

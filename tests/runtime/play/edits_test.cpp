@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 
+#include "jit/compiler.h"
 #include "runtime/play/scene_maker.h"
 #include "tests/rsl/random_shader.h"
 #include "tests/runtime/play/played.h"
@@ -127,8 +128,12 @@ void edit(Player& player, Typist& typist, int count) {
 }
 
 size_t memory_with(Player& player, const std::string& text) {
-    EXPECT_TRUE(player.run("set_text", {text}).done);
     EXPECT_TRUE(player.run_line("play off").done);
+    // What undo would find is let go for these, which are the same kernels.
+    for (size_t k = 40; k-- > 0;) {
+        EXPECT_TRUE(player.run("set_text", {text + std::string(k, ' ')}).done);
+        EXPECT_TRUE(player.wait_picture(kLong));
+    }
     EXPECT_TRUE(player.run_line("seek 1").done);
     EXPECT_TRUE(player.wait_idle(kLong));
     EXPECT_EQ(player.shader().shown, player.shader().version);
@@ -138,8 +143,9 @@ size_t memory_with(Player& player, const std::string& text) {
     return used;
 }
 
-// Not run yet: memory grew by 8 % in its first form (issue 15). In a folder of its own: some of the
-// shaders write files beside the scene.
+// Not run since what made memory grow (the cache of kernels) and what aborted it (a NaN in a lane
+// that nobody asks for) were mended: run it, then take DISABLED_ away (issue 15). In a folder of its
+// own: some of the shaders write files beside the scene.
 TEST(Edits, DISABLED_AThousandAtRandomLeaveNothingBehind) {
     const std::string file = testing::TempDir() + "kinora_play_edits.dae";
     write(file, text_of(scene_path("scenes/walker.dae")));
@@ -150,6 +156,7 @@ TEST(Edits, DISABLED_AThousandAtRandomLeaveNothingBehind) {
     Typist typist(text);
     double longest = 0;
     std::array<size_t, 4> used{};
+    std::vector<size_t> kernels;  // that the cache holds
     for (size_t& bytes : used) {
         for (int k = 0; k < 4; ++k) {
             edit(player, typist, 70);
@@ -157,11 +164,13 @@ TEST(Edits, DISABLED_AThousandAtRandomLeaveNothingBehind) {
                 longest = std::max(longest, times.total);
         }
         bytes = memory_with(player, text);
+        kernels.push_back(jit::cache_stats().kernels);
     }
     const MakerCounts made = player.made();
     std::printf("memory %.1f %.1f %.1f %.1f MB; longest frame %.0f ms; %d kernels, %d scenes\n",
                 double(used[0]) / 1e6, double(used[1]) / 1e6, double(used[2]) / 1e6,
                 double(used[3]) / 1e6, longest, int(made.kernels), int(made.scenes));
+    for (size_t count : kernels) EXPECT_EQ(count, kernels.front());
     // The first parts size buffers for the hardest texts; what leaks grows in the last one too.
     EXPECT_LE(double(used[3]), 1.01 * double(used[2]));
 }

@@ -50,6 +50,22 @@ class EditorPanel {
     size_t caret_ = 0;  // as the player has it
 };
 
+// The lights, one of which may shine alone.
+void draw_lights(Context& context);
+// The presets of quality, and what a picture of each took.
+void draw_quality(Context& context);
+
+// Our shaders on the selected object.
+class LibraryPanel {
+  public:
+    void draw(Context& context);
+
+  private:
+    // Kept while the rasteriser reads them.
+    std::vector<std::shared_ptr<const Thumbnail>> shown_;
+    std::vector<Texture> textures_;
+};
+
 void draw_findings(Context& context);
 // Everything known of the pixel that was clicked.
 void draw_pixel(Context& context);

@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "runtime/programs/play/ui/panels.h"
 
@@ -110,7 +111,42 @@ void draw_value(Context& context, const ShaderParamInfo& param) {
     if (changed) context.run("param", {param.name, numbers_text(numbers)});
 }
 
-void draw_parameter(Context& context, const ShaderParamInfo& param) {
+constexpr ImU32 kCurveColors[] = {IM_COL32(0xe0, 0x6c, 0x60, 255), IM_COL32(0x7f, 0xc0, 0x6a, 255),
+                                  IM_COL32(0x5f, 0x9c, 0xe8, 255)};
+
+// A line for each of its numbers over the scene's range, all of one scale, and where time stands.
+void draw_curve(Context& context, const ShaderParamInfo& param, const SceneInfo& scene) {
+    const size_t numbers = param.curve.size() / kCurvePoints;
+    if (numbers == 0) return;
+    const Theme& theme = context.theme;
+    const auto [least, most] = std::minmax_element(param.curve.begin(), param.curve.end());
+    const float low = *least, range = *most > low ? *most - low : 1.0f;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{std::max(ImGui::GetContentRegionAvail().x, 8.0f), theme.px(34)};
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(0, 0, 0, 70),
+                        theme.px(3));
+    std::vector<ImVec2> line(kCurvePoints);
+    for (size_t c = 0; c < numbers; ++c) {
+        for (size_t k = 0; k < kCurvePoints; ++k) {
+            const float x = static_cast<float>(k) / static_cast<float>(kCurvePoints - 1),
+                        y = (param.curve[k * numbers + c] - low) / range;
+            line[k] = {corner.x + x * size.x, corner.y + size.y - 2 - y * (size.y - 4)};
+        }
+        list->AddPolyline(line.data(), static_cast<int>(line.size()),
+                          numbers == 1 ? theme.accent : kCurveColors[c % 3], 0, 1.2f);
+    }
+    const double length = std::max(scene.last - scene.first, 1e-9),
+                 at = (context.state().time.frame - scene.first) / length;
+    const float x = corner.x + static_cast<float>(std::clamp(at, 0.0, 1.0)) * size.x;
+    list->AddRectFilled({x, corner.y}, {x + 1, corner.y + size.y}, theme.text);
+    ImGui::Dummy(size);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%.4g to %.4g, from frame %g to %g", static_cast<double>(*least),
+                          static_cast<double>(*most), scene.first, scene.last);
+}
+
+void draw_parameter(Context& context, const ShaderParamInfo& param, const SceneInfo& scene) {
     const Theme& theme = context.theme;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -132,6 +168,7 @@ void draw_parameter(Context& context, const ShaderParamInfo& param) {
     ImGui::BeginDisabled(fixed);
     draw_value(context, param);
     ImGui::EndDisabled();
+    draw_curve(context, param, scene);
 }
 
 void draw_materials(Context& context, const SceneInfo& scene) {
@@ -179,7 +216,7 @@ void draw_parameters(Context& context) {
         ImGui::TableSetupColumn("value", 0, 0.62f);
         for (const ShaderParamInfo& param : shader.params) {
             ImGui::PushID(param.name.c_str());
-            draw_parameter(context, param);
+            draw_parameter(context, param, *scene);
             ImGui::PopID();
         }
         ImGui::EndTable();

@@ -18,7 +18,8 @@ struct PanelRow {
 };
 constexpr PanelRow kPanels[] = {
     {"scene", "Scene", Area::Left, true},          {"parameters", "Parameters", Area::Left, true},
-    {"editor", "Shader", Area::Right, true},       {"pixel", "Pixel", Area::Right, true},
+    {"lights", "Lights", Area::Left, false},       {"editor", "Shader", Area::Right, true},
+    {"pixel", "Pixel", Area::Right, true},         {"library", "Library", Area::Right, false},
     {"findings", "Findings", Area::Bottom, false}, {"times", "Frame times", Area::Bottom, false},
 };
 // Open panels without a place in an area.
@@ -32,6 +33,8 @@ bool known(const std::string& name) {
 
 constexpr float kGrip = 3;           // of a splitter, to each side
 constexpr float kLeastMiddle = 240;  // pixels that remain for the picture
+constexpr float kNarrow = 560;       // of a window less wide, the picture has what no panel needs
+constexpr float kLow = 320;          // a window less high has no status bar
 
 }  // namespace
 
@@ -80,10 +83,28 @@ bool Ui::shows(Area area) const {
     });
 }
 
+// In a narrow window one side is shown: the one of the panel opened last, none at first.
+void Ui::follow_opened() {
+    std::vector<std::string> open;
+    for (const PanelRow& row : kPanels)
+        if (context_.open(row.name)) open.push_back(row.name);
+    for (const PanelRow& row : kPanels) {
+        const bool before = std::find(opened_.begin(), opened_.end(), row.name) != opened_.end();
+        if (!followed_ || before || !context_.open(row.name)) continue;
+        if (context_.to_front.empty()) context_.to_front = row.name;
+        if (row.area != Area::Bottom) narrow_side_ = row.area;
+    }
+    if (narrow_side_ && !shows(*narrow_side_)) narrow_side_.reset();
+    opened_ = std::move(open);
+    followed_ = true;
+}
+
 void Ui::draw_panel(const char* name) {
     const std::string_view panel = name;
     if (panel == "scene") nodes_.draw(context_);
     if (panel == "parameters") draw_parameters(context_);
+    if (panel == "lights") draw_lights(context_);
+    if (panel == "library") library_.draw(context_);
     if (panel == "editor") editor_.draw(context_);
     if (panel == "pixel") draw_pixel(context_);
     if (panel == "findings") draw_findings(context_);
@@ -140,7 +161,8 @@ void Ui::splitter(Area area, const Box& box) {
                                                   : ImVec2{box.size().x, 2 * grip + 1});
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-    if (ImGui::IsItemActive()) {
+    // The way to where the button went down may belong to the same turn.
+    if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
         const ImVec2 moved = ImGui::GetIO().MouseDelta;
         const float by = area == Area::Left ? moved.x : area == Area::Right ? -moved.x : -moved.y;
         layout_.sizes[index] = std::clamp(layout_.sizes[index] + by / theme_.scale, 80.0f, 4096.0f);
@@ -206,16 +228,20 @@ void Ui::draw() {
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
     draw_menu(context_);
-    const float top = ImGui::GetFrameHeight(), status = theme_.px(24),
+    follow_opened();
+    const bool narrow = display.x < theme_.px(kNarrow), is_low = display.y < theme_.px(kLow);
+    const float top = ImGui::GetFrameHeight(), status = is_low ? 0.0f : theme_.px(24),
                 transport = timeline_.height(theme_);
     const auto size_of = [&](Area area, float most) {
-        return shows(area)
+        const bool hidden = narrow && area != Area::Bottom && narrow_side_ != area;
+        return shows(area) && !hidden
                    ? std::round(std::clamp(theme_.px(layout_.sizes[static_cast<size_t>(area)]),
                                            theme_.px(80), std::max(theme_.px(80), most)))
                    : 0.0f;
     };
-    const float right = size_of(Area::Right, display.x * 0.6f);
-    const float left = size_of(Area::Left, display.x - right - theme_.px(kLeastMiddle));
+    const float right = size_of(Area::Right, display.x * (narrow ? 0.8f : 0.6f));
+    const float left = size_of(
+        Area::Left, narrow ? display.x * 0.8f : display.x - right - theme_.px(kLeastMiddle));
     const float bottom = size_of(Area::Bottom, display.y * 0.5f);
     const float low = display.y - status, middle = low - transport - bottom;
     const float grip = theme_.px(kGrip);
@@ -243,7 +269,7 @@ void Ui::draw() {
     if (right > 0) draw_area(Area::Right, right_box);
     if (bottom > 0) draw_area(Area::Bottom, bottom_box);
     if (!context_.open("editor")) editor_.release();
-    status_bar({{0, low}, {display.x, display.y}});
+    if (!is_low) status_bar({{0, low}, {display.x, display.y}});
     ImGui::End();
 
     // The palette is a panel of the state, which it leaves by itself.

@@ -1,7 +1,9 @@
 // runtime/programs/play/ui/ui.h: the whole window's content, drawn with Dear ImGui once a turn.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/programs/play/ui/context.h"
 #include "runtime/programs/play/ui/panels.h"
@@ -38,6 +40,7 @@ class Ui {
     void restore_panels();
     void remember_panels();
     bool shows(Area area) const;
+    void follow_opened();
     void draw_area(Area area, const Box& box);
     void draw_panel(const char* name);
     void splitter(Area area, const Box& box);
@@ -49,11 +52,15 @@ class Ui {
     Texture font_;
     Context context_;
     NodesPanel nodes_;
+    LibraryPanel library_;
     EditorPanel editor_;
     Timeline timeline_;
     Viewport viewport_;
     Palette palette_;
     bool failed_ = false;
+    std::vector<std::string> opened_;  // panels, as of the last turn
+    bool followed_ = false;
+    std::optional<Area> narrow_side_;
 };
 
 }  // namespace kinora::play

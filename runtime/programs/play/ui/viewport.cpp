@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/play/display.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {
@@ -121,7 +122,16 @@ void Viewport::show_under_pointer(const Context& context) {
     under_pointer_ =
         fmt::format("{:4d} {:4d}   {:8.4f} {:8.4f} {:8.4f}   {:.3f}", at(x, picture_->width),
                     at(y, picture_->height), c.x, c.y, c.z, c.w);
-    if (!context.state().picture.aov.empty()) under_pointer_ += "   " + context.state().picture.aov;
+    const std::string& aov = context.state().picture.aov;
+    if (aov.empty()) return;
+    under_pointer_ += "   " + aov;
+    const PixelCosts& costs = picture_->costs;
+    if (shows_costs(aov) && !costs.empty())
+        under_pointer_ += fmt::format(
+            " {:.4g}",
+            cost_numbers(
+                costs,
+                aov)[static_cast<size_t>(at(y, costs.height) * costs.width + at(x, costs.width))]);
 }
 
 void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
@@ -172,6 +182,10 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
                       state.aov + (state.false_color ? ", false color" : ""));
         at.y += line;
     }
+    if (!state.light.empty()) {
+        shadowed_text(list, at, theme.accent, "light " + state.light + " alone");
+        at.y += line;
+    }
     if (state.exposure != 0) {
         shadowed_text(list, at, theme.dim, fmt::format("{:+.2g} stops", state.exposure));
         at.y += line;
@@ -204,7 +218,9 @@ void Viewport::draw(Context& context, ImVec2 corner, ImVec2 size) {
     take_mouse(context, hovered);
     under_pointer_.clear();
     if (hovered) show_under_pointer(context);
+    list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     overlay(context, corner, size);
+    list->PopClipRect();
 }
 
 }  // namespace kinora::play
