@@ -1,4 +1,6 @@
 // rsl/builtins/message.cpp: messages between shaders and questions to the renderer.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "rsl/builtins/table.h"
@@ -96,6 +98,24 @@ void lightsource(LowerCall& c) {
     std::vector<Lowered> values = c.lights.message(*name, variable.type, variable.before, &known);
     variable.store(values);
     c.set(c.e.flag(known));
+}
+
+// What getlights() gives for the light that the illuminance loop is at: below 0.
+void lighthandle(LowerCall& c) {
+    if (!c.lights.any_current()) return;
+    c.set(c.b.sub(c.b.f(-1), c.b.itof(c.lights.current().record)));
+}
+
+// A call that nothing answers: the value is 0.
+void nullcall(LowerCall& c) {
+    const std::string* name = c.text(0);
+    if (!name) return;
+    c.b.fault(
+        c.b.fault_site(c.where(), fmt::format("'{}()' is called through a shader that is null "
+                                              "or has no such method: it gives 0",
+                                              *name)),
+        c.e.running);
+    c.set(c.b.f(0));
 }
 
 // Name of this shader, or of the one of a kind that works on the same point; "" if there is none.
@@ -246,6 +266,17 @@ void lightsource(RefCall<Real>& c) {
 }
 
 template <class Real>
+void lighthandle(RefCall<Real>& c) {
+    if (c.eval.light) c.set(Dual<Real>(Real(-1 - c.eval.light_number)));
+}
+
+template <class Real>
+void nullcall(RefCall<Real>& c) {
+    ++c.eval.result.faults;
+    c.set(Dual<Real>(Real(0)));
+}
+
+template <class Real>
 void shadername(RefCall<Real>& c) {
     c.set(Dual<Real>(Real(intern(c.args.empty() ? c.eval.layer->shader->name : ""))));
 }
@@ -313,6 +344,11 @@ const Builtin kRows[] = {
      "The smallest value of a grid. No result depends on grids here: it is the point's own."},
     {"gridmax", "f=f", lower::itself, KINORA_RSL_REF(ref::itself), kVaryingResult, 0,
      "The largest value of a grid. No result depends on grids here: it is the point's own."},
+    {"lighthandle", "f=", lower::lighthandle, KINORA_RSL_REF(ref::lighthandle),
+     kMessage | kVaryingResult, 0,
+     "In illuminance: the light as getlights() gives it, a value of type shader."},
+    {"nullcall", "f=s", lower::nullcall, KINORA_RSL_REF(ref::nullcall), kService, 0,
+     "What a call through a shader that is null becomes: reports the method's name and gives 0."},
     {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername),
      kMessage | kVaryingResult, 0, "Name of this shader, or of the one of a kind."},
 };

@@ -121,6 +121,9 @@ constexpr ForeignRow kForeign[] = {
     {" getvar getshader getshaders getlights hasmethod "
      "evaluateSamples generateSamples ",
      "RSL 2.0"},
+    {" emit readprimvar erf erfc gridnever randomstrat rbug evaluateSamplesAS generateSamplesAS "
+     "evaluateSamplesEnv generateSamplesEnv ",
+     "PRMan"},
 };
 
 }  // namespace

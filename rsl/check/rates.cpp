@@ -13,6 +13,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "rsl/check/flow.h"
+#include "rsl/check/lengths.h"
 #include "rsl/check/usage.h"
 #include "rsl/model/builtin.h"
 #include "rsl/model/pairs.h"
@@ -21,29 +23,6 @@
 namespace kinora::rsl {
 
 namespace {
-
-struct Flow {
-    bool constant = true;
-    bool varying = false;
-    bool illegal = false;
-};
-
-Flow join(Flow a, Flow b) {
-    return {a.constant && b.constant, a.varying || b.varying, a.illegal || b.illegal};
-}
-
-constexpr Flow kConstant{true, false, false};
-constexpr Flow kUniform{false, false, false};
-constexpr Flow kVaryingFlow{false, true, true};
-
-// Whether some points that could be here are not: `any` of them, or of those that the function
-// being walked was called for (`own`). What is the function's own lasts as long as the call, so
-// that the caller's control does not make it vary.
-struct Control {
-    bool any = false;
-    bool own = false;
-    Control under(bool varying) const { return {any || varying, own || varying}; }
-};
 
 // What a function's body does for one pattern of argument rates.
 struct CallSummary {
@@ -72,7 +51,7 @@ class RateWalk {
           rated_(rated),
           flows_(ast.symbol_count),
           known_(ast.symbol_count),
-          varying_lengths_(ast.symbol_count),
+          lengths_(ast.symbol_count),
           locals_(ast.function_count) {}
 
     void run() {
@@ -182,27 +161,18 @@ class RateWalk {
 
     // ---- lengths of arrays
 
-    // The array's length differs between points, or may.
     void vary_length(const Expr* array) {
-        const auto* v = as_if<VariableExpr>(array);
-        if (!v || !v->symbol || varying_lengths_[v->symbol->id]) return;
-        varying_lengths_[v->symbol->id] = true;
-        note_change(v->symbol->function);
-    }
-    bool length_varies(const Expr* array) const {
-        const auto* v = as_if<VariableExpr>(array);
-        return v && v->symbol && varying_lengths_[v->symbol->id];
+        const Symbol* symbol = VaryingLengths::named(array);
+        if (symbol && lengths_.vary(*symbol)) note_change(symbol->function);
     }
     // One array takes the length of another.
     void take_length(const Expr* to, const Expr* from) {
-        const auto* v = as_if<VariableExpr>(to);
-        bool changes = v && v->symbol && v->symbol->type.array_length == 0;
-        if (changes && (length_varies(from) || control_.any)) vary_length(to);
+        const Symbol* symbol = VaryingLengths::named(to);
+        bool changes = symbol && symbol->type.array_length == 0;
+        if (changes && (lengths_.varies(from) || control_.any)) vary_length(to);
     }
     Flow length_of(const Expr* array) const {
-        const auto* v = as_if<VariableExpr>(array);
-        if (!v || !v->symbol || v->symbol->type.array_length > 0) return kConstant;
-        return {false, bool(varying_lengths_[v->symbol->id]), false};
+        return lengths_.is_fixed(array) ? kConstant : Flow{false, lengths_.varies(array), false};
     }
     void set_length(CallExpr& e) {
         bool by_argument = e.name == "resize" || e.name == "reserve";
@@ -281,8 +251,7 @@ class RateWalk {
             arguments.push_back(flow(e.args[i]));
             const Symbol& p = *f.parameters[i];
             if (declared_uniform(p) && arguments[i].illegal) complain_argument(p, e, *e.args[i]);
-            if (p.type.array_length == 0 && length_varies(e.args[i]) && !varying_lengths_[p.id]) {
-                varying_lengths_[p.id] = true;
+            if (p.type.array_length == 0 && lengths_.varies(e.args[i]) && lengths_.vary(p)) {
                 note_change(&f);
                 calls_.clear();
             }
@@ -294,7 +263,7 @@ class RateWalk {
             bool kept = !p.assigned && p.name.find("->") != std::string_view::npos;
             if (!p.output || kept) continue;
             store_to(e.args[i], summary.outputs[i], *e.args[i]);
-            if (varying_lengths_[p.id]) vary_length(e.args[i]);
+            if (lengths_.varies(p)) vary_length(e.args[i]);
         }
         return summary.result;
     }
@@ -343,9 +312,6 @@ class RateWalk {
         CallSummary summary{active.result, {}};
         for (const Symbol* p : f.parameters) summary.outputs.push_back(flows_[p->id]);
         return summary;
-    }
-    static bool same(Flow a, Flow b) {
-        return a.constant == b.constant && a.varying == b.varying && a.illegal == b.illegal;
     }
     void note_change(const Function* owner) {
         changed_ = true;
@@ -426,10 +392,10 @@ class RateWalk {
     void at(DeclareStmt& s) {
         for (Symbol* symbol : s.symbols) {
             declare_local(*symbol);
-            if (flow(symbol->length).varying) varying_lengths_[symbol->id] = true;
+            if (flow(symbol->length).varying) lengths_.vary(*symbol);
             if (!symbol->initial) continue;
             Flow value = flow(symbol->initial);
-            if (length_varies(symbol->initial)) varying_lengths_[symbol->id] = true;
+            if (lengths_.varies(symbol->initial)) lengths_.vary(*symbol);
             store(*symbol, value, kConstant, *symbol->initial);
         }
     }
@@ -484,10 +450,10 @@ class RateWalk {
     const ShaderDefinition& shader_;
     Ast& ast_;
     Reporter& reporter_;
-    Rated& rated_;                              // expressions with a rate, of all shaders so far
-    std::vector<Flow> flows_;                   // by Symbol::id
-    std::vector<bool> known_;                   // by Symbol::id: locals that were met
-    std::vector<bool> varying_lengths_;         // by Symbol::id: of resizable arrays
+    Rated& rated_;             // expressions with a rate, of all shaders so far
+    std::vector<Flow> flows_;  // by Symbol::id
+    std::vector<bool> known_;  // by Symbol::id: locals that were met
+    VaryingLengths lengths_;
     std::vector<std::vector<Symbol*>> locals_;  // by Function::id
     std::unordered_map<std::string, CallSummary> calls_;
     std::vector<Active> active_;            // functions being walked, outermost first

@@ -43,7 +43,7 @@ class NameWalk {
             source_.reporter.report(Code::RSL_UNUSED_FUNCTION, f.span, f.name);
         const Function* outer = std::exchange(function_, &f);
         auto loops = std::exchange(loops_, {});
-        parameters(f.parameters);
+        if (!is_method(f)) parameters(f.parameters);  // of methods the caller says which there are
         walk(*f.body);
         loops_ = std::move(loops);
         function_ = outer;
@@ -70,11 +70,36 @@ class NameWalk {
     void report_unused(const Symbol& symbol) {
         bool parameter = symbol.kind != SymbolKind::Local;
         // The renderer reads parameters like __category.
-        if (read_[symbol.id] || !source_.is_own(symbol.span) || symbol.name.starts_with("__"))
+        if (read_[symbol.id] || !source_.is_own(symbol.span) || symbol.name.starts_with("__") ||
+            is_read_by_others(symbol))
             return;
         if (parameter && symbol.output) return;
         source_.reporter.report(parameter ? Code::RSL_UNUSED_PARAMETER : Code::RSL_UNUSED_VARIABLE,
                                 symbol.span, symbol.name);
+    }
+
+    // Others read a co-shader's parameters; and calls of a shader that is null, as parameters are
+    // where it is checked alone, are not in the tree any more.
+    bool is_read_by_others(const Symbol& symbol) const {
+        const auto& shaders = source_.ast.shaders;
+        bool of_co_shader = std::any_of(shaders.begin(), shaders.end(), [&](const auto* shader) {
+            auto own = shader->parameters;
+            return shader->co_shader && std::find(own.begin(), own.end(), &symbol) != own.end();
+        });
+        if (of_co_shader) return true;
+        const auto& tokens = source_.ast.tokens.tokens;
+        for (size_t k = 0; k + 2 < tokens.size(); ++k) {
+            if (tokens[k].punct != Punct::Arrow || tokens[k + 2].punct != Punct::LeftParen)
+                continue;
+            int depth = 0;
+            for (k += 2; k < tokens.size(); ++k) {
+                depth += tokens[k].punct == Punct::LeftParen;
+                depth -= tokens[k].punct == Punct::RightParen;
+                if (depth == 0) break;
+                if (tokens[k].text == symbol.name) return true;
+            }
+        }
+        return false;
     }
 
     void report_hiding(const Symbol& symbol) {

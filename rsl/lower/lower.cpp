@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "jit/ir/gate.h"
 #include "rsl/lower/builtin_call.h"
 #include "rsl/lower/calls.h"
 #include "rsl/lower/expressions.h"
@@ -316,6 +317,25 @@ class Stack {
     bool have_surface_ = false;
 };
 
+// The kernel of surfaces whose opacity a point decides computes it first.
+void compute_opacity_first(LoweredShader& shader) {
+    if (shader.opacity != LoweredShader::Opacity::Computed) return;
+    std::vector<size_t> colors, opacities;
+    for (size_t k = 0; k < shader.module.outputs.size(); ++k)
+        for (int c = 0; c < 3; ++c) {
+            const jit::FrontEndKey& key = shader.module.outputs[k].key;
+            if (key == packed(global_key(Global::Ci, c))) colors.push_back(k);
+            if (key == packed(global_key(Global::Oi, c))) opacities.push_back(k);
+        }
+    const jit::Function& kernel = shader.module.kernel();
+    std::span<const jit::Value> results = kernel.args_of(kernel.insts.back());
+    bool given = std::any_of(opacities.begin(), opacities.end(), [&](size_t k) {
+        return kernel.insts[results[k]].op == jit::Op::Input;
+    });
+    if (colors.size() == 3 && opacities.size() == 3 && !given)
+        jit::skip_zero_products(shader.module, colors, opacities);
+}
+
 // All objects that write a kernel, in the order of their dependence. Expressions, statements and
 // calls recur through it, as a TreeWalk.
 class KernelWriter final : public TreeWalk {
@@ -378,6 +398,8 @@ std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOpt
     jit::Builder builder(result.module, 0);
     if (!KernelWriter(builder, layers, options, diagnostics, result).write()) return std::nullopt;
     builder.finish();
+    bool surface = layers.back().shader->kind == ShaderKind::Surface;
+    if (surface && options.skip_transparent) compute_opacity_first(result);
     return result;
 }
 

@@ -24,6 +24,9 @@ struct LowerOptions {
     bool area_light = false;  // a light on geometry: its P, N, u, v, s, t are those of a sample
     bool want_N = false;      // the shading normal as the shaders leave it
     bool want_P = false;
+    // Where a surface's Oi is 0 in all channels, a Ci that is multiplied by it is +0 (never NaN),
+    // and what only that Ci needs is not run.
+    bool skip_transparent = false;
     std::vector<std::string> aovs;      // names of output parameters wanted
     std::vector<std::string> messages;  // light shaders: parameters that some lightsource() reads
     // Known coordinate systems besides the standard ones: what else is named means "shader". Null:

@@ -26,6 +26,7 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"maxdist", kNumber, "trace occlusion indirectdiffuse gather environment"},
     {"maxdist", kNumber, PHOTONS, false, kHint},
     {"coneangle", kNumber, "occlusion indirectdiffuse"},
+    {"raytype", kText, "trace", false, kHint},
     {"weight", kAny, "trace"},
     {"opacity", kAny, "trace"},
     {"falloff", kNumber, "occlusion"},

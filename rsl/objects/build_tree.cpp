@@ -11,6 +11,12 @@ Expr* TreeBuilder::variable(std::string_view name) {
     return node;
 }
 
+Expr* TreeBuilder::text(std::string_view value) {
+    auto* node = ast_.make<StringExpr>(span_);
+    node->value = ast_.arena.copy(value);
+    return node;
+}
+
 Expr* TreeBuilder::number(double value) {
     auto* node = ast_.make<NumberExpr>(span_);
     node->value = value;

@@ -17,6 +17,7 @@ class TreeBuilder {
 
     Expr* variable(std::string_view name);
     Expr* number(double value);
+    Expr* text(std::string_view value);
     // With a copy of the index; `nodes` grows by its size.
     Expr* element(std::string_view array, const Expr& index, size_t* nodes);
     Expr* binary(Op op, Expr* left, Expr* right);

@@ -60,6 +60,10 @@ class ObjectExpander {
 
     template <class... Args>
     Finding& report(const FindingInfo& info, const SourceSpan& span, const Args&... args) {
+        // A name that is no member is no struct either: that is said once.
+        if (&info == &Code::RSL_NO_MEMBER) no_members_.insert(span.token);
+        bool follows = &info == &Code::RSL_NOT_STRUCT || &info == &Code::RSL_STRUCT_VALUE;
+        if (follows && no_members_.contains(span.token)) return unsaid_;
         const Token& token = ast_.tokens.tokens[span.token];
         return reporter_.report(info, span.where, token.macro, token.spelling, args...);
     }
@@ -127,6 +131,8 @@ class ObjectExpander {
     std::map<const Function*, std::set<std::string_view>> called_;  // by candidates
     std::vector<Function*> nested_;
     std::map<const Function*, const StructDefinition*> results_;
+    std::set<uint32_t> no_members_;  // tokens where RSL_NO_MEMBER was reported
+    Finding unsaid_;
     int temporaries_ = 0;
     size_t copied_ = 0;  // nodes of indices
 };

@@ -116,11 +116,14 @@ void ObjectExpander::declaration(DeclareStmt& s, Stmts& out) {
     TreeBuilder make(ast_, s.span);
     for (Symbol* symbol : s.symbols) {
         if (!symbol->structure) {
+            const CallExpr* lights = handles_.take_lights(*symbol);
+            if (lights && !function_ && class_) report(Code::RSL_LIGHT_QUERY, symbol->span);
             handles_.declaration(*symbol);
             if (symbol->initial) expr(symbol->initial);
             if (symbol->length) expr(symbol->length);
             declare(*symbol);
             out.push_back(make.declare({symbol}));
+            if (lights) out.push_back(handles_.fill_with_lights(*lights, symbol->name));
             continue;
         }
         if (symbol->length) expr(symbol->length);

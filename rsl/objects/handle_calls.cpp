@@ -23,7 +23,12 @@ bool names(const Expr& e, std::string_view name) {
 
 const CallExpr* list_call(const Expr* e) {
     const auto* node = as_if<CallExpr>(e);
-    return node && !node->method && node->name == "getshaders" ? node : nullptr;
+    bool list = node && (node->name == "getshaders" || node->name == "getlights");
+    return list && !node->method ? node : nullptr;
+}
+
+bool of_lights(const CallExpr& list) {
+    return list.name == "getlights";
 }
 
 }  // namespace
@@ -90,7 +95,7 @@ bool HandleCalls::is_handle(const Expr& e) const {
     }
     const auto& node = as<CallExpr>(e);
     if (!node.method)
-        return node.name == "getshader" || node.name == "getshaders" ||
+        return node.name == "getshader" || node.name == "lighthandle" || list_call(&node) ||
                sets_.gives_handle(expander_.unit_, node.name);
     if (!is_handle(*node.args[0])) return false;
     std::vector<size_t> units = units_of(sets_.of(expander_.unit_, *node.args[0]));
@@ -189,6 +194,11 @@ void HandleCalls::read_member(Expr*& slot, VariableExpr& member, Expr* index) {
     HandleSet set = sets_.of(expander_.unit_, *handle);
     std::vector<Member> found = members(set, path);
     if (index) expander_.expr(index);
+    if (set & kLightHandles) {
+        expander_.report(Code::RSL_LIGHT_MEMBER, member.span, path);
+        slot = make.number(0);
+        return;
+    }
     if (found.empty()) {
         if (set & ~kNullHandle) expander_.report(Code::RSL_CO_SHADER_MEMBER, member.span, path);
         slot = make.number(0);
@@ -230,10 +240,14 @@ bool HandleCalls::call(Expr*& slot) {
     auto& e = as<CallExpr>(*slot);
     TreeBuilder make(ast_, e.span);
     if (is_call(e)) {
-        if (resolve(e))
+        std::string_view method = e.name;
+        if (resolve(e)) {
             expander_.call(e);
-        else
-            slot = make.number(0);
+            return true;
+        }
+        slot = make.number(0);
+        if (sets_.of(expander_.unit_, *e.args[0]) & kNullHandle)
+            slot = make.call("nullcall", {make.text(method)});
         return true;
     }
     if (e.method) return false;
@@ -278,6 +292,7 @@ Expr* HandleCalls::handle(const CallExpr& e) {
 
 ArrayLiteralExpr* HandleCalls::list(const CallExpr& e) {
     TreeBuilder make(ast_, e.span);
+    if (of_lights(e)) return nullptr;
     bool known =
         e.args.empty() || (e.args.size() == 2 && text_of(units_[expander_.unit_], *e.args[1]));
     if (!known) expander_.report(Code::RSL_STRING_NOT_CONSTANT, e.span, e.name);
@@ -308,6 +323,31 @@ void HandleCalls::declaration(Symbol& symbol) {
     }
 }
 
+// "get_lights(category, lights);" for the variable that getlights() was written for.
+Stmt* HandleCalls::fill_with_lights(const CallExpr& e, std::string_view variable) {
+    TreeBuilder make(ast_, e.span);
+    Expr* category = ast_.make<StringExpr>(e.span);
+    const auto* kind = e.args.empty() ? nullptr : as_if<StringExpr>(e.args[0]);
+    if (!e.args.empty() && !(e.args.size() == 2 && kind && kind->value == "category"))
+        expander_.report(Code::RSL_LIGHT_QUERY, e.span);
+    else if (e.args.size() == 2)
+        category = e.args[1];
+    Expr* node = make.call("get_lights", {category, make.variable(variable)});
+    expander_.call(as<CallExpr>(*node));
+    return make.effect(node);
+}
+
+// "shader a[] = getlights(...)": an array that is filled behind its declaration; else null.
+const CallExpr* HandleCalls::take_lights(Symbol& symbol) {
+    const CallExpr* given =
+        symbol.handle && symbol.type.is_array() ? list_call(symbol.initial) : nullptr;
+    if (!given || !of_lights(*given)) return nullptr;
+    symbol.initial = nullptr;
+    symbol.type.array_length = 0;
+    symbol.resizable = ast_.resizable_arrays = true;
+    return given;
+}
+
 void HandleCalls::list_to_variable(ExpressionStmt& s, std::vector<Stmt*>& out) {
     auto* assign = as_if<AssignExpr>(s.expression);
     const CallExpr* given = assign ? list_call(assign->value) : nullptr;
@@ -319,9 +359,10 @@ void HandleCalls::list_to_variable(ExpressionStmt& s, std::vector<Stmt*>& out) {
     symbol->handle = symbol->resizable = ast_.resizable_arrays = true;
     symbol->function = expander_.function_;
     symbol->initial = list(*given);
-    expander_.expr(symbol->initial);
+    if (symbol->initial) expander_.expr(symbol->initial);
     expander_.declare(*symbol);
     out.push_back(make.declare({symbol}));
+    if (of_lights(*given)) out.push_back(fill_with_lights(*given, symbol->name));
     assign->value = make.variable(symbol->name);
 }
 
@@ -330,12 +371,15 @@ Expr* HandleCalls::has_method(const CallExpr& e) {
     TreeBuilder make(ast_, e.span);
     std::string_view method = as<StringExpr>(*e.args[1]).value;
     HandleSet set = sets_.of(expander_.unit_, *e.args[0]), able = 0;
+    if (method == "light") able |= set & kLightHandles;
     for (size_t k : units_of(set))
         for (const Method& one : units_[k].methods)
             if (one.name == method) able |= handle_of(k);
     if (!able || able == set) return make.number(able ? 1 : 0);
     std::vector<Case> cases;
-    for (size_t k : units_of(able))
+    std::vector<size_t> units = units_of(able);
+    if (able & kLightHandles) units.push_back(kOfLights);
+    for (size_t k : units)
         cases.push_back({k, {make.assign(make.variable("result of call"), make.number(1))}});
     std::string name = fmt::format("hasmethod:{}@{:x}", method, set);
     Symbol result;
@@ -344,14 +388,24 @@ Expr* HandleCalls::has_method(const CallExpr& e) {
     return call_by_handle(name, e.args[0], {}, e.span);
 }
 
+// A light's parameter has the type of the variable.
+Expr* HandleCalls::light_value(CallExpr& e, HandleSet set) {
+    if (e.args.size() != 3 || (set & ~(kNullHandle | kLightHandles)))
+        expander_.report(Code::RSL_LIGHT_MEMBER, e.span, as<StringExpr>(*e.args[1]).value);
+    Expr* node = TreeBuilder(ast_, e.span).call("light_value", {e.args.begin(), e.args.end()});
+    expander_.call(as<CallExpr>(*node));
+    return node;
+}
+
 // getvar(h, "name", variable), or without the variable: is there one?
 Expr* HandleCalls::variable_read(CallExpr& e) {
     TreeBuilder make(ast_, e.span);
     std::string_view path = as<StringExpr>(*e.args[1]).value;
     HandleSet set = sets_.of(expander_.unit_, *e.args[0]);
     std::vector<Member> found = members(set, path);
-    if (found.empty()) return make.number(0);
     bool reads = e.args.size() > 2;
+    if (set & kLightHandles) return light_value(e, set);
+    if (found.empty()) return make.number(0);
     std::string name = fmt::format("getvar:{}@{:x}{}", path, set, reads ? "" : "?");
     std::vector<Symbol*> formals;
     if (reads) {

@@ -37,6 +37,10 @@ class HandleCalls {
 
     // A variable's first value.
     void declaration(Symbol& symbol);
+    // "shader a[] = getlights(...)": null if it is something else; else the array is filled by
+    // fill_with_lights() behind its declaration.
+    const CallExpr* take_lights(Symbol& symbol);
+    Stmt* fill_with_lights(const CallExpr& e, std::string_view variable);
     // "a = getshaders(...);": through a variable, which is declared in `out`.
     void list_to_variable(ExpressionStmt& s, std::vector<Stmt*>& out);
 
@@ -57,18 +61,21 @@ class HandleCalls {
     bool call(Expr*& slot);
     Expr* handle(const CallExpr& e);
     Expr* variable_read(CallExpr& e);
+    Expr* light_value(CallExpr& e, HandleSet set);
     Expr* has_method(const CallExpr& e);
     ArrayLiteralExpr* list(const CallExpr& e);
 
     // ---- functions that go by a handle; their names
+    static constexpr size_t kOfLights = ~size_t(0);
     struct Case {
-        size_t unit;
+        size_t unit;  // kOfLights: any light; the last case
         std::vector<Stmt*> body;
     };
+    // `unanswered`: some shader that is possible has no such method, or is null.
     std::string_view method_function(std::string_view method, HandleSet set, size_t count,
-                                     SourceSpan span);
+                                     bool unanswered, SourceSpan span);
     void add_function(std::string_view name, const Symbol& result, std::vector<Symbol*> formals,
-                      const std::vector<Case>& cases, SourceSpan span);
+                      const std::vector<Case>& cases, SourceSpan span, Stmt* otherwise = nullptr);
     Expr* call_by_handle(std::string_view name, Expr* object, std::vector<Expr*> args,
                          SourceSpan span);
     void stands_in_body();

@@ -40,6 +40,18 @@ void HandleCalls::stands_in_body() {
 bool HandleCalls::resolve(CallExpr& e) {
     HandleSet set = sets_.of(expander_.unit_, *e.args[0]), named = 0, able = 0;
     size_t count = e.args.size() - 1;
+    if (set & kLightHandles) {
+        if (e.name != "light" || count != 2) {
+            expander_.report(Code::RSL_LIGHT_METHOD, e.span, e.name);
+            return false;
+        }
+        if (!(set & ~(kLightHandles | kNullHandle))) {
+            e.method = false;
+            e.name = "light_of";
+            return true;
+        }
+        named = able = kLightHandles;
+    }
     for (size_t k : units_of(set))
         for (const Method& method : units_[k].methods) {
             if (method.name != e.name) continue;
@@ -55,7 +67,8 @@ bool HandleCalls::resolve(CallExpr& e) {
     }
     e.method = false;
     stands_in_body();
-    if (std::vector<size_t> units = units_of(set); units.size() == 1 && !(set & kNullHandle)) {
+    constexpr HandleSet kUnknown = kNullHandle | kLightHandles;
+    if (std::vector<size_t> units = units_of(set); units.size() == 1 && !(set & kUnknown)) {
         e.name = ast_.arena.copy(units_[units[0]].prefix() + std::string(e.name));
         e.args = e.args.subspan(1);
         return true;
@@ -66,13 +79,13 @@ bool HandleCalls::resolve(CallExpr& e) {
         e.args = e.args.subspan(1);
         return true;
     }
-    e.name = method_function(e.name, able, count, e.span);
+    e.name = method_function(e.name, able, count, able != set, e.span);
     return true;
 }
 
 std::string_view HandleCalls::method_function(std::string_view method, HandleSet set, size_t count,
-                                              SourceSpan span) {
-    std::string name = fmt::format("{}@{:x}:{}", method, set, count);
+                                              bool unanswered, SourceSpan span) {
+    std::string name = fmt::format("{}@{:x}:{}{}", method, set, count, unanswered ? "?" : "");
     std::string_view kept = ast_.arena.copy(name);
     if (made_.contains(name)) return kept;
     std::vector<std::string> forms;
@@ -113,7 +126,14 @@ std::string_view HandleCalls::method_function(std::string_view method, HandleSet
                                         : make.effect(value)}});
                 break;
             }
-        add_function(name, result, formals, cases, span);
+        if (set & kLightHandles) {
+            std::vector<Expr*> args{make.variable(kWhich)};
+            for (const Symbol* formal : formals) args.push_back(make.variable(formal->name));
+            cases.push_back({kOfLights, {make.effect(make.call("light_of", args))}});
+        }
+        Stmt* reports =
+            unanswered ? make.effect(make.call("nullcall", {make.text(method)})) : nullptr;
+        add_function(name, result, formals, cases, span, reports);
     }
     return kept;
 }
@@ -121,7 +141,7 @@ std::string_view HandleCalls::method_function(std::string_view method, HandleSet
 // Type name(shader which; formals) { Type result; if (which == 2) {...} else ... return result; }
 void HandleCalls::add_function(std::string_view name, const Symbol& result,
                                std::vector<Symbol*> formals, const std::vector<Case>& cases,
-                               SourceSpan span) {
+                               SourceSpan span, Stmt* otherwise) {
     if (!made_.insert(std::string(name)).second) return;
     TreeBuilder make(ast_, span);
     auto* f = ast_.arena.make<Function>();
@@ -144,11 +164,14 @@ void HandleCalls::add_function(std::string_view name, const Symbol& result,
     value->handle = result.handle;
     value->function = f;
     if (gives) body.push_back(make.declare({value}));
-    Stmt* chain = nullptr;
+    Stmt* chain = otherwise;
     for (size_t k = cases.size(); k-- > 0;) {
-        Expr* number = make.variable(fmt::format("@{}", cases[k].unit + 1));
-        IfStmt* branch =
-            make.branch(make.binary(Op::Equal, make.variable(kWhich), number), cases[k].body);
+        bool lights = cases[k].unit == kOfLights;
+        Expr* number =
+            lights ? make.variable("null") : make.variable(fmt::format("@{}", cases[k].unit + 1));
+        IfStmt* branch = make.branch(
+            make.binary(lights ? Op::NotEqual : Op::Equal, make.variable(kWhich), number),
+            cases[k].body);
         branch->no = chain;
         chain = branch;
     }

@@ -219,6 +219,7 @@ HandleSet HandleSets::of_call(size_t unit, const CallExpr& e) const {
         return set;
     }
     if (e.name == "getshader" && e.args.size() == 1) return of_text(unit, *e.args[0]);
+    if (e.name == "getlights" || e.name == "lighthandle") return kLightHandles;
     if (e.name == "getshaders") {
         std::string query;
         if (e.args.size() == 2) query = text_of(units_[unit], *e.args[1]).value_or("");
@@ -281,7 +282,7 @@ HandleSet HandleSets::used() const {
                 if (key.first == int(unit)) used |= set;
         }
     }
-    return used & ~kNullHandle;
+    return used & ~(kNullHandle | kLightHandles);
 }
 
 std::vector<size_t> HandleSets::in_order(HandleSet used) const {

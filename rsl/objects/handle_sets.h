@@ -16,13 +16,15 @@
 
 namespace kinora::rsl {
 
-// Bit 0 is null, bit k + 1 unit k; a handle's number is that of its bit.
+// Bit 0 is null, bit k + 1 unit k; a handle's number is that of its bit. The last bit is all lights
+// of the scene, whose numbers are below 0.
 using HandleSet = uint64_t;
 constexpr HandleSet kNullHandle = 1;
 constexpr HandleSet handle_of(size_t unit) {
     return HandleSet(2) << unit;
 }
-constexpr size_t kMostUnits = 63;
+constexpr size_t kMostUnits = 62;
+constexpr HandleSet kLightHandles = HandleSet(1) << 63;
 // The units of a set, in order.
 std::vector<size_t> units_of(HandleSet set);
 

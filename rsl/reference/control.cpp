@@ -177,6 +177,7 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
         global(Global::Ol) = triple(BaseType::Color, l.Ol);
         global(Global::Ps) = position;
         const ReferenceLight* outer = std::exchange(light, &l);
+        light_number = int(k);
         for (size_t p = 1; p < stmt.pairs.size(); p += 2) {
             std::string_view name = pair_name(stmt.pairs, p);
             if (!is_light_output(name)) continue;

@@ -134,6 +134,7 @@ class Reference {
     const Layer* layer = nullptr;
     size_t layer_index = 0;
     const ReferenceLight* light = nullptr;  // inside illuminance
+    int light_number = 0;                   // of it among those at the position
     bool in_solar = false;                  // inside a light's solar
     std::vector<int32_t> loop_counters;
     uint32_t inline_path = 0;

@@ -197,8 +197,14 @@ void DeclarationParser::array_suffix(Symbol& symbol) {
 
 // A value, or "{a, b}" for an array, which gives an unsized array its length.
 Expr* DeclarationParser::initialiser(Symbol& symbol) {
-    if (!cursor_.is(Punct::LeftBrace)) return expressions_.expression();
+    bool open = symbol.type.array_length == 0 && !symbol.resizable;
     uint32_t at = cursor_.position();
+    if (!cursor_.is(Punct::LeftBrace)) {
+        Expr* value = expressions_.expression();
+        const auto* number = as_if<NumberExpr>(value);
+        if (!open || !number || number->value != 0) return value;
+        return ast_.make<ArrayLiteralExpr>(cursor_.span_from(at));  // "T a[] = 0": no elements
+    }
     cursor_.advance();
     auto* node = ast_.make<ArrayLiteralExpr>({});
     if (!cursor_.accept(Punct::RightBrace)) {
@@ -211,8 +217,7 @@ Expr* DeclarationParser::initialiser(Symbol& symbol) {
         node->items = ast_.arena.copy(items);
     }
     node->span = cursor_.span_from(at);
-    if (symbol.type.array_length == 0 && !symbol.resizable)
-        symbol.type.array_length = int(node->items.size());
+    if (open) symbol.type.array_length = int(node->items.size());
     return node;
 }
 
@@ -235,8 +240,7 @@ bool DeclarationParser::at_declaration() const {
     if (cursor_.is(Word::Uniform) || cursor_.is(Word::Varying)) return !cursor_.word_as_name();
     if (cursor_.is_constant()) return true;
     if (cursor_.is(Word::Output))
-        return cursor_.is_type(1) || cursor_.is_detail(1) || struct_type(1) ||
-               cursor_.is_handle(1);
+        return cursor_.is_type(1) || cursor_.is_detail(1) || struct_type(1) || cursor_.is_handle(1);
     bool space = cursor_.is_type() && cursor_.token(1).kind == TokenKind::String &&
                  cursor_.token(2).kind == TokenKind::Identifier;
     if (space) {  // written before the name instead of the value

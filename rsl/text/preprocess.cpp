@@ -20,6 +20,7 @@ constexpr std::pair<std::string_view, std::string_view> kHeadersByWord[] = {
     {"filterregion", "filterregion.h"},
     {"directlighting", "integrators.h"},
     {"indirectspecular", "integrators.h"},
+    {"getlights", "getlights.h"},
 };
 
 }  // namespace

@@ -225,6 +225,7 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
     rsl::LowerOptions lower;
     lower.math = options.math;
     lower.spaces = options.spaces;
+    lower.skip_transparent = true;
     lower.messages = options.light_messages;
     lower.aovs = options.aovs;
     for (const std::string& name : options.gathered)

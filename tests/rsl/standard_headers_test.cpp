@@ -154,6 +154,7 @@ const HeaderRow kHeaders[] = {
      "filterregion r; r->calculate2d(s, t); r->scale(2); r->blur(0.1); r->calculate3d(P);"
      "r->calculate2d(s, t, 0.1, 0, 0, 0.1); r->calculate3d(P, dPdu, dPdv);"
      "Ci = color texture(map, r) + float texture(map, r) + r->radius;"},
+    {"getlights.h", "", "Ci = 1;"},    // its functions take lights: objects/lights_test.cpp
     {"integrators.h", "", "Ci = 1;"},  // its functions are of classes: tests/rsl/classes
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"

@@ -130,6 +130,7 @@ int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl
                const Patch& patch, ShadeStack& stack) {
     stack.light = shader.kind == rsl::ShaderKind::Light;
     stack.lower.math = options.math;
+    stack.lower.skip_transparent = true;
     stack.layers.push_back({&shader, {}});
     std::vector<ShadeParam> params;
     for (const ShadeParam& param : source.params)

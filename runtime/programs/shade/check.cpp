@@ -36,10 +36,14 @@ Json json_of(const Finding& finding, const SourceFiles& files) {
     return row;
 }
 
+std::string_view kind_of(const rsl::Shader& shader) {
+    return shader.definition->co_shader ? "co-shader" : rsl::shader_kind_name(shader.kind);
+}
+
 Json json_of(const ShadeSource& source, const ShadeOptions& options) {
     Json shaders = Json::array(), findings = Json::array();
     for (const auto& shader : source.shaders)
-        shaders.push_back({{"name", shader->name}, {"kind", rsl::shader_kind_name(shader->kind)}});
+        shaders.push_back({{"name", shader->name}, {"kind", kind_of(*shader)}});
     for (const Finding& finding : source.diagnostics.findings())
         if (finding.severity != Severity::Off)
             findings.push_back(json_of(finding, source.diagnostics.files));
@@ -54,8 +58,7 @@ Json json_of(const ShadeSource& source, const ShadeOptions& options) {
 void print_summary(const ShadeSource& source, const ShadeOptions& options) {
     std::string names;
     for (const auto& shader : source.shaders)
-        names += fmt::format("{}{} {}", names.empty() ? "" : ", ",
-                             rsl::shader_kind_name(shader->kind), shader->name);
+        names += fmt::format("{}{} {}", names.empty() ? "" : ", ", kind_of(*shader), shader->name);
     std::printf("%s: %s, %s%s%s\n", options.source.c_str(),
                 counted(size_t(source.diagnostics.count(Severity::Error)), "error").c_str(),
                 counted(size_t(source.diagnostics.count(Severity::Warning)), "warning").c_str(),

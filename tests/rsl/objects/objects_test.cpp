@@ -269,6 +269,21 @@ TEST(Classes, SkipShadingWhereOpacityIsZero) {
     for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(opacity[size_t(n)], n > 4 ? 1 : 0) << n;
 }
 
+// What construct() reads may change from frame to frame: it then runs again.
+TEST(Classes, ConstructAgainWhenAParameterThatItReadsIsAnimated) {
+    RunShader run(
+        "class t(float gain = 2; float other = 1;) { constant float twice = 0; uniform float "
+        "sums[];"
+        " public void construct() { twice = 2 * gain; push(sums, twice + 1); }"
+        " public void surface(output color Ci, Oi) { Ci = twice + 100 * sums[0] + other; } }",
+        {}, {{"gain", ParamBinding::Kind::Frame, {}, {}}});
+    ASSERT_TRUE(run.ok()) << run.findings();
+    for (float gain : {3.0f, 5.0f, 3.0f}) {
+        run.set("param:0:gain", gain);
+        EXPECT_EQ(run.value("Ci.r"), 2 * gain + 100 * (2 * gain + 1) + 1);
+    }
+}
+
 TEST(Classes, AskOpacityAloneForShadows) {
     LowerOptions options;
     options.want_Ci = false;

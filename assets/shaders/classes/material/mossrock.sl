@@ -25,7 +25,7 @@ class mossrock(float scale = 1.6; float depth = 0.14; float moss = 0.55;
     }
     public void prelighting(output color Ci, Oi) {
         point Q = transform("object", P);
-        float up = normalize(ntransform("world", N))[1];
+        float up = normalize(ntransform("object", N))[1];
         float patches = float noise(3 * Q) + 0.4 * float noise(17 * Q);
         cover = smoothstep(0.75 - moss, 1.15 - moss, 0.55 * up + 0.5 * patches - 0.45 * height);
         float spots = smoothstep(0.68, 0.74, float noise(7 * Q + vector(9, 2, 5)));

@@ -1,2 +1,2 @@
-// lists of lights, of RSL 2.0
-surface newer_functions() { shader a[] = getlights("diffuse"); Ci = undefined; }
+// samples of another shader, of RSL 2.0
+class newer_functions(shader m = null;) { public void lighting(output color Ci, Oi) { Ci = directlighting(m, getlights()); } }

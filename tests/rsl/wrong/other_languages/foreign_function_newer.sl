@@ -1,5 +1,5 @@
 surface x() {
-    float n = getlights("diffuse");
-    Ci = undefined;
+    float n = emit(Cs);
+    Ci = n;
 }
-//! 2:15 error RSL_2 'getlights()' belongs to the part of RSL 2.0 that is not supported yet
+//! 2:15 error RSL_FOREIGN_FUNCTION 'emit' is a function of PRMan that is not supported
