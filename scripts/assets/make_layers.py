@@ -122,7 +122,7 @@ TABLE = """surface table(color wood = color(0.3, 0.17, 0.09);) {
 }
 """
 LIGHT = """light lamp(float intensity = 1; color lightcolor = 1;) {
-    solar(vector "shader" (0, 0, -1), 0) Cl = intensity * lightcolor;
+    solar(vector "shader" (0, 0, 1), 0) Cl = intensity * lightcolor;
 }
 """
 
@@ -143,7 +143,7 @@ def outline(name, radius, height):
         along = (t - 0.06) / 0.94
         return radius * smooth(PROFILES[name][1:], along), height * along
 
-    return lathe_of(at, 48, 48)
+    return lathe_of(at, 32, 32)
 
 
 def library(dae):
