@@ -109,6 +109,13 @@ ShaderDefinition* choose(const Ast& ast, Reporter& reporter, size_t first,
     return nullptr;
 }
 
+std::shared_ptr<const std::string> kept_text(const std::vector<LinkedPart>& parts,
+                                             std::string_view text) {
+    for (const LinkedPart& part : parts)
+        if (*part.text == text) return part.text;
+    return std::make_shared<const std::string>(text);
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
@@ -130,7 +137,7 @@ std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
     auto ast = std::make_shared<Ast>();
     Reporter reporter(diagnostics, ast->tokens, options.max_errors);
     std::vector<Unit> units;
-    std::vector<ShaderDefinition*> chosen;
+    std::vector<LinkedPart> parts;
     for (const LinkedSource& one : sources) {
         auto first = uint32_t(ast->tokens.tokens.size());
         size_t shaders = ast->shaders.size();
@@ -141,6 +148,12 @@ std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
         ShaderDefinition* shader = choose(*ast, reporter, shaders, one, first);
         if (!shader || reporter.errors() > 0) return nullptr;
         units.push_back({one.handle, shader, ast->functions, first, one.texts, {}, {}});
+        std::vector<std::string> handles;
+        for (const Symbol* parameter : shader->parameters)
+            if (parameter->handle && one.texts.contains(parameter->name))
+                handles.emplace_back(parameter->name);
+        parts.push_back({one.handle, std::string(shader->name), one.texts, std::move(handles),
+                         kept_text(parts, one.source.text), one.source.map, first});
     }
     if (units.size() > kMostUnits) {
         reporter.report(Code::RSL_TOO_MANY_CO_SHADERS, ast->tokens.tokens[0], units.size() - 1,
@@ -150,7 +163,9 @@ std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
     ast->shaders = {units[0].shader};
     ast->functions = units[0].functions;
     auto linked = finish(ast, reporter, options, ParseRecovery(), std::move(units));
-    return linked.empty() ? nullptr : std::move(linked[0]);
+    if (linked.empty()) return nullptr;
+    linked[0]->parts = std::move(parts);
+    return std::move(linked[0]);
 }
 
 std::vector<std::unique_ptr<Shader>> compile_file(const std::string& path,

@@ -35,7 +35,7 @@ std::string print_tokens(const TokenStream& tokens, const SourceFiles& files);
 std::string print_ast(const Ast& ast);
 // The source with types, rates, casts and chosen overloads of a checked Ast written out.
 std::string print_types(const Ast& ast);
-// After preprocessing, as text (-E).
-std::string print_preprocessed(const TokenStream& tokens);
+// After preprocessing, as text (-E): the source whose tokens begin at `first`.
+std::string print_preprocessed(const TokenStream& tokens, uint32_t first = 0);
 
 }  // namespace kinora::rsl

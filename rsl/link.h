@@ -1,7 +1,6 @@
 // rsl/link.h: a shader and its co-shaders, compiled as one shader.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,9 +8,6 @@
 #include "rsl/compile.h"
 
 namespace kinora::rsl {
-
-// Texts that a parameter is bound to: of a string, or handles for one of type shader.
-using LinkTexts = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 struct LinkedSource {
     std::string handle;  // "" of the shader itself
@@ -24,5 +20,28 @@ struct LinkedSource {
 // "handle.name". Those that it cannot come to are left out. Null after an error.
 std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
                                        const CompileOptions& options, Diagnostics& diagnostics);
+
+// What the parts of a linked shader were; views of them.
+std::vector<LinkedSource> sources_of(const std::vector<LinkedPart>& parts);
+
+// The shader again, with `edited` in place of the text that it stands in, and of all parts that
+// stood in that text and do now. Null after an error.
+std::unique_ptr<Shader> link_again(const Shader& linked, const ShaderSource& edited,
+                                   const CompileOptions& options, Diagnostics& diagnostics);
+
+// Whether its source speaks of other shaders, so that linking it can change it.
+bool knows_co_shaders(const Shader& shader);
+
+// Whether its source can mean the co-shader of this handle: by its name, by a category, or by a
+// text that is known only when it runs.
+bool may_mean(const Shader& shader, std::string_view handle);
+
+// The shader itself and the co-shaders that a copy of it needs: those that it uses, and those that
+// stand in its text. Numbers of parts.
+std::vector<size_t> parts_to_keep(const Shader& linked);
+
+// The text of a shader, or of a part of a linked one, for other documents: includes and macros are
+// expanded. Structs and classes are as they were written.
+std::string portable_text(const Shader& shader, size_t part = 0);
 
 }  // namespace kinora::rsl

@@ -113,11 +113,11 @@ RSL = {
                      "@rsl_plain", ""),
     "rsl_array": ("length:positiveInteger", "@rsl_plain*", ""),
     "rsl_pass": ("sid:NCName", "annotate:fx_annotate* shader:rsl_shader+ extra*", ""),
-    "rsl_shader": ("!stage:rsl_stage",
+    "rsl_shader": ("!stage:rsl_stage handle:NCName",
                    "annotate:fx_annotate* name=string? br=%anything? (bind:rsl_bind br=%anything?)* extra*", ""),
     "rsl_bind": ("!symbol:token", "(param:param_ref | @rsl_plain)", ""),
 }
-RSL_STAGES = "SURFACE DISPLACEMENT LIGHT VOLUME TRANSFORMATION IMAGER"
+RSL_STAGES = "SURFACE DISPLACEMENT LIGHT VOLUME TRANSFORMATION IMAGER COSHADER"
 
 
 def correct(rows, Row, Group):

@@ -19,9 +19,10 @@ struct StageRow {
     RslStage stage;
 };
 constexpr StageRow kStages[] = {
-    {"SURFACE", RslStage::Surface}, {"DISPLACEMENT", RslStage::Displacement},
-    {"LIGHT", RslStage::Light},     {"VOLUME", RslStage::Volume},
-    {"IMAGER", RslStage::Imager},   {"TRANSFORMATION", RslStage::Transformation}};
+    {"SURFACE", RslStage::Surface},  {"DISPLACEMENT", RslStage::Displacement},
+    {"LIGHT", RslStage::Light},      {"VOLUME", RslStage::Volume},
+    {"IMAGER", RslStage::Imager},    {"TRANSFORMATION", RslStage::Transformation},
+    {"COSHADER", RslStage::CoShader}};
 
 constexpr std::string_view kCompiled[] = {".slo", ".slx", ".sdl", ".sdr", ".slb", ".so", ".oso"};
 
@@ -90,6 +91,33 @@ void read_bind(Extraction& x, Link link, const Effect& effect, RslShader& shader
     shader.binds.push_back(std::move(bind));
 }
 
+// False after an error: nothing could find the co-shader by its handle.
+bool read_handle(Extraction& x, Link link, const RslShading& rsl, RslShader& shader) {
+    shader.handle = link.element->value("handle");
+    shader.handle_where = x.where(link, shader.handle.empty() ? "stage" : "handle");
+    if (shader.stage != RslStage::CoShader) {
+        if (!shader.handle.empty())
+            x.diag.report(Code::RSL_HANDLE_PLACE, shader.handle_where, shader.handle);
+        shader.handle.clear();
+        return true;
+    }
+    if (shader.handle.empty()) {
+        x.diag.report(Code::RSL_HANDLE_MISSING, shader.handle_where);
+        return false;
+    }
+    if (shader.handle.find_first_of(".,") != shader.handle.npos) {
+        x.diag.report(Code::RSL_HANDLE_NAME, shader.handle_where, shader.handle);
+        return false;
+    }
+    for (const RslShader& other : rsl.shaders) {
+        if (other.pass != shader.pass || other.handle != shader.handle) continue;
+        x.diag.report(Code::RSL_HANDLE_TWICE, shader.handle_where, shader.handle)
+            .notes.push_back({other.handle_where, "the first is here"});
+        return false;
+    }
+    return true;
+}
+
 void read_shader(Extraction& x, Link link, const Effect& effect, uint32_t pass, RslShading& rsl) {
     const Element& e = *link.element;
     RslShader shader;
@@ -103,6 +131,7 @@ void read_shader(Extraction& x, Link link, const Effect& effect, uint32_t pass, 
         return;
     }
     shader.stage = stage->stage;
+    if (!read_handle(x, link, rsl, shader)) return;
     if (const Element* name = e.child("name")) {
         shader.name = trim(name->text);
         shader.where = x.text_where({link.doc, name});

@@ -120,7 +120,15 @@ struct CommonShading {
     const CommonValue& operator[](CommonSlot s) const { return slots[size_t(s)]; }
 };
 
-enum class RslStage : uint8_t { Surface, Displacement, Light, Volume, Transformation, Imager };
+enum class RslStage : uint8_t {
+    Surface,
+    Displacement,
+    Light,
+    Volume,
+    Transformation,
+    Imager,
+    CoShader
+};
 
 struct RslCode {
     std::string text;
@@ -138,10 +146,12 @@ struct RslBind {
 
 struct RslShader {
     RslStage stage = RslStage::Surface;
-    std::string name;  // the function to run; "" when not written: the code's only shader
+    std::string name;    // the function to run; "" when not written: the code's only shader
+    std::string handle;  // of a CoShader: what others find it by
     std::vector<RslBind> binds;
-    uint32_t pass = 0;
+    uint32_t pass = 0;  // CoShaders are for the shaders of their pass
     Location where;
+    Location handle_where;
 };
 
 struct RslShading {

@@ -21,11 +21,11 @@ std::string print_tokens(const TokenStream& tokens, const SourceFiles& files) {
     return text;
 }
 
-std::string print_preprocessed(const TokenStream& tokens) {
+std::string print_preprocessed(const TokenStream& tokens, uint32_t first) {
     std::string text;
     for (const PragmaToken& pragma : tokens.pragmas)
-        text += fmt::format("#pragma {}\n", pragma.text);
-    for (const Token& t : tokens.tokens) {
+        if (first == 0) text += fmt::format("#pragma {}\n", pragma.text);
+    for (const Token& t : std::span(tokens.tokens).subspan(first)) {
         if (t.kind == TokenKind::End) break;
         if (t.line_start && !text.empty())
             text += '\n';

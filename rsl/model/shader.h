@@ -1,6 +1,7 @@
 // rsl/model/shader.h: a checked shader: its parameters and what it uses.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,20 @@ struct ShaderParameter {
     std::optional<ConstantValue> constant;  // the default when it folds
 };
 
+// Texts that a parameter is bound to: of a string, or handles for one of type shader.
+using LinkTexts = std::map<std::string, std::vector<std::string>, std::less<>>;
+
+// One of the shaders that a linked shader was made of (rsl/link.h), as it was written.
+struct LinkedPart {
+    std::string handle;  // "" of the shader itself
+    std::string shader;  // its name
+    LinkTexts texts;
+    std::vector<std::string> handle_parameters;  // those of `texts` that are of type shader
+    std::shared_ptr<const std::string> text;     // parts of one text share it
+    SourceMap map;
+    uint32_t first_token = 0;  // in the Ast
+};
+
 // A checked shader. Shaders of one source share its Ast.
 struct Shader {
     std::string name;
@@ -40,6 +55,7 @@ struct Shader {
     std::vector<const GlobalInfo*> globals_read;  // by it and the functions it calls, table order
     std::vector<const GlobalInfo*> globals_written;
     std::vector<const Function*> functions;  // those it reaches
+    std::vector<LinkedPart> parts;  // of a linked shader: itself, then all that it was given
 };
 
 }  // namespace kinora::rsl

@@ -276,6 +276,9 @@ bool HandleCalls::call(Expr*& slot) {
 Expr* HandleCalls::handle(const CallExpr& e) {
     TreeBuilder make(ast_, e.span);
     HandleSet set = sets_.of(expander_.unit_, e);
+    std::string wanted = text_of(units_[expander_.unit_], *e.args[0]).value_or("");
+    if (units_.size() > 1 && set == kNullHandle && !wanted.empty() && wanted != "null")
+        expander_.report(Code::RSL_GETSHADER_NULL, e.span, wanted);
     if (e.args[0]->kind == ExprKind::String) return make.number(double(std::countr_zero(set)));
     Expr* chosen = make.number(0);
     for (size_t k : units_of(set)) {
@@ -293,9 +296,12 @@ Expr* HandleCalls::handle(const CallExpr& e) {
 ArrayLiteralExpr* HandleCalls::list(const CallExpr& e) {
     TreeBuilder make(ast_, e.span);
     if (of_lights(e)) return nullptr;
-    bool known =
-        e.args.empty() || (e.args.size() == 2 && text_of(units_[expander_.unit_], *e.args[1]));
-    if (!known) expander_.report(Code::RSL_STRING_NOT_CONSTANT, e.span, e.name);
+    std::optional<std::string> category;
+    if (e.args.size() == 2) category = text_of(units_[expander_.unit_], *e.args[1]);
+    if (!e.args.empty() && !category)
+        expander_.report(Code::RSL_STRING_NOT_CONSTANT, e.span, e.name);
+    if (units_.size() > 1 && category && !sets_.of(expander_.unit_, e))
+        expander_.report(Code::RSL_CATEGORY_EMPTY, e.span, *category);
     auto* node = ast_.make<ArrayLiteralExpr>(e.span);
     std::vector<Expr*> items;
     for (size_t k : units_of(sets_.of(expander_.unit_, e)))

@@ -16,6 +16,8 @@ void join_units(Ast& ast, const std::vector<Unit>& units, const std::vector<size
         definition->function = f;
         body.push_back(definition);
     };
+    std::vector<std::string_view> used;
+    for (size_t k : order) used.push_back(ast.arena.copy(units[k].handle));
     for (size_t k : order) {
         const ShaderDefinition& co_shader = *units[k].shader;
         const ClassDefinition& c = *co_shader.shader_class;
@@ -37,6 +39,7 @@ void join_units(Ast& ast, const std::vector<Unit>& units, const std::vector<size
     body.insert(body.end(), shader.body->body.begin(), shader.body->body.end());
     shader.parameters = ast.arena.copy(parameters);
     shader.handles = ast.arena.copy(handles);
+    shader.co_shaders = ast.arena.copy(used);
     shader.body->body = ast.arena.copy(body);
 }
 

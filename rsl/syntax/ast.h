@@ -395,6 +395,7 @@ struct ShaderDefinition {
     std::span<Symbol*> handles =
         {};                  // parameters of type shader: variables, after expand_objects()
     bool co_shader = false;  // the renderer calls nothing of it: only other shaders do
+    std::span<std::string_view> co_shaders = {};  // handles of those linked with it that it uses
 };
 
 // Memory of the nodes: blocks that live as long as the Ast.

@@ -12,7 +12,6 @@
 #include "runtime/dae/export_p.h"
 #include "runtime/dae/nearest_common.h"
 #include "runtime/description/display_color.h"
-#include "runtime/description/rsl_literals.h"
 #include "runtime/description/shader_library.h"
 
 namespace kinora {
@@ -27,12 +26,6 @@ bool is_library(const ShaderUse& use, std::string_view name) {
 
 const ParamSource* source_of(const ShaderUse& use, std::string_view name) {
     for (const ParamSource& p : use.params)
-        if (p.name == name) return &p;
-    return nullptr;
-}
-
-const rsl::ShaderParameter* parameter_of(const ShaderUse& use, std::string_view name) {
-    for (const rsl::ShaderParameter& p : use.shader->parameters)
         if (p.name == name) return &p;
     return nullptr;
 }
@@ -61,13 +54,6 @@ constexpr ModelRow kModels[] = {{"collada_constant", "constant", "056789"},
                                 {"collada_lambert", "lambert", "01256789"},
                                 {"collada_phong", "phong", "0123456789"},
                                 {"collada_blinn", "blinn", "0123456789"}};
-
-// rsl::ShaderKind
-constexpr const char* kStages[] = {"SURFACE", "DISPLACEMENT", "LIGHT",
-                                   "VOLUME",  "IMAGER",       "TRANSFORMATION"};
-// rsl::BaseType: what profile_RSL calls them.
-constexpr const char* kTypes[] = {"float",  "color",  "point", "vector",
-                                  "normal", "matrix", "string"};
 
 constexpr const char* kWraps[] = {"WRAP", "MIRROR", "CLAMP", "BORDER"};
 
@@ -273,56 +259,6 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
             "</technique></extra>";
     return xml("profile_COMMON", "",
                params + xml("technique", attribute("sid", "common"), shading + extra));
-}
-
-// profile_RSL: one technique with the code of all shaders, each once.
-std::string ColladaExporter::rsl(const std::vector<const ShaderUse*>& uses,
-                                 const std::string& effect) {
-    std::string params, codes, shaders;
-    std::set<std::string> written;  // import_gltf reads each stage's code by itself
-    for (const ShaderUse* use : uses) {
-        if (!use->shader) continue;
-        std::string code = relinked_code(rsl::print_ast(*use->shader->ast), description_.pictures,
-                                         link_from(path_));
-        if (written.insert(code).second)
-            codes +=
-                xml("code", "", collada::cdata(told(code, fmt::format("effect '{}'", effect))));
-        std::string binds;
-        for (const ParamSource& p : use->params) {
-            const rsl::ShaderParameter* parameter = parameter_of(*use, p.name);
-            if (!parameter || size_t(parameter->type.base) >= std::size(kTypes)) continue;
-            std::string value;
-            if (!p.strings.empty()) {
-                if (p.strings[0].empty()) continue;
-                std::string path = parse_texture_name(p.strings[0]).path;
-                std::error_code error;
-                bool file = p.name.ends_with("_map") || is_memory_file(path) ||
-                            fs::is_regular_file(description_.pictures.find(path).path, error);
-                value = file ? image(p.strings[0])
-                             : told(p.strings[0], fmt::format("effect '{}'", effect));
-                std::optional<std::string> words = texture_words(parse_texture_name(p.strings[0]));
-                if (file && !words)
-                    lost(fmt::format("effect '{}'", effect),
-                         fmt::format("how '{}' repeats or is filtered", p.name));
-                if (file && words && !words->empty()) value += "?" + *words;
-                value = collada::escape_text(value);
-            } else {
-                value = number_text(values(p.value));
-            }
-            if (value.empty()) continue;
-            std::string sid = use->shader->name + "-" + p.name;
-            params += xml("newparam", attribute("sid", sid),
-                          xml(kTypes[size_t(parameter->type.base)], "", value));
-            animation_.name(p.value, effect + "/" + sid, nullptr);
-            binds += xml("bind", attribute("symbol", p.name),
-                         fmt::format("<param{}/>", attribute("ref", sid)));
-        }
-        shaders += xml("shader", attribute("stage", kStages[size_t(use->shader->kind)]),
-                       xml("name", "", use->shader->name) + binds);
-    }
-    return xml(
-        "profile_RSL", "",
-        params + xml("technique", attribute("sid", "rsl"), codes + xml("pass", "", shaders)));
 }
 
 // Whether it is more than one of COLLADA's or glTF's own surfaces: only RSL says that.

@@ -72,7 +72,25 @@ class ColladaExporter {
     bool has_vertex_colors(uint32_t material) const;
     std::string common(const MaterialDefinition& definition, const ShaderUse* use,
                        const std::string& effect);
+    // export_rsl.cpp
+    struct RslProfile {
+        struct Param {
+            std::string type, value;
+            uint32_t offset;
+        };
+        std::map<std::string, Param> params;  // by sid
+        std::set<std::string> written;        // codes: import_gltf reads each stage's by itself
+        std::string newparams, codes, passes;
+        std::string shaders;                         // of the last pass
+        std::map<std::string, std::string> handles;  // its co-shaders, as they are written
+    };
     std::string rsl(const std::vector<const ShaderUse*>& uses, const std::string& effect);
+    void rsl_shader(const ShaderUse& use, const std::string& effect, RslProfile& profile);
+    void rsl_code(const rsl::Shader& shader, size_t part, const std::string& effect,
+                  RslProfile& profile);
+    std::string rsl_binds(const ShaderUse& use, const std::string& handle,
+                          const std::string& effect, RslProfile& profile);
+    std::string rsl_value(const ParamSource& source, const std::string& effect);
     std::string rsl_extra(const std::vector<ShaderUse>& uses, const std::string& owner);
     std::string light(uint32_t index);
     std::string camera(uint32_t index);

@@ -14,15 +14,13 @@
 
 namespace kinora {
 
-const EffectShaders& ColladaImport::compiled(const collada::Effect& effect) {
-    auto [known, is_new] = compiled_.try_emplace(&effect);
-    if (!is_new) return known->second;
+EffectLinker& ColladaImport::linker() {
+    if (linker_) return *linker_;
     rsl::CompileOptions options;
     options.include_directories = options_.include_directories;
     options.files = out_.readable;
     options.pictures = out_.pictures;
-    known->second = compile_effect(effect, options, diagnostics_);
-    return known->second;
+    return linker_.emplace(data_, std::move(options), diagnostics_);
 }
 
 ValueSlot ColladaImport::param_slot(uint32_t material, uint32_t effect, uint32_t param) const {
@@ -32,13 +30,6 @@ ValueSlot ColladaImport::param_slot(uint32_t material, uint32_t effect, uint32_t
                 uint32_t(setparams[set->second].value.numbers.size())};
     return {param_values_[effect][param],
             uint32_t(data_.effects[effect].params[param].value.numbers.size())};
-}
-
-const collada::ParamValue& ColladaImport::param_value(uint32_t material, uint32_t effect,
-                                                      uint32_t param) const {
-    if (auto set = setparam_of_[material].find(param); set != setparam_of_[material].end())
-        return data_.materials[material].setparams[set->second].value;
-    return data_.effects[effect].params[param].value;
 }
 
 // The image that a string names, and how it is looked up: "normals?data,clamp_s".
@@ -55,21 +46,35 @@ std::string ColladaImport::image_name(const collada::Image& image, std::string_v
 
 std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const collada::Effect& effect,
                                                    const collada::RslShader& from) {
-    const EffectShaders& shaders = compiled(effect);
-    if (shaders.empty()) return std::nullopt;  // errors were reported
+    BoundShader shader{&from, uint32_t(&effect - data_.effects.data()), material};
     ShaderUse use;
-    use.shader = choose_shader(shaders, from, diagnostics_);
-    if (!use.shader) return std::nullopt;
-    uint32_t effect_index = uint32_t(&effect - data_.effects.data());
-    for (const collada::RslBind& bind : from.binds) {
-        const rsl::ShaderParameter* parameter = bound_parameter(*use.shader, bind, diagnostics_);
-        if (!parameter) continue;
+    use.shader = linker().linked(shader);
+    if (!use.shader) return std::nullopt;  // errors were reported
+    add_binds(shader, "", use);
+    if (!use.shader->parts.empty())
+        for (const BoundShader& co_shader : linker().co_shaders(shader))
+            add_binds(co_shader, co_shader.from->handle + ".", use);
+    return use;
+}
+
+// What the <bind>s of the shader, or of one of its co-shaders, give; handles are linked.
+void ColladaImport::add_binds(const BoundShader& shader, const std::string& prefix,
+                              ShaderUse& use) {
+    std::shared_ptr<const rsl::Shader> alone = linker().chosen(shader);
+    for (const collada::RslBind& bind : shader.from->binds) {
+        if (find_handle_parameter(*alone, bind.symbol)) continue;
+        bool unheard = prefix.empty() || told_.insert(&bind).second;
+        const rsl::ShaderParameter* parameter = find_parameter(*alone, bind.symbol);
+        if (!parameter) {
+            if (unheard) bound_parameter(*alone, bind, diagnostics_);
+            continue;
+        }
+        if (!find_parameter(*use.shader, prefix + bind.symbol)) continue;  // it is not called
         ParamSource source;
-        source.name = bind.symbol;
+        source.name = prefix + bind.symbol;
         source.where = bind.where;
         bool from_param = bind.param != collada::kNone;
-        const collada::ParamValue& value =
-            from_param ? param_value(material, effect_index, bind.param) : bind.literal;
+        const collada::ParamValue& value = bound_value(data_, shader, bind);
         if (value.type == collada::ParamType::String) {
             source.strings = value.strings;
             if (value.image != collada::kNone) {
@@ -77,18 +82,18 @@ std::optional<ShaderUse> ColladaImport::shader_use(uint32_t material, const coll
                     image_name(data_.images[value.image], value.strings.back(), bind.where)};
             }
         } else {
-            source.value = from_param ? param_slot(material, effect_index, bind.param)
+            source.value = from_param ? param_slot(shader.material, shader.effect, bind.param)
                                       : ValueSlot{append(value), uint32_t(value.numbers.size())};
         }
-        check_named_files(value, out_.pictures, bind.where, diagnostics_);
+        if (unheard) check_named_files(value, out_.pictures, bind.where, diagnostics_);
         if (!takes(*parameter, value)) {
-            diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
-                                rsl::type_name(parameter->type), value_text(value));
+            if (unheard)
+                diagnostics_.report(Code::RSL_BIND_TYPE, bind.where, bind.symbol,
+                                    rsl::type_name(parameter->type), value_text(value));
             continue;
         }
         use.params.push_back(std::move(source));
     }
-    return use;
 }
 
 void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
@@ -97,6 +102,7 @@ void ColladaImport::rsl_material(uint32_t index, const collada::Effect& effect,
     result.light_samples = data_.materials[index].samples;
     result.light_shadows = data_.materials[index].shadows;
     for (const collada::RslShader& shader : effect.rsl->shaders) {
+        if (shader.stage == collada::RslStage::CoShader) continue;  // linked with the others
         std::vector<ShaderUse>* stack = nullptr;
         if (shader.stage == collada::RslStage::Surface) stack = &result.surfaces;
         if (shader.stage == collada::RslStage::Displacement) stack = &result.displacements;
@@ -308,6 +314,7 @@ PictureShaders ColladaImport::picture_shaders(const std::vector<uint32_t>& mater
         if (index == collada::kNone || !data_.effects[index].rsl) continue;
         const collada::Effect& effect = data_.effects[index];
         for (const collada::RslShader& shader : effect.rsl->shaders) {
+            if (shader.stage == collada::RslStage::CoShader) continue;
             std::vector<ShaderUse>* stack = nullptr;
             if (shader.stage == collada::RslStage::Volume) stack = &result.atmosphere;
             if (shader.stage == collada::RslStage::Imager) stack = &result.imagers;

@@ -3,13 +3,15 @@
 
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "collada/scene/scene.h"
 #include "runtime/dae/import.h"
-#include "runtime/profile_rsl/effect_shaders.h"
+#include "runtime/profile_rsl/effect_linker.h"
 
 namespace kinora {
 
@@ -54,11 +56,10 @@ class ColladaImport {
     std::string image_name(const collada::Image& image, std::string_view text, Location where);
     std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
                                         const collada::RslShader& shader);
-    const EffectShaders& compiled(const collada::Effect& effect);
+    EffectLinker& linker();
+    void add_binds(const BoundShader& shader, const std::string& prefix, ShaderUse& use);
     ValueSlot bound_slot(uint32_t material, const collada::ParamBinding& param);
     ValueSlot param_slot(uint32_t material, uint32_t effect, uint32_t param) const;
-    const collada::ParamValue& param_value(uint32_t material, uint32_t effect,
-                                           uint32_t param) const;
     void set_texture(uint32_t material, const collada::CommonValue& value, const char* name,
                      bool data, ShaderUse& use) const;
     // Sampler `number` of its effect, or the one its <setparam>s replaced it with.
@@ -82,7 +83,8 @@ class ColladaImport {
     std::vector<uint32_t> morph_values_;
     std::unordered_map<uint32_t, uint32_t> linear_colors_;  // by the display colour's offset
     std::vector<bool> sampler_told_;                        // what was repaired in it
-    std::map<const collada::Effect*, EffectShaders> compiled_;
+    std::optional<EffectLinker> linker_;
+    std::set<const collada::RslBind*> told_;  // what was reported of a co-shader
 };
 
 }  // namespace kinora

@@ -44,6 +44,16 @@ std::string services_of(const jit::Kernel& kernel) {
     return fmt::format("{}", fmt::join(names, " "));
 }
 
+// Of a class it is construct, begin, displacement and opacity; of others what Oi needs.
+void explain_opacity(const ShaderInstance& look, const std::string& subject, ExplainedRows& rows) {
+    const jit::Kernel& kernel = look.opacity->kernel();
+    const std::string services = services_of(kernel);
+    rows.add(subject, "a kernel of its own for shadow rays",
+             fmt::format("Oi is computed at each point: {} of {} bytes of code, {}",
+                         kernel.code_bytes, look.full.kernel().code_bytes,
+                         services.empty() ? "no calls that remain" : "asks for " + services));
+}
+
 void explain_kernel(const ShaderInstance& look, ExplainedRows& rows) {
     const jit::Kernel& kernel = look.full.kernel();
     const std::string subject =
@@ -61,7 +71,7 @@ void explain_kernel(const ShaderInstance& look, ExplainedRows& rows) {
         rows.add(subject, fmt::format("asks for {}", services_of(kernel)), "calls that remain");
     if (look.kind != ShaderInstanceKind::Surface) return;
     if (look.opacity)
-        rows.add(subject, "a kernel of its own for shadow rays", "Oi is computed at each point");
+        explain_opacity(look, subject, rows);
     else
         rows.leave_out(subject, "no kernel for shadow rays", "opaque everywhere");
 }

@@ -123,11 +123,11 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
     return numbers;
 }
 
-bool override_param(SceneDescription& description, const std::string& target,
-                    const std::string& value, Diagnostics& diagnostics) {
-    size_t dot = target.rfind('.');  // ids may hold dots, names of parameters do not
-    std::string pattern = target.substr(0, dot), name = target.substr(dot + 1);
-    ParamOverride change(description, name, value);
+namespace {
+
+// Puts the change on what the pattern names; false if that is nothing.
+bool change_all(SceneDescription& description, const std::string& pattern, const std::string& name,
+                ParamOverride& change) {
     bool matched = false;
     for (uint32_t m = 0; m < description.materials.size(); ++m) {
         MaterialDefinition& material = description.materials[m];
@@ -156,7 +156,46 @@ bool override_param(SceneDescription& description, const std::string& target,
     };
     on_pictures(description.picture);
     for (CameraDefinition& camera : description.cameras) on_pictures(camera.picture);
-    if (!matched) {
+    return matched;
+}
+
+bool some_shader_has(SceneDescription& description, const std::string& name) {
+    bool has = false;
+    for_each_shader_use(description, [&](ShaderUse& use) {
+        has = has || (use.shader && find_parameter(*use.shader, name));
+    });
+    return has;
+}
+
+struct ParamTarget {
+    std::string pattern, name;
+};
+
+// "MATERIAL.NAME", "MATERIAL.HANDLE.NAME", or "HANDLE.NAME" for every shader that has such a
+// co-shader. Ids may hold dots, names and handles do not.
+ParamTarget split_target(SceneDescription& description, const std::string& target) {
+    size_t last = target.rfind('.');
+    ParamTarget plain{target.substr(0, last), target.substr(last + 1)};
+    auto matches = [&](const std::string& pattern) {
+        auto one = [&](const auto& of) { return glob_matches(pattern, of.id, of.name); };
+        return std::ranges::any_of(description.materials, one) ||
+               std::ranges::any_of(description.lights, one);
+    };
+    if (last == target.npos || matches(plain.pattern)) return plain;
+    size_t dot = last == 0 ? target.npos : target.rfind('.', last - 1);
+    if (dot != target.npos && some_shader_has(description, target.substr(dot + 1)))
+        return {target.substr(0, dot), target.substr(dot + 1)};
+    if (some_shader_has(description, target)) return {"*", target};
+    return plain;
+}
+
+}  // namespace
+
+bool override_param(SceneDescription& description, const std::string& target,
+                    const std::string& value, Diagnostics& diagnostics) {
+    auto [pattern, name] = split_target(description, target);
+    ParamOverride change(description, name, value);
+    if (!change_all(description, pattern, name, change)) {
         diagnostics.report(Code::MATERIAL_UNKNOWN, Location{}, pattern);
         return false;
     }

@@ -25,7 +25,20 @@ constexpr Stage kStages[] = {
     {"VOLUME", rsl::ShaderKind::Volume},
     {"TRANSFORMATION", rsl::ShaderKind::Transformation},
     {"IMAGER", rsl::ShaderKind::Imager},
+    {"COSHADER", rsl::ShaderKind::Surface},  // of any kind: fits_stage()
 };
+
+// A co-shader may be any shader, by its name; without one it is what nothing else can be.
+bool fits_stage(const rsl::Shader& shader, const collada::RslShader& from) {
+    if (from.stage != collada::RslStage::CoShader)
+        return shader.kind == stage_kind(from.stage) && !shader.definition->co_shader;
+    return !from.name.empty() || shader.definition->co_shader;
+}
+
+const char* word_for(collada::RslStage stage) {
+    return stage == collada::RslStage::CoShader ? "co-shader"
+                                                : rsl::shader_kind_name(stage_kind(stage));
+}
 
 bool fits(const rsl::Type& type, size_t count) {
     size_t needed = size_t(rsl::component_count(type.base)) *
@@ -57,19 +70,19 @@ EffectShaders compile_effect(const collada::Effect& effect, const rsl::CompileOp
 std::shared_ptr<const rsl::Shader> choose_shader(const EffectShaders& shaders,
                                                  const collada::RslShader& from,
                                                  Diagnostics& diagnostics) {
-    rsl::ShaderKind kind = stage_kind(from.stage);
     std::shared_ptr<const rsl::Shader> chosen;
     int candidates = 0;
     for (const auto& shader : shaders) {
-        if (shader->kind != kind || (!from.name.empty() && shader->name != from.name)) continue;
+        if (!fits_stage(*shader, from)) continue;
+        if (!from.name.empty() && shader->name != from.name) continue;
         chosen = shader;
         ++candidates;
     }
     if (candidates == 1) return chosen;
     if (candidates > 1)
-        diagnostics.report(Code::RSL_SHADER_AMBIGUOUS, from.where, rsl::shader_kind_name(kind));
+        diagnostics.report(Code::RSL_SHADER_AMBIGUOUS, from.where, word_for(from.stage));
     else
-        diagnostics.report(Code::RSL_SHADER_MISSING, from.where, rsl::shader_kind_name(kind),
+        diagnostics.report(Code::RSL_SHADER_MISSING, from.where, word_for(from.stage),
                            from.name.empty() ? "" : fmt::format(" named '{}'", from.name));
     return nullptr;
 }

@@ -7,6 +7,7 @@ shaders=$here/../../assets/shaders/scenes
 
 python3 "$here/make_tintoy.py" "$shaders" "$scenes/tintoy.dae"
 python3 "$here/make_court.py" "$shaders/.." "$scenes/court.dae"
+python3 "$here/make_layers.py" "$scenes/layers.dae"
 python3 "$here/make_attach.py" "$scenes/attach.dae"
 
 if ! command -v blender >/dev/null; then

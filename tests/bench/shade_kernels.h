@@ -165,16 +165,21 @@ inline std::vector<float> frame_block(const Compiled& compiled) {
     return frame;
 }
 
+// From its shader to kernels.
+inline void finish(Compiled& compiled, const jit::Target& target, bool bound) {
+    compiled.layer.shader = compiled.shader.get();
+    if (bound) compiled.layer.params = bound_parameters(*compiled.shader);
+    compiled.lowered = lower_fast(compiled.layer, compiled.diagnostics);
+    compiled.kernels = jit::compile(compiled.lowered.module, {&target, nullptr});
+    CHECK(compiled.kernels.point->target == std::string(target.name));
+    compiled.frame = frame_block(compiled);
+}
+
 inline std::unique_ptr<Compiled> compile(const std::string& name, const jit::Target& target,
                                          bool bound) {
     auto result = std::make_unique<Compiled>();
     result->shader = front_end(shader_text(name), result->diagnostics);
-    result->layer.shader = result->shader.get();
-    if (bound) result->layer.params = bound_parameters(*result->shader);
-    result->lowered = lower_fast(result->layer, result->diagnostics);
-    result->kernels = jit::compile(result->lowered.module, {&target, nullptr});
-    CHECK(result->kernels.point->target == std::string(target.name));
-    result->frame = frame_block(*result);
+    finish(*result, target, bound);
     return result;
 }
 

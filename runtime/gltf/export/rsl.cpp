@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "collada/document/edit.h"
+#include "rsl/link.h"
 #include "runtime/description/memory_file.h"
 #include "runtime/description/rsl_literals.h"
 #include "runtime/gltf/export/params.h"
@@ -41,12 +42,11 @@ Json RslWriter::shader(const ShaderUse& use) {
     if (is_library_shader(use, use.shader->name)) {
         result["library"] = use.shader->name;
     } else {
-        std::string code = rsl::print_ast(*use.shader->ast);
-        if (link_) code = relinked_code(code, description_.pictures, link_);
-        result["code"] = collada::utf8_text(code);
+        result["code"] = code(*use.shader, 0);
         result["shader"] = use.shader->name;
     }
     Json params = Json::object();
+    add_co_shaders(*use.shader, result, params);
     for (const ParamSource& p : use.params) {
         if (p.strings.empty())
             set_numbers(params, p.name, slot_values(description_, p.value));
@@ -55,6 +55,27 @@ Json RslWriter::shader(const ShaderUse& use) {
     }
     if (!params.empty()) result["params"] = params;
     return result;
+}
+
+std::string RslWriter::code(const rsl::Shader& shader, size_t part) const {
+    std::string code = rsl::portable_text(shader, part);
+    if (link_) code = relinked_code(code, description_.pictures, link_);
+    return collada::utf8_text(code);
+}
+
+// "coshaders" by handle, with the code of those that stand in another one; and the handles that
+// parameters of type shader are bound to.
+void RslWriter::add_co_shaders(const rsl::Shader& shader, Json& result, Json& params) const {
+    for (size_t k : rsl::parts_to_keep(shader)) {
+        const rsl::LinkedPart& part = shader.parts[k];
+        std::string prefix = part.handle.empty() ? "" : part.handle + ".";
+        for (const std::string& name : part.handle_parameters)
+            params[prefix + name] = part.texts.at(name);
+        if (k == 0) continue;
+        Json& co_shader = result["coshaders"][part.handle];
+        co_shader["shader"] = part.shader;
+        if (part.text != shader.parts[0].text) co_shader["code"] = code(shader, k);
+    }
 }
 
 // A texture where the one string names a file.

@@ -26,6 +26,8 @@ class RslWriter {
     Json material(const GltfLook& look, const PrimitiveGroup& group);
 
   private:
+    std::string code(const rsl::Shader& shader, size_t part) const;
+    void add_co_shaders(const rsl::Shader& shader, Json& result, Json& params) const;
     void set_strings(const ParamSource& source, Json& params);
     Json bound_stage(const std::vector<ShaderUse>& uses, const MaterialUse& bound,
                      const PrimitiveGroup& group);

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
+#include "rsl/text/findings.h"
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/base/text_encoding.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/description/texture_name.h"
@@ -21,6 +24,8 @@ namespace kinora {
 
 namespace {
 
+constexpr uint64_t kMostSourceBytes = 64 << 20;
+
 // A string is a file's name unless it holds code.
 bool is_file_name(const std::string& text) {
     return text.find('\n') == std::string::npos && has_extension(text, {".sl"});
@@ -30,6 +35,15 @@ std::optional<bool> bool_member(const tinygltf::Value& object, const char* name)
     const tinygltf::Value* value = member(object, name);
     if (!value || !value->IsBool()) return std::nullopt;
     return value->Get<bool>();
+}
+
+// Whether the parameter is one of type shader, or of a co-shader that is not called.
+bool is_linked(const tinygltf::Value& layer, const rsl::Shader& shader, const std::string& name) {
+    for (const rsl::Symbol* handle : shader.definition->handles)
+        if (handle->name == name) return true;
+    const tinygltf::Value* co_shaders = member(layer, "coshaders");
+    size_t dot = name.find('.');
+    return co_shaders && dot != name.npos && co_shaders->Has(name.substr(0, dot));
 }
 
 // "TEXCOORD_2" or "_HEAT" for a parameter.
@@ -126,18 +140,22 @@ std::vector<ShaderUse> RslExtras::read_stage(const tinygltf::Value& object, cons
 ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Value* params,
                                 rsl::ShaderKind kind, const std::string& pointer) {
     ShaderUse use;
+    const tinygltf::Value* co_shaders = member(layer, "coshaders");
+    LayerCode code = read_code(layer, pointer);
+    compile(code, !co_shaders);
     std::string name = string_member(layer, "shader");
-    Shaders shaders = compile(layer, pointer);
-    for (auto& shader : shaders)
+    for (auto& shader : code.shaders)
         if (!use.shader && shader->kind == kind && (name.empty() || shader->name == name))
             use.shader = shader;
     if (!use.shader) {
-        if (!shaders.empty())
+        if (!code.shaders.empty())
             diagnostics_.report(Code::RSL_SHADER_MISSING, report_.location(pointer),
                                 rsl::shader_kind_name(kind),
                                 name.empty() ? "" : fmt::format(" named '{}'", name));
         return use;
     }
+    if (co_shaders) use.shader = linked(layer, *co_shaders, code, *use.shader, pointer);
+    if (!use.shader) return use;
     set_params(layer, params, pointer, use);
     if (const tinygltf::Value* sets = member(layer, "texcoords"))
         for (ParamSource& source : use.params)
@@ -147,41 +165,99 @@ ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Va
     return use;
 }
 
-// The shaders that a layer's value holds: of a file, of code, or one of the program's own.
-RslExtras::Shaders RslExtras::compile(const tinygltf::Value& layer, const std::string& pointer) {
+// What a layer's value holds: a file, code, or a shader of the program's own.
+RslExtras::LayerCode RslExtras::read_code(const tinygltf::Value& layer,
+                                          const std::string& pointer) {
     std::string text = layer.IsString() ? layer.Get<std::string>() : "";
     std::string file = is_file_name(text) ? text : string_member(layer, "file");
     std::string library = string_member(layer, "library");
     std::string code_pointer = layer.IsString() ? pointer : pointer + "/code";
-    rsl::CompileOptions options;
-    options.include_directories = options_.include_directories;
-    options.files = out_.readable;
-    options.pictures = out_.pictures;
-    Shaders shaders;
-    auto take = [&](auto compiled) {
-        for (auto& shader : compiled) shaders.push_back(std::move(shader));
-    };
+    LayerCode code;
     if (!library.empty()) {
         if (auto shader = library_shader(library))
-            shaders.push_back(std::move(shader));
+            code.shaders.push_back(std::move(shader));
         else
             report_.add(Code::GLTF_RSL, pointer,
                         fmt::format("there is no library shader '{}'", library));
     } else if (!file.empty()) {
         std::string path = gltf_path(file_, file);
-        if (may_read_gltf(file_, options_, path))
-            take(rsl::compile_file(path, options, diagnostics_));
-        else
+        if (!may_read_gltf(file_, options_, path)) {
             report_.add(Code::GLTF_FILE, pointer, path, "it lies outside the scene's folder");
+        } else if (std::optional<std::string> bytes = read_regular_file(path, kMostSourceBytes)) {
+            code.text = utf8_text(std::move(*bytes));
+            code.map.file = diagnostics_.files.add(path, code.text);
+        } else {
+            diagnostics_.report(rsl::Code::RSL_FILE_NOT_READ, Location{}, path);
+        }
     } else if (std::optional<JsonRange> range = json_find(file_.json, code_pointer)) {
-        rsl::ShaderSource source;
-        std::string code = json_string(file_.json, *range, file_.file, source.map);
-        source.text = code;
-        take(rsl::compile(source, options, diagnostics_));
+        code.text = json_string(file_.json, *range, file_.file, code.map);
     } else {
         report_.add(Code::GLTF_RSL, pointer, "it has no file, no code and no library");
     }
-    return shaders;
+    return code;
+}
+
+// Where the shader is to be linked, that reports what is wrong: by itself it lacks the others.
+void RslExtras::compile(LayerCode& code, bool report) {
+    if (code.text.empty()) return;
+    Diagnostics unheard;
+    unheard.files = diagnostics_.files;
+    Diagnostics& sink = report ? diagnostics_ : unheard;
+    for (auto& shader : rsl::compile({code.text, code.map}, compile_options(), sink))
+        code.shaders.push_back(std::move(shader));
+    if (!report && code.shaders.empty())
+        rsl::compile({code.text, code.map}, compile_options(), diagnostics_);
+}
+
+rsl::CompileOptions RslExtras::compile_options() const {
+    rsl::CompileOptions options;
+    options.include_directories = options_.include_directories;
+    options.files = out_.readable;
+    options.pictures = out_.pictures;
+    return options;
+}
+
+// The texts of parameters that stand in "params" with this prefix.
+rsl::LinkTexts RslExtras::link_texts(const tinygltf::Value& layer,
+                                     const std::string& prefix) const {
+    rsl::LinkTexts texts;
+    const tinygltf::Value* params = member(layer, "params");
+    if (!params) return texts;
+    for (const std::string& key : member_names(*params)) {
+        const tinygltf::Value& value = params->Get(key);
+        std::string name = key.starts_with(prefix) ? key.substr(prefix.size()) : "";
+        if (name.empty() || name.find('.') != name.npos) continue;
+        if (value.IsString()) texts[name] = {value.Get<std::string>()};
+        bool list = value.IsArray();
+        for (size_t k = 0; list && k < value.ArrayLen(); ++k) list = value.Get(int(k)).IsString();
+        for (size_t k = 0; list && k < value.ArrayLen(); ++k)
+            texts[name].push_back(value.Get(int(k)).Get<std::string>());
+    }
+    return texts;
+}
+
+// The shader with its "coshaders", each {"shader", "code" or "file"} by its handle; without code
+// it stands in the shader's own. Null after an error.
+std::shared_ptr<const rsl::Shader> RslExtras::linked(const tinygltf::Value& layer,
+                                                     const tinygltf::Value& co_shaders,
+                                                     const LayerCode& code,
+                                                     const rsl::Shader& shader,
+                                                     const std::string& pointer) {
+    std::vector<rsl::LinkedSource> sources{
+        {"", {code.text, code.map}, shader.name, link_texts(layer, "")}};
+    std::deque<LayerCode> kept;  // the sources are views
+    for (const std::string& handle : member_names(co_shaders)) {
+        const tinygltf::Value& co_shader = co_shaders.Get(handle);
+        const LayerCode* own = &code;
+        if (member(co_shader, "code") || member(co_shader, "file"))
+            own = &kept.emplace_back(read_code(co_shader, pointer + "/coshaders/" + handle));
+        if (own->text.empty()) continue;  // reported
+        sources.push_back({handle,
+                           {own->text, own->map},
+                           string_member(co_shader, "shader"),
+                           link_texts(layer, handle + ".")});
+    }
+    return rsl::compile_linked(sources, compile_options(), diagnostics_);
 }
 
 // Those of the layer itself, then those of all layers that this shader has.
@@ -192,7 +268,7 @@ void RslExtras::set_params(const tinygltf::Value& layer, const tinygltf::Value* 
             std::string param_pointer = pointer + "/params/" + key;
             if (find_parameter(*use.shader, key))
                 set_param(use, key, own->Get(key), param_pointer);
-            else
+            else if (!is_linked(layer, *use.shader, key))
                 report_unknown(*use.shader, key, param_pointer);
         }
     if (params)

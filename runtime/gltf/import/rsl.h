@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rsl/link.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/gltf/import/textures.h"
 
@@ -42,7 +43,19 @@ class RslExtras {
                                       rsl::ShaderKind kind, const std::string& pointer);
     ShaderUse read_layer(const tinygltf::Value& layer, const tinygltf::Value* params,
                          rsl::ShaderKind kind, const std::string& pointer);
-    Shaders compile(const tinygltf::Value& layer, const std::string& pointer);
+    struct LayerCode {
+        std::string text;  // "" of a shader of the program's own
+        SourceMap map;
+        Shaders shaders;
+    };
+    LayerCode read_code(const tinygltf::Value& layer, const std::string& pointer);
+    void compile(LayerCode& code, bool report);
+    rsl::CompileOptions compile_options() const;
+    rsl::LinkTexts link_texts(const tinygltf::Value& layer, const std::string& prefix) const;
+    std::shared_ptr<const rsl::Shader> linked(const tinygltf::Value& layer,
+                                              const tinygltf::Value& co_shaders,
+                                              const LayerCode& code, const rsl::Shader& shader,
+                                              const std::string& pointer);
     void set_params(const tinygltf::Value& layer, const tinygltf::Value* params,
                     const std::string& pointer, ShaderUse& use);
     void set_param(ShaderUse& use, const std::string& name, const tinygltf::Value& value,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "rsl/compile.h"
+#include "rsl/link.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/load/override_shader.h"
@@ -13,9 +13,22 @@ namespace kinora {
 
 namespace {
 
-// The first shader of the text that can stand for the material's surface. It is compiled in any
-// case, for its findings.
+// The first surface of the text; where the material's was linked with co-shaders, the one of its
+// name, linked again.
+std::shared_ptr<const rsl::Shader> compiled_surface(const rsl::ShaderSource& source,
+                                                    const rsl::Shader* before,
+                                                    const rsl::CompileOptions& options,
+                                                    Diagnostics& diagnostics) {
+    if (before && !before->parts.empty())
+        return rsl::link_again(*before, source, options, diagnostics);
+    for (auto& shader : rsl::compile(source, options, diagnostics))
+        if (shader->kind == rsl::ShaderKind::Surface) return std::move(shader);
+    return nullptr;
+}
+
+// What can stand for the material's surface. It is compiled in any case, for its findings.
 std::shared_ptr<const rsl::Shader> surface_of(const SceneEdits::Text& edit,
+                                              const rsl::Shader* before,
                                               const SceneRequest& request, Diagnostics& diagnostics,
                                               const EditedShaders* known, EditedShaders& now) {
     rsl::CompileOptions options;
@@ -23,9 +36,7 @@ std::shared_ptr<const rsl::Shader> surface_of(const SceneEdits::Text& edit,
     rsl::ShaderSource source;
     source.map.file = diagnostics.files.add(edit.file, edit.text);
     source.text = edit.text;
-    std::shared_ptr<const rsl::Shader> surface;
-    for (auto& shader : rsl::compile(source, options, diagnostics))
-        if (!surface && shader->kind == rsl::ShaderKind::Surface) surface = std::move(shader);
+    auto surface = compiled_surface(source, before, options, diagnostics);
     if (!surface) return nullptr;
     if (known)
         for (const EditedShaders::Row& row : known->rows)
@@ -61,12 +72,12 @@ bool shares_text(const rsl::Shader* a, const rsl::Shader* b) {
 bool apply_text(SceneDescription& description, const SceneEdits::Text& edit,
                 const SceneRequest& request, Diagnostics& diagnostics, const EditedShaders* known,
                 EditedShaders& now) {
-    auto shader = surface_of(edit, request, diagnostics, known, now);
-    if (!shader) return false;
     std::shared_ptr<const rsl::Shader> before;
     for (const MaterialDefinition& material : description.materials)
         if (material.id == edit.material && shown_surface(material))
             before = material.surfaces.back().shader;
+    auto shader = surface_of(edit, before.get(), request, diagnostics, known, now);
+    if (!shader) return false;
     for (MaterialDefinition& material : description.materials)
         if (material.id == edit.material || shares_text(shown_surface(material), before.get()))
             replace_surface(material, shader);

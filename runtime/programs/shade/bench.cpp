@@ -31,9 +31,15 @@ CompileTimes compile_once(const ShadeOptions& options, const ShadeSource& source
     ShadeSource copy;
     copy.text = source.text;
     copy.params = source.params;
+    copy.diagnostics.files = source.diagnostics.files;
     copy.map.file = copy.diagnostics.files.add("bench", source.text);
     Stopwatch watch;
-    copy.shaders = rsl::compile(copy.view(), options.compile, copy.diagnostics);
+    const rsl::Shader* compiled = choose_shader(options, source);
+    if (compiled && !compiled->parts.empty())
+        copy.shaders.push_back(rsl::compile_linked(rsl::sources_of(compiled->parts),
+                                                   options.compile, copy.diagnostics));
+    else
+        copy.shaders = rsl::compile(copy.view(), options.compile, copy.diagnostics);
     times.front = watch.restart();
     const rsl::Shader* shader = copy.shaders.empty() ? nullptr : choose_shader(options, copy);
     ShadeStack stack;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "collada/document/document.h"
 #include "collada/extract/extract.h"
@@ -17,6 +18,7 @@
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
+#include "runtime/profile_rsl/effect_linker.h"
 #include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
@@ -49,19 +51,53 @@ int read_file(const std::string& path, ShadeSource& source) {
     return kExitOk;
 }
 
-void take_binds(const collada::SceneData& data, const collada::Effect& effect,
-                ShadeSource& source) {
-    for (const collada::RslShader& shader : effect.rsl->shaders)
-        for (const collada::RslBind& bind : shader.binds) {
-            const collada::ParamValue& value =
-                bind.param == collada::kNone ? bind.literal : effect.params[bind.param].value;
-            ShadeParam param{bind.symbol, value.numbers, value.strings};
-            if (value.image != collada::kNone) param.strings = {data.images[value.image].path};
-            if (value.type == collada::ParamType::Float4x4)  // COLLADA's are for column vectors
-                for (size_t i = 0; i < param.numbers.size(); ++i)
-                    param.numbers[i] = value.numbers[i / 16 * 16 + i % 4 * 4 + i % 16 / 4];
-            source.params.push_back(std::move(param));
-        }
+void take_binds(const collada::SceneData& data, const BoundShader& shader, ShadeSource& source) {
+    std::string prefix = shader.from->handle.empty() ? "" : shader.from->handle + ".";
+    for (const collada::RslBind& bind : shader.from->binds) {
+        const collada::ParamValue& value = bound_value(data, shader, bind);
+        ShadeParam param{prefix + bind.symbol, value.numbers, value.strings};
+        if (value.image != collada::kNone) param.strings = {data.images[value.image].path};
+        if (value.type == collada::ParamType::Float4x4)  // COLLADA's are for column vectors
+            for (size_t i = 0; i < param.numbers.size(); ++i)
+                param.numbers[i] = value.numbers[i / 16 * 16 + i % 4 * 4 + i % 16 / 4];
+        source.params.push_back(std::move(param));
+    }
+}
+
+// The binds of the effect's shaders and of the library's co-shaders that they use, and which
+// shaders are linked with which.
+void take_passes(const collada::SceneData& data, uint32_t effect, const ShadeOptions& options,
+                 ShadeSource& source) {
+    EffectLinker linker(data, options.compile, source.diagnostics);
+    std::set<const collada::RslShader*> taken;
+    for (const collada::RslShader& from : data.effects[effect].rsl->shaders) {
+        BoundShader shader{&from, effect};
+        taken.insert(&from);
+        take_binds(data, shader, source);
+        if (from.stage == collada::RslStage::CoShader) continue;
+        if (auto linked = linker.linked(shader); linked && !linked->parts.empty())
+            source.linked.push_back(linked->parts);
+        for (const BoundShader& other : linker.co_shaders(shader))
+            if (other.effect != effect && taken.insert(other.from).second)
+                take_binds(data, other, source);
+    }
+}
+
+// The linked shaders, then the others of the source, which are complete by themselves.
+std::vector<std::unique_ptr<rsl::Shader>> compile_passes(const ShadeOptions& options,
+                                                         ShadeSource& source) {
+    std::vector<std::unique_ptr<rsl::Shader>> shaders;
+    Diagnostics unheard;  // by themselves they lack their co-shaders
+    unheard.files = source.diagnostics.files;
+    for (const std::vector<rsl::LinkedPart>& parts : source.linked) {
+        auto sources = rsl::sources_of(parts);
+        if (auto linked = rsl::compile_linked(sources, options.compile, source.diagnostics))
+            shaders.push_back(std::move(linked));
+    }
+    for (auto& shader : rsl::compile(source.view(), options.compile, unheard))
+        if (std::ranges::none_of(shaders, [&](const auto& s) { return s->name == shader->name; }))
+            shaders.push_back(std::move(shader));
+    return shaders;
 }
 
 // The path of SCENE.dae or SCENE.dae#EFFECT; "" for other sources.
@@ -88,7 +124,7 @@ int read_effect(const std::string& path, const ShadeOptions& options, ShadeSourc
         known += (known.empty() ? "" : ", ") + effect.id;
         if (effect.id != id && !(id.empty() && with_rsl == 1)) continue;
         source.text = joined_code(*effect.rsl, source.map);
-        take_binds(*data, effect, source);
+        take_passes(*data, uint32_t(&effect - data->effects.data()), options, source);
         return kExitOk;
     }
     if (known.empty())
@@ -169,7 +205,9 @@ std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource
         std::fputs(rsl::print_preprocessed(tokens).c_str(), stdout);
         return source.failed(options) ? kExitShader : kExitOk;
     }
-    if (options.co_shaders.empty())
+    if (options.co_shaders.empty() && !source.linked.empty())
+        source.shaders = compile_passes(options, source);
+    else if (options.co_shaders.empty())
         source.shaders = rsl::compile(source.view(), options.compile, source.diagnostics);
     else if (auto linked = compile_with_co_shaders(options, source))
         source.shaders.push_back(std::move(linked));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rsl/compile.h"
+#include "rsl/link.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/programs/shade/kinora_shade.h"
 
@@ -23,7 +23,8 @@ struct ShadeSource {
     Diagnostics diagnostics;
     std::string text;
     SourceMap map;
-    std::vector<ShadeParam> params;  // an effect's: what its <bind>s give
+    std::vector<ShadeParam> params;                    // an effect's: what its <bind>s give
+    std::vector<std::vector<rsl::LinkedPart>> linked;  // an effect's: shaders with co-shaders
     std::vector<std::unique_ptr<rsl::Shader>> shaders;
 
     rsl::ShaderSource view() const { return {text, map}; }
