@@ -49,6 +49,52 @@ bool cannot_end(const LintSource& source, const Expr* condition, const Stmt& bod
     });
 }
 
+// A number that depends on nothing.
+std::optional<double> number_of(const Expr& expr) {
+    Condition needs = condition_of(expr);
+    if (!needs.known || !needs.symbols.empty()) return {};
+    std::optional<ConstantValue> value = evaluate_constant(expr);
+    if (!value || value->numbers.size() != 1) return {};
+    return value->numbers[0];
+}
+
+// What a step adds to the variable: "i += 2", "i = i - 1". None where it is not a constant.
+std::optional<double> added_by(const Expr& step, const Symbol* symbol) {
+    auto is_it = [&](const Expr* e) {
+        auto* variable = as_if<VariableExpr>(e);
+        return variable && variable->symbol == symbol;
+    };
+    auto* assign = as_if<AssignExpr>(&step);
+    if (!assign || !is_it(assign->target)) return {};
+    auto* sum = assign->op == Op::None ? as_if<BinaryExpr>(assign->value) : nullptr;
+    if (assign->op == Op::None && (!sum || !is_it(sum->left))) return {};
+    Op op = sum ? sum->op : assign->op;
+    if (op != Op::Add && op != Op::Subtract) return {};
+    std::optional<double> value = number_of(sum ? *sum->right : *assign->value);
+    if (!value) return {};
+    return op == Op::Add ? *value : -*value;
+}
+
+// "for (i = 0; i < 10; i -= 1)": the variable that a bound ends goes the other way, by the step
+// alone.
+bool leads_away(const LintSource& source, const ForStmt& loop) {
+    auto* compared = as_if<BinaryExpr>(loop.condition);
+    if (!compared || loop.step.size() != 1) return false;
+    bool below = compared->op == Op::Less || compared->op == Op::LessEqual;
+    if (!below && compared->op != Op::Greater && compared->op != Op::GreaterEqual) return false;
+    auto* variable = as_if<VariableExpr>(compared->left);
+    if (!variable || !number_of(*compared->right)) return false;
+    ChangeFinder body(source.ast);
+    body.add(loop.body);
+    const Changes& changes = body.changes;
+    if (changes.returns || !changes.breaks.empty()) return false;
+    if (std::find(changes.symbols.begin(), changes.symbols.end(), variable->symbol) !=
+        changes.symbols.end())
+        return false;
+    std::optional<double> added = added_by(*loop.step[0], variable->symbol);
+    return added && (below ? *added < 0 : *added > 0);
+}
+
 }  // namespace
 
 void lint_loops(LintSource& source) {
@@ -62,6 +108,8 @@ void lint_loops(LintSource& source) {
                 (counted && cannot_end(source, counted->condition, *counted->body, counted->step));
             if (endless && source.is_own(stmt.span))
                 source.reporter.report(Code::RSL_ENDLESS_LOOP, stmt.span);
+            else if (counted && source.is_own(stmt.span) && leads_away(source, *counted))
+                source.reporter.report(Code::RSL_LOOP_AWAY, stmt.span);
         });
 }
 

@@ -52,6 +52,7 @@ enum Effects : uint32_t {
     kConstantResult = 1 << 12,  // known when the shader is compiled, whatever the arguments
     kReadsLength = 1 << 14,     // the result is an array's length, whatever its elements are
     kSetsLength = 1 << 15,      // changes the length of its first argument, a resizable array
+    kForHeaders = 1 << 16,      // called by our own headers and by what calls of handles become
 };
 
 // Shader kinds that may call the function.

@@ -27,7 +27,8 @@ import os, sys
 words = sys.argv[1:]
 if "--list" not in words:
     for option, value in (("--scale", "5%"), ("--spp", "1")):
-        if option not in words:
+        fixed = option == "--spp" and any(word.startswith("--target-") for word in words)  # they choose it
+        if option not in words and not fixed:
             words += [option, value]
 os.execv(PROGRAM, [PROGRAM, *words])
 '''

@@ -40,6 +40,7 @@ void ShaderWriter::find_rows(bool all_rows) {
             if (!usable || (!row.ref.single && !all_rows)) continue;
             // The lengths of arrays change in statements of their own.
             if (row.effects & (kSetsLength | kReadsLength)) continue;
+            if (row.effects & kForHeaders) continue;
             if (row.effects & kReadsChannels) continue;  // their arguments follow a list of names
             // Maps give their coordinates' slopes, which the reference does not know: a shader has
             // maps or takes derivatives.

@@ -91,7 +91,8 @@ double compile_ms(const std::string& text) {
         auto shaders = compile(source.source, {}, source.diagnostics);
         EXPECT_EQ(shaders.size(), 1u) << source.messages();
         if (shaders.empty()) return 0;
-        const Layer layer{.shader = shaders[0].get()};
+        Layer layer;
+        layer.shader = shaders[0].get();
         EXPECT_TRUE(lower({&layer, 1}, {}, source.diagnostics)) << source.messages();
         least = std::min(least, thread_ms() - begin);
     }

@@ -104,16 +104,27 @@ TEST(Frame, RefittedFramesEqualRebuiltFrames) {
     EXPECT_GE(refits, 3);
 }
 
-TEST(Frame, AnyOrderOfFramesGivesTheSamePictures) {
+// The tree may be another one after a rebuild. A ray exactly on the edge of two triangles may then
+// meet the other of them: that pixel differs by rounding (docs/rays.md#order-of-frames).
+void expect_any_order(const SceneOptions& options, size_t pixels_on_edges) {
     const double times[] = {0, 0.2, 0.4, 0.6, 0.8, 1.0};
-    Rendering forward(moving_scene().text());
+    Rendering forward(moving_scene().text(), options);
     std::vector<raytrace::Film> films;
     for (double time : times) films.push_back(forward.frame(48, 27, time).film);
-    for (int i : {5, 0, 3, 3, 1, 4, 2})
-        EXPECT_TRUE(same_bytes(forward.frame(48, 27, times[i]).film, films[size_t(i)]))
-            << i << ": " << difference(forward.film, films[size_t(i)]);
-    Rendering fresh(moving_scene().text());
-    EXPECT_TRUE(same_bytes(fresh.frame(48, 27, times[4]).film, films[4]));
+    for (int i : {5, 0, 3, 3, 1, 4, 2}) {
+        forward.frame(48, 27, times[i]);
+        EXPECT_LE(different_pixels(forward.film, films[size_t(i)], 0), pixels_on_edges) << i;
+        EXPECT_LE(difference(forward.film, films[size_t(i)]), 1e-6f) << i;
+    }
+    Rendering fresh(moving_scene().text(), options);
+    fresh.frame(48, 27, times[4]);
+    EXPECT_LE(different_pixels(fresh.film, films[4], 0), pixels_on_edges);
+    EXPECT_LE(difference(fresh.film, films[4]), 1e-6f);
+}
+
+TEST(Frame, AnyOrderOfFramesGivesTheSamePictures) {
+    expect_any_order(refit_only(), 0);
+    expect_any_order({}, 1);
 }
 
 TEST(Frame, ThreadsDoNotShowInThePicture) {

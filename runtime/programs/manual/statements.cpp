@@ -125,6 +125,57 @@ surface teeth(float count = 10;) {
 )"},
 };
 
+constexpr ManualEntry kTypes[] = {
+    {"float", "float name",
+     "A number of 32 bits. There are no integers and no truth values: a condition compares.",
+     R"(surface ramp(float steps = 6;) {
+    float stair = floor(s * steps) / (steps - 1);
+    Ci = stair;
+}
+)"},
+    {"color", "color name; color [\"space\"] (x, y, z)",
+     "Three channels, rgb unless a space says otherwise. Of two colors * is taken by channel; a "
+     "float stands for three equal channels. comp(c, 0), or c[0], is the first.",
+     R"(surface sunset(color low = color "hsv" (0.05, 0.9, 1);) {
+    Ci = mix(low, color(0.1, 0.2, 0.5), t);
+}
+)"},
+    {"point vector normal", "point name; point [\"space\"] (x, y, z)",
+     "A place, a direction or a normal, kept in \"current\" space. A named space is where the "
+     "three numbers are read; transform(), vtransform() and ntransform() go the other way. a . b "
+     "is the dot product, a ^ b the cross product.",
+     R"(surface spots(float size = 0.5;) {
+    point here = transform("object", P);
+    vector off = here - point "object" (0, 0, 0);
+    normal Nn = normalize(N);
+    Ci = (length(off) < size ? 1 : 0.3) * abs(Nn . normalize(I));
+}
+)"},
+    {"matrix", "matrix name; matrix [\"space\"] number or (16 numbers)",
+     "Four rows of four. A number stands for that multiple of the identity. comp(m, row, column) "
+     "is an element, transform(m, p) moves a point.",
+     R"(surface turned(float degrees = 45;) {
+    matrix m = rotate(matrix 1, radians(degrees), vector(0, 0, 1));
+    point p = transform(m, point(s, t, 0));
+    Ci = mod(8 * abs(xcomp(p)), 1);
+}
+)"},
+    {"string", "string name",
+     "A text: a file, a space or a channel. == and != compare; concat(), format() and match() "
+     "make and search texts.",
+     R"(surface picture(string file = "";) {
+    Ci = file == "" ? Cs : color texture(file);
+}
+)"},
+    {"void", "void name(parameters) { ... }", "Of a function: it has no result.",
+     R"(void darken(output color c; float by;) { c *= 1 - by; }
+surface shadowed(float by = 0.5;) {
+    Ci = Cs;
+    darken(Ci, by);
+}
+)"},
+};
+
 constexpr ManualEntry kStorage[] = {
     {"uniform", "uniform type name",
      "One value for all points. A varying value cannot be assigned to it. Parameters of shaders "
@@ -216,6 +267,53 @@ surface glow(color tint = color(1, 0.6, 0.2);) {
 )"},
 };
 
+constexpr ManualEntry kHandles[] = {
+    {"shader null getshader getshaders hasmethod",
+     "getshader(\"handle\"), getshaders([\"category\", name]), hasmethod(shader, \"method\")",
+     "RSL 2.0. Co-shaders: shaders that another one calls. getshader() gives the one of that "
+     "handle, or null; getshaders() those of a category, as a shader[]. h->f(x) calls a method, "
+     "h->x reads a public member or a parameter. kinora-shade takes them by --coshader, a scene "
+     "by stage=\"COSHADER\".",
+     R"(class layered() {
+    public void surface(output color Ci, Oi) {
+        shader below = getshader("paint");
+        color c = Cs;
+        if (below != null)
+            below->shade(c);
+        Oi = 1;
+        Ci = c * diffuse(faceforward(normalize(N), I));
+    }
+}
+)"},
+    {"getvar", "getvar(shader, \"name\", variable)",
+     "RSL 2.0. 1, and the variable set, if the shader has a public member or a parameter of that "
+     "name; else 0. Of null it is this shader's own.",
+     R"(surface tinted(color own = color(0.8, 0.2, 0.2);) {
+    color tint = own;
+    getvar(getshader("paint"), "tint", tint);
+    Ci = tint * diffuse(faceforward(normalize(N), I));
+}
+)"},
+    {"getlights", "getlights([\"category\", name])",
+     "RSL 2.0. The lights of the scene as a shader[]; l->light(L, Cl) gives the vector from the "
+     "light and its color at P.",
+     R"(class lit(float Kd = 0.8;) {
+    public void surface(output color Ci, Oi) {
+        shader lamps[] = getlights();
+        vector fall;
+        color sent, sum = 0;
+        float k;
+        for (k = 0; k < arraylength(lamps); k += 1) {
+            lamps[k]->light(fall, sent);
+            sum += sent * max(0, normalize(N) . normalize(-fall));
+        }
+        Oi = 1;
+        Ci = Kd * sum;
+    }
+}
+)"},
+};
+
 constexpr ManualEntry kLines[] = {
     {"#define #undef", "#define NAME[(parameters)] text, #undef NAME",
      "The text stands for the name from here on. ## joins two tokens, # makes a text of one.",
@@ -235,7 +333,7 @@ surface clouds(float scale = 3;) {
     Ci = 0.5 + 0.5 * snoise(transform("shader", P) * scale);
 }
 )"},
-    {"#if #ifdef #ifndef #elif #else #endif",
+    {"#if #ifdef #ifndef #elif #else #endif defined",
      "#if expression, #ifdef NAME, #ifndef NAME ... #elif expression ... #else ... #endif",
      "The text between counts if the expression is not 0. defined(NAME) is 1 for a macro. Kinora "
      "defines KINORA.",
@@ -256,6 +354,14 @@ surface shaded() {
 #endif
 surface plain() {
     Ci = Cs;
+}
+)"},
+    {"__LINE__ __FILE__", "__LINE__, __FILE__",
+     "The number of the line and the name of the file, where they are written.",
+     R"(surface noted() {
+    if (s < 0)
+        printf("%s, line %g: s is %g\n", __FILE__, __LINE__, s);
+    Ci = s;
 }
 )"},
     {"#pragma #line", "#pragma once, #pragma annotation ..., #line number",
@@ -348,8 +454,10 @@ constexpr ManualEntry kKindEntries[] = {
 
 constexpr ManualChapter kChapters[] = {
     {"Statements", kStatements},
+    {"Types", kTypes},
     {"Storage classes", kStorage},
     {"Arrays, structs and classes of RSL 2.0", kObjects},
+    {"Co-shaders and lights as shaders", kHandles},
     {"Preprocessor lines", kLines},
     {"Kinds of shader, and how a scene uses them", kKindEntries},
 };

@@ -9,10 +9,10 @@
 #include "rsl/model/globals.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/programs/common/exit_codes.h"
-#include "runtime/programs/shade/kinora_shade.h"
-#include "runtime/programs/shade/manual_pages.h"
 #include "runtime/programs/manual/rows.h"
 #include "runtime/programs/manual/statements.h"
+#include "runtime/programs/shade/kinora_shade.h"
+#include "runtime/programs/shade/manual_pages.h"
 
 namespace kinora {
 
@@ -89,6 +89,7 @@ int shade_manual(const ShadeOptions& options) {
     bool found = false;
     for (std::span<const rsl::Builtin> group : rsl::builtin_groups())
         for (const rsl::Builtin& row : group) {
+            if (options.source.empty() && (row.effects & rsl::kForHeaders)) continue;
             if (options.source.empty())
                 std::printf("%-18s %s%s\n", row.name, row.doc,
                             row.lower ? "" : " (not supported yet)");

@@ -119,7 +119,9 @@ std::vector<Completion> completions(std::string_view text, size_t caret, size_t 
     if (caret - word.begin < least || word.end != caret) return {};
     Names names(text.substr(word.begin, caret - word.begin));
     for (const rsl::BuiltinGroup& group : rsl::builtin_groups())
-        for (const rsl::Builtin& row : group) names.offer(row.name, Ink::Builtin, form_of(row));
+        for (const rsl::Builtin& row : group)
+            if (!(row.effects & rsl::kForHeaders))
+                names.offer(row.name, Ink::Builtin, form_of(row));
     for (const rsl::GlobalInfo& global : rsl::globals())
         names.offer(global.name, Ink::Global, manual_line(global.name).form);
     for (int i = static_cast<int>(rsl::Word::Float); i <= static_cast<int>(rsl::Word::Deformation);
