@@ -253,10 +253,10 @@ class CoShaders(SceneTest):
                       [unused, ("RSL_HANDLE_UNBOUND", '<bind symbol="layers"', 0),
                        ("RSL_COSHADER_UNUSED", 'handle="coat"', 8)])
         self.validate(SCENE.replace('"COSHADER" handle="dirt"', '"COSHADER" handle="clay"'),
-                      [unused, ("RSL_SHADER_UNUSED", "<technique", 0), ("RSL_HANDLE_TWICE", 'handle="clay"><name>dirt', 8),
+                      [unused, ("RSL_SHADER_UNUSED", '<technique sid="t"', 0), ("RSL_HANDLE_TWICE", 'handle="clay"><name>dirt', 8),
                        ("RSL_HANDLE_UNBOUND", '<bind symbol="layers"', 0)])
         self.validate(SCENE.replace('"COSHADER" handle="dirt"', '"COSHADER"'),
-                      [unused, ("RSL_SHADER_UNUSED", "<technique", 0), ("RSL_HANDLE_MISSING", 'COSHADER"><name>dirt', 0),
+                      [unused, ("RSL_SHADER_UNUSED", '<technique sid="t"', 0), ("RSL_HANDLE_MISSING", 'COSHADER"><name>dirt', 0),
                        ("RSL_HANDLE_UNBOUND", '<bind symbol="layers"', 0)])
         self.validate(SCENE.replace("<string>clay</string>", "<float>1</float>"),
                       [unused, ("RSL_BIND_TYPE", '<bind symbol="base"', 0),

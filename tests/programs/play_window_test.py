@@ -139,11 +139,13 @@ class WindowTest(unittest.TestCase):
     def test_a_splitter_is_dragged(self):
         window = self.open(MATTE)
         self.drawn(PICTURE)
-        # From afar and at once, so that one turn of the loop may see the way there and the press.
+        # From afar, so that one turn of the loop may see the way there and the press.
         self.display.xdotool("mousemove", 700, 300)
         window.wait_still(10, 0.3)
-        self.display.xdotool("mousemove", 230, 400, "mousedown", 1, "mousemove", 280, 400, "mousemove", 330, 400,
-                             "mouseup", 1)
+        for words in (("mousemove", 230, 400, "mousedown", 1), ("mousemove", 280, 400), ("mousemove", 330, 400),
+                      ("mouseup", 1)):
+            self.display.xdotool(*words)
+            window.wait_still(10, 0.3)
         self.words(window)  # what it does comes before the window's end
         conf = (self.display.folder / "config/kinora/play.conf").read_text()
         self.assertRegex(conf, r"left 3(2|3)\d")

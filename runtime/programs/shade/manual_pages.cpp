@@ -133,6 +133,7 @@ std::string builtins_page() {
         page += fmt::format("## {}\n\n", group.title);
         std::string_view last;
         for (const rsl::Builtin& row : group) {
+            if (row.effects & rsl::kForHeaders) continue;
             if (last != row.name) page += fmt::format("### {}\n\n", row.name);
             last = row.name;
             add_builtin(page, row);
