@@ -18,8 +18,9 @@ class pot(shader body = null; shader layers[] = {}; float relief = 0.05;) {
         for (i = 0; i < arraylength(layers); i += 1) layers[i]->lay(tint, shine, rise);
     }
     public void displacement(output point P; output normal N) {
+        vector rounding = normalize(N) - normalize(Ng);  /* the facets are to look smooth */
         P += relief * rise * normalize(N);
-        N = calculatenormal(P);
+        N = normalize(calculatenormal(P)) + rounding;
     }
     public void surface(output color Ci, Oi) {
         normal Nf = faceforward(normalize(N), I);
