@@ -26,7 +26,8 @@ Link find_visual_scene(Extraction& x) {
     for (const Element& library : document.root().children()) {
         if (library.name != "library_visual_scenes") continue;
         if (const Element* first = library.child("visual_scene")) {
-            x.diag.report(Code::SCENE_MISSING, x.where({0, scene ? scene : first}));
+            if (!instance)  // else what it names was told to be missing
+                x.diag.report(Code::SCENE_MISSING, x.where({0, scene ? scene : first}));
             return {0, first};
         }
     }

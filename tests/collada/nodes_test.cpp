@@ -153,6 +153,16 @@ TEST(Scene, FallsBackToTheFirstVisualScene) {
     ASSERT_TRUE(r.scene);
     EXPECT_EQ(r.scene->scene_id, "first");
     EXPECT_EQ(r.count("SCENE_MISSING"), 1u);
+    Reading elsewhere;
+    read_text(elsewhere,
+              "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+              "version=\"1.4.1\"><library_visual_scenes><visual_scene id=\"first\"><node/>"
+              "</visual_scene></library_visual_scenes><scene><instance_visual_scene "
+              "url=\"#other\"/></scene></COLLADA>");
+    ASSERT_TRUE(elsewhere.scene);
+    EXPECT_EQ(elsewhere.scene->scene_id, "first");
+    EXPECT_EQ(elsewhere.count("SCENE_MISSING"), 0u);
+    EXPECT_EQ(elsewhere.count("LINK_UNRESOLVED"), 1u) << elsewhere.all();
     Reading none;
     read_text(none, "<COLLADA version=\"1.4.1\"/>");
     EXPECT_FALSE(none.scene);

@@ -83,9 +83,11 @@ std::string attribute(std::string_view xml, size_t tag, std::string_view name) {
 }
 
 bool is_same(const std::string& file, std::string_view bytes) {
+    std::error_code error;
+    if (std::filesystem::file_size(file, error) != bytes.size() || error) return false;
+    std::string now(bytes.size(), 0);
     std::ifstream in(file, std::ios::binary);
-    std::string now((std::istreambuf_iterator<char>(in)), {});
-    return in && now == bytes;
+    return in.read(now.data(), std::streamsize(now.size())) && now == bytes;
 }
 
 }  // namespace
