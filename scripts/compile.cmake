@@ -51,6 +51,20 @@ function(kinora_precompiled_set name)
     target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
+# kinora_kernels(VARIABLE NAME): adds NAME.cpp, which chooses at run time, and NAME_<instruction set>.cpp,
+# which compile one source each for theirs, to a list of sources.
+function(kinora_kernels variable name)
+    set(kernels ${name}.cpp ${name}_portable.cpp)
+    set_source_files_properties(${name}_portable.cpp PROPERTIES COMPILE_OPTIONS "-O3")
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+        list(APPEND kernels ${name}_avx2.cpp ${name}_avx512.cpp)
+        set_source_files_properties(${name}_avx2.cpp PROPERTIES COMPILE_OPTIONS "-O3;-mavx2")
+        set_source_files_properties(${name}_avx512.cpp PROPERTIES COMPILE_OPTIONS
+            "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mavx512bw;-mprefer-vector-width=512")
+    endif()
+    set(${variable} ${${variable}} ${kernels} PARENT_SCOPE)
+endfunction()
+
 # kinora_precompile(TARGET SET): files with compile options of their own go without.
 function(kinora_precompile target set)
     if(NOT KINORA_PCH)
