@@ -1,4 +1,6 @@
 // collada/extract/primitives.cpp: inputs and indices of one primitive element become a group.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "collada/extract/primitives_p.h"
@@ -84,17 +86,26 @@ Inputs read_inputs(MeshReader& mesh, Link primitive) {
     return inputs;
 }
 
-// The location of number `n` of the joined <p>.
-Location number_location(Extraction& x, Link primitive, const PrimitiveIndices& p, size_t n) {
+// Number `n` of the joined <p> as its element writes it; "" where that cannot be told.
+struct WrittenNumber {
+    const Element* element;
+    std::string_view word;
+};
+
+WrittenNumber written_number(const PrimitiveIndices& p, size_t n) {
     size_t vertex = n / p.stride;
     auto after = std::upper_bound(p.parts.begin(), p.parts.end(), vertex,
                                   [](size_t v, const auto& part) { return v < part.first; });
     const PrimitiveIndices::Part& part = after[-1];
     size_t skip = n - size_t(part.first) * p.stride;
-    std::string_view word = word_number(part.element->text, skip);
-    if (word.empty()) return x.where({primitive.doc, part.element});
-    size_t begin = size_t(word.data() - part.element->text.data());
-    return x.document(primitive.doc).text_location(*part.element, begin, begin + word.size());
+    return {part.element, word_number(part.element->text, skip)};
+}
+
+Location number_location(Extraction& x, Link primitive, const WrittenNumber& number) {
+    const Element& element = *number.element;
+    if (number.word.empty()) return x.where({primitive.doc, &element});
+    size_t begin = size_t(number.word.data() - element.text.data());
+    return x.document(primitive.doc).text_location(element, begin, begin + number.word.size());
 }
 
 // The first vertex from `v` on whose number at the offset is `limit` or beyond.
@@ -106,9 +117,11 @@ uint32_t next_beyond(const PrimitiveIndices& p, uint32_t offset, uint32_t limit,
 
 void report_index(MeshReader& mesh, Link primitive, const PrimitiveIndices& p, size_t number,
                   std::string_view semantic, uint32_t limit) {
-    Location where = number_location(mesh.x, primitive, p, number);
-    int32_t index = p.numbers[number];
-    if (index < 0)
+    WrittenNumber written = written_number(p, number);
+    Location where = number_location(mesh.x, primitive, written);
+    int32_t read = p.numbers[number];
+    std::string index = written.word.empty() ? fmt::to_string(read) : std::string(written.word);
+    if (read < 0)
         mesh.x.diag.report(Code::PRIM_INDEX_NEGATIVE, where, index);
     else
         mesh.x.diag.report(Code::PRIM_INDEX_RANGE, where, index, semantic, limit);

@@ -8,38 +8,79 @@ namespace kinora {
 
 namespace fs = std::filesystem;
 
-std::vector<LiteralRange> string_literals(std::string_view code) {
-    std::vector<LiteralRange> ranges;
+namespace {
+
+// Behind the next `end`, or where the code ends.
+size_t behind(std::string_view code, std::string_view end, size_t from) {
+    size_t found = code.find(end, from);
+    return found == code.npos ? code.size() : found + end.size();
+}
+
+// Where the literal that opens at `open` closes; where its line ends if it does not.
+size_t end_of_literal(std::string_view code, size_t open) {
+    size_t end = open + 1;
+    while (end < code.size() && code[end] != '"' && code[end] != '\n')
+        end += code[end] == '\\' ? 2 : 1;
+    return std::min(end, code.size());
+}
+
+bool is_include(std::string_view code, size_t hash) {
+    size_t word = code.find_first_not_of(" \t", hash + 1);
+    return word != code.npos && code.substr(word).starts_with("include");
+}
+
+// Calls literal(open, close) with the quotes' places and include(hash) outside comments.
+template <class Literal, class Include>
+void scan(std::string_view code, Literal&& literal, Include&& include) {
     bool line_starts = true;
-    auto end_of = [&](std::string_view end, size_t from) {
-        size_t found = code.find(end, from);
-        return found == code.npos ? code.size() : found + end.size();
-    };
     for (size_t at = 0; at < code.size();) {
         std::string_view rest = code.substr(at);
         bool starts_line = line_starts;
         line_starts = rest[0] == '\n' || (starts_line && (rest[0] == ' ' || rest[0] == '\t'));
         if (rest.starts_with("//")) {
-            at = end_of("\n", at);
+            at = behind(code, "\n", at);
             line_starts = true;
         } else if (rest.starts_with("/*")) {
-            at = end_of("*/", at + 2);
-        } else if (rest[0] == '#' && starts_line) {
-            size_t word = code.find_first_not_of(" \t", at + 1);
-            bool include = word != code.npos && code.substr(word).starts_with("include");
-            at = include ? end_of("\n", at) : at + 1;
-            line_starts = include;
+            at = behind(code, "*/", at + 2);
+        } else if (rest[0] == '#' && starts_line && is_include(code, at)) {
+            include(at);
+            at = behind(code, "\n", at);
+            line_starts = true;
         } else if (rest[0] == '"') {
-            size_t end = at + 1;
-            while (end < code.size() && code[end] != '"' && code[end] != '\n')
-                end += code[end] == '\\' ? 2 : 1;
-            if (end < code.size() && code[end] == '"') ranges.push_back({at + 1, end});
+            size_t end = end_of_literal(code, at);
+            if (end < code.size() && code[end] == '"') literal(at, end);
             at = end + 1;
         } else {
             ++at;
         }
     }
+}
+
+}  // namespace
+
+std::vector<LiteralRange> string_literals(std::string_view code) {
+    std::vector<LiteralRange> ranges;
+    scan(
+        code,
+        [&](size_t open, size_t close) {
+            ranges.push_back({open + 1, close});
+        },
+        [](size_t) {});
     return ranges;
+}
+
+std::vector<IncludeLine> include_lines(std::string_view code) {
+    std::vector<IncludeLine> lines;
+    auto add = [&](size_t hash) {
+        size_t open = code.find_first_of("\"<\n", hash);
+        if (open == code.npos || code[open] != '"') return;
+        size_t close = code.find_first_of("\"\n", open + 1);
+        if (close == code.npos || code[close] != '"') return;
+        lines.push_back({{hash, close + 1}, {open + 1, close}});
+    };
+    scan(
+        code, [](size_t, size_t) {}, add);
+    return lines;
 }
 
 bool may_name_file(std::string_view name) {

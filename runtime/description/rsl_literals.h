@@ -18,6 +18,14 @@ struct LiteralRange {
 // Those outside comments and #include lines.
 std::vector<LiteralRange> string_literals(std::string_view code);
 
+struct IncludeLine {
+    LiteralRange line;  // from '#' to behind the closing quote
+    LiteralRange name;
+};
+
+// The lines #include "name" outside comments.
+std::vector<IncludeLine> include_lines(std::string_view code);
+
 // A relative path, as opposed to a word such as "world".
 bool may_name_file(std::string_view name);
 

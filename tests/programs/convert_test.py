@@ -523,6 +523,27 @@ surface s(string map = "tex/wood.png"; string other = "";) {
         self.assertIn('texture("in/tex/wood.png")', (self.folder / "names.dae").read_text())
         self.assertIn('#include "in/sl/half.h"', (self.folder / "names.dae").read_text())
 
+    def test_a_header_that_names_pictures_comes_in(self):
+        """Also through another header, and where it includes itself; in CDATA and as escaped text."""
+        for folder in ("tex", "sl"): (self.folder / "in" / folder).mkdir(parents=True)
+        png.write(self.folder / "in/tex/wood.png", 1, 1, [bytes((200, 90, 30))])
+        self.write("in/sl/inner.h", '#ifndef INNER\n#define INNER\n#include "inner.h"\n#define WOOD "tex/wood.png" // "\n#endif')
+        self.write("in/sl/wood.h", '#include "inner.h"\n/* #include "inner.h" */\nfloat one(float x) { float a[2], b[1]; a[0] = x; b[0] = 0;'
+                                   ' return a[b[0]]>5 ? x : 1; }\n')
+        self.write("in/sl/plain.h", "#define HALF 0.5\n")
+        code = '#include "sl/plain.h"\n#include "sl/wood.h" // wood\nsurface s() { Ci = HALF * one(1) * color texture(WOOD); }\n'
+        for name, written in ("section", f"<![CDATA[{code}]]>"), ("escaped", code.replace(">", "&gt;").replace("<", "&lt;")):
+            effect = ('<effect id="red-fx"><profile_RSL><technique sid="t">'
+                      f'<code>{written}</code><pass><shader stage="SURFACE"/></pass></technique></profile_RSL></effect>')
+            scene = self.write(f"in/{name}.dae", re.sub(r'(?s)<effect id="red-fx">.*?</effect>', lambda _: effect, mesh_scene()))
+            before = self.picture(scene)
+            self.assertGreater(sum(map(sum, before[2])), 1000)
+            moved = self.converted(scene, f"{name}.dae")
+            self.assertEqual(self.picture(moved), before)
+            self.assertIn('"in/tex/wood.png"', moved.read_text())
+            self.assertIn('#include "in/sl/plain.h"', moved.read_text())
+            self.assertIn('#include "sl/wood.h"', self.converted(scene, f"in/again_{name}.dae").read_text())
+
     def test_links_to_documents_outside_the_new_folder_are_told(self):
         self.write("parts/p.dae", mesh_scene())
         scene = self.write("a.dae", mesh_scene("<library_nodes><node id=\"o\">"

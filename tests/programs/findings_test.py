@@ -66,6 +66,11 @@ class Errors(FindingsTest):
                 self.check(run("kinora-convert", scene, self.folder / "o.glb"), scene)
         self.assertGreater(pictures, 40)
 
+    def test_an_index_is_shown_as_it_is_written(self):
+        for written in ("4294967295", "99999999999999999999", "-3", "-99999999999999999999"):
+            scene = self.write("a.dae", dae.plain().replace("<p>", f"<p>{written} 0 0 ", 1))
+            self.expect(self.render(scene), 0, f"index {written} is")
+
     def test_what_is_left_out_is_a_warning_and_an_error_for_the_validator_and_strict(self):
         text = dae.plain().replace("<p>", "<p>99999 0 0 ", 1)
         self.assertIn("99999", text)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <map>
 #include <set>
 
 #include "collada/document/edit.h"
@@ -12,9 +11,9 @@
 #include "collada/document/uri.h"
 #include "collada/schema/links.h"
 #include "runtime/base/picture_search.h"
-#include "runtime/base/regular_file.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/rsl_literals.h"
+#include "runtime/programs/convert/code_links_p.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/programs/convert/links_p.h"
 #include "runtime/programs/convert/rsl_files_p.h"
@@ -42,21 +41,6 @@ bool is_file(const fs::path& file) {
 // Elements whose links are of files as a whole; others name an element behind '#'.
 bool names_file(const Element& e) {
     return e.name == "init_from" || e.name == "ref" || e.name == "include";
-}
-
-// Names between quotes of #include lines, as ranges of `code`.
-std::vector<collada::ByteRange> included_names(std::string_view code) {
-    std::vector<collada::ByteRange> names;
-    for (size_t at = 0; (at = code.find('#', at)) != code.npos;) {
-        size_t word = code.find_first_not_of(" \t", ++at);
-        if (word == code.npos || !code.substr(word).starts_with("include")) continue;
-        size_t open = code.find_first_not_of(" \t", word + 7);
-        if (open == code.npos || code[open] != '"') continue;
-        size_t close = code.find_first_of("\"\n", open + 1);
-        if (close == code.npos || code[close] != '"') continue;
-        names.push_back({uint32_t(open + 1), uint32_t(close)});
-    }
-    return names;
 }
 
 class LinkMove {
@@ -148,32 +132,19 @@ class LinkMove {
     bool take_in(const Element& include, const fs::path& file) {
         const Element* owner = include.parent ? include.parent->parent : nullptr;
         if (include.name != "include" || !owner || owner->name != "profile_RSL") return false;
-        if (*file.lexically_relative(from_).begin() == "..") return false;  // no one reads that
-        std::optional<std::string> code = read_regular_file(file.string());
-        if (!code) return false;
-        std::map<size_t, std::pair<size_t, std::string>> names;  // begin -> end, new name
-        for (LiteralRange name : string_literals(*code)) {
-            std::string text = code->substr(name.begin, name.end - name.begin);
-            fs::path named = (from_ / text).lexically_normal();
-            if (may_name_file(text) && is_file(named))
-                names[name.begin] = {name.end, moved(named, true)};
-        }
-        if (names.empty()) return false;
-        for (collada::ByteRange name : included_names(*code)) {
-            fs::path header =
-                (file.parent_path() / code->substr(name.begin, name.end - name.begin));
-            if (is_file(header)) names[name.begin] = {name.end, moved(header.lexically_normal())};
-        }
-        for (auto at = names.rbegin(); at != names.rend(); ++at)
-            code->replace(at->first, at->second.first - at->first, at->second.second);
-        edits_.push_back({include.bytes, "<code>" + collada::cdata(*code) + "</code>"});
-        return true;
+        std::optional<std::string> code = code_links().moved_code(file);
+        if (code) edits_.push_back({include.bytes, "<code>" + collada::cdata(*code) + "</code>"});
+        return code.has_value();
+    }
+
+    CodeLinks code_links() {
+        return {from_, [this](const fs::path& file, bool picture) { return moved(file, picture); }};
     }
 
     // A shader's code includes files beside the document.
     void visit_code(const Element& e) {
         if (e.name == "code")
-            for (collada::ByteRange name : included_names(e.text)) move_include(e, name);
+            for (const IncludeLine& line : include_lines(e.text)) move_include(e, line);
         for (const Element& child : e.children()) visit_code(child);
     }
 
@@ -187,18 +158,18 @@ class LinkMove {
         }
     }
 
-    void move_include(const Element& code, collada::ByteRange range) {
-        std::string name(code.text.substr(range.begin, range.end - range.begin));
+    // A header that names files is written out in place of its line, as an <include> is.
+    void move_include(const Element& code, const IncludeLine& include) {
+        std::string name(
+            code.text.substr(include.name.begin, include.name.end - include.name.begin));
         fs::path file = (from_ / name).lexically_normal();
         if (!is_relative(name) || !is_file(file)) return;  // one of -I, or Kinora's own
+        std::optional<std::string> header = code_links().moved_code(file);
+        LiteralRange range = header ? include.line : include.name;
         Location where = document_.text_location(code, range.begin, range.end);
-        std::string new_name = moved(file);
-        std::string_view before =
-            text_.substr(code.start_tag.end, where.begin - code.start_tag.end);
-        size_t section = before.rfind("<![CDATA[");
-        bool escaped = section == before.npos || before.find("]]>", section) != before.npos;
-        edits_.push_back(
-            {{where.begin, where.end}, escaped ? collada::escape_text(new_name) : new_name});
+        collada::ByteRange bytes{where.begin, where.end};
+        std::string text = header ? *header : moved(file);
+        edits_.push_back({bytes, code_text(text, in_section(text_, code, where.begin))});
     }
 
     const Document& document_;

@@ -2,6 +2,7 @@
 #include "runtime/programs/convert/rsl_files_p.h"
 
 #include "runtime/description/rsl_literals.h"
+#include "runtime/programs/convert/code_links_p.h"
 #include "runtime/programs/convert/links_p.h"
 
 namespace kinora {
@@ -45,10 +46,8 @@ class Names {
         std::string_view name = e.text.substr(range.begin, range.end - range.begin);
         if (!may_name_file(name)) return;
         Location where = document_.text_location(e, range.begin, range.end);
-        std::string_view before = text_.substr(e.start_tag.end, where.begin - e.start_tag.end);
-        size_t section = before.rfind("<![CDATA[");
-        bool escaped = section == before.npos || before.find("]]>", section) != before.npos;
-        names.push_back({std::string(name), {where.begin, where.end}, escaped});
+        bool section = in_section(text_, e, where.begin);
+        names.push_back({std::string(name), {where.begin, where.end}, section});
     }
 
     const Document& document_;
@@ -64,7 +63,7 @@ std::vector<RslFileName> rsl_file_names(const Document& document, std::string_vi
 }
 
 collada::Edit set_name(const RslFileName& name, const std::string& other) {
-    return {name.bytes, name.escaped ? collada::escape_text(other) : other};
+    return {name.bytes, code_text(other, name.in_section)};
 }
 
 }  // namespace kinora

@@ -12,7 +12,7 @@ namespace kinora {
 struct RslFileName {
     std::string name;          // a relative path
     collada::ByteRange bytes;  // of the name in the document
-    bool escaped;              // not in a CDATA section
+    bool in_section;           // a CDATA section
 };
 
 // String literals of <code>, without those of comments and #include, and <string>s that are no id
