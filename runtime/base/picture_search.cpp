@@ -83,8 +83,8 @@ std::string last_folder(const std::string& path) {
 std::vector<std::string> places(std::string_view own, const std::string& folder,
                                 const std::string& path) {
     std::vector<std::string> list{std::string(own)};
-    auto add = [&](const std::string& place) {
-        if (std::find(list.begin(), list.end(), place) == list.end()) list.push_back(place);
+    auto add = [&](const std::string& candidate) {
+        if (std::find(list.begin(), list.end(), candidate) == list.end()) list.push_back(candidate);
     };
     for (std::string_view below : kFolders)
         add(fs::path(folder + std::string(below)).lexically_normal().string());
@@ -149,9 +149,9 @@ FoundPicture PictureSearch::find(const std::string& path, const std::string& fol
     std::string own =
         inside ? written_folder(slashed.substr(0, slashed.size() - base.size())) : folder;
     for (bool by_stem : {false, true})
-        for (const std::string& place : places(own, folder, slashed)) {
-            if (name.empty() || !allowed.contains(place)) continue;
-            std::string found = find_in(place, name, by_stem);
+        for (const std::string& candidate : places(own, folder, slashed)) {
+            if (name.empty() || !allowed.contains(candidate)) continue;
+            std::string found = find_in(candidate, name, by_stem);
             if (found.empty() || !allowed.contains(found)) continue;  // a link may lead out
             bool case_only = lower(found) == lower(path);
             return {case_only ? PictureMatch::Case : PictureMatch::Elsewhere,

@@ -279,11 +279,11 @@ NodeDefinition AddedCamera::node(const Stand& stand) {
             for (int k = 0; k < 3; ++k) result.push_back(p[k] + offset[k]);
         return result;
     };
-    uint32_t place = append({base_.x, base_.y, base_.z});
-    node.transforms.push_back({TransformKind::Translate, place});
+    uint32_t slot = append({base_.x, base_.y, base_.z});
+    node.transforms.push_back({TransformKind::Translate, slot});
     bool moves = times_.size() > 1 && !path_.empty();
     if (moves && options_.follow)
-        motions_.push_back({place, times_, numbers(path_, base_ - path_[0])});
+        motions_.push_back({slot, times_, numbers(path_, base_ - path_[0])});
     if (turns()) {
         uint32_t turn = append({frame_.up.x, frame_.up.y, frame_.up.z, 0});
         node.transforms.push_back({TransformKind::Rotate, turn});
@@ -352,10 +352,10 @@ void AddedCamera::animate(uint32_t node) {
 
 void AddedCamera::add(Diagnostics& diagnostics) {
     find_path();
-    Stand place = options_.from ? stand() : frame(diagnostics);
+    Stand chosen = options_.from ? stand() : frame(diagnostics);
     SceneDescription& description = *scene_.description;
-    description.cameras.push_back(camera(place));
-    uint32_t index = tree_.add(node(place), kNone);
+    description.cameras.push_back(camera(chosen));
+    uint32_t index = tree_.add(node(chosen), kNone);
     animate(index);
     scene_.cameras.push_back({uint32_t(description.cameras.size() - 1), index, kName});
     scene_.camera = uint32_t(scene_.cameras.size() - 1);

@@ -50,7 +50,7 @@ class CoverageGrid {
             for (int x = xs.first; x <= xs.last; ++x) {
                 size_t ray = size_t(y * kGrid + x);
                 if (met_[ray]) continue;
-                dvec3 at(place(x), place(y), 1.0);
+                dvec3 at(grid_coordinate(x), grid_coordinate(y), 1.0);
                 double e[3] = {glm::dot(edges[0], at), glm::dot(edges[1], at),
                                glm::dot(edges[2], at)};
                 double sum = e[0] + e[1] + e[2];
@@ -67,7 +67,7 @@ class CoverageGrid {
     struct Range {
         int first, last;
     };
-    static double place(int i) { return (2 * i + 1) / double(kGrid) - 1; }
+    static double grid_coordinate(int i) { return (2 * i + 1) / double(kGrid) - 1; }
 
     // Wholly outside one side of the picture.
     static bool beside(const Seen& a, const Seen& b, const Seen& c) {

@@ -69,7 +69,7 @@ double Framing::Side::middle(double distance) const {
     return 0.5 * (between(plus) - between(minus));
 }
 
-dvec3 Framing::place(double across, double up, double depth) const {
+dvec3 Framing::world_point(double across, double up, double depth) const {
     return across * axes_.right + up * axes_.up + depth * axes_.back;
 }
 
@@ -79,8 +79,8 @@ dvec3 Framing::perspective_eye() const {
     for (const Side& side : sides_)
         distance = std::max(distance, half_extent(side, kWindows) / side.window);
     if (!(distance > nearest_)) distance = nearest_ + 1;  // all in one point
-    if (centred_) return place(0, 0, distance);
-    return place(sides_[0].middle(distance), sides_[1].middle(distance), distance);
+    if (centred_) return world_point(0, 0, distance);
+    return world_point(sides_[0].middle(distance), sides_[1].middle(distance), distance);
 }
 
 Framing::Parallel Framing::parallel_eye() const {
@@ -89,9 +89,9 @@ Framing::Parallel Framing::parallel_eye() const {
     if (!(size > 0)) size = depth > 0 ? depth : 1;
     double half_height = size * sides_[1].window / kFramedShare;
     double distance = nearest_ + std::max(depth, half_height);
-    if (centred_) return {place(0, 0, distance), half_height};
+    if (centred_) return {world_point(0, 0, distance), half_height};
     auto middle = [](const Side& side) { return 0.5 * (side.plus[0] - side.minus[0]); };
-    return {place(middle(sides_[0]), middle(sides_[1]), distance), half_height};
+    return {world_point(middle(sides_[0]), middle(sides_[1]), distance), half_height};
 }
 
 }  // namespace kinora

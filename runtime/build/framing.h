@@ -53,7 +53,7 @@ class Framing {
         double middle(double distance) const;
     };
     double half_extent(const Side& side, size_t k) const;  // of a + t c, about the eye's axis
-    dvec3 place(double across, double up, double depth) const;
+    dvec3 world_point(double across, double up, double depth) const;
 
     ViewAxes axes_;
     std::array<Side, 2> sides_;                   // across, up

@@ -88,19 +88,19 @@ namespace {
 void drop_weak_at(size_t i, float limit, std::span<const SentLight> lights) {
     constexpr int kExponents = 16;
     auto exponent = [](float x) { return std::bit_cast<int32_t>(x) >> 23; };
-    auto place = [&](float x) { return std::min(exponent(limit) - exponent(x), kExponents - 1); };
+    auto bin = [&](float x) { return std::min(exponent(limit) - exponent(x), kExponents - 1); };
     auto for_each_weak = [&](auto&& f) {
         for (const SentLight& light : lights)
             if (const float x = light.casts ? strength(light, i) : 0; x > 0 && x <= limit)
                 f(light, x);
     };
     float sums[kExponents] = {}, sum = 0;
-    for_each_weak([&](const SentLight&, float x) { sums[place(x)] += x; });
+    for_each_weak([&](const SentLight&, float x) { sums[bin(x)] += x; });
     int first = kExponents;
     for (; first > 0; --first)
         if ((sum += sums[first - 1]) > limit) break;
     for_each_weak([&](const SentLight& light, float x) {
-        if (place(x) >= first) darken(light, i);
+        if (bin(x) >= first) darken(light, i);
     });
 }
 

@@ -174,11 +174,11 @@ CommandResult action_follow(PlayerCore& core, const Arguments& a) {
         return refused(unknown_name("node", wanted, known), 1);
     ViewOrder order = core.view_order();
     core.ask({[&core, wanted, order](ShownScene& scene) -> Answer {
-                  std::optional<dvec3> place = place_of(scene, wanted, order.frame);
-                  return [&core, wanted, place] {
-                      if (!place) return;
+                  std::optional<dvec3> position = place_of(scene, wanted, order.frame);
+                  return [&core, wanted, position] {
+                      if (!position) return;
                       core.state.camera.follow = wanted;
-                      core.follow_from = *place;
+                      core.follow_from = *position;
                   };
               },
               false});

@@ -47,11 +47,11 @@ void FileWatch::watch(const std::vector<std::string>& files) {
     folders_.clear();
     files_.clear();
     for (const std::string& file : files) {
-        auto place = folder_and_name(file);
-        int number = inotify_add_watch(inotify_, place.first.c_str(), kEvents);
+        auto entry = folder_and_name(file);
+        int number = inotify_add_watch(inotify_, entry.first.c_str(), kEvents);
         if (number < 0) continue;
-        folders_[number] = place.first;
-        files_.insert(place);
+        folders_[number] = entry.first;
+        files_.insert(entry);
     }
 }
 

@@ -25,8 +25,8 @@ PlacedCamera placed_camera(Scene& scene, const FreeCamera& own,
                            double seconds) {
     PlacedCamera placed{own.optics(), own.world_from_camera()};
     if (!follow) return placed;
-    dvec3 place = place_at(scene, follow->first, seconds).value_or(follow->second);
-    placed.world[3] += dvec4(place - follow->second, 0.0);
+    dvec3 position = place_at(scene, follow->first, seconds).value_or(follow->second);
+    placed.world[3] += dvec4(position - follow->second, 0.0);
     return placed;
 }
 

@@ -29,14 +29,14 @@ TEST(TextBuffer, UndoTakesBackWordByWord) {
 
 TEST(TextBuffer, ErasedCharactersComeBackInOrder) {
     TextBuffer buffer("abcdef");
-    buffer.place(4);
+    buffer.set_caret(4);
     buffer.erase_back();
     buffer.erase_back();
     EXPECT_EQ(buffer.text(), "abef");
     buffer.undo();
     EXPECT_EQ(buffer.text(), "abcdef");
     EXPECT_EQ(buffer.caret(), 4u);
-    buffer.place(1);
+    buffer.set_caret(1);
     buffer.erase_forward();
     buffer.erase_forward();
     EXPECT_EQ(buffer.text(), "adef");
@@ -54,7 +54,7 @@ TEST(TextBuffer, CharactersOfSeveralBytesAreWhole) {
     EXPECT_EQ(buffer.text(),
               "a\xc3\xa9"
               "b");
-    buffer.place(2);  // within a character
+    buffer.set_caret(2);  // within a character
     EXPECT_EQ(buffer.caret(), 1u);
     buffer.move(Motion::Right, true);
     EXPECT_EQ(buffer.selected(), "\xc3\xa9");
@@ -63,7 +63,7 @@ TEST(TextBuffer, CharactersOfSeveralBytesAreWhole) {
 
 TEST(TextBuffer, MotionsKeepTheColumnAcrossShortLines) {
     TextBuffer buffer("abcdef\nx\nabcdef");
-    buffer.place(5);
+    buffer.set_caret(5);
     buffer.move(Motion::Down);
     EXPECT_EQ(buffer.caret(), 8u);
     buffer.move(Motion::Down);
@@ -93,8 +93,8 @@ TEST(TextBuffer, NewLinesIndentAsTheLineAbove) {
 
 TEST(TextBuffer, LinesSelectedAreIndentedTogether) {
     TextBuffer buffer("a\nb\n\nc");
-    buffer.place(0);
-    buffer.place(4, true);
+    buffer.set_caret(0);
+    buffer.set_caret(4, true);
     buffer.indent(false);
     EXPECT_EQ(buffer.text(), "    a\n    b\n\nc");
     buffer.indent(true);
@@ -106,7 +106,7 @@ TEST(TextBuffer, LinesSelectedAreIndentedTogether) {
 
 TEST(TextBuffer, AChangeFromElsewhereKeepsCaretAndUndo) {
     TextBuffer buffer("float x = 1;\nCi = x;");
-    buffer.place(15);
+    buffer.set_caret(15);
     buffer.replace_all("float x = 0.25;\nCi = x;");
     EXPECT_EQ(buffer.caret(), 18u);
     EXPECT_TRUE(buffer.undo());
@@ -136,7 +136,7 @@ TEST(TextBuffer, AllEditsUndoAndRedo) {
                     buffer.indent(engine() % 2);
                     break;
                 case 4:
-                    buffer.place(engine() % (buffer.text().size() + 1), engine() % 2);
+                    buffer.set_caret(engine() % (buffer.text().size() + 1), engine() % 2);
                     break;
                 case 5:
                     buffer.move(static_cast<Motion>(engine() % 10), engine() % 2);

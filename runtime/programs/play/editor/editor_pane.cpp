@@ -99,7 +99,7 @@ void EditorPane::take_mouse(const View& view, bool hovered) {
         if (hovered) {
             dragging_ = true;
             offers_.clear();
-            buffer_.place(under(view, io.MousePos), io.KeyShift);
+            buffer_.set_caret(under(view, io.MousePos), io.KeyShift);
             if (ImGui::IsMouseDoubleClicked(0)) {
                 buffer_.select_word(buffer_.caret());
                 dragging_ = false;
@@ -107,7 +107,7 @@ void EditorPane::take_mouse(const View& view, bool hovered) {
         }
     }
     if (dragging_ && ImGui::IsMouseDragging(0, 2)) {
-        buffer_.place(under(view, io.MousePos), true);
+        buffer_.set_caret(under(view, io.MousePos), true);
         scroll_to_caret_ = true;
     }
     if (!ImGui::IsMouseDown(0)) dragging_ = false;
@@ -249,9 +249,9 @@ void EditorPane::draw_text(const View& view) const {
         size_t at = std::max(run->begin, begin);
         while (at < std::min(run->end, end)) {
             const size_t stop = std::min({run->end, text.find_first_of("\n\t", at), end});
-            ImVec2 place = place_of(view, at);
-            place.y += down;
-            if (stop > at) list->AddText(place, color, text.data() + at, text.data() + stop);
+            ImVec2 corner = place_of(view, at);
+            corner.y += down;
+            if (stop > at) list->AddText(corner, color, text.data() + at, text.data() + stop);
             at = stop + 1;
         }
     }

@@ -66,7 +66,7 @@ void TextBuffer::replace_all(std::string text) {
     joinable_ = false;
     change(same, end, inserted);
     joinable_ = false;
-    place(caret <= same ? caret : caret >= end ? caret - end + same + inserted.size() : same);
+    set_caret(caret <= same ? caret : caret >= end ? caret - end + same + inserted.size() : same);
 }
 
 size_t TextBuffer::next(size_t at) const {
@@ -100,7 +100,7 @@ size_t TextBuffer::first_of_line(size_t at) const {
     return first == at ? begin : first;
 }
 
-void TextBuffer::place(size_t caret, bool extend) {
+void TextBuffer::set_caret(size_t caret, bool extend) {
     caret = std::min(caret, text_.size());
     while (caret > 0 && caret < text_.size() && continues_character(text_[caret])) --caret;
     caret_ = caret;
@@ -114,29 +114,30 @@ void TextBuffer::move(Motion motion, bool extend, size_t rows) {
     const size_t line = line_of(caret_);
     switch (motion) {
         case Motion::Left:
-            return place(!extend && begin != end ? begin : previous(caret_), extend);
+            return set_caret(!extend && begin != end ? begin : previous(caret_), extend);
         case Motion::Right:
-            return place(!extend && begin != end ? end : next(caret_), extend);
+            return set_caret(!extend && begin != end ? end : next(caret_), extend);
         case Motion::WordLeft:
-            return place(word_left(caret_), extend);
+            return set_caret(word_left(caret_), extend);
         case Motion::WordRight:
-            return place(word_right(caret_), extend);
+            return set_caret(word_right(caret_), extend);
         case Motion::LineStart:
-            return place(first_of_line(caret_), extend);
+            return set_caret(first_of_line(caret_), extend);
         case Motion::LineEnd:
-            return place(line_end(line), extend);
+            return set_caret(line_end(line), extend);
         case Motion::TextStart:
-            return place(0, extend);
+            return set_caret(0, extend);
         case Motion::TextEnd:
-            return place(text_.size(), extend);
+            return set_caret(text_.size(), extend);
         case Motion::Up:
         case Motion::Down: {
             const size_t column = wanted_column_;
             if (motion == Motion::Up)
-                place(line < rows ? 0 : at_column(line - rows, column), extend);
+                set_caret(line < rows ? 0 : at_column(line - rows, column), extend);
             else
-                place(line + rows >= line_count() ? text_.size() : at_column(line + rows, column),
-                      extend);
+                set_caret(
+                    line + rows >= line_count() ? text_.size() : at_column(line + rows, column),
+                    extend);
             wanted_column_ = column;
             return;
         }
@@ -148,13 +149,13 @@ void TextBuffer::select_word(size_t at) {
     while (begin > 0 && is_word(text_[begin - 1])) --begin;
     while (end < text_.size() && is_word(text_[end])) ++end;
     if (begin == end) end = next(end);
-    place(begin);
-    place(end, true);
+    set_caret(begin);
+    set_caret(end, true);
 }
 
 void TextBuffer::select_all() {
-    place(0);
-    place(text_.size(), true);
+    set_caret(0);
+    set_caret(text_.size(), true);
 }
 
 void TextBuffer::substitute(size_t at, size_t removed, std::string_view inserted) {
@@ -186,7 +187,7 @@ void TextBuffer::change(size_t begin, size_t end, std::string_view inserted) {
     }
     undone_.clear();
     substitute(begin, end - begin, inserted);
-    place(begin + inserted.size());
+    set_caret(begin + inserted.size());
     joinable_ = true;
 }
 
@@ -246,8 +247,8 @@ void TextBuffer::indent(bool back) {
     if (text_.compare(from, to - from, block) == 0) return;
     replace(from, to, block);
     if (begin != end) {
-        place(from);
-        place(from + block.size(), true);
+        set_caret(from);
+        set_caret(from + block.size(), true);
     }
 }
 
@@ -256,8 +257,8 @@ bool TextBuffer::undo() {
     Edit edit = std::move(done_.back());
     done_.pop_back();
     substitute(edit.at, edit.inserted.size(), edit.removed);
-    place(edit.anchor);
-    place(edit.caret, true);
+    set_caret(edit.anchor);
+    set_caret(edit.caret, true);
     undone_.push_back(std::move(edit));
     return true;
 }
@@ -267,7 +268,7 @@ bool TextBuffer::redo() {
     Edit edit = std::move(undone_.back());
     undone_.pop_back();
     substitute(edit.at, edit.removed.size(), edit.inserted);
-    place(edit.at + edit.inserted.size());
+    set_caret(edit.at + edit.inserted.size());
     done_.push_back(std::move(edit));
     return true;
 }

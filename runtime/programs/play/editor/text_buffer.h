@@ -36,7 +36,7 @@ class TextBuffer {
     void reset(std::string text);        // another text: nothing to undo
     void replace_all(std::string text);  // the same text, changed elsewhere: can be undone
 
-    void place(size_t caret, bool extend = false);
+    void set_caret(size_t caret, bool extend = false);
     void move(Motion motion, bool extend = false, size_t rows = 1);
     void select_word(size_t at);
     void select_all();

@@ -23,7 +23,7 @@ void EditorPanel::follow(const ShaderDocument& document) {
     if (document.caret != caret_) {
         caret_ = document.caret;
         if (buffer.caret() != caret_) {
-            buffer.place(caret_);
+            buffer.set_caret(caret_);
             pane_.show_caret();
         }
     }

@@ -24,9 +24,10 @@ void jump(Context& context, const FindingText& finding, bool of_shader) {
                                   fmt::format("{}", std::max(1, finding.column))});
         return;
     }
-    const std::string place = fmt::format("{}:{}:{}", finding.file, finding.line, finding.column);
-    ImGui::SetClipboardText(place.c_str());
-    context.say(fmt::format("Copied {}", place));
+    const std::string location =
+        fmt::format("{}:{}:{}", finding.file, finding.line, finding.column);
+    ImGui::SetClipboardText(location.c_str());
+    context.say(fmt::format("Copied {}", location));
 }
 
 void row(Context& context, const FindingText& finding, bool of_shader) {

@@ -22,7 +22,7 @@ void to_bgrx(const uint32_t* from, uint32_t* to, int count) {
 
 }  // namespace
 
-Surface::Surface(const std::string& title, const WindowPlace& place) {
+Surface::Surface(const std::string& title, const WindowBounds& bounds) {
     // Measured: 0.4 ms a frame this way, 7 to 13 ms through OpenGL.
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
@@ -43,9 +43,9 @@ Surface::Surface(const std::string& title, const WindowPlace& place) {
         throw std::runtime_error("neither DISPLAY nor WAYLAND_DISPLAY leads to one");
     }
     const auto flags = static_cast<uint32_t>(SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
-                                             (place.maximized ? SDL_WINDOW_MAXIMIZED : 0));
+                                             (bounds.maximized ? SDL_WINDOW_MAXIMIZED : 0));
     window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                               place.width, place.height, flags);
+                               bounds.width, bounds.height, flags);
     if (!window_ || !SDL_GetWindowSurface(window_)) {
         const std::string reason = SDL_GetError();
         if (window_) SDL_DestroyWindow(window_);
@@ -125,10 +125,10 @@ bool Surface::hidden() const {
     return SDL_GetWindowFlags(window_) & (SDL_WINDOW_MINIMIZED | SDL_WINDOW_HIDDEN);
 }
 
-WindowPlace Surface::place() const {
-    WindowPlace place{width(), height(), false};
-    place.maximized = SDL_GetWindowFlags(window_) & SDL_WINDOW_MAXIMIZED;
-    return place;
+WindowBounds Surface::bounds() const {
+    WindowBounds bounds{width(), height(), false};
+    bounds.maximized = SDL_GetWindowFlags(window_) & SDL_WINDOW_MAXIMIZED;
+    return bounds;
 }
 
 void Surface::set_title(const std::string& title) {

@@ -11,7 +11,7 @@ struct SDL_Window;
 
 namespace kinora::play {
 
-struct WindowPlace {
+struct WindowBounds {
     int width = 1280, height = 800;
     bool maximized = false;
 };
@@ -19,7 +19,7 @@ struct WindowPlace {
 class Surface {
   public:
     // Throws std::runtime_error with SDL's words where there is no display.
-    Surface(const std::string& title, const WindowPlace& place);
+    Surface(const std::string& title, const WindowBounds& bounds);
     ~Surface();
     Surface(const Surface&) = delete;
 
@@ -38,7 +38,7 @@ class Surface {
     bool full_screen() const;
     void set_full_screen(bool on);
     bool hidden() const;  // minimised, or covered as far as the system tells
-    WindowPlace place() const;
+    WindowBounds bounds() const;
     void set_title(const std::string& title);
 
   private:

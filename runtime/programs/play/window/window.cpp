@@ -96,9 +96,9 @@ class WindowLoop {
         }
         Layout layout = ui_->layout();
         if (!surface_.full_screen()) {
-            const WindowPlace place = surface_.place();
-            layout.maximized = place.maximized;
-            if (!place.maximized) layout.width = place.width, layout.height = place.height;
+            const WindowBounds bounds = surface_.bounds();
+            layout.maximized = bounds.maximized;
+            if (!bounds.maximized) layout.width = bounds.width, layout.height = bounds.height;
         }
         write_layout(options_.layout, layout);
     }
