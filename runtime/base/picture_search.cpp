@@ -22,6 +22,7 @@ constexpr std::string_view kExtensions[] = {"png",  "jpg", "jpeg", "tga", "dds",
 constexpr std::string_view kFolders[] = {"", "textures/", "images/", "../textures/",
                                          "../materials/textures/"};
 
+constexpr size_t kMostEnds = 4;  // folders of a path that are looked for elsewhere
 constexpr size_t kMostFiles = 10'000, kMostListed = 100'000;  // of a folder, of all folders
 
 std::string lower(std::string_view text) {
@@ -74,22 +75,37 @@ std::string with_slashes(std::string path) {
     return path;
 }
 
-// The name of the folder that the file of a path lies in; "" if the path does not say.
-std::string last_folder(const std::string& path) {
-    std::string name = fs::path(path).parent_path().filename().string();
-    return name == ".." || name == "." || name == "/" ? "" : name;
+// What the ends of a path's folder name, the longest first: art/tex/ and tex/ of
+// "C:/art/tex/a.png".
+std::vector<std::string> ends_of_folder(const std::string& path) {
+    std::vector<std::string> ends;
+    for (const fs::path& name : fs::path(path).parent_path()) {
+        std::string entry = name.string();
+        if (entry == "." || entry == ".." || entry == "/" || entry.ends_with(':')) {
+            ends.clear();
+            continue;
+        }
+        for (std::string& end : ends) end += entry + "/";
+        ends.push_back(entry + "/");
+        if (ends.size() > kMostEnds) ends.erase(ends.begin());
+    }
+    return ends;
 }
 
 std::vector<std::string> places(std::string_view own, const std::string& folder,
-                                const std::string& path) {
+                                const std::string& path, const AllowedPaths& allowed) {
     std::vector<std::string> list{std::string(own)};
     auto add = [&](const std::string& candidate) {
         if (std::find(list.begin(), list.end(), candidate) == list.end()) list.push_back(candidate);
     };
-    for (std::string_view below : kFolders)
-        add(fs::path(folder + std::string(below)).lexically_normal().string());
-    if (std::string last = last_folder(path); !last.empty())
-        add(written_folder(fs::path(folder + last + "/").lexically_normal().string()));
+    auto normal = [](const std::string& below) {
+        return fs::path(below).lexically_normal().string();
+    };
+    for (std::string_view below : kFolders) add(normal(folder + std::string(below)));
+    for (const char* above : {"", "../", "../../"})
+        for (const std::string& end : ends_of_folder(path))
+            if (std::string below = normal(folder + above + end); allowed.contains(below))
+                add(written_folder(below));
     return list;
 }
 
@@ -149,7 +165,7 @@ FoundPicture PictureSearch::find(const std::string& path, const std::string& fol
     std::string own =
         inside ? written_folder(slashed.substr(0, slashed.size() - base.size())) : folder;
     for (bool by_stem : {false, true})
-        for (const std::string& candidate : places(own, folder, slashed)) {
+        for (const std::string& candidate : places(own, folder, slashed, allowed)) {
             if (name.empty() || !allowed.contains(candidate)) continue;
             std::string found = find_in(candidate, name, by_stem);
             if (found.empty() || !allowed.contains(found)) continue;  // a link may lead out

@@ -29,9 +29,10 @@ class PictureSearch {
   public:
     // `path` is the name as a path of the current folder, `folder` the document's ("" or ending in
     // '/'). Where `path` is nothing, its base name is looked for in its own folder, in `folder`, in
-    // textures/ and images/ there, in ../textures and in ../materials/textures, and in a folder
-    // there that is called as its own: first the name in any case, then another image of that stem.
-    // A base name that is not UTF-8 is Latin-1.
+    // textures/ and images/ there, in ../textures and in ../materials/textures, and where the last
+    // four folders that `path` names, or the last three and so on, are in `folder` or one or two
+    // above it: first the name in any case, then another image of that stem. A base name that is
+    // not UTF-8 is Latin-1.
     FoundPicture find(const std::string& path, const std::string& folder,
                       const AllowedPaths& allowed);
 
