@@ -11,9 +11,9 @@
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
+#include "runtime/programs/render/quality_options.h"
+#include "runtime/programs/render/session_words.h"
 #include "runtime/programs/render/trade_options.h"
-#include "runtime/trade/knob_tables.h"
-#include "runtime/trade/knobs.h"
 
 namespace kinora {
 
@@ -25,9 +25,6 @@ constexpr double kMostFilterWidth = 64;  // pixels
 // Of those that every program with a scene takes.
 constexpr std::string_view kNotOfThePicture[] = {"scene",  "--session", "--frames",  "--time",
                                                  "--help", "--version", "--threads", "--target"};
-constexpr std::string_view kRepeatable[] = {"--shader", "--param", "--hide",
-                                            "--only",   "--aov",   "--allow-external"};
-
 void parse_size(const std::string& text, RenderOptions& o) {
     char tail = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &o.width, &o.height, &tail) != 2 || o.width < 1 ||
@@ -55,11 +52,6 @@ void choose_target(const std::string& name, RenderOptions& o) {
         o.target = target;
     else
         o.target_missing = name;
-}
-
-// NaN is in no range.
-void check_range(const char* option, double value, double low, double high, const char* what) {
-    if (!(value >= low && value <= high)) throw CLI::ValidationError(option, what);
 }
 
 void check_stages(const std::vector<std::string>& stages) {
@@ -100,24 +92,10 @@ void parse_exposure(const std::string& text, RenderOptions& o) {
                                    "takes stops (1.5, -2) or auto, not '" + text + "'");
 }
 
-std::vector<std::string_view> quality_names() {
-    std::vector<std::string_view> names;
-    for (const Quality& row : qualities()) names.push_back(row.name);
-    return names;
-}
-
-// A knob on the command line, by its kind.
-struct GivenKnob {
-    std::optional<double> choice, real;
-    std::optional<int> whole;
-};
-
 // As they stand on the command line, where they are not yet what RenderOptions holds.
 struct Given {
     std::string frames, fps, size, scale, look_from, threads = "all", target, background, exposure;
-    std::string quality;
-    std::vector<GivenKnob> knobs{kinora::knobs().size()};
-    std::optional<size_t> dice_limit;
+    QualityGiven quality;
     std::vector<std::string> shaders, params;
     bool overwrite = false;
     std::string stats, progress, session;
@@ -160,57 +138,6 @@ void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--threads", given.threads, "N, -N (all but N) or all (all)");
     app.add_option("--target", given.target,
                    "avx512, avx2, neon or interp (the best this CPU has)");
-}
-
-// "samples per pixel (1, 4, 64, 1024)": what the presets have, unless the help says it.
-std::string help_of(const Knob& knob) {
-    if (knob.help.ends_with(')')) return std::string(knob.help);
-    auto rest = std::span(knob.presets).subspan(1);
-    bool same = std::ranges::all_of(rest, [&](auto& p) { return p == knob.presets[0]; });
-    return same ? fmt::format("{} ({})", knob.help, knob.presets[0])
-                : fmt::format("{} ({})", knob.help, fmt::join(knob.presets, ", "));
-}
-
-void declare_knob(CLI::App& app, const Knob& knob, GivenKnob& given) {
-    std::string option = fmt::format("--{}", knob.option), help = help_of(knob);
-    switch (knob.kind) {
-        case KnobKind::Choice: {
-            auto take = [&, option](const std::string& text) {
-                given.choice = knob_value(knob, text);
-                if (!given.choice) throw CLI::ValidationError(option, none_of(text, knob.words));
-            };
-            app.add_option_function<std::string>(option, take, help)->type_name("NAME");
-            break;
-        }
-        case KnobKind::Whole:
-            app.add_option(option, given.whole, help)
-                ->check(CLI::Range(int(knob.low), int(knob.high)));
-            break;
-        case KnobKind::Real:
-            app.add_option(option, given.real, help);
-            break;
-    }
-}
-
-// The preset, single knobs of it, and how pixels are sampled.
-void declare_quality(CLI::App& app, Given& given, RenderOptions& o) {
-    app.add_option("--quality", given.quality,
-                   fmt::format("{} ({})", fmt::join(quality_names(), ", "), kDefaultQuality));
-    for (size_t k = 0; k < knobs().size(); ++k) declare_knob(app, knobs()[k], given.knobs[k]);
-    app.add_option("--dice-limit", given.dice_limit,
-                   "most triangles of displaced surfaces (4000000)")
-        ->check(CLI::Range(size_t(1), size_t(1) << 31));
-    app.add_option("--filter-width", o.filter_width, "in pixels (the filter's own)");
-    app.add_option("--seed", o.seed, "of all sampling (0)");
-    app.add_option_function<std::string>(
-           "--knobs",
-           [](const std::string& format) {
-               std::fputs(print_knobs(format).c_str(), stdout);
-               throw CLI::Success();
-           },
-           fmt::format("prints the table of these settings: {}", fmt::join(knob_formats(), ", ")))
-        ->check(one_of(knob_formats()))
-        ->trigger_on_parse();
 }
 
 // What the picture shows of the scene, and how.
@@ -298,28 +225,6 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     declare_trade(app, given.trade, o);
 }
 
-void interpret_quality(const Given& given, RenderOptions& o) {
-    const bool chosen = !given.quality.empty();
-    const Quality* row = find_quality(chosen ? given.quality : kDefaultQuality);
-    o.fixed_settings = chosen;
-    if (!row) throw CLI::ValidationError("--quality", none_of(given.quality, quality_names()));
-    o.quality = *row;
-    o.preset = row->name;
-    for (size_t k = 0; k < knobs().size(); ++k) {
-        const Knob& knob = knobs()[k];
-        const GivenKnob& value = given.knobs[k];
-        o.fixed_settings |= value.choice || value.whole || value.real;
-        if (value.choice) knob.set(o.quality, *value.choice);
-        if (value.whole) knob.set(o.quality, double(*value.whole));
-        if (!value.real) continue;
-        std::string takes = fmt::format("takes {} to {}", knob.low, knob.high);
-        check_range(fmt::format("--{}", knob.option).c_str(), *value.real, knob.low, knob.high,
-                    takes.c_str());
-        knob.set(o.quality, *value.real);
-    }
-    o.dice_limit = given.dice_limit.value_or(0);
-}
-
 void interpret_changes(const Given& given, RenderOptions& o) {
     for (const std::string& shader : given.shaders)
         o.shaders.push_back(split_pair(shader, "--shader", "MATERIAL=FILE.sl or MATERIAL=NAME"));
@@ -394,14 +299,14 @@ void interpret(const Given& given, RenderOptions& o) {
     check_stages(o.dump);
     if (!given.target.empty()) choose_target(given.target, o);
     interpret_view(given, o);
-    interpret_quality(given, o);
+    interpret_quality(given.quality, o);
     interpret_changes(given, o);
 }
 
 // The options that a picture depends on.
 std::vector<const CLI::Option*> declare_scene(CLI::App& app, Given& given, RenderOptions& o) {
     declare_input(app, given, o);
-    declare_quality(app, given, o);
+    declare_quality(app, given.quality, o);
     declare_look(app, given, o);
     declare_changes(app, given, o);
     std::vector<const CLI::Option*> options;
@@ -412,79 +317,6 @@ std::vector<const CLI::Option*> declare_scene(CLI::App& app, Given& given, Rende
     }
     declare_findings(app, o);
     return options;
-}
-
-// "--spp=4", "-Ifolder", "--confine": a word each.
-std::vector<std::string> given_words(const std::vector<const CLI::Option*>& options) {
-    std::vector<std::string> words;
-    for (const CLI::Option* option : options) {
-        const std::string name = option->get_name();
-        const bool flag = option->get_items_expected_max() == 0;
-        if (flag && option->count() > 0) words.push_back(name);
-        if (flag) continue;
-        for (const std::string& value : option->results())
-            words.push_back(name + (name.starts_with("--") ? "=" : "") + value);
-    }
-    return words;
-}
-
-bool gives(const std::vector<std::string>& words, std::string_view option) {
-    return std::ranges::any_of(words, [&](const std::string& word) {
-        return word.starts_with(option) &&
-               (word.size() == option.size() || word[option.size()] == '=');
-    });
-}
-
-// The session's words, but for those that the command line gives too. What may be given several
-// times adds up.
-std::vector<std::string> with_session(const Session& session,
-                                      const std::vector<std::string>& given) {
-    std::vector<std::string> words;
-    for (const std::string& word : session.options) {
-        std::string_view option = std::string_view(word).substr(0, word.find('='));
-        bool adds_up = std::ranges::find(kRepeatable, option) != std::end(kRepeatable);
-        if (option.starts_with("--") && (adds_up || !gives(given, option))) words.push_back(word);
-        if (!option.starts_with("--") && option.starts_with("-I")) words.push_back(word);
-    }
-    words.insert(words.end(), given.begin(), given.end());
-    return words;
-}
-
-// The command line is stronger than what the player was set to.
-void override_session(const std::vector<std::string>& given, Session& session) {
-    if (gives(given, "--size") || gives(given, "--scale")) session.width = session.height = 0;
-    if (gives(given, "--exposure")) session.exposure = 0;
-    for (const char* option : {"--camera", "--look-from", "--look-at", "--turntable"})
-        if (gives(given, option)) session.camera = {};
-}
-
-bool is_session(const std::string& word) {
-    return has_extension(word, {".kinora"}) && !word.starts_with("-");
-}
-
-// The file of `--session FILE`, or a word that ends so, which is taken out; "" none.
-std::string take_session(std::vector<std::string>& words) {
-    for (size_t i = 0; i < words.size(); ++i) {
-        constexpr std::string_view kOption = "--session";
-        if (words[i] == kOption && i + 1 < words.size()) return words[i + 1];
-        if (words[i].starts_with("--session=")) return words[i].substr(kOption.size() + 1);
-    }
-    auto found = std::ranges::find_if(words, is_session);
-    if (found == words.end()) return "";
-    std::string file = *found;
-    words.erase(found);
-    return file;
-}
-
-// Puts the options of the session among the words, if they name one. An error text, or "".
-std::string read_session_of(std::vector<std::string>& words, RenderOptions& o) {
-    std::string error, file = take_session(words);
-    if (file.empty()) return "";
-    o.session = read_session(file, error);
-    if (!o.session) return error;
-    override_session(words, *o.session);
-    words = with_session(*o.session, words);
-    return "";
 }
 
 void interpret_scene(RenderOptions& o) {
