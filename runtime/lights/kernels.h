@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/base/kernel_table.h"
+
 namespace kinora {
 
 // Columns of `count` numbers; none of those written may overlap another that is read.
@@ -26,16 +28,10 @@ struct LightKernels {
     // Sets weak[i] where the strength is in (0, limits[i]]; whether there is such a point.
     bool (*mark_weak)(const float* const Cl[3], const float* limits, size_t count, uint32_t* weak);
 };
-extern const LightKernels kPortableLights;
-extern const LightKernels kAvx2Lights;
-extern const LightKernels kAvx512Lights;
+KINORA_KERNEL_TABLES(LightKernels, Lights);
 
-// Those this CPU can run, the widest first.
-struct UsableLightKernels {
-    const LightKernels* kernels[3];
-    size_t count;
-};
-const UsableLightKernels& usable_light_kernels();
+// Those this CPU can run, and the widest of them.
+const UsableKernels<LightKernels>& usable_light_kernels();
 const LightKernels& light_kernels();
 
 }  // namespace kinora

@@ -3,6 +3,7 @@
 // (no contraction), so all widths give the same bits.
 #pragma once
 
+#include "runtime/base/kernel_math.h"
 #include "runtime/lights/kernels.h"
 
 namespace kinora {
@@ -13,33 +14,31 @@ constexpr float kLargest = __FLT_MAX__;
 constexpr float kUnseenMargin = 1e-4f, kMargin2 = kUnseenMargin * kUnseenMargin;
 constexpr float kLeastSquare = 1e-30f;  // of a vector whose direction kernels see as we do
 
-using Four = float __attribute__((vector_size(16)));
-
 // The lesser (greater) of x and what is so far, lane by lane; so far where x is NaN.
-__attribute__((always_inline)) inline Four lesser(Four x, Four so_far) {
+__attribute__((always_inline)) inline FourFloats lesser(FourFloats x, FourFloats so_far) {
     return x < so_far ? x : so_far;
 }
-__attribute__((always_inline)) inline Four greater(Four x, Four so_far) {
+__attribute__((always_inline)) inline FourFloats greater(FourFloats x, FourFloats so_far) {
     return x > so_far ? x : so_far;
 }
 
 void bounds(const float* column, size_t count, float& low, float& high) {
     constexpr size_t kRows = 4;  // which do not wait for each other
-    Four least[kRows], most[kRows];
+    FourFloats least[kRows], most[kRows];
     for (size_t j = 0; j < kRows; ++j) {
-        least[j] = Four{} + __builtin_inff();
-        most[j] = Four{} - __builtin_inff();
+        least[j] = FourFloats{} + __builtin_inff();
+        most[j] = FourFloats{} - __builtin_inff();
     }
     size_t i = 0;
     for (; i + 4 * kRows <= count; i += 4 * kRows)
         for (size_t j = 0; j < kRows; ++j) {
-            Four x;
+            FourFloats x;
             __builtin_memcpy(&x, column + i + 4 * j, sizeof(x));
             least[j] = lesser(x, least[j]);
             most[j] = greater(x, most[j]);
         }
     for (; i < count; ++i) {
-        const Four x = Four{} + column[i];
+        const FourFloats x = FourFloats{} + column[i];
         least[0] = lesser(x, least[0]);
         most[0] = greater(x, most[0]);
     }
@@ -132,4 +131,9 @@ bool mark_weak(const float* const Cl[3], const float* limits, size_t count, uint
 }
 
 }  // namespace
+
+extern const LightKernels KINORA_KERNEL_TABLE(Lights);
+const LightKernels KINORA_KERNEL_TABLE(Lights) = {KINORA_INSTRUCTION_SET, bounds,        turn_signs,
+                                                  darken_unseen,          add_strengths, mark_weak};
+
 }  // namespace kinora

@@ -356,7 +356,7 @@ TEST_P(EachKernel, SamplesThatStopAllOrNothingSumExactly) {
 
 // Every instruction set, every count, and nothing behind the end.
 TEST(PixelKernels, GiveTheSameBits) {
-    const UsablePixelKernels& usable = usable_pixel_kernels();
+    const UsableKernels<PixelKernels>& usable = usable_pixel_kernels();
     const PixelKernels& plain = *usable.kernels[usable.count - 1];
     const FilterTable tables[2] = {make_filter(true), make_filter(false)};
     std::mt19937 random(1);
@@ -395,7 +395,7 @@ TEST(PixelKernels, GiveTheSameBits) {
 }
 
 TEST(PixelKernels, OfSumsGiveTheSameBits) {
-    const UsablePixelKernels& usable = usable_pixel_kernels();
+    const UsableKernels<PixelKernels>& usable = usable_pixel_kernels();
     std::mt19937 random(2);
     auto any = [&] { return std::ldexp(float(random()), int(random() % 40) - 50); };
     for (size_t count = 1; count < 50; ++count) {
