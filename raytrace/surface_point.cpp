@@ -77,6 +77,14 @@ void apply_rows(const std::vector<GeometryState>& rows, const uint32_t* instance
     }
 }
 
+// Up to sixteen numbers, nearly always all.
+void copy_block(const float (&block)[kPoints], size_t count, float* to) {
+    if (count == kPoints)
+        std::memcpy(to, block, sizeof(block));
+    else
+        std::copy_n(block, count, to);
+}
+
 }  // namespace
 
 void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_t* primitive,
@@ -94,9 +102,9 @@ void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_
         apply_rows(rows, instance + first, n, block);
         kernels.normalize(block);
         for (int c = 0; c < 3; ++c) {
-            std::copy_n(block.P[c], n, out.P[c] + first);
-            std::copy_n(block.error[c], n, out.P_error[c] + first);
-            std::copy_n(block.N[c], n, out.Ng[c] + first);
+            copy_block(block.P[c], n, out.P[c] + first);
+            copy_block(block.error[c], n, out.P_error[c] + first);
+            copy_block(block.N[c], n, out.Ng[c] + first);
         }
     }
 }

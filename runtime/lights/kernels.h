@@ -23,6 +23,9 @@ struct LightKernels {
     // Makes Cl 0 where L surely looks along N and `along` is 0, or against N and `against` is 0.
     void (*darken_unseen)(const float* const N[3], const float* const L[3], const float* along,
                           const float* against, size_t count, float* const Cl[3]);
+    // The points where something is sent: `lit` is not 0 (null: everywhere), nor is all of Cl. Their
+    // numbers, in order; how many.
+    size_t (*choose)(const float* const Cl[3], const float* lit, size_t count, uint32_t* chosen);
     // limits[i] += share * strength of Cl: its largest component, 0 of what is no number.
     void (*add_strengths)(const float* const Cl[3], float share, size_t count, float* limits);
     // Sets weak[i] where the strength is in (0, limits[i]]; whether there is such a point.

@@ -107,6 +107,38 @@ void darken_unseen(const float* const N[3], const float* const L[3], const float
     }
 }
 
+size_t choose(const float* const Cl[3], const float* lit, size_t count, uint32_t* chosen) {
+    constexpr size_t kRow = 16;
+    const float *r = Cl[0], *g = Cl[1], *b = Cl[2];
+    uint32_t* to = chosen;
+    size_t i = 0;
+    for (; i + kRow <= count; i += kRow) {
+        uint32_t sent[kRow];
+        for (size_t j = 0; j < kRow; ++j) {
+            uint32_t bits = 1;  // of an integer
+            if (lit) __builtin_memcpy(&bits, lit + i + j, sizeof(bits));
+            const uint32_t shines = uint32_t(!(r[i + j] == 0)) | uint32_t(!(g[i + j] == 0)) |
+                                    uint32_t(!(b[i + j] == 0));
+            sent[j] = (shines & uint32_t(bits != 0)) << j;
+        }
+        uint32_t all = 0;
+        for (size_t j = 0; j < kRow; ++j) all |= sent[j];
+        if (all == 0xffffu) {
+            for (size_t j = 0; j < kRow; ++j) to[j] = uint32_t(i + j);
+            to += kRow;
+            continue;
+        }
+        for (; all; all &= all - 1) *to++ = uint32_t(i) + uint32_t(__builtin_ctz(all));
+    }
+    for (; i < count; ++i) {
+        uint32_t bits = 1;
+        if (lit) __builtin_memcpy(&bits, lit + i, sizeof(bits));
+        *to = uint32_t(i);
+        to += bits != 0 && !(r[i] == 0 && g[i] == 0 && b[i] == 0);
+    }
+    return size_t(to - chosen);
+}
+
 void add_strengths(const float* const Cl[3], float share, size_t count, float* limits) {
     const float *r = Cl[0], *g = Cl[1], *b = Cl[2];
 #pragma GCC ivdep
@@ -132,8 +164,7 @@ bool mark_weak(const float* const Cl[3], const float* limits, size_t count, uint
 
 }  // namespace
 
-extern const LightKernels KINORA_KERNEL_TABLE(Lights);
-const LightKernels KINORA_KERNEL_TABLE(Lights) = {KINORA_INSTRUCTION_SET, bounds,        turn_signs,
-                                                  darken_unseen,          add_strengths, mark_weak};
+extern const LightKernels KINORA_KERNEL_TABLE(Lights) = {
+    KINORA_INSTRUCTION_SET, bounds, turn_signs, darken_unseen, choose, add_strengths, mark_weak};
 
 }  // namespace kinora

@@ -115,8 +115,9 @@ float share_left(Grid& grid, size_t point) {
 
 // Who asks for deeper rays gets them.
 float least_share(const Grid& grid) {
-    int deeper = std::max(0, int(grid.frame.ray_depth) - kUsualDepth);
-    return kLeastShare[std::min(grid.depth, 3u)] * std::pow(1 + kCallCost, -float(deeper));
+    const float least = kLeastShare[std::min(grid.depth, 3u)];
+    const int deeper = int(grid.frame.ray_depth) - kUsualDepth;
+    return deeper > 0 ? least * std::pow(1 + kCallCost, -float(deeper)) : least;
 }
 
 }  // namespace

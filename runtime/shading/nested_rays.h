@@ -94,6 +94,7 @@ class SmoothSurface {
         mat3 from_rest{1.0f}, normals_from_rest{1.0f};
     };
     void enter(uint32_t row);
+    void turn_normals(raytrace::TrianglePoints& at, int i) const;
     const uint32_t* corners(uint32_t primitive) const;
 
     const Scene& scene_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "raytrace/sampling.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/columns/kernels.h"
+#include "runtime/lights/kernels.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/nested_rays.h"
 
@@ -237,21 +239,18 @@ void ShadowQueue::cast(const Grid& grid, const LightPoints& at, const SentLight&
 
 // The points that the light reaches at all.
 size_t ShadowQueue::choose(const LightPoints& at, const SentLight& light) {
-    const float *r = light.Cl[0], *g = light.Cl[1], *b = light.Cl[2];
-    size_t count = 0;
-    for (uint32_t i = 0; i < at.count; ++i) {
-        const bool lit = !light.lit || jit::bits_of(light.lit[i]) != 0;
-        chosen_[count] = i;
-        count += lit & !((r[i] == 0) & (g[i] == 0) & (b[i] == 0));
-    }
-    return count;
+    const float* const Cl[3] = {light.Cl[0], light.Cl[1], light.Cl[2]};
+    return light_kernels().choose(Cl, light.lit, at.count, chosen_);
 }
 
 namespace {
 
 // Elements of a column, which often lie one behind the other.
 void pick(const float* column, std::span<const uint32_t> points, float* to) {
-    if (points.back() - points.front() == points.size() - 1)
+    const bool dense = points.back() - points.front() == points.size() - 1;
+    if (dense && points.size() == raytrace::kPacket)
+        std::memcpy(to, column + points.front(), raytrace::kPacket * sizeof(float));
+    else if (dense)
         std::copy_n(column + points.front(), points.size(), to);
     else
         for (size_t j = 0; j < points.size(); ++j) to[j] = column[points[j]];
@@ -333,6 +332,7 @@ void ShadowQueue::move(const Packet& from, int lane, Packet& to) {
 
 // What becomes of rays that are in packet_.
 void ShadowQueue::settle(const Packet& packet, uint32_t lanes, uint32_t blocked) {
+    if (!dims_) lanes &= blocked;
     for (; lanes; lanes &= lanes - 1) {
         const int j = std::countr_zero(lanes);
         const bool met = blocked >> j & 1;
