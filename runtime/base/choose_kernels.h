@@ -1,13 +1,16 @@
 // runtime/base/choose_kernels.h: which tables of kernels this CPU can run.
 #pragma once
 
+#include <type_traits>
+
 #include "runtime/base/kernel_table.h"
 
 namespace kinora {
 
 // Null: not on this architecture.
 template <class Kernels>
-UsableKernels<Kernels> choose_kernels(const Kernels* avx512, const Kernels* avx2,
+UsableKernels<Kernels> choose_kernels(std::type_identity_t<const Kernels*> avx512,
+                                      std::type_identity_t<const Kernels*> avx2,
                                       const Kernels* portable) {
     UsableKernels<Kernels> usable{};
 #if defined(__x86_64__)
