@@ -1,5 +1,6 @@
 // raytrace/accel_update.cpp: keeps the trees fit: what changed is refitted, what grew is rebuilt.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "raytrace/updater_p.h"
@@ -81,6 +82,9 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
     }
     limit_origins();
     s.top.commit();
+    if (in_first_pose_.empty()) return;
+    leave_first_poses();
+    s.top.commit();
 }
 
 void Updater::add_static_groups() {
@@ -122,7 +126,26 @@ void Updater::add_deforming(uint32_t index) {
     GeometryState& row = s.rows[index];
     row.slot = uint32_t(s.map.slots.size());
     s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
-    if (row.usable) rebuild(row, deforming_quality(), watch(row.seen).sum);
+    if (!row.usable) return;
+    rebuild(row, deforming_quality(), watch(row.seen).sum);
+    if (!has_first_pose(row.seen)) return;
+    row.mesh.vertices_moved_to(row.seen.built_from);
+    in_first_pose_.push_back(index);
+}
+
+// Triangles that a tree is built without would never come back.
+bool Updater::has_first_pose(const Geometry& g) const {
+    return deforming_quality() == BuildQuality::Refit && !g.built_from.empty() &&
+           g.built_from.size() == g.positions.size() &&
+           std::ranges::all_of(g.built_from, [](const vec4& p) {
+               return std::abs(p.x) <= kLargest && std::abs(p.y) <= kLargest &&
+                      std::abs(p.z) <= kLargest;
+           });
+}
+
+void Updater::leave_first_poses() {
+    for (uint32_t i : in_first_pose_) s.rows[i].mesh.vertices_moved_to(s.rows[i].seen.positions);
+    in_first_pose_.clear();
 }
 
 // Replaces the row's mesh: a new one is the only way to another quality, and the sure way to a tree

@@ -35,6 +35,10 @@ struct Geometry {
     std::span<const vec4> positions;
     std::span<const uint32_t> triangles;  // three indices a triangle
 
+    // Deforming only: the same vertices in another pose, in any space, from which the first tree is
+    // built before it is refitted (docs/rays.md#the-tree-over-a-clip). Empty: from `positions`.
+    std::span<const vec4> built_from;
+
     uint32_t topology_version = 0;   // changed: the triangles are others, the structure is rebuilt
     uint32_t positions_version = 0;  // changed: same triangles, moved vertices
 

@@ -26,6 +26,8 @@ class SurfaceShading {
   public:
     virtual ~SurfaceShading() = default;
     virtual void shade(const HitBatch& hits, int thread, ShadeResult& result) = 0;
+    // Whether any shader reads the footprints of hits (HitBatch).
+    virtual bool reads_footprints() const { return true; }
     // How far rays that meet nothing are to be shaded, from their last surface; 0: not at all.
     virtual float miss_distance() const { return 0; }
     // Colour and opacity of what lies along rays that meet nothing (see missed()).

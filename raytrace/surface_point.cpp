@@ -7,6 +7,7 @@
 
 #include "raytrace/accel_state_p.h"
 #include "raytrace/points/points.h"
+#include "runtime/base/kernel_math.h"
 
 namespace kinora::raytrace {
 
@@ -76,6 +77,14 @@ void apply_rows(const std::vector<GeometryState>& rows, const uint32_t* instance
     }
 }
 
+// Up to sixteen numbers, nearly always all.
+void copy_block(const float (&block)[kPoints], size_t count, float* to) {
+    if (count == kPoints)
+        std::memcpy(to, block, sizeof(block));
+    else
+        std::copy_n(block, count, to);
+}
+
 }  // namespace
 
 void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_t* primitive,
@@ -93,9 +102,9 @@ void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_
         apply_rows(rows, instance + first, n, block);
         kernels.normalize(block);
         for (int c = 0; c < 3; ++c) {
-            std::copy_n(block.P[c], n, out.P[c] + first);
-            std::copy_n(block.error[c], n, out.P_error[c] + first);
-            std::copy_n(block.N[c], n, out.Ng[c] + first);
+            copy_block(block.P[c], n, out.P[c] + first);
+            copy_block(block.error[c], n, out.P_error[c] + first);
+            copy_block(block.N[c], n, out.Ng[c] + first);
         }
     }
 }
@@ -109,17 +118,6 @@ SurfacePoint Accel::surface_point(uint32_t instance, uint32_t primitive, float u
     return s;
 }
 
-namespace {
-
-// The neighbour of x above or below it; x is finite.
-float next_float(float x, bool up) {
-    if (x == 0) return up ? 0x1p-149f : -0x1p-149f;
-    uint32_t bits = std::bit_cast<uint32_t>(x);
-    return std::bit_cast<float>(up == (x > 0) ? bits + 1 : bits - 1);
-}
-
-}  // namespace
-
 // Pharr, Jakob, Humphreys, 6.8.6: along n by the box's half width in that direction, then each
 // component away from p by one more float.
 vec3 offset_ray_origin(vec3 p, vec3 p_error, vec3 n, vec3 w) {
@@ -129,7 +127,7 @@ vec3 offset_ray_origin(vec3 p, vec3 p_error, vec3 n, vec3 w) {
     for (int c = 0; c < 3; ++c) {
         float step = d * n[c];
         origin[c] = p[c] + step;
-        if (step != 0) origin[c] = next_float(origin[c], step > 0);
+        if (step != 0) origin[c] = neighbour(origin[c], step > 0);
     }
     return origin;
 }

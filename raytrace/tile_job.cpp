@@ -2,6 +2,7 @@
 #include "raytrace/tile_job_p.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -58,8 +59,9 @@ PixelSet TileOrder::pixels(const Tile& tile) {
             x.data(),      y.data(),          {scramble[0].data(), scramble[1].data()}};
 }
 
-PixelView pixel_view(const Camera& camera) {
+PixelView pixel_view(const Camera& camera, bool spreads) {
     PixelView view{};
+    view.without_spread = !spreads;
     view.orthographic = camera.orthographic;
     view.clip = camera.clip;
     view.znear = camera.znear;
@@ -136,6 +138,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
     const PixelSet pixels = m_.order.pixels(tile_);
     r.count = pixels.count * size_t(end_sample - first_sample);
     r.passing = false;
+    r.spreads = !view_.without_spread;
     begin_rays(0, std::min(std::exchange(m_.passed, 0), m_.begun));
     if (m_.begun < r.count) begin_rays(std::exchange(m_.begun, r.count), r.count);
     PixelRays out{};
@@ -285,19 +288,45 @@ void TileJob::lay_behind(const HitBatch& hits, size_t k) {
     }
 }
 
+// Lays sixteen hits from k on behind what is there; a bit for each whose ray goes on.
+uint32_t TileJob::lay_sixteen(const HitBatch& hits, size_t k) {
+    // Rays of the first layer stand at their slots.
+    const size_t slot = hits.ray[k];
+    const bool dense = !m_.rays.passing && k + kPacket <= hits.count &&
+                       hits.ray[k + kPacket - 1] == slot + kPacket - 1;
+    uint32_t going_on = 0;
+    if (!dense) {
+        for (size_t i = 0; i < std::min<size_t>(kPacket, hits.count - k); ++i) {
+            lay_behind(hits, k + i);
+            going_on |= uint32_t(passes(m_.rays.slot[hits.ray[k + i]])) << i;
+        }
+        return going_on;
+    }
+    LaidHits laid;
+    float *color[3], *through[3];
+    for (size_t c = 0; c < 3; ++c) {
+        laid.Ci[c] = m_.shaded[c].data() + k;
+        laid.Oi[c] = m_.shaded[3 + c].data() + k;
+        color[c] = m_.color[c].data() + slot;
+        through[c] = m_.through[c].data() + slot;
+    }
+    for (size_t i = 0; i < kPacket; ++i) laid.onward[i] = m_.passages[k + i].onward;
+    return kernels_.lay(laid, 1.0f - settings_.opaque_above, color, through);
+}
+
 // Lays the hits behind what is there and keeps, in place, the rays that go on.
 void TileJob::composite(const HitBatch& hits) {
     size_t going_on = 0;
-    for (size_t k = 0; k < hits.count; ++k) {
-        lay_behind(hits, k);
-        if (!passes(m_.rays.slot[hits.ray[k]])) continue;
-        const uint32_t medium = shading_.medium_behind(hits, k);
-        pass_through(accel_, m_.rays, going_on, hits, k);
-        m_.rays.turns[going_on] = m_.passages[k].turns;
-        m_.rays.spent[going_on] = m_.passages[k].spent;
-        m_.rays.weight[going_on] = largest_through(m_.rays.slot[going_on]);
-        m_.rays.medium[going_on++] = medium;
-    }
+    for (size_t first = 0; first < hits.count; first += kPacket)
+        for (uint32_t left = lay_sixteen(hits, first); left; left &= left - 1) {
+            const size_t k = first + size_t(std::countr_zero(left));
+            const uint32_t medium = shading_.medium_behind(hits, k);
+            pass_through(accel_, m_.rays, going_on, hits, k);
+            m_.rays.turns[going_on] = m_.passages[k].turns;
+            m_.rays.spent[going_on] = m_.passages[k].spent;
+            m_.rays.weight[going_on] = largest_through(m_.rays.slot[going_on]);
+            m_.rays.medium[going_on++] = medium;
+        }
     m_.passed = std::max(m_.passed, going_on);
     m_.rays.count = going_on;
     m_.rays.passing = true;

@@ -50,7 +50,7 @@ struct IntegratorScratch::Thread {
     void reserve(size_t chunk, size_t tile_pixels, size_t aovs);
 };
 
-PixelView pixel_view(const Camera& camera);
+PixelView pixel_view(const Camera& camera, bool spreads = true);
 
 class TileJob {
   public:
@@ -59,7 +59,7 @@ class TileJob {
             IntegratorScratch::Thread& scratch, int thread)
         : accel_(accel),
           camera_(camera),
-          view_(pixel_view(camera)),
+          view_(pixel_view(camera, shading.reads_footprints())),
           shading_(shading),
           film_(film),
           settings_(settings),
@@ -86,6 +86,7 @@ class TileJob {
     void keep_aovs(const HitBatch& hits);
     void composite(const HitBatch& hits);
     void lay_behind(const HitBatch& hits, size_t k);
+    uint32_t lay_sixteen(const HitBatch& hits, size_t k);
     float largest_through(size_t slot) const;
     bool passes(size_t slot) const;
     void finish_samples();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <vector>
 
 #include "raytrace/accel_state_p.h"
 
@@ -29,6 +30,8 @@ class Updater {
     void start_anew(std::span<const Geometry> geometry);
     void add_static_groups();
     void add_deforming(uint32_t row);
+    bool has_first_pose(const Geometry& g) const;
+    void leave_first_poses();
     void add_instanced(uint32_t row);
     void build_shape(InstancedShape& shape, bool dynamic);
     void map_row(uint32_t row);
@@ -55,6 +58,7 @@ class Updater {
 
     Accel::State& s;
     std::map<uint32_t, uint32_t> shape_of_;  // Geometry::shape -> index in AccelState::shapes
+    std::vector<uint32_t> in_first_pose_;    // rows whose trees are built from another pose
     bool want_background_ = false;
 };
 

@@ -107,6 +107,18 @@ void load_packet(const RayBatch& rays, size_t first, uint32_t mask, RayPacket16&
 }
 
 void append_hits(const HitPacket16& hits, uint32_t lanes, size_t first, HitBatch& out) {
+    if (lanes == 0xffffu) {
+        const size_t k = out.count;
+        auto copy = [&](const auto* to, const auto& from) {
+            std::memcpy(own(to) + k, from, sizeof(from));
+        };
+        copy(out.geometry, hits.geometry), copy(out.instance, hits.instance);
+        copy(out.primitive, hits.primitive), copy(out.t, hits.t);
+        copy(out.u, hits.u), copy(out.v, hits.v);
+        for (uint32_t i = 0; i < kPacket; ++i) own(out.ray)[k + i] = uint32_t(first) + i;
+        out.count += kPacket;
+        return;
+    }
     for (; lanes; lanes &= lanes - 1) {
         const int i = __builtin_ctz(lanes);
         const size_t k = out.count++;
@@ -183,13 +195,14 @@ void fill_from_rays(const RayBatch& rays, const HitBatch& hits) {
         for (size_t i = 0; i < kPacket; ++i) t[i] += passed[i];
         block.copy(rays.first_org, hits.org, first);
         block.copy(rays.dir, hits.dir, first);
-        block.copy(rays.dDdx, hits.dDdx, first);
-        block.copy(rays.dDdy, hits.dDdy, first);
         block.copy<float>(rays.time, hits.time + first);
         block.copy<uint32_t>(rays.pixel_x, hits.pixel_x + first);
         block.copy<uint32_t>(rays.pixel_y, hits.pixel_y + first);
         block.copy<uint32_t>(rays.sample, hits.sample + first);
         block.copy<uint32_t>(rays.layer, hits.layer + first);
+        if (!rays.spreads) continue;
+        block.copy(rays.dDdx, hits.dDdx, first);
+        block.copy(rays.dDdy, hits.dDdy, first);
         footprint(block, hits, first, rays.dOdx, rays.dDdx, hits.dPdx);
         footprint(block, hits, first, rays.dOdy, rays.dDdy, hits.dPdy);
     }
@@ -209,7 +222,7 @@ void pad_all(const HitBatch& b) {
     pad(b.geometry, b.count), pad(b.instance, b.count), pad(b.primitive, b.count);
     pad(b.u, b.count), pad(b.v, b.count), pad(b.t, b.count), pad(b.time, b.count);
     pad3(b.org), pad3(b.dir), pad3(b.P), pad3(b.P_error), pad3(b.Ng);
-    pad3(b.dPdx), pad3(b.dPdy), pad3(b.dDdx), pad3(b.dDdy);
+    if (b.rays->spreads) pad3(b.dPdx), pad3(b.dPdy), pad3(b.dDdx), pad3(b.dDdy);
     pad(b.pixel_x, b.count), pad(b.pixel_y, b.count), pad(b.sample, b.count);
     pad(b.layer, b.count), pad(b.ray, b.count), pad(b.beside, b.count);
 }

@@ -29,8 +29,9 @@ struct HitBatch {
     const float* P[3];        // the hit by its barycentrics
     const float* P_error[3];  // bound of its rounding error, for offset_ray_origin
     const float* Ng[3];       // length 1; 0 for a triangle without area
-    // Footprint: change of P and of dir per pixel in raster x and y (ray differentials, H. Igehy
-    // 1999), met with the plane of Ng; at grazing angles capped at 100 times the face-on width.
+    // Footprint, where RayBatch::spreads: change of P and of dir per pixel in raster x and y (ray
+    // differentials, H. Igehy 1999), met with the plane of Ng; at grazing angles capped at 100
+    // times the face-on width.
     const float* dPdx[3];
     const float* dPdy[3];
     const float* dDdx[3];
@@ -75,6 +76,7 @@ struct RayBatch {
     float* tnear = nullptr;
     float* tfar = nullptr;
     float* time = nullptr;
+    bool spreads = true;  // the next four count; else hits have no footprints
     float* dOdx[3] = {};
     float* dOdy[3] = {};
     float* dDdx[3] = {};

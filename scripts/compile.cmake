@@ -51,17 +51,30 @@ function(kinora_precompiled_set name)
     target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-# kinora_kernels(VARIABLE NAME): adds NAME.cpp, which chooses at run time, and NAME_<instruction set>.cpp,
-# which compile one source each for theirs, to a list of sources.
+# kinora_kernels(VARIABLE NAME): adds NAME.cpp, which chooses at run time, and for each instruction set a file
+# that compiles NAME_p.h for it (runtime/base/kernel_table.h), to a list of sources.
 function(kinora_kernels variable name)
-    set(kernels ${name}.cpp ${name}_portable.cpp)
-    set_source_files_properties(${name}_portable.cpp PROPERTIES COMPILE_OPTIONS "-O3")
+    set(options_Portable -O3)
+    set(options_Avx2 -O3 -mavx2)
+    set(options_Avx512 -O3 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mprefer-vector-width=512)
+    set(instruction_sets Portable)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-        list(APPEND kernels ${name}_avx2.cpp ${name}_avx512.cpp)
-        set_source_files_properties(${name}_avx2.cpp PROPERTIES COMPILE_OPTIONS "-O3;-mavx2")
-        set_source_files_properties(${name}_avx512.cpp PROPERTIES COMPILE_OPTIONS
-            "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mavx512bw;-mprefer-vector-width=512")
+        list(APPEND instruction_sets Avx2 Avx512)
     endif()
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+    set(kernels ${name}.cpp)
+    foreach(set ${instruction_sets})
+        string(TOLOWER ${set} label)
+        set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_${label}.cpp)
+        file(CONFIGURE OUTPUT ${source} CONTENT "// Made by kinora_kernels().
+#define KINORA_INSTRUCTION_SET \"${label}\"
+#define KINORA_KERNEL_TABLE(name) k${set}##name
+#include \"${folder}/${name}_p.h\"
+")
+        # Which comparisons trap is nobody's concern, and would keep choices from becoming vectors.
+        set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options_${set}};-fno-trapping-math")
+        list(APPEND kernels ${source})
+    endforeach()
     set(${variable} ${${variable}} ${kernels} PARENT_SCOPE)
 endfunction()
 

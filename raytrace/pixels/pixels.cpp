@@ -2,26 +2,18 @@
 #include "raytrace/pixels/pixels.h"
 
 #include "raytrace/random/bits.h"
+#include "runtime/base/choose_kernels.h"
 
 namespace kinora::raytrace {
 
-const UsablePixelKernels& usable_pixel_kernels() {
-    static const UsablePixelKernels usable = [] {
-        UsablePixelKernels u{};
-#if defined(__x86_64__)
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-            u.kernels[u.count++] = &kAvx512Pixels;
-        if (__builtin_cpu_supports("avx2")) u.kernels[u.count++] = &kAvx2Pixels;
-#endif
-        u.kernels[u.count++] = &kPortablePixels;
-        return u;
-    }();
+const UsableKernels<PixelKernels>& usable_pixel_kernels() {
+    static const auto usable = choose_kernels(KINORA_ALL_TABLES(Pixels));
     return usable;
 }
 
 const PixelKernels& pixel_kernels() {
-    return *usable_pixel_kernels().kernels[0];
+    static const PixelKernels& widest = *usable_pixel_kernels().kernels[0];
+    return widest;
 }
 
 SampleBits sample_bits(uint32_t sample) {

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/base/kernel_table.h"
+
 namespace kinora::raytrace {
 
 // The inverse of a filter's integral, tabulated: FilterSampler::offset as value + step * fraction.
@@ -24,6 +26,7 @@ struct FilterTable {
 struct PixelView {
     bool orthographic;
     bool clip;
+    bool without_spread;  // nobody reads how rays spread
     double znear, zfar;
     double eye[3], forward[3];
     double dx[3], dy[3];          // from one pixel to the next, and to the one below
@@ -53,13 +56,23 @@ struct PixelRays {
     float* org[3];  // orthographic: written; perspective: not, nor first_org
     float* first_org[3];
     float* dir[3];
-    float* ddir_dx[3];  // perspective: written
+    float* ddir_dx[3];  // perspective: written, but for PixelView::without_spread
     float* ddir_dy[3];
     float* tnear;  // with PixelView::clip: written
     float* tfar;
     uint32_t* pixel_x;
     uint32_t* pixel_y;
     uint32_t* sample;  // SampleBits::index
+};
+
+inline constexpr size_t kLaid = 16;
+
+// What sixteen hits of as many samples show: opacity may be out of 0..1. Behind a hit a sample sees
+// `onward` times what is there.
+struct LaidHits {
+    const float* Ci[3];
+    const float* Oi[3];
+    float onward[kLaid];
 };
 
 struct PixelKernels {
@@ -70,22 +83,20 @@ struct PixelKernels {
     // through the pixels' centres.
     void (*rays)(const PixelView& view, const PixelSet& pixels, const SampleBits* samples, size_t n,
                  const FilterTable* filter, const PixelRays& out);
+    // Lays the hits behind what the samples show. A bit for each sample that still lets more than
+    // `least` through in some component.
+    uint32_t (*lay)(const LaidHits& hits, float least, float* const color[3],
+                    float* const through[3]);
     // Adds n samples of each of `pixels` pixels, in the order of their rays, to the pixels' sums:
     // colour and coverage, four a pixel. What a sample shows lies before `background` where that is
     // not null.
     void (*add)(size_t pixels, size_t n, const float* const color[3], const float* const through[3],
                 const float* background, double* sums);
 };
-extern const PixelKernels kPortablePixels;
-extern const PixelKernels kAvx2Pixels;
-extern const PixelKernels kAvx512Pixels;
+KINORA_KERNEL_TABLES(PixelKernels, Pixels);
 
-// Those this CPU can run, the widest first; all give the same bits.
-struct UsablePixelKernels {
-    const PixelKernels* kernels[3];
-    size_t count;
-};
-const UsablePixelKernels& usable_pixel_kernels();
+// Those this CPU can run, and the widest of them.
+const UsableKernels<PixelKernels>& usable_pixel_kernels();
 const PixelKernels& pixel_kernels();
 
 }  // namespace kinora::raytrace

@@ -8,6 +8,7 @@
 
 #include "raytrace/pixels/pixels.h"
 #include "raytrace/random/bits.h"
+#include "runtime/base/kernel_math.h"
 
 #define KINORA_INLINE __attribute__((always_inline)) inline
 
@@ -71,7 +72,7 @@ void filtered(const FilterTable& filter, const uint32_t* bits, const uint32_t* s
 }
 
 // Of `count` samples, `across` and `down` from the picture's centre.
-template <bool kClip>
+template <bool kClip, bool kSpread>
 void perspective(const PixelView& view, size_t count, const double* across, const double* down,
                  const PixelRays& to) {
     const PixelView c = view;  // copies, which no store below can change
@@ -83,12 +84,14 @@ void perspective(const PixelView& view, size_t count, const double* across, cons
         const double along_x = across[i] * c.dx_square, along_y = down[i] * c.dy_square;
         const double length = __builtin_sqrt(1.0 + (across[i] * along_x + down[i] * along_y));
         const double inverse = 1.0 / length, cube = inverse * inverse * inverse;
-        const double back_x = along_x * cube, back_y = along_y * cube;
+        [[maybe_unused]] const double back_x = along_x * cube, back_y = along_y * cube;
         for (int k = 0; k < 3; ++k) {
             const double v = c.forward[k] + (c.dx[k] * across[i] + c.dy[k] * down[i]);
             out.dir[k][i] = float(v * inverse);
-            out.ddir_dx[k][i] = float(c.dx[k] * inverse - v * back_x);
-            out.ddir_dy[k][i] = float(c.dy[k] * inverse - v * back_y);
+            if constexpr (kSpread) {
+                out.ddir_dx[k][i] = float(c.dx[k] * inverse - v * back_x);
+                out.ddir_dy[k][i] = float(c.dy[k] * inverse - v * back_y);
+            }
         }
         if constexpr (kClip) {
             out.tnear[i] = float(c.znear * length);
@@ -138,11 +141,18 @@ KINORA_INLINE const uint32_t* repeated(const uint32_t* of_pixel, size_t pixels, 
     return to;
 }
 
+using Fill = void (*)(const PixelView&, size_t, const double*, const double*, const PixelRays&);
+KINORA_INLINE Fill choose_fill(const PixelView& view) {
+    if (view.orthographic) return view.clip ? orthographic<true> : orthographic<false>;
+    if (view.without_spread)
+        return view.clip ? perspective<true, false> : perspective<false, false>;
+    return view.clip ? perspective<true, true> : perspective<false, true>;
+}
+
 // Rays of up to kBlock samples of each pixel: as many pixels a block as fit.
 void rays_of(const PixelView& view, const PixelSet& pixels, const SampleBits* samples, size_t n,
              const FilterTable* filter, const PixelRays& to, size_t rays_a_pixel) {
-    const auto fill = view.orthographic ? (view.clip ? orthographic<true> : orthographic<false>)
-                                        : (view.clip ? perspective<true> : perspective<false>);
+    const Fill fill = choose_fill(view);
     const size_t whole = n == rays_a_pixel ? kBlock / n : 1;  // pixels
     uint32_t index[kBlock], sobol_reversed[kBlock];
     for (size_t i = 0; i < whole * n; ++i) {
@@ -184,8 +194,41 @@ void rays(const PixelView& view, const PixelSet& pixels, const SampleBits* sampl
     }
 }
 
-using FourFloats = float __attribute__((vector_size(16)));
 using FourDoubles = double __attribute__((vector_size(32)));
+
+// Of two numbers the first where the mask is all ones, the other where it is 0.
+KINORA_INLINE float either(uint32_t mask, float a, float b) {
+    return __builtin_bit_cast(float, (__builtin_bit_cast(uint32_t, a) & mask) |
+                                         (__builtin_bit_cast(uint32_t, b) & ~mask));
+}
+
+uint32_t lay(const LaidHits& hits, float least, float* const color[3], float* const through[3]) {
+    alignas(64) float rest[3][kLaid], onward[kLaid];
+    __builtin_memcpy(onward, hits.onward, sizeof(onward));
+    for (int c = 0; c < 3; ++c) {
+        const float *Ci = hits.Ci[c], *Oi = hits.Oi[c], *before = through[c];
+        float* sum = color[c];
+#pragma GCC ivdep
+        for (size_t i = 0; i < kLaid; ++i) {
+            const float left = before[i], o = Oi[i];
+            // As std::clamp has it: NaN stays.
+            const float above = either(0u - uint32_t(o < 0), 0, o);
+            const float stopped = either(0u - uint32_t(1 < above), 1, above);
+            sum[i] += left * Ci[i];
+            rest[c][i] = left * ((1.0f - stopped) * onward[i]);
+        }
+        __builtin_memcpy(through[c], rest[c], sizeof(rest[c]));
+    }
+    alignas(64) uint32_t open[kLaid];
+    for (size_t i = 0; i < kLaid; ++i) {
+        const float x = rest[0][i], y = rest[1][i], z = rest[2][i];
+        const float xy = x < y ? y : x, most = xy < z ? z : xy;
+        open[i] = uint32_t(most > least) << i;
+    }
+    uint32_t all = 0;
+    for (size_t i = 0; i < kLaid; ++i) all |= open[i];
+    return all;
+}
 
 KINORA_INLINE void load(const float* from, size_t count, FourDoubles& to) {
     FourFloats floats{};
@@ -257,4 +300,9 @@ void add(size_t pixels, size_t n, const float* const color[3], const float* cons
 }
 
 }  // namespace
+
+extern const PixelKernels KINORA_KERNEL_TABLE(Pixels);
+const PixelKernels KINORA_KERNEL_TABLE(Pixels) = {KINORA_INSTRUCTION_SET, scrambles, rays, lay,
+                                                  add};
+
 }  // namespace kinora::raytrace

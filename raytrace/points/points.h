@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/base/kernel_table.h"
+
 namespace kinora::raytrace {
 
 inline constexpr size_t kPoints = 16;
@@ -73,16 +75,10 @@ struct PointKernels {
     // Normals may be off 1 by a thousandth of their length.
     uint32_t (*sees_light)(const TrianglePoints& at, const LeavingRays& from, float least_cosine);
 };
-extern const PointKernels kPortablePoints;
-extern const PointKernels kAvx2Points;
-extern const PointKernels kAvx512Points;
+KINORA_KERNEL_TABLES(PointKernels, Points);
 
-// Those this CPU can run, the widest first; all give the same bits.
-struct UsablePointKernels {
-    const PointKernels* kernels[3];
-    size_t count;
-};
-const UsablePointKernels& usable_point_kernels();
+// Those this CPU can run, and the widest of them.
+const UsableKernels<PointKernels>& usable_point_kernels();
 const PointKernels& point_kernels();
 
 }  // namespace kinora::raytrace

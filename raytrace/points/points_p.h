@@ -4,37 +4,16 @@
 #pragma once
 
 #include "raytrace/points/points.h"
+#include "runtime/base/kernel_math.h"
 
 namespace kinora::raytrace {
 namespace {
-
-using Four = float __attribute__((vector_size(16)));
-
-// Four corners' x, y and z into places i to i + 3 of three columns.
-__attribute__((always_inline)) inline void turn(const float (*corner)[4], size_t i,
-                                                float (&to)[3][kPoints]) {
-    Four a, b, c, d;
-    __builtin_memcpy(&a, corner[0], 16);
-    __builtin_memcpy(&b, corner[1], 16);
-    __builtin_memcpy(&c, corner[2], 16);
-    __builtin_memcpy(&d, corner[3], 16);
-    const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
-               cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-    const Four x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5),
-               y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-    const Four zab = __builtin_shufflevector(a, b, 2, 6, 2, 6),
-               zcd = __builtin_shufflevector(c, d, 2, 6, 2, 6);
-    const Four z = __builtin_shufflevector(zab, zcd, 0, 1, 4, 5);
-    __builtin_memcpy(to[0] + i, &x, 16);
-    __builtin_memcpy(to[1] + i, &y, 16);
-    __builtin_memcpy(to[2] + i, &z, 16);
-}
 
 uint32_t interpolate(const TrianglePoints& at, float error_scale, float least, float most,
                      PointBlock& out) {
     float p[3][3][kPoints];  // corner, component, point
     for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < kPoints; i += 4) turn(at.corner[k] + i, i, p[k]);
+        for (size_t i = 0; i < kPoints; i += 4) corners_to_rows(at.corner[k] + i, i, p[k]);
     for (int c = 0; c < 3; ++c)
         for (size_t i = 0; i < kPoints; ++i) {
             const float x = (1.0f - at.u[i] - at.v[i]) * p[0][c][i], y = at.u[i] * p[1][c][i],
@@ -109,14 +88,6 @@ void footprint(const FootprintRays& rays, float least_cosine, float* const dP[3]
     }
 }
 
-// The neighbour of x above or below it; x is finite.
-__attribute__((always_inline)) inline float neighbour(float x, bool up) {
-    const uint32_t bits = __builtin_bit_cast(uint32_t, x);
-    const uint32_t next = up == (x > 0) ? bits + 1 : bits - 1;
-    const uint32_t of_zero = up ? 1u : 0x80000001u;
-    return __builtin_bit_cast(float, x == 0 ? of_zero : next);
-}
-
 // Pharr, Jakob, Humphreys, 6.8.6, as in offset_ray_origin().
 void leave(const LeavingRays& from, float* const org[3], float* const dir[3], float* tfar) {
     alignas(64) float O[3][kPoints], D[3][kPoints], T[kPoints];
@@ -161,7 +132,7 @@ uint32_t sees_light(const TrianglePoints& at, const LeavingRays& from, float lea
     const float least = 1.02f * least_cosine * least_cosine;
     alignas(64) float n[3][3][kPoints];  // corner, component, point
     for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < kPoints; i += 4) turn(at.corner[k] + i, i, n[k]);
+        for (size_t i = 0; i < kPoints; i += 4) corners_to_rows(at.corner[k] + i, i, n[k]);
     uint32_t seen[kPoints];
     for (size_t i = 0; i < kPoints; ++i) {
         const float wx = from.way[0][i], wy = from.way[1][i], wz = from.way[2][i];
@@ -193,4 +164,9 @@ uint32_t sees_light(const TrianglePoints& at, const LeavingRays& from, float lea
 }
 
 }  // namespace
+
+extern const PointKernels KINORA_KERNEL_TABLE(Points);
+const PointKernels KINORA_KERNEL_TABLE(Points) = {
+    KINORA_INSTRUCTION_SET, interpolate, normalize, sound, footprint, leave, sees_light};
+
 }  // namespace kinora::raytrace

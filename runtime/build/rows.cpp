@@ -24,6 +24,8 @@ void set_rows(Scene& scene) {
         row.opaque = instance.opaque();
         row.hide_backfaces = !mesh.double_sided || instance.hide_backfaces;
         row.positions = shape.rest_positions;
+        const bool deforms = shape.kind == raytrace::GeometryKind::Deforming;
+        if (deforms && !shape.vertex_work) row.built_from = mesh.positions;
         row.triangles = mesh.groups[surface.group].triangles;
         if (instanced)
             row.shape = numbers.try_emplace({shape.mesh, surface.group}, uint32_t(numbers.size()))

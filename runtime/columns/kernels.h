@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/base/kernel_table.h"
+
 namespace kinora {
 
 inline constexpr size_t kColumnPoints = 16;
@@ -83,16 +85,10 @@ struct ColumnKernels {
     // The hits' random numbers (docs/decisions.md#random-numbers-without-state).
     void (*random)(const HitNumbers& hits, uint32_t depth, uint32_t* to);
 };
-extern const ColumnKernels kPortableColumns;
-extern const ColumnKernels kAvx2Columns;
-extern const ColumnKernels kAvx512Columns;
+KINORA_KERNEL_TABLES(ColumnKernels, Columns);
 
-// Those this CPU can run, the widest first.
-struct UsableColumnKernels {
-    const ColumnKernels* kernels[3];
-    size_t count;
-};
-const UsableColumnKernels& usable_column_kernels();
+// Those this CPU can run, and the widest of them.
+const UsableKernels<ColumnKernels>& usable_column_kernels();
 const ColumnKernels& column_kernels();
 
 }  // namespace kinora

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "raytrace/random/bits.h"
+#include "runtime/base/kernel_math.h"
 #include "runtime/columns/kernels.h"
 
 namespace kinora {
@@ -53,32 +54,10 @@ void turn_between(const float* M, const TripleColumns& a, const TripleColumns& b
     turn_rows(M, rows, to);
 }
 
-using Four = float __attribute__((vector_size(16)));
-
-// Four corners' x, y and z into places i to i + 3 of three rows.
-__attribute__((always_inline)) inline void transpose(const float (*corner)[4], size_t i,
-                                                     ThreeRows& to) {
-    Four a, b, c, d;
-    __builtin_memcpy(&a, corner[0], 16);
-    __builtin_memcpy(&b, corner[1], 16);
-    __builtin_memcpy(&c, corner[2], 16);
-    __builtin_memcpy(&d, corner[3], 16);
-    const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
-               cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-    const Four x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5),
-               y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-    const Four zab = __builtin_shufflevector(a, b, 2, 6, 2, 6),
-               zcd = __builtin_shufflevector(c, d, 2, 6, 2, 6);
-    const Four z = __builtin_shufflevector(zab, zcd, 0, 1, 4, 5);
-    __builtin_memcpy(to[0] + i, &x, 16);
-    __builtin_memcpy(to[1] + i, &y, 16);
-    __builtin_memcpy(to[2] + i, &z, 16);
-}
-
 uint32_t mix_normals(const float* M, const CornerNormals& at, float* const to[3]) {
     alignas(64) ThreeRows n[3], mixed, turned;
     for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < kAll; i += 4) transpose(at.corner[k] + i, i, n[k]);
+        for (size_t i = 0; i < kAll; i += 4) corners_to_rows(at.corner[k] + i, i, n[k]);
     for (int c = 0; c < 3; ++c)
         for (size_t i = 0; i < kAll; ++i) {
             const float u = at.u[i], v = at.v[i];
@@ -152,7 +131,7 @@ void tangents(const float* M, const OnTriangles& on, const CornerPlaces& places,
               TripleRows& along_u, TripleRows& along_v) {
     alignas(64) ThreeRows p[3], e1, e2;
     for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < kAll; i += 4) transpose(places.at[k] + i, i, p[k]);
+        for (size_t i = 0; i < kAll; i += 4) corners_to_rows(places.at[k] + i, i, p[k]);
     for (int c = 0; c < 3; ++c)
         for (size_t i = 0; i < kAll; ++i) {
             e1[c][i] = p[1][c][i] - p[0][c][i];
@@ -204,4 +183,10 @@ void random(const HitNumbers& hits, uint32_t depth, uint32_t* to) {
 }
 
 }  // namespace
+
+extern const ColumnKernels KINORA_KERNEL_TABLE(Columns);
+const ColumnKernels KINORA_KERNEL_TABLE(Columns) = {
+    KINORA_INSTRUCTION_SET, turn, turn_from, turn_between, mix_normals,
+    find_parameters,        mix,  tangents,  extents,      random};
+
 }  // namespace kinora

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "runtime/base/kernel_table.h"
+
 namespace kinora {
 
 // Columns of `count` numbers; none of those written may overlap another that is read.
@@ -21,21 +23,18 @@ struct LightKernels {
     // Makes Cl 0 where L surely looks along N and `along` is 0, or against N and `against` is 0.
     void (*darken_unseen)(const float* const N[3], const float* const L[3], const float* along,
                           const float* against, size_t count, float* const Cl[3]);
+    // The points where something is sent: `lit` is not 0 (null: everywhere), nor is all of Cl. Their
+    // numbers, in order; how many.
+    size_t (*choose)(const float* const Cl[3], const float* lit, size_t count, uint32_t* chosen);
     // limits[i] += share * strength of Cl: its largest component, 0 of what is no number.
     void (*add_strengths)(const float* const Cl[3], float share, size_t count, float* limits);
     // Sets weak[i] where the strength is in (0, limits[i]]; whether there is such a point.
     bool (*mark_weak)(const float* const Cl[3], const float* limits, size_t count, uint32_t* weak);
 };
-extern const LightKernels kPortableLights;
-extern const LightKernels kAvx2Lights;
-extern const LightKernels kAvx512Lights;
+KINORA_KERNEL_TABLES(LightKernels, Lights);
 
-// Those this CPU can run, the widest first.
-struct UsableLightKernels {
-    const LightKernels* kernels[3];
-    size_t count;
-};
-const UsableLightKernels& usable_light_kernels();
+// Those this CPU can run, and the widest of them.
+const UsableKernels<LightKernels>& usable_light_kernels();
 const LightKernels& light_kernels();
 
 }  // namespace kinora

@@ -3,6 +3,7 @@
 // (no contraction), so all widths give the same bits.
 #pragma once
 
+#include "runtime/base/kernel_math.h"
 #include "runtime/lights/kernels.h"
 
 namespace kinora {
@@ -13,33 +14,31 @@ constexpr float kLargest = __FLT_MAX__;
 constexpr float kUnseenMargin = 1e-4f, kMargin2 = kUnseenMargin * kUnseenMargin;
 constexpr float kLeastSquare = 1e-30f;  // of a vector whose direction kernels see as we do
 
-using Four = float __attribute__((vector_size(16)));
-
 // The lesser (greater) of x and what is so far, lane by lane; so far where x is NaN.
-__attribute__((always_inline)) inline Four lesser(Four x, Four so_far) {
+__attribute__((always_inline)) inline FourFloats lesser(FourFloats x, FourFloats so_far) {
     return x < so_far ? x : so_far;
 }
-__attribute__((always_inline)) inline Four greater(Four x, Four so_far) {
+__attribute__((always_inline)) inline FourFloats greater(FourFloats x, FourFloats so_far) {
     return x > so_far ? x : so_far;
 }
 
 void bounds(const float* column, size_t count, float& low, float& high) {
     constexpr size_t kRows = 4;  // which do not wait for each other
-    Four least[kRows], most[kRows];
+    FourFloats least[kRows], most[kRows];
     for (size_t j = 0; j < kRows; ++j) {
-        least[j] = Four{} + __builtin_inff();
-        most[j] = Four{} - __builtin_inff();
+        least[j] = FourFloats{} + __builtin_inff();
+        most[j] = FourFloats{} - __builtin_inff();
     }
     size_t i = 0;
     for (; i + 4 * kRows <= count; i += 4 * kRows)
         for (size_t j = 0; j < kRows; ++j) {
-            Four x;
+            FourFloats x;
             __builtin_memcpy(&x, column + i + 4 * j, sizeof(x));
             least[j] = lesser(x, least[j]);
             most[j] = greater(x, most[j]);
         }
     for (; i < count; ++i) {
-        const Four x = Four{} + column[i];
+        const FourFloats x = FourFloats{} + column[i];
         least[0] = lesser(x, least[0]);
         most[0] = greater(x, most[0]);
     }
@@ -108,6 +107,38 @@ void darken_unseen(const float* const N[3], const float* const L[3], const float
     }
 }
 
+size_t choose(const float* const Cl[3], const float* lit, size_t count, uint32_t* chosen) {
+    constexpr size_t kRow = 16;
+    const float *r = Cl[0], *g = Cl[1], *b = Cl[2];
+    uint32_t* to = chosen;
+    size_t i = 0;
+    for (; i + kRow <= count; i += kRow) {
+        uint32_t sent[kRow];
+        for (size_t j = 0; j < kRow; ++j) {
+            uint32_t bits = 1;  // of an integer
+            if (lit) __builtin_memcpy(&bits, lit + i + j, sizeof(bits));
+            const uint32_t shines = uint32_t(!(r[i + j] == 0)) | uint32_t(!(g[i + j] == 0)) |
+                                    uint32_t(!(b[i + j] == 0));
+            sent[j] = (shines & uint32_t(bits != 0)) << j;
+        }
+        uint32_t all = 0;
+        for (size_t j = 0; j < kRow; ++j) all |= sent[j];
+        if (all == 0xffffu) {
+            for (size_t j = 0; j < kRow; ++j) to[j] = uint32_t(i + j);
+            to += kRow;
+            continue;
+        }
+        for (; all; all &= all - 1) *to++ = uint32_t(i) + uint32_t(__builtin_ctz(all));
+    }
+    for (; i < count; ++i) {
+        uint32_t bits = 1;
+        if (lit) __builtin_memcpy(&bits, lit + i, sizeof(bits));
+        *to = uint32_t(i);
+        to += bits != 0 && !(r[i] == 0 && g[i] == 0 && b[i] == 0);
+    }
+    return size_t(to - chosen);
+}
+
 void add_strengths(const float* const Cl[3], float share, size_t count, float* limits) {
     const float *r = Cl[0], *g = Cl[1], *b = Cl[2];
 #pragma GCC ivdep
@@ -132,4 +163,8 @@ bool mark_weak(const float* const Cl[3], const float* limits, size_t count, uint
 }
 
 }  // namespace
+
+extern const LightKernels KINORA_KERNEL_TABLE(Lights) = {
+    KINORA_INSTRUCTION_SET, bounds, turn_signs, darken_unseen, choose, add_strengths, mark_weak};
+
 }  // namespace kinora

@@ -22,9 +22,9 @@ Cone::Cone(vec3 axis, float angle, bool cosine_weighted) : by_cosine(cosine_weig
 }
 
 vec3 Cone::direction(uint32_t k, uint32_t seed) const {
-    SixteenRays rays;
-    ray_kernels().directions(*this, k, seed, rays);
-    return {rays.dir[0][0], rays.dir[1][0], rays.dir[2][0]};
+    float dir[3][kSixteen];
+    ray_kernels().directions(*this, k, seed, dir);
+    return {dir[0][0], dir[1][0], dir[2][0]};
 }
 
 }  // namespace kinora

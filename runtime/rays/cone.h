@@ -12,6 +12,7 @@ struct Cone {
     vec3 x, y, z;  // orthonormal, z the axis
     float cosine;  // of the angle between axis and side
     bool by_cosine;
+    Cone() = default;
     Cone(vec3 axis, float angle, bool cosine_weighted);
     vec3 direction(uint32_t k, uint32_t seed) const;
 };

@@ -1,32 +1,18 @@
-// runtime/rays/ray_kernels.cpp: which instruction set is used.
+// runtime/rays/ray_kernels.cpp: chooses the kernels.
 #include "runtime/rays/ray_kernels.h"
+
+#include "runtime/base/choose_kernels.h"
 
 namespace kinora {
 
-extern const RayKernels kPortableRays;
-#if defined(__x86_64__)
-extern const RayKernels kAvx2Rays, kAvx512Rays;
-#endif
-
-std::span<const RayKernels* const> all_ray_kernels() {
-#if defined(__x86_64__)
-    static const RayKernels* const all[] = {&kPortableRays, &kAvx2Rays, &kAvx512Rays};
-    static const size_t count = [] {
-        if (!__builtin_cpu_supports("avx2")) return size_t(1);
-        bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512vl");
-        return wide ? size_t(3) : size_t(2);
-    }();
-    return {all, count};
-#else
-    static const RayKernels* const all[] = {&kPortableRays};
-    return all;
-#endif
+const UsableKernels<RayKernels>& usable_ray_kernels() {
+    static const auto usable = choose_kernels(KINORA_ALL_TABLES(Rays));
+    return usable;
 }
 
 const RayKernels& ray_kernels() {
-    static const RayKernels& best = *all_ray_kernels().back();
-    return best;
+    static const RayKernels& widest = *usable_ray_kernels().kernels[0];
+    return widest;
 }
 
 }  // namespace kinora

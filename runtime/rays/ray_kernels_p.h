@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raytrace/random/bits.h"
+#include "runtime/base/kernel_math.h"
 #include "runtime/rays/ray_kernels.h"
 
 namespace kinora {
@@ -10,14 +11,10 @@ namespace {
 
 // No function of a library is called here: compiled for this instruction set, it could be the one
 // that the linker takes for all of the program.
-struct Three {
-    float v[3];
-};
-inline Three three(const vec3& a) {
-    return {{a.x, a.y, a.z}};
-}
-
 #define KINORA_SIXTEEN _Pragma("GCC ivdep") for (int i = 0; i < kSixteen; ++i)
+
+using Row = float[kSixteen];
+using Rows = float[3][kSixteen];
 
 // ---- sine and cosine of 2 pi turn, turn in [0, 1) -----------------------------------------------
 
@@ -45,21 +42,25 @@ inline double cosine(double x) {
     return (1 - 0.5 * s) + s * s * p;
 }
 
-// By cosine: a disc's uniform points lifted to the sphere (Malley); else uniform in solid angle.
-void directions(const Cone& cone, uint32_t first, uint32_t seed, SixteenRays& rays) {
-    const uint32_t seed_x = raytrace::first_scramble(seed);
-    const uint32_t seed_y = raytrace::second_scramble(seed);
-    const double c = double(cone.cosine), square = c * c;
-    const bool by_cosine = cone.by_cosine;
+// Along the axes of a cone. By cosine: a disc's uniform points lifted to the sphere (Malley); else
+// uniform in solid angle.
+struct InCone {
+    alignas(64) Row x, y, z;
+};
+void in_cones(const uint32_t* number, const uint32_t* seed, const float* cosines, bool by_cosine,
+              InCone& to) {
     double up[kSixteen], out[kSixteen], along_x[kSixteen], along_y[kSixteen];
     double u[kSixteen], turn[kSixteen];
     KINORA_SIXTEEN {
-        uint32_t k = first + uint32_t(i);
-        u[i] = double(raytrace::owen_scramble_reversed(k, seed_x)) * 0x1p-32;
+        const uint32_t k = number[i];
+        u[i] = double(raytrace::owen_scramble_reversed(k, raytrace::first_scramble(seed[i]))) *
+               0x1p-32;
         const uint32_t y = raytrace::sobol_second_reversed(k);
-        turn[i] = double(raytrace::owen_scramble_reversed(y, seed_y)) * 0x1p-32;
+        turn[i] = double(raytrace::owen_scramble_reversed(y, raytrace::second_scramble(seed[i]))) *
+                  0x1p-32;
     }
     KINORA_SIXTEEN {
+        const double c = double(cosines[i]), square = c * c;
         double disc = __builtin_sqrt(1 - u[i] * (1 - square)), cap = 1 - u[i] * (1 - c);
         up[i] = by_cosine ? disc : cap;
         double left = 1 - up[i] * up[i];
@@ -75,118 +76,229 @@ void directions(const Cone& cone, uint32_t first, uint32_t seed, SixteenRays& ra
         along_x[i] = quarter == 1 || quarter == 2 ? -cx : cx;
         along_y[i] = quarter == 2 || quarter == 3 ? -sx : sx;
     }
-    float a[kSixteen], b[kSixteen], e[kSixteen];
     KINORA_SIXTEEN {
-        a[i] = float(out[i] * along_x[i]);
-        b[i] = float(out[i] * along_y[i]);
-        e[i] = float(up[i]);
+        to.x[i] = float(out[i] * along_x[i]);
+        to.y[i] = float(out[i] * along_y[i]);
+        to.z[i] = float(up[i]);
     }
-    const Three x = three(cone.x), y = three(cone.y), z = three(cone.z);
+}
+
+void directions(const Cone& cone, uint32_t first, uint32_t seed, float (&dir)[3][kSixteen]) {
+    uint32_t number[kSixteen], seeds[kSixteen];
+    float cosines[kSixteen];
+    KINORA_SIXTEEN {
+        number[i] = first + uint32_t(i);
+        seeds[i] = seed;
+        cosines[i] = cone.cosine;
+    }
+    InCone in;
+    in_cones(number, seeds, cosines, cone.by_cosine, in);
+    const float x[3] = {cone.x.x, cone.x.y, cone.x.z}, y[3] = {cone.y.x, cone.y.y, cone.y.z},
+                z[3] = {cone.z.x, cone.z.y, cone.z.z};
     for (int k = 0; k < 3; ++k)
-        KINORA_SIXTEEN rays.dir[k][i] = a[i] * x.v[k] + b[i] * y.v[k] + e[i] * z.v[k];
+        KINORA_SIXTEEN dir[k][i] = in.x[i] * x[k] + in.y[i] * y[k] + in.z[i] * z[k];
 }
 
-// ---- origins and spreads ------------------------------------------------------------------------
+// ---- lanes --------------------------------------------------------------------------------------
 
-inline float dot(const Three& a, const Three& b) {
-    return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
-}
-inline float magnitude(float x) {
-    return __builtin_fabsf(x);
+// An orthonormal basis without a branch: Duff et al., Building an Orthonormal Basis, Revisited,
+// JCGT 2017.
+void aim(RayLanes& lanes) {
+    RayLanes& l = lanes;
+    KINORA_SIXTEEN {
+        const float ax = l.axis[0][i], ay = l.axis[1][i], az = l.axis[2][i];
+        const float length = __builtin_sqrtf(ax * ax + ay * ay + az * az);
+        const float zx = ax / length, zy = ay / length, zz = az / length;
+        const float sign = __builtin_copysignf(1.0f, zz);
+        const float a = -1.0f / (sign + zz), b = zx * zy * a;
+        l.x[0][i] = 1.0f + sign * zx * zx * a;
+        l.x[1][i] = sign * b;
+        l.x[2][i] = -sign * zx;
+        l.y[0][i] = b;
+        l.y[1][i] = sign + zy * zy * a;
+        l.y[2][i] = -zy;
+        l.z[0][i] = zx;
+        l.z[1][i] = zy;
+        l.z[2][i] = zz;
+    }
 }
 
-// x one float up or down.
-inline float stepped(float x, bool is_up) {
-    uint32_t bits;
-    __builtin_memcpy(&bits, &x, 4);
-    bits = is_up == (x > 0) ? bits + 1 : bits - 1;
-    bits = x == 0 ? (is_up ? 1u : 0x80000001u) : bits;
-    __builtin_memcpy(&x, &bits, 4);
-    return x;
+// One of two numbers, by bits alone, since compilers make branches of some choices.
+__attribute__((always_inline)) inline float either(bool first, float a, float b) {
+    const uint32_t mask = 0u - uint32_t(first);
+    return __builtin_bit_cast(float, (__builtin_bit_cast(uint32_t, a) & mask) |
+                                         (__builtin_bit_cast(uint32_t, b) & ~mask));
 }
 
-void origins(const RaySource& source, SixteenRays& rays) {
-    const Three P = three(source.P), error = three(source.error), Ng = three(source.Ng);
-    if (Ng.v[0] == 0 && Ng.v[1] == 0 && Ng.v[2] == 0) {
-        float most = error.v[1] > error.v[2] ? error.v[1] : error.v[2];
-        float clear = 2 * (error.v[0] > most ? error.v[0] : most);
-        float scale[kSixteen];
-        KINORA_SIXTEEN {
-            float x = rays.dir[0][i], y = rays.dir[1][i], z = rays.dir[2][i];
-            scale[i] = clear / __builtin_sqrtf(x * x + y * y + z * z);
+void start(const float* M, const float eye[3], const float at[3][kSixteen], RayLanes& lanes) {
+    float m[9], e[3];
+    __builtin_memcpy(m, M, sizeof(m));  // copies, which no store below can change
+    __builtin_memcpy(e, eye, sizeof(e));
+    const float eye_x = __builtin_fabsf(e[0]), eye_y = __builtin_fabsf(e[1]),
+                eye_z = __builtin_fabsf(e[2]);
+    const float eye_size[3] = {eye_x, eye_y, eye_z};
+    RayLanes& l = lanes;
+    KINORA_SIXTEEN {
+        const float px = at[0][i], py = at[1][i], pz = at[2][i];
+        const float x = l.P[0][i] - e[0], y = l.P[1][i] - e[1], z = l.P[2][i] - e[2];
+        const bool there = (m[0] * x + m[3] * y + m[6] * z == px) &
+                           (m[1] * x + m[4] * y + m[7] * z == py) &
+                           (m[2] * x + m[5] * y + m[8] * z == pz);
+        // gamma(4) of the magnitudes bounds a rotation and a sum.
+        const float size = __builtin_fabsf(px) + __builtin_fabsf(py) + __builtin_fabsf(pz);
+        for (int k = 0; k < 3; ++k) {
+            const float free = m[3 * k] * px + m[3 * k + 1] * py + m[3 * k + 2] * pz + e[k];
+            l.P[k][i] = either(there, l.P[k][i], free);
+            l.error[k][i] = either(there, l.error[k][i], (size + eye_size[k]) * 2.4e-7f);
+            l.Ng[k][i] = either(there, l.Ng[k][i], 0);
         }
-        for (int k = 0; k < 3; ++k)
-            KINORA_SIXTEEN rays.org[k][i] = P.v[k] + rays.dir[k][i] * scale[i];
+    }
+}
+
+// ---- rays ---------------------------------------------------------------------------------------
+
+// What the samples' lanes have.
+template <class T>
+__attribute__((always_inline)) inline void of_lanes(const T (&row)[kSixteen], const uint32_t* lane,
+                                                    T (&to)[kSixteen]) {
+#if defined(__AVX512F__)
+    using Sixteen = uint32_t __attribute__((vector_size(64)));
+    Sixteen numbers, which;
+    __builtin_memcpy(&numbers, row, sizeof(numbers));
+    __builtin_memcpy(&which, lane, sizeof(which));
+    numbers = __builtin_shuffle(numbers, which);
+    __builtin_memcpy(to, &numbers, sizeof(numbers));
+#else
+    for (int i = 0; i < kSixteen; ++i) to[i] = row[lane[i]];
+#endif
+}
+__attribute__((always_inline)) inline void of_lanes(const Rows& rows, const uint32_t* lane,
+                                                    Rows& to) {
+    for (int k = 0; k < 3; ++k) of_lanes(rows[k], lane, to[k]);
+}
+
+void point(const RayLanes& lanes, const RaySamples& samples, const RayWants& wants,
+           SixteenRays& rays) {
+    const uint32_t* lane = samples.lane;
+    alignas(64) Rows axis;
+    of_lanes(lanes.axis, lane, axis);
+    if (!wants.cones) {
+        __builtin_memcpy(rays.dir, axis, sizeof(axis));
         return;
     }
-    float box = magnitude(Ng.v[0]) * error.v[0] + magnitude(Ng.v[1]) * error.v[1] +
-                magnitude(Ng.v[2]) * error.v[2];
-    float over[3], under[3];  // the places on either side of the surface
-    for (int k = 0; k < 3; ++k) {
-        float step = box * Ng.v[k];
-        over[k] = step == 0 ? P.v[k] + step : stepped(P.v[k] + step, step > 0);
-        under[k] = step == 0 ? P.v[k] - step : stepped(P.v[k] - step, step < 0);
+    alignas(64) uint32_t seed[kSixteen], straight[kSixteen];
+    alignas(64) Row cosines;
+    alignas(64) Rows x, y, z;
+    of_lanes(lanes.seed, lane, seed);
+    of_lanes(lanes.straight, lane, straight);
+    of_lanes(lanes.cosine, lane, cosines);
+    of_lanes(lanes.x, lane, x);
+    of_lanes(lanes.y, lane, y);
+    of_lanes(lanes.z, lane, z);
+    InCone in;
+    in_cones(samples.number, seed, cosines, wants.by_cosine, in);
+    for (int k = 0; k < 3; ++k) KINORA_SIXTEEN {
+            const float d = in.x[i] * x[k][i] + in.y[i] * y[k][i] + in.z[i] * z[k][i];
+            rays.dir[k][i] = either(straight[i] != 0, axis[k][i], d);
+        }
+}
+
+void origins(const RayLanes& lanes, const uint32_t* lane, SixteenRays& rays) {
+    alignas(64) Rows P, error, Ng;
+    of_lanes(lanes.P, lane, P);
+    of_lanes(lanes.error, lane, error);
+    of_lanes(lanes.Ng, lane, Ng);
+    KINORA_SIXTEEN {
+        const float nx = Ng[0][i], ny = Ng[1][i], nz = Ng[2][i];
+        const float ex = error[0][i], ey = error[1][i], ez = error[2][i];
+        const float x = rays.dir[0][i], y = rays.dir[1][i], z = rays.dir[2][i];
+        const bool known = (nx != 0) | (ny != 0) | (nz != 0);
+        const float yz = ey > ez ? ey : ez;
+        const float clear = 2 * (ex > yz ? ex : yz);
+        const float scale = clear / __builtin_sqrtf(x * x + y * y + z * z);
+        float box = __builtin_fabsf(nx) * ex + __builtin_fabsf(ny) * ey + __builtin_fabsf(nz) * ez;
+        box = nx * x + ny * y + nz * z < 0 ? -box : box;
+        for (int k = 0; k < 3; ++k) {
+            const float step = box * Ng[k][i], at = P[k][i] + step;
+            const float beyond = neighbour(at, step > 0);
+            const float on_surface = either(step != 0, beyond, at);
+            rays.org[k][i] = either(known, on_surface, P[k][i] + rays.dir[k][i] * scale);
+        }
     }
-    float side[kSixteen];
-    KINORA_SIXTEEN side[i] =
-        Ng.v[0] * rays.dir[0][i] + Ng.v[1] * rays.dir[1][i] + Ng.v[2] * rays.dir[2][i];
-    for (int k = 0; k < 3; ++k) KINORA_SIXTEEN rays.org[k][i] = side[i] < 0 ? under[k] : over[k];
 }
 
 // A ray that goes back spreads as its mirror image, one that goes on as itself, turned. Lengths
 // stay, so flat mirrors and panes are exact.
-void spreads(const RaySource& source, SixteenRays& rays) {
-    Three in = three(source.in);
-    const Three Ng = three(source.in_Ng);
-    float before = __builtin_sqrtf(dot(in, in));
-    if (!(before > 0)) {
-        __builtin_memset(rays.dDdx, 0, sizeof(rays.dDdx));
-        __builtin_memset(rays.dDdy, 0, sizeof(rays.dDdy));
-        return;
-    }
-    for (float& x : in.v) x /= before;
-    float in_N = dot(in, Ng);
-    float out[3][kSixteen], axis[3][kSixteen], square[kSixteen], scale[kSixteen];
-    float turns[kSixteen];  // 1: the ray goes on, and is turned after it is mirrored
+void spreads(const RayLanes& lanes, const uint32_t* lane, SixteenRays& rays) {
+    alignas(64) Rows in, Ng, dx, dy;
+    of_lanes(lanes.in, lane, in);
+    of_lanes(lanes.in_Ng, lane, Ng);
+    of_lanes(lanes.dDdx, lane, dx);
+    of_lanes(lanes.dDdy, lane, dy);
+    alignas(64) Rows out, axis;
+    alignas(64) Row square, scale, turns, sees;
     KINORA_SIXTEEN {
+        float ix = in[0][i], iy = in[1][i], iz = in[2][i];
         float x = rays.dir[0][i], y = rays.dir[1][i], z = rays.dir[2][i];
-        float after = __builtin_sqrtf(x * x + y * y + z * z);
-        bool sound = after > 0;
-        x = sound ? x / after : 0.0f;
-        y = sound ? y / after : 0.0f;
-        z = sound ? z / after : 0.0f;
-        scale[i] = sound ? after / before : 0.0f;
-        float out_N = x * Ng.v[0] + y * Ng.v[1] + z * Ng.v[2];
-        bool back = in_N * out_N < 0;
-        float sign = back ? -1.0f : 1.0f;
-        turns[i] = back ? 0.0f : 1.0f;
-        float p = x + sign * in.v[0], q = y + sign * in.v[1], r = z + sign * in.v[2];
+        const float before = __builtin_sqrtf(ix * ix + iy * iy + iz * iz);
+        const float after = __builtin_sqrtf(x * x + y * y + z * z);
+        const bool sound = after > 0;
+        sees[i] = before;
+        ix /= before;
+        iy /= before;
+        iz /= before;
+        x = either(sound, x / after, 0);
+        y = either(sound, y / after, 0);
+        z = either(sound, z / after, 0);
+        scale[i] = either(sound, after / before, 0);
+        const float nx = Ng[0][i], ny = Ng[1][i], nz = Ng[2][i];
+        const float in_N = ix * nx + iy * ny + iz * nz;
+        const float out_N = x * nx + y * ny + z * nz;
+        const bool back = in_N * out_N < 0;
+        const float sign = back ? -1.0f : 1.0f;
+        turns[i] = back ? 0.0f : 1.0f;  // 1: it goes on, and is turned after it is mirrored
+        const float p = x + sign * ix, q = y + sign * iy, r = z + sign * iz;
+        in[0][i] = ix, in[1][i] = iy, in[2][i] = iz;
         out[0][i] = x, out[1][i] = y, out[2][i] = z;
         axis[0][i] = p, axis[1][i] = q, axis[2][i] = r;
-        float length2 = p * p + q * q + r * r;
+        const float length2 = p * p + q * q + r * r;
         // Without an axis nothing is mirrored: what is divided by infinity is 0.
         square[i] = length2 > 1e-12f ? length2 : __builtin_inff();
     }
-    auto turn = [&](const Three& d, float(&to)[3][kSixteen]) {
-        float twice = 2 * dot(in, d);
+    auto turn = [&](const Rows& d, Rows& to) {
         KINORA_SIXTEEN {
-            float p = axis[0][i], q = axis[1][i], r = axis[2][i];
-            float f = 2 * (p * d.v[0] + q * d.v[1] + r * d.v[2]) / square[i];
-            float g = turns[i] * twice;
+            const float x = d[0][i], y = d[1][i], z = d[2][i];
+            const float p = axis[0][i], q = axis[1][i], r = axis[2][i];
+            const float twice = 2 * (in[0][i] * x + in[1][i] * y + in[2][i] * z);
+            const float f = 2 * (p * x + q * y + r * z) / square[i];
+            const float g = turns[i] * twice;
             // Mirrored at in + out and then along out, `in` comes to lie on `out`.
-            to[0][i] = ((d.v[0] - p * f) + out[0][i] * g) * scale[i];
-            to[1][i] = ((d.v[1] - q * f) + out[1][i] * g) * scale[i];
-            to[2][i] = ((d.v[2] - r * f) + out[2][i] * g) * scale[i];
+            const bool seen = sees[i] > 0;
+            to[0][i] = either(seen, ((x - p * f) + out[0][i] * g) * scale[i], 0);
+            to[1][i] = either(seen, ((y - q * f) + out[1][i] * g) * scale[i], 0);
+            to[2][i] = either(seen, ((z - r * f) + out[2][i] * g) * scale[i], 0);
         }
     };
-    turn(three(source.dDdx), rays.dDdx);
-    turn(three(source.dDdy), rays.dDdy);
+    turn(dx, rays.dDdx);
+    turn(dy, rays.dDdy);
 }
 
-void leave(const RaySource& source, SixteenRays& rays) {
-    origins(source, rays);
-    spreads(source, rays);
+void shoot(const RayLanes& lanes, const RaySamples& samples, const RayWants& wants,
+           SixteenRays& rays) {
+    const uint32_t* lane = samples.lane;
+    point(lanes, samples, wants, rays);
+    origins(lanes, lane, rays);
+    if (wants.spreads) spreads(lanes, lane, rays);
+    alignas(64) uint32_t seed[kSixteen];
+    of_lanes(lanes.seed, lane, seed);
+    KINORA_SIXTEEN rays.path[i] = raytrace::hash(seed[i], samples.number[i]);
+    for (int c = 0; c < kCarried; ++c) of_lanes(lanes.carried[c], lane, rays.carried[c]);
 }
 
 }  // namespace
+
+extern const RayKernels KINORA_KERNEL_TABLE(Rays);
+const RayKernels KINORA_KERNEL_TABLE(Rays) = {KINORA_INSTRUCTION_SET, directions, aim, start,
+                                              shoot};
+
 }  // namespace kinora

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "raytrace/sampling.h"
 #include "runtime/scene/scene.h"
@@ -196,42 +197,6 @@ class MapDirections {
     int of_table_, n_;
 };
 
-// The rays of one lane: along the axis of a cone without width, by the brightness of a map, or
-// even.
-class LaneRays {
-  public:
-    // `over`: null for directions that are even.
-    LaneRays(const Grid& grid, const RayStart& start, const Cone& cone, bool wide, uint32_t seed,
-             const MapDirections* over)
-        : grid_(grid),
-          start_(start),
-          cone_(cone),
-          wide_(wide),
-          seed_(seed),
-          over_(over),
-          fan_(grid, start, cone, seed) {}
-
-    vec3 direction(uint32_t k) {
-        if (!wide_) return cone_.z;
-        return over_ ? over_->direction(k, seed_) : fan_.direction(k);
-    }
-    void add(raytrace::RayBatch& rays, uint32_t k, vec3 dir, float reach, float bias, float share) {
-        uint32_t slot = uint32_t(rays.count);
-        if (wide_ && !over_) return fan_.add(rays, k, reach, bias, slot, share);
-        add_ray(rays, grid_, start_, dir, reach, bias, raytrace::hash(seed_, k), slot, share);
-        spread_ray(rays, *start_.hits, start_.hit);
-    }
-
-  private:
-    const Grid& grid_;
-    const RayStart& start_;
-    const Cone& cone_;
-    bool wide_;
-    uint32_t seed_;
-    const MapDirections* over_;
-    RayFan fan_;
-};
-
 // The solid angle that each of n directions of the cone stands for: 1 / (n density).
 float solid_angle(const Cone& cone, vec3 direction, int n) {
     float c = cone.cosine;
@@ -352,57 +317,83 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     // Who takes no solid angles may count all directions alike: these stay even.
     bool weighs = std::ranges::any_of(
         of_ray, [](const RayColumn& c) { return c.fact == RayFact::SolidAngle; });
-    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
     NestedWavefront nested(own);
     raytrace::RayBatch& rays = nested->rays;
     rays.reserve(kGridPoints);
     rays.count = 0;
     uint8_t lane_of[kGridPoints];
     uint32_t sample_of[kGridPoints];
-    int32_t label = 0;  // of the rays that wait
+    int32_t label = 0;   // of the rays that wait
+    size_t waiting = 0;  // rays from rays.count on are not yet made
+    LaneRays made(grid, lanes, Row::P, Row::D, (flags & rsl::kGatherCosine) != 0);
+    auto make = [&](size_t end) {
+        const size_t first = rays.count, n = end - first;
+        made.add(rays, {{lane_of + first, n}, {sample_of + first, n}}, uint32_t(first));
+    };
     auto flush = [&] {
-        size_t n = rays.count;
+        const size_t n = std::exchange(waiting, 0);
+        make(n);
         if (n > 0 && shoots)
             shade({grid, results, records, {lane_of, n}, {sample_of, n}, label}, rays);
         rays.count = 0;
     };
+    // The sample that waits last, in a direction of its own.
+    auto add_along = [&](int lane, uint32_t k, vec3 dir) {
+        make(waiting - 1);
+        const RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(Row::P, lane));
+        add_ray(rays, grid, start, dir, lanes.number(Row::Maxdist, lane),
+                lanes.number(Row::Bias, lane), raytrace::hash(lanes.seed(lane), k),
+                uint32_t(waiting - 1), counts.share[lane]);
+        spread_ray(rays, *start.hits, start.hit);
+    };
     for (int lane = 0; lane < jit::kMaxLanes; ++lane)
         for (int k = counts.samples[lane]; k < counts.most; ++k)
             records.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
+        if (counts.samples[lane] == 0) continue;
+        const float angle = lanes.number(Row::Angle, lane);
+        const vec3 way = made.way(lane);
+        if (angle > 0)
+            made.set_cone(lane, angle);
+        else
+            made.set_straight(lane, way / glm::length(way));
+        made.set_reach(lane, lanes.number(Row::Maxdist, lane), lanes.number(Row::Bias, lane),
+                       counts.share[lane]);
+    }
     lanes.for_each_text(Row::Label, [&](const Lanes& alike) {
         label = alike.integer(Row::Label, alike.first());
         for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
             int n = alike.asks(lane) ? counts.samples[lane] : 0;
             if (n == 0) continue;
             uint32_t seed = lanes.seed(lane);
-            float angle = lanes.number(Row::Angle, lane), reach = lanes.number(Row::Maxdist, lane);
+            const float reach = lanes.number(Row::Maxdist, lane);
             vec3 P = lanes.triple(Row::P, lane);
-            Cone cone(accel_from_camera * lanes.triple(Row::D, lane), angle,
-                      flags & rsl::kGatherCosine);
-            RayStart start = ray_start(grid, lanes.point(lane), P);
+            const Cone cone = made.cone(lane);
             int32_t map = lanes.integer(Row::Map, lane);
             bool by_brightness = map && weighs && !cone.by_cosine && cone.cosine < 0.999f;
             MapDirections over(cone, by_brightness ? table_of(map) : nullptr, n);
-            LaneRays of_lane(grid, start, cone, angle > 0, seed, by_brightness ? &over : nullptr);
             for (uint32_t k = 0; k < uint32_t(n); ++k) {
-                vec3 dir = of_lane.direction(k);
-                RayFacts facts{P, frame_.camera_from_accel * dir, reach};
-                if (map) {
-                    facts.solid_angle =
-                        by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
+                vec3 dir(0.0f);
+                if (map || !of_ray.empty()) {
+                    dir = by_brightness ? over.direction(k, seed) : made.direction(lane, k);
+                    RayFacts facts{P, frame_.camera_from_accel * dir, reach};
+                    if (map)
+                        facts.solid_angle =
+                            by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
                     if (by_brightness && facts.solid_angle == 0) {
                         records.at(k, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
                         continue;
                     }
-                    light_of_map(*frame_.scene.textures, map, {&dir, 1},
-                                 over.width(facts.solid_angle), &facts.map_color);
+                    if (map)
+                        light_of_map(*frame_.scene.textures, map, {&dir, 1},
+                                     over.width(facts.solid_angle), &facts.map_color);
+                    record_ray(records, of_ray, k, lane, facts);
                 }
-                record_ray(records, of_ray, k, lane, facts);
                 if (counts.share[lane] == 0) continue;
-                lane_of[rays.count] = uint8_t(lane);
-                sample_of[rays.count] = k;
-                of_lane.add(rays, k, dir, reach, lanes.number(Row::Bias, lane), counts.share[lane]);
-                if (rays.count == kGridPoints) flush();
+                lane_of[waiting] = uint8_t(lane);
+                sample_of[waiting++] = k;
+                if (by_brightness) add_along(lane, k, dir);
+                if (waiting == kGridPoints) flush();
             }
         }
         flush();

@@ -97,6 +97,14 @@ vec3 unit_or_zero(vec3 v) {
                                                                          : vec3(0);
 }
 
+// Up to sixteen numbers of a block, nearly always all.
+void copy_block(const float* block, size_t count, float* to) {
+    if (count == kColumnPoints)
+        std::memcpy(to, block, kColumnPoints * sizeof(float));
+    else
+        std::copy_n(block, count, to);
+}
+
 // A grid's columns filled run by run: hits of one row share all but their point on the triangle.
 class HitSource : public PointSource {
   public:
@@ -267,7 +275,7 @@ class HitSource : public PointSource {
         float found[3][kColumnPoints];
         float* const to[3] = {found[0], found[1], found[2]};
         uint32_t unsound = kernels_.mix_normals(&normals_[0][0], at, to);
-        for (size_t k = 0; k < 3; ++k) std::copy_n(found[k], points.count(), N_.c[k] + first);
+        for (size_t k = 0; k < 3; ++k) copy_block(found[k], points.count(), N_.c[k] + first);
         for (unsound &= (1u << points.count()) - 1; unsound; unsound &= unsound - 1) {
             const size_t i = first + size_t(std::countr_zero(unsound));
             N_.set(i, geometric_normal(i));
@@ -284,11 +292,11 @@ class HitSource : public PointSource {
 
     // Numbers of a block to the rows from `first` on, where somebody asked for them.
     void put(size_t which, size_t first, size_t count, const float* numbers) const {
-        if (float* row = column(which)) std::copy_n(numbers, count, row + first);
+        if (float* row = column(which)) copy_block(numbers, count, row + first);
     }
     void put(const Triple& triple, size_t first, size_t count, const TripleRows& numbers) const {
         for (size_t k = 0; triple && k < 3; ++k)
-            std::copy_n(numbers.at[k], count, triple.c[k] + first);
+            copy_block(numbers.at[k], count, triple.c[k] + first);
     }
 
     void sixteen_parameters(size_t first, size_t end) const {

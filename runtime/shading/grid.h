@@ -52,6 +52,7 @@ struct Grid {
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
     const ShaderInstance* look;
+    bool dense = false;  // hits one behind the other
     uint32_t depth = 0;
     std::span<float*> columns;              // by Column
     std::span<jit::RecordSet> record_sets;  // [0]: lights at P

@@ -95,7 +95,7 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
         for (size_t at = 0, n; at < run.hits.size(); at += n) {
             n = std::min(kGridPoints, run.hits.size() - at);
             if (points + n > kGridPoints) shade_lit();
-            lit[grids++] = &light_grid(call, run.hits.subspan(at, n), *run.look, shadows);
+            lit[grids++] = &light_grid(call, run, run.hits.subspan(at, n), shadows);
             points += n;
         }
         if (costs) shade_lit();
@@ -184,11 +184,13 @@ void HitShader::collect(std::span<Grid* const> grids, RayCollector& rays) {
 }
 
 // A grid in the arena with all that its kernel reads; its shadows are cast at the queue's end.
-Grid& HitShader::light_grid(const Call& call, std::span<const uint32_t> points,
-                            const ShaderInstance& look, LightShadows& shadows) {
+Grid& HitShader::light_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points,
+                            LightShadows& shadows) {
+    const ShaderInstance& look = *run.look;
     void* at = call.memory.arena.allocate(sizeof(Grid));
     Grid& grid = *new (at) Grid(frame_, call.memory, call.hits, points, &look);
     kernels_.prepare(grid, call.ray);
+    grid.dense = run.ascending && points.back() - points.front() == points.size() - 1;
     grid.shadows = &shadows;
     grid.goes_on = call.result.passages;
     want_columns(grid, look.full.columns);
@@ -198,6 +200,21 @@ Grid& HitShader::light_grid(const Call& call, std::span<const uint32_t> points,
     grid.shadows = &shadows_;
     return grid;
 }
+
+namespace {
+
+// An output of the kernel to the hits; `otherwise` where it has none.
+void put_output(const Grid& grid, const float* output, float otherwise, float* to) {
+    const size_t count = grid.count();
+    if (grid.dense && output)
+        std::copy_n(output, count, to + grid.points[0]);
+    else if (grid.dense)
+        std::fill_n(to + grid.points[0], count, otherwise);
+    else
+        for (size_t i = 0; i < count; ++i) to[grid.points[i]] = output ? output[i] : otherwise;
+}
+
+}  // namespace
 
 void HitShader::shade_grid(const Call& call, Grid& grid) {
     const ShaderInstance& look = *grid.look;
@@ -210,11 +227,10 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
     float *Ci[3], *Oi[3];
     find_color(look.full.kernel(), out, rsl::Global::Ci, Ci);
     find_color(look.full.kernel(), out, rsl::Global::Oi, Oi);
-    for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < points.size(); ++i) {
-            result.Ci[k][points[i]] = Ci[k] ? Ci[k][i] : 0.0f;
-            result.Oi[k][points[i]] = Oi[k] ? Oi[k][i] : 1.0f;
-        }
+    for (int k = 0; k < 3; ++k) {
+        put_output(grid, Ci[k], 0, result.Ci[k]);
+        put_output(grid, Oi[k], 1, result.Oi[k]);
+    }
     for (size_t i = 0; result.passages && i < points.size(); ++i) {
         const PointRays& rays = grid.rays[i];
         uint32_t turns = hits.rays->turns[hits.ray[points[i]]];

@@ -37,7 +37,7 @@ class HitShader {
   private:
     // One call of shade().
     struct Call;
-    Grid& light_grid(const Call& call, std::span<const uint32_t> points, const ShaderInstance& look,
+    Grid& light_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points,
                      LightShadows& shadows);
     void collect(std::span<Grid* const> grids, RayCollector& rays);
     void shade_grid(const Call& call, Grid& grid);

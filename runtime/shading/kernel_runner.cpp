@@ -2,10 +2,12 @@
 #include "runtime/shading/kernel_runner.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "jit/target.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/description/findings.h"
+#include "runtime/lights/kernels.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/scene_host.h"
 
@@ -131,19 +133,23 @@ void sort_by_counting(const uint32_t* look, size_t looks, std::span<uint32_t> or
 namespace {
 
 // Bits of a number below 8, two places apart.
-constexpr uint32_t kSpread[] = {0, 1, 8, 9, 64, 65, 72, 73};
+uint32_t spread(uint32_t x) {
+    return (x & 1) | (x & 2) << 2 | (x & 4) << 4;
+}
 
 // The cell of each hit among 8 x 8 x 8 of the hits' box, such that cells of near numbers are near.
 void find_cells(const raytrace::HitBatch& hits, std::span<uint32_t> cell) {
     std::fill(cell.begin(), cell.end(), 0u);
     for (int k = 0; k < 3; ++k) {
         const float* P = hits.P[k];
-        const auto [low, high] = std::minmax_element(P, P + hits.count);
-        const float scale = 7.99f / (*high - *low);
+        float low, high;
+        light_kernels().bounds(P, hits.count, low, high);
+        const float scale = 7.99f / (high - low);
         if (!(scale > 0 && scale < 1e30f)) continue;
-        for (size_t i = 0; i < hits.count; ++i)
-            cell[i] |= kSpread[uint32_t(std::min(std::max(0.0f, (P[i] - *low) * scale), 7.0f))]
-                       << k;
+        for (size_t i = 0; i < hits.count; ++i) {
+            const float at = std::min(std::max(0.0f, (P[i] - low) * scale), 7.0f);
+            cell[i] |= spread(uint32_t(int32_t(at))) << k;
+        }
     }
 }
 
@@ -164,17 +170,31 @@ void sort_by_place(const raytrace::HitBatch& hits, std::span<const uint32_t> loo
     for (uint32_t i : by_cell) order[next[look[i]]++] = i;
 }
 
+// The look of each hit; whether it is the same for all.
+bool find_looks(const Scene& scene, const raytrace::HitBatch& hits, std::span<uint32_t> look) {
+    uint32_t differs = 0;
+    for (size_t i = 0; i < hits.count; ++i) {
+        look[i] = scene.surfaces[hits.instance[i]].look;
+        differs |= look[i] ^ look[0];
+    }
+    return differs == 0;
+}
+
 }  // namespace
 
 std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
                                       Arena& arena) {
     std::span<uint32_t> look = arena.allocate_span<uint32_t>(hits.count);
-    for (size_t i = 0; i < hits.count; ++i) look[i] = scene.surfaces[hits.instance[i]].look;
+    const bool alike = find_looks(scene, hits, look);
     std::span<uint32_t> order = arena.allocate_span<uint32_t>(hits.count);
     constexpr size_t kScattered = 64;  // hits from which their places are worth an order
-    if (hits.count < scene.shader_instances.size())
+    const bool by_place =
+        hits.depth > 0 && hits.count >= kScattered && hits.count >= scene.shader_instances.size();
+    if (alike && !by_place)
+        std::iota(order.begin(), order.end(), 0u);
+    else if (hits.count < scene.shader_instances.size())
         sort_few(look.data(), order);
-    else if (hits.depth > 0 && hits.count >= kScattered)
+    else if (by_place)
         sort_by_place(hits, look, scene.shader_instances.size(), order, arena);
     else
         sort_by_counting(look.data(), scene.shader_instances.size(), order, arena);
@@ -184,7 +204,8 @@ std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBat
     for (size_t begin = 0, end; begin < hits.count; begin = end) {
         uint32_t own = look[order[begin]];
         for (end = begin + 1; end < hits.count && look[order[end]] == own;) ++end;
-        runs[count++] = {scene.shader_instances[own].get(), order.subspan(begin, end - begin)};
+        runs[count++] = {scene.shader_instances[own].get(), order.subspan(begin, end - begin),
+                         !by_place};
     }
     return runs.first(count);
 }

@@ -42,6 +42,7 @@ class KernelRunner {
 struct LookRun {
     const ShaderInstance* look;
     std::span<uint32_t> hits;
+    bool ascending;  // their numbers are
 };
 // All of a batch's, by the number of the look; from the arena. The cost does not depend on how many
 // looks a scene has, but where there are more hits than looks.

@@ -52,15 +52,6 @@ const float* ones_column(Arena& arena, size_t count) {
     return column.data();
 }
 
-// Whether the points are hits one behind the other, from the first of a vector on: then columns of
-// hits are columns of the points.
-bool lie_in_order(std::span<const uint32_t> points) {
-    if (points.front() % jit::kMaxLanes != 0) return false;
-    for (size_t i = 1; i < points.size(); ++i)
-        if (points[i] != points[0] + i) return false;
-    return true;
-}
-
 // The grid's points as its kernel looks for lights. While LIGHTS_DARK counts what arrives on the
 // side that the eye sees, that side is not dropped.
 SeenPoints seen_points(const Grid& grid) {
@@ -134,7 +125,8 @@ void LightRecords::run(Grid& grid) {
     size_t count = grid.count();
     LightPoints at;
     at.count = count;
-    const bool dense = lie_in_order(grid.points);
+    // From the first of a vector on, columns of hits are columns of the points.
+    const bool dense = grid.dense && grid.points.front() % jit::kMaxLanes == 0;
     auto of_points = [&](const auto* column) {
         if (dense) return column + grid.points[0];
         auto* found = arena.allocate_span<std::decay_t<decltype(*column)>>(padded(count)).data();

@@ -78,6 +78,7 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
 // goes back spreads as its mirror image, one that goes on as itself, turned. Lengths stay, so flat
 // mirrors and panes are exact.
 void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32_t hit) {
+    if (!rays.spreads) return;
     size_t i = rays.count - 1;
     vec3 in = triple(from.dir, hit), out = triple(rays.dir, i), Ng = triple(from.Ng, hit);
     float before = glm::length(in), after = glm::length(out);
@@ -97,52 +98,6 @@ void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32
     set_triple(rays.dDdy, i, turned(triple(from.dDdy, hit)));
 }
 
-RayFan::RayFan(const Grid& grid, const RayStart& start, const Cone& cone, uint32_t seed)
-    : grid_(grid), hits_(*start.hits), hit_(start.hit), cone_(cone), seed_(seed) {
-    const raytrace::HitBatch& from = hits_;
-    source_ = {start.P,
-               start.error,
-               start.Ng,
-               triple(from.Ng, hit_),
-               triple(from.dir, hit_),
-               triple(from.dDdx, hit_),
-               triple(from.dDdy, hit_)};
-}
-
-// The place of sample k.
-int RayFan::at(uint32_t k) {
-    if (k / kSixteen != made_) {
-        made_ = k / kSixteen;
-        ray_kernels().directions(cone_, made_ * kSixteen, seed_, rays_);
-        ray_kernels().leave(source_, rays_);
-    }
-    return int(k % kSixteen);
-}
-
-vec3 RayFan::direction(uint32_t k) {
-    int j = at(k);
-    return {rays_.dir[0][j], rays_.dir[1][j], rays_.dir[2][j]};
-}
-
-void RayFan::add(raytrace::RayBatch& rays, uint32_t k, float tfar, float bias, uint32_t slot,
-                 float share) {
-    int j = at(k);
-    auto at_j = [&](const float(&columns)[3][kSixteen]) {
-        return vec3(columns[0][j], columns[1][j], columns[2][j]);
-    };
-    vec3 dir = at_j(rays_.dir);
-    size_t i = rays.count++;
-    set_nested_ray(rays, i, at_j(rays_.org), dir,
-                   tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar, hits_, hit_);
-    set_triple(rays.dDdx, i, at_j(rays_.dDdx));
-    set_triple(rays.dDdy, i, at_j(rays_.dDdy));
-    if (bias > 0) rays.tnear[i] = bias;
-    if (!grid_.scene.volumes.empty()) rays.medium[i] = nested_medium(grid_.scene, hits_, hit_, dir);
-    rays.sample[i] = raytrace::hash(seed_, k);
-    rays.share[i] = share;
-    rays.slot[i] = slot;
-}
-
 namespace {
 
 // What a point's next call has for all its rays.
@@ -160,8 +115,9 @@ float share_left(Grid& grid, size_t point) {
 
 // Who asks for deeper rays gets them.
 float least_share(const Grid& grid) {
-    int deeper = std::max(0, int(grid.frame.ray_depth) - kUsualDepth);
-    return kLeastShare[std::min(grid.depth, 3u)] * std::pow(1 + kCallCost, -float(deeper));
+    const float least = kLeastShare[std::min(grid.depth, 3u)];
+    const int deeper = int(grid.frame.ray_depth) - kUsualDepth;
+    return deeper > 0 ? least * std::pow(1 + kCallCost, -float(deeper)) : least;
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ class SmoothSurface {
         mat3 from_rest{1.0f}, normals_from_rest{1.0f};
     };
     void enter(uint32_t row);
+    void turn_normals(raytrace::TrianglePoints& at, int i) const;
     const uint32_t* corners(uint32_t primitive) const;
 
     const Scene& scene_;
@@ -108,28 +109,6 @@ inline bool on_surface(const Grid& grid) {
 // Whether nothing stands on that way from a facet to its smooth surface.
 bool is_way_free(const raytrace::Accel& accel, vec3 P, vec3 error, vec3 Ng, vec3 way,
                  raytrace::TraceCounters& counters);
-
-// The rays of one point's samples in a cone, made sixteen at a time.
-class RayFan {
-  public:
-    RayFan(const Grid& grid, const RayStart& start, const Cone& cone, uint32_t seed);
-    vec3 direction(uint32_t k);
-    // As add_ray() and spread_ray() do.
-    void add(raytrace::RayBatch& rays, uint32_t k, float tfar, float bias, uint32_t slot,
-             float share = 1);
-
-  private:
-    int at(uint32_t k);
-
-    const Grid& grid_;
-    const raytrace::HitBatch& hits_;
-    uint32_t hit_;
-    Cone cone_;
-    uint32_t seed_;
-    RaySource source_;
-    uint32_t made_ = kNone;  // k / 16 of those in rays_
-    SixteenRays rays_;
-};
 
 // Rays that see something: `type` and `label` are interned texts.
 RayTag deeper(const Grid& grid, RayKind kind, int32_t label);
@@ -205,6 +184,62 @@ class Lanes {
     uint32_t mask_;
 };
 
+// The samples of some lanes: of which lane each is, and its number there.
+struct SampleSpan {
+    std::span<const uint8_t> lane;
+    std::span<const uint32_t> number;
+
+    size_t size() const { return lane.size(); }
+    SampleSpan subspan(size_t first, size_t count) const {
+        return {lane.subspan(first, count), number.subspan(first, count)};
+    }
+};
+
+// The rays of the lanes of a call, made sixteen at a time: each is what add_ray() and spread_ray()
+// would make. All lanes that ask must be told their way before the first ray is made.
+class LaneRays {
+  public:
+    // Rays leave from the argument rows from `P` on. `way`: rows of a direction in current space,
+    // of any length but 0.
+    LaneRays(const Grid& grid, const Lanes& lanes, int P, int way, bool by_cosine);
+    // Along the way alone, at its unit vector that the caller finds.
+    vec3 way(int lane) const;
+    void set_straight(int lane, vec3 unit);
+    // In a cone about the way, of half the opening angle.
+    void set_cone(int lane, float angle);
+    void set_reach(int lane, float tfar, float bias, float share);
+    void set_weight(int lane, float weight);
+
+    // The direction of a sample; the cone that it is in.
+    vec3 direction(int lane, uint32_t k);
+    Cone cone(int lane);
+    // Slots count up from `slot`.
+    void add(raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot);
+
+  private:
+    bool of_light() const;
+    void find_hits(int P);
+    void enter_hits();
+    void enter_starts(int P);
+    const float* arguments(int row) const;
+    void aim();
+    void put(raytrace::RayBatch& rays, const RaySamples& samples, size_t count, uint32_t slot);
+
+    const Grid& grid_;
+    const Lanes& lanes_;
+    const raytrace::HitBatch* hits_[kSixteen];
+    uint32_t hit_[kSixteen];
+    bool dense_ = false;  // one behind the other
+    RayWants wants_;
+    RayLanes lane_;
+    bool aimed_ = false;
+    float angle_ = 0, cosine_ = 1;  // of the cone set last
+    // What direction() made last.
+    float made_[3][kSixteen];
+    int lane_made_ = -1;
+    uint32_t block_made_ = 0;
+};
+
 // The rays that a call sends from each lane.
 struct RayPlan {
     int count[jit::kMaxLanes] = {};
@@ -231,12 +266,15 @@ class RayCollector {
     // Forgets all calls, whose memory is the arena's.
     void reset();
 
+    // How many more rays fit into the batch.
+    size_t room() const { return kGridPoints - batch_->rays.count; }
     // Notes a call; what its rays see comes to stand there, a ray after the other.
     std::span<SeenByRay> note(const Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan);
     // Where the next ray with that tag is to be added.
     raytrace::RayBatch& batch(const RayTag& tag);
-    // Of the ray added last.
-    void expect(SeenByRay& seen) { targets_[batch_->rays.count - 1] = &seen; }
+    // Of the rays that were added last, from `first` on: ray r shows what the sample of its slot,
+    // from `first` on, sees.
+    void expect(size_t first, SeenByRay* seen);
     // What the rays of the same call saw; nothing where it was not noted.
     std::optional<std::span<const SeenByRay>> find(const Grid& grid, const Lanes& lanes, int rows,
                                                    const RayPlan& plan);
@@ -261,19 +299,15 @@ inline bool is_noting(const Grid& grid) {
     return grid.collector && grid.collector->collecting();
 }
 
-// The sample that each element of a batch is: of which lane, and its number there.
-struct SampleSpan {
-    std::span<const uint8_t> lane;
-    std::span<const uint32_t> number;
-};
-
-// Adds the ray of sample k of a lane to the batch, or none where it sees nothing.
-using AddSample = FunctionRef<void(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot)>;
+// Adds the rays of samples, whose slots count up from `slot`; none for those that see
+// nothing.
+using AddSamples =
+    FunctionRef<void(raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot)>;
 using SumSamples = FunctionRef<void(const SampleSpan& samples, std::span<const SeenByRay> seen)>;
 
 // Sees along all rays of a plan; `sum` gets the samples in the order of lanes and numbers. It is
 // not called where rays are only noted: all that is seen is then unknown, and black.
 void see_samples(Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan, const RayTag& tag,
-                 NestedRays& nested, const AddSample& add, const SumSamples& sum);
+                 NestedRays& nested, const AddSamples& add, const SumSamples& sum);
 
 }  // namespace kinora

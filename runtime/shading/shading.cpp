@@ -98,9 +98,20 @@ void set_media(ShadingFrame& frame) {
     frame.miss_distance = endless ? frame.far_distance : 0.0f;
 }
 
+// du and dv are the footprint's size; bake3d takes it for points without a radius.
+bool reads_footprints(const ShaderInstance& look) {
+    static const jit::ServiceFn bake = find_service("bake3d");
+    auto reads = [](const BoundKernel& kernel) {
+        return std::ranges::any_of(kernel.columns,
+                                   [](uint16_t c) { return c == kColDu || c == kColDv; }) ||
+               std::ranges::count(kernel.services, bake) > 0;
+    };
+    return reads(look.full) || (look.opacity && reads(*look.opacity));
+}
+
 }  // namespace
 
-void Shading::begin_frame(uint32_t seed, int max_layers) {
+void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     ShadingFrame& frame = objects_->frame;
     ThreadMemories& threads = objects_->threads;
     frame.seed = seed;
@@ -111,7 +122,14 @@ void Shading::begin_frame(uint32_t seed, int max_layers) {
     frame.split = uint32_t(frame.scene.options.split);
     while (threads.size() < size_t(thread_count()))
         threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
-    for (auto& thread : threads) thread->counters = {};
+    frame.footprints =
+        all_inputs || std::ranges::any_of(frame.scene.shader_instances, [](const auto& look) {
+            return kinora::reads_footprints(*look);
+        });
+    for (auto& thread : threads) {
+        thread->counters = {};
+        thread->footprints = frame.footprints;
+    }
     objects_->kernels.begin_frame(threads.size());
     objects_->gathers.begin_frame(threads.size());
     objects_->prints.begin_frame(threads.size());
@@ -148,6 +166,10 @@ ShadingCounters Shading::drop_frame(Diagnostics& diagnostics) {
 
 void Shading::shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) {
     objects_->hits.shade(hits, {}, *objects_->threads[size_t(thread)], result);
+}
+
+bool Shading::reads_footprints() const {
+    return objects_->frame.footprints;
 }
 
 float Shading::miss_distance() const {

@@ -18,8 +18,9 @@ class Shading : public raytrace::SurfaceShading {
     ~Shading() override;
 
     // Before the first shade() of a frame at Scene::time: sizes the threads' memory, runs the frame
-    // kernels. Rays see through max_layers surfaces, as those of the camera do.
-    void begin_frame(uint32_t seed, int max_layers);
+    // kernels. Rays see through max_layers surfaces, as those of the camera do. `all_inputs`: what
+    // no kernel reads is wanted, too.
+    void begin_frame(uint32_t seed, int max_layers, bool all_inputs = false);
     // The frame ends as soon as it can once this is not 0; null: never.
     void stop_by(const std::atomic<int>* flag);
     bool stopped() const override;
@@ -32,6 +33,7 @@ class Shading : public raytrace::SurfaceShading {
     ShadingCounters drop_frame(Diagnostics& diagnostics);
 
     void shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) override;
+    bool reads_footprints() const override;
     float miss_distance() const override;
     void shade_misses(const raytrace::HitBatch& ends, int thread,
                       raytrace::ShadeResult& result) override;

@@ -26,7 +26,7 @@ struct ShadingCounters {
     uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
     uint64_t out_of_rays = 0;       // points that asked for more rays than they may shoot
     uint64_t kernel_points = 0, kernel_lanes = 0;  // of all launches; lanes in whole registers
-    uint64_t seen = 0, dark = 0;    // hits of the camera that show anything; of those, unlit ones
+    uint64_t seen = 0, dark = 0;  // hits of the camera that show anything; of those, unlit ones
     void operator+=(const ShadingCounters& o);
 };
 
@@ -41,6 +41,7 @@ struct ShadingFrame {
     uint32_t diffuse_depth = 0;  // bounces of indirectdiffuse
     uint32_t ray_limit = 0;      // SceneOptions::ray_limit, split
     uint32_t split = 0;
+    bool footprints = true;  // some shader reads those of hits
     bool any_transparent = false;
     // Where rays that meet nothing end: the camera's far clip where its file has one, else the far
     // side of the scene: the eye's distance from the centre plus the diagonal.
@@ -61,7 +62,8 @@ struct ThreadMemory {
         raytrace::RayBatch rays;
         raytrace::HitStore hits;
     };
-    size_t number;  // of the thread
+    size_t number;           // of the thread
+    bool footprints = true;  // ShadingFrame::footprints
     Arena arena{1 << 20};
     ShadingCounters counters;
     std::vector<std::unique_ptr<Level>> levels;
@@ -76,10 +78,11 @@ class NestedWavefront {
         if (memory.level == memory.levels.size())
             memory.levels.push_back(std::make_unique<ThreadMemory::Level>());
         level_ = memory.levels[memory.level++].get();
+        level_->rays.spreads = memory.footprints;
     }
     ~NestedWavefront() { --memory_.level; }
     NestedWavefront(const NestedWavefront&) = delete;
-    ThreadMemory::Level* operator->() { return level_; }
+    ThreadMemory::Level* operator->() const { return level_; }
 
   private:
     ThreadMemory& memory_;

@@ -48,12 +48,21 @@ void SmoothSurface::enter(uint32_t row) {
 }
 
 // Indices of its three normals; null where it has none.
-const uint32_t* SmoothSurface::corners(uint32_t primitive) const {
+inline const uint32_t* SmoothSurface::corners(uint32_t primitive) const {
     const size_t first = 3 * size_t(primitive), entries = row_.normals.size();
     if (first + 3 > row_.normal_corners.size()) return nullptr;
     const uint32_t* corner = &row_.normal_corners[first];
     const bool good = corner[0] < entries && corner[1] < entries && corner[2] < entries;
     return good ? corner : nullptr;
+}
+
+// From the rest of an instance to where it stands.
+void SmoothSurface::turn_normals(raytrace::TrianglePoints& at, int i) const {
+    for (auto& corners_of : at.corner) {
+        float* n = corners_of[i];
+        const vec3 turned = row_.normals_from_rest * vec3(n[0], n[1], n[2]);
+        for (int c = 0; c < 3; ++c) n[c] = turned[c];
+    }
 }
 
 uint32_t SmoothSurface::ways_from(const raytrace::HitBatch& hits, const uint32_t* hit,
@@ -66,13 +75,14 @@ uint32_t SmoothSurface::ways_from(const raytrace::HitBatch& hits, const uint32_t
         const uint32_t row = hits.instance[hit[i]];
         if (row != row_.number && row != kNone) enter(row);
         const uint32_t* corner = row == kNone ? nullptr : corners(hits.primitive[hit[i]]);
-        for (size_t k = 0; k < 3; ++k) {
-            vec4 n = corner ? row_.normals[corner[k]] : vec4(0.0f);
-            if (row_.instanced) n = vec4(row_.normals_from_rest * vec3(n), 0);
-            std::memcpy(at.corner[k][i], &n, sizeof(n));
-        }
         at.u[i] = hits.u[hit[i]];
         at.v[i] = hits.v[hit[i]];
+        for (size_t k = 0; corner && k < 3; ++k)
+            std::memcpy(at.corner[k][i], &row_.normals[corner[k]], sizeof(vec4));
+        if (!corner)
+            for (auto& corners_of : at.corner) std::fill_n(corners_of[i], 4, 0.0f);
+        else if (row_.instanced)
+            turn_normals(at, i);
         smooth |= uint32_t(corner != nullptr) << i;
     }
     smooth &= ~raytrace::point_kernels().sees_light(at, rays, kSeesLight);

@@ -20,29 +20,29 @@ namespace {
 
 constexpr int kLanes = jit::kMaxLanes;
 
-// Fills batches with the samples of all lanes and hands each full one to flush(first sample of the
-// batch). add(lane, k) adds one ray with slot = its index in the batch.
-template <class Count, class Add, class Flush>
-void in_batches(const Lanes& lanes, raytrace::RayBatch& rays, Count&& count, Add&& add,
+// Fills batches with the samples of all lanes: add(samples) adds the rays of one batch, whose slots
+// count up from 0, and flush(lane of each) consumes them.
+template <class Add, class Flush>
+void in_batches(const Lanes& lanes, const int (&count)[kLanes], raytrace::RayBatch& rays, Add&& add,
                 Flush&& flush) {
     uint8_t lane_of[kGridPoints];
-    uint32_t filled = 0;
+    uint32_t number_of[kGridPoints];
+    size_t filled = 0;
     rays.reserve(kGridPoints);
     rays.count = 0;
     auto empty = [&] {
-        if (filled > 0) flush(std::span<const uint8_t>(lane_of, filled));
+        if (filled == 0) return;
+        add(SampleSpan{{lane_of, filled}, {number_of, filled}});
+        flush(std::span<const uint8_t>(lane_of, filled));
         rays.count = 0;
         filled = 0;
     };
-    for (int lane = 0; lane < kLanes; ++lane) {
-        if (!lanes.asks(lane)) continue;
-        int n = count(lane);
-        for (int k = 0; k < n; ++k) {
+    for (int lane = 0; lane < kLanes; ++lane)
+        for (int k = 0; lanes.asks(lane) && k < count[lane]; ++k) {
             lane_of[filled] = uint8_t(lane);
-            add(lane, uint32_t(k), filled);
+            number_of[filled] = uint32_t(k);
             if (++filled == kGridPoints) empty();
         }
-    }
     empty();
 }
 
@@ -71,36 +71,29 @@ enum ConeArgs { kP = 2, kN = 5, kSamples = 8, kAngle, kMaxdist, kBias, kMoreArgs
 
 class ConeRays {
   public:
-    ConeRays(const Grid& grid, const Lanes& lanes, const mat3& accel_from_camera)
-        : grid_(grid), lanes_(lanes), accel_from_camera_(accel_from_camera) {}
+    ConeRays(const Grid& grid, const Lanes& lanes) : grid_(grid), lanes_(lanes) {}
 
     int count(int lane) const {
         bool asks = grid_.shadows && has_direction(lanes_.triple(kN, lane));
         return asks ? lanes_.samples(kSamples, lane) : 0;
     }
-    vec3 direction(int lane, uint32_t k) { return fan(lane).direction(k); }
-    void add(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot, float share = 1) {
-        fan(lane).add(rays, k, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane), slot,
-                      share);
+    // Made when they are first asked for; `share` of each lane.
+    LaneRays& rays(const float (&share)[kLanes]) {
+        if (rays_) return *rays_;
+        rays_.emplace(grid_, lanes_, kP, kN, true);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            if (!lanes_.asks(lane)) continue;
+            rays_->set_cone(lane, lanes_.number(kAngle, lane));
+            rays_->set_reach(lane, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane),
+                             share[lane]);
+        }
+        return *rays_;
     }
 
   private:
-    RayFan& fan(int lane) {
-        if (lane != lane_) {
-            Cone cone(accel_from_camera_ * lanes_.triple(kN, lane), lanes_.number(kAngle, lane),
-                      true);
-            RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(kP, lane));
-            fan_.emplace(grid_, start, cone, lanes_.seed(lane));
-            lane_ = lane;
-        }
-        return *fan_;
-    }
-
     const Grid& grid_;
     const Lanes& lanes_;
-    mat3 accel_from_camera_;
-    int lane_ = -1;  // whose rays fan_ makes
-    std::optional<RayFan> fan_;
+    std::optional<LaneRays> rays_;
 };
 
 // Of the nearest surface along each ray, kMiss without one.
@@ -171,17 +164,21 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
         if (deep) refuse_rays(grid, lanes.point(lane), count(lane));
         if (shoots) plan.count[lane] = shoot(lane);
     }
-    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
-    auto add = [&](raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot) {
-        uint32_t seed = lanes.seed(lane);
-        vec3 dir = glm::normalize(accel_from_camera * lanes.triple(R, lane));
-        if (float spread = lanes.number(Spread, lane); spread > 0)
-            dir = Cone(dir, spread, false).direction(k, seed);
-        RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(P, lane));
-        add_ray(rays, grid, start, dir, lanes.number(Maxdist, lane), lanes.number(Bias, lane),
-                raytrace::hash(seed, k), slot, plan.share[lane]);
-        rays.weight[rays.count - 1] = plan.way[lane].weight;
-        spread_ray(rays, *start.hits, start.hit);
+    std::optional<LaneRays> made;
+    auto make = [&] {
+        made.emplace(grid, lanes, P, R, false);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            if (plan.count[lane] == 0) continue;
+            made->set_straight(lane, glm::normalize(made->way(lane)));
+            if (lanes.number(Spread, lane) > 0) made->set_cone(lane, lanes.number(Spread, lane));
+            made->set_reach(lane, lanes.number(Maxdist, lane), lanes.number(Bias, lane),
+                            plan.share[lane]);
+            made->set_weight(lane, plan.way[lane].weight);
+        }
+    };
+    auto add = [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
+        if (!made) make();
+        made->add(rays, samples, slot);
     };
     auto sum = [&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
         for (size_t i = 0; i < seen.size(); ++i) {
@@ -343,8 +340,11 @@ void RayServices::transmission(Grid& grid, const jit::ServiceCall& call) {
     Passing passing(frame_, grid, lanes, transmission_);
     NestedWavefront nested(memory);
     in_batches(
-        lanes, nested->rays, [&](int lane) { return count[lane]; },
-        [&](int lane, uint32_t k, uint32_t slot) { passing.add(nested->rays, lane, k, slot); },
+        lanes, count, nested->rays,
+        [&](const SampleSpan& samples) {
+            for (uint32_t i = 0; i < samples.size(); ++i)
+                passing.add(nested->rays, samples.lane[i], samples.number[i], i);
+        },
         [&](std::span<const uint8_t> lane_of) {
             std::span<const vec3> through = passing.pass(nested->rays);
             for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += through[i];
@@ -365,18 +365,20 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     std::span<vec3> dirs = memory.arena.allocate_span<vec3>(kGridPoints);
     std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
     NestedWavefront nested(memory);
-    ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
+    ConeRays cone(grid, lanes);
     int count[kLanes] = {};
+    float share[kLanes];
+    std::fill_n(share, kLanes, 1.0f);
     for (int lane = 0; lane < kLanes; ++lane) {
         int wanted = lanes.asks(lane) && !frame_.stopped() ? cone.count(lane) : 0;
         if (wanted > 0) count[lane] = spend_samples(grid, lanes.point(lane), wanted);
         if (is_noting(grid)) count[lane] = 0;
     }
     in_batches(
-        lanes, nested->rays, [&](int lane) { return count[lane]; },
-        [&](int lane, uint32_t k, uint32_t slot) {
-            dirs[slot] = cone.direction(lane, k);
-            cone.add(nested->rays, lane, k, slot);
+        lanes, count, nested->rays,
+        [&](const SampleSpan& samples) {
+            cone.rays(share).add(nested->rays, samples, 0);
+            for (size_t i = 0; i < samples.size(); ++i) dirs[i] = triple(nested->rays.dir, i);
         },
         [&](std::span<const uint8_t> lane_of) {
             bool by_distance = false;
@@ -430,7 +432,7 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     // What lies beyond the last bounce is black; a map alone costs no ray.
     bool bounces = grid.depth < frame_.ray_depth && grid.ray.diffuse < frame_.diffuse_depth &&
                    !frame_.stopped();
-    ConeRays cone(grid, lanes, glm::transpose(frame_.camera_from_accel));
+    ConeRays cone(grid, lanes);
     // The bounces are counted: all are followed, the later ones with fewer rays.
     float share[kLanes] = {};
     int samples[kLanes] = {};
@@ -456,15 +458,21 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     std::span<vec3> light = memory.arena.allocate_span<vec3>(most);
     see_samples(
         grid, lanes, Rows, plan, deeper(grid, RayKind::Diffuse, 0), nested_,
-        [&](raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot) {
-            if (bounces && lanes.number(kMaxdist, lane) > 0)
-                cone.add(rays, lane, k, slot, plan.share[lane]);
+        [&](raytrace::RayBatch& rays, const SampleSpan& planned, uint32_t slot) {
+            auto shoots = [&](size_t at) {
+                return bounces && lanes.number(kMaxdist, planned.lane[at]) > 0;
+            };
+            for (size_t i = 0, n; i < planned.size(); i += n) {  // runs that are shot or not
+                for (n = 1; i + n < planned.size() && shoots(i + n) == shoots(i);) ++n;
+                if (shoots(i))
+                    cone.rays(plan.share).add(rays, planned.subspan(i, n), slot + uint32_t(i));
+            }
         },
         [&](const SampleSpan& all, std::span<const SeenByRay> seen) {
             for_each_map(lanes, Map, all.lane, [&](size_t begin, size_t end, int32_t map) {
                 int lane = all.lane[begin];
                 for (size_t i = begin; i < end; ++i)
-                    dirs[i - begin] = cone.direction(lane, all.number[i]);
+                    dirs[i - begin] = cone.rays(plan.share).direction(lane, all.number[i]);
                 light_of_map(*frame_.scene.textures, map, dirs.first(end - begin),
                              sample_width(samples[lane]), light.data());
                 for (size_t i = begin; i < end; ++i) sky[lane] += seen[i].open * light[i - begin];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "raytrace/hits.h"
 #include "raytrace/sampling.h"
 #include "runtime/base/stage_clock.h"
+#include "runtime/columns/kernels.h"
+#include "runtime/lights/kernels.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/nested_rays.h"
 
@@ -19,11 +22,11 @@ namespace kinora {
 void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
                     const raytrace::HitBatch& from, uint32_t hit) {
     set_ray(rays, i, org, dir, tfar);
-    for (size_t k = 0; k < 3; ++k) {
+    set_triple(rays.first_org, i, org);
+    for (size_t k = 0; rays.spreads && k < 3; ++k) {
         rays.dOdx[k][i] = from.dPdx[k][hit];
         rays.dOdy[k][i] = from.dPdy[k][hit];
         rays.dDdx[k][i] = rays.dDdy[k][i] = 0;
-        rays.first_org[k][i] = org[int(k)];
     }
     rays.t_passed[i] = 0;
     rays.pixel_x[i] = from.pixel_x[hit];
@@ -46,7 +49,7 @@ static void aim_at(raytrace::RayBatch& rays, size_t i, vec3 end) {
     rays.tfar[i] = 1;
     rays.window[i] *= scale;
     rays.t_passed[i] *= scale;
-    for (size_t k = 0; k < 3; ++k) {
+    for (size_t k = 0; rays.spreads && k < 3; ++k) {
         rays.dDdx[k][i] /= scale;
         rays.dDdy[k][i] /= scale;
     }
@@ -236,21 +239,18 @@ void ShadowQueue::cast(const Grid& grid, const LightPoints& at, const SentLight&
 
 // The points that the light reaches at all.
 size_t ShadowQueue::choose(const LightPoints& at, const SentLight& light) {
-    const float *r = light.Cl[0], *g = light.Cl[1], *b = light.Cl[2];
-    size_t count = 0;
-    for (uint32_t i = 0; i < at.count; ++i) {
-        const bool lit = !light.lit || jit::bits_of(light.lit[i]) != 0;
-        chosen_[count] = i;
-        count += lit & !((r[i] == 0) & (g[i] == 0) & (b[i] == 0));
-    }
-    return count;
+    const float* const Cl[3] = {light.Cl[0], light.Cl[1], light.Cl[2]};
+    return light_kernels().choose(Cl, light.lit, at.count, chosen_);
 }
 
 namespace {
 
 // Elements of a column, which often lie one behind the other.
 void pick(const float* column, std::span<const uint32_t> points, float* to) {
-    if (points.back() - points.front() == points.size() - 1)
+    const bool dense = points.back() - points.front() == points.size() - 1;
+    if (dense && points.size() == raytrace::kPacket)
+        std::memcpy(to, column + points.front(), raytrace::kPacket * sizeof(float));
+    else if (dense)
         std::copy_n(column + points.front(), points.size(), to);
     else
         for (size_t j = 0; j < points.size(); ++j) to[j] = column[points[j]];
@@ -262,7 +262,8 @@ void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight&
                        std::span<const uint32_t> points) {
     raytrace::LeavingRays& rays = fresh_.rays;
     const size_t first = size_t(fresh_.count), end = first + points.size();
-    float L[3][raytrace::kPacket];
+    static_assert(raytrace::kPacket == kColumnPoints);
+    float L[3][raytrace::kPacket] = {}, way[3][raytrace::kPacket];
     for (size_t k = 0; k < 3; ++k) {
         pick(at.accel[k], points, rays.P[k] + first);
         pick(at.error[k], points, rays.error[k] + first);
@@ -271,16 +272,18 @@ void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight&
         std::fill(rays.up[k] + first, rays.up[k] + end, 0.0f);
         std::fill(rays.short_of[k] + first, rays.short_of[k] + end, 0.0f);
     }
+    float* const to[3] = {way[0], way[1], way[2]};
+    column_kernels().turn(&accel_from_camera_[0][0], {{L[0], L[1], L[2]}}, to);
+    for (size_t k = 0; k < 3; ++k) std::copy_n(way[k], points.size(), rays.way[k] + first);
     for (size_t j = 0; j < points.size(); ++j) {
         const size_t lane = first + j;
-        const vec3 way = accel_from_camera_ * vec3(L[0][j], L[1][j], L[2][j]);
-        for (int k = 0; k < 3; ++k) rays.way[k][lane] = way[k];
         rays.endless[lane] = light.solar;
         fresh_.hit[lane] = grid.points[at.first + points[j]];
         fresh_.target[lane] = {{light.Cl[0], light.Cl[1], light.Cl[2]}, points[j]};
         if (!light.samples || light.solar) continue;
         const vec3 off = before_sample(light.samples->hits, points[j],
-                                       {rays.P[0][lane], rays.P[1][lane], rays.P[2][lane]}, way);
+                                       {rays.P[0][lane], rays.P[1][lane], rays.P[2][lane]},
+                                       {way[0][j], way[1][j], way[2][j]});
         for (int k = 0; k < 3; ++k) rays.short_of[k][lane] = off[k];
     }
     fresh_.count = int(end);
@@ -329,6 +332,7 @@ void ShadowQueue::move(const Packet& from, int lane, Packet& to) {
 
 // What becomes of rays that are in packet_.
 void ShadowQueue::settle(const Packet& packet, uint32_t lanes, uint32_t blocked) {
+    if (!dims_) lanes &= blocked;
     for (; lanes; lanes &= lanes - 1) {
         const int j = std::countr_zero(lanes);
         const bool met = blocked >> j & 1;

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Writes the scene that frame times are measured on: a skinned tube of 70 000 triangles that bends
 and twists on ten joints over 24 frames, marble by assets/shaders/marble.sl, one directional light
-that casts shadows, a camera whose 4:3 picture it half fills.
+that casts shadows, a camera whose 4:3 picture it half fills. `dance` bends and twists it eight times as much; `collapse`
+lets it fall into a heap of a tenth of its height.
 
-    scripts/bench/make_bench_scene.py bench.dae
+    scripts/bench/make_bench_scene.py bench.dae [dance|collapse]
     kinora-render bench.dae --size 640x480 --spp 1 --math fast --threads 1 --frames 1-10 --stats -o /tmp/bench.#.png
 """
 import math
@@ -97,19 +98,36 @@ def controller(positions):
             "</vertex_weights></skin></controller>")
 
 
-def animation(joint, transform, angle):
-    """One sine of `angle` degrees over the clip, in nine linear keys."""
-    name = f"J{joint}-{transform}"
-    keys = 9
+KEYS = 9
+# How far joints bend and twist, degrees, and the share of its height that the tube falls.
+MOVES = {"": (4, 8, 0), "dance": (32, 64, 0), "collapse": (12, 24, 0.9)}
+
+
+def swing(joint, transform, angle):
+    """One sine of `angle` degrees over the clip."""
+    return channel(joint, f"{transform}.ANGLE", "ANGLE",
+                   [angle * math.sin(2 * math.pi * k / (KEYS - 1) + 0.5 * joint)
+                    for k in range(KEYS)])
+
+
+def fall(joint, share):
+    """The joint comes nearer to the one before."""
+    step = HEIGHT / (JOINTS - 1)
+    return channel(joint, "place.Y", "Y", [step * (1 - share * k / (KEYS - 1)) for k in range(KEYS)])
+
+
+def channel(joint, target, param, values):
+    """The values over the clip, in linear keys."""
+    name = f"J{joint}-{target.split('.')[0]}"
+    keys = len(values)
     times = [k * FRAMES / RATE / (keys - 1) for k in range(keys)]
-    values = [angle * math.sin(2 * math.pi * k / (keys - 1) + 0.5 * joint) for k in range(keys)]
     return (f'<animation id="{name}">{source(name + "-t", times, 1, ["TIME"])}'
-            f'{source(name + "-v", values, 1, ["ANGLE"])}'
+            f'{source(name + "-v", values, 1, [param])}'
             f'{names(name + "-i", ["LINEAR"] * keys, "INTERPOLATION")}'
             f'<sampler id="{name}-s"><input semantic="INPUT" source="#{name}-t"/>'
             f'<input semantic="OUTPUT" source="#{name}-v"/>'
             f'<input semantic="INTERPOLATION" source="#{name}-i"/></sampler>'
-            f'<channel source="#{name}-s" target="J{joint}/{transform}.ANGLE"/></animation>')
+            f'<channel source="#{name}-s" target="J{joint}/{target}"/></animation>')
 
 
 def joint_nodes():
@@ -126,9 +144,11 @@ def joint_nodes():
 def main():
     marble = pathlib.Path(__file__).resolve().parents[2] / "assets/shaders/marble.sl"
     positions, normals, corners = tube()
-    moves = "".join(
-        animation(j, transform, angle)
-        for j in range(1, JOINTS) for transform, angle in (("bend", 4), ("twist", 8)))
+    bend, twist, share = MOVES[sys.argv[2] if len(sys.argv) > 2 else ""]
+    moves = "".join(swing(j, transform, angle) for j in range(1, JOINTS)
+                    for transform, angle in (("bend", bend), ("twist", twist)))
+    if share:
+        moves += "".join(fall(j, share) for j in range(1, JOINTS))
     text = f"""<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><created>2026-11-21T00:00:00Z</created><modified>2026-11-21T00:00:00Z</modified>

@@ -99,6 +99,13 @@ class ExitCodes(ProgramTest):
         for name in ("a.png", "a.exr"):
             result = render(MATTE, "-o", self.folder / name, *SMALL, preexec_fn=small_files)
             self.expect(result, 6, "cannot write")
+        # Beside the next frame: the run ends there, or every frame tells its own.
+        frames = (MATTE, "-o", self.folder / "f.#.png", "--frames", "1-3", *SMALL[:-1], "2")
+        result = render(*frames, preexec_fn=small_files)
+        self.expect(result, 6, "f.1.png")
+        self.assertNotIn("f.2.png", result.err)
+        result = render(*frames, "--keep-going", preexec_fn=small_files)
+        self.expect(result, 1, "f.1.png", "f.2.png", "f.3.png")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_keep_going_renders_the_frames_that_can_be(self):

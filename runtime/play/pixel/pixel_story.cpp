@@ -22,7 +22,7 @@ PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
     if (!pose_frame(scene, time, settings, stats, ignored)) return story;
     raytrace::Film film;
     scene.shading->stop_by(settings.stop);
-    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
+    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers, true);
     {
         PointRecorder recorder([&](RecordedPoint& point) {
             if (story.points.size() < kMostPoints)

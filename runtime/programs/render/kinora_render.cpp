@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <utility>
 
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
@@ -17,6 +18,8 @@
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/fingerprint.h"
+#include "runtime/programs/render/frame_codes.h"
+#include "runtime/programs/render/frame_writer.h"
 #include "runtime/programs/render/frames_to_render.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/programs/render/stats.h"
@@ -96,6 +99,7 @@ class Render {
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
     bool keep_existing(const std::string& file, const std::string& print);
+    void end_write();
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
     void place_session_camera(double time);
@@ -109,10 +113,12 @@ class Render {
     std::optional<TargetedFrames> targeted_;
     FrameSettings settings_;
     PlacedCamera placed_;
-    raytrace::Film film_;
+    raytrace::Film film_, spare_film_;
     ProgressReport progress_;
     ContactSheet sheet_;
     std::vector<FrameRecord> records_;
+    FrameWriter writer_;
+    FrameCodes codes_{options_.keep_going};
     FrameRate rate_;
     Stopwatch since_start_;
     double load_ms_ = 0, build_ms_ = 0, first_ray_ms_ = 0;
@@ -209,13 +215,16 @@ bool Render::keep_existing(const std::string& file, const std::string& print) {
 }
 
 int Render::one_frame(int64_t frame, double time, size_t index) {
+    const size_t number = records_.size();
     FrameRecord& record = records_.emplace_back();
     record.frame = frame;
+    record.index = index;
     record.pixels = size_t(settings_.width) * size_t(settings_.height);
     if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
     std::string print =
         fingerprint(asked_, scene_hash_, settings_.width, settings_.height, rate_.value(), time);
     bool wants_file = !record.file.empty();
+    if (wants_file && options_.skip_existing) end_write();  // pictures of a sheet come in order
     if (wants_file && options_.skip_existing && keep_existing(record.file, print)) {
         record.skipped = true;
         progress_.frame_skipped(frame, index, record.file);
@@ -234,24 +243,47 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     bool whole =
         (!targeted_ || choose_samples(frame, time, progress)) && picture(record, time, progress);
     bool baked = unwritable() == unwritten;  // point files
+    end_write();
     if (g_signal) return 128 + g_signal;
+    if (codes_.ended()) return codes_.code();
     flush_findings();
     if (!whole) return kExitSomeFailed;
     record.samples = settings_.integrator.samples_per_pixel;
     if (targeted_) targeted_->took(record.samples, record.stats.total);
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
-    Stopwatch watch;
     if (wants_file) {
-        int number = 0;
-        std::string error = write_image(
-            record.file, film_, options_.color,
-            {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}}, &number);
-        if (!error.empty()) return report_unwritable(record.file, error, number);
+        writer_.start(
+            {.record = number,
+             .file = record.file,
+             .color = options_.color,
+             .texts = {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}},
+             .film = std::exchange(film_, std::move(spare_film_))},
+            thread_count() > 1);
+        if (thread_count() == 1) end_write();
+    } else {
+        Stopwatch watch;
+        if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
+        record.write_ms = watch.ms();
+        progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
     }
-    if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
-    record.write_ms = watch.ms();
-    progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
     return baked ? kExitOk : kExitSomeFailed;
+}
+
+// Waits for the frame that is being written, if any.
+void Render::end_write() {
+    std::optional<WrittenFrame> written = writer_.finish();
+    if (!written) return;
+    FrameRecord& record = records_[written->record];
+    if (!written->error.empty()) {
+        codes_.go_on_after(report_unwritable(written->file, written->error, written->number));
+    } else {
+        Stopwatch watch;
+        if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(written->film, options_.color));
+        record.write_ms = written->ms + watch.ms();
+        progress_.frame_done(record.frame, record.index, record.file,
+                             record.stats.total + record.write_ms);
+    }
+    spare_film_ = std::move(written->film);
 }
 
 void Render::place_session_camera(double time) {
@@ -318,17 +350,14 @@ int Render::frames() {
         if (session->height > 0) settings_.height = session->height;
     }
     progress_ = ProgressReport(options_.progress, list->size());
-    int result = kExitOk;
     for (size_t i = 0; i < list->size(); ++i) {
-        int code = one_frame((*list)[i].first, (*list)[i].second, i);
-        if (code == kExitOk) continue;
-        if (g_signal) {
+        const int code = one_frame((*list)[i].first, (*list)[i].second, i);
+        if (code != kExitOk || i + 1 == list->size()) end_write();
+        if (g_signal && code != kExitOk) {
             progress_.clear();
             return code;
         }
-        if (!options_.keep_going) return code;
-        // What a retry may help comes before what it cannot.
-        if (result != kExitRetry) result = code == kExitRetry ? code : int(kExitSomeFailed);
+        if (!codes_.go_on_after(code)) return codes_.code();
     }
     progress_.clear();
     tell_target(targeted_ ? targeted_->end_text() : "");
@@ -337,10 +366,10 @@ int Render::frames() {
         std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
         if (!error.empty()) {
             int code = report_unwritable(options_.contact_sheet, error, number);
-            return result == kExitRetry ? result : code;
+            return codes_.code() == kExitRetry ? codes_.code() : code;
         }
     }
-    return result;
+    return codes_.code();
 }
 
 void Render::tell_target(const std::string& text) const {

@@ -12,6 +12,7 @@ namespace kinora {
 
 struct FrameRecord {
     int64_t frame;
+    size_t index = 0;  // among the frames of the run
     std::string file;
     FrameStats stats;
     size_t pixels = 0;

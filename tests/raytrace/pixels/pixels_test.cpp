@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -356,7 +357,7 @@ TEST_P(EachKernel, SamplesThatStopAllOrNothingSumExactly) {
 
 // Every instruction set, every count, and nothing behind the end.
 TEST(PixelKernels, GiveTheSameBits) {
-    const UsablePixelKernels& usable = usable_pixel_kernels();
+    const UsableKernels<PixelKernels>& usable = usable_pixel_kernels();
     const PixelKernels& plain = *usable.kernels[usable.count - 1];
     const FilterTable tables[2] = {make_filter(true), make_filter(false)};
     std::mt19937 random(1);
@@ -395,7 +396,7 @@ TEST(PixelKernels, GiveTheSameBits) {
 }
 
 TEST(PixelKernels, OfSumsGiveTheSameBits) {
-    const UsablePixelKernels& usable = usable_pixel_kernels();
+    const UsableKernels<PixelKernels>& usable = usable_pixel_kernels();
     std::mt19937 random(2);
     auto any = [&] { return std::ldexp(float(random()), int(random() % 40) - 50); };
     for (size_t count = 1; count < 50; ++count) {
@@ -418,6 +419,75 @@ TEST(PixelKernels, OfSumsGiveTheSameBits) {
             if (k == 0) first = all;
             ASSERT_EQ(std::memcmp(first.data(), all.data(), all.size() * sizeof(double)), 0);
         }
+    }
+}
+
+// What sixteen samples show behind a layer: in double, sample by sample.
+TEST_P(EachKernel, LaysHitsBehindWhatSamplesShow) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> number(-0.5f, 1.5f);
+    constexpr float kLeast = 1e-4f;
+    for (int turn = 0; turn < 300; ++turn) {
+        float rows[12][kLaid];  // Ci, Oi, colour, what passes
+        for (auto& row : rows)
+            for (float& x : row) x = number(random);
+        LaidHits hits{};
+        float *color[3], *through[3], before[6][kLaid];
+        for (int k = 0; k < 3; ++k) {
+            hits.Ci[k] = rows[k];
+            hits.Oi[k] = rows[3 + k];
+            color[k] = rows[6 + k];
+            through[k] = rows[9 + k];
+            for (float& x : rows[9 + k]) x = std::abs(x);
+        }
+        for (size_t i = 0; i < kLaid; ++i) {
+            hits.onward[i] = i % 5 ? 1.0f : 2 * std::abs(number(random));
+            for (int k = 0; k < 3 && i % 4 == 0; ++k) rows[3 + k][i] = i % 8 ? 1.0f : 0.0f;
+            if (i == 7) rows[3][i] = NAN;
+        }
+        std::memcpy(before, rows[6], sizeof(before));
+        const uint32_t open = kernels().lay(hits, kLeast, color, through);
+        for (size_t i = 0; i < kLaid; ++i) {
+            double most = -1;
+            for (int k = 0; k < 3; ++k) {
+                const double left = before[3 + k][i], Oi = rows[3 + k][i];
+                EXPECT_NEAR(color[k][i], before[k][i] + left * rows[k][i], 1e-6);
+                const double rest = left * (1 - std::clamp(Oi, 0.0, 1.0)) * hits.onward[i];
+                if (i == 7 && k == 0)
+                    EXPECT_TRUE(std::isnan(through[k][i]));
+                else
+                    EXPECT_NEAR(through[k][i], rest, 1e-6);
+                most = std::max(most, rest);
+            }
+            const bool sure = i != 7 && std::abs(most - kLeast) > 1e-6;
+            EXPECT_TRUE(!sure || (open >> i & 1) == uint32_t(most > kLeast));
+        }
+    }
+}
+
+// Without differentials rays are the same, and the columns stay as they are.
+TEST_P(EachKernel, RaysWithoutSpreadsAreTheSameRays) {
+    PixelView view{};
+    view.centre_x = view.centre_y = 40;
+    view.dx[0] = view.dy[1] = 0.01;
+    view.dx_square = view.dy_square = 1e-4;
+    view.forward[2] = 1;
+    for (bool clip : {false, true}) {
+        view.clip = clip;
+        view.znear = 1, view.zfar = 7;
+        Pixels pixels(77, 3);
+        Rays with(77), without(77);
+        const SampleBits sample = sample_bits(3);
+        view.without_spread = false;
+        kernels().rays(view, pixels.set, &sample, 1, nullptr, with.to);
+        without.to.ddir_dx[0][5] = 123;
+        view.without_spread = true;
+        kernels().rays(view, pixels.set, &sample, 1, nullptr, without.to);
+        for (size_t i = 0; i < 77; ++i) {
+            for (int k = 0; k < 3; ++k) EXPECT_EQ(with.to.dir[k][i], without.to.dir[k][i]);
+            EXPECT_EQ(with.to.tfar[i], without.to.tfar[i]);
+        }
+        EXPECT_EQ(without.to.ddir_dx[0][5], 123);
     }
 }
 

@@ -210,7 +210,7 @@ TEST_P(EachKernel, PacketsAreSoundWhereEachOfTheirRaysIs) {
 }
 
 TEST(PointKernels, GiveTheSameBits) {
-    const UsablePointKernels& usable = usable_point_kernels();
+    const UsableKernels<PointKernels>& usable = usable_point_kernels();
     const PointKernels& plain = *usable.kernels[usable.count - 1];
     std::mt19937 random(9);
     for (size_t k = 0; k < usable.count; ++k)

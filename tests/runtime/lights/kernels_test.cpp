@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <string>
@@ -172,6 +173,35 @@ TEST_P(EachLightKernel, MarksWhatIsWeak) {
         EXPECT_EQ(any, std::any_of(weak.begin(), weak.end(), [](uint32_t w) { return w != 0; }));
     }
     EXPECT_GT(marked, 50u);
+}
+
+TEST_P(EachLightKernel, ChoosesWhatIsSent) {
+    std::mt19937 random(11);
+    for (size_t count : kCounts)
+        for (int turn = 0; turn < 12; ++turn) {
+            Columns Cl(count, random);
+            std::vector<float> lit(count);  // integers, bit by bit
+            for (size_t i = 0; i < count; ++i) {
+                const bool dark = turn % 3 == 0 ? false : random() % 4 == 0;
+                for (int k = 0; dark && k < 3; ++k) Cl.at[k][i] = random() % 2 ? 0.0f : -0.0f;
+                const uint32_t bits = turn % 3 == 2 && random() % 3 == 0 ? 0u : 1u;
+                std::memcpy(&lit[i], &bits, sizeof(bits));
+            }
+            const bool some_lit = turn % 2;
+            std::vector<uint32_t> wanted, chosen(count + 1, 77u);
+            for (size_t i = 0; i < count; ++i) {
+                uint32_t bits;
+                std::memcpy(&bits, &lit[i], sizeof(bits));
+                const bool black = Cl.at[0][i] == 0 && Cl.at[1][i] == 0 && Cl.at[2][i] == 0;
+                if (!black && (!some_lit || bits != 0)) wanted.push_back(uint32_t(i));
+            }
+            const size_t found =
+                kernels().choose(Cl.rows(), some_lit ? lit.data() : nullptr, count, chosen.data());
+            ASSERT_EQ(found, wanted.size());
+            EXPECT_EQ(chosen[count], 77u);
+            chosen.resize(found);
+            EXPECT_EQ(chosen, wanted);
+        }
 }
 
 }  // namespace
