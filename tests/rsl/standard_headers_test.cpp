@@ -164,7 +164,8 @@ const HeaderRow kHeaders[] = {
      "evaluateSamplesEnv(map, P, N, a); Ci = a[0]->radiance + a[0]->lightPdf;"},
     {"stdrsl/sphericalharmonics.h", "",
      "stdrsl_SphericalHarmonic a, b; color k[9]; float f[4]; a->createFromArray(k);"
-     "b->createFromArray(f); a->rotate(\"world\"); Ci = a->convolve(b, 0) + a->evaluate(vector N);"},
+     "b->createFromArray(f); a->rotate(\"world\"); Ci = a->convolve(b, 0) + a->evaluate(vector "
+     "N);"},
     {"getlights.h", "", "Ci = 1;"},    // its functions take lights: objects/lights_test.cpp
     {"integrators.h", "", "Ci = 1;"},  // its functions are of classes: tests/rsl/classes
     {"util.h", "",
