@@ -1,5 +1,5 @@
-"""tests/programs/rsl2_test.py: the facts of ../shared/RSL2.md, a row each: what the document says, a
-shader, the points it runs over, and the numbers that follow from the document. Rows that say
+"""tests/programs/rsl2_test.py: what is known of RSL 2.0 from documents and public shaders, a row each: the fact, a
+shader, the points it runs over, and the numbers that follow from the fact. Rows that say
 "differs" are what Kinora does otherwise, by the finding that stands there."""
 from points_test import Points
 from programs import main
