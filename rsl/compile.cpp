@@ -5,8 +5,7 @@
 
 #include "rsl/check/check.h"
 #include "rsl/check/usage.h"
-#include "rsl/link.h"
-#include "rsl/objects/handle_sets.h"
+#include "rsl/compile_p.h"
 #include "rsl/objects/integrators.h"
 #include "rsl/objects/objects.h"
 #include "rsl/syntax/parser.h"
@@ -79,13 +78,11 @@ std::shared_ptr<Ast> parse(const ShaderSource& source, const CompileOptions& opt
     return reporter.errors() == 0 ? ast : nullptr;
 }
 
-namespace {
-
-// What is left to do for a tree, whose parts have been read.
-std::vector<std::unique_ptr<Shader>> finish(const std::shared_ptr<Ast>& ast, Reporter& reporter,
-                                            const CompileOptions& options,
-                                            const ParseRecovery& recovery,
-                                            std::vector<Unit> units) {
+std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>& ast,
+                                                      Reporter& reporter,
+                                                      const CompileOptions& options,
+                                                      const ParseRecovery& recovery,
+                                                      std::vector<Unit> units) {
     bind_integrators(*ast, reporter);
     if (!expand_objects(*ast, reporter, std::move(units))) return {};
     Checker(*ast, reporter, options, recovery).run();
@@ -99,25 +96,6 @@ std::vector<std::unique_ptr<Shader>> finish(const std::shared_ptr<Ast>& ast, Rep
     return shaders;
 }
 
-// Of the shaders that stand in the tree from `first` on; null after a finding.
-ShaderDefinition* choose(const Ast& ast, Reporter& reporter, size_t first,
-                         const LinkedSource& wanted, uint32_t first_token) {
-    for (size_t k = first; k < ast.shaders.size(); ++k)
-        if (wanted.shader.empty() || ast.shaders[k]->name == wanted.shader) return ast.shaders[k];
-    if (reporter.errors() == 0)
-        reporter.report(Code::RSL_NO_SHADER, ast.tokens.tokens[first_token]);
-    return nullptr;
-}
-
-std::shared_ptr<const std::string> kept_text(const std::vector<LinkedPart>& parts,
-                                             std::string_view text) {
-    for (const LinkedPart& part : parts)
-        if (*part.text == text) return part.text;
-    return std::make_shared<const std::string>(text);
-}
-
-}  // namespace
-
 std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
                                              const CompileOptions& options,
                                              Diagnostics& diagnostics) {
@@ -129,43 +107,7 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     Parser parser(*ast, reporter);
     if (lacks_text(diagnostics, before)) parser.recovery().lose_everything();
     parser.run();
-    return finish(ast, reporter, options, parser.recovery(), {});
-}
-
-std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
-                                       const CompileOptions& options, Diagnostics& diagnostics) {
-    auto ast = std::make_shared<Ast>();
-    Reporter reporter(diagnostics, ast->tokens, options.max_errors);
-    std::vector<Unit> units;
-    std::vector<LinkedPart> parts;
-    for (const LinkedSource& one : sources) {
-        auto first = uint32_t(ast->tokens.tokens.size());
-        size_t shaders = ast->shaders.size();
-        ast->functions.clear();
-        Preprocessor(options, diagnostics, ast->tokens, reporter).run(one.source);
-        if (ast->tokens.truncated) return nullptr;
-        Parser(*ast, reporter, first).run();
-        ShaderDefinition* shader = choose(*ast, reporter, shaders, one, first);
-        if (!shader || reporter.errors() > 0) return nullptr;
-        units.push_back({one.handle, shader, ast->functions, first, one.texts, {}, {}});
-        std::vector<std::string> handles;
-        for (const Symbol* parameter : shader->parameters)
-            if (parameter->handle && one.texts.contains(parameter->name))
-                handles.emplace_back(parameter->name);
-        parts.push_back({one.handle, std::string(shader->name), one.texts, std::move(handles),
-                         kept_text(parts, one.source.text), one.source.map, first});
-    }
-    if (units.size() > kMostUnits) {
-        reporter.report(Code::RSL_TOO_MANY_CO_SHADERS, ast->tokens.tokens[0], units.size() - 1,
-                        kMostUnits - 1);
-        return nullptr;
-    }
-    ast->shaders = {units[0].shader};
-    ast->functions = units[0].functions;
-    auto linked = finish(ast, reporter, options, ParseRecovery(), std::move(units));
-    if (linked.empty()) return nullptr;
-    linked[0]->parts = std::move(parts);
-    return std::move(linked[0]);
+    return finish_compiling(ast, reporter, options, parser.recovery(), {});
 }
 
 std::vector<std::unique_ptr<Shader>> compile_file(const std::string& path,

@@ -1,6 +1,9 @@
 // rsl/builtins/arrays.cpp: resizable arrays.
+#include <algorithm>
+
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
+#include "rsl/lower/values.h"
 #include "rsl/model/changes.h"
 #include "rsl/reference/reference_p.h"
 
@@ -53,6 +56,24 @@ void pop(LowerCall& c) {
     c.result = c.variables.arrays().pop(array, c.where());
 }
 
+// a == b: as many elements, each equal to the other's.
+void arrayequal(LowerCall& c) {
+    auto& b = c.b;
+    auto& arrays = c.variables.arrays();
+    int one = c.variables.array_of(*as<VariableExpr>(*c.call.args[0]).symbol);
+    int other = c.variables.array_of(*as<VariableExpr>(*c.call.args[1]).symbol);
+    Value count = arrays.count(one);
+    Value same = b.eq(count, arrays.count(other));
+    int most = std::min(arrays.length(one), arrays.length(other));
+    for (int k = 0; k < most; ++k) {
+        Lowered equal =
+            binary(c.e, Op::Equal, arrays.load(one, b.i(k)), arrays.load(other, b.i(k)));
+        Value differs = b.logical_and(b.lt(b.f(float(k)), count), b.logical_not(equal.c[0]));
+        same = b.logical_and(same, b.logical_not(differs));
+    }
+    c.set(c.e.flag(same));
+}
+
 }  // namespace lower_arrays
 
 namespace ref {
@@ -102,6 +123,15 @@ void pop(RefCall<Real>& c) {
     c.arrays[0].pop_back();
 }
 
+template <class Real>
+void arrayequal(RefCall<Real>& c) {
+    bool same = c.arrays[0].size() == c.arrays[1].size();
+    for (size_t k = 0; same && k < c.arrays[0].size(); ++k)
+        for (size_t i = 0; i < c.arrays[0][k].size(); ++i)
+            same = same && c.arrays[0][k].c[i].x == c.arrays[1][k].c[i].x;
+    c.set(Dual<Real>(Real(c.eval.decide(same))));
+}
+
 }  // namespace
 }  // namespace ref
 
@@ -125,6 +155,9 @@ const Builtin kRows[] = {
      KINORA_RSL_REF(ref::push), kSetsLength, 0, "Appends an element to a resizable array."},
     {"pop", "f=F[] c=C[] p=P[] v=V[] n=N[] m=M[] s=S[]", lower::pop, KINORA_RSL_REF(ref::pop),
      kSetsLength, 0, "Takes the last element off a resizable array and returns it."},
+    {"arrayequal", "f=f[]f[] f=c[]c[] f=p[]p[] f=v[]v[] f=n[]n[] f=m[]m[] f=s[]s[]",
+     lower::arrayequal, KINORA_RSL_REF(ref::arrayequal), kVaryingResult | kForHeaders, 0,
+     "What a == b of arrays becomes."},
 };
 
 }  // namespace

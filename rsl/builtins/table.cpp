@@ -82,6 +82,7 @@ const std::vector<BuiltinGroup>& builtin_groups() {
         {"Resizable arrays", builtins_arrays()},
         {"Strings and printing", builtins_string()},
         {"Messages", builtins_message()},
+        {"Of other renderers, not computed", builtins_foreign()},
     };
     return groups;
 }
@@ -115,15 +116,10 @@ struct ForeignRow {
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
     {" fulltrace rayserver ", "BMRT"},
-    {" wnoise hash randomgrid textureatlas ptexture subtexture "
-     "rayhittest irradiance ",
-     "other renderers"},
+    {" wnoise hash randomgrid subtexture rayhittest irradiance ", "other renderers"},
     {" getvar getshader getshaders getlights hasmethod "
      "evaluateSamples generateSamples ",
      "RSL 2.0"},
-    {" emit readprimvar erf erfc gridnever randomstrat rbug evaluateSamplesAS generateSamplesAS "
-     "evaluateSamplesEnv generateSamplesEnv ",
-     "PRMan"},
 };
 
 }  // namespace

@@ -31,6 +31,7 @@ std::span<const Builtin> builtins_texture_files();
 std::span<const Builtin> builtins_matrix();
 std::span<const Builtin> builtins_string();
 std::span<const Builtin> builtins_message();
+std::span<const Builtin> builtins_foreign();
 
 // All groups in order: for the manual and the row tests.
 struct BuiltinGroup {

@@ -74,6 +74,7 @@ class ExpressionChecker {
     bool component_by_name(BinaryExpr& e);
     void check_product(BinaryExpr& e);
     void check_comparison(BinaryExpr& e);
+    bool compare_arrays(Expr*& slot, BinaryExpr& e);
     template <class Hint>
     void both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint);
     void bad_operands(BinaryExpr& e);

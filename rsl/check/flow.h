@@ -25,11 +25,14 @@ inline bool same(Flow a, Flow b) {
 
 // Whether some points that could be here are not: `any` of them, or of those that the function
 // being walked was called for (`own`). What is the function's own lasts as long as the call, so
-// that the caller's control does not make it vary.
+// that the caller's control does not make it vary. Control by what counts as uniform is legal.
 struct Control {
-    bool any = false;
-    bool own = false;
-    Control under(bool varying) const { return {any || varying, own || varying}; }
+    Flow any = kConstant;
+    Flow own = kConstant;
+    Control under(Flow f) const {
+        Flow by{true, f.varying, f.illegal};
+        return {join(any, by), join(own, by)};
+    }
 };
 
 }  // namespace kinora::rsl

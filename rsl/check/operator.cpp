@@ -28,7 +28,31 @@ void ExpressionChecker::check(Expr*&, UnaryExpr& e, BaseType wanted) {
         reporter_.report(Code::RSL_BAD_OPERAND, e.span, op_text(e.op), type_name(type));
 }
 
-void ExpressionChecker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
+// a == b and a != b of whole arrays: calls of arrayequal().
+bool ExpressionChecker::compare_arrays(Expr*& slot, BinaryExpr& e) {
+    auto is_array = [&](const Expr* side) {
+        const auto* named = as_if<VariableExpr>(side);
+        const Symbol* symbol = named ? scopes_.find_variable(named->name) : nullptr;
+        return symbol && symbol->type.is_array();
+    };
+    bool equality = e.op == Op::Equal || e.op == Op::NotEqual;
+    if (!equality || !is_array(e.left) || !is_array(e.right)) return false;
+    auto* call = ast_.make<CallExpr>(e.span);
+    call->name = "arrayequal";
+    call->site = ast_.site_count++;
+    call->args = ast_.arena.copy(std::vector<Expr*>{e.left, e.right});
+    slot = call;
+    if (e.op == Op::NotEqual) {
+        auto* differ = ast_.make<UnaryExpr>(e.span);
+        differ->op = Op::Not;
+        differ->operand = call;
+        slot = differ;
+    }
+    expression(slot, BaseType::Float);
+    return true;
+}
+
+void ExpressionChecker::check(Expr*& slot, BinaryExpr& e, BaseType wanted) {
     switch (e.op) {
         case Op::And:
         case Op::Or:
@@ -45,7 +69,7 @@ void ExpressionChecker::check(Expr*&, BinaryExpr& e, BaseType wanted) {
         case Op::Divide:
             return check_arithmetic(e, wanted);
         default:
-            return check_comparison(e);
+            if (!compare_arrays(slot, e)) check_comparison(e);
     }
 }
 

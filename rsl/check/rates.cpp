@@ -34,7 +34,7 @@ struct CallSummary {
 struct Active {
     const Function* function;
     Flow result;   // as far as it is known
-    bool control;  // some call of it stands under varying control
+    Flow control;  // that some call of it stands under
 };
 
 using Rated = std::unordered_set<const Expr*>;
@@ -97,14 +97,10 @@ class RateWalk {
         if (s.global) return;
         if (declared_uniform(s) && value.illegal) complain(s, at);
         Flow& flow = flows_[s.id];
-        Flow after = join(flow, value);
-        after.constant = false;
         bool own = walking_ && s.function == walking_;
-        after.varying |= selector.varying || (own ? control_.own : control_.any);
-        if (declared_uniform(s))
-            after.illegal = false;
-        else
-            after.illegal |= after.varying;
+        Flow after = join(join(flow, value), join(selector, own ? control_.own : control_.any));
+        after.constant = false;
+        if (declared_uniform(s)) after.illegal = false;
         if (after.varying != flow.varying || after.illegal != flow.illegal ||
             after.constant != flow.constant) {
             note_change(s.function);
@@ -169,7 +165,7 @@ class RateWalk {
     void take_length(const Expr* to, const Expr* from) {
         const Symbol* symbol = VaryingLengths::named(to);
         bool changes = symbol && symbol->type.array_length == 0;
-        if (changes && (lengths_.varies(from) || control_.any)) vary_length(to);
+        if (changes && (lengths_.varies(from) || control_.any.varying)) vary_length(to);
     }
     Flow length_of(const Expr* array) const {
         return lengths_.is_fixed(array) ? kConstant : Flow{false, lengths_.varies(array), false};
@@ -177,15 +173,15 @@ class RateWalk {
     void set_length(CallExpr& e) {
         bool by_argument = e.name == "resize" || e.name == "reserve";
         Flow amount = by_argument && e.args.size() > 1 ? flow(e.args[1]) : kConstant;
-        if (control_.any || amount.varying) vary_length(e.args[0]);
+        if (control_.any.varying || amount.varying) vary_length(e.args[0]);
     }
 
     Flow at(IndexExpr& e) { return join(flow(e.array), flow(e.index)); }
     Flow at(ComponentExpr& e) { return join(flow(e.operand), flow(e.index)); }
     Flow at(UnaryExpr& e) { return flow(e.operand); }
     // A side that some points skip may assign.
-    Flow flow_under(Expr* side, bool varying) {
-        Control before = std::exchange(control_, control_.under(varying));
+    Flow flow_under(Expr* side, Flow condition) {
+        Control before = std::exchange(control_, control_.under(condition));
         Flow f = flow(side);
         control_ = before;
         return f;
@@ -193,11 +189,11 @@ class RateWalk {
     Flow at(BinaryExpr& e) {
         Flow left = flow(e.left);
         bool logical = e.op == Op::And || e.op == Op::Or;
-        return join(left, flow_under(e.right, logical && left.varying));
+        return join(left, flow_under(e.right, logical ? left : kConstant));
     }
     Flow at(SelectExpr& e) {
         Flow condition = flow(e.condition);
-        Flow yes = flow_under(e.yes, condition.varying), no = flow_under(e.no, condition.varying);
+        Flow yes = flow_under(e.yes, condition), no = flow_under(e.no, condition);
         return join(condition, join(yes, no));
     }
     Flow at(AssignExpr& e) {
@@ -284,7 +280,7 @@ class RateWalk {
             if (active.function == &f) return call_again(active, arguments);
         // What a recursive function gives rests on the callers being walked: it is not kept.
         if (f.recursive) return walk_function(f, arguments);
-        std::string key = std::to_string(f.id) + (control_.any ? '!' : ':');
+        std::string key = std::to_string(f.id) + letter(control_.any);
         for (Flow a : arguments) key += letter(a);
         auto found = calls_.find(key);
         if (found != calls_.end()) return found->second;
@@ -308,7 +304,8 @@ class RateWalk {
             p.varying = p.varying || joined.varying;
             note_change(&f);
         }
-        if (control_.any && !std::exchange(active.control, true)) note_change(&f);
+        Flow control = join(active.control, control_.any);
+        if (!same(control, std::exchange(active.control, control))) note_change(&f);
         CallSummary summary{active.result, {}};
         for (const Symbol* p : f.parameters) summary.outputs.push_back(flows_[p->id]);
         return summary;
@@ -328,7 +325,7 @@ class RateWalk {
         }
         for (Symbol* local : locals_[f.id]) declare(*local, kConstant);
         Flow result_before = std::exchange(result_, kConstant);
-        bool returned_before = std::exchange(varying_return_, false);
+        Flow returned_before = std::exchange(returned_, kConstant);
         bool changed_before = changed_;
         auto loops_before = std::exchange(loops_, {});
         const Function* caller = std::exchange(walking_, &f);
@@ -337,7 +334,7 @@ class RateWalk {
         Control control_before = control_;
         do {
             changed_ = false;
-            control_ = {active_[level].control, false};
+            control_ = {active_[level].control, kConstant};
             walk(*f.body);
             if (f.recursive && !same(active_[level].result, result_)) changed_ = true;
             active_[level].result = result_;
@@ -349,7 +346,7 @@ class RateWalk {
         walking_ = caller;
         changed_ = changed_before || std::erase(outside_, caller) > 0;
         loops_ = std::move(loops_before);
-        varying_return_ = returned_before;
+        returned_ = returned_before;
         result_ = result_before;
         return summary;
     }
@@ -358,28 +355,29 @@ class RateWalk {
 
     void walk(Stmt& s) {
         if (++steps_ > kMostSteps) return;
-        Control before = std::exchange(control_, control_.under(varying_return_));
+        Control before = std::exchange(control_, control_.under(returned_));
         visit_stmt(s, [&](auto& node) { at(node); });
         control_ = before;
     }
-    void walk_under(Stmt& s, bool varying) {
-        Control before = std::exchange(control_, control_.under(varying));
+    void walk_under(Stmt& s, Flow condition) {
+        Control before = std::exchange(control_, control_.under(condition));
         walk(s);
         control_ = before;
     }
     // Points that have left a loop do not take part in what is assigned in it.
-    void loop(Stmt& s, Stmt& body, Expr* condition, std::span<Expr*> step, bool varying) {
+    void loop(Stmt& s, Stmt& body, Expr* condition, std::span<Expr*> step, Flow turns) {
         // The condition reads what the body stores: the next round of the fixed point sees to it.
         Control before = control_;
         loops_.push_back(&s);
-        control_ = control_.under(varying || flow(condition).varying || exits_.contains(&s));
+        control_ = control_.under(join(turns, flow(condition)));
+        if (exits_.contains(&s)) control_ = control_.under(kVaryingFlow);
         walk(body);
         flow_all(step);
         loops_.pop_back();
         control_ = before;
     }
     void leave(const Stmt* target) {
-        if (!control_.own) return;
+        if (!control_.own.varying) return;
         for (size_t i = loops_.size(); i-- > 0;) {
             if (exits_.insert(loops_[i]).second) changed_ = true;
             if (loops_[i] == target) break;
@@ -403,30 +401,30 @@ class RateWalk {
     void at(FunctionStmt&) {}
     void at(ExpressionStmt& s) { flow(s.expression); }
     void at(IfStmt& s) {
-        bool varying = flow(s.condition).varying;
-        walk_under(*s.yes, varying);
-        if (s.no) walk_under(*s.no, varying);
+        Flow condition = flow(s.condition);
+        walk_under(*s.yes, condition);
+        if (s.no) walk_under(*s.no, condition);
     }
-    void at(WhileStmt& s) { loop(s, *s.body, s.condition, {}, false); }
+    void at(WhileStmt& s) { loop(s, *s.body, s.condition, {}, kConstant); }
     void at(ForStmt& s) {
         for (Stmt* item : s.init) walk(*item);
-        loop(s, *s.body, s.condition, s.step, false);
+        loop(s, *s.body, s.condition, s.step, kConstant);
     }
     void at(BreakStmt& s) { leave(s.loop); }
     void at(ContinueStmt& s) { leave(s.loop); }
     void at(ReturnStmt& s) {
         Flow value = s.value ? flow(s.value) : kConstant;
         result_ = join(result_, value);
-        if (!control_.own) return;
-        result_ = join(result_, kVaryingFlow);
-        varying_return_ = true;
+        if (!control_.own.varying) return;
+        result_ = join(result_, control_.own);
+        returned_ = join(returned_, control_.own);
         leave(nullptr);
     }
     void at(IlluminanceStmt& s) {
         flow(s.category), flow(s.position), flow(s.axis), flow(s.angle);
         flow_all(s.pairs);
         store_pairs(s.pairs, is_light_output);
-        loop(s, *s.body, nullptr, {}, true);
+        loop(s, *s.body, nullptr, {}, kVaryingFlow);
     }
     void store_pairs(std::span<Expr*> pairs, bool (*is_output)(std::string_view)) {
         for (size_t k = 1; k < pairs.size(); k += 2)
@@ -434,17 +432,17 @@ class RateWalk {
     }
     void at(IlluminateStmt& s) {
         flow(s.position), flow(s.axis), flow(s.angle);
-        walk_under(*s.body, true);
+        walk_under(*s.body, kVaryingFlow);
     }
     void at(SolarStmt& s) {
         flow(s.axis), flow(s.angle);
-        walk_under(*s.body, true);
+        walk_under(*s.body, kVaryingFlow);
     }
     void at(GatherStmt& s) {
         flow_all(s.args);
         store_pairs(s.pairs, is_gather_output);
-        loop(s, *s.body, nullptr, {}, true);
-        if (s.missed) loop(s, *s.missed, nullptr, {}, true);
+        loop(s, *s.body, nullptr, {}, kVaryingFlow);
+        if (s.missed) loop(s, *s.missed, nullptr, {}, kVaryingFlow);
     }
 
     const ShaderDefinition& shader_;
@@ -464,7 +462,7 @@ class RateWalk {
     std::unordered_set<const Stmt*> exits_;  // loops that some points leave before others
     std::vector<Stmt*> loops_;
     Flow result_ = kConstant;
-    bool varying_return_ = false;
+    Flow returned_ = kConstant;  // under what some points have returned
     Control control_;
     bool changed_ = false;
 };

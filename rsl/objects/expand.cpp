@@ -195,8 +195,8 @@ namespace {
 
 // Whether something of RSL 2.0 is in the source, so that there is something to do.
 bool has_objects(const Ast& ast) {
-    constexpr std::string_view kWords[] = {"shader", "getshader", "getshaders",
-                                           "getvar", "hasmethod", "null"};
+    constexpr std::string_view kWords[] = {"shader",    "getshader", "getshaders", "getvar",
+                                           "hasmethod", "null",      "readprimvar"};
     const auto& tokens = ast.tokens.tokens;
     return !ast.structs.empty() ||
            std::any_of(ast.shaders.begin(), ast.shaders.end(),
@@ -244,7 +244,8 @@ bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units) {
     expander.run(used);
     for (ShaderDefinition* shader : ast.shaders)
         if (shader->shader_class) make_pipeline(ast, reporter, *shader);
-    if (units[0].shader) join_units(ast, units, order, expander.nested());
+    if (units[0].shader)
+        join_units(ast, units, order, expander.nested(), expander.behind_members());
     return reporter.errors() == errors;
 }
 

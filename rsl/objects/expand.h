@@ -40,6 +40,8 @@ class ObjectExpander {
     void run(const std::vector<size_t>& used);
     // Functions that name what stands in the shader's body, to be defined there.
     const std::vector<Function*>& nested() const { return nested_; }
+    // Of these, those that name members of the first unit itself.
+    const std::set<const Function*>& behind_members() const { return behind_members_; }
 
   private:
     friend class HandleCalls;
@@ -98,6 +100,7 @@ class ObjectExpander {
     std::span<Stmt*> list(std::span<Stmt*> body);
     void declaration(DeclareStmt& s, Stmts& out);
     void effect(ExpressionStmt& s, Stmts& out);
+    void gather_region(GatherStmt& s);
     bool assign_struct(AssignExpr& e, Stmts& out);
     bool array_call(CallExpr& e, Stmts& out);
     void give_back(ReturnStmt& s, Stmts& out);
@@ -130,6 +133,7 @@ class ObjectExpander {
     std::set<const Function*> in_body_;  // candidates that name what stands in the shader's body
     std::map<const Function*, std::set<std::string_view>> called_;  // by candidates
     std::vector<Function*> nested_;
+    std::set<const Function*> behind_members_;
     std::map<const Function*, const StructDefinition*> results_;
     std::set<uint32_t> no_members_;  // tokens where RSL_NO_MEMBER was reported
     Finding unsaid_;

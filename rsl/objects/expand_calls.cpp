@@ -137,12 +137,16 @@ constexpr std::string_view kArrayFunctions[] = {"arraylength", "capacity", "resi
 // Arguments of struct types become their members; `results` are behind them all.
 void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
     std::vector<Expr*> args;
-    bool own =
-        owner_ && !e.method && !is_local_function(e.name) &&
-        std::any_of(owner_->methods.begin(), owner_->methods.end(), [&](const Function* method) {
-            return method_name(*owner_, e.name) == method->name || method->name == e.name ||
-                   method->name.starts_with(method_name(*owner_, e.name) + " ");
+    auto has = [&](std::string_view name) {
+        return std::ranges::any_of(owner_->methods, [&](const Function* method) {
+            return method_name(*owner_, name) == method->name || method->name == name ||
+                   method->name.starts_with(method_name(*owner_, name) + " ");
         });
+    };
+    // BASE::f() is f() where no other method stands for it.
+    size_t base = e.name.find("::");
+    if (owner_ && base != e.name.npos && !has(e.name)) e.name.remove_prefix(base + 2);
+    bool own = owner_ && !e.method && !is_local_function(e.name) && has(e.name);
     if (e.method) {
         if (!object_call(e, args)) return;
     } else if (own) {

@@ -85,6 +85,7 @@ void ObjectExpander::statement(Stmt* stmt, Stmts& out) {
         }
         case StmtKind::Gather: {
             auto& s = as<GatherStmt>(*stmt);
+            gather_region(s);
             exprs(s.args);
             s.body = single(s.body);
             s.missed = single(s.missed);
@@ -102,6 +103,23 @@ void ObjectExpander::statement(Stmt* stmt, Stmts& out) {
             break;
     }
     out.push_back(stmt);
+}
+
+// gather(what, P, region, ...) of a filterregion: its direction and angle.
+void ObjectExpander::gather_region(GatherStmt& s) {
+    StructValue region = s.args.size() > 2 ? struct_value(*s.args[2]) : StructValue();
+    if (!region.structure || region.structure->name != "filterregion" || region.index) return;
+    TreeBuilder make(ast_, s.args[2]->span);
+    std::string_view name = as<VariableExpr>(*s.args[2]).name;
+    auto member = [&](const char* which) {
+        return make.variable(std::string(name) + "->" + which);
+    };
+    auto direction = [&] { return make.cast(BaseType::Vector, member("centre")); };
+    std::vector<Expr*> args(s.args.begin(), s.args.end());
+    args[2] = direction();
+    args.insert(args.begin() + 3,
+                make.call("atan", {member("radius"), make.call("length", {direction()})}));
+    s.args = ast_.arena.copy(args);
 }
 
 void ObjectExpander::assign_parts(const std::vector<Expr*>& targets,

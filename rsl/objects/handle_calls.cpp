@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "rsl/model/globals.h"
 #include "rsl/objects/expand.h"
 #include "rsl/syntax/copy_tree.h"
 
@@ -260,6 +261,12 @@ bool HandleCalls::call(Expr*& slot) {
         expander_.report(Code::RSL_ARRAY_AS_VALUE, e.span);
         return true;
     }
+    if (e.name == "readprimvar") {  // getvar(null, ...)
+        std::vector<Expr*> args(e.args.begin(), e.args.end());
+        args.insert(args.begin(), make.variable("null"));
+        e.args = ast_.arena.copy(args);
+        e.name = "getvar";
+    }
     bool of_handle = !e.args.empty() && is_handle(*e.args[0]);
     if (!of_handle || (e.name != "getvar" && e.name != "hasmethod")) return false;
     bool named = e.args.size() > 1 && e.args[1]->kind == ExprKind::String;
@@ -403,12 +410,25 @@ Expr* HandleCalls::light_value(CallExpr& e, HandleSet set) {
     return node;
 }
 
-// getvar(h, "name", variable), or without the variable: is there one?
+// A global as others see a member; null if there is none of the name.
+const Symbol* HandleCalls::global_symbol(std::string_view name) const {
+    const GlobalInfo* global = find_global(name);
+    if (!global) return nullptr;
+    return TreeBuilder(ast_, {}).symbol(SymbolKind::Local, name, global->type);
+}
+
+// getvar(h, "name", variable), or without the variable: is there one? Of null it is a parameter or
+// a public member of the shader itself, or a global.
 Expr* HandleCalls::variable_read(CallExpr& e) {
     TreeBuilder make(ast_, e.span);
     std::string_view path = as<StringExpr>(*e.args[1]).value;
     HandleSet set = sets_.of(expander_.unit_, *e.args[0]);
+    Expr* object = e.args[0];
+    bool own = names(*object, "null");
+    if (own) set = handle_of(expander_.unit_), object = make.variable("this");
     std::vector<Member> found = members(set, path);
+    const Symbol* global = own && found.empty() ? global_symbol(path) : nullptr;
+    if (global) found.push_back({expander_.unit_, global});
     bool reads = e.args.size() > 2;
     if (set & kLightHandles) return light_value(e, set);
     if (found.empty()) return make.number(0);
@@ -425,16 +445,20 @@ Expr* HandleCalls::variable_read(CallExpr& e) {
     std::vector<Case> cases;
     for (const Member& one : found) {
         std::vector<Stmt*> body{make.assign(make.variable("result of call"), make.number(1))};
-        std::string from = units_[one.unit].prefix() + std::string(path);
+        std::string from = (global ? "" : units_[one.unit].prefix()) + std::string(path);
         if (reads) body.push_back(make.assign(make.variable("value"), make.variable(from)));
         cases.push_back({one.unit, body});
     }
     Symbol result;
     result.type = {BaseType::Float, -1};
+    size_t known = expander_.candidates_.size();
     add_function(name, result, formals, cases, e.span);
+    bool added = expander_.candidates_.size() > known;
+    if (added && own && expander_.unit_ == 0)
+        expander_.behind_members_.insert(expander_.candidates_.back().function);
     std::vector<Expr*> args;
     if (reads) args.push_back(e.args[2]);
-    return call_by_handle(name, e.args[0], args, e.span);
+    return call_by_handle(name, object, args, e.span);
 }
 
 }  // namespace kinora::rsl

@@ -61,6 +61,7 @@ class HandleCalls {
     bool call(Expr*& slot);
     Expr* handle(const CallExpr& e);
     Expr* variable_read(CallExpr& e);
+    const Symbol* global_symbol(std::string_view name) const;
     Expr* light_value(CallExpr& e, HandleSet set);
     Expr* has_method(const CallExpr& e);
     ArrayLiteralExpr* list(const CallExpr& e);

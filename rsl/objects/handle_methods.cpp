@@ -42,7 +42,7 @@ bool HandleCalls::resolve(CallExpr& e) {
     size_t count = e.args.size() - 1;
     if (set & kLightHandles) {
         if (e.name != "light" || count != 2) {
-            expander_.report(Code::RSL_LIGHT_METHOD, e.span, e.name);
+            expander_.report(Code::RSL_LIGHT_METHOD, e.span, e.name, count);
             return false;
         }
         if (!(set & ~(kLightHandles | kNullHandle))) {

@@ -6,7 +6,8 @@
 namespace kinora::rsl {
 
 void join_units(Ast& ast, const std::vector<Unit>& units, const std::vector<size_t>& order,
-                const std::vector<Function*>& nested) {
+                const std::vector<Function*>& nested,
+                const std::set<const Function*>& behind_members) {
     ShaderDefinition& shader = *units[0].shader;
     std::vector<Symbol*> parameters(shader.parameters.begin(), shader.parameters.end());
     std::vector<Symbol*> handles(shader.handles.begin(), shader.handles.end());
@@ -28,7 +29,8 @@ void join_units(Ast& ast, const std::vector<Unit>& units, const std::vector<size
     }
     for (size_t k : order)
         for (Function* method : units[k].shader->shader_class->methods) define(method);
-    for (Function* f : nested) define(f);
+    for (Function* f : nested)
+        if (!behind_members.contains(f)) define(f);
     for (size_t k : order)
         for (std::string_view name : {"construct", "begin"})
             for (const Method& method : units[k].methods)
@@ -36,7 +38,11 @@ void join_units(Ast& ast, const std::vector<Unit>& units, const std::vector<size
                     TreeBuilder make(ast, method.function->span);
                     body.push_back(make.effect(make.call(method.function->name, {})));
                 }
-    body.insert(body.end(), shader.body->body.begin(), shader.body->body.end());
+    auto own = shader.body->body.begin(), end = shader.body->body.end();
+    for (; own != end && (*own)->kind == StmtKind::Declare; ++own) body.push_back(*own);
+    for (Function* f : nested)
+        if (behind_members.contains(f)) define(f);
+    body.insert(body.end(), own, end);
     shader.parameters = ast.arena.copy(parameters);
     shader.handles = ast.arena.copy(handles);
     shader.co_shaders = ast.arena.copy(used);

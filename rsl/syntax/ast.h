@@ -356,6 +356,7 @@ struct GatherStmt : Stmt {
 // value (a write to one stays inside, with a warning).
 struct Function {
     std::string_view name;
+    std::string_view base;                               // the struct that a method comes from
     Type result;                                         // Void: none
     const StructDefinition* result_structure = nullptr;  // as Symbol::structure
     bool result_handle = false;                          // as Symbol::handle

@@ -1,6 +1,8 @@
 // rsl/syntax/parse_expression.cpp: operators by precedence, casts, literals, calls.
 #include "rsl/syntax/parse_expression.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -269,7 +271,8 @@ Expr* ExpressionParser::primary() {
         errors_.syntax_error("an expression");
         return bad_expression();
     }
-    if (cursor_.is(Punct::LeftParen, 1)) return call();
+    bool of_base = cursor_.is(Punct::Scope, 1) && cursor_.is(Punct::LeftParen, 3);
+    if (cursor_.is(Punct::LeftParen, 1) || of_base) return call();
     auto* node = make<VariableExpr>(SourceSpan{at.where, cursor_.position()});
     node->name = at.text;
     cursor_.advance();
@@ -337,6 +340,10 @@ Expr* ExpressionParser::call() {
     node->name = cursor_.token().text;
     node->site = ast_.site_count++;
     cursor_.advance();
+    if (cursor_.accept(Punct::Scope)) {  // BASE::method()
+        node->name = ast_.arena.copy(fmt::format("{}::{}", node->name, cursor_.token().text));
+        cursor_.advance();
+    }
     node->args = arguments();
     grow(0);
     node->span = cursor_.span_from(at);

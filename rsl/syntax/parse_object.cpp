@@ -120,6 +120,46 @@ bool ObjectParser::same_struct_again(uint32_t begin) {
     return true;
 }
 
+// ": BASE": the items of the base are read again, as if they stood here. False after an error.
+bool ObjectParser::inherit(std::vector<Stmt*>& members, std::vector<Function*>& methods) {
+    const Token& name = cursor_.token();
+    const StructDefinition* base = declarations_.find_struct(name.text);
+    if (!base) {
+        errors_.syntax_error("the name of a struct that is defined before");
+        return false;
+    }
+    cursor_.advance();
+    uint32_t here = cursor_.position();
+    cursor_.move_to(base->span.token + 2);
+    bool good = !cursor_.accept(Punct::Colon) || inherit(members, methods);
+    if (good) items(members, methods);
+    cursor_.move_to(here);
+    for (Function* method : methods)
+        if (method->base.empty()) method->base = base->name;
+    return good;
+}
+
+// Inherited methods, from `first` on, for which one of the struct's own or of a nearer base stands
+// are called as "BASE::method()" alone.
+void ObjectParser::hide_overridden(std::span<Function*> methods, size_t first) {
+    auto same_form = [](const Function& a, const Function& b) {
+        return a.name == b.name &&
+               std::equal(a.parameters.begin(), a.parameters.end(), b.parameters.begin(),
+                          b.parameters.end(), [](const Symbol* x, const Symbol* y) {
+                              return x->type == y->type && x->structure == y->structure;
+                          });
+    };
+    for (size_t k = first; k < methods.size(); ++k) {
+        auto stands_for_it = [&](const Function* f) { return same_form(*f, *methods[k]); };
+        bool hidden =
+            std::any_of(methods.begin(), methods.begin() + ptrdiff_t(first), stands_for_it) ||
+            std::any_of(methods.begin() + ptrdiff_t(k) + 1, methods.end(), stands_for_it);
+        if (hidden)
+            methods[k]->name = ast_.arena.copy(std::string(methods[k]->base) +
+                                               "::" + std::string(methods[k]->name));
+    }
+}
+
 void ObjectParser::struct_definition() {
     uint32_t at = cursor_.position();
     if (same_struct_again(at)) return;
@@ -128,14 +168,13 @@ void ObjectParser::struct_definition() {
     structure->span = SourceSpan{cursor_.token().where, at};
     structure->name = cursor_.token().text;
     cursor_.advance();
-    if (cursor_.is(Punct::Colon)) {
-        errors_.newer_language(cursor_.token(1), "a struct that inherits from another");
-        return;
-    }
-    ast_.structs.push_back(structure);
     std::vector<Stmt*> declarations;
-    std::vector<Function*> methods;
+    std::vector<Function*> inherited, methods;
+    if (cursor_.accept(Punct::Colon) && !inherit(declarations, inherited)) return;
+    ast_.structs.push_back(structure);
     items(declarations, methods);
+    methods.insert(methods.end(), inherited.begin(), inherited.end());
+    hide_overridden(methods, methods.size() - inherited.size());
     std::vector<Symbol*> members;
     for (Stmt* stmt : declarations)
         for (Symbol* symbol : as<DeclareStmt>(*stmt).symbols) members.push_back(symbol);

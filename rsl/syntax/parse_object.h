@@ -33,6 +33,8 @@ class ObjectParser {
     void item(std::vector<Stmt*>& members, std::vector<Function*>& methods);
     void no_item();
     bool same_struct_again(uint32_t begin);
+    bool inherit(std::vector<Stmt*>& members, std::vector<Function*>& methods);
+    void hide_overridden(std::span<Function*> methods, size_t first);
 
     Ast& ast_;
     TokenCursor& cursor_;

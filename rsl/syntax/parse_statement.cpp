@@ -80,9 +80,9 @@ Stmt* StatementParser::statement_unguarded() {
             break;
     }
     if (cursor_.token().text == "struct" && cursor_.token(1).kind == TokenKind::Identifier &&
-        cursor_.is(Punct::LeftBrace, 2)) {
-        errors_.newer_language(cursor_.token(), "a struct inside a function");
-        return nullptr;
+        (cursor_.is(Punct::LeftBrace, 2) || cursor_.is(Punct::Colon, 2))) {
+        local_struct_();
+        return empty_statement();
     }
     if (foreign_.missing_statement()) return nullptr;
     if (foreign_.misspelt_statement()) return statement_unguarded();
@@ -132,7 +132,8 @@ Function* StatementParser::function() {
     const StructDefinition* structure = declarations_.struct_type();
     bool foreign = !structure && foreign_.at_type();
     f->result_handle = cursor_.is_handle() && cursor_.is(Punct::LeftParen, 2);
-    f->typed = foreign || structure || f->result_handle || (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
+    f->typed = foreign || structure || f->result_handle ||
+               (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
     if (structure) {
         f->result = {BaseType::Void, -1};
         f->result_structure = structure;

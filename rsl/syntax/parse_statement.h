@@ -1,7 +1,9 @@
 // rsl/syntax/parse_statement.h: statements, and functions, which may stand among them.
 #pragma once
 
+#include <functional>
 #include <span>
+#include <utility>
 
 #include "rsl/syntax/ast.h"
 #include "rsl/syntax/nesting.h"
@@ -28,6 +30,8 @@ class StatementParser {
           expressions_(expressions),
           declarations_(declarations) {}
 
+    // What reads a struct that is defined among statements.
+    void read_structs_by(std::function<void()> reader) { local_struct_ = std::move(reader); }
     // A definition at file level begins.
     void begin_definition() { unclosed_ = false; }
     BlockStmt* block();
@@ -76,6 +80,7 @@ class StatementParser {
     OpenDefinition& definition_;
     ExpressionParser& expressions_;
     DeclarationParser& declarations_;
+    std::function<void()> local_struct_;
     bool unclosed_ = false;  // the end of the file or shader was met inside a block, and said
     bool skipped_ = false;   // the statement before was broken: it may have been an if
 };

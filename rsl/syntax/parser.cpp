@@ -23,7 +23,9 @@ Parser::Parser(Ast& ast, Reporter& reporter, uint32_t first)
       expressions_(ast, cursor_, errors_, foreign_, nesting_),
       declarations_(ast, cursor_, errors_, foreign_, expressions_, open_),
       statements_(ast, cursor_, errors_, foreign_, nesting_, open_, expressions_, declarations_),
-      objects_(ast, cursor_, errors_, open_, declarations_, statements_) {}
+      objects_(ast, cursor_, errors_, open_, declarations_, statements_) {
+    statements_.read_structs_by([this] { objects_.struct_definition(); });
+}
 
 namespace {
 

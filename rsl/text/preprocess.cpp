@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <utility>
 
 #include "rsl/text/lexer.h"
@@ -22,6 +23,29 @@ constexpr std::pair<std::string_view, std::string_view> kHeadersByWord[] = {
     {"indirectspecular", "integrators.h"},
     {"getlights", "getlights.h"},
 };
+
+// Functions, and the header that has them.
+constexpr std::pair<std::string_view, std::string_view> kHeadersByCall[] = {
+    {"erf", "prman.h"},
+    {"erfc", "prman.h"},
+    {"gridnever", "prman.h"},
+    {"randomstrat", "prman.h"},
+    {"generateSamplesAS", "prman_samples.h"},
+    {"evaluateSamplesAS", "prman_samples.h"},
+    {"generateSamplesEnv", "prman_samples.h"},
+    {"evaluateSamplesEnv", "prman_samples.h"},
+};
+
+// Whether "name(" stands in the text.
+bool calls(std::string_view text, std::string_view name) {
+    auto in_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); };
+    for (size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+        size_t end = text.find_first_not_of(" \t", at + name.size());
+        if (end != text.npos && text[end] == '(' && (at == 0 || !in_word(text[at - 1])))
+            return true;
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -70,10 +94,14 @@ void Preprocessor::run(const ShaderSource& source) {
     if (source.map.file != kNoFile) path = source_files_.name(source.map.file);
     files_.enter({texts_.keep(std::string(source.text)), &texts_.keep(source.map), path});
     // What is known without its header, as if the source began with that.
+    auto begin_with = [&](std::string_view name) {
+        if (auto header = includes_.find(std::string(name), false, "", Token()))
+            files_.enter(*header);
+    };
     for (const auto& [word, name] : kHeadersByWord)
-        if (source.text.find(word) != source.text.npos)
-            if (auto header = includes_.find(std::string(name), false, "", Token()))
-                files_.enter(*header);
+        if (source.text.find(word) != source.text.npos) begin_with(name);
+    for (const auto& [name, header] : kHeadersByCall)
+        if (calls(source.text, name)) begin_with(header);
     out_.tokens.reserve(source.text.size() / 4 + 16);
     read();
 }
@@ -88,11 +116,26 @@ void Preprocessor::emit(Token token) {
     out_.tokens.push_back(token);
 }
 
+// "x = 1; # as it was": some shaders have remarks of this kind.
+bool Preprocessor::begins_remark(const Token& token) {
+    bool behind_statement = !out_.tokens.empty() && (out_.tokens.back().punct == Punct::Semicolon ||
+                                                     out_.tokens.back().punct == Punct::RightBrace);
+    bool hash = token.punct == Punct::Hash && !token.line_start && token.macro == 0;
+    if (!hash || !behind_statement || files_.skipping()) return false;
+    reporter_.report(Code::RSL_HASH_REMARK, token);
+    return true;
+}
+
 void Preprocessor::read() {
     Token token;
+    bool remark = false;  // behind a '#' within a line
     while (true) {
         token = expander_.next();
         if (budget_.exhausted() || reporter_.full()) break;
+        remark = remark && !token.line_start && token.kind != TokenKind::End;
+        if (remark) continue;
+        remark = begins_remark(token);
+        if (remark) continue;
         if (token.kind != TokenKind::End) {
             if (token.punct == Punct::Hash && token.line_start && token.macro == 0)
                 directives_.obey();

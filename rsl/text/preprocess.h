@@ -26,6 +26,7 @@ class Preprocessor {
     void define(std::string_view name, std::string_view value);
     void read();
     void emit(Token token);
+    bool begins_remark(const Token& token);
 
     const CompileOptions& options_;
     const SourceFiles& source_files_;

@@ -47,8 +47,8 @@ void PrintedLines::add(PrintedLines&& others) {
     left_out_ = left_out_ || beyond > 0;
 }
 
-void PrintedLines::show() const {
-    for (const std::string& line : lines_) std::fputs(line.c_str(), stdout);
+void PrintedLines::show(std::FILE* to) const {
+    for (const std::string& line : lines_) std::fputs(line.c_str(), to);
 }
 
 void PrintedLines::report(const std::string& shader, Diagnostics& diagnostics) const {

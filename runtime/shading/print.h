@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,7 +27,7 @@ class PrintedLines {
     void add(const jit::ServiceCall& call, int lane);
     // Behind these, others.
     void add(PrintedLines&& others);
-    void show() const;
+    void show(std::FILE* to = stdout) const;
     void clear() { *this = {}; }
     uint64_t asked() const { return asked_; }
     size_t shown() const { return lines_.size(); }

@@ -85,13 +85,16 @@ class Dae:
         self.scene_extra = ""  # of <visual_scene>: atmosphere, imager
 
     def material(self, name, stages, values):
-        """stages: (stage, shader, code). The values are the effect's newparams and the material's
-        setparams: a channel may target either."""
+        """stages: (stage, shader, code); a co-shader's stage is (handle,). The values are the effect's
+        newparams and the material's setparams: a channel may target either. A list of texts, or
+        one in a tuple, are handles for parameters of type shader."""
+        handles = {k: v for k, v in values.items() if isinstance(v, (list, tuple)) and isinstance(v[0], str)}
+        values = {k: v for k, v in values.items() if k not in handles}
         self.parts["materials"].append(
             f'<material id="{name}-material"><instance_effect url="#{name}-effect">'
             + "".join(f'<setparam ref="{k}">{self.value(v)}</setparam>' for k, v in values.items())
             + "</instance_effect></material>")
-        self.effect(name, stages, values)
+        self.effect(name, stages, values, handles)
 
     def light(self, name, shader, code, values):
         self.effect(name, [("LIGHT", shader, code)], values)
@@ -100,12 +103,15 @@ class Dae:
             f'</technique_common><extra><technique profile="RSL"><instance_effect '
             f'url="#{name}-effect"/></technique></extra></light>')
 
-    def effect(self, name, stages, values):
+    def effect(self, name, stages, values, handles=()):
         params = "".join(f'<newparam sid="{k}">{self.value(v)}</newparam>'
                          for k, v in values.items())
         codes = "".join(f"<code><![CDATA[\n{code}]]></code>\n" for _, _, code in stages)
         shaders = "".join(
-            f'<shader stage="{stage}"><name>{shader}</name>'
+            (f'<shader stage="COSHADER" handle="{stage[0]}">' if isinstance(stage, tuple)
+             else f'<shader stage="{stage}">') + f"<name>{shader}</name>"
+            + "".join(f'<bind symbol="{k}">{self.handles(v)}</bind>' for k, v in dict(handles).items()
+                      if self.declares(code, k))
             + "".join(f'<bind symbol="{k}"><param ref="{k}"/></bind>'
                       for k in values if self.declares(code, k)) + "</shader>\n"
             for stage, shader, code in stages)
@@ -115,7 +121,13 @@ class Dae:
 
     @staticmethod
     def declares(code, parameter):
-        return re.search(rf"\b{parameter}\s*=", code.split("{")[0]) is not None
+        return re.search(rf"\b{parameter}(\[\])?\s*=", re.split(r"\)\s*\{", code)[0]) is not None
+
+    @staticmethod
+    def handles(v):
+        """Of a list of handles the whole; of a tuple its one."""
+        texts = "".join(f"<string>{text}</string>" for text in v)
+        return texts if isinstance(v, tuple) else f'<array length="{len(v)}">{texts}</array>'
 
     @staticmethod
     def value(v):

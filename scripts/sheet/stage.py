@@ -52,6 +52,19 @@ def kind_of(code):
     return "transformation" if kind == "deformation" else kind, name
 
 
+# Co-shaders of what is nothing without them: parameters of type shader with their handles.
+LAYERS = {"layered": {"base": ("earthenware",), "layers": ["goldband", "drippedglaze", "dustfall"],
+                      "pattern": ("cloudvalue",)}}
+
+
+def with_layers(name, code):
+    """The stages of a look with its co-shaders, and their handles."""
+    values = LAYERS.get(name, {})
+    used = [handle for handles in values.values() for handle in handles]
+    folder = SHADERS / "classes/layer"
+    return [("SURFACE", name, code)] + [((h,), h, (folder / f"{h}.sl").read_text()) for h in used], values
+
+
 def joined(*meshes):
     """Several meshes as one: an object in one space."""
     positions, st, quads = [], [], []
@@ -169,7 +182,8 @@ class Stage:
 
 def surface(name, code):
     stage = Stage()
-    stage.material("shown", "SURFACE", name, code)
+    stages, handles = with_layers(name, code)
+    stage.dae.material("shown", stages, VALUES.get(name, {}) | handles)
     on_floor = name in ON_FLOOR
     stage.studio(floor=not on_floor)
     if on_floor:

@@ -15,7 +15,7 @@ loader.exec_module(attach)
 
 WIDTH, HEIGHT = 60, 40
 BALL, FLOOR = (28, 19), (20, 37)          # pixels in the middle of the ball and on the floor before it
-STAGES = ("surface", "displacement", "transformation", "light", "light-on-geometry", "volume", "atmosphere", "imager")
+STAGES = ("surface", "co-shaders", "displacement", "transformation", "light", "light-on-geometry", "volume", "atmosphere", "imager")
 
 
 class Examples(ProgramTest):
@@ -53,7 +53,7 @@ class Examples(ProgramTest):
 
     def test_surface_and_displacement_change_the_ball_alone(self):
         posts = {(x, y) for x in range(48, WIDTH) for y in range(HEIGHT)}
-        for stage in ("surface", "displacement", "transformation", "volume"):
+        for stage in ("surface", "co-shaders", "displacement", "transformation", "volume"):
             changed = self.changed(stage)
             self.assertIn(BALL, changed, stage)
             self.assertFalse(changed & posts, stage)

@@ -183,6 +183,17 @@ class CoShaders(SceneTest):
                           HAND.replace("<library_cameras>", animated("gloss") + "<library_cameras>", 1),
                           ["--time", "0.25"], ["--time", "0.25"])
 
+    def test_vertices_give_their_parameters_values(self):
+        """The texture coordinate as the vertices' "wear", which a co-shader and the surface itself take."""
+        bound = ('target="#m"/>', 'target="#m"><bind_vertex_input semantic="wear" input_semantic="TEXCOORD" input_set="0"/>'
+                 "</instance_material>")
+        worn = document(effect(LAYERED + CLAY.replace("= color(0.8, 0.4, 0.2);", "= color(0.8, 0.4, 0.2); varying float wear = 0;")
+                               .replace("tone * s", "tone * wear"), surface(BINDS.split("\n")[0])
+                               + CO_SHADERS.split("\n")[0], NEWPARAMS))
+        hand = effect("surface x(varying float wear = 0;) { Ci = color(0.9, 0.5, 0.3) * wear; Oi = 1; }",
+                      '<shader stage="SURFACE"/>')
+        self.same_picture(worn.replace(*bound), document(hand).replace(*bound))
+
     def test_a_library_is_of_the_scene(self):
         library = effect(CLAY + DIRT + COAT, CO_SHADERS, NEWPARAMS, "lib")
         text = document(effect(LAYERED, surface(), NEWPARAMS) + library, scene_extra=LIBRARY)
@@ -239,6 +250,7 @@ class CoShaders(SceneTest):
         path = self.write("scene.dae", SCENE)
         self.expect(shade("info", path), 0, "coat.gloss", "clay.tone", 'effect binds base = "clay"',
                     "effect binds coat.gloss = 0.5", 'co-shader "dirt"')
+        self.assertEqual(shade("info", path).out.count("effect binds coat.gloss"), 1)
         self.expect(run("kinora-render", path, "--list", "params"), 0, "coat.gloss", "dirt.amount")
         schema = run("kinora-validate", "--print-schema", "1.4.1").out
         self.assertIn("COSHADER", schema)

@@ -305,6 +305,70 @@ class Lights(Points):
                    {"L": [[0, 0, 2], [0, 4, 0]], "Cl": [[0.5] * 3, [0.125] * 3]})
 
 
+class CoShaders(Points):
+    LAYERED = """class x(shader base = null; shader layers[] = {}; output varying float n = 0;) {
+        public void surface(output color Ci, Oi) {
+            color c = 0; float i;
+            if (base != null) base->tint(c);
+            for (i = 0; i < arraylength(layers); i += 1) layers[i]->cover(c);
+            Ci = c; n = arraylength(layers);
+        }
+    }"""
+    CLAY = "class clay(color tone = color(1, 2, 3); varying float wet = 0;) {" \
+           " public void tint(output color c) { c = tone * (1 + wet) + point \"shader\" (0, 0, 0)[0]; } }"
+    COAT = "class coat(float gain = 2;) { public void cover(output color c) { c = gain * c + s; } }"
+    FILES = [{"handle": "clay", "file": "clay.sl", "parameters": {"tone": [1, 1, 4]}},
+             {"handle": "one", "file": "coat.sl"},
+             {"handle": "two", "file": "coat.sl", "parameters": {"gain": 3}}]
+
+    def check_layers(self, document, expected):
+        self.check(self.LAYERED, document | {"coshaders": self.FILES}, expected,
+                   clay=self.CLAY, coat=self.COAT)
+
+    def test_are_called_by_the_handles_that_parameters_name(self):
+        self.check_layers({"parameters": {"base": "clay", "layers": ["two", "one"]},
+                           "variables": {"s": [0, 10]}},
+                          {"n": [2, 2], "Ci": [[6, 6, 24], [36, 36, 54]]})
+
+    def test_none_or_unknown_ones_are_null(self):
+        self.check_layers({}, {"n": [0], "Ci": [[0] * 3]})
+        self.check_layers({"parameters": {"base": "paint"}}, {"n": [0], "Ci": [[0] * 3]})
+
+    def test_take_variables_of_the_points(self):
+        self.check_layers({"points": 2, "parameters": {"base": "clay"}, "variables": {"wet": [0, 1]}},
+                          {"Ci": [[1, 1, 4], [2, 2, 8]]})
+
+    def test_are_found_by_handle_and_category(self):
+        self.check("class x() { public void surface(output color Ci, Oi) {"
+                   " shader a = getshader(\"one\"), all[] = getshaders(\"category\", \"cloth\");"
+                   " Ci = color(a->value(), arraylength(all), getshader(\"three\") == null); } }",
+                   {"coshaders": [{"handle": h, "file": "v.sl",
+                                   "parameters": {"__category": "wool, cloth" if h == "two" else ""}}
+                                  for h in ("one", "two")]},
+                   {"Ci": [[7, 1, 1]]},
+                   v="class v(string __category = \"\";) { public float value() { return 7; } }")
+
+    def test_what_is_wrong_with_them(self):
+        self.wrong({"coshaders": [{"file": "clay.sl"}]}, "coshaders[0]: needs a \"handle\"", clay=self.CLAY)
+        self.wrong({"coshaders": self.FILES[:1] * 2}, "the handle 'clay' is taken", clay=self.CLAY)
+        self.wrong({"coshaders": [self.FILES[0] | {"space": moved(1, 0, 0)}]},
+                   "coshaders[0].space: a co-shader is in the space of the shader", clay=self.CLAY)
+        result = self.shade_points(self.LAYERED, {"coshaders": self.FILES[:1],
+                                                  "parameters": {"base": "clay", "clay.tne": 1}},
+                                   clay=self.CLAY)
+        self.expect(result, 2, "no parameter 'clay.tne'; did you mean 'clay.tone'?")
+
+
+class Printing(Points):
+    def test_goes_to_stderr_and_ends(self):
+        result = self.shade_points("surface x() { printf(\"s %g\\n\", s); }", {"variables": {"s": [1, 2]}})
+        self.expect(result, 0, "s 1\ns 2\n")
+        result = self.shade_points("surface x() { printf(\"%g\\n\", s); }",
+                                   {"points": 12000, "variables": {"s": 0.5}})
+        self.expect(result, 0, "12000", "10000")
+        self.assertEqual(result.err.count("0.5\n"), 10000)
+
+
 class Queries(Points):
     def test_options_and_attributes_of_every_kind(self):
         self.check("surface x(output varying float known = 0; output varying string w = \"\";) {"

@@ -8,6 +8,8 @@ from programs import SOURCE, ProgramTest, main, shade
 
 ROW = re.compile(r"^== (.+?) => (\w+)\n((?:(?!== ).*\n)+)", re.M)
 
+WARNINGS = ("RSL_NOT_COMPUTED", "RSL_LIGHT_METHOD")
+
 
 def rows():
     return ROW.findall((SOURCE / "tests/rsl/rps16.txt").read_text())
@@ -21,8 +23,13 @@ class Rps16(ProgramTest):
             path = Path(self.folder) / "row.sl"
             path.write_text(source)
             done = shade("check", path, "--json")
-            codes = {f["code"] for f in json.loads(done.out)[0]["findings"] if f["severity"] == "error"}
-            self.assertEqual(codes, set() if result == "compiles" else {result}, f"{title}\n{done}")
+            findings = json.loads(done.out)[0]["findings"]
+            errors = {f["code"] for f in findings if f["severity"] == "error"}
+            if result in WARNINGS:
+                self.assertEqual(errors, set(), f"{title}\n{done}")
+                self.assertIn(result, {f["code"] for f in findings}, title)
+            else:
+                self.assertEqual(errors, set() if result == "compiles" else {result}, f"{title}\n{done}")
 
     def test_the_page_has_the_same_rows(self):
         text = (SOURCE / "docs/language.md").read_text()

@@ -41,6 +41,38 @@ MISPRINTS = {
 }
 
 
+# The class listings of the transcription by their first and last lines, the file that completes
+# them, and what stands there in place of what the transcription has.
+CLASSES = SOURCE / "tests/rsl/classes"
+CLASS_LISTINGS = [
+    ("class rslTwoShader(", "public void userCreatedFunc() {", "seed_two_shader",
+     [("class rslTwoShader( shader params ) {", "class rslTwoShader(")]),
+    ("public void generateSamples(", "samples[i]->setMaterialSamples(", "seed_material",
+     [('if(distribution == "specular") {', 'if(distribution == "specular" || '),
+      ("color materialresponse = 0;", "color matresp = 0;"), ("float materialpdf = 0;", "float matpdf = 0;"),
+      # An asterisk too many, and both divisors in one; the response has the cosine.
+      ("matresp = refl * (F*G*D*)/4*(Vn.Nn)*(Ln.Nn);", "matresp = refl * (F*G*D)/(4*(Vn.Nn)*(Ln.Nn)) * (Ln.Nn);")]),
+    ("float evaluateSamples(", "samples[i]->setMaterialResponse(matresp, 0);", "seed_material",
+     [("float evaluateSamples(string distribution;", "public void evaluateSamples(string distribution;")]),
+    ("public void lighting(output color Ci, Oi) {", "Ci += (Kd", "seed_material",
+     [('"mis" 1,', '"mis", 1,'), ("indirectdiffuse(P, Nn,", "indirectdiffuse(P, m_shadingCtx->m_Ns,"),
+      ("(1-fresnel)", "(1-m_fres->m_Kr)"), ("spec_color", "spec_col")]),
+]
+
+
+def class_lines(first, last, mended):
+    """Code lines of a listing without comments and spaces, mended."""
+    text = next(SEEDS.glob("004_*.txt")).read_text() + "\n"
+    end = text.index("\n", text.index(last, text.index(first)))
+    listing = text[text.index(first):end]
+    for wrong, right in mended:
+        if wrong not in listing:
+            raise ValueError(f"no {wrong!r}")
+        listing = listing.replace(wrong, right)
+    bare = re.sub(r"/\*.*?\*/|//[^\n]*", "", listing, flags=re.S)
+    return [line for line in ("".join(line.split()) for line in bare.splitlines()) if line]
+
+
 def article(name):
     """The listing that begins with a shader kind on its line and `name` on the next."""
     text = next(SEEDS.glob("002_*.txt")).read_text()
@@ -68,12 +100,12 @@ def mended(name):
 
 @unittest.skipUnless(SEEDS.is_dir(), "no ../shared/seeds")
 class Seeds(ProgramTest):
-    def shot(self, name, dae, *words):
+    def shot(self, name, dae, *words, spp=9):
         """Rows of grey values 0..255 of the scene's picture."""
         scene = self.folder / f"{name}.dae"
         dae.write(scene)
         out = scene.with_suffix(".png")
-        self.expect(render(scene, "-o", out, "--size", "160x160", "--spp", "9", "--background",
+        self.expect(render(scene, "-o", out, "--size", "160x160", "--spp", str(spp), "--background",
                            "0,0,0.5", *words), 0)
         if os.environ.get("KINORA_KEEP"):
             shutil.copy(out, Path(os.environ["KINORA_KEEP"]) / f"seed_{name}.png")
@@ -152,6 +184,53 @@ class Seeds(ProgramTest):
         middle = [v for row in rows[45:115] for v in row[66:94]]
         # 0.3 of each wall is wire: seen through both walls about 1 - 0.7 * 0.7 is.
         self.assertAlmostEqual(sum(v > 128 for v in middle) / len(middle), 0.51, delta=0.12)
+
+    def test_each_line_of_the_classes_stands_in_what_completes_them(self):
+        count = 0
+        for first, last, file, mended in CLASS_LISTINGS:
+            complete = "".join((CLASSES / f"{file}.sl").read_text().split())
+            for line in class_lines(first, last, mended):
+                count += 1
+                self.assertIn(line, complete, file)
+        self.assertGreater(count, 35)
+
+    def class_scene(self, name, floor=True):
+        code = (CLASSES / f"{name}.sl").read_text()
+        shader = re.search(r"^class (\w+)", code, re.M)[1]
+        self.expect(shade("check", self.write(f"{name}.sl", code)), 0, "0 errors")
+        dae = self.scene()
+        few = {"num_samps": 4.0, "num_diffuse_samps": 4.0} if "num_samps" in code else {}
+        dae.material("look", [("SURFACE", shader, code)], few)
+        dae.mesh("ball", ball(), "look")
+        dae.node("ball", "ball", "look")
+        if floor:
+            dae.material("paper", [("SURFACE", "matte", (SOURCE / "assets/shaders/matte.sl").read_text())], {"Kd": 0.25})
+            dae.mesh("floor", grid_of(lambda s, t: (8 * s - 4, 8 * t - 4, -1), 1, 1), "paper")
+            dae.node("floor", "floor", "paper")
+        return dae, code
+
+    def test_the_simple_class_is_a_pierced_shell(self):
+        dae, code = self.class_scene("seed_two_shader", floor=False)
+        rows = self.shot("class", dae)
+        # Through holes in front and behind one sees the background, whose red is 0.
+        middle = [v for row in rows[50:110] for v in row[50:110]]
+        holes = sum(v == 0 for v in middle) / len(middle)
+        self.assertGreater(holes, 0.01)
+        self.assertLess(holes, 0.7)
+        dae = self.class_scene("seed_two_shader", floor=False)[0]
+        dae.parts["effects"] = [e.replace("Ci *= Oi;", "Ci *= 0;") for e in dae.parts["effects"]]
+        self.assertLess(max(max(row) for row in self.shot("class_dark", dae)), 5)
+
+    def test_the_material_shines_by_its_own_samples(self):
+        rows = self.shot("material", self.class_scene("seed_material")[0], spp=2)
+        self.assertGreater(rows[60][60], rows[100][110] + 30)  # lit from the upper left
+        dae, code = self.class_scene("seed_material")
+        dae.parts["effects"] = [e.replace("+ spec_col + indir_spec", "+ 0 * indir_spec")
+                                for e in dae.parts["effects"]]
+        matte = self.shot("material_matte", dae, spp=2)
+        brighter = [a - b for row, other in zip(rows, matte) for a, b in zip(row, other)]
+        self.assertGreater(max(brighter), 40)  # the highlight
+        self.assertGreaterEqual(min(brighter), -12)  # noise of random() alone
 
     def test_matte_of_the_appendix_renders_as_printed(self):
         text = next(SEEDS.glob("003_*.txt")).read_text()

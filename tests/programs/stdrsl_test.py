@@ -180,6 +180,22 @@ class Stdrsl(Points):
                    {"Ci": [[((0.5 + 0.055) / 1.055) ** 2.4, 1, 0]],
                     "Oi": [[16, 2 * math.pi, 1 / math.pi]]})
 
+    def test_spherical_harmonics(self):
+        # Light of one direction's harmonics, turned by a quarter about z: x goes to y.
+        turned = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+        source = "#include <stdrsl/SphericalHarmonics.h>\nsurface x(output varying color a = 0;" \
+                 "output varying color b = 0; output varying float c = 0;) {" \
+                 " stdrsl_SphericalHarmonic h, other; color k[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};" \
+                 " h->createFromArray(k); a = h->evaluate(vector \"current\" (0.6, 0, 0.8));" \
+                 " float f[4] = {1, 0, 0, 1}; other->createFromArray(f);" \
+                 " c = comp(h->convolve(other, 0), 0); h->rotate(\"turned\");" \
+                 " b = h->evaluate(vector \"current\" (0, 0.6, 0.8)); }"
+        y = [0.28209479, 0, 0.48860251 * 0.8, 0.48860251 * 0.6, 0, 0, 0.31539157 * (3 * 0.64 - 1),
+             1.0925484 * 0.48, 0.54627421 * 0.36]
+        light = sum((k + 1) * value for k, value in enumerate(y))
+        self.check(source, {"spaces": {"turned": turned}},
+                   {"a": [[light] * 3], "b": [[light] * 3], "c": [5]})
+
     def test_radiance_samples(self):
         self.check("#include <stdrsl/RadianceSample.h>\nsurface x() { __radiancesample a[];"
                    " resize(a, 3); float i; for (i = 0; i < 3; i += 1)"

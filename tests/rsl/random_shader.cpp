@@ -63,6 +63,7 @@ void ShaderWriter::line(const std::string& text) {
 std::string ShaderWriter::write() {
     uses_structs_ = chance(25);
     is_class_ = kind_ == ShaderKind::Surface && chance(20);
+    has_co_shaders_ = kind_ == ShaderKind::Surface && chance(15);
     if (uses_structs_) structs();
     for (int k = 0; k < policy_.functions; ++k) chance(20) ? recursion() : function();
     scope_.clear();
@@ -83,6 +84,8 @@ std::string ShaderWriter::write() {
     }
     --depth_;
     line(is_class_ ? "} }" : "}");
+    if (has_co_shaders_)
+        for (const char* handle : {"red", "green"}) co_shader(handle);
     return text_;
 }
 
@@ -193,6 +196,7 @@ void ShaderWriter::statement() {
     if (takes(policy_.calls)) return void_call();
     if (takes(5)) return light_loop();
     if (takes(uses_structs_ ? 10 : 2)) return object_statement();
+    if (has_co_shaders_ && !inside_ && takes(12)) return co_shader_statement();
     if (takes(28)) return declaration();
     assignment();
 }

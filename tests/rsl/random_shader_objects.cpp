@@ -1,4 +1,4 @@
-// tests/rsl/random_shader_objects.cpp: resizable arrays, structs and classes at random.
+// tests/rsl/random_shader_objects.cpp: resizable arrays, structs, classes and co-shaders at random.
 #include "tests/rsl/shader_writer_p.h"
 
 namespace kinora::rsl {
@@ -73,6 +73,83 @@ void ShaderWriter::resizable() {
     line("for (" + k + " = 0; " + k + " < arraylength(" + name + "); " + k + " += 1) " + sum +
          " += " + name + "[" + k + "];");
     scope_.push_back({sum, type, -1, false, true});
+}
+
+// A source of its own behind the line that shader_difference() parts them by.
+void ShaderWriter::co_shader(const std::string& handle) {
+    functions_.clear();  // those of the other source
+    uses_structs_ = has_co_shaders_ = false;
+    objects_.clear();
+    line("//// " + handle);
+    std::vector<Variable> members;
+    std::string head = "class " + handle + "(";
+    for (BaseType type : {BaseType::Float, BaseType::Color}) {
+        std::string name = fresh("own_");
+        head += std::string(type_name(type)) + " " + name + " = " + literal(type) + "; ";
+        members.push_back({name, type, -1, true, false});
+    }
+    line(head + ") {");
+    ++depth_;
+    line("public float seen = " + literal(BaseType::Float) + ";");
+    line("public color kept = " + literal(BaseType::Color) + ";");
+    members.push_back({"seen", BaseType::Float, -1, false, true});
+    members.push_back({"kept", BaseType::Color, -1, false, true});
+    co_shader_method("public void begin() {", BaseType::Void, members, "");
+    std::vector<Variable> all = members;
+    all.push_back({"x", BaseType::Float, -1, false, false});
+    all.push_back({"c", BaseType::Color, -1, false, false});
+    co_shader_method("public float value(float x; color c;) {", BaseType::Float, all, "return ");
+    all.back().writable = true;
+    co_shader_method("public void change(float x; output color c;) {", BaseType::Void, all, "c = ");
+    --depth_;
+    line("}");
+}
+
+// The last statement gives the result, or sets what `last` begins with.
+void ShaderWriter::co_shader_method(const std::string& head, BaseType result,
+                                    const std::vector<Variable>& names, const std::string& last) {
+    scope_ = names;
+    calls_left_ = 0;
+    UserFunction method{"", result, {}};
+    line(head);
+    ++depth_;
+    inside_ = &method;
+    statements(2 + below(3));
+    if (!last.empty())
+        line(last + value(result == BaseType::Void ? BaseType::Color : result, 2) + ";");
+    inside_ = nullptr;
+    --depth_;
+    line("}");
+}
+
+// One handle, or another one at each point, or now and then none.
+std::string ShaderWriter::some_co_shader() {
+    std::string red = "getshader(\"red\")", green = "getshader(\"green\")";
+    int dice = below(10);
+    if (dice < 3) return chance(50) ? red : green;
+    std::string other = dice < 9 ? green : "null";
+    return "(" + condition(1) + ") ? " + red + " : " + other;
+}
+
+void ShaderWriter::co_shader_statement() {
+    std::string h = fresh("h"), x = fresh("x"), c = fresh("c");
+    line("shader " + h + " = " + some_co_shader() + ";");
+    line("float " + x + " = " + h + "->value(" + value(BaseType::Float, 2) + ", " +
+         value(BaseType::Color, 2) + ");");
+    line("color " + c + " = " + value(BaseType::Color, 1) + ";");
+    scope_.push_back({x, BaseType::Float, -1, false, true});
+    scope_.push_back({c, BaseType::Color, -1, false, true});
+    switch (below(4)) {
+        case 0:
+            return line(h + "->change(" + value(BaseType::Float, 2) + ", " + c + ");");
+        case 1:
+            return line(x + " += " + h + "->seen + getvar(" + h + ", \"kept\", " + c + ");");
+        case 2:
+            return line("if (" + h + " != null) " + c + " += " + h + "->kept;");
+        default:
+            return line(x + " += hasmethod(" + h + ", \"change\") + (" + h +
+                        " == getshader(\"red\"));");
+    }
 }
 
 // One of the above, as a statement among others.

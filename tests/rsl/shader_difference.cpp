@@ -239,14 +239,49 @@ std::string target_difference(RunShader& run, size_t points, DifferenceCounts& c
     return "";
 }
 
+namespace {
+
+// The shader, then its co-shaders; views of the text.
+std::vector<LinkedSource> parts_of(std::string_view text) {
+    constexpr std::string_view kMark = "\n//// ";
+    std::vector<LinkedSource> parts;
+    for (std::string handle;;) {
+        size_t end = std::min(text.find(kMark), text.size());
+        parts.push_back({handle, {text.substr(0, end), {}}, "", {}});
+        if (end == text.size()) return parts;
+        text.remove_prefix(end + kMark.size());
+        handle = text.substr(0, text.find('\n'));
+        text.remove_prefix(handle.size());
+    }
+}
+
+Shaders compiled(const std::string& source, Diagnostics& diagnostics) {
+    std::vector<LinkedSource> parts = parts_of(source);
+    for (LinkedSource& part : parts) {
+        part.source.map.file =
+            diagnostics.files.add(part.handle + "fuzz.sl", std::string(part.source.text));
+        part.source.map.segments = {{0, 0}};
+    }
+    if (parts.size() == 1) return compile(parts[0].source, {}, diagnostics);
+    Shaders shaders;
+    if (auto linked = compile_linked(parts, {}, diagnostics)) shaders.push_back(std::move(linked));
+    return shaders;
+}
+
+RunShader run_of(const std::string& source, bool stack, const LowerOptions& options,
+                 const std::vector<ParamBinding>& params) {
+    std::vector<LinkedSource> parts = parts_of(source);
+    if (parts.size() > 1) return RunShader(parts, options, params);
+    return RunShader(source, options, params, stack);
+}
+
+}  // namespace
+
 std::string shader_difference(const std::string& source, uint64_t world, DifferenceCounts& counts) {
     ++counts.shaders;
     // Compiled once for the parameters' names, then with all outputs.
     Diagnostics diagnostics;
-    ShaderSource text{source, {}};
-    text.map.file = diagnostics.files.add("fuzz.sl", source);
-    text.map.segments = {{0, 0}};
-    auto shaders = compile(text, {}, diagnostics);
+    Shaders shaders = compiled(source, diagnostics);
     auto reject = [&](std::string why) {
         if (counts.rejected++ == 0) counts.first_rejection = why + "\n" + source;
         return "";
@@ -256,7 +291,7 @@ std::string shader_difference(const std::string& source, uint64_t world, Differe
                           ? "no finding"
                           : format_finding(diagnostics.findings()[0], diagnostics.files));
     Setting setting = setting_of(shaders, world);
-    RunShader run(source, setting.options, setting.params, is_stack(shaders));
+    RunShader run = run_of(source, is_stack(shaders), setting.options, setting.params);
     if (!run.verdict.empty()) return "verify: " + run.verdict;
     if (!run.ok()) return reject(run.findings());
     ReferenceInputs shared;

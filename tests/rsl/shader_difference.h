@@ -22,6 +22,9 @@ struct DifferenceCounts {
     std::string first_rejection;
 };
 
+// Sources of co-shaders stand behind a line "//// HANDLE" each: the shader before them is linked
+// with them.
+//
 // Compiles and runs the last shader of the source on the world of `world`; a surface together with
 // the displacements before it, if the source has nothing else. "" if all agree; else what differs.
 // Parameters frame_* and vary_* are bound to frame and point inputs.

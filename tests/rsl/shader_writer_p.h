@@ -82,6 +82,11 @@ class ShaderWriter {
     void struct_statement();
     void resizable();
     void object_statement();
+    void co_shader(const std::string& handle);
+    void co_shader_method(const std::string& head, BaseType result,
+                          const std::vector<Variable>& names, const std::string& last);
+    std::string some_co_shader();
+    void co_shader_statement();
 
     // random_shader_expressions.cpp
     BaseType value_type();
@@ -114,7 +119,8 @@ class ShaderWriter {
     std::vector<std::string> objects_;  // variables of struct type
     bool uses_structs_ = false;
     bool is_class_ = false;
-    bool uniform_ = false;  // only uniform values may be written
+    bool has_co_shaders_ = false;  // "red" and "green", of the same methods
+    bool uniform_ = false;         // only uniform values may be written
     bool in_illuminance_ = false, in_illuminate_ = false;
     int depth_ = 0;       // of blocks
     int calls_left_ = 0;  // of user functions, which are expanded where they are called

@@ -153,7 +153,19 @@ const HeaderRow kHeaders[] = {
     {"filterregion.h", "string map = \"\";",
      "filterregion r; r->calculate2d(s, t); r->scale(2); r->blur(0.1); r->calculate3d(P);"
      "r->calculate2d(s, t, 0.1, 0, 0, 0.1); r->calculate3d(P, dPdu, dPdv);"
-     "Ci = color texture(map, r) + float texture(map, r) + r->radius;"},
+     "Ci = color texture(map, r) + float texture(map, r) + r->radius;"
+     "Ci += color environment(map, r) + float environment(map, r); __radiancesample a[];"
+     "resize(a, 1); areashadow(map, r, a, \"bias\", 0.1); Ci += a[0]->radiance;"},
+    {"prman.h", "",
+     "vector a[4]; randomstrat(0, 4, a); Ci = erf(s) + erfc(t) + gridnever(s) + color(a[2]);"},
+    {"prman_samples.h", "string map = \"\";",
+     "__radiancesample a[]; generateSamplesAS(Cs, 2, 10, 20, N, dPdu, -I, a);"
+     "evaluateSamplesAS(Cs, 10, 20, N, dPdu, -I, a); generateSamplesEnv(map, P, N, 2, a);"
+     "evaluateSamplesEnv(map, P, N, a); Ci = a[0]->radiance + a[0]->lightPdf;"},
+    {"stdrsl/sphericalharmonics.h", "",
+     "stdrsl_SphericalHarmonic a, b; color k[9]; float f[4]; a->createFromArray(k);"
+     "b->createFromArray(f); a->rotate(\"world\"); Ci = a->convolve(b, 0) + a->evaluate(vector "
+     "N);"},
     {"getlights.h", "", "Ci = 1;"},    // its functions take lights: objects/lights_test.cpp
     {"integrators.h", "", "Ci = 1;"},  // its functions are of classes: tests/rsl/classes
     {"util.h", "",

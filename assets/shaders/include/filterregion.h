@@ -3,6 +3,8 @@
 #ifndef KINORA_FILTERREGION_H
 #define KINORA_FILTERREGION_H
 
+#include <stdrsl/radiancesample.h>
+
 struct filterregion {
     varying float ss = 0;  // the middle
     varying float tt = 0;
@@ -56,5 +58,40 @@ struct filterregion {
     }
 KINORA_REGION(float)
 KINORA_REGION(color)
+
+// In the direction that calculate3d() has, over the angle of its radius.
+#define KINORA_REGION_OF_SKY(type)                                                     \
+    type environment(uniform string file; filterregion r) {                            \
+        vector w = vector(r->centre);                                                  \
+        return type environment(file, w, "blur", atan(r->radius, length(w)) / PI);     \
+    }
+KINORA_REGION_OF_SKY(float)
+KINORA_REGION_OF_SKY(color)
+
+#define KINORA_REGION_OF_FACE(type)                                                    \
+    type ptexture(uniform string file; float channel; float face; filterregion r) {    \
+        return type ptexture(file, channel, face);                                     \
+    }
+KINORA_REGION_OF_FACE(float)
+KINORA_REGION_OF_FACE(color)
+
+// Samples of a light lose what lies before it, by rays: maps are not read. Of the pairs "bias" has
+// an effect.
+void areashadow(string map; filterregion r; output __radiancesample samples[];
+                string name1 = ""; float value1 = 0; string name2 = ""; float value2 = 0;
+                string name3 = ""; float value3 = 0; string name4 = ""; float value4 = 0;
+                string name5 = ""; float value5 = 0; string name6 = ""; float value6 = 0;) {
+    float bias = -1, i;
+    if (name1 == "bias") bias = value1;
+    if (name2 == "bias") bias = value2;
+    if (name3 == "bias") bias = value3;
+    if (name4 == "bias") bias = value4;
+    if (name5 == "bias") bias = value5;
+    if (name6 == "bias") bias = value6;
+    for (i = 0; i < arraylength(samples); i += 1) {
+        point end = Ps + samples[i]->direction * min(samples[i]->distance, 1e6);
+        samples[i]->radiance *= transmission(Ps, end, "bias", bias);
+    }
+}
 
 #endif

@@ -89,10 +89,12 @@ class InputFinder {
     void add_parameter(const ShaderUse& layer, const rsl::ShaderParameter& p) {
         if (p.type.is_array() || p.type.base == rsl::BaseType::String) return;
         uint32_t components = uint32_t(rsl::component_count(p.type.base));
-        const VertexBinding* binding = find_binding(use_, p.name);
+        // Of a co-shader's parameter, HANDLE.NAME, the part behind the handle.
+        std::string_view name = p.name.substr(p.name.rfind('.') + 1);
+        const VertexBinding* binding = find_binding(use_, name);
         const VertexAttribute* attribute =
             binding ? find_attribute(group_, binding->semantic, binding->set)
-                    : find_attribute(group_, p.name, kNone);
+                    : find_attribute(group_, name, kNone);
         attribute = read_by(layer, attribute);
         if (attribute)
             add(std::string(p.name), attribute->semantic, attribute, 0, components);

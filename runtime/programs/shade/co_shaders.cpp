@@ -14,15 +14,16 @@ namespace {
 
 constexpr uint64_t kMostSourceBytes = 64 << 20;
 
-// --param HANDLE.NAME=VALUE is for that co-shader; without a handle of these it is the shader's.
-rsl::LinkTexts texts_for(const ShadeOptions& options, const std::string& handle) {
+// --param HANDLE.NAME=VALUE is for that co-shader; without a handle of these it is the shader's. It
+// goes before what comes with the source.
+rsl::LinkTexts texts_for(const ShadeOptions& options, const ShadeSource& source,
+                         const std::string& handle) {
+    std::string prefix = handle.empty() ? "" : handle + ".";
     rsl::LinkTexts texts;
-    for (const auto& [name, value] : options.params) {
-        if (handle.empty())
-            texts[name] = {value};
-        else if (name.starts_with(handle + "."))
-            texts[name.substr(handle.size() + 1)] = {value};
-    }
+    for (const ShadeParam& param : source.params)
+        if (param.name.starts_with(prefix)) texts[param.name.substr(prefix.size())] = param.strings;
+    for (const auto& [name, value] : options.params)
+        if (name.starts_with(prefix)) texts[name.substr(prefix.size())] = {value};
     return texts;
 }
 
@@ -31,9 +32,7 @@ rsl::LinkTexts texts_for(const ShadeOptions& options, const std::string& handle)
 std::unique_ptr<rsl::Shader> compile_with_co_shaders(const ShadeOptions& options,
                                                      ShadeSource& source) {
     std::vector<rsl::LinkedSource> sources{
-        {"", source.view(), options.shader, texts_for(options, "")}};
-    for (const ShadeParam& param : source.params)
-        if (!sources[0].texts.contains(param.name)) sources[0].texts[param.name] = param.strings;
+        {"", source.view(), options.shader, texts_for(options, source, "")}};
     std::deque<std::string> kept;  // the sources are views
     for (const auto& [handle, path] : options.co_shaders) {
         std::optional<std::string> bytes = read_regular_file(path, kMostSourceBytes);
@@ -45,7 +44,7 @@ std::unique_ptr<rsl::Shader> compile_with_co_shaders(const ShadeOptions& options
         rsl::ShaderSource text{kept.back(), {}};
         text.map.file = source.diagnostics.files.add(path, kept.back());
         std::erase_if(sources, [&](const rsl::LinkedSource& s) { return s.handle == handle; });
-        sources.push_back({handle, text, "", texts_for(options, handle)});
+        sources.push_back({handle, text, "", texts_for(options, source, handle)});
     }
     return rsl::compile_linked(sources, options.compile, source.diagnostics);
 }

@@ -78,6 +78,14 @@ void print_class(const rsl::Shader& shader) {
     if (!methods.empty()) std::printf("    methods%s\n", methods.c_str());
 }
 
+// A co-shader's values stand with the shader that calls it, as HANDLE.NAME.
+bool takes(const rsl::Shader& shader, const ShadeParam& param) {
+    const auto& handles = shader.definition->handles;
+    return std::ranges::any_of(shader.parameters,
+                               [&](const auto& p) { return p.name == param.name; }) ||
+           std::ranges::any_of(handles, [&](const auto* h) { return h->name == param.name; });
+}
+
 void print_text(const rsl::Shader& shader, const ShadeSource& source) {
     const char* kind =
         shader.definition->co_shader ? "co-shader" : rsl::shader_kind_name(shader.kind);
@@ -96,6 +104,7 @@ void print_text(const rsl::Shader& shader, const ShadeSource& source) {
     std::printf("    reads%s\n    writes%s\n", joined(shader.globals_read).c_str(),
                 joined(shader.globals_written).c_str());
     for (const ShadeParam& param : source.params) {
+        if (!takes(shader, param)) continue;
         std::string value;
         for (double number : param.numbers) value += fmt::format(" {:g}", number);
         for (const std::string& text : param.strings) value += " " + rsl::quoted(text);

@@ -131,6 +131,8 @@ rsl::Layer bind_points_layer(const rsl::Shader& shader, uint32_t index,
         const rsl::ShaderParameter& parameter = shader.parameters[p];
         std::string name(parameter.name);
         auto variable = document.variables.find(name);
+        if (size_t dot = name.rfind('.'); variable == document.variables.end() && dot < name.size())
+            variable = document.variables.find(name.substr(dot + 1));  // of a co-shader
         bool is_variable = variable != document.variables.end();
         auto own = parameters.find(name);
         if (!is_variable && own == parameters.end()) continue;

@@ -135,17 +135,33 @@ PointsShader shader_of(const Json& json, const std::string& where, const std::st
     return shader;
 }
 
-void read_lights(const Json& json, const std::string& where, const std::string& folder,
-                 PointsDocument& document) {
+std::vector<PointsShader> read_shaders(const Json& json, const std::string& where,
+                                       const std::string& folder) {
     if (!json.is_array()) fail(where + ": takes a list of shaders");
+    std::vector<PointsShader> shaders;
     for (size_t l = 0; l < json.size(); ++l) {
         std::string place = fmt::format("{}[{}]", where, l);
-        document.lights.push_back(shader_of(json[l], place, folder));
-        for (size_t k = 0; k < l; ++k)
-            if (!document.lights[l].handle.empty() &&
-                document.lights[k].handle == document.lights[l].handle)
-                fail(fmt::format("{}: the handle '{}' is taken", place, document.lights[l].handle));
+        shaders.push_back(shader_of(json[l], place, folder));
+        const std::string& handle = shaders.back().handle;
+        for (size_t k = 0; k < l && !handle.empty(); ++k)
+            if (shaders[k].handle == handle)
+                fail(fmt::format("{}: the handle '{}' is taken", place, handle));
     }
+    return shaders;
+}
+
+std::vector<PointsShader> read_co_shaders(const Json& json, const std::string& where,
+                                          const std::string& folder) {
+    std::vector<PointsShader> shaders = read_shaders(json, where, folder);
+    for (size_t k = 0; k < shaders.size(); ++k) {
+        std::string place = fmt::format("{}[{}]", where, k);
+        if (shaders[k].handle.empty()) fail(place + ": needs a \"handle\", its name for others");
+        if (!shaders[k].shader.empty())
+            fail(place + ".shader: a co-shader is the first of its file");
+        if (shaders[k].current_from_shader != dmat4(1.0))
+            fail(place + ".space: a co-shader is in the space of the shader that calls it");
+    }
+    return shaders;
 }
 
 void read_grid(const Json& json, const std::string& where, PointsDocument& document) {
@@ -219,7 +235,10 @@ PointsDocument read_points_document(const std::string& path) {
          {"variables", list(document.variables)},
          {"parameters", list(document.parameters)},
          {"spaces", spaces},
-         {"lights", [&](auto& item, auto& at) { read_lights(item, at, folder, document); }},
+         {"lights",
+          [&](auto& item, auto& at) { document.lights = read_shaders(item, at, folder); }},
+         {"coshaders",
+          [&](auto& item, auto& at) { document.co_shaders = read_co_shaders(item, at, folder); }},
          {"displacement",
           [&](auto& item, auto& at) { document.displacement = shader_of(item, at, folder); }},
          {"options", list(document.options)},

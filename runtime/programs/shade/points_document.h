@@ -42,6 +42,7 @@ struct PointsDocument {
     PointsValues parameters;
     std::map<std::string, dmat4> spaces;  // current from the space; others are current
     std::vector<PointsShader> lights;
+    std::vector<PointsShader> co_shaders;  // in the shader's own space
     std::optional<PointsShader> displacement;
     PointsValues options, attributes, rayinfo, rendererinfo;
 };

@@ -2,12 +2,10 @@
 #include "runtime/programs/shade/points_host.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <glm/matrix.hpp>
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/programs/shade/points_lights.h"
-#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -95,7 +93,7 @@ dmat4 PointsHost::world_from_current() const {
 
 void PointsHost::print(const jit::ServiceCall& call) {
     for (int lane = 0; lane < call.lanes; ++lane)
-        if (call.mask >> lane & 1) std::fputs(print_text(call, lane).c_str(), stderr);
+        if (call.mask >> lane & 1) printed_.add(call, lane);
 }
 
 // Lights at other positions. Records stay until the next group of lanes asks.

@@ -6,6 +6,7 @@
 #include "runtime/images/texture_store.h"
 #include "runtime/programs/shade/point_set.h"
 #include "runtime/shading/kernels/kernel_host.h"
+#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -23,7 +24,8 @@ class PointsHost : public KernelHost {
     TextureStore& textures() const override { return textures_; }
     dmat4 current_from_space(std::string_view name, size_t point) const override;
     dmat4 world_from_current() const override;
-    void print(const jit::ServiceCall& call) override;  // on stderr
+    void print(const jit::ServiceCall& call) override;
+    const PrintedLines& printed() const { return printed_; }
     void lights(const jit::ServiceCall& call) override;
     void trace(const jit::ServiceCall& call) override;
     void transmission(const jit::ServiceCall& call) override;
@@ -35,6 +37,7 @@ class PointsHost : public KernelHost {
     TextureStore& textures_;
     PointsLights* lights_;
     dmat4 shader_space_{1.0};
+    PrintedLines printed_;
     Arena* arena_ = nullptr;
     Arena local_;  // records of one group of lanes
     int32_t group_ = -1;

@@ -56,6 +56,9 @@ void PointsKernel::run(const PointSet& points, const PointsStack& stack, Texture
     std::span<const jit::RecordSet> records = host.at_points(arena_);
     bound_.run_frame(PointsFrameNumbers(points, stack, bound_.pair), host, records);
     out_ = run(points.count(), fill, host, records, arena_);
+    shader_ = stack.layers.back().shader->name;
+    printed_ = host.printed();
+    printed_.show(stderr);
 }
 
 int PointsKernel::find_output(const rsl::KernelKey& key) const {
@@ -71,7 +74,8 @@ std::span<const float> PointsKernel::output(const rsl::KernelKey& key) const {
     return {out_[size_t(found)], count_};
 }
 
-void PointsKernel::report_faults(Diagnostics& diagnostics) const {
+void PointsKernel::report(Diagnostics& diagnostics) const {
+    printed_.report(shader_, diagnostics);
     kinora::report_faults(
         bound_.kernel(), [&](size_t site) { return site < faults_.size() && faults_[site] != 0; },
         diagnostics);

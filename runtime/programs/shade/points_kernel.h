@@ -6,6 +6,7 @@
 #include "runtime/images/texture_store.h"
 #include "runtime/programs/shade/point_set.h"
 #include "runtime/shading/kernels/bound_kernel.h"
+#include "runtime/shading/print.h"
 
 namespace kinora {
 
@@ -36,7 +37,8 @@ class PointsKernel {
     int find_output(const rsl::KernelKey& key) const;  // -1: none
     const rsl::LoweredShader& lowered() const { return lowered_; }
     BoundKernel& bound() { return bound_; }
-    void report_faults(Diagnostics& diagnostics) const;
+    // Of the last run over the points: faults, and what was printed beyond the limit.
+    void report(Diagnostics& diagnostics) const;
 
   private:
     rsl::LoweredShader lowered_;
@@ -45,6 +47,8 @@ class PointsKernel {
     std::span<float* const> out_;
     size_t count_ = 0;
     std::vector<uint8_t> faults_;
+    std::string shader_;  // the last of the stack
+    PrintedLines printed_;
 };
 
 // The frame-rate inputs of a kernel.

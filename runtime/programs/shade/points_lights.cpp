@@ -195,7 +195,7 @@ void PointsLights::add_records(const Light& light, std::span<float* const> out, 
 
 void PointsLights::report(const ShadeOptions& options) {
     for (auto& light : lights_) {
-        if (light->kernel) light->kernel->report_faults(light->source.diagnostics);
+        if (light->kernel) light->kernel->report(light->source.diagnostics);
         light->source.print_findings(options);
     }
 }

@@ -2,6 +2,7 @@
 // out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,38 @@ namespace {
 // Floats are written with the digits that they need.
 using OutputJson = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
                                         int64_t, uint64_t, float>;
+
+// Parameters of type shader, and those of co-shaders that the shader cannot come to.
+std::vector<std::string> decided_when_compiled(const PointsDocument& document,
+                                               const rsl::Shader& shader) {
+    std::vector<std::string> names;
+    auto add = [&](const std::string& handle, std::string_view name) {
+        names.push_back((handle.empty() ? "" : handle + ".") + std::string(name));
+    };
+    for (const rsl::Symbol* handle : shader.definition->handles) add("", handle->name);
+    for (const rsl::LinkedPart& part : shader.parts)
+        for (const std::string& name : part.handle_parameters) add(part.handle, name);
+    for (const PointsShader& from : document.co_shaders)
+        if (std::ranges::find(shader.definition->co_shaders, from.handle) ==
+            shader.definition->co_shaders.end())
+            for (const auto& [name, value] : from.parameters) add(from.handle, name);
+    return names;
+}
+
+// Co-shaders of the file join those of the command line, their parameters as HANDLE.NAME. Texts
+// decide which shaders are called.
+ShadeOptions with_co_shaders(const ShadeOptions& options, PointsDocument& document,
+                             ShadeSource& source) {
+    ShadeOptions all = options;
+    for (const PointsShader& from : document.co_shaders) {
+        all.co_shaders.emplace_back(from.handle, from.file);
+        for (const auto& [name, value] : from.parameters)
+            document.parameters[from.handle + "." + name] = value;
+    }
+    for (const auto& [name, value] : document.parameters)
+        if (value.is_text()) source.params.push_back({name, {}, value.texts});
+    return all;
+}
 
 PointsValues own_parameters(const ShadeOptions& options, const ShadeSource& source,
                             const PointsDocument& document, const rsl::Shader& shader) {
@@ -38,6 +71,7 @@ PointsValues own_parameters(const ShadeOptions& options, const ShadeSource& sour
         if (!numbers) value.flat = true;
         parameters[name] = value;
     }
+    for (const std::string& name : decided_when_compiled(document, shader)) parameters.erase(name);
     return parameters;
 }
 
@@ -139,8 +173,11 @@ void displace(PointSet& points, const Pass& pass) {
 // The whole run, from the document to what is printed.
 class PointsRun {
   public:
-    PointsRun(const ShadeOptions& options, const PointsDocument& document)
-        : options_(options), points_(document), textures_(options.compile.pictures) {}
+    PointsRun(const ShadeOptions& options, PointsDocument document)
+        : document_(std::move(document)),
+          options_(with_co_shaders(options, document_, source_)),
+          points_(document_),
+          textures_(options.compile.pictures) {}
 
     int run() {
         if (std::optional<int> code = compile_shade_source(options_, source_)) return *code;
@@ -163,7 +200,7 @@ class PointsRun {
         }
         if (!lights_.bind(options_, main_.kernel.lowered())) return kExitShader;
         main_.kernel.run(points_, main_.stack, textures_, &lights_);
-        main_.kernel.report_faults(source_.diagnostics);
+        main_.kernel.report(source_.diagnostics);
         textures_.report(source_.diagnostics);
         source_.print_findings(options_);
         lights_.report(options_);
@@ -198,7 +235,7 @@ class PointsRun {
             return kExitShader;
         }
         pass.kernel.run(points_, pass.stack, textures_, nullptr);
-        pass.kernel.report_faults(before_source_.diagnostics);
+        pass.kernel.report(before_source_.diagnostics);
         before_source_.print_findings(options_);
         displace(points_, pass);
         return std::nullopt;
@@ -259,10 +296,11 @@ class PointsRun {
         std::puts((text + "\n}").c_str());
     }
 
-    const ShadeOptions& options_;
+    ShadeSource source_, before_source_;
+    PointsDocument document_;
+    const ShadeOptions options_;
     PointSet points_;
     TextureStore textures_;
-    ShadeSource source_, before_source_;
     std::vector<Pass> before_;  // a displacement
     PointsLights lights_;
     Pass main_;

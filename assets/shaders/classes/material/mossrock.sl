@@ -1,9 +1,10 @@
 /* mossrock.sl: a rock with moss where it faces the sky and in its hollows.
    The height that displacement() computes decides in prelighting() where the moss holds on.
-   Parameters: scale, depth, moss (0 to 1), stone, lichen, green. */
+   Parameters: scale, depth, moss (0 to 1), stone, lichen, green, sky (where it is). */
 class mossrock(float scale = 1.6; float depth = 0.14; float moss = 0.55;
                color stone = color(0.36, 0.34, 0.31); color lichen = color(0.62, 0.58, 0.38);
-               color green = color(0.16, 0.27, 0.05);) {
+               color green = color(0.16, 0.27, 0.05);
+               vector sky = vector "world" (0, 0, 1);) {
     varying float height = 0;
     varying float cover = 0;
     varying color base = 0;
@@ -25,7 +26,7 @@ class mossrock(float scale = 1.6; float depth = 0.14; float moss = 0.55;
     }
     public void prelighting(output color Ci, Oi) {
         point Q = transform("object", P);
-        float up = normalize(ntransform("object", N))[1];
+        float up = normalize(N) . normalize(sky);
         float patches = float noise(3 * Q) + 0.4 * float noise(17 * Q);
         cover = smoothstep(0.75 - moss, 1.15 - moss, 0.55 * up + 0.5 * patches - 0.45 * height);
         float spots = smoothstep(0.68, 0.74, float noise(7 * Q + vector(9, 2, 5)));

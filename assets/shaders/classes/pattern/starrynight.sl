@@ -21,14 +21,16 @@ class starrynight(uniform float whirls = 9; float strokes = 34; color night = co
     }
     public void begin() {
         point Q = point(2 * s, t, 0);
-        float k, turn = 0.6 * float noise(3 * Q);
+        float k, turn = 0.6 * float pnoise(3 * Q, point(6, 1000, 1000));
         glow = 0;
         for (k = 0; k < arraylength(sky); k += 1) {
-            float r = distance(Q, sky[k]->centre) / sky[k]->size;
+            /* Around the back the sky goes on. */
+            point centre = sky[k]->centre;
+            centre += vector(2 * round((Q[0] - centre[0]) / 2), 0, 0);
+            float r = distance(Q, centre) / sky[k]->size;
             glow += exp(-4 * r * r);
             turn += sky[k]->spin * 2.2 * exp(-r);
-            Q = rotate(Q, 1.5 * sky[k]->spin * exp(-1.2 * r * r), sky[k]->centre,
-                       sky[k]->centre + vector(0, 0, 1));
+            Q = rotate(Q, 1.5 * sky[k]->spin * exp(-1.2 * r * r), centre, centre + vector(0, 0, 1));
         }
         float lane = strokes * (Q[1] + 0.12 * turn);
         stroke = abs(2 * mod(lane, 1) - 1);
@@ -38,7 +40,7 @@ class starrynight(uniform float whirls = 9; float strokes = 34; color night = co
             stroke = 0.5;
         else if (gridmax(footprint) > 0.25)
             stroke = mix(stroke, 0.5, smoothstep(0.25, 0.5, footprint));
-        tone = float cellnoise(floor(lane), floor(9 * Q[0] + 3 * float cellnoise(lane)));
+        tone = float cellnoise(floor(lane), mod(floor(9 * Q[0] + 3 * float cellnoise(lane)), 18));
     }
     public void displacement(output point P; output normal N) {
         P += 0.012 * sqrt(max(0, 1 - stroke * stroke)) * normalize(N);

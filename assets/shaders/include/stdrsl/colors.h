@@ -18,4 +18,9 @@ color linearToSrgb(color c) {
     return color(linearToSrgb(c[0]), linearToSrgb(c[1]), linearToSrgb(c[2]));
 }
 
+// Callers rely on each header to bring these.
+#ifndef STDRSL_SHADINGCONTEXT_H
+#include <stdrsl/fresnel.h>
+#endif
+
 #endif

@@ -12,4 +12,9 @@
 #define M_MAXDIST 1e30
 #define M_EPSILON 1e-6
 
+// Callers rely on each header to bring these.
+#ifndef STDRSL_SHADINGCONTEXT_H
+#include <stdrsl/fresnel.h>
+#endif
+
 #endif

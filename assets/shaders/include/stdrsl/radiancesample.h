@@ -13,11 +13,14 @@ struct __radiancesample {
     varying float materialPdf = 0;
     varying color accumulatedMaterialResponse = 0;
     varying float accumulatedMaterialPdf = 0;
-    varying float valid = 1;
+    varying float valid = 1;  // 0 in what resize() has made, until something is set
 
-    void setRadiance(color c) { radiance = c; }
-    void setLightSample(color c; float pdf) {
+    void setRadiance(color c) {
         radiance = c;
+        valid = 1;
+    }
+    void setLightSample(color c; float pdf) {
+        setRadiance(c);
         lightPdf = pdf;
     }
     void setLightSample(color c; float pdf; vector towards; float far) {
@@ -31,6 +34,7 @@ struct __radiancesample {
     void setMaterialResponse(color response; float pdf) {
         materialResponse = response;
         materialPdf = pdf;
+        valid = 1;
     }
     void setMaterialSample(color response; float pdf; vector towards; float far) {
         setMaterialResponse(response, pdf);
@@ -69,5 +73,10 @@ struct stdrsl_RadianceSample {
         }
     }
 };
+
+// Callers rely on each header to bring these.
+#ifndef STDRSL_SHADINGCONTEXT_H
+#include <stdrsl/fresnel.h>
+#endif
 
 #endif

@@ -20,12 +20,17 @@ struct stdrsl_SampleMgr {
 };
 
 struct stdrsl_SampleMgrPathTrace {
-    varying float m_depth = 0;
+    uniform float m_depth = 0;
     void construct() {}
     void begin() { rayinfo("depth", m_depth); }
     void computeLightSamples(float minimum; float maximum; output float samples;) {
         samples = m_depth > 0 ? minimum : maximum;
     }
 };
+
+// Callers rely on each header to bring these.
+#ifndef STDRSL_SHADINGCONTEXT_H
+#include <stdrsl/fresnel.h>
+#endif
 
 #endif

@@ -30,9 +30,9 @@ struct stdrsl_ShadingContext {
     varying vector m_Tangent = 0;
     varying vector m_Bitangent = 0;
     varying float m_EnteringRegion = 1;
-    varying float m_RayDepth = 0;
-    varying float m_DiffuseDepth = 0;
-    varying float m_depth = 0;
+    uniform float m_RayDepth = 0;  // rayinfo's answers count as uniform
+    uniform float m_DiffuseDepth = 0;
+    uniform float m_depth = 0;
     uniform float m_Sides = 2;
     stdrsl_SampleMgr m_SampleMgr;
     stdrsl_ShadingUtils m_ShadingUtils;
@@ -95,5 +95,7 @@ struct stdrsl_ShadingContext {
         reinit();
     }
 };
+
+#include <stdrsl/fresnel.h>
 
 #endif

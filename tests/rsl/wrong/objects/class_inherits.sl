@@ -1,4 +1,4 @@
 struct A { float k; }
-struct B : A { float j; }
+struct B : C { float j; }
 surface x() { Ci = 1; }
-//! 2:12 error RSL_2 a struct that inherits from another
+//! 2:12 error RSL_SYNTAX the name of a struct that is defined before

@@ -6,4 +6,4 @@ class x() {
         Ci = c;
     }
 }
-//! 5:9 error RSL_LIGHT_METHOD 'shade' of a light cannot be called
+//! 5:9 warning RSL_LIGHT_METHOD a light has no method 'shade' of 1 arguments

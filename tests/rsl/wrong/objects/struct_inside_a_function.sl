@@ -1,6 +1,6 @@
 surface x() {
     struct A { float k; }
     A a;
-    Ci = a->k;
+    Ci = a->j;
 }
-//! 2:5 error RSL_2 a struct inside a function
+//! 4:10 error RSL_NO_MEMBER struct 'A' has no member 'j'
