@@ -43,7 +43,7 @@ BlockStmt* StatementParser::block() {
 Stmt* StatementParser::statement() {
     Nesting::Level level(nesting_);
     if (!nesting_.too_deep()) return statement_unguarded();
-    errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    errors_.error(Code::RSL_TOO_DEEP, cursor_.token(), fmt::format("{} levels", kMostNesting));
     return nullptr;
 }
 
@@ -132,7 +132,8 @@ Function* StatementParser::function() {
     const StructDefinition* structure = declarations_.struct_type();
     bool foreign = !structure && foreign_.at_type();
     f->result_handle = cursor_.is_handle() && cursor_.is(Punct::LeftParen, 2);
-    f->typed = foreign || structure || f->result_handle || (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
+    f->typed = foreign || structure || f->result_handle ||
+               (cursor_.is_type() && !cursor_.is(Punct::LeftParen, 1));
     if (structure) {
         f->result = {BaseType::Void, -1};
         f->result_structure = structure;
