@@ -1,5 +1,5 @@
-// tests/rsl/long_sources_test.cpp: sums of 100,000 terms and shaders of thousands of lines: what
-// they take grows with their length, and their values are those of a loop.
+// tests/rsl/growth/long_sources_test.cpp: sums of 100,000 terms and shaders of thousands of lines:
+// what they take grows with their length, and their values are those of a loop.
 #include <gtest/gtest.h>
 
 #include <ctime>
