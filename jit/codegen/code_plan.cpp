@@ -301,11 +301,15 @@ class Planner {
     void alias_variables_of(Value loop) {
         const Inst& end = f_.insts[s_.end_of[loop]];
         std::span<const Value> next = f_.args_of(end);
+        std::vector<bool> read_at_end(next.size());
+        auto note = [&](Value v) {
+            if (v > loop && v - loop - 1 < next.size()) read_at_end[v - loop - 1] = true;
+        };
+        note(end.a);
+        for (Value v : next) note(v);
         for (size_t k = 0; k < next.size(); ++k) {
             Value variable = loop + 1 + static_cast<Value>(k);
-            bool read_at_end = end.a == variable;
-            for (Value v : next) read_at_end |= v == variable;
-            if (read_at_end || !may_alias(loop, variable, next[k])) continue;
+            if (read_at_end[k] || !may_alias(loop, variable, next[k])) continue;
             value(next[k]).alias = variable;
             alias_arm(variable, next[k]);
         }

@@ -333,6 +333,7 @@ class Allocator {
         bool any = false;
         for (Value v = 0; v < n_ && !any; ++v) any = needs_slot(v);
         if (!any) return;
+        place_in_slots_.resize(n_);
         for (Value at = 0; at < n_; ++at) {
             const Inst& inst = f_.insts[at];
             // New slots are taken before old ones are freed: a Merge starts while its If reads.
@@ -356,15 +357,18 @@ class Allocator {
             interval(v).slot = free_slots_[c].back();
             free_slots_[c].pop_back();
         }
-        if (interval(v).end > v) in_slots_.push_back(v);
+        if (interval(v).end <= v) return;
+        place_in_slots_[v] = uint32_t(in_slots_.size());
+        in_slots_.push_back(v);
     }
 
     void free_slot(Value v) {
         if (interval(v).slot < 0) return;
-        auto at = std::find(in_slots_.begin(), in_slots_.end(), v);
-        if (at == in_slots_.end()) return;
+        const uint32_t at = place_in_slots_[v];
+        if (at >= in_slots_.size() || in_slots_[at] != v) return;  // it is free already
         free_slots_[cls(v)].push_back(interval(v).slot);
-        *at = in_slots_.back();
+        in_slots_[at] = in_slots_.back();
+        place_in_slots_[in_slots_[at]] = at;
         in_slots_.pop_back();
     }
 
@@ -391,6 +395,7 @@ class Allocator {
     std::vector<std::pair<Value, uint32_t>> loop_weights_;  // the first outermost loop using it
     std::vector<std::pair<Value, uint64_t>> loops_;         // outermost loops, registers free there
     std::vector<Value> in_slots_;
+    std::vector<uint32_t> place_in_slots_;  // by value: where it is in in_slots_, if it is
     std::vector<int32_t> free_slots_[kRegClasses];
 };
 

@@ -51,11 +51,10 @@ Value Builder::append_control(Op op, Type type, Value a, int32_t imm, std::span<
 
 Value Builder::constant(Type type, int32_t bits) {
     auto& known = constants_[static_cast<int>(type) - 1];
-    for (auto [known_bits, value] : known)
-        if (known_bits == bits) return value;
+    if (auto found = known.find(bits); found != known.end()) return found->second;
     Value value = append({.op = constant_op(type), .type = type, .imm = bits});
     // Inside a region the value is not seen by all that follows; finish() merges the copies.
-    if (open_.empty()) known.push_back({bits, value});
+    if (open_.empty()) known.emplace(bits, value);
     return value;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "jit/ir/ir.h"
@@ -132,7 +133,7 @@ class Builder {
     std::vector<Open> open_;  // enclosing Ifs and Loops
     Value last_if_ = kNone;   // the If whose Merges may follow
     std::vector<Value> output_values_;
-    std::vector<std::pair<int32_t, Value>> constants_[3];  // reuse at function entry depth
+    std::unordered_map<int32_t, Value> constants_[3];  // by type and bits, at function entry depth
     std::vector<Value> input_values_;
 };
 

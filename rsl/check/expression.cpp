@@ -64,7 +64,13 @@ void ExpressionChecker::array_value(Expr*& slot, Type type, const std::string& w
 }
 
 void ExpressionChecker::condition(Expr*& slot) {
-    BaseType type = value(slot, BaseType::Float);
+    value(slot, BaseType::Float);
+    to_condition(slot);
+}
+
+// The same of a value that has been checked.
+void ExpressionChecker::to_condition(Expr*& slot) {
+    const BaseType type = slot->type.base;
     if (type == BaseType::Bool || type == BaseType::Invalid) return;
     if (type == BaseType::String) return string_condition(slot);
     if (type != BaseType::Float) {
@@ -248,7 +254,7 @@ bool ExpressionChecker::add_defaults(CallExpr& e, const Function& f) {
     if (endless_defaults_) return false;
     if (defaults_ == kMostDefaults) {
         endless_defaults_ = true;
-        reporter_.report(Code::RSL_TOO_DEEP, e.span);
+        reporter_.report(Code::RSL_TOO_DEEP, e.span, fmt::format("{} defaults", kMostDefaults));
         return false;
     }
     ++defaults_;

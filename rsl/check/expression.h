@@ -48,6 +48,7 @@ class ExpressionChecker {
   private:
     // expression.cpp
     void array_value(Expr*& slot, Type type, const std::string& what);
+    void to_condition(Expr*& slot);
     void string_condition(Expr*& slot);
     void check_number(Expr*& slot, const char* what);
     bool convert(Expr*& slot, BaseType to) { return rsl::convert(ast_, slot, to); }
@@ -70,13 +71,20 @@ class ExpressionChecker {
     // operator.cpp
     void check(Expr*&, UnaryExpr& e, BaseType wanted);
     void check(Expr*&, BinaryExpr& e, BaseType wanted);
-    void check_arithmetic(BinaryExpr& e, BaseType wanted);
-    bool component_by_name(BinaryExpr& e);
+    struct OperatorSides {
+        OperandTypes left;
+        bool right_flexible = false, right_checked = false;
+        bool component = false;               // "P.x"
+        BaseType wanted = BaseType::Invalid;  // of flexible operands
+    };
+    BaseType before_left(BinaryExpr& e, OperatorSides& sides, BaseType wanted);
+    void after_left(BinaryExpr& e, const OperatorSides& sides);
+    void check_arithmetic(BinaryExpr& e);
+    bool is_component_by_name(const BinaryExpr& e) const;
+    void component_by_name(BinaryExpr& e);
     void check_product(BinaryExpr& e);
     void check_comparison(BinaryExpr& e);
     bool compare_arrays(Expr*& slot, BinaryExpr& e);
-    template <class Hint>
-    void both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint);
     void bad_operands(BinaryExpr& e);
 
     Ast& ast_;

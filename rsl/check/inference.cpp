@@ -5,6 +5,7 @@
 
 #include "rsl/builtins/table.h"
 #include "rsl/check/convert.h"
+#include "rsl/syntax/chain.h"
 
 namespace kinora::rsl {
 
@@ -37,6 +38,10 @@ bool chosen_by_context(std::span<Function* const> functions) {
     return false;
 }
 
+bool is_arithmetic(Op op) {
+    return op >= Op::Add && op <= Op::Divide;
+}
+
 bool is_result(std::span<const Overload> overloads, BaseType type) {
     return std::any_of(overloads.begin(), overloads.end(),
                        [&](const Overload& o) { return o.signature.result.base == type; });
@@ -52,9 +57,12 @@ bool TypeInference::is_flexible(const Expr& expr) const {
             return as<UnaryExpr>(expr).op == Op::Negate &&
                    is_flexible(*as<UnaryExpr>(expr).operand);
         case ExprKind::Binary: {
-            const auto& e = as<BinaryExpr>(expr);
-            bool arithmetic = e.op >= Op::Add && e.op <= Op::Divide;
-            return arithmetic && (is_flexible(*e.left) || is_flexible(*e.right));
+            const Expr* left = &expr;
+            for (; left->kind == ExprKind::Binary; left = as<BinaryExpr>(*left).left) {
+                if (!is_arithmetic(as<BinaryExpr>(*left).op)) return false;
+                if (is_flexible(*as<BinaryExpr>(*left).right)) return true;
+            }
+            return is_flexible(*left);
         }
         case ExprKind::Select: {
             const auto& e = as<SelectExpr>(expr);
@@ -102,12 +110,8 @@ BaseType TypeInference::natural_type(const Expr& expr) const {
         case ExprKind::Unary:
             return as<UnaryExpr>(expr).op == Op::Not ? BaseType::Float
                                                      : natural_type(*as<UnaryExpr>(expr).operand);
-        case ExprKind::Binary: {
-            const auto& e = as<BinaryExpr>(expr);
-            if (e.op == Op::Cross) return BaseType::Vector;
-            if (e.op >= Op::Dot) return BaseType::Float;
-            return common_type(natural_type(*e.left), natural_type(*e.right));
-        }
+        case ExprKind::Binary:
+            return natural_chain_type(as<BinaryExpr>(expr));
         case ExprKind::Select:
             return common_type(natural_type(*as<SelectExpr>(expr).yes),
                                natural_type(*as<SelectExpr>(expr).no));
@@ -120,6 +124,22 @@ BaseType TypeInference::natural_type(const Expr& expr) const {
         default:
             return BaseType::Invalid;
     }
+}
+
+BaseType TypeInference::natural_chain_type(const BinaryExpr& last) const {
+    std::vector<const BinaryExpr*> operators;  // down to one whose type is known
+    const Expr* left = &last;
+    for (; left->kind == ExprKind::Binary && left->type.base == BaseType::Invalid;
+         left = as<BinaryExpr>(*left).left)
+        operators.push_back(&as<BinaryExpr>(*left));
+    BaseType type = natural_type(*left);
+    for (size_t i = operators.size(); i-- > 0;) {
+        Op op = operators[i]->op;
+        type = op == Op::Cross ? BaseType::Vector
+               : op >= Op::Dot ? BaseType::Float
+                               : common_type(type, natural_type(*operators[i]->right));
+    }
+    return type;
 }
 
 BaseType TypeInference::natural_call_type(const CallExpr& e) const {
@@ -169,8 +189,7 @@ TypeSet TypeInference::possible_types(const Expr& part) const {
         case ExprKind::Unary:
             return possible_types(*as<UnaryExpr>(part).operand);
         case ExprKind::Binary:
-            return possible_types(*as<BinaryExpr>(part).left) &
-                   possible_types(*as<BinaryExpr>(part).right);
+            return left_operands(operators_of(as<BinaryExpr>(part))).back().possible;
         case ExprKind::Select:
             return possible_types(*as<SelectExpr>(part).yes) &
                    possible_types(*as<SelectExpr>(part).no);
@@ -179,6 +198,26 @@ TypeSet TypeInference::possible_types(const Expr& part) const {
         default:
             return 0;
     }
+}
+
+// Each operator's left operand is the chain before it, so each is known by the one before.
+auto TypeInference::left_operands(std::span<const BinaryExpr* const> operators) const
+    -> std::vector<OperandTypes> {
+    const Expr* left = operators[0]->left;
+    std::vector<OperandTypes> lefts{{is_flexible(*left), is_picture(*left), 0}};
+    if (lefts[0].flexible) lefts[0].possible = possible_types(*left);
+    for (const BinaryExpr* e : operators) {
+        const OperandTypes before = lefts.back();
+        OperandTypes whole;
+        whole.picture = before.picture || is_picture(*e->right);
+        whole.flexible = is_arithmetic(e->op) && (before.flexible || is_flexible(*e->right));
+        if (whole.flexible)
+            whole.possible = (before.flexible ? before.possible : possible_types(*left)) &
+                             possible_types(*e->right);
+        lefts.push_back(whole);
+        left = e;
+    }
+    return lefts;
 }
 
 // Results of the overloads that the arguments may fit: max(noise(P), Cs) is no float.
@@ -213,13 +252,21 @@ bool TypeInference::can_be(const Expr& expr, BaseType type) const {
     return possible_types(expr) & one(type);
 }
 
+OperandTypes TypeInference::operand(const Expr& expr) const {
+    bool flexible = is_flexible(expr);
+    return {flexible, is_picture(expr), flexible ? possible_types(expr) : 0};
+}
+
 bool is_picture(const Expr& expr) {
     switch (expr.kind) {
         case ExprKind::Unary:
             return is_picture(*as<UnaryExpr>(expr).operand);
-        case ExprKind::Binary:
-            return is_picture(*as<BinaryExpr>(expr).left) ||
-                   is_picture(*as<BinaryExpr>(expr).right);
+        case ExprKind::Binary: {
+            const Expr* left = &expr;
+            for (; left->kind == ExprKind::Binary; left = as<BinaryExpr>(*left).left)
+                if (is_picture(*as<BinaryExpr>(*left).right)) return true;
+            return is_picture(*left);
+        }
         case ExprKind::Select:
             return is_picture(*as<SelectExpr>(expr).yes) || is_picture(*as<SelectExpr>(expr).no);
         case ExprKind::Call: {

@@ -9,6 +9,15 @@ namespace kinora::rsl {
 
 using TypeSet = uint32_t;  // a bit each BaseType
 
+// What is known of an operand before it is checked.
+struct OperandTypes {
+    bool flexible = false;
+    bool picture = false;  // is_picture()
+    TypeSet possible = 0;  // of a flexible one
+
+    bool can_be(BaseType type) const { return possible >> unsigned(type) & 1; }
+};
+
 class TypeInference {
   public:
     // Looks names up in the scopes as they are at each question.
@@ -23,10 +32,14 @@ class TypeInference {
     }
     // Whether the unchecked, flexible expression can have exactly this type.
     bool can_be(const Expr& expr, BaseType type) const;
+    OperandTypes operand(const Expr& expr) const;
+    // Of a chain's operators, in order: what each has at its left, and at the end the whole chain.
+    std::vector<OperandTypes> left_operands(std::span<const BinaryExpr* const> operators) const;
 
   private:
     bool is_flexible_call(const CallExpr& e) const;
     BaseType natural_type(const Expr& expr) const;
+    BaseType natural_chain_type(const BinaryExpr& last) const;
     BaseType natural_call_type(const CallExpr& e) const;
     TypeSet possible_types(const Expr& part) const;
     TypeSet possible_results(const CallExpr& e) const;

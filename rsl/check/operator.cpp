@@ -1,6 +1,7 @@
 // rsl/check/operator.cpp: unary and binary operators.
 #include "rsl/check/convert.h"
 #include "rsl/check/expression.h"
+#include "rsl/syntax/chain.h"
 
 namespace kinora::rsl {
 
@@ -9,6 +10,36 @@ namespace {
 // One of the operands has a finding.
 bool invalid(const BinaryExpr& e) {
     return e.left->type.base == BaseType::Invalid || e.right->type.base == BaseType::Invalid;
+}
+
+constexpr std::string_view kComponentLetters = "xyzrgb";
+
+bool is_logical(Op op) {
+    return op == Op::And || op == Op::Or;
+}
+bool is_product(Op op) {
+    return op == Op::Dot || op == Op::Cross;
+}
+bool is_comparison(Op op) {
+    return op >= Op::Less && op <= Op::NotEqual;
+}
+
+// What is wanted of operands whose types the context chooses, where `wanted` is of the whole.
+BaseType operand_wanted(Op op, BaseType wanted) {
+    if (is_comparison(op)) return BaseType::Float;
+    return is_product(op) ? BaseType::Vector : wanted;
+}
+
+// What is wanted of the flexible operand beside one of the type `other`. A sum wants equal types.
+// In a product with a triple, a noise() or texture() of no stated type is a factor: float
+// ("P += N * noise(P)"); but beside a color a picture is one ("Cs * texture(name)").
+BaseType beside(Op op, BaseType other, const OperandTypes& flexible, BaseType wanted) {
+    if (is_comparison(op)) return other;
+    if (is_product(op)) return is_triple(other) ? other : BaseType::Vector;
+    if (!is_triple(other)) return wanted;
+    if (other == BaseType::Color && flexible.picture) return other;
+    bool factor = op == Op::Multiply || op == Op::Divide;
+    return factor && flexible.can_be(BaseType::Float) ? BaseType::Float : other;
 }
 
 }  // namespace
@@ -48,45 +79,54 @@ bool ExpressionChecker::compare_arrays(Expr*& slot, BinaryExpr& e) {
         differ->operand = call;
         slot = differ;
     }
-    expression(slot, BaseType::Float);
     return true;
 }
 
-void ExpressionChecker::check(Expr*& slot, BinaryExpr& e, BaseType wanted) {
-    switch (e.op) {
-        case Op::And:
-        case Op::Or:
-            condition(e.left);
-            condition(e.right);
-            e.type = {BaseType::Bool, -1};
-            return;
-        case Op::Dot:
-        case Op::Cross:
-            return check_product(e);
-        case Op::Add:
-        case Op::Subtract:
-        case Op::Multiply:
-        case Op::Divide:
-            return check_arithmetic(e, wanted);
-        default:
-            if (!compare_arrays(slot, e)) check_comparison(e);
+// Along the chain by loops: downwards what is wanted of each left operand, upwards the types.
+void ExpressionChecker::check(Expr*& slot, BinaryExpr& last, BaseType wanted) {
+    std::vector<BinaryExpr*> chain = operators_of(last);
+    if (compare_arrays(chain.size() > 1 ? chain[1]->left : slot, *chain[0]))
+        chain.erase(chain.begin());
+    if (chain.empty()) return expression(slot, BaseType::Float);
+    const std::vector<OperandTypes> lefts = types_.left_operands(chain);
+    std::vector<OperatorSides> sides(chain.size());
+    for (size_t i = chain.size(); i-- > 0;) {
+        sides[i].left = lefts[i];
+        wanted = before_left(*chain[i], sides[i], wanted);
     }
+    value(chain[0]->left, wanted);
+    for (size_t i = 0; i < chain.size(); ++i) after_left(*chain[i], sides[i]);
 }
 
-// Checks both operands, the one of fixed type first, so that it can help the other: hint(type of
-// the fixed one, the flexible one) is what the flexible one is asked to be.
-template <class Hint>
-void ExpressionChecker::both_sides(Expr*& left, Expr*& right, BaseType wanted, Hint hint) {
-    bool left_flexible = types_.is_flexible(*left), right_flexible = types_.is_flexible(*right);
-    if (left_flexible == right_flexible) {
-        value(left, left_flexible ? wanted : BaseType::Invalid);
-        value(right, right_flexible ? wanted : BaseType::Invalid);
+// What is wanted of the left operand. Of a fixed and a flexible operand the fixed one is checked
+// first, so that it can help the other.
+BaseType ExpressionChecker::before_left(BinaryExpr& e, OperatorSides& sides, BaseType wanted) {
+    if (is_logical(e.op)) return BaseType::Float;
+    sides.component = is_component_by_name(e);
+    if (sides.component) return BaseType::Invalid;
+    sides.wanted = operand_wanted(e.op, wanted);
+    sides.right_flexible = types_.is_flexible(*e.right);
+    if (!sides.left.flexible) return BaseType::Invalid;
+    if (sides.right_flexible) return sides.wanted;
+    sides.right_checked = true;
+    return beside(e.op, value(e.right, BaseType::Invalid), sides.left, sides.wanted);
+}
+
+void ExpressionChecker::after_left(BinaryExpr& e, const OperatorSides& sides) {
+    if (is_logical(e.op)) {
+        to_condition(e.left);
+        condition(e.right);
+        e.type = {BaseType::Bool, -1};
         return;
     }
-    Expr*& fixed = left_flexible ? right : left;
-    Expr*& flexible = left_flexible ? left : right;
-    BaseType type = value(fixed, BaseType::Invalid);
-    value(flexible, hint(type, *flexible));
+    if (sides.component) return component_by_name(e);
+    if (sides.right_flexible && !sides.left.flexible)
+        value(e.right, beside(e.op, e.left->type.base, types_.operand(*e.right), sides.wanted));
+    else if (!sides.right_checked)
+        value(e.right, sides.right_flexible ? sides.wanted : BaseType::Invalid);
+    if (invalid(e)) return;
+    if (is_product(e.op)) return check_product(e);
+    return is_comparison(e.op) ? check_comparison(e) : check_arithmetic(e);
 }
 
 void ExpressionChecker::bad_operands(BinaryExpr& e) {
@@ -104,17 +144,8 @@ void ExpressionChecker::bad_operands(BinaryExpr& e) {
         finding.help = "write 'a * b'";
 }
 
-// A sum wants equal types. In a product with a triple, a noise() or texture() of no stated type is
-// a factor: float ("P += N * noise(P)"); but beside a color a picture is one ("Cs *
-// texture(name)").
-void ExpressionChecker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
+void ExpressionChecker::check_arithmetic(BinaryExpr& e) {
     bool product = e.op == Op::Multiply || e.op == Op::Divide;
-    both_sides(e.left, e.right, wanted, [&](BaseType other, const Expr& flexible) {
-        if (!is_triple(other)) return wanted;
-        if (other == BaseType::Color && is_picture(flexible)) return other;
-        return product && types_.can_be(flexible, BaseType::Float) ? BaseType::Float : other;
-    });
-    if (invalid(e)) return;
     BaseType left = e.left->type.base, right = e.right->type.base;
     BaseType common = common_type(left, right);
     bool applies = is_numeric(common) && (common != BaseType::Matrix || product);
@@ -125,29 +156,24 @@ void ExpressionChecker::check_arithmetic(BinaryExpr& e, BaseType wanted) {
     e.type = {difference ? BaseType::Vector : common, -1};
 }
 
-// "P.x" as in other languages; reported.
-bool ExpressionChecker::component_by_name(BinaryExpr& e) {
-    constexpr std::string_view kPositions = "xyz", kColors = "rgb";
+// "P.x" as in other languages.
+bool ExpressionChecker::is_component_by_name(const BinaryExpr& e) const {
     const auto* name = e.op == Op::Dot ? as_if<VariableExpr>(e.right) : nullptr;
-    if (!name || name->name.size() != 1 || scopes_.find_variable(name->name)) return false;
-    size_t position = kPositions.find(name->name[0]), color = kColors.find(name->name[0]);
-    if (position == kPositions.npos && color == kColors.npos) return false;
-    value(e.left, BaseType::Invalid);
-    size_t k = position == kPositions.npos ? color : position;
-    reporter_.report(Code::RSL_NOT_RSL, name->span, fmt::format("the component '.{}'", name->name))
-        .help = position == kPositions.npos ? fmt::format("write comp(c, {})", k)
-                                            : fmt::format("write {}comp(p)", kPositions[k]);
+    bool letter = name && name->name.size() == 1 &&
+                  kComponentLetters.find(name->name[0]) != std::string_view::npos;
+    return letter && !scopes_.find_variable(name->name);
+}
+void ExpressionChecker::component_by_name(BinaryExpr& e) {
+    const auto& name = as<VariableExpr>(*e.right);
+    size_t k = kComponentLetters.find(name.name[0]);
+    reporter_.report(Code::RSL_NOT_RSL, name.span, fmt::format("the component '.{}'", name.name))
+        .help =
+        k < 3 ? fmt::format("write {}comp(p)", name.name) : fmt::format("write comp(c, {})", k - 3);
     e.type = {BaseType::Float, -1};
-    return true;
 }
 
 // a . b and a ^ b.
 void ExpressionChecker::check_product(BinaryExpr& e) {
-    if (component_by_name(e)) return;
-    both_sides(e.left, e.right, BaseType::Vector, [](BaseType other, const Expr&) {
-        return is_triple(other) ? other : BaseType::Vector;
-    });
-    if (invalid(e)) return;
     BaseType left = e.left->type.base, right = e.right->type.base;
     if (!is_triple(left) || !is_triple(right)) return bad_operands(e);
     BaseType common = left == right && is_spatial(left) ? left : BaseType::Vector;
@@ -157,8 +183,6 @@ void ExpressionChecker::check_product(BinaryExpr& e) {
 }
 
 void ExpressionChecker::check_comparison(BinaryExpr& e) {
-    both_sides(e.left, e.right, BaseType::Float, [](BaseType other, const Expr&) { return other; });
-    if (invalid(e)) return;
     BaseType common = common_type(e.left->type.base, e.right->type.base);
     bool equality = e.op == Op::Equal || e.op == Op::NotEqual;
     if (is_triple(common) && !equality)

@@ -19,6 +19,7 @@
 #include "rsl/model/builtin.h"
 #include "rsl/model/pairs.h"
 #include "rsl/syntax/ast_visit.h"
+#include "rsl/syntax/chain.h"
 
 namespace kinora::rsl {
 
@@ -139,10 +140,12 @@ class RateWalk {
 
     Flow flow(Expr* e) {
         if (!e) return kConstant;
-        Flow f = visit_expr(*e, [&](auto& node) { return at(node); });
+        return rated(*e, visit_expr(*e, [&](auto& node) { return at(node); }));
+    }
+    Flow rated(Expr& e, Flow f) {
         Rate rate = f.varying ? Rate::Varying : f.constant ? Rate::Constant : Rate::Uniform;
-        bool first = rated_.insert(e).second;
-        e->rate = first ? rate : std::max(e->rate, rate);
+        bool first = rated_.insert(&e).second;
+        e.rate = first ? rate : std::max(e.rate, rate);
         return f;
     }
     Flow flow_all(std::span<Expr*> items) {
@@ -186,10 +189,17 @@ class RateWalk {
         control_ = before;
         return f;
     }
-    Flow at(BinaryExpr& e) {
-        Flow left = flow(e.left);
-        bool logical = e.op == Op::And || e.op == Op::Or;
-        return join(left, flow_under(e.right, logical ? left : kConstant));
+    Flow at(BinaryExpr& last) {
+        Chain<Expr> chain = chain_of<Expr>(last);
+        Flow left = flow(chain.first);
+        for (Expr* link : chain.links) {
+            if (auto* e = as_if<BinaryExpr>(link)) {
+                bool logical = e->op == Op::And || e->op == Op::Or;
+                left = join(left, flow_under(e->right, logical ? left : kConstant));
+            }
+            if (link != &last) rated(*link, left);
+        }
+        return left;
     }
     Flow at(SelectExpr& e) {
         Flow condition = flow(e.condition);

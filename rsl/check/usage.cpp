@@ -7,6 +7,7 @@
 
 #include "rsl/model/builtin.h"
 #include "rsl/model/pairs.h"
+#include "rsl/syntax/ast_parts.h"
 #include "rsl/syntax/ast_visit.h"
 #include "rsl/text/did_you_mean.h"
 #include "rsl/text/literal_names.h"
@@ -116,7 +117,9 @@ class UsageWalk {
     void at(const IndexExpr& e) { walk(e.array), walk(e.index); }
     void at(const ComponentExpr& e) { walk(e.operand), walk(e.index); }
     void at(const UnaryExpr& e) { walk(e.operand); }
-    void at(const BinaryExpr& e) { walk(e.left), walk(e.right); }
+    void at(const BinaryExpr& e) {
+        for_each_operand(static_cast<const Expr&>(e), [&](const Expr* part) { walk(part); });
+    }
     void at(const SelectExpr& e) { walk(e.condition), walk(e.yes), walk(e.no); }
     // A light without direction says "L = 0", which is what L is.
     void at(const AssignExpr& e) {

@@ -1,8 +1,11 @@
 // rsl/lower/expressions.cpp: expressions as IR values.
 #include "rsl/lower/expressions.h"
 
+#include <optional>
+
 #include "rsl/lower/values.h"
 #include "rsl/model/changes.h"
+#include "rsl/syntax/chain.h"
 #include "runtime/base/check.h"
 
 namespace kinora::rsl {
@@ -51,7 +54,7 @@ Lowered Expressions::expr(const Expr& e) {
             return x;
         }
         case ExprKind::Binary:
-            return sum(as<BinaryExpr>(e));
+            return chain(e);
         case ExprKind::Select:
             return select_expr(as<SelectExpr>(e));
         case ExprKind::Assign:
@@ -105,18 +108,51 @@ bool Expressions::as_product(const Expr& e, BaseType type, Lowered& x, Lowered& 
     return true;
 }
 
-// a * b + c of one expression rounds once (docs/decisions.md#exact-arithmetic).
-Lowered Expressions::sum(const BinaryExpr& e) {
-    if (e.op == Op::And || e.op == Op::Or) return logical_expr(e);
-    bool sums = e.op == Op::Add || e.op == Op::Subtract;
-    Lowered x, y;
-    if (sums && as_product(*e.left, e.type.base, x, y)) {
-        Lowered z = expr(*e.right), r{e.type.base, {}};
-        for (size_t c = 0; c < size_t(r.size()); ++c)
-            r.c[c] = e_.fma(x.c[c], y.c[c], e.op == Op::Add ? z.c[c] : b_.neg(z.c[c]));
-        return r;
+// Is the product at `at` the left operand of a sum, perhaps by casts?
+static bool is_summed(std::span<const Expr* const> links, size_t at) {
+    if (links[at]->type.base == BaseType::Matrix) return false;
+    size_t next = at + 1;
+    while (next < links.size() && links[next]->kind == ExprKind::Cast) ++next;
+    const auto* node = next < links.size() ? as_if<BinaryExpr>(links[next]) : nullptr;
+    return node && (node->op == Op::Add || node->op == Op::Subtract);
+}
+
+// Operators from left to right. a * b + c of one expression rounds once
+// (docs/decisions.md#exact-arithmetic), so such a product waits for its sum.
+Lowered Expressions::chain(const Expr& last) {
+    const Chain<const Expr> parts = chain_of(last);
+    Lowered left = expr(*parts.first);
+    std::optional<Lowered> factor;  // `left` times this is meant
+    for (size_t i = 0; i < parts.links.size(); ++i) {
+        const Expr& link = *parts.links[i];
+        PositionScope position(b_, link.span.where, where_);
+        if (const auto* cast = as_if<CastExpr>(&link)) {
+            left = convert(e_, left, cast->to);
+            if (factor) factor = convert(e_, *factor, cast->to);
+            continue;
+        }
+        const auto& node = as<BinaryExpr>(link);
+        if (node.op == Op::Multiply && is_summed(parts.links, i)) {
+            factor = expr(*node.right);
+            continue;
+        }
+        left = factor ? product_and(node, left, *factor) : operated(node, left);
+        factor.reset();
     }
-    Lowered left = expr(*e.left);
+    return left;
+}
+
+// x * y + right, or x * y - right.
+Lowered Expressions::product_and(const BinaryExpr& e, const Lowered& x, const Lowered& y) {
+    Lowered z = expr(*e.right), r{e.type.base, {}};
+    for (size_t c = 0; c < size_t(r.size()); ++c)
+        r.c[c] = e_.fma(x.c[c], y.c[c], e.op == Op::Add ? z.c[c] : b_.neg(z.c[c]));
+    return r;
+}
+
+Lowered Expressions::operated(const BinaryExpr& e, const Lowered& left) {
+    if (e.op == Op::And || e.op == Op::Or) return logical(e, left.c[0]);
+    bool sums = e.op == Op::Add || e.op == Op::Subtract;
     Lowered r = sums ? sum_of(e.op, left, *e.right) : binary(e_, e.op, left, expr(*e.right));
     if (is_triple(e.type.base) && is_triple(r.type)) r.type = e.type.base;
     return r;
@@ -141,9 +177,8 @@ bool Expressions::runs_apart(std::initializer_list<const Expr*> sides, uint32_t 
 }
 
 // && and ||: the right side is asked for where the left one does not tell.
-Lowered Expressions::logical_expr(const BinaryExpr& e) {
+Lowered Expressions::logical(const BinaryExpr& e, Value left) {
     bool asked_when = e.op == Op::And;
-    Value left = value(*e.left);
     bool known;
     if (b_.constant_m(left, &known))
         return known == asked_when ? expr(*e.right) : lowered(BaseType::Bool, left);

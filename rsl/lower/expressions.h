@@ -32,10 +32,12 @@ class Expressions {
   private:
     Value value(const Expr& e) { return expr(e).c[0]; }
     bool as_product(const Expr& e, BaseType type, Lowered& x, Lowered& y);
-    Lowered sum(const BinaryExpr& e);
+    Lowered chain(const Expr& last);
+    Lowered product_and(const BinaryExpr& e, const Lowered& x, const Lowered& y);
+    Lowered operated(const BinaryExpr& e, const Lowered& left);
     Lowered sum_of(Op op, const Lowered& x, const Expr& right);
     Lowered select_expr(const SelectExpr& e);
-    Lowered logical_expr(const BinaryExpr& e);
+    Lowered logical(const BinaryExpr& e, Value left);
     bool runs_apart(std::initializer_list<const Expr*> sides, uint32_t effects) const;
     Lowered assign(const AssignExpr& e);
     Lowered cast(const CastExpr& e);

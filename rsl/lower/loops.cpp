@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 #include "rsl/lower/values.h"
 #include "rsl/model/builtin.h"
@@ -11,9 +12,9 @@ namespace kinora::rsl {
 
 std::vector<int> Loops::carried_slots(const Changes& changes) {
     std::vector<int> slots;
+    std::unordered_set<int> known;
     auto add = [&](int slot) {
-        if (slot < 0 || !slots_.live(slot)) return;
-        if (std::find(slots.begin(), slots.end(), slot) == slots.end()) slots.push_back(slot);
+        if (slot >= 0 && slots_.live(slot) && known.insert(slot).second) slots.push_back(slot);
     };
     for (const Symbol* symbol : changes.symbols) {
         if (!symbol->type.is_array()) {

@@ -110,6 +110,7 @@ class ObjectExpander {
     // ---- expressions
     void expr(Expr*& slot);
     void exprs(std::span<Expr*> items);
+    void operators(BinaryExpr& last);
     void judge_constant(const Expr& target);
     void variable(VariableExpr& e);
     void call(CallExpr& e, std::vector<Expr*> results = {});

@@ -40,14 +40,7 @@ void ObjectExpander::expr(Expr*& slot) {
         case ExprKind::Unary:
             return expr(as<UnaryExpr>(*slot).operand);
         case ExprKind::Binary:
-            if (as<BinaryExpr>(*slot).op == Op::Dot &&
-                struct_value(*as<BinaryExpr>(*slot).left).structure) {
-                report(Code::RSL_STRUCT_AS_VALUE, slot->span).help =
-                    "members and methods of a struct follow '->'";
-                return;
-            }
-            expr(as<BinaryExpr>(*slot).left);
-            return expr(as<BinaryExpr>(*slot).right);
+            return operators(as<BinaryExpr>(*slot));
         case ExprKind::Select:
             expr(as<SelectExpr>(*slot).condition);
             expr(as<SelectExpr>(*slot).yes);
@@ -72,6 +65,22 @@ void ObjectExpander::expr(Expr*& slot) {
         case ExprKind::ArrayLiteral:
             return exprs(as<ArrayLiteralExpr>(*slot).items);
     }
+}
+
+// Along the chain: what is left of "object.member" is not looked at.
+void ObjectExpander::operators(BinaryExpr& last) {
+    std::vector<BinaryExpr*> chain;
+    for (BinaryExpr* node = &last; node; node = as_if<BinaryExpr>(node->left)) {
+        if (node != &last) handles_.check(*node);
+        if (node->op == Op::Dot && struct_value(*node->left).structure) {
+            report(Code::RSL_STRUCT_AS_VALUE, node->span).help =
+                "members and methods of a struct follow '->'";
+            break;
+        }
+        chain.push_back(node);
+        if (node->left->kind != ExprKind::Binary) expr(node->left);
+    }
+    for (size_t i = chain.size(); i-- > 0;) expr(chain[i]->right);
 }
 
 // A member's name is that of the variable in its place; alone in a method it is the object's.

@@ -102,7 +102,8 @@ const Symbol* ObjectExpander::resolve(std::string_view path, const SourceSpan& s
 std::vector<Expr*> ObjectExpander::parts(const StructValue& value, const SourceSpan& span) {
     bool room = copied_ <= kMostCopiedNodes;
     std::vector<Expr*> made = parts_of(ast_, value, span, &copied_);
-    if (room && copied_ > kMostCopiedNodes) report(Code::RSL_TOO_DEEP, span);
+    if (room && copied_ > kMostCopiedNodes)
+        report(Code::RSL_TOO_DEEP, span, fmt::format("{} copied members", kMostCopiedNodes));
     made.resize(leaves_of(*value.structure).size(), TreeBuilder(ast_, span).number(0));
     return made;
 }

@@ -119,7 +119,7 @@ bool check_structs(const Ast& ast, Reporter& reporter) {
         sizes[ast.structs[i]] = std::min(size, 2 * kMostLeaves);
         if (size <= kMostLeaves) continue;
         const Token& at = ast.tokens.tokens[ast.structs[i]->span.token];
-        reporter.report(Code::RSL_TOO_DEEP, at);
+        reporter.report(Code::RSL_TOO_DEEP, at, fmt::format("{} members", kMostLeaves));
         return false;
     }
     return good;

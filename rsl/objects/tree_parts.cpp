@@ -1,6 +1,7 @@
 // rsl/objects/tree_parts.cpp: what a node of the unchecked tree holds.
 #include "rsl/objects/tree_parts.h"
 
+#include "rsl/syntax/ast_parts.h"
 #include "rsl/syntax/ast_visit.h"
 
 namespace kinora::rsl {
@@ -21,7 +22,11 @@ struct Operands {
     Exprs operator()(const IndexExpr& e) { return {e.array, e.index}; }
     Exprs operator()(const ComponentExpr& e) { return {e.operand, e.index}; }
     Exprs operator()(const UnaryExpr& e) { return {e.operand}; }
-    Exprs operator()(const BinaryExpr& e) { return {e.left, e.right}; }
+    Exprs operator()(const BinaryExpr& e) {
+        Exprs parts;
+        for_each_operand(static_cast<const Expr&>(e), [&](Expr* part) { parts.push_back(part); });
+        return parts;
+    }
     Exprs operator()(const SelectExpr& e) { return {e.condition, e.yes, e.no}; }
     Exprs operator()(const AssignExpr& e) { return {e.target, e.value}; }
     Exprs operator()(const CallExpr& e) {

@@ -27,11 +27,16 @@ void append(const RefValue<Real>& value, std::vector<double>& numbers) {
 template <class Real>
 auto Reference<Real>::observed(const Expr& e) -> Item {
     Item value = evaluate(e);
+    note_first_nan(e, value);
+    return value;
+}
+
+template <class Real>
+void Reference<Real>::note_first_nan(const Expr& e, const Item& value) {
     if (!in.observer) [[likely]]
-        return value;
+        return;
     bool computes = e.kind == ExprKind::Binary || e.kind == ExprKind::Call;
     if (computes && result.nan.file == kNoFile && has_nan(value)) result.nan = e.span.where;
-    return value;
 }
 
 template <class Real>
@@ -98,6 +103,7 @@ void Reference<Real>::tell_light(const Location& where) {
 }
 
 template auto Reference<float>::observed(const Expr&) -> Item;
+template void Reference<float>::note_first_nan(const Expr&, const Item&);
 template void Reference<float>::note_change(const Symbol&);
 template void Reference<float>::tell_changes(const Location&);
 template void Reference<float>::tell_inputs();

@@ -6,6 +6,7 @@
 #include "rsl/model/changes.h"
 #include "rsl/model/pairs.h"
 #include "rsl/reference/reference_p.h"
+#include "rsl/syntax/chain.h"
 #include "runtime/base/check.h"
 
 namespace kinora::rsl {
@@ -140,13 +141,14 @@ auto Reference<Real>::evaluate(const Expr& e) -> Item {
             return x;
         }
         case ExprKind::Binary: {
-            auto& node = as<BinaryExpr>(e);
-            Item left = expr(*node.left);
-            bool logical = node.op == Op::And || node.op == Op::Or;
-            if (logical && decide(left.truth()) == (node.op == Op::Or)) return left;
-            Item r = binary(node.op, left, expr(*node.right));
-            if (is_triple(r.type) && is_triple(e.type.base)) r.type = e.type.base;
-            return r;
+            Chain<const Expr> chain = chain_of(e);
+            Item left = expr(*chain.first);
+            for (const Expr* link : chain.links) {
+                auto* node = as_if<BinaryExpr>(link);
+                left = node ? operated(*node, left) : convert(left, as<CastExpr>(*link).to);
+                if (link != &e) note_nan(*link, left);
+            }
+            return left;
         }
         case ExprKind::Select: {
             auto& node = as<SelectExpr>(e);
@@ -174,6 +176,15 @@ auto Reference<Real>::evaluate(const Expr& e) -> Item {
     }
     CHECK(false);
     return {};
+}
+
+template <class Real>
+auto Reference<Real>::operated(const BinaryExpr& e, const Item& left) -> Item {
+    bool logical = e.op == Op::And || e.op == Op::Or;
+    if (logical && decide(left.truth()) == (e.op == Op::Or)) return left;
+    Item r = binary(e.op, left, expr(*e.right));
+    if (is_triple(r.type) && is_triple(e.type.base)) r.type = e.type.base;
+    return r;
 }
 
 template <class Real>

@@ -215,6 +215,10 @@ class Reference {
     // observe.cpp: of the run in float alone, and nothing of it without an observer.
     static constexpr bool kObserved = std::is_same_v<Real, float>;
     Item observed(const Expr& e);
+    void note_nan(const Expr& e, const Item& value) {
+        if constexpr (kObserved) note_first_nan(e, value);
+    }
+    void note_first_nan(const Expr& e, const Item& value);
     void note(const Symbol& symbol) {
         if constexpr (kObserved) note_change(symbol);
     }
@@ -241,6 +245,7 @@ class Reference {
     Item& item(const LValue& from);
     Item load(const LValue& from);
     size_t index(const Expr& e, size_t length);
+    Item operated(const BinaryExpr& e, const Item& left);
     Item binary(Op op, const Item& a, const Item& b);
     Item operate(Op op, const Item& a, const Item& b);
     Real next_move() {  // at random in +-2^-22

@@ -1,11 +1,12 @@
 // rsl/syntax/ast_parts.h: what a node of the tree holds.
 #pragma once
 
-#include "rsl/syntax/ast.h"
+#include "rsl/syntax/chain.h"
 
 namespace kinora::rsl {
 
-// Calls f for each operand of `expr`, in the order of evaluation.
+// Calls f for each operand of `expr`, in the order of evaluation. The operands of a chain of
+// operators are the leftmost and those at the right of each: what links them is none.
 template <class ExprRef, class F>
 void for_each_operand(ExprRef& expr, F&& f) {
     switch (expr.kind) {
@@ -22,9 +23,13 @@ void for_each_operand(ExprRef& expr, F&& f) {
         case ExprKind::Unary:
             f(as<UnaryExpr>(expr).operand);
             return;
-        case ExprKind::Binary:
-            f(as<BinaryExpr>(expr).left), f(as<BinaryExpr>(expr).right);
+        case ExprKind::Binary: {
+            auto chain = chain_of(expr);
+            f(*left_in_chain(*chain.links[0]));
+            for (auto* link : chain.links)
+                if (auto* node = as_if<BinaryExpr>(link)) f(node->right);
             return;
+        }
         case ExprKind::Select:
             f(as<SelectExpr>(expr).condition), f(as<SelectExpr>(expr).yes);
             f(as<SelectExpr>(expr).no);

@@ -2,6 +2,7 @@
 #include "rsl/syntax/copy_tree.h"
 
 #include "rsl/syntax/ast_visit.h"
+#include "rsl/syntax/chain.h"
 
 namespace kinora::rsl {
 
@@ -13,25 +14,36 @@ class Copier {
 
     Expr* copy(const Expr* e) {
         if (!e) return nullptr;
-        return visit_expr(*e, [&](const auto& node) -> Expr* {
-            auto* made = ast_.arena.make<std::remove_cvref_t<decltype(node)>>();
-            *made = node;
-            ++nodes;
-            parts(*made);
-            return made;
-        });
+        Expr* top = node_alone(*e);
+        for (Expr* made = top;;) {
+            Expr** left = left_in_chain(*made);
+            if (!left) {
+                visit_expr(*made, [&](auto& node) { parts(node); });
+                return top;
+            }
+            if (auto* node = as_if<BinaryExpr>(made)) node->right = copy(node->right);
+            made = *left = node_alone(**left);
+        }
     }
 
     size_t nodes = 0;
 
   private:
+    Expr* node_alone(const Expr& e) {
+        ++nodes;
+        return visit_expr(e, [&](const auto& node) -> Expr* {
+            auto* made = ast_.arena.make<std::remove_cvref_t<decltype(node)>>();
+            *made = node;
+            return made;
+        });
+    }
     void parts(NumberExpr&) {}
     void parts(StringExpr&) {}
     void parts(VariableExpr&) {}
     void parts(IndexExpr& e) { e.array = copy(e.array), e.index = copy(e.index); }
     void parts(ComponentExpr& e) { e.operand = copy(e.operand), e.index = copy(e.index); }
     void parts(UnaryExpr& e) { e.operand = copy(e.operand); }
-    void parts(BinaryExpr& e) { e.left = copy(e.left), e.right = copy(e.right); }
+    void parts(BinaryExpr&) {}  // copy()
     void parts(SelectExpr& e) {
         e.condition = copy(e.condition), e.yes = copy(e.yes), e.no = copy(e.no);
     }

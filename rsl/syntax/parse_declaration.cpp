@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rsl/syntax/ast_parts.h"
+
 namespace kinora::rsl {
 
 std::span<Symbol*> DeclarationParser::parameters(SymbolKind kind) {
@@ -158,10 +160,11 @@ namespace {
 
 // A length that is no arithmetic on numbers alone.
 bool names_something(const Expr& e) {
-    if (const auto* node = as_if<BinaryExpr>(&e))
-        return names_something(*node->left) || names_something(*node->right);
-    if (const auto* node = as_if<UnaryExpr>(&e)) return names_something(*node->operand);
-    return e.kind == ExprKind::Variable || e.kind == ExprKind::Call || e.kind == ExprKind::Index;
+    bool names =
+        e.kind == ExprKind::Variable || e.kind == ExprKind::Call || e.kind == ExprKind::Index;
+    if (e.kind == ExprKind::Binary || e.kind == ExprKind::Unary)
+        for_each_operand(e, [&](const Expr* part) { names = names || names_something(*part); });
+    return names;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rsl/syntax/chain.h"
 #include "rsl/text/lexer.h"
 
 namespace kinora::rsl {
@@ -67,12 +68,16 @@ Expr* ExpressionParser::bad_expression() {
 // The expression parsed last is a node over the parts of the given height and of height_.
 void ExpressionParser::grow(int part_height) {
     height_ = std::max(height_, part_height) + 1;
-    if (height_ > kMostHeight) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    if (height_ > kMostHeight) too_deep();
+}
+
+void ExpressionParser::too_deep() {
+    errors_.error(Code::RSL_TOO_DEEP, cursor_.token(), fmt::format("{} levels", kMostHeight));
 }
 
 Expr* ExpressionParser::expression() {
     Nesting::Level level(nesting_);
-    if (nesting_.too_deep()) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    if (nesting_.too_deep()) too_deep();
     if (errors_.panic()) return bad_expression();
     Expr* left = ternary();
     for (const auto& row : kAssignments) {
@@ -95,7 +100,7 @@ Expr* ExpressionParser::ternary() {
     Expr* condition = binary(1);
     if (errors_.panic() || !cursor_.is(Punct::Question)) return condition;
     Nesting::Level level(nesting_);
-    if (nesting_.too_deep()) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    if (nesting_.too_deep()) too_deep();
     uint32_t at = cursor_.position();
     cursor_.advance();
     auto* node = make<SelectExpr>(condition->span);
@@ -112,6 +117,7 @@ Expr* ExpressionParser::ternary() {
 
 Expr* ExpressionParser::binary(int lowest) {
     Expr* left = unary();
+    int operand_height = height_;  // a chain is one higher than its operands, however long it is
     while (!errors_.panic()) {
         const OperatorRow* row = find_operator(cursor_.token().punct);
         bool word = !row && foreign_.word_operator() != Punct::None;
@@ -125,13 +131,14 @@ Expr* ExpressionParser::binary(int lowest) {
                 .report(Code::RSL_NOT_RSL, cursor_.token(),
                         fmt::format("'{}'", cursor_.token().text))
                 .help = fmt::format("write '{}'", op_text(row->op));
-        int left_height = height_;
         if (!doubled) cursor_.advance();
         auto* node = make<BinaryExpr>(left->span);
         node->op = row->op;
         node->left = left;
         node->right = doubled ? negated(row->level + 1) : binary(row->level + 1);
-        grow(left_height);
+        operand_height = std::max(operand_height, height_);
+        height_ = operand_height;
+        grow(0);
         node->span = cursor_.span_from(left->span, at);
         left = node;
     }
@@ -159,7 +166,7 @@ Expr* ExpressionParser::negated(int lowest) {
 
 Expr* ExpressionParser::unary() {
     Nesting::Level level(nesting_);
-    if (nesting_.too_deep()) errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    if (nesting_.too_deep()) too_deep();
     if (errors_.panic()) return bad_expression();
     uint32_t at = cursor_.position();
     if (cursor_.accept(Punct::Add)) return unary();
@@ -372,22 +379,35 @@ std::span<Expr*> ExpressionParser::expression_list(Punct end, const char* expect
     return ast_.arena.copy(items);
 }
 
+namespace {
+
+long combined_length(Op op, long a, long b) {
+    if (b < 0) return -1;
+    long value = -1;
+    if (op == Op::Add) value = a + b;
+    if (op == Op::Subtract) value = a - b;
+    if (op == Op::Multiply) value = a * b;
+    if (op == Op::Divide && b > 0) value = a / b;
+    return value <= kMostArrayLength ? value : -1;
+}
+
+}  // namespace
+
 long constant_length(const Expr& expr) {
     if (const auto* number = as_if<NumberExpr>(&expr)) {
         double value = number->value;
         return value >= 0 && value <= kMostArrayLength && value == std::floor(value) ? long(value)
                                                                                      : -1;
     }
-    const auto* node = as_if<BinaryExpr>(&expr);
-    if (!node) return -1;
-    long a = constant_length(*node->left), b = constant_length(*node->right);
-    if (a < 0 || b < 0) return -1;
-    long value = -1;
-    if (node->op == Op::Add) value = a + b;
-    if (node->op == Op::Subtract) value = a - b;
-    if (node->op == Op::Multiply) value = a * b;
-    if (node->op == Op::Divide && b > 0) value = a / b;
-    return value <= kMostArrayLength ? value : -1;
+    const auto* last = as_if<BinaryExpr>(&expr);
+    if (!last) return -1;
+    std::vector<const BinaryExpr*> operators = operators_of(*last);
+    long value = constant_length(*operators[0]->left);
+    for (const BinaryExpr* node : operators) {
+        if (value < 0) return -1;
+        value = combined_length(node->op, value, constant_length(*node->right));
+    }
+    return value;
 }
 
 }  // namespace kinora::rsl

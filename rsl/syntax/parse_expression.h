@@ -44,6 +44,7 @@ class ExpressionParser {
     Expr* call();
     Expr* bad_expression();
     void grow(int part_height);
+    void too_deep();
 
     template <class Node>
     Node* make(SourceSpan span) {

@@ -43,7 +43,7 @@ BlockStmt* StatementParser::block() {
 Stmt* StatementParser::statement() {
     Nesting::Level level(nesting_);
     if (!nesting_.too_deep()) return statement_unguarded();
-    errors_.error(Code::RSL_TOO_DEEP, cursor_.token());
+    errors_.error(Code::RSL_TOO_DEEP, cursor_.token(), fmt::format("{} levels", kMostNesting));
     return nullptr;
 }
 

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "rsl/syntax/ast_visit.h"
+#include "rsl/syntax/chain.h"
 #include "rsl/syntax/print.h"
 
 namespace kinora::rsl {
@@ -50,8 +51,11 @@ struct ExprPrinter {
         if (hidden && hidden->implicit && !note) return at(hidden->operand, lowest);
         int level = kPrimary;
         std::string text = visit_expr(*expr, [&](const auto& node) { return print(node, level); });
+        return finished(*expr, std::move(text), level, lowest);
+    }
+    std::string finished(const Expr& expr, std::string text, int level, int lowest) const {
         if (level < lowest) text = "(" + text + ")";
-        return note ? note(*expr, std::move(text)) : text;
+        return note ? note(expr, std::move(text)) : text;
     }
     std::string list(std::span<Expr* const> items) const {
         std::string text;
@@ -78,8 +82,26 @@ struct ExprPrinter {
         return op_text(e.op) + (doubled ? "(" + operand + ")" : operand);
     }
     std::string print(const BinaryExpr& e, int& level) const {
-        level = op_level(e.op);
-        return fmt::format("{} {} {}", at(e.left, level), op_text(e.op), at(e.right, level + 1));
+        const Chain<const Expr> chain = chain_of<const Expr>(e);
+        const Expr* left = chain.first;
+        std::string text;
+        for (const Expr* link : chain.links) {
+            const auto* node = as_if<BinaryExpr>(link);
+            if (!node && !note) continue;  // casts of the checker are hidden
+            int link_level = node ? op_level(node->op) : kUnary;
+            text = left == chain.first ? at(left, link_level)
+                                       : finished(*left, std::move(text), level, link_level);
+            if (node)
+                text.append(" ")
+                    .append(op_text(node->op))
+                    .append(" ")
+                    .append(at(node->right, link_level + 1));
+            else
+                text = type_name(as<CastExpr>(*link).to) + (" " + text);
+            level = link_level;
+            left = link;
+        }
+        return text;
     }
     std::string print(const SelectExpr& e, int& level) const {
         level = kTernary;

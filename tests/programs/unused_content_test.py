@@ -87,6 +87,16 @@ def lights_that_miss(count):
     return added("lights", lights, in_scene(nodes))
 
 
+def unused_parameters(count):
+    """Of the floor's effect: parameters that its shader does not have, and outputs that nobody asks for."""
+    outputs = "".join(f"output varying float ua{i} = 0; " for i in range(count))
+    writes = "".join(f"ua{i} = (s + {i}) * t;\n" for i in range(count))  # no call, whose random numbers would be others
+    parameters = "".join(f'<newparam sid="up{i}"><float>{i}</float></newparam>' for i in range(count))
+    head, effect, rest = WALKER.partition('<effect id="planks-rsl">')
+    rest = rest.replace("surface planks(", "surface planks(" + outputs, 1)
+    return head + effect + parameters + rest.replace("normal Nf =", writes + "normal Nf =", 1)
+
+
 class UnusedContent(ProgramTest):
     base = None
 
@@ -138,6 +148,9 @@ class UnusedContent(ProgramTest):
 
     def test_black_lights(self):
         self.expect_nearly_the_same(black_lights(100))
+
+    def test_parameters_and_outputs_that_nothing_asks_for(self):
+        self.expect_no_more(unused_parameters(1000))
 
     def test_lights_that_look_away(self):
         self.expect_nearly_the_same(lights_that_miss(100))

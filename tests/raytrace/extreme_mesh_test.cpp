@@ -89,6 +89,31 @@ TEST(ExtremeMesh, AVertexThatTurnsBadAndHealsInRefitsComesBack) {
     }
 }
 
+// By the same rays, a tree that was refitted finds what a fresh one does.
+TEST(ExtremeMesh, AMeshThatCollapsesOrExplodesComesBack) {
+    TestMesh ball = sphere(1, {0, 0, 0});
+    const std::vector<vec4> good = ball.positions;
+    std::vector<Geometry> rows{ball.geometry(8, GeometryKind::Deforming)};
+    Accel accel({.background = false});
+    accel.update(rows);
+    const int before = count_hits(accel);
+    for (float scale : {0.0f, 1e-30f, 1e-3f, 1e6f, 1e17f}) {
+        for (size_t i = 0; i < good.size(); ++i)  // every third vertex alone: triangles are torn
+            for (int k = 0; k < 3; ++k)
+                ball.positions[i][k] = good[i][k] * (scale < 1 || i % 3 == 0 ? scale : 1);
+        ++rows[0].positions_version;
+        EXPECT_TRUE(accel.update(rows).issues.empty()) << scale;
+        Accel fresh({.background = false});
+        std::vector<Geometry> fresh_rows{ball.geometry(8, GeometryKind::Static)};
+        fresh.update(fresh_rows);
+        EXPECT_NEAR(count_hits(accel), count_hits(fresh), 2) << scale;  // rays at edges
+        ball.positions = good;
+        ++rows[0].positions_version;
+        accel.update(rows);
+        EXPECT_EQ(count_hits(accel), before) << scale;
+    }
+}
+
 TEST(ExtremeMesh, NeedlesBuildRefitAndTraceWithoutAbort) {
     for (double thin : {1e-7, 1e-20, 0.0}) {
         for (uint32_t seed = 0; seed < 10; ++seed) {

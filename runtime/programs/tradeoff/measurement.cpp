@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <string_view>
 
+#include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/programs/tradeoff/frames.h"
@@ -15,6 +17,7 @@
 #include "runtime/programs/tradeoff/renders.h"
 #include "runtime/programs/tradeoff/thumbnails.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
+#include "runtime/programs/tradeoff/trial.h"
 
 namespace kinora {
 
@@ -23,8 +26,8 @@ namespace {
 constexpr size_t kPreviewRow = 1, kFinalRow = 2, kReferenceRow = 3;
 constexpr size_t kMostRounds = 5;
 constexpr size_t kMostVerticesCompared = 1 << 14;  // of a shape
-constexpr int kTrialWidth = 32;                    // pixels
-constexpr double kFramesShare = 0.05;              // of the budget, to find the fastest frame
+constexpr std::string_view kSamplesOption = "spp";
+constexpr double kFramesShare = 0.05;  // of the budget, to find the fastest frame
 
 // A scene and what its frames were without noise.
 struct Posed {
@@ -34,10 +37,11 @@ struct Posed {
 };
 
 struct Base {
-    std::unique_ptr<Scene> scene;
-    std::vector<raytrace::Film> films;        // by frame
-    std::vector<PictureErrors> errors;        // by frame
-    std::vector<std::vector<double>> cpu_ms;  // by frame, all renders
+    size_t row;
+    std::unique_ptr<Scene> scene{};
+    std::vector<raytrace::Film> films{};        // by frame
+    std::vector<PictureErrors> errors{};        // by frame
+    std::vector<std::vector<double>> cpu_ms{};  // by frame, all renders
 };
 
 // What a row is made of while it is measured.
@@ -84,8 +88,6 @@ class Measurement {
   private:
     bool build_bases();
     bool make_plan();
-    TrialCosts trial();
-    double trial_sample_ms(Scene& scene, const Quality& quality);
     bool make_reference();
     bool reference_frame(size_t f, std::vector<double>& ratios, Work& work);
     bool measure_bases();
@@ -99,7 +101,11 @@ class Measurement {
     void conclude(Work& work);
     void finish();
     double base_ms(size_t base);
-    Base& base_of(size_t row) { return row == kPreviewRow ? preview_ : final_; }
+    void lower_final();
+    Base& base_of(size_t row) { return row == preview_.row ? preview_ : final_; }
+    const Quality& quality_of(const Base& base) const {
+        return results_.rows[base.row].variant.quality;
+    }
     double left_ms() const { return 1e3 * request_.budget_s - watch_.ms(); }
     void tell(const std::string& text) const {
         if (request_.tell) std::fprintf(stderr, "%s\n", text.c_str());
@@ -109,7 +115,7 @@ class Measurement {
     TradeRenders renders_;
     TradeResults& results_;
     Stopwatch watch_;
-    Base preview_, final_;
+    Base preview_{kPreviewRow}, final_{kFinalRow};
     std::unique_ptr<Scene> reference_scene_;
     std::vector<raytrace::Film> references_;  // by frame: the mean of two
     std::vector<Posed> reference_posed_;      // by frame
@@ -131,48 +137,14 @@ bool Measurement::build_bases() {
     return !renders_.stopped();
 }
 
-// Of one sample of one pixel, by a picture that is small enough.
-double Measurement::trial_sample_ms(Scene& scene, const Quality& quality) {
-    raytrace::Film film;
-    auto render = [&](int samples) {
-        Quality few = quality;
-        few.samples_per_pixel = samples;
-        return renders_.frame(scene, few, results_.frames[0], 0, film).wall_ms;
-    };
-    render(1);  // reads textures, compiles what is left
-    double less = render(1), more = render(5);
-    return std::max(more - less, 0.1 * more) / (4 * double(film.rgba.size()));
-}
-
-TrialCosts Measurement::trial() {
-    TrialCosts costs;
-    double scale = std::min(1.0, double(kTrialWidth) / results_.asked_width);
-    renders_.set_size(std::max(1, int(results_.asked_width * scale)),
-                      std::max(1, int(results_.asked_height * scale)));
-    const Quality& final_quality = results_.rows[kFinalRow].variant.quality;
-    costs.sample = trial_sample_ms(*final_.scene, final_quality);
-    costs.reference_sample =
-        trial_sample_ms(*reference_scene_, results_.rows[kReferenceRow].variant.quality);
-    costs.build = build_ms_;
-    Stopwatch watch;
-    renders_.pose(*final_.scene, results_.frames[0].before);
-    renders_.pose(*final_.scene, results_.frames[0].time);
-    costs.frame = watch.restart();
-    raytrace::Film a, b;
-    renders_.centres(*final_.scene, final_quality, results_.frames[0], a);
-    renders_.frame(*final_.scene, qualities()[kPreviewRow], results_.frames[0], 1, b);
-    watch.restart();
-    picture_errors(view_of(a), view_of(b));
-    costs.errors_pixel = watch.ms() / double(a.rgba.size());
-    return costs;
-}
-
 bool Measurement::make_plan() {
     ChosenFrames chosen = choose_trade_frames(request_.frames, renders_, *final_.scene,
                                               kFramesShare * 1e3 * request_.budget_s);
     results_.frames = std::move(chosen.frames);
     results_.fastest_step = chosen.fastest_step;
-    input_.costs = trial();
+    input_.costs = trial_costs(renders_, *final_.scene, *reference_scene_, results_.frames[0],
+                               results_.asked_width, results_.asked_height);
+    input_.costs.build = build_ms_;
     if (renders_.stopped()) return false;
     input_.width = results_.asked_width;
     input_.height = results_.asked_height;
@@ -180,10 +152,13 @@ bool Measurement::make_plan() {
     input_.budget_ms = 1e3 * request_.budget_s;
     input_.used_ms = watch_.ms();
     input_.reference_samples = qualities()[kReferenceRow].samples_per_pixel;
-    for (const TradeRow& row : results_.rows) {
-        input_.samples.push_back(row.variant.quality.samples_per_pixel);
-        input_.base_samples.push_back(qualities()[row.variant.base].samples_per_pixel);
-    }
+    for (const TradeRow& row : results_.rows)
+        input_.variants.push_back({.samples = row.variant.quality.samples_per_pixel,
+                                   .base_samples = qualities()[row.variant.base].samples_per_pixel,
+                                   .final_base = row.variant.base == kFinalRow,
+                                   .follows = row.variant.base == kFinalRow &&
+                                              row.variant.kind == VariantKind::Knob &&
+                                              row.variant.knob->option != kSamplesOption});
     input_.needed = size_t(std::ranges::count_if(results_.rows, [](const TradeRow& row) {
         return row.variant.kind != VariantKind::Combination;
     }));
@@ -196,20 +171,28 @@ bool Measurement::make_plan() {
                      plan.height);
         return false;
     }
+    if (plan.final_samples > 0) lower_final();
     results_.frames.resize(plan.frames);
     renders_.set_size(plan.width, plan.height);
-    std::string frames;
-    for (const TradeFrame& frame : results_.frames)
-        frames += fmt::format("{}{} ({})", frames.empty() ? "" : ", ", frame.number, frame.why);
-    tell(fmt::format(
-        "tradeoff: {}x{} pixels{}, frame {}; reference of {} samples, estimated {:.0f} "
-        "s; {} variants, {} times each, estimated {:.0f} s; budget {:g} s{}",
-        plan.width, plan.height,
-        plan.width < input_.width ? fmt::format(" (asked {}x{})", input_.width, input_.height) : "",
-        frames, plan.reference_samples, 1e-3 * plan.reference_ms, results_.rows.size(),
-        plan.frames * plan.rounds, 1e-3 * plan.variants_ms, request_.budget_s,
-        plan.fits ? "" : ", which is too little for all"));
+    tell("tradeoff: " + plan_text(results_));
     return true;
+}
+
+// Final's knobs are measured with fewer samples: the row of --spp is their base.
+void Measurement::lower_final() {
+    const auto at = std::ranges::find_if(results_.rows, [&](const TradeRow& row) {
+        return row.variant.base == kFinalRow && row.variant.knob &&
+               row.variant.knob->option == kSamplesOption &&
+               row.variant.quality.samples_per_pixel == results_.plan.final_samples;
+    });
+    CHECK(at != results_.rows.end());
+    final_.row = size_t(at - results_.rows.begin());
+    for (size_t r = 0; r < results_.rows.size(); ++r) {
+        Variant& variant = results_.rows[r].variant;
+        if (variant.base != kFinalRow) continue;
+        variant.base = final_.row;
+        variant.quality.samples_per_pixel = in_plan(input_.variants[r], results_.plan).samples;
+    }
 }
 
 Posed Measurement::posed(Scene& scene, const Quality& quality, size_t f) {
@@ -226,7 +209,7 @@ bool Measurement::reference_frame(size_t f, std::vector<double>& ratios, Work& w
     raytrace::Film films[2], scrap;
     for (uint32_t seed = 0; seed < 2; ++seed) {
         TimedFrame base =
-            renders_.frame(*final_.scene, qualities()[kFinalRow], results_.frames[f], 0, scrap);
+            renders_.frame(*final_.scene, quality_of(final_), results_.frames[f], 0, scrap);
         TimedFrame timed =
             renders_.frame(*reference_scene_, quality, results_.frames[f], seed + 1, films[seed]);
         if (!timed.whole || !base.whole) return false;
@@ -305,9 +288,9 @@ void Measurement::probe(Work& work, size_t f) {
 
 // Where nothing of the two renders differs but the noise of the machine.
 bool Measurement::measure_bases() {
-    for (size_t row : {kPreviewRow, kFinalRow}) {
-        Base& base = base_of(row);
-        Work work{.row = &results_.rows[row], .scene = base.scene.get()};
+    for (Base* measured : {&preview_, &final_}) {
+        Base& base = *measured;
+        Work work{.row = &results_.rows[base.row], .scene = base.scene.get()};
         for (size_t f = 0; f < results_.frames.size(); ++f) {
             raytrace::Film scrap;
             renders_.centres(*base.scene, work.row->variant.quality, results_.frames[f], scrap);
@@ -333,9 +316,8 @@ bool Measurement::measure_bases() {
 
 bool Measurement::prepare(Work& work) {
     const Quality& quality = work.row->variant.quality;
-    for (size_t base : {kPreviewRow, kFinalRow})
-        if (scene_key(quality) == scene_key(qualities()[base]))
-            work.scene = base_of(base).scene.get();
+    for (const Base* base : {&preview_, &final_})
+        if (scene_key(quality) == scene_key(quality_of(*base))) work.scene = base->scene.get();
     if (!work.scene) {
         Stopwatch watch;
         work.own = renders_.build(quality);
@@ -347,7 +329,7 @@ bool Measurement::prepare(Work& work) {
 }
 
 void Measurement::measure_frame(std::vector<Work>& works, Base& base, size_t f, size_t round) {
-    const Quality& base_quality = qualities()[&base == &preview_ ? kPreviewRow : kFinalRow];
+    const Quality& base_quality = quality_of(base);
     raytrace::Film scrap;
     auto time_base = [&] {
         double ms = renders_.frame(*base.scene, base_quality, results_.frames[f], 0, scrap).cpu_ms;
@@ -426,10 +408,10 @@ void Measurement::measure_some(std::vector<size_t> rows, size_t rounds) {
 void Measurement::measure_variants() {
     std::vector<std::vector<size_t>> chunks;
     double planned = 0;
-    for (size_t base : {kFinalRow, kPreviewRow})
+    for (size_t base : {final_.row, preview_.row})
         for (size_t r = 0; r < results_.rows.size(); ++r) {
             TradeRow& row = results_.rows[r];
-            bool done = r == kPreviewRow || r == kFinalRow || r == kReferenceRow;
+            bool done = r == preview_.row || r == final_.row || r == kReferenceRow;
             if (done || row.variant.base != base) continue;
             if (row.variant.quality.samples_per_pixel > results_.plan.reference_samples) {
                 row.not_measured = "more samples than the budget's reference has";
@@ -473,11 +455,11 @@ void Measurement::finish() {
         for (double& stage : row.times.stages) stage *= interval.median;
     }
     // The bases' own: of their renders, which are the most.
-    for (size_t row : {kPreviewRow, kFinalRow}) {
+    for (const Base* base : {&preview_, &final_}) {
         std::vector<double> ratios;
-        for (const std::vector<double>& of_frame : base_of(row).cpu_ms)
+        for (const std::vector<double>& of_frame : base->cpu_ms)
             for (double ms : of_frame) ratios.push_back(ms / median_of(of_frame));
-        TradeTimes& times = results_.rows[row].times;
+        TradeTimes& times = results_.rows[base->row].times;
         MedianInterval spread = median_interval(ratios);
         times.count = ratios.size();
         times.ms = {times.ms.median, times.ms.median * spread.low, times.ms.median * spread.high,

@@ -64,9 +64,6 @@ std::string shown_name(const TradeRow& row) {
 }
 
 std::string summary_html(const TradeResults& r) {
-    std::string frames;
-    for (const TradeFrame& frame : r.frames)
-        frames += fmt::format("{}{} ({})", frames.empty() ? "" : ", ", frame.number, frame.why);
     std::string text = fmt::format("<h1>Speed against accuracy: {}</h1>\n<p>{}&times;{} pixels",
                                    html_text(r.scene), r.plan.width, r.plan.height);
     if (r.plan.width != r.asked_width)
@@ -77,8 +74,13 @@ std::string summary_html(const TradeResults& r) {
         "s. Their difference is the noise floor: FLIP {:.4f}, RMSE {:.5f}. An error that is no "
         "larger reads <q>&le; floor</q>. Target {}, {} threads. {:.0f} s of {:g} s were "
         "used.</p>\n",
-        frames, r.plan.reference_samples, r.reference_s, r.floor.picture.flip, r.floor.picture.rmse,
-        r.target, r.threads, r.used_s, r.budget_s);
+        frames_text(r), r.plan.reference_samples, r.reference_s, r.floor.picture.flip,
+        r.floor.picture.rmse, r.target, r.threads, r.used_s, r.budget_s);
+    if (r.plan.final_samples > 0)
+        text += fmt::format(
+            "<p>To keep within the budget, final's knobs were measured with {} samples, beside a "
+            "base with as many.</p>\n",
+            r.plan.final_samples);
     return text +
            "<p>Times are CPU times of a frame: the median of its ratios to the base's renders "
            "before "

@@ -93,6 +93,7 @@ std::string tradeoff_json(const TradeResults& r) {
                       {"asked", {r.asked_width, r.asked_height}},
                       {"size", {r.plan.width, r.plan.height}},
                       {"fastest_step", r.fastest_step}};
+    json["final_samples"] = r.plan.final_samples > 0 ? TradeJson(r.plan.final_samples) : nullptr;
     json["reference"] = {{"samples", r.plan.reference_samples}, {"seconds", r.reference_s}};
     for (const TradeFrame& frame : r.frames)
         json["frames"].push_back(

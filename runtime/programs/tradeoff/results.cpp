@@ -88,6 +88,28 @@ void mark_front(TradeResults& results) {
     }
 }
 
+std::string frames_text(const TradeResults& r) {
+    std::string text;
+    for (const TradeFrame& frame : r.frames)
+        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", frame.number, frame.why);
+    return text;
+}
+
+std::string plan_text(const TradeResults& r) {
+    const Plan& plan = r.plan;
+    std::string text = fmt::format("{}x{} pixels", plan.width, plan.height);
+    if (plan.width < r.asked_width)
+        text += fmt::format(" (asked {}x{})", r.asked_width, r.asked_height);
+    text += fmt::format(", frame {}; reference of {} samples, estimated {:.0f} s; ", frames_text(r),
+                        plan.reference_samples, 1e-3 * plan.reference_ms);
+    text += fmt::format("{} variants, {} times each", r.rows.size(), plan.frames * plan.rounds);
+    if (plan.final_samples > 0)
+        text += fmt::format(", final's knobs with {} samples", plan.final_samples);
+    text += fmt::format(", estimated {:.0f} s; budget {:g} s{}", 1e-3 * plan.variants_ms,
+                        r.budget_s, plan.fits ? "" : ", which is too little for all");
+    return text;
+}
+
 std::string error_text(const TradeMetric& metric, const TradeRow& row, const TradeErrors& floor) {
     if (within_floor(metric, row.errors, floor)) return "<= floor";
     return fmt::format("{:.4g}", metric.get(row.errors));

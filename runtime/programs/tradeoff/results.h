@@ -93,6 +93,9 @@ inline constexpr double kSureCover = 0.95;
 // whose interval holds less than kSureCover, and such rows are compared with none.
 void mark_front(TradeResults& results);
 
+std::string frames_text(const TradeResults& results);  // "24 (fastest), 1 (first)"
+// The size, frames and samples that were chosen for the budget, in a line.
+std::string plan_text(const TradeResults& results);
 // "0.0123", or "<= floor".
 std::string error_text(const TradeMetric& metric, const TradeRow& row, const TradeErrors& floor);
 

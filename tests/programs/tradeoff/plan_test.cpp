@@ -13,8 +13,8 @@ PlanInput input(double budget_ms) {
     in.frames = 4;
     in.budget_ms = budget_ms;
     in.costs = {.sample = 1e-3, .reference_sample = 1e-3};
-    in.samples.assign(10, 64);
-    in.base_samples.assign(10, 64);
+    in.variants.assign(10,
+                       {.samples = 64, .base_samples = 64, .final_base = true, .follows = true});
     in.needed = 10;
     return in;
 }
@@ -29,6 +29,25 @@ TEST(Plan, TakesAllWhereThereIsTime) {
     EXPECT_EQ(plan.reference_samples, 1024);
     EXPECT_NEAR(plan.reference_ms, 4 * 2 * 1024 * 10, 1e-6);
     EXPECT_NEAR(plan.variants_ms, 4 * 10 * 640 * 1.5, 1e-6);
+}
+
+// Of one frame: references of 256 samples 5.12 s; variants of 64 samples 10 * 3 * 0.64 * 1.5 = 28.8
+// s, of 16 samples 7.2 s.
+TEST(Plan, LowersTheSamplesOfKnobsBeforeThePicture) {
+    PlanInput in = input(40e3);
+    EXPECT_EQ(choose_plan(in).final_samples, 0);
+    in = input(20e3);
+    const Plan plan = choose_plan(in);
+    EXPECT_TRUE(plan.fits);
+    EXPECT_EQ(plan.width, 100);
+    EXPECT_EQ(plan.final_samples, 16);
+    EXPECT_NEAR(plan.variants_ms / double(plan.frames * plan.rounds), 10 * 160 * 1.5, 1e-6);
+    // A variant whose samples are its own keeps them beside a base of fewer.
+    PlannedVariant spp = in_plan({.samples = 256, .base_samples = 64, .final_base = true}, plan);
+    EXPECT_EQ(spp.samples, 256);
+    EXPECT_EQ(spp.base_samples, 16);
+    PlannedVariant preview = in_plan({.samples = 4, .base_samples = 4}, plan);
+    EXPECT_EQ(preview.base_samples, 4);
 }
 
 TEST(Plan, KeepsItsPromises) {
@@ -55,7 +74,7 @@ TEST(Plan, GrowsWithItsBudget) {
 
 TEST(Plan, LeavesOutVariantsOfMoreSamplesThanTheReference) {
     PlanInput in = input(1e9);
-    in.samples[0] = 2048;
+    in.variants[0] = {.samples = 2048, .base_samples = 64};
     EXPECT_EQ(variant_ms(in, choose_plan(in), 0), 0);
 }
 

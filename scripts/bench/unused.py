@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""Measures what content that a picture does not need costs in a frame: a row for each kind that
+tests/programs/unused_content_test.py adds to walker.dae. Its time is quoted; the test counts the work.
+
+    scripts/bench/unused.py [--pairs 200] [--page] [WORD...]
+
+Runs of ten frames with and without the content alternate, on one thread. Each frame's time is divided by
+that of the same frame in the run beside it. A row shows the median of these ratios and the interval that
+holds the true median with 95 %, by order statistics. WORD: rows whose names hold it. --page writes the
+table into docs/trade.md.
+"""
+import argparse
+import json
+import math
+import os
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+os.environ.setdefault("KINORA_SOURCE_DIR", str(ROOT))
+sys.path.insert(0, str(ROOT / "tests/programs"))
+import unused_content_test as content  # noqa: E402
+from programs import render  # noqa: E402
+
+PAGE = ROOT / "docs/trade.md"
+BEGIN, END = "<!-- measured by scripts/bench/unused.py -->\n", "<!-- end of what is not needed -->"
+FRAMES = 10  # of a run
+# What is added, how many, and what the upper end of the interval must stay below.
+ROWS = (
+    ("unused channels of 20 keys", 500, lambda n: content.unused_animations(n, 20), 1.02),
+    ("unused effects with RSL", 1000, content.unused_effects, 1.02),
+    ("unused textures", 200, content.unused_images, 1.02),
+    ("meshes out of view", 500, content.meshes_out_of_view, 1.05),
+    ("nodes that stand", 1000, content.static_nodes, 1.02),
+    ("black lights", 100, content.black_lights, 1.02),
+    ("spots that look away", 100, content.lights_that_miss, 1.02),
+    ("unused parameters and outputs", 1000, content.unused_parameters, 1.02),
+)
+
+
+def frames_ms(scene):
+    done = render(scene, "-o", "null", "--size", "96x54", "--spp", "2", "--frames", f"2-{FRAMES + 1}", "--threads", "1",
+                  "--stats=json", "-q")
+    if done.code:
+        sys.exit(done.err)
+    return [frame["total_ms"] for frame in json.loads(done.out)["frames"]]
+
+
+def interval(values):
+    """The median and the order statistics that hold the true one with 95 %."""
+    values, n = sorted(values), len(values)
+    reach = 0.98 * math.sqrt(n)
+    low, high = math.floor(n / 2 - reach), math.ceil(n / 2 + reach)
+    return statistics.median(values), values[max(low - 1, 0)], values[min(high, n - 1)]
+
+
+def ratios(folder, text, pairs):
+    base, more = folder / "base.dae", folder / "more.dae"
+    base.write_text(content.WALKER)
+    more.write_text(text)
+    found = []
+    while len(found) < pairs:
+        first, second = (base, more) if len(found) // FRAMES % 2 else (more, base)
+        times = {first: frames_ms(first), second: frames_ms(second)}
+        found += [m / b for m, b in zip(times[more], times[base])]
+    return found
+
+
+def table(options):
+    lines = ["| added to walker.dae | time of a frame | 95 % of the median | allowed |", "|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as folder:
+        for name, count, make, most in ROWS:
+            if options.words and not any(word in name for word in options.words):
+                continue
+            middle, low, high = interval(ratios(Path(folder), make(count), options.pairs))
+            verdict = "" if high < most else ", not held"
+            lines.append(f"| {count} {name} | {middle:.3f} | {low:.3f} to {high:.3f} | {most}{verdict} |")
+            print(lines[-1], flush=True)
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("words", nargs="*", metavar="WORD")
+    parser.add_argument("--pairs", type=int, default=200)
+    parser.add_argument("--page", action="store_true", help="writes the table into docs/trade.md")
+    options = parser.parse_args()
+    lines = table(options)
+    if options.page:
+        text = PAGE.read_text()
+        begin = text.index(BEGIN) + len(BEGIN)
+        PAGE.write_text(text[:begin] + "\n" + "\n".join(lines) + "\n\n" + text[text.index(END):])
+
+
+if __name__ == "__main__":
+    main()
